@@ -1,0 +1,104 @@
+# meso: make [config=release|debug|sanitize|coverage|fuzz] [all check bench demo install clean]
+
+config ?= release
+PREFIX ?= /usr/local
+BUILD  ?= build
+WERROR ?= $(if $(CI),-Werror)
+
+OUT := $(BUILD)/$(config)
+BIN := $(if $(filter release,$(config)),$(BUILD)/bin,$(OUT)/bin)
+
+CC  := gcc
+CXX := g++
+FLAGS_release  := -O3 -g1
+FLAGS_debug    := -O0 -g
+FLAGS_sanitize := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+FLAGS_coverage := -O0 -g --coverage
+FLAGS_fuzz     := -O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+LINK_release   := -Wl,-O1
+LINK_sanitize  := -fsanitize=address,undefined
+LINK_coverage  := --coverage
+LINK_fuzz      := -fsanitize=address,undefined
+ifeq ($(config),fuzz)
+CC  := clang
+CXX := clang++
+else
+OPENMP := -fopenmp
+endif
+ifeq ($(filter $(config),release debug sanitize coverage fuzz),)
+$(error config=$(config) is not one of release, debug, sanitize, coverage, fuzz)
+endif
+
+# The same bytes everywhere: no contraction, no reassociation; errno and traps are not looked at.
+FLOATS   := -ffp-contract=off -fno-math-errno -fno-trapping-math
+PACKAGES := draco libpng libxxhash jansson openmesh polyclipping zlib
+WARN     := -Wall -Wextra -Wconversion -Wshadow $(WERROR)
+CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-only-I osmesa $(PACKAGES) 2>/dev/null)
+CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) $(OPENMP) $(WARN)
+CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) $(OPENMP) $(WARN)
+LDFLAGS  := $(LINK_$(config)) $(OPENMP) -Wl,--as-needed
+LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -lOSMesa -lEGL \
+            -lOpenEXRCore-3_1 -lpng -lz -ljansson -lxxhash -lm
+
+SOURCES := $(wildcard libcore/*/*.c libcore/*/*.cpp formats/*.c formats/*.cpp)
+SHARED  := $(filter-out cmd/meso-%,$(wildcard cmd/*.c))
+APART   := %_test.c %_bench.c %_fuzz.c %_reference.c
+TOOLS   := $(patsubst cmd/%.c,%,$(wildcard cmd/meso-*.c))
+TESTS   := $(patsubst %.c,%,$(wildcard libcore/*/*_test.c formats/*_test.c cmd/*_test.c))
+BENCHES := $(patsubst %.c,%,$(wildcard libcore/*/*_bench.c formats/*_bench.c))
+FUZZERS := $(patsubst %.c,%,$(wildcard libcore/*/*_fuzz.c formats/*_fuzz.c))
+REFERENCES := $(patsubst %.c,%,$(wildcard libcore/*/*_reference.c formats/*_reference.c))
+SHADERS := $(wildcard shaders/*.glsl)
+
+LIB_OBJECTS := $(patsubst %,$(OUT)/obj/%.o,$(filter-out $(APART),$(SOURCES) $(SHARED))) $(OUT)/obj/shaders.o
+LIB := $(OUT)/libmeso.a
+
+all: $(TOOLS:%=$(BIN)/%)
+
+$(OUT)/obj/%.c.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+$(OUT)/obj/%.cpp.o: %.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
+
+# Each shaders/NAME.glsl becomes the string meso_shader_NAME.
+$(OUT)/shaders.c: $(SHADERS) Makefile
+	@mkdir -p $(@D)
+	@{ for f in $(SHADERS); do n=$$(basename $$f .glsl | tr -- '-.' '__'); \
+	     echo "extern const char meso_shader_$$n[];"; echo "const char meso_shader_$$n[] ="; \
+	     sed 's/\\/\\\\/g; s/"/\\"/g; s/^/    "/; s/$$/\\n"/' $$f; echo "    \"\";"; done; \
+	   echo "extern int meso_shaders_embedded; int meso_shaders_embedded = 1;"; } > $@
+$(OUT)/obj/shaders.o: $(OUT)/shaders.c
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+
+$(LIB): $(LIB_OBJECTS)
+	@rm -f $@
+	ar rcs $@ $^
+
+link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LIB) $(LDLIBS)
+$(BIN)/%: $(OUT)/obj/cmd/%.c.o $(LIB)
+	@mkdir -p $(@D)
+	$(link)
+$(OUT)/test/%: $(OUT)/obj/%.c.o $(LIB)
+	@mkdir -p $(@D)
+	$(link)
+$(OUT)/fuzz/%: $(OUT)/obj/%.c.o $(LIB)
+	@mkdir -p $(@D)
+	$(link) -fsanitize=fuzzer
+
+tests: $(TESTS:%=$(OUT)/test/%)
+check-unit: tests
+	@for t in $(TESTS); do $(OUT)/test/$$t || { echo "failed: $$t"; exit 1; }; done
+	@echo "$(words $(TESTS)) passed, 0 failed"
+fuzzers: $(FUZZERS:%=$(OUT)/fuzz/%)
+benches: $(BENCHES:%=$(OUT)/test/%)
+references: $(REFERENCES:%=$(OUT)/test/%)
+
+clean:
+	rm -rf $(BUILD)
+
+.PHONY: all tests check-unit fuzzers benches references clean
+.SECONDARY:
+-include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

@@ -1,0 +1,95 @@
+/*
+ * What every tool does the same: common options, start, progress, JSON report,
+ * signals, finish with the one line of error and the exit code.
+ *
+ *     int main(int argc, char **argv)
+ *     {
+ *         MyArguments a = {...};
+ *         MesoOption options[] = {..., MESO_TOOL_OPTIONS(a.tool), {0}};
+ *         MesoTool *tool = &a.tool;
+ *         if (!meso_tool_start(tool, &MY_TOOL, options, argc, argv))
+ *             return meso_tool_finish(tool);
+ *         tool->status = run(&a, &tool->error);
+ *         return meso_tool_finish(tool);
+ *     }
+ */
+#ifndef MESO_TOOL_H
+#define MESO_TOOL_H
+
+#include <jansson.h>
+
+#include "cmd/options.h"
+#include "formats/provenance.h"
+#include "libcore/base/arena.h"
+
+typedef struct MesoToolInfo {
+    const char *name;       /* "meso-map" */
+    const char *synopsis;   /* lines, without "usage:" */
+    const char *purpose;    /* one line */
+    const char *examples;   /* lines */
+    uint32_t operands_low, operands_high;
+} MesoToolInfo;
+
+typedef struct MesoTool {
+    const MesoToolInfo *info;
+    MesoArena arena;
+    MesoError error;
+    MesoStatus status;
+
+    /* common options */
+    const char *output;         /* -o; NULL where not given */
+    const char *json;           /* --json[=FILE]; NULL: none, "" or "-": standard output */
+    const char *progress_mode;  /* auto, none, json */
+    uint64_t seed;
+    uint32_t threads;           /* 0: all cores */
+    bool quiet, verbose, help, version;
+
+    const char **operands;
+    uint32_t operand_count;
+
+    MesoProvenance provenance;  /* tool, command line and seed are filled in by the start */
+    json_t *report;             /* object; what the tool did. Written by the finish if asked for */
+    struct MesoProgress *progress;
+} MesoTool;
+
+/* The options that all tools share, for the end of a table. */
+#define MESO_TOOL_OPTIONS(tool)                                                               \
+    {MESO_OPTION_GROUP, 0, "Common options", 0, 0, 0, 0, 0, 0, 0},                            \
+    {MESO_OPTION_TEXT, 'o', "output", "FILE", "write the product there; - is standard output", \
+     &(tool).output, 0, 0, 0, 0},                                                             \
+    {MESO_OPTION_TEXT_OPT, 0, "json", "FILE", "report what was done as JSON (default: standard output)", \
+     &(tool).json, 0, 0, 0, 0},                                                               \
+    {MESO_OPTION_SEED, 0, "seed", "N", "seed of every random choice (default 0)",             \
+     &(tool).seed, 0, 0, 0, 0},                                                               \
+    {MESO_OPTION_COUNT, 0, "threads", "N", "threads; 0 for all cores (default); no effect on the bytes", \
+     &(tool).threads, 0, 0, 1024, 0},                                                         \
+    {MESO_OPTION_CHOICE, 0, "progress", "HOW", "auto, none or json lines on standard error",  \
+     &(tool).progress_mode, 0, 0, 0, "auto|none|json"},                                       \
+    {MESO_OPTION_FLAG, 'q', "quiet", 0, "say nothing but errors", &(tool).quiet, 0, 0, 0, 0}, \
+    {MESO_OPTION_FLAG, 'v', "verbose", 0, "say more, timings too", &(tool).verbose, 0, 0, 0, 0}, \
+    {MESO_OPTION_FLAG, 'h', "help", 0, "this text", &(tool).help, 0, 0, 0, 0},                \
+    {MESO_OPTION_FLAG, 0, "version", 0, "name and version", &(tool).version, 0, 0, 0, 0}
+
+/*
+ * Parses, installs the signal handlers (SIGTERM, SIGINT, SIGHUP: remove
+ * temporary files, then die of the signal), ignores SIGPIPE. Returns false
+ * where there is nothing left to run: --help, --version, or wrong usage.
+ */
+bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,
+                     int argc, char **argv);
+
+/* Prints the error as "meso-map: message", writes the report, frees all; returns the exit code. */
+int meso_tool_finish(MesoTool *tool);
+
+/* One line to standard error, unless -q. */
+void meso_tool_say(const MesoTool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/*
+ * Progress of long work: a line on a terminal after a second, with rate and
+ * time left, or JSON lines. `meso_tool_progress` fits the progress callbacks of
+ * the libraries, with the tool as context. Cheap enough to call often.
+ */
+void meso_tool_progress_begin(MesoTool *tool, const char *what, const char *unit);
+void meso_tool_progress(void *tool, uint64_t done, uint64_t total);
+
+#endif

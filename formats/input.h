@@ -1,0 +1,31 @@
+/* Input files: whole, read-only, with their hash. */
+#ifndef MESO_INPUT_H
+#define MESO_INPUT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "libcore/base/error.h"
+
+typedef struct MesoInput {
+    const char *path;       /* as given; must outlive the input */
+    const uint8_t *data;    /* [size] page-aligned, never NULL */
+    size_t size;
+    uint64_t hash[2];       /* XXH3-128 of the bytes, high word first */
+    void *mapping;
+    size_t mapping_size;
+} MesoInput;
+
+/*
+ * Maps `path` ("-": reads standard input). MESO_ERR_INPUT for what is missing,
+ * unreadable, empty, or not a regular file or pipe, each by its own message.
+ * A file that others change while we read is not guarded against.
+ */
+MesoStatus meso_input_open(MesoInput *input, const char *path, MesoError *error);
+
+/* Wraps bytes that the caller owns; for tests, chunks and fuzzers. */
+void meso_input_wrap(MesoInput *input, const char *path, const void *data, size_t size);
+
+void meso_input_close(MesoInput *input);
+
+#endif

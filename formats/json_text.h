@@ -1,0 +1,24 @@
+/* JSON text in and out, by Jansson, with errors that say where. */
+#ifndef MESO_JSON_TEXT_H
+#define MESO_JSON_TEXT_H
+
+#include <jansson.h>
+
+#include "formats/input.h"
+#include "formats/output.h"
+
+/*
+ * Parses `input`; the caller owns the result. MESO_ERR_INPUT with file, line
+ * and column; duplicate keys and more than 512 levels are refused.
+ */
+MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *error);
+
+/* Appends `value` as text: two spaces of indent, keys in the order of insertion, numbers that
+ * read back to the same double, a final newline. */
+MesoStatus meso_json_write(const json_t *value, MesoOutput *output, MesoError *error);
+
+/* "format" and "version" of one of our files: refuses another format and a newer version. */
+MesoStatus meso_json_check_format(const json_t *root, const char *path, const char *format,
+                                  int newest_version, MesoError *error);
+
+#endif

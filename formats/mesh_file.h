@@ -1,0 +1,37 @@
+/* Meshes out: binary PLY, OBJ, Draco, GLB with KHR_draco_mesh_compression. */
+#ifndef MESO_MESH_FILE_H
+#define MESO_MESH_FILE_H
+
+#include "formats/output.h"
+#include "formats/provenance.h"
+#include "libcore/shell/tessellate.h"
+
+typedef struct MesoMeshWriteOptions {
+    uint32_t thread_count;      /* 0: all cores */
+    uint32_t position_bits;     /* Draco; 0: 14 */
+    uint32_t normal_bits;       /* Draco; 0: 10 */
+    uint32_t speed;             /* Draco, 0 best to 10 fastest */
+    const MesoProvenance *provenance;
+    /* Called now and then with the work done so far; may be NULL. */
+    void (*progress)(void *context, uint64_t done, uint64_t total);
+    void *progress_context;
+} MesoMeshWriteOptions;
+
+/*
+ * Each writes all parts of `tessellation`. PLY and OBJ stream in windows of
+ * bounded size, whatever the mesh; Draco and GLB hold what they encode: up to
+ * MESO_DRACO_TRIANGLES in one .drc, a piece of one material at a time in .glb,
+ * beside the compressed result. MESO_ERR_LIMIT beyond what a format can hold,
+ * with the option that would help; MESO_ERR_INPUT for a structure without
+ * geometry. Bytes do not depend on the thread count.
+ */
+MesoStatus meso_ply_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+MesoStatus meso_obj_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+MesoStatus meso_drc_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+MesoStatus meso_glb_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+
+#endif

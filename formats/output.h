@@ -1,0 +1,35 @@
+/*
+ * Output files that appear whole or not at all: bytes go to a temporary file
+ * beside the target, which is synced and renamed over it on commit. Standard
+ * output ("-") is spooled the same way and copied on commit.
+ */
+#ifndef MESO_OUTPUT_H
+#define MESO_OUTPUT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "libcore/base/error.h"
+
+typedef struct MesoOutput MesoOutput;
+
+/* MESO_ERR_OUTPUT where the folder is missing or cannot be written to. */
+MesoStatus meso_output_open(MesoOutput **output, const char *path, MesoError *error);
+
+/* Appends. After a failure every later call fails too. */
+MesoStatus meso_output_write(MesoOutput *output, const void *data, size_t size, MesoError *error);
+
+/* Writes at `offset`, which may lie anywhere; the end of the file follows the furthest byte. */
+MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void *data, size_t size,
+                                MesoError *error);
+
+/* Makes the file appear. Frees `output`, whether it succeeds or not. */
+MesoStatus meso_output_commit(MesoOutput *output, MesoError *error);
+
+/* Removes what was written. Frees `output`; NULL is allowed. */
+void meso_output_discard(MesoOutput *output);
+
+/* Removes all temporary files; callable from a signal handler. */
+void meso_output_discard_all(void);
+
+#endif

@@ -1,0 +1,36 @@
+/*
+ * Assignment files (.slots), version 1.0. Chunks:
+ *
+ *     prov      provenance, JSON text
+ *     inputs    u64[4]: XXH3-128 of the tile set's file, then of the surface's, high words first
+ *     names     names of the tiles, each ended by a zero byte, in tile order
+ *     tile      u32[slot_count]
+ *     xform     u8[slot_count] MesoTransform
+ */
+#ifndef MESO_SLOTS_FILE_H
+#define MESO_SLOTS_FILE_H
+
+#include "formats/container.h"
+#include "formats/provenance.h"
+#include "libcore/solve/assignment.h"
+
+typedef struct MesoSlotsFile {
+    MesoAssignment assignment;
+    uint64_t tiles_hash[2], surface_hash[2];
+    uint32_t tile_count;
+    const char **tile_names;        /* [tile_count] */
+    const char *provenance;         /* JSON text */
+} MesoSlotsFile;
+
+MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet *set,
+                            const uint64_t tiles_hash[2], const uint64_t surface_hash[2],
+                            const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+
+/* Copies to `arena`. Checks the file alone; meso_assignment_check() checks it against a surface. */
+MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInput *input,
+                           MesoError *error);
+
+/* Tile numbers of the file to those of `set`, by name. MESO_ERR_INPUT names one that is missing. */
+MesoStatus meso_slots_bind(MesoSlotsFile *slots, const MesoTileSet *set, MesoError *error);
+
+#endif

@@ -1,0 +1,27 @@
+/*
+ * Surfaces from mesh files: OBJ, PLY, OFF through OpenMesh, GLB through
+ * tinygltf. OpenMesh mends what is broken without a word, so the elements of
+ * the file are counted by ourselves and compared.
+ */
+#ifndef MESO_SURFACE_FILE_H
+#define MESO_SURFACE_FILE_H
+
+#include "formats/input.h"
+#include "libcore/shell/model.h"
+#include "libcore/surface/quad_mesh.h"
+
+/*
+ * Reads a macrosurface by the extension of its name (the content where there
+ * is none). Faces keep the order of the file. MESO_ERR_INPUT with file and
+ * line or face (counted from 1) for faces that are not quads, indices out of
+ * range, coordinates that are not finite, edges with three faces, elements
+ * that the library would have dropped or changed, and empty meshes.
+ */
+MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInput *input,
+                             MesoError *error);
+
+/* Reads any polygon mesh as triangles (fans), for inner meshes. Same errors, except for the quads. */
+MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, const MesoInput *input,
+                                   MesoError *error);
+
+#endif

@@ -1,0 +1,119 @@
+#include "libcore/base/arena.h"
+
+#include <assert.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
+
+struct MesoArenaBlock {
+    MesoArenaBlock *previous;
+    unsigned char *data;    /* aligned, inside the allocation */
+    size_t size;
+    size_t used;
+    size_t dirty;           /* bytes that were handed out once: not zero now */
+};
+
+static size_t round_up(size_t size)
+{
+    return (size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+}
+
+/* calloc gives fresh zero pages for large blocks without touching them. */
+static MesoArenaBlock *new_block(size_t size)
+{
+    size_t header = round_up(sizeof(MesoArenaBlock));
+    if (size > SIZE_MAX - header - ALIGNMENT)
+        return NULL;
+    MesoArenaBlock *block = calloc(1, header + size + ALIGNMENT);
+    if (!block)
+        return NULL;
+    block->data = (unsigned char *)round_up((uintptr_t)block + header);
+    block->size = size;
+    return block;
+}
+
+void meso_arena_init(MesoArena *arena)
+{
+    *arena = (MesoArena){0};
+}
+
+void meso_arena_release(MesoArena *arena)
+{
+    meso_arena_rewind(arena, (MesoArenaMark){0});
+}
+
+void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *error)
+{
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 2) {
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory: %zu items of %zu bytes", count, size);
+        return NULL;
+    }
+    bytes = round_up(bytes ? bytes : 1);
+
+    MesoArenaBlock *block = arena->head;
+    if (!block || block->size - block->used < bytes) {
+        block = new_block(bytes > BLOCK_SIZE ? bytes : BLOCK_SIZE);
+        if (!block) {
+            meso_fail(error, MESO_ERR_MEMORY, "out of memory: %zu bytes", bytes);
+            return NULL;
+        }
+        block->previous = arena->head;
+        arena->head = block;
+    }
+
+    unsigned char *data = block->data + block->used;
+    if (block->used < block->dirty) {
+        size_t stale = block->dirty - block->used;
+        memset(data, 0, stale < bytes ? stale : bytes);
+    }
+    block->used += bytes;
+    if (block->used > block->dirty)
+        block->dirty = block->used;
+    arena->used += bytes;
+    return data;
+}
+
+char *meso_arena_copy_text(MesoArena *arena, const char *text, MesoError *error)
+{
+    size_t size = strlen(text) + 1;
+    char *copy = MESO_NEW(arena, char, size, error);
+    return copy ? memcpy(copy, text, size) : NULL;
+}
+
+char *meso_arena_print(MesoArena *arena, MesoError *error, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    assert(length >= 0);
+    char *text = MESO_NEW(arena, char, (size_t)length + 1, error);
+    if (text)
+        vsnprintf(text, (size_t)length + 1, format, again);
+    va_end(again);
+    return text;
+}
+
+MesoArenaMark meso_arena_mark(const MesoArena *arena)
+{
+    return (MesoArenaMark){arena->head, arena->head ? arena->head->used : 0, arena->used};
+}
+
+void meso_arena_rewind(MesoArena *arena, MesoArenaMark mark)
+{
+    while (arena->head != mark.block) {
+        MesoArenaBlock *block = arena->head;
+        assert(block);
+        arena->head = block->previous;
+        free(block);
+    }
+    if (arena->head)
+        arena->head->used = mark.block_used;
+    arena->used = mark.used;
+}

@@ -1,0 +1,54 @@
+/*
+ * Arena: results live here until the whole arena goes. The caller of a
+ * function owns the arena; the function allocates its results from it and
+ * rewinds its scratch before it returns.
+ */
+#ifndef MESO_ARENA_H
+#define MESO_ARENA_H
+
+#include <stddef.h>
+
+#include "libcore/base/error.h"
+
+typedef struct MesoArenaBlock MesoArenaBlock;
+
+typedef struct MesoArena {
+    MesoArenaBlock *head;   /* newest block */
+    size_t used;            /* bytes handed out, all blocks */
+} MesoArena;
+
+typedef struct MesoArenaMark {
+    MesoArenaBlock *block;
+    size_t block_used;
+    size_t used;
+} MesoArenaMark;
+
+void meso_arena_init(MesoArena *arena);
+
+/* Frees everything. `arena` may be used again as after meso_arena_init(). */
+void meso_arena_release(MesoArena *arena);
+
+/*
+ * Returns `count * size` zeroed bytes, aligned to 64; for a count of 0 a
+ * pointer that must not be read. Returns NULL and fills `error` with
+ * MESO_ERR_MEMORY when the product overflows or memory is out. Not to be
+ * called from two threads on one arena. O(count * size).
+ */
+void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *error);
+
+/* `count` zeroed elements of `type`, or NULL with `error` filled. */
+#define MESO_NEW(arena, type, count, error) \
+    ((type *)meso_arena_alloc((arena), (count), sizeof(type), (error)))
+
+/* Copies `text` with its terminating zero; NULL on failure as above. */
+char *meso_arena_copy_text(MesoArena *arena, const char *text, MesoError *error);
+
+/* Printf into the arena; NULL on failure as above. */
+char *meso_arena_print(MesoArena *arena, MesoError *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* What is allocated after `mark` is given back by the rewind to it. */
+MesoArenaMark meso_arena_mark(const MesoArena *arena);
+void meso_arena_rewind(MesoArena *arena, MesoArenaMark mark);
+
+#endif

@@ -1,0 +1,43 @@
+/* Renderer: a structure to an image with its arbitrary output variables (AOVs). */
+#ifndef MESO_RENDER_H
+#define MESO_RENDER_H
+
+#include "libcore/render/context.h"
+#include "libcore/shell/structure.h"
+
+typedef struct MesoCamera {
+    MesoVec3 eye, target, up;
+    float fov_degrees;      /* vertical */
+} MesoCamera;
+
+/* Frames the box from the side and a little above, with a margin of 5 %. `aspect` is width / height. */
+MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, float fov_degrees, float aspect);
+
+/* Rows from top to bottom. Unused arrays are never NULL: all AOVs are always made. */
+typedef struct MesoImage {
+    uint32_t width, height;
+    float *color;       /* [4 * width * height] linear, premultiplied */
+    float *depth;       /* [width * height] along the view axis, scene units; +inf where empty */
+    float *normal;      /* [3 * width * height] world space; 0 where empty */
+    float *albedo;      /* [3 * width * height] */
+    uint32_t *slot;     /* [width * height] slot + 1; 0 where empty */
+    uint32_t *tile;     /* [width * height] tile + 1 */
+} MesoImage;
+
+typedef struct MesoRenderOptions {
+    uint32_t width, height;     /* up to 16384 each */
+    MesoCamera camera;
+    uint32_t samples;           /* for antialiasing of color; 1 or 4 */
+} MesoRenderOptions;
+
+/*
+ * Draws all kinds and inner meshes of `structure`. Colour is antialiased, the
+ * other variables are those of the pixel's centre. Arrays of `image` go to
+ * `arena`. MESO_ERR_LIMIT for an image over the context's limits,
+ * MESO_ERR_INTERNAL with the driver's words where GL fails.
+ */
+MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *context,
+                       const MesoStructure *structure, const MesoRenderOptions *options,
+                       MesoError *error);
+
+#endif

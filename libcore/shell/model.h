@@ -1,0 +1,42 @@
+/*
+ * Model: tile set, macrosurface, assignment and mapping options, the compact
+ * procedural form of a mesostructure (MesoGen, section 3.2). It owns nothing;
+ * its parts live in the arenas of whoever made them.
+ */
+#ifndef MESO_MODEL_H
+#define MESO_MODEL_H
+
+#include "libcore/solve/assignment.h"
+#include "libcore/surface/quad_mesh.h"
+#include "libcore/tile/tile_set.h"
+
+/* A triangle mesh that tiles carry along; arrays as in MesoQuadMesh. */
+typedef struct MesoTriangleMesh {
+    uint32_t vertex_count, triangle_count;
+    MesoVec3 *positions;    /* [vertex_count] */
+    MesoVec3 *normals;      /* [vertex_count] unit length */
+    uint32_t *triangles;    /* [3 * triangle_count] */
+} MesoTriangleMesh;
+
+/* Lengths in scene units. Zero (or negative) lengths stand for the default in brackets. */
+typedef struct MesoMapOptions {
+    float thickness;        /* height of the shell is half of it [mean edge length] */
+    float offset;           /* of the shell's bottom along the normals; 0 is the default */
+    float section_scale;    /* length of one edge length in the drawings [mean edge length] */
+    float tangent_scale;    /* factor on the handles of trajectories [1] */
+    float section_step;     /* sampling step of contours in edge lengths [0.02] */
+    uint32_t divisions;     /* vertices along a sweep [12], at least 2 */
+} MesoMapOptions;
+
+typedef struct MesoModel {
+    MesoTileSet tile_set;
+    MesoQuadMesh surface;
+    MesoAssignment assignment;
+    MesoMapOptions options;
+    MesoTriangleMesh *inner_meshes;     /* [tile_set.inner_count], empty where there is none */
+} MesoModel;
+
+/* `options` with every default filled in from the mean edge length. */
+MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length);
+
+#endif

@@ -1,0 +1,85 @@
+/*
+ * Structure: what a model expands to, still procedural: kinds of sweeps with
+ * their rings of profile points, and the instances of each kind with their
+ * trajectories. Both the tessellator (tessellate.h) and the renderer draw from
+ * these same tables.
+ *
+ * A point of an instance of a swept kind, at column c and v in [0,1]:
+ *
+ *     B(v)    cubic Bezier over p[0..3] (MesoGen, section 3.5)
+ *     T(v)    unit B'(v)
+ *     X(v)    unit cross(lerp(up0, up1, v), T)        Y(v) = cross(T, X)
+ *     s(v)    lerp(c.start, c.end, v v (3 - 2 v))     in edge lengths
+ *     P(v)    B + section_scale * (s.x X + s.y Y)
+ *
+ * with the normal n.x X + n.y Y for the 2D normal n interpolated like s. A cap
+ * has the straight axis T = unit(p[1] - p[0]), the profile s = start, and
+ *
+ *     t = 2 v - v v,  P(v) = p[0] + section_scale * ((1 - t t)(s.x X + s.y Y) + MESO_CAP_RISE sqrt(t) T)
+ *
+ * so that its rings crowd towards the tip.
+ */
+#ifndef MESO_STRUCTURE_H
+#define MESO_STRUCTURE_H
+
+#include "libcore/shell/model.h"
+#include "libcore/tile/contour.h"
+
+/* Height of a cap over its interface, in edge lengths (the prototype's). */
+#define MESO_CAP_RISE 0.125f
+
+/* One line of vertices along a sweep. */
+typedef struct MesoSweepColumn {
+    MesoVec2 start, end;                /* profile points at v 0 and 1, edge lengths */
+    MesoVec2 start_normal, end_normal;  /* outward, unit length */
+    float u;                            /* around, in [0,1] */
+    uint32_t joins_next;                /* 1 if quads lie between this column and the next */
+} MesoSweepColumn;
+
+typedef struct MesoSweepKind {
+    uint32_t column_begin, column_count;
+    uint32_t joint_count;               /* columns that join the next */
+    uint32_t division_count;            /* vertices along */
+    uint32_t instance_begin, instance_count;
+    uint32_t tile, sweep;               /* sweep is MESO_NO_INDEX for a cap */
+    uint32_t start_section, end_section;
+    bool cap;
+} MesoSweepKind;
+
+typedef struct MesoSweepInstance {
+    MesoVec3 p[4];
+    MesoVec3 up0, up1;
+    uint32_t slot;
+} MesoSweepInstance;
+
+/* A tile's inner mesh in a slot. */
+typedef struct MesoInnerInstance {
+    uint32_t inner;     /* into tile_set.inners and inner_meshes */
+    uint32_t slot;
+} MesoInnerInstance;
+
+typedef struct MesoStructure {
+    const MesoModel *model;
+    MesoMapOptions options;             /* resolved */
+    uint32_t kind_count, column_count, instance_count, inner_count;
+    MesoSweepKind *kinds;
+    MesoSweepColumn *columns;
+    MesoSweepInstance *instances;       /* by kind, then slot */
+    MesoInnerInstance *inners;          /* by inner, then slot */
+} MesoStructure;
+
+/*
+ * Expands a model whose assignment has been checked. `structure` keeps
+ * pointers into `model`. Sweeps that meet at an edge, from either slot, end on
+ * the same floats: their frames come from the edge alone and their rings from
+ * the interface alone. O(slots * sweeps a tile).
+ * MESO_ERR_INPUT where a face of the shell has no direction (a slot whose
+ * corners coincide), naming the slot.
+ */
+MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
+                                const MesoModel *model, uint32_t thread_count, MesoError *error);
+
+/* Box around all control points, widened by the profiles and inner meshes. */
+void meso_structure_bounds(const MesoStructure *structure, MesoVec3 *low, MesoVec3 *high);
+
+#endif

@@ -1,0 +1,69 @@
+/*
+ * Transforms of tiles, and variants: tiles under the transforms that they
+ * allow. A transform is an element of D4: flip x first, then `quarter`
+ * counter-clockwise quarter turns. The prototype's flip y is flip x and two
+ * quarter turns, so that each element has exactly one number here.
+ */
+#ifndef MESO_VARIANT_H
+#define MESO_VARIANT_H
+
+#include "libcore/tile/tile_set.h"
+
+enum { MESO_TRANSFORM_COUNT = 8 };
+
+typedef uint8_t MesoTransform;  /* 4 * flip + quarter */
+
+static inline MesoTransform meso_transform_make(bool flip_x, bool flip_y, uint32_t quarters)
+{
+    return (MesoTransform)(4u * (flip_x != flip_y) + ((quarters + (flip_y ? 2u : 0u)) & 3u));
+}
+
+/* True for the four that mirror; labels change their sign under them. */
+static inline bool meso_transform_flips(MesoTransform transform)
+{
+    return transform >= 4;
+}
+
+/* Where side 0..5 of the tile lies in the slot; top and bottom stay. */
+static inline uint32_t meso_transform_side(MesoTransform transform, uint32_t side)
+{
+    if (side >= 4)
+        return side;
+    if (meso_transform_flips(transform) && side % 2 == 0)
+        side += 2;
+    return (side + transform) & 3;
+}
+
+/* Which side 0..5 of the tile lies on side `side` of the slot. */
+uint32_t meso_transform_source(MesoTransform transform, uint32_t side);
+
+/* Where the point of the tile's unit square lies in the slot's. */
+MesoVec2 meso_transform_point(MesoTransform transform, MesoVec2 point);
+
+/* `second` after `first`. */
+MesoTransform meso_transform_compose(MesoTransform second, MesoTransform first);
+MesoTransform meso_transform_inverse(MesoTransform transform);
+
+/* True if `tile` allows `transform`: the subgroup that its flags generate. */
+bool meso_tile_allows(const MesoTile *tile, MesoTransform transform);
+
+/* Label that side `side` (0..3) of a slot shows under `tile` and `transform`. */
+int32_t meso_tile_label(const MesoTile *tile, MesoTransform transform, uint32_t side);
+
+typedef struct MesoVariantSet {
+    uint32_t count;
+    uint32_t *tile;             /* [count] ascending */
+    MesoTransform *transform;   /* [count] */
+    int32_t *labels;            /* [4 * count] side k of variant v at 4 v + k */
+} MesoVariantSet;
+
+/*
+ * Lists the variants of a checked set, by tile, then transform. Variants of
+ * one tile that show the same labels and the same content (equal sweeps after
+ * the transform, no inner mesh, nothing on top or bottom) appear once, under
+ * the smallest transform. Tiles marked `ignored` have none. O(tiles * sweeps).
+ */
+MesoStatus meso_variant_set_build(MesoVariantSet *variants, MesoArena *arena,
+                                  const MesoTileSet *set, MesoError *error);
+
+#endif
