@@ -13,6 +13,9 @@ typedef struct MesoCamera {
 /* Frames the box from the side and a little above, with a margin of 5 %. `aspect` is width / height. */
 MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, float fov_degrees, float aspect);
 
+/* The same, around the sweeps themselves and the slots with inner meshes. O(instances). */
+MesoCamera meso_camera_frame_structure(const MesoStructure *structure, float fov_degrees, float aspect);
+
 /* Rows from top to bottom. Unused arrays are never NULL: all AOVs are always made. */
 typedef struct MesoImage {
     uint32_t width, height;
@@ -28,6 +31,7 @@ typedef struct MesoRenderOptions {
     uint32_t width, height;     /* up to 16384 each */
     MesoCamera camera;
     uint32_t samples;           /* for antialiasing of color; 1 or 4 */
+    bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;
 
 /*
