@@ -189,21 +189,17 @@ static MesoStatus build(Builder *b, MesoArena *arena, MesoArena *scratch, uint32
                         MesoError *error)
 {
     MesoSlotGraph graph;
-    MesoContourSet contours;
     MesoProfileSet profiles;
     const MesoMapOptions *options = &b->structure->options;
     MesoStatus status = meso_slot_graph_build(&graph, scratch, &b->model->surface, error);
     if (!status)
-        status = meso_contour_set_build(&contours, scratch, &b->model->tile_set, options->section_step, error);
-    if (!status)
-        status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, &contours, options->divisions, error);
+        status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours, options->divisions, error);
     if (!status)
         status = fill_buckets(b, scratch, error);
     if (status)
         return status;
 
     b->shell = meso_shell_make(&b->model->surface, &graph, options);
-    b->contours = &contours;
     status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)
         status = make_instances(b, thread_count, error);
@@ -212,16 +208,31 @@ static MesoStatus build(Builder *b, MesoArena *arena, MesoArena *scratch, uint32
     return status;
 }
 
-MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
-                                const MesoModel *model, uint32_t thread_count, MesoError *error)
+MesoStatus meso_structure_build_over(MesoStructure *structure, MesoArena *arena,
+                                     const MesoModel *model, const MesoContourSet *contours,
+                                     uint32_t thread_count, MesoError *error)
 {
     MesoArena scratch;
     meso_arena_init(&scratch);
     *structure = (MesoStructure){
         .model = model,
         .options = meso_map_options_resolve(model->options, model->surface.mean_edge_length)};
-    Builder builder = {.model = model, .structure = structure};
+    Builder builder = {.model = model, .structure = structure, .contours = contours};
     MesoStatus status = build(&builder, arena, &scratch, thread_count, error);
+    meso_arena_release(&scratch);
+    return status;
+}
+
+MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
+                                const MesoModel *model, uint32_t thread_count, MesoError *error)
+{
+    MesoArena scratch;
+    MesoContourSet contours;
+    meso_arena_init(&scratch);
+    MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    MesoStatus status = meso_contour_set_build(&contours, &scratch, &model->tile_set, options.section_step, error);
+    if (!status)
+        status = meso_structure_build_over(structure, arena, model, &contours, thread_count, error);
     meso_arena_release(&scratch);
     return status;
 }

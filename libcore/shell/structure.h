@@ -86,6 +86,14 @@ typedef struct MesoStructure {
 MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
                                 const MesoModel *model, uint32_t thread_count, MesoError *error);
 
+/*
+ * The same over contours that the caller made: `contours` of the model's tile
+ * set, sampled in any way.
+ */
+MesoStatus meso_structure_build_over(MesoStructure *structure, MesoArena *arena,
+                                     const MesoModel *model, const MesoContourSet *contours,
+                                     uint32_t thread_count, MesoError *error);
+
 /* Kind of an instance. O(log kinds). */
 uint32_t meso_structure_kind(const MesoStructure *structure, uint32_t instance);
 
