@@ -9,7 +9,9 @@ layout(location = 5) in vec3 p2;
 layout(location = 6) in vec3 p3;
 layout(location = 7) in vec3 up0;
 layout(location = 8) in vec3 up1;
-layout(location = 9) in uint slot;
+layout(location = 9) in vec3 direction0;
+layout(location = 10) in vec3 direction1;
+layout(location = 11) in uint slot;
 
 layout(location = 0) uniform mat4 clip_from_world;
 layout(location = 1) uniform vec4 depth_axis;
@@ -31,30 +33,31 @@ void main()
 {
     float v = along;
 #ifdef CAP
-    vec3 tangent = unit(p1 - p0, vec3(0, 0, 1));
-    vec3 x = unit(cross(up0, tangent), vec3(1, 0, 0));
-    vec3 y = cross(tangent, x);
-    float t = 2.0 * v - v * v;
-    float root = sqrt(max(t, 0.0));
-    vec2 s = profile.xy, n = profile_normal.xy;
-    vec3 position = p0 + section_scale * ((1.0 - t * t) * (s.x * x + s.y * y) + cap_rise * root * tangent);
-    // Perpendicular to d/dt ((1 - t t) s, rise sqrt t), times sqrt t.
-    world_normal = unit(0.5 * cap_rise * (n.x * x + n.y * y) + 2.0 * t * root * dot(s, n) * tangent, tangent);
+    vec3 tangent = direction0, up = up0;
+    vec3 origin = p0 + section_scale * cap_rise * v * tangent;
+    vec2 s = (1.0 - v * v * v * v) * profile.xy;
+    vec2 n = cap_rise * profile_normal.xy;
+    float lean = 4.0 * v * v * v * dot(profile.xy, profile_normal.xy);
     material_blend = 0.0;
 #else
-    float w = 1.0 - v;
-    vec3 axis = w * w * w * p0 + 3.0 * w * w * v * p1 + 3.0 * w * v * v * p2 + v * v * v * p3;
-    vec3 derivative = w * w * (p1 - p0) + 2.0 * w * v * (p2 - p1) + v * v * (p3 - p2);
-    vec3 tangent = unit(derivative, unit(p3 - p0, vec3(0, 0, 1)));
-    vec3 x = unit(cross(mix(up0, up1, v), tangent), vec3(1, 0, 0));
-    vec3 y = cross(tangent, x);
-    float blend = v * v * (3.0 - 2.0 * v);
+    float w = 1.0 - v, blend = v * v * (3.0 - 2.0 * v);
+    vec3 origin = w * w * w * p0 + 3.0 * w * w * v * p1 + 3.0 * w * v * v * p2 + v * v * v * p3;
+    vec3 derivative = 3.0 * (w * w * (p1 - p0) + 2.0 * w * v * (p2 - p1) + v * v * (p3 - p2));
+    vec3 direction = v > 0.5 ? direction1 : direction0;
+    vec3 tangent = v == 0.0 || v == 1.0 ? direction : unit(derivative, direction);
+    vec3 up = mix(up0, up1, v);
     vec2 s = mix(profile.xy, profile.zw, blend);
     vec2 n = mix(profile_normal.xy, profile_normal.zw, blend);
-    vec3 position = axis + section_scale * (s.x * x + s.y * y);
-    world_normal = unit(n.x * x + n.y * y, tangent);
+    float speed = length(derivative);
+    float lean = speed > 0.0
+        ? -section_scale * 6.0 * v * w * dot(profile.zw - profile.xy, n) / speed : 0.0;
     material_blend = v;
 #endif
+    vec3 axis = abs(tangent.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    vec3 x = unit(cross(up, tangent), unit(cross(axis, tangent), axis));
+    vec3 y = cross(tangent, x);
+    vec3 position = origin + section_scale * (s.x * x + s.y * y);
+    world_normal = unit(n.x * x + n.y * y + lean * tangent, x);
     gl_Position = clip_from_world * vec4(position, 1.0);
     view_depth = dot(depth_axis, vec4(position, 1.0));
     slot_id = slot;

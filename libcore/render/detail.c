@@ -85,7 +85,7 @@ static float turn_of(const MesoSweepInstance *instance)
     MesoVec3 h0 = meso_vec3_sub(instance->p[1], instance->p[0]);
     MesoVec3 h1 = meso_vec3_sub(instance->p[2], instance->p[1]);
     MesoVec3 h2 = meso_vec3_sub(instance->p[3], instance->p[2]);
-    return angle_between(h0, h1) + angle_between(h1, h2) + angle_between(instance->up0, instance->up1);
+    return angle_between(h0, h1) + angle_between(h1, h2) + angle_between(instance->up[0], instance->up[1]);
 }
 
 static float bend_of(const MesoSweepInstance *instance)
@@ -107,8 +107,8 @@ uint32_t meso_detail_rings(const MesoStructure *structure, const MesoSweepKind *
                                           kind->column_count, &change);
     float steps = 1;
     if (kind->cap) {
-        /* Its rings crowd towards the tip, where it is round: 4 a radius of one tolerance. */
-        steps = 4 * sqrtf(fmaxf(radius, MESO_CAP_RISE * scale) / tolerance);
+        /* The radius falls as 1 - v^4, whose second derivative is 12 at most. */
+        steps = fmaxf(sqrtf(12 * radius / (8 * tolerance)), 3);
     } else {
         for (uint32_t i = 0; i < kind->instance_count; i++) {
             const MesoSweepInstance *instance = &structure->instances[kind->instance_begin + i];

@@ -29,7 +29,7 @@ typedef struct InnerVertex {
 
 /* A pattern in the making: which columns and how many rings of each kind. */
 typedef struct Plan {
-    uint32_t *kept;             /* [column_count] per kind from its column_begin */
+    uint32_t **kept;            /* [kind_count] each [column_count of the kind] */
     uint32_t *kept_count;       /* [kind_count] */
     uint32_t *ring_count;       /* [kind_count] */
     uint64_t vertex_count, index_count;
@@ -64,7 +64,7 @@ static float finest_pixel(const MesoStructure *structure, const MesoSweepKind *k
 static void count_pattern(Plan *plan, const MesoStructure *structure, uint32_t k)
 {
     const MesoSweepKind *kind = &structure->kinds[k];
-    const uint32_t *kept = &plan->kept[kind->column_begin];
+    const uint32_t *kept = plan->kept[k];
     uint64_t joints = 0;
     for (uint32_t i = 0; i + 1 < plan->kept_count[k]; i++)
         joints += structure->columns[kind->column_begin + kept[i]].joins_next != 0;
@@ -76,7 +76,7 @@ static MesoStatus make_plan(Plan *plan, MesoArena *arena, const MesoStructure *s
                             const MesoView *view, uint32_t height, float tolerance_pixels,
                             MesoError *error)
 {
-    plan->kept = MESO_NEW(arena, uint32_t, structure->column_count, error);
+    plan->kept = MESO_NEW(arena, uint32_t *, structure->kind_count, error);
     plan->kept_count = MESO_NEW(arena, uint32_t, structure->kind_count, error);
     plan->ring_count = MESO_NEW(arena, uint32_t, structure->kind_count, error);
     if (!plan->kept || !plan->kept_count || !plan->ring_count)
@@ -87,9 +87,12 @@ static MesoStatus make_plan(Plan *plan, MesoArena *arena, const MesoStructure *s
         const MesoSweepKind *kind = &structure->kinds[k];
         float tolerance = tolerance_pixels > 0
             ? tolerance_pixels * finest_pixel(structure, kind, view, height) : 0;
+        plan->kept[k] = MESO_NEW(arena, uint32_t, kind->column_count, error);
+        if (!plan->kept[k])
+            return MESO_ERR_MEMORY;
         plan->kept_count[k] = meso_detail_columns(&structure->columns[kind->column_begin],
                                                   kind->column_count, scale > 0 ? tolerance / scale : 0,
-                                                  &plan->kept[kind->column_begin]);
+                                                  plan->kept[k]);
         plan->ring_count[k] = meso_detail_rings(structure, kind, tolerance);
         count_pattern(plan, structure, k);
     }
@@ -110,7 +113,7 @@ static void fill_vertices(PatternVertex *out, const MesoSweepColumn *columns, co
         }
 }
 
-/* Columns run counter-clockwise around the trajectory, rings along it. */
+/* Columns run clockwise around the trajectory: along, then around is counter-clockwise from outside. */
 static uint32_t fill_indices(uint32_t *out, const MesoSweepColumn *columns, const uint32_t *kept,
                              uint32_t kept_count, uint32_t ring_count)
 {
@@ -120,7 +123,7 @@ static uint32_t fill_indices(uint32_t *out, const MesoSweepColumn *columns, cons
             if (!columns[kept[c]].joins_next)
                 continue;
             uint32_t a = r * kept_count + c, b = a + kept_count;
-            uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
+            uint32_t quad[6] = {a, b, b + 1, a, b + 1, a + 1};
             for (uint32_t i = 0; i < 6; i++)
                 *out++ = quad[i];
         }
@@ -140,13 +143,13 @@ static void describe_sweeps(MesoScene *scene)
     gl->VertexArrayVertexBuffer(array, 1, scene->instances, 0, sizeof(MesoSweepInstance));
     gl->VertexArrayBindingDivisor(array, 1, 1);
     gl->VertexArrayElementBuffer(array, scene->pattern_indices);
-    for (GLuint i = 0; i < 10; i++) {
+    for (GLuint i = 0; i < 12; i++) {
         gl->EnableVertexArrayAttrib(array, i);
         gl->VertexArrayAttribBinding(array, i, i < 3 ? 0 : 1);
         if (i < 3)
             gl->VertexArrayAttribFormat(array, i, (GLint)shared[i].size, GL_FLOAT, GL_FALSE,
                                         shared[i].offset);
-        else if (i < 9)     /* p[4], up0, up1 follow each other */
+        else if (i < 11)    /* p[4], up[2], direction[2] follow each other */
             gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE,
                                         (i - 3) * (GLuint)sizeof(MesoVec3));
         else
@@ -167,7 +170,7 @@ static MesoStatus upload_sweeps(MesoScene *scene, MesoArena *arena, const Plan *
     for (uint32_t k = 0; k < structure->kind_count; k++) {
         const MesoSweepKind *kind = &structure->kinds[k];
         const MesoSweepColumn *columns = &structure->columns[kind->column_begin];
-        const uint32_t *kept = &plan->kept[kind->column_begin];
+        const uint32_t *kept = plan->kept[k];
         uint32_t kept_count = plan->kept_count[k], ring_count = plan->ring_count[k];
         MesoDrawSweep *draw = &scene->sweeps[k];
 

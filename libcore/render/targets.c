@@ -1,6 +1,7 @@
 #include "libcore/render/targets.h"
 
 #include <math.h>
+#include <stddef.h>
 
 static const GLenum SURFACE_FORMATS[MESO_SURFACE_TARGETS] = {
     [MESO_TARGET_NORMAL] = GL_RGBA16F,
