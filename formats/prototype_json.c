@@ -1,11 +1,11 @@
 #include "formats/prototype_json.h"
 
-#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "formats/tiles_file.h"
+#include "formats/tiles_room.h"
 
 enum { DISC, UNION, DIFFERENCE, BOX, NODE_TYPES, DEEPEST_SHAPE = 256 };
 
@@ -74,61 +74,33 @@ static const char *make_interface_name(const Importer *importer, uint32_t i)
     return name ? name : "";
 }
 
-static uint64_t count_nodes(const json_t *csg, uint32_t depth)
+static uint64_t count_below(const json_t *csg, uint32_t depth)
 {
     const json_t *left = json_object_get(csg, "lhs"), *right = json_object_get(csg, "rhs");
     if (depth > DEEPEST_SHAPE)
         return 0;
-    return 1 + (left ? count_nodes(left, depth + 1) : 0) + (right ? count_nodes(right, depth + 1) : 0);
+    return 1 + (left ? count_below(left, depth + 1) : 0) + (right ? count_below(right, depth + 1) : 0);
 }
 
-static uint64_t count_items(const json_t *array, const char *key)
+static uint64_t count_nodes(const json_t *csg)
 {
-    uint64_t count = 0;
-    for (size_t i = 0; i < json_array_size(array); i++)
-        count += json_array_size(json_object_get(json_array_get(array, i), key));
-    return count;
+    return count_below(csg, 1);
 }
 
-static uint64_t count_drawings(const json_t *interfaces)
-{
-    uint64_t count = 0;
-    for (size_t i = 0; i < json_array_size(interfaces); i++) {
-        const json_t *shapes = json_object_get(json_array_get(interfaces, i), "shapes");
-        for (size_t k = 0; k < json_array_size(shapes); k++)
-            count += count_nodes(json_object_get(json_array_get(shapes, k), "csg"), 1);
-    }
-    return count;
-}
-
-static bool allocate(Importer *importer, const json_t *root)
+static bool reserve(Importer *importer, const json_t *root)
 {
     const json_t *interfaces = json_object_get(root, "edgeTypes");
     const json_t *tiles = json_object_get(root, "tileTypes");
-    uint64_t sections = count_items(interfaces, "shapes"), nodes = count_drawings(interfaces);
-    uint64_t sweeps = count_items(tiles, "innerPaths"), inners = count_items(tiles, "innerGeometry");
-    MesoJsonReader *reader = importer->reader;
-    MesoArena *arena = reader->arena;
-
-    if (sections > INT_MAX || nodes > INT_MAX || sweeps > INT_MAX || inners > INT_MAX) {
-        reader->status = meso_fail(reader->error, MESO_ERR_LIMIT, "%s: too large a tile set", reader->path);
-        return false;
-    }
-    importer->csg_capacity = (uint32_t)nodes;
-    MesoTileSet *set = importer->set;
-    *set = (MesoTileSet){
-        .interfaces = MESO_NEW(arena, MesoInterface, json_array_size(interfaces), reader->error),
-        .sections = MESO_NEW(arena, MesoSection, sections, reader->error),
-        .csg = MESO_NEW(arena, MesoCsgNode, nodes, reader->error),
-        .tiles = MESO_NEW(arena, MesoTile, json_array_size(tiles), reader->error),
-        .sweeps = MESO_NEW(arena, MesoSweep, sweeps, reader->error),
-        .inners = MESO_NEW(arena, MesoInnerMesh, inners, reader->error),
+    const MesoTilesRoom room = {
+        .interfaces = json_array_size(interfaces),
+        .sections = meso_tiles_count_items(interfaces, "shapes"),
+        .csg = meso_tiles_count_nodes(interfaces, "shapes", "csg", count_nodes),
+        .tiles = json_array_size(tiles),
+        .sweeps = meso_tiles_count_items(tiles, "innerPaths"),
+        .inners = meso_tiles_count_items(tiles, "innerGeometry"),
     };
-    if (!set->interfaces || !set->sections || !set->csg || !set->tiles || !set->sweeps || !set->inners) {
-        reader->status = MESO_ERR_MEMORY;
-        return false;
-    }
-    return true;
+    importer->csg_capacity = (uint32_t)room.csg;
+    return meso_tiles_reserve(importer->set, importer->reader, &room);
 }
 
 static MesoVec2 read_pair(const MesoJsonField *field, const char *key)
@@ -401,7 +373,7 @@ void meso_prototype_parse(MesoTileSet *set, MesoJsonReader *reader, const json_t
     MesoJsonField permission = meso_json_key(&root, "defaultTileTransformPermission");
     uint32_t interface_count = meso_json_count(&interfaces, 0, MESO_TILES_ITEMS);
     uint32_t tile_count = meso_json_count(&tiles, 0, MESO_TILES_ITEMS);
-    if (!meso_json_good(&root) || !allocate(&importer, root_value))
+    if (!meso_json_good(&root) || !reserve(&importer, root_value))
         return;
     read_permission(&importer, &permission, &set->default_rotation, &set->default_flip_x,
                     &set->default_flip_y);

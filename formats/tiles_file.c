@@ -7,6 +7,7 @@
 #include "formats/json_field.h"
 #include "formats/json_text.h"
 #include "formats/prototype_json.h"
+#include "formats/tiles_room.h"
 
 /* What a tile set of ours is read with. The maps go from names to numbers. */
 typedef struct Parser {
@@ -25,15 +26,14 @@ static const char *const shape_names[] = {
     NULL,
 };
 
-static bool out_of_memory(MesoJsonReader *reader)
+static void out_of_memory(MesoJsonReader *reader)
 {
     if (reader->status == MESO_OK)
         reader->status = meso_fail(reader->error, MESO_ERR_MEMORY, "%s: out of memory", reader->path);
-    return false;
 }
 
 /* Nodes that a shape needs: a list of n operands takes n - 1 nodes beside theirs. */
-static uint64_t count_nodes(const json_t *shape, uint32_t nesting)
+static uint64_t count_below(const json_t *shape, uint32_t nesting)
 {
     const char *key;
     json_t *value;
@@ -44,57 +44,30 @@ static uint64_t count_nodes(const json_t *shape, uint32_t nesting)
         size_t operands = json_array_size(value);
         count += operands > 0 ? operands - 1 : 1;
         for (size_t i = 0; i < operands; i++)
-            count += count_nodes(json_array_get(value, i), nesting + 1);
+            count += count_below(json_array_get(value, i), nesting + 1);
     }
     return count;
 }
 
-static uint64_t count_items(const json_t *array, const char *key)
+static uint64_t count_nodes(const json_t *shape)
 {
-    uint64_t count = 0;
-    for (size_t i = 0; i < json_array_size(array); i++)
-        count += json_array_size(json_object_get(json_array_get(array, i), key));
-    return count;
+    return count_below(shape, 1);
 }
 
-static uint64_t count_drawings(const json_t *interfaces)
-{
-    uint64_t count = 0;
-    for (size_t i = 0; i < json_array_size(interfaces); i++) {
-        const json_t *sections = json_object_get(json_array_get(interfaces, i), "sections");
-        for (size_t k = 0; k < json_array_size(sections); k++)
-            count += count_nodes(json_object_get(json_array_get(sections, k), "shape"), 1);
-    }
-    return count;
-}
-
-/* Room for all that the JSON holds; the counts themselves grow as it is read. */
-static bool allocate(Parser *parser, const json_t *root)
+static bool reserve(Parser *parser, const json_t *root)
 {
     const json_t *interfaces = json_object_get(root, "interfaces");
     const json_t *tiles = json_object_get(root, "tiles");
-    uint64_t sections = count_items(interfaces, "sections"), nodes = count_drawings(interfaces);
-    uint64_t sweeps = count_items(tiles, "sweeps"), inners = count_items(tiles, "inner");
-    MesoJsonReader *reader = parser->reader;
-    MesoArena *arena = reader->arena;
-
-    if (sections > INT_MAX || nodes > INT_MAX || sweeps > INT_MAX || inners > INT_MAX) {
-        reader->status = meso_fail(reader->error, MESO_ERR_LIMIT, "%s: too large a tile set", reader->path);
-        return false;
-    }
-    parser->csg_capacity = (uint32_t)nodes;
-    *parser->set = (MesoTileSet){
-        .interfaces = MESO_NEW(arena, MesoInterface, json_array_size(interfaces), reader->error),
-        .sections = MESO_NEW(arena, MesoSection, sections, reader->error),
-        .csg = MESO_NEW(arena, MesoCsgNode, nodes, reader->error),
-        .tiles = MESO_NEW(arena, MesoTile, json_array_size(tiles), reader->error),
-        .sweeps = MESO_NEW(arena, MesoSweep, sweeps, reader->error),
-        .inners = MESO_NEW(arena, MesoInnerMesh, inners, reader->error),
+    const MesoTilesRoom room = {
+        .interfaces = json_array_size(interfaces),
+        .sections = meso_tiles_count_items(interfaces, "sections"),
+        .csg = meso_tiles_count_nodes(interfaces, "sections", "shape", count_nodes),
+        .tiles = json_array_size(tiles),
+        .sweeps = meso_tiles_count_items(tiles, "sweeps"),
+        .inners = meso_tiles_count_items(tiles, "inner"),
     };
-    const MesoTileSet *set = parser->set;
-    if (!set->interfaces || !set->sections || !set->csg || !set->tiles || !set->sweeps || !set->inners)
-        return out_of_memory(reader);
-    return true;
+    parser->csg_capacity = (uint32_t)room.csg;
+    return meso_tiles_reserve(parser->set, parser->reader, &room);
 }
 
 static uint32_t add_node(Parser *parser, const MesoJsonField *field, MesoCsgNode node)
@@ -399,7 +372,7 @@ static void read_set(Parser *parser, const MesoJsonField *root)
     MesoJsonField interfaces = meso_json_key(root, "interfaces"), tiles = meso_json_key(root, "tiles");
     uint32_t interface_count = meso_json_count(&interfaces, 1, MESO_TILES_ITEMS);
     uint32_t tile_count = meso_json_count(&tiles, 1, MESO_TILES_ITEMS);
-    if (!meso_json_good(root) || !allocate(parser, root->value))
+    if (!meso_json_good(root) || !reserve(parser, root->value))
         return;
     read_defaults(parser->set, root);
     for (uint32_t i = 0; i < interface_count && meso_json_good(root); i++) {
