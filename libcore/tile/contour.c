@@ -12,7 +12,7 @@
 static const double SCALE = 1 << 24;
 static const double REACH = 32;
 
-enum { MAX_POINTS = 1 << 20, MIN_DISC_POINTS = 8 };
+enum { MAX_POINTS = 1 << 20, MAX_CONTOURS = 1024, MIN_DISC_POINTS = 8 };
 
 /* Points closer than this, in edge lengths, are one: Clipper cuts leave such slivers. */
 static const double WELD = 1e-6;
@@ -238,6 +238,9 @@ static MesoStatus clip_section(SectionContours *out, MesoArena *arena, const Mes
     if (!out->ranked)
         return MESO_ERR_MEMORY;
     out->count = rank_paths(out->ranked, &out->polygons, step);
+    if (out->count > MAX_CONTOURS)
+        return meso_fail(error, MESO_ERR_LIMIT, "a drawing has %u contours; %d are the most in one cross-section",
+                         out->count, MAX_CONTOURS);
     uint64_t points = 0;
     for (uint32_t i = 0; i < out->count; i++) {
         uint32_t path = out->ranked[i].path, begin = out->polygons.path_begin[path];
