@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "libcore/base/error.h"
+#include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
 
 typedef enum MesoOptionKind {
@@ -42,6 +42,14 @@ typedef struct MesoOption {
  */
 MesoStatus meso_options_parse(const MesoOption *options, int argc, char **argv,
                               const char **operands, uint32_t *operand_count, MesoError *error);
+
+/*
+ * The command line as one line that a shell takes back, in `arena`: the
+ * program's base name, then options and operands as given, without the options
+ * whose names `left_out` (ended by NULL) lists. NULL when memory is out.
+ */
+char *meso_options_command_line(const MesoOption *options, int argc, char **argv,
+                                const char *const *left_out, MesoArena *arena, MesoError *error);
 
 /* Help text of the table to standard output, wrapped at 80 columns. */
 void meso_options_print(const MesoOption *options);

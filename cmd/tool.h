@@ -50,6 +50,7 @@ typedef struct MesoTool {
     MesoProvenance provenance;  /* tool, command line and seed are filled in by the start */
     json_t *report;             /* object; what the tool did. Written by the finish if asked for */
     struct MesoProgress *progress;
+    double started;             /* seconds, of the monotonic clock */
 } MesoTool;
 
 /* The options that all tools share, for the end of a table. */
@@ -72,13 +73,20 @@ typedef struct MesoTool {
 
 /*
  * Parses, installs the signal handlers (SIGTERM, SIGINT, SIGHUP: remove
- * temporary files, then die of the signal), ignores SIGPIPE. Returns false
- * where there is nothing left to run: --help, --version, or wrong usage.
+ * temporary files, then die of the signal), ignores SIGPIPE. `tool` must be
+ * zeroed, except for option values that are not the default here. Returns
+ * false where there is nothing left to run: --help, --version, or wrong usage.
  */
 bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,
                      int argc, char **argv);
 
-/* Prints the error as "meso-map: message", writes the report, frees all; returns the exit code. */
+/*
+ * Prints the error as "meso-map: message", writes the report, frees all;
+ * returns the exit code. The report is an object: "format" "meso-report",
+ * "version", "tool", "status" (ok, no, usage, limit, input, output, internal,
+ * memory), "exit", "message" where the status is not ok, "provenance", then
+ * what the tool put into `report`, and with -v the "seconds" that it took.
+ */
 int meso_tool_finish(MesoTool *tool);
 
 /* One line to standard error, unless -q. */

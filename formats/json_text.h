@@ -13,8 +13,15 @@
  */
 MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *error);
 
-/* Appends `value` as text: two spaces of indent, keys in the order of insertion, numbers that
- * read back to the same double, a final newline. */
+/* String value of `text`; what is not UTF-8 (file names, cut messages) keeps its ASCII and gets
+ * '?' for the rest. NULL when memory is out. */
+json_t *meso_json_string(const char *text);
+
+/*
+ * Appends `value` as text: two spaces of indent, keys in the order of insertion, the shortest
+ * numbers that read back to the same double, a final newline. Arrays and objects that hold no
+ * other array or object stand on one line where they fit in 100 columns.
+ */
 MesoStatus meso_json_write(const json_t *value, MesoOutput *output, MesoError *error);
 
 /* "format" and "version" of one of our files: refuses another format and a newer version. */

@@ -10,6 +10,10 @@
 
 #include "libcore/base/error.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct MesoArenaBlock MesoArenaBlock;
 
 typedef struct MesoArena {
@@ -50,5 +54,9 @@ char *meso_arena_print(MesoArena *arena, MesoError *error, const char *format, .
 /* What is allocated after `mark` is given back by the rewind to it. */
 MesoArenaMark meso_arena_mark(const MesoArena *arena);
 void meso_arena_rewind(MesoArena *arena, MesoArenaMark mark);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -2,6 +2,10 @@
 #ifndef MESO_ERROR_H
 #define MESO_ERROR_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The values are the exit codes of the tools. */
 typedef enum MesoStatus {
     MESO_OK = 0,
@@ -30,5 +34,9 @@ MesoStatus meso_fail(MesoError *error, MesoStatus status, const char *format, ..
 
 /* Puts "`prefix`: " before the message of `error`; returns its status. */
 MesoStatus meso_fail_prefix(MesoError *error, const char *prefix);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

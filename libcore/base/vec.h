@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #define MESO_NO_INDEX UINT32_MAX
+#define MESO_PI 3.14159265358979323846
 
 typedef struct MesoVec2 {
     float x, y;

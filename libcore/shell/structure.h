@@ -7,17 +7,21 @@
  * A point of an instance of a swept kind, at column c and v in [0,1]:
  *
  *     B(v)    cubic Bezier over p[0..3] (MesoGen, section 3.5)
- *     T(v)    unit B'(v)
- *     X(v)    unit cross(lerp(up0, up1, v), T)        Y(v) = cross(T, X)
- *     s(v)    lerp(c.start, c.end, v v (3 - 2 v))     in edge lengths
+ *     T(v)    unit B'(v); at the ends exactly direction[0], direction[1]
+ *     X(v)    unit cross(lerp(up[0], up[1], v), T)        Y(v) = cross(T, X)
+ *     w(v)    v v (3 - 2 v)
+ *     s(v)    lerp(c.start, c.end, w)                      in edge lengths
  *     P(v)    B + section_scale * (s.x X + s.y Y)
  *
- * with the normal n.x X + n.y Y for the 2D normal n interpolated like s. A cap
- * has the straight axis T = unit(p[1] - p[0]), the profile s = start, and
+ * with the normal n.x X + n.y Y - tilt T made unit, where n is the 2D normal
+ * interpolated like s and tilt = section_scale w'(v) dot(c.end - c.start, n) / |B'|.
  *
- *     t = 2 v - v v,  P(v) = p[0] + section_scale * ((1 - t t)(s.x X + s.y Y) + MESO_CAP_RISE sqrt(t) T)
+ * A cap has the straight axis T = direction[0], X and Y from up[0], s = start, and
  *
- * so that its rings crowd towards the tip.
+ *     P(v) = p[0] + section_scale * ((1 - v^4) (s.x X + s.y Y) + MESO_CAP_RISE v T)
+ *
+ * with the normal MESO_CAP_RISE (n.x X + n.y Y) + 4 v^3 dot(s, n) T made unit.
+ * (The prototype's dome, radius 1 - t^2 and rise sqrt(t) / 8, with t = v^2.)
  */
 #ifndef MESO_STRUCTURE_H
 #define MESO_STRUCTURE_H
@@ -42,13 +46,16 @@ typedef struct MesoSweepKind {
     uint32_t division_count;            /* vertices along */
     uint32_t instance_begin, instance_count;
     uint32_t tile, sweep;               /* sweep is MESO_NO_INDEX for a cap */
+    uint32_t start_side, end_side;      /* of the tile; equal for a cap */
     uint32_t start_section, end_section;
+    bool mirrored;                      /* the tile's transform flips */
     bool cap;
 } MesoSweepKind;
 
 typedef struct MesoSweepInstance {
-    MesoVec3 p[4];
-    MesoVec3 up0, up1;
+    MesoVec3 p[4];              /* control points; a cap has p[1..3] along its axis */
+    MesoVec3 up[2];             /* drawing's y direction at both ends; not of unit length */
+    MesoVec3 direction[2];      /* unit tangents at both ends, from start to end */
     uint32_t slot;
 } MesoSweepInstance;
 
@@ -78,6 +85,17 @@ typedef struct MesoStructure {
  */
 MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
                                 const MesoModel *model, uint32_t thread_count, MesoError *error);
+
+/*
+ * The same over contours that the caller made: `contours` of the model's tile
+ * set, sampled in any way.
+ */
+MesoStatus meso_structure_build_over(MesoStructure *structure, MesoArena *arena,
+                                     const MesoModel *model, const MesoContourSet *contours,
+                                     uint32_t thread_count, MesoError *error);
+
+/* Kind of an instance. O(log kinds). */
+uint32_t meso_structure_kind(const MesoStructure *structure, uint32_t instance);
 
 /* Box around all control points, widened by the profiles and inner meshes. */
 void meso_structure_bounds(const MesoStructure *structure, MesoVec3 *low, MesoVec3 *high);

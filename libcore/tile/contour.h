@@ -34,7 +34,7 @@ typedef struct MesoContourSet {
  *         pieces of at most 2 * step
  *
  * A cross-section whose drawing has no area gets no contours. O(points log points).
- * MESO_ERR_LIMIT if a drawing needs more than 2^20 points.
+ * MESO_ERR_LIMIT if a drawing needs more than 2^20 points or 1024 contours.
  */
 MesoStatus meso_contour_set_build(MesoContourSet *contours, MesoArena *arena,
                                   const MesoTileSet *set, float step, MesoError *error);

@@ -1,0 +1,281 @@
+#include "cmd/tool.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cmd/progress.h"
+#include "formats/json_text.h"
+#include "formats/output.h"
+
+/* They change no byte of a product, and so have no place in its provenance. */
+static const char *const not_recorded[] = {"threads", "progress", "quiet", "verbose", "json", NULL};
+
+static void die_of_signal(int number)
+{
+    meso_output_discard_all();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* What the caller chose to ignore (nohup) stays ignored. Writes to a closed
+ * pipe and past the size limit become errors that are reported. */
+static void install_handlers(void)
+{
+    static const int deadly[] = {SIGTERM, SIGINT, SIGHUP};
+    for (size_t i = 0; i < sizeof deadly / sizeof *deadly; i++) {
+        struct sigaction old, action = {.sa_handler = die_of_signal};
+        sigfillset(&action.sa_mask);
+        if (sigaction(deadly[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+            sigaction(deadly[i], &action, NULL);
+    }
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+/* A closed standard descriptor must not become one of our files by accident:
+ * it is held by one that fails in the direction it is used in. */
+static void hold_standard_descriptors(void)
+{
+    for (int file = 0; file < 3; file++)
+        if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
+            (void)!open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY);
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* "1 operand given, 3 needed" */
+static MesoStatus check_operands(const MesoToolInfo *info, uint32_t count, MesoError *error)
+{
+    uint32_t low = info->operands_low, high = info->operands_high;
+    if (count >= low && count <= high)
+        return MESO_OK;
+    const char *plural = count == 1 ? "" : "s";
+    if (low == high)
+        return meso_fail(error, MESO_ERR_USAGE, "%u operand%s given, %u needed", count, plural, low);
+    return meso_fail(error, MESO_ERR_USAGE, "%u operand%s given, at %s %u needed", count, plural,
+                     count < low ? "least" : "most", count < low ? low : high);
+}
+
+/* Two products in one stream would be neither. */
+static MesoStatus check_standard_output(const MesoTool *tool, MesoError *error)
+{
+    bool report = tool->json && (*tool->json == 0 || strcmp(tool->json, "-") == 0);
+    if (report && tool->output && strcmp(tool->output, "-") == 0)
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "the product and the report cannot both go to standard output; use "
+                         "--json=FILE");
+    return MESO_OK;
+}
+
+static MesoStatus parse(MesoTool *tool, const MesoOption *options, int argc, char **argv)
+{
+    MesoError *error = &tool->error;
+    tool->operands = MESO_NEW(&tool->arena, const char *, (size_t)argc + 1, error);
+    if (!tool->operands)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_options_parse(options, argc, argv, tool->operands,
+                                           &tool->operand_count, error);
+    if (tool->help || tool->version)
+        return MESO_OK;
+    if (status == MESO_OK)
+        status = check_operands(tool->info, tool->operand_count, error);
+    if (status == MESO_OK)
+        status = check_standard_output(tool, error);
+    if (status != MESO_OK)
+        return status;
+    tool->provenance.seed = tool->seed;
+    tool->provenance.command_line =
+        meso_options_command_line(options, argc, argv, not_recorded, &tool->arena, error);
+    return tool->provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* `text` indented by two, line by line. */
+static void print_block(const char *heading, const char *text)
+{
+    if (!text || !*text)
+        return;
+    printf("%s", heading);
+    while (*text) {
+        int length = (int)strcspn(text, "\n");
+        printf("  %.*s\n", length, text);
+        text += length;
+        text += *text == '\n';
+    }
+}
+
+static void print_help(const MesoTool *tool, const MesoOption *options)
+{
+    const MesoToolInfo *info = tool->info;
+    print_block("Usage:\n", info->synopsis);
+    printf("\n%s\n", info->purpose);
+    meso_options_print(options);
+    print_block("\nExamples:\n", info->examples);
+    printf("\nExit status: 0 done, 1 the answer is no, 2 usage, 3 gave up at a limit,\n"
+           "4 bad input, 5 cannot write, 6 internal error, 33 out of memory.\n");
+}
+
+static MesoStatus flush_standard_output(MesoError *error)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return MESO_OK;
+    return meso_fail(error, MESO_ERR_OUTPUT, "cannot write standard output: %s",
+                     errno ? strerror(errno) : "write error");
+}
+
+bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,
+                     int argc, char **argv)
+{
+    static char *no_arguments[2];
+    hold_standard_descriptors();
+    install_handlers();
+    if (argc < 1) {
+        no_arguments[0] = (char *)(uintptr_t)info->name;
+        argc = 1;
+        argv = no_arguments;
+    }
+
+    tool->info = info;
+    meso_arena_init(&tool->arena);
+    tool->error = (MesoError){0};
+    tool->provenance = (MesoProvenance){.tool = info->name, .command_line = info->name};
+    tool->report = json_object();
+    tool->progress = MESO_NEW(&tool->arena, MesoProgress, 1, &tool->error);
+    if (!tool->report || !tool->progress) {
+        tool->status = meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory");
+        return false;
+    }
+    tool->started = seconds_now();
+
+    tool->status = parse(tool, options, argc, argv);
+    meso_progress_init(tool->progress, tool->progress_mode, tool->quiet);
+    if (tool->status != MESO_OK)
+        return false;
+    if (!tool->help && !tool->version)
+        return true;
+    tool->json = NULL;
+    if (tool->help)
+        print_help(tool, options);
+    else
+        printf("%s %s\n", info->name, MESO_VERSION);
+    tool->status = flush_standard_output(&tool->error);
+    return false;
+}
+
+static const char *status_name(MesoStatus status)
+{
+    switch (status) {
+    case MESO_OK: return "ok";
+    case MESO_ERR_NO: return "no";
+    case MESO_ERR_USAGE: return "usage";
+    case MESO_ERR_LIMIT: return "limit";
+    case MESO_ERR_INPUT: return "input";
+    case MESO_ERR_OUTPUT: return "output";
+    case MESO_ERR_INTERNAL: return "internal";
+    case MESO_ERR_MEMORY: return "memory";
+    }
+    return "internal";
+}
+
+static json_t *make_report(const MesoTool *tool)
+{
+    json_t *root = json_object();
+    int failed = json_object_set_new(root, "format", json_string("meso-report"));
+    failed |= json_object_set_new(root, "version", json_integer(1));
+    failed |= json_object_set_new(root, "tool", json_string(tool->info->name));
+    failed |= json_object_set_new(root, "status", json_string(status_name(tool->status)));
+    failed |= json_object_set_new(root, "exit", json_integer(tool->status));
+    if (tool->status != MESO_OK)
+        failed |= json_object_set_new(root, "message", meso_json_string(tool->error.message));
+    failed |= json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance));
+    failed |= json_object_update(root, tool->report);
+    if (tool->verbose)
+        failed |= json_object_set_new(root, "seconds", json_real(seconds_now() - tool->started));
+    if (failed) {
+        json_decref(root);
+        return NULL;
+    }
+    return root;
+}
+
+static MesoStatus write_report(const MesoTool *tool, MesoError *error)
+{
+    json_t *root = make_report(tool);
+    MesoOutput *output = NULL;
+    MesoStatus status = meso_output_open(&output, *tool->json ? tool->json : "-", error);
+    if (status == MESO_OK)
+        status = meso_json_write(root, output, error);
+    if (status == MESO_OK)
+        status = meso_output_commit(output, error);
+    else
+        meso_output_discard(output);
+    json_decref(root);
+    return status;
+}
+
+static void print_error(const MesoTool *tool, const MesoError *error)
+{
+    fprintf(stderr, "%s: %s\n", tool->info->name, error->message);
+    if (error->status == MESO_ERR_USAGE)
+        fprintf(stderr, "try '%s --help'\n", tool->info->name);
+}
+
+int meso_tool_finish(MesoTool *tool)
+{
+    if (tool->progress)
+        meso_progress_end(tool->progress);
+    if (tool->status != MESO_OK) {
+        tool->error.status = tool->status;
+        print_error(tool, &tool->error);
+    }
+    if (tool->json && tool->report) {
+        MesoError error = {0};
+        MesoStatus status = write_report(tool, &error);
+        if (status != MESO_OK)
+            print_error(tool, &error);
+        if (tool->status == MESO_OK)
+            tool->status = status;
+    }
+    json_decref(tool->report);
+    tool->report = NULL;
+    tool->progress = NULL;
+    meso_arena_release(&tool->arena);
+    return (int)tool->status;
+}
+
+void meso_tool_say(const MesoTool *tool, const char *format, ...)
+{
+    if (tool->quiet)
+        return;
+    MesoError line;     /* for its rule that a message stays on one line */
+    char text[sizeof line.message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    meso_fail(&line, MESO_OK, "%s", text);
+    meso_progress_hide(tool->progress);
+    fprintf(stderr, "%s: %s\n", tool->info->name, line.message);
+}
+
+void meso_tool_progress_begin(MesoTool *tool, const char *what, const char *unit)
+{
+    meso_progress_begin(tool->progress, what, unit);
+}
+
+void meso_tool_progress(void *tool, uint64_t done, uint64_t total)
+{
+    meso_progress_update(((MesoTool *)tool)->progress, done, total);
+}
