@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/json_text.h"
 #include "libcore/base/parallel.h"
 
 enum { SCRATCH_ALIGNMENT = 64, BOUNDS_VERTICES = 1 << 14 };
@@ -336,7 +337,7 @@ const char *meso_mesh_tile_names(const MesoTessellation *t, MesoArena *arena, Me
     json_t *names = json_array();
     bool complete = names != NULL;
     for (uint32_t i = 0; complete && i < set->tile_count; i++)
-        complete = json_array_append_new(names, json_string(set->tiles[i].name)) == 0;
+        complete = json_array_append_new(names, meso_json_string(set->tiles[i].name)) == 0;
     return names_text(names, complete, arena, error);
 }
 
@@ -348,7 +349,7 @@ const char *meso_mesh_material_names(const MesoTessellation *t, MesoArena *arena
     for (uint32_t i = 0; complete && i < count; i++) {
         char name[MESO_MESH_NAME];
         meso_mesh_material_name(t, i, name);
-        complete = json_array_append_new(names, json_string(name)) == 0;
+        complete = json_array_append_new(names, meso_json_string(name)) == 0;
     }
     return names_text(names, complete, arena, error);
 }
