@@ -5,7 +5,7 @@
  *              0x01020304, u16 major, u16 minor, u32 chunk count, u32 0, u64 file size,
  *              u64 XXH3-64 of the chunk table, 8 bytes 0, u64 XXH3-64 of bytes 0..55
  *     table    per chunk 32 bytes: name[8], u64 offset, u64 length, u64 XXH3-64 of the data
- *     chunks   each at a multiple of 64, zero bytes between
+ *     chunks   each at the first multiple of 64 after the one before, zero bytes between
  *
  * Every byte is covered: by a checksum, or by the rule that it is zero.
  */
@@ -30,12 +30,16 @@ typedef struct MesoContainer {
     MesoChunk chunks[MESO_CONTAINER_CHUNKS];
 } MesoContainer;
 
+/* Appends a chunk; `data` must outlive the container. A name has 1 to 8 characters. */
+void meso_container_add(MesoContainer *container, const char *name, const void *data, uint64_t size);
+
 /* Writes `container` to `output`, chunks in the given order. */
 MesoStatus meso_container_write(const MesoContainer *container, MesoOutput *output, MesoError *error);
 
 /*
- * Opens `input` without copying: chunks point into it. Checks every checksum,
- * offset and padding byte; `kind` must match and `major` not exceed
+ * Opens `input` without copying: chunks point into it, and its data must be
+ * aligned to 8 bytes, as mapped files are. Checks every checksum, offset and
+ * padding byte; `kind` must match and `major` not exceed
  * `newest_major`. MESO_ERR_INPUT tells truncation, corruption (by chunk
  * name), wrong kind and newer version apart. O(size).
  */
@@ -43,8 +47,8 @@ MesoStatus meso_container_read(MesoContainer *container, const MesoInput *input,
                                uint16_t newest_major, MesoError *error);
 
 /*
- * Chunk `name`, or NULL. With `element_size` > 0 the size must be
- * `count * element_size` exactly, and a missing chunk is an error: then NULL
+ * Chunk `name`, or NULL. For the second a missing chunk is an error, and so is,
+ * with `element_size` > 0, a size that is not `count * element_size`: then NULL
  * with `error` filled.
  */
 const void *meso_container_find(const MesoContainer *container, const char *name, uint64_t *size);

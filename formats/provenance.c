@@ -63,3 +63,24 @@ const char *meso_provenance_text(const MesoProvenance *provenance, MesoArena *ar
     free(text);
     return copy;
 }
+
+MesoStatus meso_provenance_copy(const char **text, const void *data, uint64_t size,
+                                const char *path, MesoArena *arena, MesoError *error)
+{
+    MesoInput input;
+    json_t *root = NULL;
+    meso_input_wrap(&input, "chunk 'prov'", data, size);
+    MesoStatus status = meso_json_parse(&root, &input, error);
+    if (status == MESO_OK && !json_is_object(root))
+        status = meso_fail(error, MESO_ERR_INPUT, "chunk 'prov': is not an object");
+    json_decref(root);
+    if (status != MESO_OK) {
+        meso_fail_prefix(error, path);
+        return status;
+    }
+    char *copy = MESO_NEW(arena, char, (size_t)size + 1, error);
+    if (!copy)
+        return MESO_ERR_MEMORY;
+    *text = memcpy(copy, data, size);
+    return MESO_OK;
+}

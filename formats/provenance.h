@@ -34,4 +34,9 @@ json_t *meso_provenance_json(const MesoProvenance *provenance);
 /* The same as one line of text, in `arena`; for comments and string attributes. */
 const char *meso_provenance_text(const MesoProvenance *provenance, MesoArena *arena, MesoError *error);
 
+/* Copies the `size` bytes of a provenance chunk as text to `arena`. MESO_ERR_INPUT where they are
+ * not one JSON object. `path` is for messages. */
+MesoStatus meso_provenance_copy(const char **text, const void *data, uint64_t size,
+                                const char *path, MesoArena *arena, MesoError *error);
+
 #endif

@@ -30,7 +30,11 @@ MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet 
 MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInput *input,
                            MesoError *error);
 
-/* Tile numbers of the file to those of `set`, by name. MESO_ERR_INPUT names one that is missing. */
+/*
+ * Turns the tile numbers of the file to those of `set`, by name; the names in
+ * `slots` have served then, and are gone. MESO_ERR_INPUT names a tile that a
+ * slot uses and the set lacks, and leaves all as it was. O(slot_count).
+ */
 MesoStatus meso_slots_bind(MesoSlotsFile *slots, const MesoTileSet *set, MesoError *error);
 
 #endif

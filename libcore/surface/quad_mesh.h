@@ -22,16 +22,17 @@ typedef struct MesoQuadMesh {
  * positions      [vertex_count], finite
  * normals        [normal_count] of any length, or NULL with a count of 0
  * face_vertices  [4 * face_count]
- * face_normals   [4 * face_count] into normals; NULL if normals is
+ * face_normals   [4 * face_count] into normals, or MESO_NO_INDEX; NULL if normals is
  *
  * Everything is copied to `arena`. Normals are taken as they are, made unit
- * length; corners without a usable one (no normals, zero length) get the
- * vertex normal: the sum over the faces around the vertex of the cross
+ * length; corners without a usable one (no normal, zero length) get the
+ * vertex normal, appended: the sum over the faces around the vertex of the cross
  * products of their diagonals (area-weighted), or +Z where that vanishes.
  * O(vertex_count + face_count).
  * MESO_ERR_INPUT names the first face or vertex (counted from 1, as OBJ
- * files do) that is not finite, out of range, or uses a vertex twice, and
- * refuses a mesh without faces.
+ * files do) that is not finite (or beyond 1e18, where products of lengths
+ * would no longer be), out of range, or uses a vertex twice, and refuses a
+ * mesh without faces or with no edge longer than 0.
  */
 MesoStatus meso_quad_mesh_build(MesoQuadMesh *mesh, MesoArena *arena,
                                 uint32_t vertex_count, const MesoVec3 *positions,

@@ -1,0 +1,21 @@
+#include "libcore/shell/model.h"
+
+static float positive_or(float value, float otherwise)
+{
+    return value > 0 ? value : otherwise;
+}
+
+MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length)
+{
+    /* All vertices in one point: any length will do, but not 0, which stands for the default. */
+    float edge = positive_or(mean_edge_length, 1);
+    options.thickness = positive_or(options.thickness, edge);
+    options.section_scale = positive_or(options.section_scale, edge);
+    options.tangent_scale = positive_or(options.tangent_scale, 1);
+    options.section_step = positive_or(options.section_step, 0.02f);
+    if (options.divisions == 0)
+        options.divisions = 12;
+    if (options.divisions < 2)
+        options.divisions = 2;
+    return options;
+}
