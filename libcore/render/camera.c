@@ -16,21 +16,34 @@ static const MesoVec3 TOWARDS_EYE = {0.5f, 0.45f, 1.0f};
 typedef struct Frame {
     MesoVec3 right, up, back;
     float tan_x, tan_y;
+    MesoVec3 world_up;
     float left_most, right_most, low_most, high_most;   /* A and B of both axes */
     float deepest, nearest;
 } Frame;
 
-static Frame begin_frame(float fov_degrees, float aspect)
+/* TOWARDS_EYE in a world whose up is `up`: +Z stays the front as long as it can. */
+static MesoVec3 towards_eye(MesoVec3 up)
 {
-    MesoCamera camera = {TOWARDS_EYE, {0, 0, 0}, {0, 1, 0}, fov_degrees};
+    MesoVec3 y = meso_vec3_unit(up, (MesoVec3){0, 1, 0});
+    MesoVec3 front = fabsf(y.z) < 0.9f ? (MesoVec3){0, 0, 1} : (MesoVec3){0, -1, 0};
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(y, front), (MesoVec3){1, 0, 0});
+    MesoVec3 z = meso_vec3_cross(x, y);
+    MesoVec3 side = meso_vec3_mad(meso_vec3_scale(x, TOWARDS_EYE.x), TOWARDS_EYE.y, y);
+    return meso_vec3_mad(side, TOWARDS_EYE.z, z);
+}
+
+static Frame begin_frame(MesoVec3 up, float fov_degrees, float aspect)
+{
+    MesoCamera camera = {towards_eye(up), {0, 0, 0}, up, fov_degrees};
     MesoView view;
     if (meso_view_build(&view, &camera, NULL)) {
-        camera.fov_degrees = 35;
+        camera.up = (MesoVec3){0, 1, 0};
+        camera.fov_degrees = 30;
         meso_view_build(&view, &camera, NULL);
     }
     float t = view.tan_half_fov * (1 - 2 * MARGIN);
     float none = -INFINITY;
-    return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t,
+    return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t, up,
                    none, none, none, none, INFINITY, none};
 }
 
@@ -66,12 +79,12 @@ static MesoCamera end_frame(const Frame *frame, float fov_degrees)
     }
     MesoVec3 axis = meso_vec3_mad(meso_vec3_scale(frame->right, x), y, frame->up);
     return (MesoCamera){meso_vec3_mad(axis, z, frame->back), meso_vec3_mad(axis, middle, frame->back),
-                        {0, 1, 0}, fov_degrees};
+                        frame->world_up, fov_degrees};
 }
 
-MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, float fov_degrees, float aspect)
+MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
 {
-    Frame frame = begin_frame(fov_degrees, aspect);
+    Frame frame = begin_frame(up, fov_degrees, aspect);
     for (uint32_t i = 0; i < 8; i++)
         add_ball(&frame, meso_box_corner(low, high, i), 0);
     return end_frame(&frame, fov_degrees);
@@ -121,9 +134,10 @@ static void add_inner(Frame *frame, const MesoStructure *structure, uint32_t slo
     }
 }
 
-MesoCamera meso_camera_frame_structure(const MesoStructure *structure, float fov_degrees, float aspect)
+MesoCamera meso_camera_frame_structure(const MesoStructure *structure, MesoVec3 up, float fov_degrees,
+                                       float aspect)
 {
-    Frame frame = begin_frame(fov_degrees, aspect);
+    Frame frame = begin_frame(up, fov_degrees, aspect);
     for (uint32_t k = 0; k < structure->kind_count; k++)
         add_kind(&frame, structure, &structure->kinds[k]);
     for (uint32_t i = 0; i < structure->inner_count; i++)

@@ -60,6 +60,7 @@ static MesoStatus allocate(MesoImage *image, MesoArena *arena, const MesoRenderO
     size_t count = (size_t)options->width * options->height;
     image->width = options->width;
     image->height = options->height;
+    image->camera = options->camera;
     image->color = MESO_NEW(arena, float, 4 * count, error);
     image->depth = MESO_NEW(arena, float, count, error);
     image->normal = MESO_NEW(arena, float, 3 * count, error);
