@@ -7,7 +7,11 @@
 #include "formats/input.h"
 #include "libcore/tile/tile_set.h"
 
-enum { MESO_TILES_VERSION = 1 };
+enum { MESO_TILES_VERSION = 1, MESO_TILES_ITEMS = 1 << 20 };  /* the most items of a list */
+
+/* Materials that a file does not give; a cross-section's albedo is its interface's colour. */
+#define MESO_DEFAULT_ALBEDO 0.8f
+#define MESO_DEFAULT_ROUGHNESS 0.5f
 
 /*
  * Reads a tile set of either kind, known by its content, into `arena` (names
@@ -26,5 +30,9 @@ json_t *meso_tiles_to_json(const MesoTileSet *set);
 /* From parsed JSON of either kind; `path` is for messages. */
 MesoStatus meso_tiles_from_json(MesoTileSet *set, MesoArena *arena, const json_t *root,
                                 const char *path, MesoError *error);
+
+/* The same; `report` (may be NULL) hears warnings about what our form cannot keep of the prototype's. */
+MesoStatus meso_tiles_import(MesoTileSet *set, MesoArena *arena, const json_t *root, const char *path,
+                             MesoProblemReport *report, void *context, MesoError *error);
 
 #endif

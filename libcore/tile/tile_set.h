@@ -17,6 +17,9 @@
  */
 enum { MESO_SIDE_TOP = 4, MESO_SIDE_BOTTOM = 5, MESO_SIDE_COUNT = 6 };
 
+/* Levels of a drawing; a chain a + b + c + ... to the left counts as one. */
+enum { MESO_CSG_NESTING = 64 };
+
 typedef struct MesoMaterial {
     float albedo[3];    /* linear, [0,1] */
     float roughness;    /* [0,1] */
