@@ -57,7 +57,7 @@ static uint32_t disc_point_count(const MesoCsgNode *disc, float step)
     double rx = 0.5 * (double)disc->size.x, ry = 0.5 * (double)disc->size.y;
     double count = floor(2 * MESO_PI * sqrt((rx * rx + ry * ry) / 2) / (double)step);
     return count < MIN_DISC_POINTS ? MIN_DISC_POINTS
-         : count > MAX_POINTS ? MAX_POINTS : (uint32_t)count;
+         : count > MAX_POINTS ? MAX_POINTS + 1 : (uint32_t)count;
 }
 
 static uint32_t outline_point_count(const MesoCsgNode *node, float step)
@@ -227,7 +227,7 @@ static MesoStatus clip_section(SectionContours *out, MesoArena *arena, const Mes
                                uint32_t section, float step, uint32_t *nodes, uint32_t *step_of,
                                MesoError *error)
 {
-    Program program;
+    Program program = {0};
     MesoStatus status = compile(&program, arena, set, set->sections[section].csg_root, step, nodes,
                                 step_of, error);
     if (!status)
