@@ -41,8 +41,10 @@ static MesoStatus read_keyword(Off *off, MesoError *error)
 
     memset(word.text, ' ', word.size);
     memcpy(word.text, off->normals ? "NOFF" : "OFF", off->normals ? 4 : 3);
-    if (rest < off->text.end)
+    if (rest < off->text.end) {
         *rest = '\n';
+        off->text.at = rest + 1;
+    }
     off->begin = word.text;
     return MESO_OK;
 }
