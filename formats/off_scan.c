@@ -152,7 +152,7 @@ MesoStatus meso_off_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
         return status;
     scan->bytes = off.begin;
     scan->size = (size_t)(off.text.bytes + off.text.size - off.begin);
-    if (scan->normal_count)
+    if (scan->normal_count && scan->corner_count)
         memcpy(scan->corner_normals, scan->corner_vertices, scan->corner_count * sizeof *scan->corner_normals);
     return meso_mesh_scan_check(scan, input->path, error);
 }
