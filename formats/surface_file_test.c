@@ -74,6 +74,22 @@ static void test_gltf(void)
     CHECK(read_triangles("a.glb", "{}") == MESO_ERR_INPUT);
 }
 
+/* Brackets that would exhaust the stack of a reader that recurses; in a string they are none. */
+static void test_deep_gltf(void)
+{
+    enum { DEPTH = 1000000 };
+    static char text[2 * DEPTH + 100];
+    char *at = text + sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"extras\":");
+    memset(at, '[', DEPTH);
+    memset(at + DEPTH, ']', DEPTH);
+    strcpy(at + 2 * DEPTH, "}");
+    check_message("a.gltf", text, "a.gltf: broken glTF: nested more than 200 deep");
+    check_message("a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extras\":\"\\\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
+                  "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
+                  "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
+                  "\"}", "a.gltf" REFUSAL);
+}
+
 /* A pentagon and a triangle over one edge; the edge's vertices have two normals each. */
 static void test_split(void)
 {
@@ -138,6 +154,7 @@ int main(void)
     meso_arena_init(&arena);
     test_kinds();
     test_gltf();
+    test_deep_gltf();
     test_split();
     test_vertex_normals();
     test_triangle_refusals();
