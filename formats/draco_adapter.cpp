@@ -133,7 +133,7 @@ void set_options(draco::ExpertEncoder *encoder, const MesoDracoOptions &options,
                                               3, low, options.range);
     encoder->SetAttributeQuantization(ids.normal, static_cast<int>(options.normal_bits));
     encoder->SetAttributeExplicitQuantization(ids.uv, static_cast<int>(options.uv_bits), 2, uv_low, 1);
-    encoder->SetTrackEncodedProperties(true);
+    encoder->SetTrackEncodedProperties(options.for_gltf);
 }
 
 /* What Draco's own quantizer and dequantizer make of a coordinate. */
@@ -194,7 +194,8 @@ MesoStatus encode(const MesoDracoMesh &from, const MesoDracoOptions &options,
     add_numbers(&mesh, from, options.for_gltf, &ids);
     add_faces(&mesh, from);
     add_texts(&mesh, options);
-    bound(from, options, result);
+    if (options.for_gltf)
+        bound(from, options, result);
 
     draco::ExpertEncoder encoder(mesh);
     draco::EncoderBuffer buffer;

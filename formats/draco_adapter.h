@@ -42,8 +42,9 @@ typedef struct MesoDracoOptions {
 typedef struct MesoDracoResult {
     uint8_t *data;                  /* [size] to be freed by meso_draco_result_release() */
     size_t size;
-    uint32_t vertex_count, triangle_count;  /* of what a decoder will give */
-    MesoVec3 decoded_low, decoded_high;     /* box of the positions that a decoder will give */
+    /* What a decoder will give, and the box of its positions; only for_gltf, as it takes time. */
+    uint32_t vertex_count, triangle_count;
+    MesoVec3 decoded_low, decoded_high;
     uint32_t position_id, normal_id, uv_id, slot_id, tile_id, material_id;  /* unique ids */
 } MesoDracoResult;
 
