@@ -29,10 +29,8 @@ typedef struct MesoDracoText {
 typedef struct MesoDracoOptions {
     uint32_t position_bits, normal_bits, uv_bits;   /* in [1, 30] */
     uint32_t speed;                 /* 0 best to 10 fastest */
-    /* Positions lie in the cube of edge `range` > 0 at `low`; meshes that share
-     * it share the grid that positions are rounded to. */
-    MesoVec3 low;
-    float range;
+    /* Positions lie in this box; meshes that share it share the grid that positions are rounded to. */
+    MesoVec3 low, high;
     /* Slots as two 16-bit components, low then high, and no materials: what glTF can say. */
     bool for_gltf;
     uint32_t text_count;            /* metadata of the geometry */
