@@ -17,6 +17,9 @@ typedef struct MesoMeshWriteOptions {
     void *progress_context;
 } MesoMeshWriteOptions;
 
+/* The most triangles in one .drc: Draco takes about 400 bytes of memory for each. */
+enum { MESO_DRACO_TRIANGLES = 1 << 25 };
+
 /*
  * Each writes all parts of `tessellation`. PLY and OBJ stream in windows of
  * bounded size, whatever the mesh; Draco and GLB hold what they encode: up to

@@ -12,7 +12,7 @@
 
 #define MESO_VERSION "0.1.0"
 
-enum { MESO_PROVENANCE_INPUTS = 16 };
+enum { MESO_PROVENANCE_INPUTS = 256 };
 
 typedef struct MesoProvenance {
     const char *tool;           /* "meso-map" */

@@ -96,32 +96,36 @@ static Plane make_plane(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float sp
 }
 
 /* At the ends all comes from the ports alone: the neighbour computes the same floats. */
-static Plane sweep_plane(const MesoSweepInstance *sweep, uint32_t ring, uint32_t last)
+static Plane sweep_plane(const MesoSweepInstance *sweep, float v)
 {
-    if (ring == 0 || ring == last) {
-        uint32_t end = ring == last;
+    if (v == 0 || v == 1) {
+        uint32_t end = v == 1;
         float speed = 3 * meso_vec3_length(meso_vec3_sub(sweep->p[end ? 3 : 1], sweep->p[end ? 2 : 0]));
         return make_plane(sweep->p[end ? 3 : 0], sweep->up[end], sweep->direction[end], speed);
     }
-    float v = (float)ring / (float)last;
     MesoVec3 derivative = meso_bezier_derivative(sweep->p, v);
     MesoVec3 tangent = meso_vec3_unit(derivative, sweep->direction[v > 0.5f]);
     return make_plane(meso_bezier_point(sweep->p, v), meso_vec3_lerp(sweep->up[0], sweep->up[1], v),
                       tangent, meso_vec3_length(derivative));
 }
 
-static MesoMeshVertex sweep_vertex(const Plane *plane, MesoVec2 s, MesoVec3 normal, float scale,
-                                   float u, float v)
-{
-    MesoVec3 across = {s.x * plane->x.x + s.y * plane->y.x, s.x * plane->x.y + s.y * plane->y.y,
-                       s.x * plane->x.z + s.y * plane->y.z};
-    return (MesoMeshVertex){meso_vec3_mad(plane->origin, scale, across), meso_vec3_unit(normal, plane->x), {u, v}};
-}
-
 static MesoVec3 in_plane(const Plane *plane, MesoVec2 n)
 {
     return (MesoVec3){n.x * plane->x.x + n.y * plane->y.x, n.x * plane->x.y + n.y * plane->y.y,
                       n.x * plane->x.z + n.y * plane->y.z};
+}
+
+static MesoMeshVertex sweep_vertex(const Plane *plane, MesoVec2 s, MesoVec3 normal, float scale,
+                                   float u, float v)
+{
+    return (MesoMeshVertex){meso_vec3_mad(plane->origin, scale, in_plane(plane, s)),
+                            meso_vec3_unit(normal, plane->x), {u, v}};
+}
+
+MesoVec3 meso_sweep_point(const MesoStructure *structure, const MesoSweepInstance *sweep, MesoVec2 profile, float v)
+{
+    Plane plane = sweep_plane(sweep, v);
+    return meso_vec3_mad(plane.origin, structure->options.section_scale, in_plane(&plane, profile));
 }
 
 static void sweep_vertices(const MesoStructure *s, const MesoSweepKind *kind,
@@ -131,8 +135,8 @@ static void sweep_vertices(const MesoStructure *s, const MesoSweepKind *kind,
     float scale = s->options.section_scale;
     uint32_t last = kind->division_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
-        Plane plane = sweep_plane(sweep, ring, last);
         float v = (float)ring / (float)last, w = v * v * (3 - 2 * v);
+        Plane plane = sweep_plane(sweep, v);
         float tilt_scale = plane.speed > 0 ? scale * 6 * v * (1 - v) / plane.speed : 0;
         for (uint32_t c = 0; c < kind->column_count; c++) {
             const MesoSweepColumn *column = &columns[c];

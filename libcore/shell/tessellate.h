@@ -50,6 +50,9 @@ void meso_tessellation_vertices(const MesoTessellation *tessellation, uint32_t b
 void meso_tessellation_faces(const MesoTessellation *tessellation, uint32_t begin, uint32_t end,
                              uint32_t base, MesoMeshFace *out);
 
+/* P of structure.h for one instance of a swept kind at v in [0,1], with the profile point s(v) in edge lengths. */
+MesoVec3 meso_sweep_point(const MesoStructure *structure, const MesoSweepInstance *sweep, MesoVec2 profile, float v);
+
 /* Materials of all parts: sections, then inner meshes. */
 uint32_t meso_structure_material_count(const MesoStructure *structure);
 const MesoMaterial *meso_structure_material(const MesoStructure *structure, uint32_t material);

@@ -16,11 +16,12 @@ typedef enum MesoVerdict {
 
 /* A slot left with no variant, with the labels that it could have shown to its neighbours. */
 typedef struct MesoDeadEnd {
-    uint32_t slot, attempt;
+    uint32_t slot, attempt;     /* attempts count from 1; 0 for initial ones */
     bool initial;               /* met while the initial constraints were applied */
     bool border[4];             /* side has no neighbour */
     uint64_t *labels[4];        /* [label words] bit set of label codes per side that the
-                                   neighbour allows (all that border rules allow on a border) */
+                                   neighbour allows; all that border rules allow on a border,
+                                   and where the neighbour is dead or the slot itself */
 } MesoDeadEnd;
 
 /* Label codes in bit sets: 2 * interface for +, 2 * interface + 1 for -. */

@@ -4,6 +4,9 @@
 
 #include "libcore/solve/solve.h"
 
+/* Most configurations that one dead end may leave. */
+enum { MESO_SUGGEST_PRODUCT = 1 << 26 };
+
 typedef struct MesoSuggestion {
     int32_t labels[4];
     uint64_t votes;
@@ -23,5 +26,14 @@ typedef struct MesoSuggestion {
  */
 MesoStatus meso_suggest(MesoSuggestion *suggestion, MesoArena *arena, const MesoTileSet *set,
                         uint32_t dead_end_count, const MesoDeadEnd *dead_ends, MesoError *error);
+
+/*
+ * `extended` becomes `set` with a tile of the suggested configuration at the
+ * end: the set's default transforms, no sweeps, no inner mesh, and the first
+ * free name of "suggested-1", "suggested-2", ... Shares everything else with
+ * `set`. O(tiles). MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_suggestion_append(MesoTileSet *extended, MesoArena *arena, const MesoTileSet *set,
+                                  const MesoSuggestion *suggestion, MesoError *error);
 
 #endif

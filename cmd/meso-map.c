@@ -1,0 +1,385 @@
+/* meso-map: grows the geometry of an assignment, and writes it as a model or as a mesh. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cmd/tool.h"
+#include "formats/mesh_file.h"
+#include "formats/model_file.h"
+#include "formats/slots_file.h"
+#include "formats/surface_file.h"
+#include "formats/tiles_file.h"
+
+static const MesoToolInfo MAP_TOOL = {
+    .name = "meso-map",
+    .synopsis = "meso-map [options] TILES SURFACE SLOTS -o OUT.meso|.ply|.obj|.glb|.drc\n"
+                "meso-map [options] MODEL.meso -o OUT.meso|.ply|.obj|.glb|.drc",
+    .purpose = "Grow the geometry of an assignment and write it as a model or a mesh.",
+    .examples = "meso-map vase.tiles.json vase.obj vase.slots -o vase.meso\n"
+                "meso-map --divisions 24 vase.meso -o vase.glb\n"
+                "meso-map --to ply vase.meso -o - | gzip > vase.ply.gz",
+    .operands_low = 1,
+    .operands_high = 3,
+};
+
+typedef struct MapArguments {
+    MesoTool tool;
+    MesoMapOptions options;
+    struct {
+        bool thickness, offset, section_scale, tangent_scale, divisions, section_step;
+    } given;
+    const char *kind;           /* --to */
+    const char *mesh_path;
+    uint32_t position_bits, normal_bits, speed;
+} MapArguments;
+
+typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+                             MesoOutput *output, MesoError *error);
+
+typedef struct OutputKind {
+    const char *name;           /* and extension */
+    WriteMesh *write;           /* NULL: a model */
+} OutputKind;
+
+static const OutputKind OUTPUT_KINDS[] = {
+    {"meso", NULL}, {"ply", meso_ply_write}, {"obj", meso_obj_write},
+    {"glb", meso_glb_write}, {"drc", meso_drc_write},
+};
+enum { OUTPUT_KIND_COUNT = sizeof OUTPUT_KINDS / sizeof *OUTPUT_KINDS };
+
+static const OutputKind *find_kind(const char *name)
+{
+    for (uint32_t i = 0; i < OUTPUT_KIND_COUNT; i++)
+        if (strcmp(OUTPUT_KINDS[i].name, name) == 0)
+            return &OUTPUT_KINDS[i];
+    return NULL;
+}
+
+static MesoStatus choose_kind(const MapArguments *a, const OutputKind **kind, MesoError *error)
+{
+    const char *output = a->tool.output;
+    const char *slash = strrchr(output, '/');
+    const char *dot = strrchr(slash ? slash : output, '.');
+    if (a->kind)
+        *kind = find_kind(a->kind);
+    else
+        *kind = dot ? find_kind(dot + 1) : NULL;
+    if (*kind)
+        return MESO_OK;
+    return meso_fail(error, MESO_ERR_USAGE,
+                     "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb or "
+                     ".drc, or give --to", output);
+}
+
+/* ---- inner meshes ---- */
+
+static const char *join_path(MesoArena *arena, const char *folder, int length, const char *file,
+                             MesoError *error)
+{
+    if (file[0] == '/' || length == 0)
+        return meso_arena_copy_text(arena, file, error);
+    bool slash = folder[length - 1] == '/';
+    return meso_arena_print(arena, error, "%.*s%s%s", length, folder, slash ? "" : "/", file);
+}
+
+static const char *tile_of_inner(const MesoTileSet *set, uint32_t inner)
+{
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        if (inner - set->tiles[t].inner_begin < set->tiles[t].inner_count)
+            return set->tiles[t].name;
+    return "?";
+}
+
+/* Beside the tile set first, then in --mesh-path; NULL with `error` filled where it is in neither. */
+static const char *find_inner(MapArguments *a, const MesoTileSet *set, uint32_t inner, MesoError *error)
+{
+    const char *file = set->inners[inner].file, *tiles = a->tool.operands[0];
+    const char *slash = strrchr(tiles, '/');
+    int length = slash ? (int)(slash - tiles + 1) : 0;
+    const char *beside = join_path(&a->tool.arena, tiles, length, file, error);
+    if (!beside || access(beside, F_OK) == 0)
+        return beside;
+    if (!a->mesh_path) {
+        meso_fail(error, MESO_ERR_INPUT,
+                  "tile '%s': its mesh '%s' is not there: looked for '%s'; give its folder with --mesh-path",
+                  tile_of_inner(set, inner), file, beside);
+        return NULL;
+    }
+    const char *elsewhere = join_path(&a->tool.arena, a->mesh_path, (int)strlen(a->mesh_path), file, error);
+    if (!elsewhere || access(elsewhere, F_OK) == 0)
+        return elsewhere;
+    meso_fail(error, MESO_ERR_INPUT,
+              "tile '%s': its mesh '%s' is not there: looked for '%s' and '%s'; give its folder with --mesh-path",
+              tile_of_inner(set, inner), file, beside, elsewhere);
+    return NULL;
+}
+
+static MesoStatus read_inner(MapArguments *a, const MesoTileSet *set, uint32_t inner,
+                             MesoTriangleMesh *mesh, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoInput input;
+    const char *path = find_inner(a, set, inner, error);
+    if (!path)
+        return error->status;
+    if (tool->provenance.input_count == MESO_PROVENANCE_INPUTS)
+        return meso_fail(error, MESO_ERR_LIMIT, "too many meshes in tiles: at most %d different files",
+                         MESO_PROVENANCE_INPUTS - 3);
+    MesoStatus status = meso_input_open(&input, path, error);
+    if (status != MESO_OK)
+        return status;
+    meso_provenance_add(&tool->provenance, "mesh", &input);
+    status = meso_triangle_mesh_read(mesh, &tool->arena, &input, error);
+    meso_input_close(&input);
+    return status;
+}
+
+/* A file that several tiles name is read once. */
+static MesoStatus read_inners(MapArguments *a, MesoModel *model, MesoError *error)
+{
+    const MesoTileSet *set = &model->tile_set;
+    model->inner_meshes = MESO_NEW(&a->tool.arena, MesoTriangleMesh, set->inner_count, error);
+    if (!model->inner_meshes)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < set->inner_count; i++) {
+        uint32_t same = 0;
+        while (strcmp(set->inners[same].file, set->inners[i].file) != 0)
+            same++;
+        if (set->inners[i].file[0] == 0)
+            continue;
+        if (same < i) {
+            model->inner_meshes[i] = model->inner_meshes[same];
+            continue;
+        }
+        MesoStatus status = read_inner(a, set, i, &model->inner_meshes[i], error);
+        if (status != MESO_OK)
+            return status;
+    }
+    return MESO_OK;
+}
+
+/* ---- models ---- */
+
+typedef struct Inputs {
+    MesoInput tiles, surface, slots;
+} Inputs;
+
+static MesoStatus open_input(MesoTool *tool, MesoInput *input, uint32_t operand, const char *role,
+                             MesoError *error)
+{
+    MesoStatus status = meso_input_open(input, tool->operands[operand], error);
+    if (status == MESO_OK)
+        meso_provenance_add(&tool->provenance, role, input);
+    return status;
+}
+
+static void warn_of_other_inputs(const MesoTool *tool, const MesoSlotsFile *slots, const Inputs *inputs)
+{
+    bool tiles = memcmp(slots->tiles_hash, inputs->tiles.hash, sizeof inputs->tiles.hash) == 0;
+    bool surface = memcmp(slots->surface_hash, inputs->surface.hash, sizeof inputs->surface.hash) == 0;
+    if (!tiles || !surface)
+        meso_tool_say(tool, "warning: '%s' was solved with another version of %s%s%s; it still fits",
+                      inputs->slots.path, tiles ? "" : "the tile set", tiles || surface ? "" : " and of ",
+                      surface ? "" : "the surface");
+}
+
+static MesoStatus bind_slots(MesoTool *tool, MesoModel *model, MesoSlotsFile *slots, const Inputs *inputs,
+                             MesoError *error)
+{
+    MesoSlotGraph graph;
+    if (slots->assignment.slot_count != model->surface.face_count)
+        return meso_fail(error, MESO_ERR_INPUT,
+                         "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another surface",
+                         inputs->slots.path, slots->assignment.slot_count, inputs->surface.path,
+                         model->surface.face_count);
+    MesoStatus status = meso_slots_bind(slots, &model->tile_set, error);
+    if (status == MESO_OK)
+        status = meso_slot_graph_build(&graph, &tool->arena, &model->surface, error);
+    if (status != MESO_OK)
+        return status;
+    model->assignment = slots->assignment;
+    if (meso_assignment_check(&model->assignment, &model->tile_set, &graph, error) != MESO_OK)
+        return meso_fail_prefix(error, inputs->slots.path);
+    warn_of_other_inputs(tool, slots, inputs);
+    return MESO_OK;
+}
+
+static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoSlotsFile slots;
+    MesoStatus status = open_input(tool, &inputs->tiles, 0, "tiles", error);
+    if (status == MESO_OK)
+        status = meso_tiles_read(&model->tile_set, &tool->arena, &inputs->tiles, error);
+    if (status == MESO_OK)
+        status = open_input(tool, &inputs->surface, 1, "surface", error);
+    if (status == MESO_OK)
+        status = meso_surface_read(&model->surface, &tool->arena, &inputs->surface, error);
+    if (status == MESO_OK)
+        status = open_input(tool, &inputs->slots, 2, "slots", error);
+    if (status == MESO_OK)
+        status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
+    if (status == MESO_OK)
+        status = bind_slots(tool, model, &slots, inputs, error);
+    if (status == MESO_OK)
+        status = read_inners(a, model, error);
+    model->options = a->options;
+    return status;
+}
+
+/* What is not given on the command line stays as the model has it. */
+static MesoMapOptions merge_options(const MapArguments *a, MesoMapOptions of_model)
+{
+    MesoMapOptions merged = of_model;
+    if (a->given.thickness)
+        merged.thickness = a->options.thickness;
+    if (a->given.offset)
+        merged.offset = a->options.offset;
+    if (a->given.section_scale)
+        merged.section_scale = a->options.section_scale;
+    if (a->given.tangent_scale)
+        merged.tangent_scale = a->options.tangent_scale;
+    if (a->given.divisions)
+        merged.divisions = a->options.divisions;
+    if (a->given.section_step)
+        merged.section_step = a->options.section_step;
+    return merged;
+}
+
+/* `inputs` stay open: the model may point into them. */
+static MesoStatus read_model(MapArguments *a, Inputs *inputs, MesoModel *model, MesoError *error)
+{
+    if (a->tool.operand_count == 2)
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "2 operands: give TILES SURFACE SLOTS, or MODEL alone");
+    MesoStatus status;
+    if (a->tool.operand_count == 1) {
+        status = open_input(&a->tool, &inputs->tiles, 0, "model", error);
+        if (status == MESO_OK)
+            status = meso_model_read(model, NULL, &a->tool.arena, &inputs->tiles, error);
+        model->options = merge_options(a, model->options);
+    } else {
+        status = read_parts(a, inputs, model, error);
+    }
+    model->options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    return status;
+}
+
+static void close_inputs(Inputs *inputs)
+{
+    MesoInput *all[] = {&inputs->tiles, &inputs->surface, &inputs->slots};
+    for (uint32_t i = 0; i < 3; i++)
+        if (all[i]->data)
+            meso_input_close(all[i]);
+}
+
+/* ---- products ---- */
+
+static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const MesoModel *model,
+                                const MesoTessellation *tessellation, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoMeshWriteOptions options = {
+        .thread_count = tool->threads,
+        .position_bits = a->position_bits,
+        .normal_bits = a->normal_bits,
+        .speed = a->speed,
+        .provenance = &tool->provenance,
+        .progress = meso_tool_progress,
+        .progress_context = tool,
+    };
+    MesoOutput *output;
+    MesoStatus status = meso_output_open(&output, tool->output, error);
+    if (status != MESO_OK)
+        return status;
+    meso_tool_progress_begin(tool, "writing", kind->write == meso_drc_write || kind->write == meso_glb_write
+                                                  ? "triangles" : "vertices");
+    status = kind->write ? kind->write(tessellation, &options, output, error)
+                         : meso_model_write(model, &tool->provenance, output, error);
+    if (status == MESO_OK)
+        return meso_output_commit(output, error);
+    meso_output_discard(output);
+    return status;
+}
+
+static void report_product(MesoTool *tool, const OutputKind *kind, const MesoModel *model,
+                           const MesoTessellation *t)
+{
+    struct stat file;
+    json_t *report = tool->report;
+    json_object_set_new(report, "kind", json_string(kind->name));
+    json_object_set_new(report, "slots", json_integer(model->assignment.slot_count));
+    json_object_set_new(report, "parts", json_integer(t->part_count));
+    json_object_set_new(report, "vertices", json_integer((json_int_t)t->vertex_begin[t->part_count]));
+    json_object_set_new(report, "faces", json_integer((json_int_t)t->face_begin[t->part_count]));
+    json_object_set_new(report, "triangles", json_integer((json_int_t)t->triangle_count));
+    if (stat(tool->output, &file) == 0 && S_ISREG(file.st_mode))
+        json_object_set_new(report, "bytes", json_integer((json_int_t)file.st_size));
+    if (tool->verbose)
+        meso_tool_say(tool, "%u slots, %u parts, %llu vertices, %llu triangles",
+                      model->assignment.slot_count, t->part_count,
+                      (unsigned long long)t->vertex_begin[t->part_count],
+                      (unsigned long long)t->triangle_count);
+}
+
+static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    const OutputKind *kind;
+    MesoModel model = {0};
+    MesoStructure structure;
+    MesoTessellation tessellation;
+    if (!tool->output)
+        tool->output = "-";
+    MesoStatus status = choose_kind(a, &kind, error);
+    if (status == MESO_OK)
+        status = read_model(a, inputs, &model, error);
+    if (status == MESO_OK)
+        status = meso_structure_build(&structure, &tool->arena, &model, tool->threads, error);
+    if (status == MESO_OK)
+        status = meso_tessellation_init(&tessellation, &tool->arena, &structure, error);
+    if (status == MESO_OK)
+        status = write_product(a, kind, &model, &tessellation, error);
+    if (status == MESO_OK)
+        report_product(tool, kind, &model, &tessellation);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    MapArguments a = {.speed = 7};
+    Inputs inputs = {0};
+    const MesoOption options[] = {
+        {MESO_OPTION_CHOICE, 0, "to", "KIND", "kind of the product (default: the extension of the output)",
+         &a.kind, 0, 0, 0, "meso|ply|obj|glb|drc"},
+        {MESO_OPTION_GROUP, 0, "Mapping, lengths in scene units", 0, 0, 0, 0, 0, 0, 0},
+        {MESO_OPTION_NUMBER, 0, "thickness", "T", "twice the height of the shell (default: the mean edge length)",
+         &a.options.thickness, &a.given.thickness, 1e-12, 1e12, 0},
+        {MESO_OPTION_NUMBER, 0, "offset", "O", "of the shell's bottom along the normals (default 0)",
+         &a.options.offset, &a.given.offset, -1e12, 1e12, 0},
+        {MESO_OPTION_NUMBER, 0, "section-scale", "S", "of the drawings, 1 edge length in them (default: the mean edge length)",
+         &a.options.section_scale, &a.given.section_scale, 1e-12, 1e12, 0},
+        {MESO_OPTION_NUMBER, 0, "tangent-scale", "M", "factor on the handles of trajectories (default 1)",
+         &a.options.tangent_scale, &a.given.tangent_scale, 1e-6, 1e3, 0},
+        {MESO_OPTION_COUNT, 0, "divisions", "N", "vertices along a sweep (default 12)",
+         &a.options.divisions, &a.given.divisions, 2, 4096, 0},
+        {MESO_OPTION_NUMBER, 0, "section-step", "X", "sampling step of drawings in edge lengths (default 0.02)",
+         &a.options.section_step, &a.given.section_step, 1e-4, 1, 0},
+        {MESO_OPTION_TEXT, 0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
+         &a.mesh_path, 0, 0, 0, 0},
+        {MESO_OPTION_GROUP, 0, "Draco (.drc, .glb)", 0, 0, 0, 0, 0, 0, 0},
+        {MESO_OPTION_COUNT, 0, "position-bits", "N", "precision of positions (default 14)",
+         &a.position_bits, 0, 4, 24, 0},
+        {MESO_OPTION_COUNT, 0, "normal-bits", "N", "precision of normals (default 10)",
+         &a.normal_bits, 0, 4, 16, 0},
+        {MESO_OPTION_COUNT, 0, "speed", "N", "0 smallest to 10 fastest (default 7)", &a.speed, 0, 0, 10, 0},
+        MESO_TOOL_OPTIONS(a.tool),
+        {0},
+    };
+    if (!meso_tool_start(&a.tool, &MAP_TOOL, options, argc, argv))
+        return meso_tool_finish(&a.tool);
+    a.tool.status = map(&a, &inputs, &a.tool.error);
+    close_inputs(&inputs);
+    return meso_tool_finish(&a.tool);
+}

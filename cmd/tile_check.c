@@ -1,0 +1,128 @@
+/* meso-tile check: every problem of a tile set. */
+#include <string.h>
+
+#include "cmd/tile_command.h"
+#include "formats/tiles_file.h"
+#include "libcore/tile/contour.h"
+
+/* Sampling step of the drawings, in edge lengths: coarse is enough to see whether any area is left. */
+static const float AREA_STEP = 0.01f;
+
+static const MesoToolInfo info = {
+    .name = "meso-tile check",
+    .synopsis = "meso-tile check [--strict] FILE",
+    .purpose = "Prints every problem of a tile set, one a line. Exit status 1 if there is an error.",
+    .examples = "meso-tile check vase.tiles.json\nmeso-tile check --strict --json=check.json vase.tiles.json",
+    .operands_low = 1,
+    .operands_high = 1,
+};
+
+typedef struct Findings {
+    MesoTool *tool;
+    bool strict;
+    MesoTileText text;
+    uint32_t errors, warnings;
+    json_t *list;       /* the report's */
+} Findings;
+
+/* Names may hold anything while they are not checked; a finding stays on its line. */
+static void print_plain(FILE *stream, const char *text)
+{
+    for (; *text; text++)
+        fputc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, stream);
+}
+
+static void add_finding(void *context, const char *severity, const char *where, const char *message)
+{
+    Findings *findings = context;
+    bool is_error = strcmp(severity, "error") == 0;
+    findings->errors += is_error;
+    findings->warnings += !is_error;
+    json_array_append_new(findings->list, json_pack("{s:s, s:s, s:s}", "severity", severity, "where", where,
+                                                    "message", message));
+    if (findings->tool->quiet && !is_error && !findings->strict)
+        return;
+    FILE *stream = findings->text.stream;
+    print_plain(stream, findings->tool->operands[0]);
+    fprintf(stream, ": %s: ", severity);
+    print_plain(stream, where);
+    fputs(": ", stream);
+    print_plain(stream, message);
+    fputc('\n', stream);
+}
+
+/* Differences may take all of a drawing away, which only its outline tells. */
+static MesoStatus find_empty_drawings(const MesoTileSet *set, Findings *findings)
+{
+    MesoTool *tool = findings->tool;
+    MesoContourSet contours;
+    MesoStatus status = meso_contour_set_build(&contours, &tool->arena, set, AREA_STEP, &tool->error);
+    for (uint32_t s = 0; status == MESO_OK && s < set->section_count; s++) {
+        const MesoSection *section = &set->sections[s];
+        if (contours.section_begin[s + 1] > contours.section_begin[s])
+            continue;
+        const char *where = meso_arena_print(&tool->arena, &tool->error, "interfaces[%u] '%s', section '%s'",
+                                             section->interface, set->interfaces[section->interface].name,
+                                             section->name);
+        if (!where)
+            return MESO_ERR_MEMORY;
+        add_finding(findings, "warning", where, "the drawing has no area; nothing will be seen of it");
+    }
+    return status;
+}
+
+static MesoStatus look(Findings *findings)
+{
+    MesoTool *tool = findings->tool;
+    MesoError *error = &tool->error;
+    MesoTileSet set;
+    MesoInput input;
+    MesoStatus status = meso_input_open(&input, tool->operands[0], error);
+    if (status != MESO_OK)
+        return status;
+    meso_provenance_add(&tool->provenance, "tiles", &input);
+    status = meso_tiles_parse(&set, &tool->arena, &input, error);
+    meso_input_close(&input);
+    if (status != MESO_OK)
+        return status;
+    meso_tile_report_counts(tool, &set);
+    if (meso_tile_set_check(&set, add_finding, findings) > 0)
+        return MESO_OK;
+    status = find_empty_drawings(&set, findings);
+    if (status == MESO_OK)
+        status = meso_tile_find_meshes(&set, input.path, &tool->arena, add_finding, findings, error);
+    return status;
+}
+
+static MesoStatus run(Findings *findings)
+{
+    MesoTool *tool = findings->tool;
+    MesoStatus status = meso_tile_text_init(&findings->text, &tool->error);
+    findings->list = json_array();
+    json_object_set_new(tool->report, "findings", findings->list);
+    if (status == MESO_OK)
+        status = look(findings);
+    status = meso_tile_text_finish(&findings->text, tool->output, status, &tool->error);
+    if (status != MESO_OK)
+        return status;
+    if (findings->errors + (findings->strict ? findings->warnings : 0) == 0)
+        return MESO_OK;
+    return meso_fail(&tool->error, MESO_ERR_NO, "%s: %u error%s, %u warning%s", tool->operands[0],
+                     findings->errors, findings->errors == 1 ? "" : "s", findings->warnings,
+                     findings->warnings == 1 ? "" : "s");
+}
+
+int meso_tile_check(int argc, char **argv)
+{
+    MesoTool tool = {0};
+    Findings findings = {.tool = &tool};
+    MesoOption options[] = {
+        {MESO_OPTION_GROUP, 0, "Check", 0, 0, 0, 0, 0, 0, 0},
+        {MESO_OPTION_FLAG, 0, "strict", 0, "warnings count as errors", &findings.strict, 0, 0, 0, 0},
+        MESO_TOOL_OPTIONS(tool),
+        {0},
+    };
+    if (meso_tile_start(&tool, &info, options, argc, argv))
+        tool.status = run(&findings);
+    return meso_tool_finish(&tool);
+}

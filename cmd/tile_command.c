@@ -1,0 +1,84 @@
+#include "cmd/tile_command.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "formats/output.h"
+
+bool meso_tile_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,
+                     int argc, char **argv)
+{
+    bool go = meso_tool_start(tool, info, options, argc, argv);
+    tool->provenance.tool = "meso-tile";
+    if (!go)
+        return false;
+    tool->provenance.command_line = meso_arena_print(&tool->arena, &tool->error, "meso-tile %s",
+                                                     tool->provenance.command_line);
+    if (!tool->provenance.command_line)
+        tool->status = MESO_ERR_MEMORY;
+    return tool->status == MESO_OK;
+}
+
+MesoStatus meso_tile_text_init(MesoTileText *text, MesoError *error)
+{
+    *text = (MesoTileText){0};
+    text->stream = open_memstream(&text->bytes, &text->size);
+    return text->stream ? MESO_OK : meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+}
+
+MesoStatus meso_tile_text_finish(MesoTileText *text, const char *path, MesoStatus status,
+                                 MesoError *error)
+{
+    if (!text->stream)
+        return status;
+    if (fclose(text->stream) != 0 && status == MESO_OK)
+        status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    MesoOutput *output = NULL;
+    if (status == MESO_OK)
+        status = meso_output_open(&output, path ? path : "-", error);
+    if (status == MESO_OK)
+        status = meso_output_write(output, text->bytes, text->size, error);
+    if (status == MESO_OK)
+        status = meso_output_commit(output, error);
+    else
+        meso_output_discard(output);
+    free(text->bytes);
+    *text = (MesoTileText){0};
+    return status;
+}
+
+MesoStatus meso_tile_find_meshes(const MesoTileSet *set, const char *path, MesoArena *arena,
+                                 MesoProblemReport *report, void *context, MesoError *error)
+{
+    const char *slash = strrchr(path, '/');
+    int folder_length = slash ? (int)(slash - path) + 1 : 0;
+    for (uint32_t t = 0; t < set->tile_count; t++) {
+        const MesoTile *tile = &set->tiles[t];
+        for (uint32_t i = 0; i < tile->inner_count; i++) {
+            const char *file = set->inners[tile->inner_begin + i].file;
+            if (!*file)
+                continue;
+            MesoArenaMark mark = meso_arena_mark(arena);
+            char *mesh = meso_arena_print(arena, error, "%.*s%s", *file == '/' ? 0 : folder_length,
+                                          path, file);
+            char *place = meso_arena_print(arena, error, "tiles[%u] '%s', inner mesh %u", t, tile->name, i);
+            char *message = mesh ? meso_arena_print(arena, error, "no file '%s'", mesh) : NULL;
+            if (!mesh || !place || !message)
+                return MESO_ERR_MEMORY;
+            if (access(mesh, R_OK) != 0)
+                report(context, "warning", place, message);
+            meso_arena_rewind(arena, mark);
+        }
+    }
+    return MESO_OK;
+}
+
+void meso_tile_report_counts(MesoTool *tool, const MesoTileSet *set)
+{
+    json_object_set_new(tool->report, "interfaces", json_integer(set->interface_count));
+    json_object_set_new(tool->report, "cross_sections", json_integer(set->section_count));
+    json_object_set_new(tool->report, "tiles", json_integer(set->tile_count));
+    json_object_set_new(tool->report, "sweeps", json_integer(set->sweep_count));
+    json_object_set_new(tool->report, "inner_meshes", json_integer(set->inner_count));
+}

@@ -1,0 +1,97 @@
+/* meso-tile import: any tile set that we can read, as .tiles.json. */
+#include <string.h>
+
+#include "cmd/tile_command.h"
+#include "formats/json_text.h"
+#include "formats/output.h"
+#include "formats/tiles_file.h"
+
+static const MesoToolInfo info = {
+    .name = "meso-tile import",
+    .synopsis = "meso-tile import [-o OUT.tiles.json] FILE",
+    .purpose = "Writes FILE, a tile set of the MesoGen prototype or of ours, as .tiles.json.",
+    .examples = "meso-tile import -o basket.tiles.json basket.json",
+    .operands_low = 1,
+    .operands_high = 1,
+};
+
+static void say_problem(void *context, const char *severity, const char *where, const char *message)
+{
+    const MesoTool *tool = context;
+    meso_tool_say(tool, "%s: %s: %s: %s", tool->operands[0], severity, where, message);
+}
+
+static void say_error(void *context, const char *severity, const char *where, const char *message)
+{
+    if (strcmp(severity, "error") == 0)
+        say_problem(context, severity, where, message);
+}
+
+static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
+{
+    MesoError *error = &tool->error;
+    MesoInput input;
+    json_t *root = NULL;
+    MesoStatus status = meso_input_open(&input, tool->operands[0], error);
+    if (status != MESO_OK)
+        return status;
+    meso_provenance_add(&tool->provenance, "tiles", &input);
+    status = meso_json_parse(&root, &input, error);
+    if (status == MESO_OK)
+        status = meso_tiles_import(set, &tool->arena, root, input.path, say_problem, tool, error);
+    json_decref(root);
+    meso_input_close(&input);
+    if (status != MESO_OK)
+        return status;
+
+    uint32_t errors = meso_tile_set_check(set, say_error, tool);
+    if (errors > 0)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %u error%s; nothing was written",
+                         tool->operands[0], errors, errors == 1 ? "" : "s");
+    return MESO_OK;
+}
+
+static MesoStatus write_set(const MesoTool *tool, const MesoTileSet *set, MesoError *error)
+{
+    MesoOutput *output = NULL;
+    json_t *root = meso_tiles_to_json(set);
+    if (!root || json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance)) != 0) {
+        json_decref(root);
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    }
+    MesoStatus status = meso_output_open(&output, tool->output ? tool->output : "-", error);
+    if (status == MESO_OK)
+        status = meso_json_write(root, output, error);
+    if (status == MESO_OK)
+        status = meso_output_commit(output, error);
+    else
+        meso_output_discard(output);
+    json_decref(root);
+    return status;
+}
+
+static MesoStatus run(MesoTool *tool)
+{
+    MesoTileSet set;
+    MesoStatus status = read_set(tool, &set);
+    if (status == MESO_OK)
+        status = write_set(tool, &set, &tool->error);
+    if (status == MESO_OK && tool->output && strcmp(tool->output, "-") != 0)
+        status = meso_tile_find_meshes(&set, tool->output, &tool->arena, say_problem, tool, &tool->error);
+    if (status != MESO_OK)
+        return status;
+    meso_tile_report_counts(tool, &set);
+    meso_tool_say(tool, "%s: %u interfaces, %u cross-sections, %u tiles, %u sweeps, %u inner meshes",
+                  tool->operands[0], set.interface_count, set.section_count, set.tile_count,
+                  set.sweep_count, set.inner_count);
+    return MESO_OK;
+}
+
+int meso_tile_import(int argc, char **argv)
+{
+    MesoTool tool = {0};
+    MesoOption options[] = {MESO_TOOL_OPTIONS(tool), {0}};
+    if (meso_tile_start(&tool, &info, options, argc, argv))
+        tool.status = run(&tool);
+    return meso_tool_finish(&tool);
+}

@@ -1,0 +1,289 @@
+#include "formats/report_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/json_field.h"
+#include "formats/json_text.h"
+#include "libcore/base/bits.h"
+
+static const char *const verdict_names[] = {
+    [MESO_VERDICT_SOLVED] = "solved",
+    [MESO_VERDICT_UNSOLVABLE] = "unsolvable",
+    [MESO_VERDICT_GAVE_UP] = "gave-up",
+};
+
+enum { VERDICT_COUNT = sizeof verdict_names / sizeof *verdict_names };
+
+/* Words of labels for all dead ends: 1 GiB. */
+static const uint64_t label_words_limit = (uint64_t)1 << 27;
+
+const char *meso_verdict_name(MesoVerdict verdict)
+{
+    return verdict_names[verdict];
+}
+
+/* --- writing --- */
+
+static json_t *write_labels(const uint64_t *labels, const MesoTileSet *set)
+{
+    json_t *array = json_array();
+    int failed = array == NULL;
+    for (uint32_t code = 0; code < 2 * set->interface_count && !failed; code++)
+        if (meso_bits_test(labels, code))
+            failed |= json_array_append_new(array, json_sprintf("%s%s", set->interfaces[code / 2].name,
+                                                                code % 2 ? "'" : ""));
+    if (!failed)
+        return array;
+    json_decref(array);
+    return NULL;
+}
+
+static json_t *write_dead_end(const MesoDeadEnd *end, const MesoTileSet *set)
+{
+    json_t *sides = json_array();
+    int failed = sides == NULL;
+    for (uint32_t k = 0; k < 4 && !failed; k++)
+        failed |= json_array_append_new(sides, json_pack("{sbso}", "border", end->border[k], "labels",
+                                                         write_labels(end->labels[k], set)));
+    if (!failed)
+        return json_pack("{sIsIsbso}", "slot", (json_int_t)end->slot, "attempt", (json_int_t)end->attempt,
+                         "initial", end->initial, "sides", sides);
+    json_decref(sides);
+    return NULL;
+}
+
+static json_t *write_dead_ends(const MesoSolveResult *result, const MesoTileSet *set)
+{
+    json_t *array = json_array();
+    int failed = array == NULL;
+    for (uint32_t d = 0; d < result->dead_end_count && !failed; d++)
+        failed |= json_array_append_new(array, write_dead_end(&result->dead_ends[d], set));
+    if (!failed)
+        return array;
+    json_decref(array);
+    return NULL;
+}
+
+/* Slots by tile name, in the set's order; tiles without a slot too, ignored ones not. */
+static json_t *write_histogram(const MesoAssignment *assignment, const MesoTileSet *set)
+{
+    json_t *object = json_object();
+    uint32_t *counts = calloc(set->tile_count + (size_t)1, sizeof *counts);
+    int failed = !object || !counts;
+    for (uint32_t s = 0; s < assignment->slot_count && !failed; s++)
+        counts[assignment->tile[s]]++;
+    for (uint32_t t = 0; t < set->tile_count && !failed; t++)
+        if (!set->tiles[t].ignored)
+            failed |= json_object_set_new(object, set->tiles[t].name, json_integer(counts[t]));
+    free(counts);
+    if (!failed)
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
+                            const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                            MesoError *error)
+{
+    int failed = json_object_set_new(object, "verdict", json_string(meso_verdict_name(result->verdict)));
+    failed |= json_object_set_new(object, "attempts", json_integer(result->attempts));
+    failed |= json_object_set_new(object, "observations", json_integer((json_int_t)result->observations));
+    failed |= json_object_set_new(object, "slots", json_integer(graph->slot_count));
+    failed |= json_object_set_new(object, "variants", json_integer(variants->count));
+    if (result->verdict == MESO_VERDICT_SOLVED)
+        failed |= json_object_set_new(object, "tiles", write_histogram(&result->assignment, set));
+    failed |= json_object_set_new(object, "dead_end_total",
+                                  json_integer((json_int_t)result->dead_end_total));
+    failed |= json_object_set_new(object, "dead_ends", write_dead_ends(result, set));
+    return failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the report") : MESO_OK;
+}
+
+json_t *meso_report_to_json(const json_t *content, const MesoProvenance *provenance)
+{
+    json_t *root = json_object();
+    int failed = json_object_set_new(root, "format", json_string("meso-report"));
+    failed |= json_object_set_new(root, "version", json_integer(MESO_REPORT_VERSION));
+    failed |= json_object_set_new(root, "tool", json_string(provenance->tool));
+    /* Jansson takes no const here, and changes but the count of references. */
+    json_t *copy = json_copy((json_t *)(uintptr_t)content);
+    failed |= json_object_update(root, copy);
+    json_decref(copy);
+    failed |= json_object_set_new(root, "provenance", meso_provenance_json(provenance));
+    if (!failed)
+        return root;
+    json_decref(root);
+    return NULL;
+}
+
+/* --- reading --- */
+
+typedef struct NamedInterface {
+    const char *name;
+    uint32_t number;
+} NamedInterface;
+
+typedef struct Binder {
+    uint32_t interface_count, label_words;
+    NamedInterface *interfaces;     /* [interface_count] in the order of their names */
+    uint64_t *labels;               /* [4 * label_words] of the next dead end */
+} Binder;
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(((const NamedInterface *)a)->name, ((const NamedInterface *)b)->name);
+}
+
+static MesoStatus binder_init(Binder *binder, MesoArena *arena, const MesoTileSet *set, MesoError *error)
+{
+    *binder = (Binder){.interface_count = set->interface_count,
+                       .label_words = meso_bits_words(2 * set->interface_count)};
+    binder->interfaces = MESO_NEW(arena, NamedInterface, set->interface_count, error);
+    if (!binder->interfaces)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < set->interface_count; i++)
+        binder->interfaces[i] = (NamedInterface){set->interfaces[i].name, i};
+    qsort(binder->interfaces, binder->interface_count, sizeof *binder->interfaces, compare_names);
+    return MESO_OK;
+}
+
+/* Interface whose name is the first `length` bytes of `text`, or MESO_NO_INDEX. */
+static uint32_t find_interface(const Binder *binder, const char *text, size_t length)
+{
+    uint32_t low = 0, high = binder->interface_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        const char *name = binder->interfaces[middle].name;
+        int order = strncmp(name, text, length);
+        if (order == 0 && name[length] == '\0')
+            return binder->interfaces[middle].number;
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return MESO_NO_INDEX;
+}
+
+static void read_label(const Binder *binder, const MesoJsonField *field, uint64_t *labels)
+{
+    if (!json_is_string(field->value)) {
+        meso_json_wrong(field, "the name of an interface is needed, like \"a\" or \"a'\"");
+        return;
+    }
+    const char *text = json_string_value(field->value);
+    size_t length = json_string_length(field->value);
+    bool flipped = length > 0 && text[length - 1] == '\'';
+    uint32_t interface = strlen(text) == length ? find_interface(binder, text, length - flipped)
+                                                : MESO_NO_INDEX;
+    if (interface == MESO_NO_INDEX)
+        meso_json_wrong(field, "unknown interface '%.80s'; the tile set has no such one", text);
+    else
+        meso_bits_set(labels, 2 * interface + flipped);
+}
+
+static void read_side(const Binder *binder, const MesoJsonField *field, MesoDeadEnd *end, uint32_t side)
+{
+    MesoJsonField border = meso_json_key(field, "border"), labels = meso_json_key(field, "labels");
+    meso_json_object(field, NULL);
+    meso_json_require(&border);
+    meso_json_require(&labels);
+    end->border[side] = meso_json_bool(&border, false);
+    end->labels[side] = binder->labels + (size_t)side * binder->label_words;
+    uint32_t count = meso_json_count(&labels, 0, UINT32_MAX);
+    for (uint32_t i = 0; i < count && meso_json_good(field); i++) {
+        MesoJsonField label = meso_json_item(&labels, i);
+        read_label(binder, &label, end->labels[side]);
+    }
+}
+
+static uint64_t read_number(const MesoJsonField *object, const char *key, int64_t high)
+{
+    MesoJsonField field = meso_json_key(object, key);
+    meso_json_require(&field);
+    return (uint64_t)meso_json_whole(&field, 0, high, 0);
+}
+
+static void read_dead_end(Binder *binder, const MesoJsonField *field, MesoDeadEnd *end)
+{
+    MesoJsonField initial = meso_json_key(field, "initial"), sides = meso_json_key(field, "sides");
+    meso_json_object(field, NULL);
+    meso_json_require(&initial);
+    end->slot = (uint32_t)read_number(field, "slot", UINT32_MAX);
+    end->attempt = (uint32_t)read_number(field, "attempt", UINT32_MAX);
+    end->initial = meso_json_bool(&initial, false);
+    if (meso_json_good(field) && meso_json_count(&sides, 4, 4) != 4)
+        meso_json_wrong(&sides, "4 sides are needed");
+    for (uint32_t k = 0; k < 4 && meso_json_good(field); k++) {
+        MesoJsonField side = meso_json_item(&sides, k);
+        read_side(binder, &side, end, k);
+    }
+    binder->labels += 4 * (size_t)binder->label_words;
+}
+
+static MesoStatus read_dead_ends(MesoReport *report, MesoJsonReader *reader, const MesoTileSet *set,
+                                 const MesoJsonField *root)
+{
+    MesoJsonField ends = meso_json_key(root, "dead_ends");
+    meso_json_require(&ends);
+    uint32_t count = meso_json_count(&ends, 0, UINT32_MAX);
+    Binder binder;
+    if (reader->status || binder_init(&binder, reader->arena, set, reader->error))
+        return reader->status ? reader->status : MESO_ERR_MEMORY;
+    uint64_t words = 4 * (uint64_t)binder.label_words * count;
+    if (words > label_words_limit)
+        return meso_fail(reader->error, MESO_ERR_LIMIT, "%s: too many dead ends for so many interfaces: "
+                         "%u, %u", reader->path, count, set->interface_count);
+
+    report->dead_ends = MESO_NEW(reader->arena, MesoDeadEnd, count, reader->error);
+    binder.labels = MESO_NEW(reader->arena, uint64_t, words, reader->error);
+    if (!report->dead_ends || !binder.labels)
+        return MESO_ERR_MEMORY;
+    report->dead_end_count = count;
+    for (uint32_t d = 0; d < count && !reader->status; d++) {
+        MesoJsonField end = meso_json_item(&ends, d);
+        read_dead_end(&binder, &end, &report->dead_ends[d]);
+    }
+    return reader->status;
+}
+
+static void read_verdict(MesoReport *report, const MesoJsonField *root)
+{
+    MesoJsonField field = meso_json_key(root, "verdict");
+    if (!field.value) {
+        meso_json_wrong(root, "no verdict: not a report of a solver");
+        return;
+    }
+    const char *name = meso_json_text(&field);
+    uint32_t v = 0;
+    while (v < VERDICT_COUNT && strcmp(name, verdict_names[v]) != 0)
+        v++;
+    if (v == VERDICT_COUNT)
+        meso_json_wrong(&field, "\"%.40s\"; \"solved\", \"unsolvable\" and \"gave-up\" are possible", name);
+    else
+        report->verdict = (MesoVerdict)v;
+}
+
+MesoStatus meso_report_read(MesoReport *report, MesoArena *arena, const MesoInput *input,
+                            const MesoTileSet *set, MesoError *error)
+{
+    json_t *json;
+    *report = (MesoReport){0};
+    MesoStatus status = meso_json_parse(&json, input, error);
+    if (!status)
+        status = meso_json_check_format(json, input->path, "meso-report", MESO_REPORT_VERSION, error);
+    if (!status) {
+        MesoJsonReader reader = {.path = input->path, .arena = arena, .error = error};
+        MesoJsonField root = meso_json_root(&reader, json);
+        read_verdict(report, &root);
+        report->attempts = (uint32_t)read_number(&root, "attempts", UINT32_MAX);
+        report->observations = read_number(&root, "observations", INT64_MAX);
+        report->slot_count = (uint32_t)read_number(&root, "slots", UINT32_MAX);
+        report->variant_count = (uint32_t)read_number(&root, "variants", UINT32_MAX);
+        report->dead_end_total = read_number(&root, "dead_end_total", INT64_MAX);
+        status = read_dead_ends(report, &reader, set, &root);
+    }
+    json_decref(json);
+    return status;
+}

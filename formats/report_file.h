@@ -1,0 +1,61 @@
+/*
+ * Reports of meso-solve (.json), version 1:
+ *
+ *     {"format": "meso-report", "version": 1, "tool": "meso-solve",
+ *      "verdict": "solved", "unsolvable" or "gave-up",
+ *      "attempts", "observations", "slots", "variants": numbers,
+ *      "tiles": {name: slots that hold it, ...}                    where solved
+ *      "dead_end_total": met, "dead_ends": the ones that were kept
+ *          [{"slot", "attempt", "initial",
+ *            "sides": [{"border": true or false, "labels": ["a", "b'", ...]}, x 4]}, ...],
+ *      "provenance": {...}}
+ *
+ * Labels go by name, "a'" for the flipped one, so that a report can be read
+ * beside another version of its tile set. Other keys are passed over.
+ */
+#ifndef MESO_REPORT_FILE_H
+#define MESO_REPORT_FILE_H
+
+#include <jansson.h>
+
+#include "formats/input.h"
+#include "formats/provenance.h"
+#include "libcore/solve/solve.h"
+
+enum { MESO_REPORT_VERSION = 1 };
+
+typedef struct MesoReport {
+    MesoVerdict verdict;
+    uint32_t attempts;
+    uint64_t observations;
+    uint32_t slot_count, variant_count;
+    uint64_t dead_end_total;
+    uint32_t dead_end_count;
+    MesoDeadEnd *dead_ends;     /* labels by the codes of the set that it was read with */
+} MesoReport;
+
+/* "solved", "unsolvable", "gave-up" */
+const char *meso_verdict_name(MesoVerdict verdict);
+
+/*
+ * Sets in `object` the keys from "verdict" to "dead_ends"; whatever else makes
+ * a report is the caller's. `graph`, `variants` and `set` are what `result` was
+ * solved with. MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
+                            const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                            MesoError *error);
+
+/* A whole report: format, version, tool, `content` as filled, provenance; NULL when memory is out. */
+json_t *meso_report_to_json(const json_t *content, const MesoProvenance *provenance);
+
+/*
+ * Reads a report for use with `set`, into `arena`. MESO_ERR_INPUT names the file
+ * and the place of what is wrong: JSON, format, version, values, an interface
+ * that the set lacks. MESO_ERR_LIMIT where the dead ends need over 1 GiB.
+ * O(size of the file).
+ */
+MesoStatus meso_report_read(MesoReport *report, MesoArena *arena, const MesoInput *input,
+                            const MesoTileSet *set, MesoError *error);
+
+#endif

@@ -1,0 +1,228 @@
+#include "libcore/solve/domain.h"
+
+#include <assert.h>
+#include <string.h>
+
+enum { FIRST_CAPACITY = 256 };
+
+/* Numbers of sets and states must leave room for the side in a step's key. */
+static const uint32_t interner_limit = 1u << 29;
+
+static uint64_t hash_words(const uint64_t *words, uint32_t count)
+{
+    uint64_t hash = 0;
+    for (uint32_t w = 0; w < count; w++) {
+        hash = (hash ^ words[w]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 29;
+    }
+    return hash ^ (hash >> 32);
+}
+
+/* Place of `bits` in the index: of its number, or the free one where it belongs. */
+static uint32_t *interner_place(const MesoInterner *interner, const uint64_t *bits)
+{
+    size_t size = interner->word_count * sizeof *bits;
+    uint32_t i = (uint32_t)hash_words(bits, interner->word_count);
+    for (;; i++) {
+        uint32_t *place = &interner->index[i & interner->index_mask];
+        if (*place == 0 || memcmp(meso_interner_bits(interner, *place - 1), bits, size) == 0)
+            return place;
+    }
+}
+
+static bool interner_grow(MesoInterner *interner, MesoArena *arena, MesoError *error)
+{
+    uint32_t capacity = interner->capacity ? 2 * interner->capacity : FIRST_CAPACITY;
+    if (capacity > interner_limit) {
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory: more than %u solver states", interner_limit);
+        return false;
+    }
+    uint64_t *bits = MESO_NEW(arena, uint64_t, (size_t)capacity * interner->word_count, error);
+    uint32_t *index = MESO_NEW(arena, uint32_t, 2 * (size_t)capacity, error);
+    if (!bits || !index)
+        return false;
+    if (interner->count)
+        memcpy(bits, interner->bits, (size_t)interner->count * interner->word_count * sizeof *bits);
+    interner->bits = bits;
+    interner->index = index;
+    interner->index_mask = 2 * capacity - 1;
+    interner->capacity = capacity;
+    for (uint32_t i = 0; i < interner->count; i++)
+        *interner_place(interner, meso_interner_bits(interner, i)) = i + 1;
+    return true;
+}
+
+uint32_t meso_interner_add(MesoInterner *interner, MesoArena *arena, const uint64_t *bits,
+                           MesoError *error)
+{
+    if (interner->capacity) {
+        uint32_t *place = interner_place(interner, bits);
+        if (*place)
+            return *place - 1;
+    }
+    if (interner->count == interner->capacity && !interner_grow(interner, arena, error))
+        return MESO_NO_INDEX;
+    uint32_t number = interner->count++;
+    memcpy(interner->bits + (size_t)number * interner->word_count, bits,
+           interner->word_count * sizeof *bits);
+    *interner_place(interner, bits) = number + 1;
+    return number;
+}
+
+static bool grow_domains(MesoDomainTable *table, MesoError *error)
+{
+    MesoDomain *domains = MESO_NEW(&table->arena, MesoDomain, table->states.capacity, error);
+    if (!domains)
+        return false;
+    if (table->domain_capacity)
+        memcpy(domains, table->domains, table->domain_capacity * sizeof *domains);
+    table->domains = domains;
+    table->domain_capacity = table->states.capacity;
+    return true;
+}
+
+/* What the neighbours may show is the opposite of what a state shows: the code's lowest bit turned. */
+static bool describe_state(MesoDomainTable *table, uint32_t state, MesoError *error)
+{
+    MesoDomain *domain = &table->domains[state];
+    const uint64_t *bits = meso_domain_bits(table, state);
+    uint32_t set_words = table->sets.word_count;
+
+    memset(table->scratch_sets, 0, 4 * (size_t)set_words * sizeof *table->scratch_sets);
+    domain->size = 0;
+    for (uint32_t w = 0; w < table->states.word_count; w++)
+        for (uint64_t rest = bits[w]; rest; rest &= rest - 1) {
+            const uint32_t *codes = table->codes + 4 * (size_t)(64 * w + (uint32_t)__builtin_ctzll(rest));
+            domain->size++;
+            for (uint32_t k = 0; k < 4; k++)
+                meso_bits_set(table->scratch_sets + (size_t)k * set_words, codes[k] ^ 1);
+        }
+    for (uint32_t k = 0; k < 4; k++) {
+        domain->allow[k] = meso_interner_add(&table->sets, &table->arena,
+                                        table->scratch_sets + (size_t)k * set_words, error);
+        if (domain->allow[k] == MESO_NO_INDEX)
+            return false;
+    }
+    return true;
+}
+
+static MesoStatus init_growing(MesoDomainTable *table, uint32_t label_words, uint32_t step_count,
+                               MesoError *error)
+{
+    meso_arena_init(&table->arena);
+    table->states = (MesoInterner){.word_count = meso_bits_words(table->variant_count)};
+    table->sets = (MesoInterner){.word_count = label_words};
+    table->domain_capacity = 0;
+    table->step_mask = step_count - 1;
+    table->steps = MESO_NEW(&table->arena, MesoDomainStep, step_count, error);
+    table->scratch_state = MESO_NEW(&table->arena, uint64_t, table->states.word_count, error);
+    table->scratch_sets = MESO_NEW(&table->arena, uint64_t, 4 * (size_t)label_words, error);
+    if (!table->steps || !table->scratch_state || !table->scratch_sets)
+        return MESO_ERR_MEMORY;
+
+    /* An unused cache entry has the key of a step from the empty state, and is right about it. */
+    uint32_t empty = meso_domain_intern(table, table->scratch_state, error);
+    assert(empty == MESO_DOMAIN_EMPTY || empty == MESO_NO_INDEX);
+    return empty == MESO_NO_INDEX ? MESO_ERR_MEMORY : MESO_OK;
+}
+
+MesoStatus meso_domain_table_init(MesoDomainTable *table, uint32_t variant_count,
+                                  const uint32_t *codes, uint32_t label_count,
+                                  uint32_t step_count, MesoError *error)
+{
+    assert(variant_count > 0 && step_count > 0 && (step_count & (step_count - 1)) == 0);
+    *table = (MesoDomainTable){.codes = codes, .variant_count = variant_count};
+    return init_growing(table, meso_bits_words(label_count), step_count, error);
+}
+
+void meso_domain_table_release(MesoDomainTable *table)
+{
+    meso_arena_release(&table->arena);
+}
+
+uint32_t meso_domain_intern(MesoDomainTable *table, const uint64_t *bits, MesoError *error)
+{
+    uint32_t count = table->states.count;
+    uint32_t state = meso_interner_add(&table->states, &table->arena, bits, error);
+    if (state == MESO_NO_INDEX || table->states.count == count)
+        return state;
+    if (table->domain_capacity < table->states.capacity && !grow_domains(table, error))
+        return MESO_NO_INDEX;
+    return describe_state(table, state, error) ? state : MESO_NO_INDEX;
+}
+
+uint32_t meso_domain_single(MesoDomainTable *table, uint32_t variant, MesoError *error)
+{
+    assert(variant < table->variant_count);
+    memset(table->scratch_state, 0, table->states.word_count * sizeof *table->scratch_state);
+    meso_bits_set(table->scratch_state, variant);
+    return meso_domain_intern(table, table->scratch_state, error);
+}
+
+uint32_t meso_domain_variant(const MesoDomainTable *table, uint32_t state, uint32_t rank)
+{
+    const uint64_t *bits = meso_domain_bits(table, state);
+    assert(rank < table->domains[state].size);
+    uint32_t w = 0;
+    for (uint32_t count; (count = (uint32_t)__builtin_popcountll(bits[w])) <= rank; w++)
+        rank -= count;
+    uint64_t rest = bits[w];
+    while (rank--)
+        rest &= rest - 1;
+    return 64 * w + (uint32_t)__builtin_ctzll(rest);
+}
+
+uint32_t meso_domain_narrow(MesoDomainTable *table, uint32_t state, uint32_t side, uint32_t set,
+                            MesoError *error)
+{
+    const uint64_t *bits = meso_domain_bits(table, state);
+    const uint64_t *labels = meso_domain_labels(table, set);
+    for (uint32_t w = 0; w < table->states.word_count; w++) {
+        uint64_t kept = bits[w];
+        for (uint64_t rest = kept; rest; rest &= rest - 1) {
+            uint32_t variant = 64 * w + (uint32_t)__builtin_ctzll(rest);
+            if (!meso_bits_test(labels, table->codes[4 * (size_t)variant + side]))
+                kept &= ~(rest & (~rest + 1));
+        }
+        table->scratch_state[w] = kept;
+    }
+    uint32_t next = meso_domain_intern(table, table->scratch_state, error);
+    if (next == MESO_NO_INDEX)
+        return MESO_NO_INDEX;
+    uint64_t key = meso_domain_step_key(state, side, set);
+    *meso_domain_step_place(table, key) = (MesoDomainStep){key, next};
+    return next;
+}
+
+/* Numbers in the new table of the states in `states`, which `renumber` keeps. */
+static MesoStatus move_states(MesoDomainTable *table, const MesoDomainTable *old, uint32_t *renumber,
+                              uint32_t count, uint32_t *states, MesoError *error)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t *number = &renumber[states[i]];
+        if (*number == MESO_NO_INDEX)
+            *number = meso_domain_intern(table, meso_domain_bits(old, states[i]), error);
+        if (*number == MESO_NO_INDEX)
+            return MESO_ERR_MEMORY;
+        states[i] = *number;
+    }
+    return MESO_OK;
+}
+
+MesoStatus meso_domain_collect(MesoDomainTable *table, uint32_t count, uint32_t *states,
+                               uint32_t *more_states, MesoError *error)
+{
+    MesoDomainTable old = *table;
+    MesoStatus status = init_growing(table, old.sets.word_count, old.step_mask + 1, error);
+    uint32_t *renumber = MESO_NEW(&old.arena, uint32_t, old.states.count, error);
+    if (!renumber)
+        status = MESO_ERR_MEMORY;
+    if (!status) {
+        memset(renumber, 0xff, old.states.count * sizeof *renumber);
+        status = move_states(table, &old, renumber, count, states, error);
+    }
+    if (!status)
+        status = move_states(table, &old, renumber, count, more_states, error);
+    meso_arena_release(&old.arena);
+    return status;
+}

@@ -1,0 +1,301 @@
+#include "libcore/solve/propagate.h"
+
+#include <assert.h>
+#include <string.h>
+
+#include "libcore/solve/solve.h"
+
+/* Between collections the table may grow by this many states, or by the slots' quarter. */
+enum { COLLECT_STATES = 1 << 16 };
+
+/* The step cache: 2^17 entries are 2 MiB, about a core's second cache; a small graph needs few. */
+enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
+
+enum { ALL_SIDES = 15 };
+
+void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)
+{
+    for (uint32_t i = 0; i < set->interface_count; i++) {
+        const MesoInterface *interface = &set->interfaces[i];
+        if (border ? interface->border_exempt : interface->border_only)
+            continue;
+        meso_bits_set(labels, 2 * i);
+        meso_bits_set(labels, 2 * i + 1);
+    }
+}
+
+static bool side_allows(const MesoPropagation *propagation, const uint64_t *const *rules,
+                        uint32_t slot, uint32_t side, const uint32_t *codes)
+{
+    uint32_t twin = propagation->graph->twin[4 * (size_t)slot + side];
+    if (!meso_bits_test(rules[twin == MESO_NO_INDEX], codes[side]))
+        return false;
+    /* A side that is glued to a side of its own slot: no choice of another variant can help. */
+    return twin == MESO_NO_INDEX || twin / 4 != slot || codes[twin % 4] == (codes[side] ^ 1);
+}
+
+/* State of the variants that fit `slot` whatever its neighbours hold. */
+static uint32_t slot_constraint(MesoPropagation *propagation, const uint64_t *const *rules,
+                                uint32_t slot, uint64_t *bits, MesoError *error)
+{
+    uint32_t count = propagation->domains.variant_count;
+    memset(bits, 0, meso_bits_words(count) * sizeof *bits);
+    for (uint32_t v = 0; v < count; v++) {
+        bool fits = true;
+        for (uint32_t k = 0; fits && k < 4; k++)
+            fits = side_allows(propagation, rules, slot, k, propagation->codes + 4 * (size_t)v);
+        if (fits)
+            meso_bits_set(bits, v);
+    }
+    return meso_domain_intern(&propagation->domains, bits, error);
+}
+
+/* Algorithm 2 before its Collapse. Slots alike in borders, and not glued to themselves, share a state. */
+static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena, MesoError *error)
+{
+    uint32_t label_words = propagation->domains.sets.word_count;
+    uint64_t *inner = MESO_NEW(arena, uint64_t, label_words, error);
+    uint64_t *border = MESO_NEW(arena, uint64_t, label_words, error);
+    uint64_t *bits = MESO_NEW(arena, uint64_t, propagation->domains.states.word_count, error);
+    if (!inner || !border || !bits)
+        return MESO_ERR_MEMORY;
+    meso_border_labels(propagation->set, false, inner);
+    meso_border_labels(propagation->set, true, border);
+    const uint64_t *const rules[2] = {inner, border};
+
+    uint32_t by_border[16];
+    memset(by_border, 0xff, sizeof by_border);
+    for (uint32_t s = 0; s < propagation->graph->slot_count; s++) {
+        const uint32_t *twin = propagation->graph->twin + 4 * (size_t)s;
+        uint32_t mask = 0, unused = MESO_NO_INDEX;
+        uint32_t *known = NULL;
+        bool glued = false;
+        for (uint32_t k = 0; k < 4; k++) {
+            mask |= (uint32_t)(twin[k] == MESO_NO_INDEX) << k;
+            glued |= twin[k] != MESO_NO_INDEX && twin[k] / 4 == s;
+        }
+        known = glued ? &unused : &by_border[mask];
+        if (*known == MESO_NO_INDEX)
+            *known = slot_constraint(propagation, rules, s, bits, error);
+        if (*known == MESO_NO_INDEX)
+            return MESO_ERR_MEMORY;
+        propagation->state[s] = *known;
+        propagation->initial_dead_count += *known == MESO_DOMAIN_EMPTY;
+    }
+    return MESO_OK;
+}
+
+static void push(MesoPropagation *propagation, uint32_t slot, uint8_t sides)
+{
+    if (sides && !propagation->pending[slot]) {
+        uint32_t end = propagation->list_head + propagation->list_count++;
+        uint32_t size = propagation->graph->slot_count;
+        propagation->list[end < size ? end : end - size] = slot;
+    }
+    propagation->pending[slot] |= sides;
+}
+
+static uint32_t pop(MesoPropagation *propagation)
+{
+    uint32_t slot = propagation->list[propagation->list_head++];
+    if (propagation->list_head == propagation->graph->slot_count)
+        propagation->list_head = 0;
+    propagation->list_count--;
+    return slot;
+}
+
+/* Sides on which `next` lets the neighbours show less than `state` did. */
+static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
+{
+    uint32_t sides = 0;
+    for (uint32_t k = 0; k < 4; k++)
+        sides |= (uint32_t)(state->allow[k] != next->allow[k]) << k;
+    return (uint8_t)sides;
+}
+
+/* Gives `slot` the smaller state `next`, which is not empty. */
+static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_t next,
+                            MesoError *error)
+{
+    uint32_t state = propagation->state[slot];
+    const MesoDomain *before = &propagation->domains.domains[state];
+    const MesoDomain *after = &propagation->domains.domains[next];
+
+    propagation->state[slot] = next;
+    push(propagation, slot, changed_sides(before, after));
+    if (!propagation->searching)
+        return MESO_OK;
+    if (state == propagation->initial[slot])
+        propagation->touched[propagation->touched_count++] = slot;
+    meso_bucket_queue_remove(&propagation->queue, slot, before->size);
+    if (after->size == 1)
+        return MESO_OK;
+    return meso_bucket_queue_insert(&propagation->queue, slot, after->size, error);
+}
+
+/* Forgets what is still to be told. */
+static void clear_list(MesoPropagation *propagation)
+{
+    while (propagation->list_count)
+        propagation->pending[pop(propagation)] = 0;
+}
+
+/* Tells the neighbour across half-edge `half_edge` which labels it may still show there. */
+static MesoStatus tell_neighbour(MesoPropagation *propagation, uint32_t half_edge, uint32_t set,
+                                 MesoError *error)
+{
+    uint32_t slot = half_edge / 4;
+    uint32_t state = propagation->state[slot];
+    uint32_t next = meso_domain_step(&propagation->domains, state, half_edge % 4, set, error);
+    if (next == state)
+        return MESO_OK;
+    if (next == MESO_NO_INDEX)
+        return MESO_ERR_MEMORY;
+    if (next != MESO_DOMAIN_EMPTY)
+        return set_state(propagation, slot, next, error);
+
+    propagation->dead_slot = slot;
+    if (!propagation->searching) {
+        propagation->state[slot] = MESO_DOMAIN_EMPTY;
+        propagation->initial_dead_count++;
+    }
+    return MESO_OK;
+}
+
+/* Collapse. The order of the list has no part in the fixed point, only in which slot dies first. */
+static MesoStatus run(MesoPropagation *propagation, MesoError *error)
+{
+    propagation->dead_slot = MESO_NO_INDEX;
+    while (propagation->list_count) {
+        uint32_t slot = pop(propagation);
+        uint32_t sides = propagation->pending[slot];
+        const uint32_t *twin = propagation->graph->twin + 4 * (size_t)slot;
+        propagation->pending[slot] = 0;
+        if (propagation->state[slot] == MESO_DOMAIN_EMPTY)
+            continue;
+        for (; sides; sides &= sides - 1) {
+            uint32_t k = (uint32_t)__builtin_ctz(sides);
+            if (twin[k] == MESO_NO_INDEX)
+                continue;
+            /* Read anew: where the slot is glued to itself, or a table has moved. */
+            uint32_t set = propagation->domains.domains[propagation->state[slot]].allow[k];
+            if (tell_neighbour(propagation, twin[k], set, error))
+                return MESO_ERR_MEMORY;
+            if (propagation->dead_slot != MESO_NO_INDEX && propagation->searching) {
+                clear_list(propagation);
+                return MESO_OK;
+            }
+            if (propagation->state[slot] == MESO_DOMAIN_EMPTY)
+                break;
+        }
+    }
+    return MESO_OK;
+}
+
+/* The fixed point before any choice, and the queue of the slots that have one. */
+static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
+{
+    uint32_t slot_count = propagation->graph->slot_count;
+    for (uint32_t s = 0; s < slot_count; s++)
+        push(propagation, s, ALL_SIDES);
+    if (run(propagation, error))
+        return MESO_ERR_MEMORY;
+
+    for (uint32_t s = 0; s < slot_count; s++) {
+        uint32_t size = propagation->domains.domains[propagation->state[s]].size;
+        if (size > 1 && meso_bucket_queue_insert(&propagation->queue, s, size, error))
+            return MESO_ERR_MEMORY;
+    }
+    memcpy(propagation->initial, propagation->state, slot_count * sizeof *propagation->initial);
+    propagation->searching = true;
+    return MESO_OK;
+}
+
+static MesoStatus allocate(MesoPropagation *propagation, MesoArena *arena,
+                           const MesoVariantSet *variants, MesoError *error)
+{
+    uint32_t slot_count = propagation->graph->slot_count;
+    propagation->codes = MESO_NEW(arena, uint32_t, 4 * (size_t)variants->count, error);
+    propagation->state = MESO_NEW(arena, uint32_t, slot_count, error);
+    propagation->initial = MESO_NEW(arena, uint32_t, slot_count, error);
+    propagation->touched = MESO_NEW(arena, uint32_t, slot_count, error);
+    propagation->pending = MESO_NEW(arena, uint8_t, slot_count, error);
+    propagation->list = MESO_NEW(arena, uint32_t, slot_count, error);
+    if (!propagation->codes || !propagation->state || !propagation->initial ||
+        !propagation->touched || !propagation->pending || !propagation->list)
+        return MESO_ERR_MEMORY;
+    for (size_t i = 0; i < 4 * (size_t)variants->count; i++)
+        propagation->codes[i] = meso_label_code(variants->labels[i]);
+    return meso_bucket_queue_init(&propagation->queue, arena, slot_count, variants->count, error);
+}
+
+static void plan_collection(MesoPropagation *propagation)
+{
+    uint32_t growth = propagation->graph->slot_count / 4;
+    growth = growth > COLLECT_STATES ? growth : COLLECT_STATES;
+    propagation->collect_at = propagation->domains.states.count + growth;
+}
+
+MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
+                                 const MesoTileSet *set, const MesoVariantSet *variants,
+                                 const MesoSlotGraph *graph, MesoError *error)
+{
+    *propagation = (MesoPropagation){.graph = graph, .set = set};
+    uint32_t step_count = LEAST_STEPS;
+    while (step_count < MOST_STEPS && step_count < 4 * (uint64_t)graph->slot_count)
+        step_count *= 2;
+
+    if (allocate(propagation, arena, variants, error) ||
+        meso_domain_table_init(&propagation->domains, variants->count, propagation->codes,
+                               2 * set->interface_count, step_count, error) ||
+        constrain_slots(propagation, arena, error) || run_initial(propagation, error))
+        return MESO_ERR_MEMORY;
+    plan_collection(propagation);
+    return MESO_OK;
+}
+
+void meso_propagation_release(MesoPropagation *propagation)
+{
+    meso_domain_table_release(&propagation->domains);
+}
+
+MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
+                                   MesoError *error)
+{
+    if (propagation->domains.states.count >= propagation->collect_at) {
+        if (meso_domain_collect(&propagation->domains, propagation->graph->slot_count,
+                                propagation->state, propagation->initial, error))
+            return MESO_ERR_MEMORY;
+        plan_collection(propagation);
+    }
+    uint32_t next = meso_domain_single(&propagation->domains, variant, error);
+    if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
+        return MESO_ERR_MEMORY;
+    return run(propagation, error);
+}
+
+MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
+{
+    const MesoDomain *domains = propagation->domains.domains;
+    while (propagation->touched_count) {
+        uint32_t slot = propagation->touched[--propagation->touched_count];
+        uint32_t size = domains[propagation->state[slot]].size;
+        if (size > 1)
+            meso_bucket_queue_remove(&propagation->queue, slot, size);
+        propagation->state[slot] = propagation->initial[slot];
+        size = domains[propagation->state[slot]].size;
+        if (meso_bucket_queue_insert(&propagation->queue, slot, size, error))
+            return MESO_ERR_MEMORY;
+    }
+    return MESO_OK;
+}
+
+const uint64_t *meso_propagation_allowed(const MesoPropagation *propagation, uint32_t slot,
+                                         uint32_t side)
+{
+    uint32_t twin = propagation->graph->twin[4 * (size_t)slot + side];
+    assert(twin != MESO_NO_INDEX);
+    uint32_t state = propagation->state[twin / 4];
+    return meso_domain_labels(&propagation->domains,
+                              propagation->domains.domains[state].allow[twin % 4]);
+}
