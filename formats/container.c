@@ -216,7 +216,6 @@ static MesoStatus check_chunks(const Entry *table, const Header *header, const M
 MesoStatus meso_container_read(MesoContainer *container, const MesoInput *input, const char *kind,
                                uint16_t newest_major, MesoError *error)
 {
-    assert((uintptr_t)input->data % sizeof(uint64_t) == 0);
     Header header;
     Entry table[MESO_CONTAINER_CHUNKS];
     MesoStatus status = read_header(&header, input, error);
@@ -233,6 +232,7 @@ MesoStatus meso_container_read(MesoContainer *container, const MesoInput *input,
     if (status != MESO_OK)
         return status;
 
+    assert((uintptr_t)input->data % sizeof(uint64_t) == 0);
     *container = (MesoContainer){.major = header.major, .minor = header.minor,
                                  .chunk_count = header.chunk_count};
     memcpy(container->kind, header.kind, sizeof header.kind);

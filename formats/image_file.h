@@ -10,12 +10,20 @@
  * One part, scan lines, ZIP: R G B A (half, linear, premultiplied), Z (float,
  * distance along the view axis, +inf where empty), N.X N.Y N.Z (half, world
  * space), albedo.R albedo.G albedo.B (half), slot and tile (uint, number + 1,
- * 0 where empty). Provenance and the names of the tiles as string attributes.
+ * 0 where empty). String attributes "meso:provenance" (JSON) and "meso:tiles"
+ * (names of the tiles, one a line); "worldToCamera" and "worldToNDC" are the
+ * camera's, with x to the right, y up, and z into the picture, as in Z. Uses
+ * `thread_count` threads (0: all cores); the bytes do not depend on it.
+ * MESO_ERR_OUTPUT where `output` takes no more.
  */
 MesoStatus meso_exr_write(const MesoImage *image, const MesoModel *model,
-                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+                          const MesoProvenance *provenance, uint32_t thread_count,
+                          MesoOutput *output, MesoError *error);
 
-/* 8 bits, sRGB, over `background` (linear RGB) or, where that is NULL, with alpha. */
+/*
+ * 8 bits, sRGB, highlights rolled off, over `background` (linear RGB) or,
+ * where that is NULL, with alpha. Provenance as text.
+ */
 MesoStatus meso_png_write(const MesoImage *image, const float *background,
                           const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
 

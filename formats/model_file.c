@@ -222,10 +222,9 @@ static MesoStatus read_surface(const Reading *in, MesoError *error)
     }
     /* A normal of unit length that is made unit length again may change in its
      * last bit; a model must give the same mesh as what it was made from. */
-    if (mesh->normal_count == normal_count)
-        for (uint32_t i = 0; i < normal_count; i++)
-            if (meso_vec3_length(meso_vec3_sub(mesh->normals[i], normals[i])) < 1e-6f)
-                mesh->normals[i] = normals[i];
+    for (uint32_t i = 0; i < normal_count; i++)
+        if (meso_vec3_length(meso_vec3_sub(mesh->normals[i], normals[i])) < 1e-6f)
+            mesh->normals[i] = normals[i];
     return MESO_OK;
 }
 

@@ -6,6 +6,8 @@
 #ifndef MESO_CONTEXT_H
 #define MESO_CONTEXT_H
 
+#include <stdint.h>
+
 #include "libcore/base/error.h"
 
 typedef struct MesoGlContext {
@@ -15,8 +17,15 @@ typedef struct MesoGlContext {
     char renderer[128];                 /* GL_RENDERER */
 } MesoGlContext;
 
-/* `maker` is "osmesa", "egl" or "auto" (egl where it offers a GPU, else osmesa). Current on this thread. */
-MesoStatus meso_gl_context_init(MesoGlContext *context, const char *maker, MesoError *error);
+/*
+ * `maker` is "osmesa", "egl" or "auto" (egl where it offers a GPU, else
+ * osmesa). The context is current on this thread. `thread_count` bounds the
+ * threads of a software driver (0: its own choice); it is passed on through
+ * the environment, so that no other thread may read that meanwhile.
+ * MESO_ERR_USAGE for another maker, MESO_ERR_INTERNAL where none can be made.
+ */
+MesoStatus meso_gl_context_init(MesoGlContext *context, const char *maker, uint32_t thread_count,
+                                MesoError *error);
 void meso_gl_context_release(MesoGlContext *context);
 
 #endif

@@ -10,12 +10,21 @@ typedef struct MesoCamera {
     float fov_degrees;      /* vertical */
 } MesoCamera;
 
-/* Frames the box from the side and a little above, with a margin of 5 %. `aspect` is width / height. */
-MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, float fov_degrees, float aspect);
+/*
+ * A camera that frames the box from the front, a little from the right and
+ * above, with a margin of 5 %. The front is +Z, or -Y where `up` is along Z.
+ * `aspect` is width / height.
+ */
+MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect);
+
+/* The same, around the sweeps themselves and the slots with inner meshes. O(instances). */
+MesoCamera meso_camera_frame_structure(const MesoStructure *structure, MesoVec3 up, float fov_degrees,
+                                       float aspect);
 
 /* Rows from top to bottom. Unused arrays are never NULL: all AOVs are always made. */
 typedef struct MesoImage {
     uint32_t width, height;
+    MesoCamera camera;
     float *color;       /* [4 * width * height] linear, premultiplied */
     float *depth;       /* [width * height] along the view axis, scene units; +inf where empty */
     float *normal;      /* [3 * width * height] world space; 0 where empty */
@@ -28,6 +37,7 @@ typedef struct MesoRenderOptions {
     uint32_t width, height;     /* up to 16384 each */
     MesoCamera camera;
     uint32_t samples;           /* for antialiasing of color; 1 or 4 */
+    bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;
 
 /*

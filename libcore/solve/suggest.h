@@ -28,7 +28,7 @@ MesoStatus meso_suggest(MesoSuggestion *suggestion, MesoArena *arena, const Meso
                         uint32_t dead_end_count, const MesoDeadEnd *dead_ends, MesoError *error);
 
 /*
- * `extended` becomes `set` with a tile of the suggested configuration at the
+ * `extended` (which may be `set`) becomes `set` with a tile of the suggested configuration at the
  * end: the set's default transforms, no sweeps, no inner mesh, and the first
  * free name of "suggested-1", "suggested-2", ... Shares everything else with
  * `set`. O(tiles). MESO_ERR_MEMORY alone.

@@ -3,12 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-/*
- * Larger coordinates are refused: products of two lengths, which all later
- * stages form in single precision, would no longer be finite.
- */
-static const float COORDINATE_LIMIT = 1e18f;
-
 typedef struct Vec3Double {
     double x, y, z;
 } Vec3Double;
@@ -39,10 +33,10 @@ static MesoStatus check_positions(uint32_t count, const MesoVec3 *positions, Mes
         MesoVec3 p = positions[v];
         if (!meso_vec3_finite(p))
             return meso_fail(error, MESO_ERR_INPUT, "vertex %u is not finite", v + 1);
-        if (fabsf(p.x) > COORDINATE_LIMIT || fabsf(p.y) > COORDINATE_LIMIT ||
-            fabsf(p.z) > COORDINATE_LIMIT)
+        if (fabsf(p.x) > MESO_COORDINATE_LIMIT || fabsf(p.y) > MESO_COORDINATE_LIMIT ||
+            fabsf(p.z) > MESO_COORDINATE_LIMIT)
             return meso_fail(error, MESO_ERR_INPUT, "vertex %u lies beyond the largest coordinate, %g",
-                             v + 1, (double)COORDINATE_LIMIT);
+                             v + 1, (double)MESO_COORDINATE_LIMIT);
     }
     return MESO_OK;
 }

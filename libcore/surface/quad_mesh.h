@@ -5,6 +5,12 @@
 #include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
 
+/*
+ * Coordinates beyond this are refused: products of two lengths, which all
+ * later stages form in single precision, would no longer be finite.
+ */
+#define MESO_COORDINATE_LIMIT 1e18f
+
 typedef struct MesoQuadMesh {
     uint32_t vertex_count;
     uint32_t normal_count;
@@ -30,9 +36,8 @@ typedef struct MesoQuadMesh {
  * products of their diagonals (area-weighted), or +Z where that vanishes.
  * O(vertex_count + face_count).
  * MESO_ERR_INPUT names the first face or vertex (counted from 1, as OBJ
- * files do) that is not finite (or beyond 1e18, where products of lengths
- * would no longer be), out of range, or uses a vertex twice, and refuses a
- * mesh without faces or with no edge longer than 0.
+ * files do) that is not finite, too large, out of range, or uses a
+ * vertex twice, and refuses a mesh without faces or with no edge longer than 0.
  */
 MesoStatus meso_quad_mesh_build(MesoQuadMesh *mesh, MesoArena *arena,
                                 uint32_t vertex_count, const MesoVec3 *positions,

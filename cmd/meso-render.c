@@ -1,0 +1,229 @@
+/* meso-render: draws a model to an OpenEXR image with its arbitrary output variables, or to a PNG. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cmd/camera_options.h"
+#include "cmd/tool.h"
+#include "formats/image_file.h"
+#include "formats/json_text.h"
+#include "formats/model_file.h"
+
+static const MesoToolInfo RENDER_TOOL = {
+    .name = "meso-render",
+    .synopsis = "meso-render [options] MODEL.meso -o OUT.exr|.png",
+    .purpose = "Draw a model to an image: colour, depth, normals, albedo, slot and tile ids.",
+    .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
+                "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png",
+    .operands_low = 1,
+    .operands_high = 1,
+};
+
+typedef struct RenderArguments {
+    MesoTool tool;
+    MesoCameraOptions camera;
+    const char *png;            /* --png */
+    const char *to;             /* --to */
+    const char *background_text;
+    const char *samples_text;
+    const char *context;
+
+    bool exr_product;           /* of -o */
+    bool transparent;
+    float background[3];
+} RenderArguments;
+
+/* A light grey that leaves room for highlights. */
+static const float DEFAULT_BACKGROUND[3] = {0.84f, 0.85f, 0.87f};
+
+static MesoStatus parse_background(RenderArguments *a, MesoError *error)
+{
+    const char *text = a->background_text;
+    memcpy(a->background, DEFAULT_BACKGROUND, sizeof a->background);
+    if (!text)
+        return MESO_OK;
+    a->transparent = strcmp(text, "none") == 0;
+    for (int c = 0; c < 3 && !a->transparent; c++) {
+        char *end;
+        float value = strtof(text, &end);
+        if (end == text || !(value >= 0 && value <= 1) || *end != (c < 2 ? ',' : 0))
+            return meso_fail(error, MESO_ERR_USAGE,
+                             "--background '%s' is neither R,G,B between 0 and 1 nor none",
+                             a->background_text);
+        a->background[c] = value;
+        text = end + 1;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus choose_product(RenderArguments *a, MesoError *error)
+{
+    const char *output = a->tool.output, *kind = a->to;
+    if (!output)
+        return meso_fail(error, MESO_ERR_USAGE, "no output given: -o OUT.exr or -o OUT.png");
+    const char *dot = strrchr(output, '.');
+    if (!kind)
+        kind = dot ? dot + 1 : "";
+    a->exr_product = strcmp(kind, "exr") == 0;
+    if (a->exr_product || strcmp(kind, "png") == 0)
+        return MESO_OK;
+    return meso_fail(error, MESO_ERR_USAGE,
+                     "no kind of image is known by the name '%s': end it in .exr or .png, or give --to",
+                     output);
+}
+
+static MesoStatus write_image(const RenderArguments *a, const char *path, bool exr,
+                              const MesoImage *image, const MesoModel *model, MesoError *error)
+{
+    MesoOutput *output;
+    MesoStatus status = meso_output_open(&output, path, error);
+    if (status)
+        return status;
+    status = exr ? meso_exr_write(image, model, &a->tool.provenance, a->tool.threads, output, error)
+                 : meso_png_write(image, a->transparent ? NULL : a->background, &a->tool.provenance,
+                                  output, error);
+    if (!status)
+        return meso_output_commit(output, error);
+    meso_output_discard(output);
+    return status;
+}
+
+static json_t *point_json(MesoVec3 p)
+{
+    return json_pack("[f, f, f]", (double)p.x, (double)p.y, (double)p.z);
+}
+
+static void report_image(MesoTool *tool, const MesoImage *image, const MesoStructure *structure,
+                         const char *renderer)
+{
+    uint64_t covered = 0, count = (uint64_t)image->width * image->height;
+    for (uint64_t i = 0; i < count; i++)
+        covered += image->slot[i] != 0;
+    const MesoCamera *camera = &image->camera;
+    json_t *report = tool->report;
+    json_object_set_new(report, "width", json_integer(image->width));
+    json_object_set_new(report, "height", json_integer(image->height));
+    json_object_set_new(report, "renderer", meso_json_string(renderer));
+    json_object_set_new(report, "slots", json_integer(structure->model->assignment.slot_count));
+    json_object_set_new(report, "sweeps", json_integer(structure->instance_count));
+    json_object_set_new(report, "inner_meshes", json_integer(structure->inner_count));
+    json_object_set_new(report, "covered_pixels", json_integer((json_int_t)covered));
+    json_object_set_new(report, "camera",
+                        json_pack("{s:o, s:o, s:o, s:f}", "eye", point_json(camera->eye), "target",
+                                  point_json(camera->target), "up", point_json(camera->up),
+                                  "fov_degrees", (double)camera->fov_degrees));
+    if (covered == 0)
+        meso_tool_say(tool, "warning: nothing of the model is on the image");
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void say_times(const MesoTool *tool, const double *at)
+{
+    if (tool->verbose)
+        meso_tool_say(tool, "model %.0f ms, context %.0f ms, drawing %.0f ms, writing %.0f ms",
+                      1e3 * (at[1] - at[0]), 1e3 * (at[2] - at[1]), 1e3 * (at[3] - at[2]),
+                      1e3 * (at[4] - at[3]));
+}
+
+static MesoStatus draw(RenderArguments *a, MesoImage *image, MesoGlContext *context,
+                       const MesoStructure *structure, MesoError *error)
+{
+    const MesoRenderOptions options = {
+        .width = a->camera.size[0],
+        .height = a->camera.size[1],
+        .camera = meso_camera_options_resolve(&a->camera, structure),
+        .samples = strcmp(a->samples_text, "1") == 0 ? 1 : 4,
+    };
+    return meso_render(image, &a->tool.arena, context, structure, &options, error);
+}
+
+static MesoStatus write_images(const RenderArguments *a, const MesoImage *image, const MesoModel *model,
+                               MesoError *error)
+{
+    MesoStatus status = write_image(a, a->tool.output, a->exr_product, image, model, error);
+    if (!status && a->png)
+        status = write_image(a, a->png, false, image, model, error);
+    return status;
+}
+
+static MesoStatus render(RenderArguments *a, const MesoModel *model, double start, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoStructure structure;
+    MesoGlContext context;
+    MesoImage image;
+    double at[5] = {start};
+
+    MesoStatus status = meso_structure_build(&structure, &tool->arena, model, tool->threads, error);
+    at[1] = seconds_now();
+    if (!status)
+        status = meso_gl_context_init(&context, a->context, tool->threads, error);
+    if (status)
+        return status;
+    at[2] = seconds_now();
+    status = draw(a, &image, &context, &structure, error);
+    at[3] = seconds_now();
+    if (!status)
+        status = write_images(a, &image, model, error);
+    at[4] = seconds_now();
+    if (!status) {
+        report_image(tool, &image, &structure, context.renderer);
+        say_times(tool, at);
+    }
+    meso_gl_context_release(&context);
+    return status;
+}
+
+static MesoStatus run(RenderArguments *a, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoInput input;
+    MesoModel model;
+    double start = seconds_now();
+    MesoStatus status = choose_product(a, error);
+    if (!status)
+        status = parse_background(a, error);
+    if (!status)
+        status = meso_input_open(&input, tool->operands[0], error);
+    if (status)
+        return status;
+    meso_provenance_add(&tool->provenance, "model", &input);
+    status = meso_model_read(&model, NULL, &tool->arena, &input, error);
+    if (!status)
+        status = render(a, &model, start, error);
+    meso_input_close(&input);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    RenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa"};
+    const MesoOption options[] = {
+        {MESO_OPTION_CHOICE, 0, "to", "KIND", "kind of the product (default: the extension of the output)",
+         &a.to, 0, 0, 0, "exr|png"},
+        {MESO_OPTION_TEXT, 0, "png", "FILE", "write the colour as PNG there too", &a.png, 0, 0, 0, 0},
+        MESO_CAMERA_OPTIONS(a.camera),
+        {MESO_OPTION_GROUP, 0, "Picture", 0, 0, 0, 0, 0, 0, 0},
+        {MESO_OPTION_CHOICE, 0, "samples", "N", "samples of the colour a pixel, 1 or 4 (default 4)",
+         &a.samples_text, 0, 0, 0, "1|4"},
+        {MESO_OPTION_TEXT, 0, "background", "R,G,B",
+         "of the PNG, linear, 0 to 1; none for a transparent one (default: light grey)",
+         &a.background_text, 0, 0, 0, 0},
+        {MESO_OPTION_CHOICE, 0, "context", "MAKER",
+         "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
+         &a.context, 0, 0, 0, "auto|osmesa|egl"},
+        MESO_TOOL_OPTIONS(a.tool),
+        {0},
+    };
+    if (!meso_tool_start(&a.tool, &RENDER_TOOL, options, argc, argv))
+        return meso_tool_finish(&a.tool);
+    a.tool.status = run(&a, &a.tool.error);
+    return meso_tool_finish(&a.tool);
+}

@@ -1,0 +1,150 @@
+/* meso-solve: assigns a tile to every slot of a surface. */
+#include <string.h>
+
+#include "cmd/solve_inputs.h"
+#include "formats/report_file.h"
+#include "formats/slots_file.h"
+
+typedef struct Arguments {
+    MesoTool tool;
+    uint32_t attempts;
+    const char *report;
+} Arguments;
+
+typedef struct Problem {
+    MesoTileSet set;
+    MesoSlotGraph graph;
+    uint64_t tiles_hash[2], surface_hash[2];
+    MesoVariantSet variants;
+    MesoSolveResult result;
+} Problem;
+
+static const MesoToolInfo info = {
+    .name = "meso-solve",
+    .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]",
+    .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
+    .examples = "meso-solve wicker.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --seed 7 --attempts 100 --report vase.json wicker.tiles.json vase.obj -o vase.slots",
+    .operands_low = 2,
+    .operands_high = 2,
+};
+
+static bool is_standard_output(const char *path)
+{
+    return path && (strcmp(path, "-") == 0 || *path == 0);
+}
+
+static MesoStatus check_arguments(Arguments *a)
+{
+    MesoTool *tool = &a->tool;
+    if (!tool->output)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "no place for the assignment; use -o OUT.slots");
+    int streams = is_standard_output(tool->output) + is_standard_output(a->report) +
+                  is_standard_output(tool->json);
+    if (streams > 1)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "only one of -o, --report and --json can go "
+                         "to standard output");
+    return MESO_OK;
+}
+
+static MesoStatus read_inputs(Arguments *a, Problem *p)
+{
+    MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
+    if (!status)
+        status = meso_tool_read_graph(&a->tool, a->tool.operands[1], &p->graph, p->surface_hash);
+    return status;
+}
+
+/* Writes the assignment, where there is one, and the report, where it was asked for. */
+static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slots, MesoOutput **report)
+{
+    MesoTool *tool = &a->tool;
+    bool solved = p->result.verdict == MESO_VERDICT_SOLVED;
+    MesoStatus status = MESO_OK;
+    if (solved)
+        status = meso_slots_write(&p->result.assignment, &p->set, p->tiles_hash, p->surface_hash,
+                                  &tool->provenance, *slots, &tool->error);
+    if (!status && *report)
+        status = meso_tool_write_json(meso_report_to_json(tool->report, &tool->provenance), *report,
+                                      &tool->error);
+    if (!status && solved) {
+        status = meso_output_commit(*slots, &tool->error);
+        *slots = NULL;
+    }
+    if (!status && *report) {
+        status = meso_output_commit(*report, &tool->error);
+        *report = NULL;
+    }
+    return status;
+}
+
+static MesoStatus say_verdict(Arguments *a, const Problem *p)
+{
+    const MesoSolveResult *result = &p->result;
+    switch (result->verdict) {
+    case MESO_VERDICT_SOLVED:
+        meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->graph.slot_count,
+                      p->graph.slot_count == 1 ? "" : "s", result->attempts,
+                      result->attempts == 1 ? "" : "s");
+        return MESO_OK;
+    case MESO_VERDICT_UNSOLVABLE:
+        return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: no tile fits %llu of %u slots, "
+                         "whatever the others hold; the first is slot %u",
+                         (unsigned long long)result->dead_end_total, p->graph.slot_count,
+                         result->dead_ends[0].slot);
+    case MESO_VERDICT_GAVE_UP:
+        break;
+    }
+    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s, each with a dead "
+                     "end; try --attempts, --seed or meso-suggest", result->attempts,
+                     result->attempts == 1 ? "" : "s");
+}
+
+static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
+{
+    MesoTool *tool = &a->tool;
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->graph, a->attempts, &p->variants, &p->result);
+    if (!status)
+        status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->graph,
+                                  &tool->error);
+    if (!status)
+        status = write_outputs(a, p, slots, report);
+    return status ? status : say_verdict(a, p);
+}
+
+/* Opens the outputs before the work, so that a place that cannot be written to is known at once. */
+static MesoStatus run(Arguments *a)
+{
+    MesoTool *tool = &a->tool;
+    Problem problem = {0};
+    MesoOutput *slots = NULL, *report = NULL;
+    MesoStatus status = check_arguments(a);
+    if (!status)
+        status = read_inputs(a, &problem);
+    if (!status)
+        status = meso_output_open(&slots, tool->output, &tool->error);
+    if (!status && a->report)
+        status = meso_output_open(&report, a->report, &tool->error);
+    if (!status)
+        status = solve_and_write(a, &problem, &slots, &report);
+    meso_output_discard(slots);
+    meso_output_discard(report);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    Arguments a = {.attempts = 20};
+    const MesoOption options[] = {
+        {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
+        {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts before giving up (default 20)",
+         &a.attempts, 0, 1, 1e9, 0},
+        {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
+         &a.report, 0, 0, 0, 0},
+        MESO_TOOL_OPTIONS(a.tool),
+        {0},
+    };
+    if (meso_tool_start(&a.tool, &info, options, argc, argv))
+        a.tool.status = run(&a);
+    return meso_tool_finish(&a.tool);
+}

@@ -1,0 +1,190 @@
+/* meso-suggest: adds the tile that would have helped at the most dead ends. */
+#include <string.h>
+
+#include "cmd/solve_inputs.h"
+#include "formats/report_file.h"
+#include "formats/tiles_file.h"
+#include "libcore/solve/suggest.h"
+
+typedef struct Arguments {
+    MesoTool tool;
+    uint32_t attempts, until_solved;
+    bool until_given;
+    const char *surface;
+} Arguments;
+
+static const MesoToolInfo info = {
+    .name = "meso-suggest",
+    .synopsis = "meso-suggest [options] TILES REPORT -o OUT.tiles.json\n"
+                "meso-suggest [options] TILES --surface SURFACE -o OUT.tiles.json",
+    .purpose = "Adds to TILES the tile that the dead ends of a solve ask for most.",
+    .examples = "meso-suggest wicker.tiles.json vase.json -o more.tiles.json\n"
+                "meso-suggest --surface vase.obj --until-solved 5 wicker.tiles.json -o more.tiles.json",
+    .operands_low = 1,
+    .operands_high = 2,
+};
+
+static MesoStatus check_arguments(Arguments *a)
+{
+    MesoError *error = &a->tool.error;
+    if (a->tool.operand_count == 2 && a->surface)
+        return meso_fail(error, MESO_ERR_USAGE, "a report and --surface are both given; one is needed");
+    if (a->tool.operand_count == 1 && !a->surface)
+        return meso_fail(error, MESO_ERR_USAGE, "neither a report nor --surface is given");
+    if (a->until_given && !a->surface)
+        return meso_fail(error, MESO_ERR_USAGE, "--until-solved needs --surface");
+    if (!a->tool.output && a->tool.json && (*a->tool.json == 0 || strcmp(a->tool.json, "-") == 0))
+        return meso_fail(error, MESO_ERR_USAGE, "the tile set and the JSON report cannot both go to "
+                         "standard output; use -o FILE or --json=FILE");
+    return MESO_OK;
+}
+
+/* "a b' a c" */
+static const char *print_sides(const MesoTileSet *set, const int32_t labels[4], MesoArena *arena,
+                               MesoError *error)
+{
+    const char *name[4], *mark[4];
+    for (uint32_t k = 0; k < 4; k++) {
+        name[k] = set->interfaces[meso_label_interface(labels[k])].name;
+        mark[k] = labels[k] < 0 ? "'" : "";
+    }
+    return meso_arena_print(arena, error, "%s%s %s%s %s%s %s%s", name[0], mark[0], name[1], mark[1],
+                            name[2], mark[2], name[3], mark[3]);
+}
+
+/* One line, and one item of "suggestions" in the JSON report. */
+static MesoStatus tell_suggestion(MesoTool *tool, const MesoTileSet *set, const MesoSuggestion *suggestion)
+{
+    const char *name = set->tiles[set->tile_count - 1].name;
+    const char *sides = print_sides(set, suggestion->labels, &tool->arena, &tool->error);
+    if (!sides)
+        return MESO_ERR_MEMORY;
+    meso_tool_say(tool, "%s: %s, with %llu votes; %llu candidates", name, sides,
+                  (unsigned long long)suggestion->votes,
+                  (unsigned long long)suggestion->candidate_count);
+
+    json_t *list = json_object_get(tool->report, "suggestions");
+    if (!list && json_object_set_new(tool->report, "suggestions", list = json_array()))
+        return meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory");
+    json_t *labels = json_array();
+    int failed = 0;
+    for (uint32_t k = 0; k < 4; k++) {
+        int32_t label = suggestion->labels[k];
+        failed |= json_array_append_new(labels, json_sprintf(
+            "%s%s", set->interfaces[meso_label_interface(label)].name, label < 0 ? "'" : ""));
+    }
+    failed |= json_array_append_new(list, json_pack(
+        "{sssosIsIsI}", "name", name, "sides", labels, "votes", (json_int_t)suggestion->votes,
+        "identity_votes", (json_int_t)suggestion->identity_votes,
+        "candidates", (json_int_t)suggestion->candidate_count));
+    return failed ? meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory") : MESO_OK;
+}
+
+static MesoStatus extend(MesoTool *tool, MesoTileSet *set, uint32_t dead_end_count,
+                         const MesoDeadEnd *dead_ends)
+{
+    MesoSuggestion suggestion;
+    MesoStatus status = meso_suggest(&suggestion, &tool->arena, set, dead_end_count, dead_ends,
+                                     &tool->error);
+    if (!status)
+        status = meso_suggestion_append(set, &tool->arena, set, &suggestion, &tool->error);
+    return status ? status : tell_suggestion(tool, set, &suggestion);
+}
+
+static MesoStatus extend_by_report(MesoTool *tool, MesoTileSet *set, const char *path)
+{
+    MesoInput input;
+    MesoReport report;
+    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    if (status)
+        return status;
+    meso_provenance_add(&tool->provenance, "report", &input);
+    status = meso_report_read(&report, &tool->arena, &input, set, &tool->error);
+    meso_input_close(&input);
+    if (status)
+        return status;
+    if (report.verdict == MESO_VERDICT_SOLVED)
+        return meso_fail(&tool->error, MESO_ERR_NO, "nothing to suggest: the report's verdict is solved");
+    return extend(tool, set, report.dead_end_count, report.dead_ends);
+}
+
+/* Solves and suggests in turn: once, or until the surface is solved. */
+static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
+{
+    MesoTool *tool = &a->tool;
+    MesoSlotGraph graph;
+    MesoVariantSet variants;
+    MesoSolveResult result;
+    MesoStatus status = meso_tool_read_graph(tool, a->surface, &graph, NULL);
+    for (uint32_t added = 0; !status; added++) {
+        if (added == 1 && !a->until_given)
+            return MESO_OK;
+        status = meso_tool_solve(tool, set, &graph, a->attempts, &variants, &result);
+        if (status)
+            return status;
+        if (result.verdict == MESO_VERDICT_SOLVED && added == 0)
+            return meso_fail(&tool->error, MESO_ERR_NO, "nothing to suggest: the tile set solves the "
+                             "surface");
+        if (result.verdict == MESO_VERDICT_SOLVED) {
+            meso_tool_say(tool, "solved %u slots with %u new tile%s", graph.slot_count, added,
+                          added == 1 ? "" : "s");
+            return MESO_OK;
+        }
+        if (a->until_given && added == a->until_solved)
+            return meso_fail(&tool->error, MESO_ERR_LIMIT, "not solved with %u new tile%s", added,
+                             added == 1 ? "" : "s");
+        status = extend(tool, set, result.dead_end_count, result.dead_ends);
+    }
+    return status;
+}
+
+static MesoStatus write_set(MesoTool *tool, const MesoTileSet *set)
+{
+    MesoOutput *output = NULL;
+    json_t *root = meso_tiles_to_json(set);
+    if (root && json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance))) {
+        json_decref(root);
+        root = NULL;
+    }
+    MesoStatus status = meso_output_open(&output, tool->output ? tool->output : "-", &tool->error);
+    if (status) {
+        json_decref(root);
+        return status;
+    }
+    status = meso_tool_write_json(root, output, &tool->error);
+    if (!status)
+        return meso_output_commit(output, &tool->error);
+    meso_output_discard(output);
+    return status;
+}
+
+static MesoStatus run(Arguments *a)
+{
+    MesoTool *tool = &a->tool;
+    MesoTileSet set;
+    MesoStatus status = check_arguments(a);
+    if (!status)
+        status = meso_tool_read_tiles(tool, tool->operands[0], &set, NULL);
+    if (!status)
+        status = a->surface ? extend_by_surface(a, &set) : extend_by_report(tool, &set, tool->operands[1]);
+    return status ? status : write_set(tool, &set);
+}
+
+int main(int argc, char **argv)
+{
+    Arguments a = {.attempts = 20};
+    const MesoOption options[] = {
+        {MESO_OPTION_GROUP, 0, "Suggesting", 0, 0, 0, 0, 0, 0, 0},
+        {MESO_OPTION_TEXT, 0, "surface", "FILE", "solve this surface for dead ends, without a report",
+         &a.surface, 0, 0, 0, 0},
+        {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts of each solve (default 20)",
+         &a.attempts, 0, 1, 1e9, 0},
+        {MESO_OPTION_COUNT, 0, "until-solved", "N", "add up to N tiles, until the surface is solved",
+         &a.until_solved, &a.until_given, 1, 1000, 0},
+        MESO_TOOL_OPTIONS(a.tool),
+        {0},
+    };
+    if (meso_tool_start(&a.tool, &info, options, argc, argv))
+        a.tool.status = run(&a);
+    return meso_tool_finish(&a.tool);
+}

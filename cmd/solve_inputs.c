@@ -1,0 +1,85 @@
+#include "cmd/solve_inputs.h"
+
+#include <string.h>
+#include <time.h>
+
+#include "formats/json_text.h"
+#include "formats/surface_file.h"
+#include "formats/tiles_file.h"
+
+static void note_input(MesoTool *tool, const char *role, const MesoInput *input, uint64_t hash[2])
+{
+    meso_provenance_add(&tool->provenance, role, input);
+    if (hash)
+        memcpy(hash, input->hash, sizeof input->hash);
+}
+
+MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
+                                uint64_t hash[2])
+{
+    MesoInput input;
+    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    if (status)
+        return status;
+    note_input(tool, "tiles", &input, hash);
+    status = meso_tiles_read(set, &tool->arena, &input, &tool->error);
+    meso_input_close(&input);
+    return status;
+}
+
+MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
+                                uint64_t hash[2])
+{
+    MesoInput input;
+    MesoQuadMesh mesh;
+    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    if (status)
+        return status;
+    note_input(tool, "surface", &input, hash);
+    status = meso_surface_read(&mesh, &tool->arena, &input, &tool->error);
+    meso_input_close(&input);
+    if (status)
+        return status;
+    status = meso_slot_graph_build(graph, &tool->arena, &mesh, &tool->error);
+    return status == MESO_ERR_INPUT ? meso_fail_prefix(&tool->error, path) : status;
+}
+
+static double milliseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoSlotGraph *graph,
+                           uint32_t max_attempts, MesoVariantSet *variants, MesoSolveResult *result)
+{
+    MesoSolveOptions options = {
+        .seed = tool->seed,
+        .max_attempts = max_attempts,
+        .max_dead_ends = MESO_REPORT_DEAD_ENDS,
+        .progress = meso_tool_progress,
+        .progress_context = tool,
+    };
+    MesoStatus status = meso_variant_set_build(variants, &tool->arena, set, &tool->error);
+    if (status)
+        return status;
+    meso_tool_progress_begin(tool, "solving", "slots");
+    double start = milliseconds();
+    status = meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
+    double duration = milliseconds() - start;
+    if (!status && tool->verbose)
+        meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations in %u attempt%s",
+                      graph->slot_count, variants->count, duration,
+                      (unsigned long long)result->observations, result->attempts,
+                      result->attempts == 1 ? "" : "s");
+    return status;
+}
+
+MesoStatus meso_tool_write_json(json_t *value, MesoOutput *output, MesoError *error)
+{
+    MesoStatus status = value ? meso_json_write(value, output, error)
+                              : meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    json_decref(value);
+    return status;
+}

@@ -1,0 +1,27 @@
+/* What meso-solve and meso-suggest share: their inputs, the solve itself, JSON products. */
+#ifndef MESO_SOLVE_INPUTS_H
+#define MESO_SOLVE_INPUTS_H
+
+#include "cmd/tool.h"
+#include "formats/output.h"
+#include "libcore/solve/solve.h"
+
+/* Most dead ends that a report keeps: a few hundred bytes each. */
+enum { MESO_REPORT_DEAD_ENDS = 1000 };
+
+/* Reads a tile set, and notes it in the provenance. `hash` may be NULL. */
+MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
+                                uint64_t hash[2]);
+
+/* Reads a surface and builds its slot graph, and notes it in the provenance. `hash` may be NULL. */
+MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
+                                uint64_t hash[2]);
+
+/* Builds the variants and solves, with progress; with -v says how long it took. */
+MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoSlotGraph *graph,
+                           uint32_t max_attempts, MesoVariantSet *variants, MesoSolveResult *result);
+
+/* Writes `value`, or says that memory is out where it is NULL; frees it. Does not commit. */
+MesoStatus meso_tool_write_json(json_t *value, MesoOutput *output, MesoError *error);
+
+#endif

@@ -1,0 +1,158 @@
+/* OBJ, as in Wavefront's "Object Files", appendix B1 of the Advanced Visualizer Manual. */
+#include <string.h>
+
+#include "formats/mesh_scan.h"
+#include "formats/mesh_text.h"
+
+typedef struct ObjScan {
+    MesoMeshScan *scan;
+    MesoMeshText *text;
+} ObjScan;
+
+/* What is neither vertex nor face, and says nothing about the shape of the faces. */
+static const char *const passed_over[] = {
+    "vt", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "l", "p",
+    "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj",
+};
+
+static bool is_passed_over(MesoWord word)
+{
+    for (size_t i = 0; i < sizeof passed_over / sizeof *passed_over; i++)
+        if (meso_word_is(word, passed_over[i]))
+            return true;
+    return false;
+}
+
+static void blank(char *begin, char *end)
+{
+    memset(begin, ' ', (size_t)(end - begin));
+}
+
+/* Three numbers; a weight or a colour may follow, and is blanked out. */
+static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *point, MesoError *error)
+{
+    float *numbers[3] = {&point->x, &point->y, &point->z}, ignored;
+    MesoWord word;
+    uint32_t count = 0;
+    char *behind = NULL;
+    for (; meso_mesh_text_word(obj->text, &word); count++) {
+        MesoStatus status = meso_word_number(obj->text, word, what, count < 3 ? numbers[count] : &ignored, error);
+        if (status)
+            return status;
+        if (count == 2)
+            behind = obj->text->at;
+    }
+    if (count < 3)
+        return meso_mesh_text_fail(obj->text, error, "%s has %u numbers instead of 3", what, count);
+    blank(behind, obj->text->end);
+    return MESO_OK;
+}
+
+/* Index from 1, or from -1 downwards for the last one so far, to an index from 0. */
+static MesoStatus resolve(const ObjScan *obj, int64_t given, uint32_t so_far, const char *what,
+                          uint32_t *index, MesoError *error)
+{
+    if (given == 0)
+        return meso_mesh_text_fail(obj->text, error, "%s index is 0; indices start at 1", what);
+    if (given < -(int64_t)so_far)
+        return meso_mesh_text_fail(obj->text, error, "%s index %lld goes back beyond the first of %u",
+                                   what, (long long)given, so_far);
+    if (given >= UINT32_MAX)
+        return meso_mesh_text_fail(obj->text, error, "%s index %lld is too large", what, (long long)given);
+    *index = (uint32_t)(given < 0 ? so_far + given : given - 1);
+    return MESO_OK;
+}
+
+/* Splits "v", "v/vt", "v//vn" or "v/vt/vn"; false where it is none of them. */
+static bool split_corner(MesoWord word, int64_t *vertex, int64_t *normal, bool *has_normal)
+{
+    char *end = word.text + word.size;
+    char *slash = memchr(word.text, '/', word.size);
+    *has_normal = false;
+    if (!meso_word_integer((MesoWord){word.text, (size_t)((slash ? slash : end) - word.text)}, vertex))
+        return false;
+    if (!slash)
+        return true;
+
+    int64_t texture;
+    char *second = memchr(slash + 1, '/', (size_t)(end - slash - 1));
+    MesoWord middle = {slash + 1, (size_t)((second ? second : end) - slash - 1)};
+    if (middle.size && !meso_word_integer(middle, &texture))
+        return false;
+    if (!second || second + 1 == end)
+        return true;
+    *has_normal = true;
+    return meso_word_integer((MesoWord){second + 1, (size_t)(end - second - 1)}, normal);
+}
+
+static MesoStatus read_corner(const ObjScan *obj, MesoWord word, MesoError *error)
+{
+    int64_t given, given_normal = 0;
+    bool has_normal;
+    if (!split_corner(word, &given, &given_normal, &has_normal))
+        return meso_mesh_text_fail(obj->text, error, "face corner '%.*s' is not v, v/vt, v//vn or v/vt/vn",
+                                   MESO_WORD_ARGUMENTS(word));
+    uint32_t vertex = MESO_NO_INDEX, normal = MESO_NO_INDEX;
+    MesoStatus status = resolve(obj, given, obj->scan->vertex_count, "vertex", &vertex, error);
+    if (!status && has_normal)
+        status = resolve(obj, given_normal, obj->scan->normal_count, "normal", &normal, error);
+    if (status)
+        return status;
+    obj->scan->relative |= given < 0;
+    char *slash = memchr(word.text, '/', word.size);
+    if (slash)
+        blank(slash, word.text + word.size);
+    return meso_mesh_scan_corner(obj->scan, vertex, normal, error);
+}
+
+static MesoStatus read_face(const ObjScan *obj, MesoError *error)
+{
+    MesoWord word;
+    MesoStatus status = MESO_OK;
+    while (!status && meso_mesh_text_word(obj->text, &word))
+        status = read_corner(obj, word, error);
+    return status ? status : meso_mesh_scan_face(obj->scan, obj->text->line, error);
+}
+
+static MesoStatus read_line(const ObjScan *obj, MesoWord word, MesoError *error)
+{
+    MesoVec3 point = {0};
+    MesoStatus status;
+    if (meso_word_is(word, "f"))
+        return read_face(obj, error);
+    if (meso_word_is(word, "v")) {
+        status = read_point(obj, "coordinate", &point, error);
+        return status ? status : meso_mesh_scan_vertex(obj->scan, point, error);
+    }
+    bool normal = meso_word_is(word, "vn");
+    if (!normal && !is_passed_over(word))
+        return meso_mesh_text_fail(obj->text, error, "unknown statement '%.*s'", MESO_WORD_ARGUMENTS(word));
+    if (normal) {
+        status = read_point(obj, "normal", &point, error);
+        if (!status)
+            status = meso_mesh_scan_normal(obj->scan, point, error);
+        if (status)
+            return status;
+    }
+    /* OpenMesh needs none of it, and opens the files that mtllib names. */
+    blank(word.text, obj->text->end);
+    return MESO_OK;
+}
+
+MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    MesoMeshText text;
+    ObjScan obj = {scan, &text};
+    *scan = (MesoMeshScan){.arena = arena};
+    MesoStatus status = meso_mesh_text_init(&text, arena, input, '#', error);
+    while (!status && meso_mesh_text_line(&text, true)) {
+        MesoWord word;
+        if (meso_mesh_text_word(&text, &word))
+            status = read_line(&obj, word, error);
+    }
+    if (status)
+        return status;
+    scan->bytes = text.bytes;
+    scan->size = text.size;
+    return meso_mesh_scan_check(scan, input->path, error);
+}

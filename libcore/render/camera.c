@@ -1,0 +1,146 @@
+/*
+ * Framing. Seen along a fixed direction, the eye (x, y, z) in the axes of the
+ * view must satisfy |p.x - x| <= t (z - p.z) for every point p of the object,
+ * and the same for y: with A = max(p.x + t p.z) and B = max(t p.z - p.x), the
+ * nearest such eye has z = (A + B) / (2 t) and x = (A - B) / 2.
+ */
+#include "libcore/render/projection.h"
+
+/* Share of the picture that stays empty at each side. */
+static const float MARGIN = 0.05f;
+
+/* From the front, a little from the right and above; +Y is up, as in the OBJ files of modellers. */
+static const MesoVec3 TOWARDS_EYE = {0.5f, 0.45f, 1.0f};
+
+/* Support of the object in the four planes of the frustum, and across it. */
+typedef struct Frame {
+    MesoVec3 right, up, back;
+    float tan_x, tan_y;
+    MesoVec3 world_up;
+    float left_most, right_most, low_most, high_most;   /* A and B of both axes */
+    float deepest, nearest;
+} Frame;
+
+/* TOWARDS_EYE in a world whose up is `up`: +Z stays the front as long as it can. */
+static MesoVec3 towards_eye(MesoVec3 up)
+{
+    MesoVec3 y = meso_vec3_unit(up, (MesoVec3){0, 1, 0});
+    MesoVec3 front = fabsf(y.z) < 0.9f ? (MesoVec3){0, 0, 1} : (MesoVec3){0, -1, 0};
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(y, front), (MesoVec3){1, 0, 0});
+    MesoVec3 z = meso_vec3_cross(x, y);
+    MesoVec3 side = meso_vec3_mad(meso_vec3_scale(x, TOWARDS_EYE.x), TOWARDS_EYE.y, y);
+    return meso_vec3_mad(side, TOWARDS_EYE.z, z);
+}
+
+static Frame begin_frame(MesoVec3 up, float fov_degrees, float aspect)
+{
+    MesoCamera camera = {towards_eye(up), {0, 0, 0}, up, fov_degrees};
+    MesoView view;
+    if (meso_view_build(&view, &camera, NULL)) {
+        camera.up = (MesoVec3){0, 1, 0};
+        camera.fov_degrees = 30;
+        meso_view_build(&view, &camera, NULL);
+    }
+    float t = view.tan_half_fov * (1 - 2 * MARGIN);
+    float none = -INFINITY;
+    return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t, up,
+                   none, none, none, none, INFINITY, none};
+}
+
+static void add_ball(Frame *frame, MesoVec3 center, float radius)
+{
+    float x = meso_vec3_dot(center, frame->right);
+    float y = meso_vec3_dot(center, frame->up);
+    float z = meso_vec3_dot(center, frame->back);
+    if (!isfinite(x + y + z + radius))
+        return;
+    float pad_x = radius * sqrtf(1 + frame->tan_x * frame->tan_x);
+    float pad_y = radius * sqrtf(1 + frame->tan_y * frame->tan_y);
+    frame->right_most = fmaxf(frame->right_most, frame->tan_x * z + x + pad_x);
+    frame->left_most = fmaxf(frame->left_most, frame->tan_x * z - x + pad_x);
+    frame->high_most = fmaxf(frame->high_most, frame->tan_y * z + y + pad_y);
+    frame->low_most = fmaxf(frame->low_most, frame->tan_y * z - y + pad_y);
+    frame->nearest = fmaxf(frame->nearest, z + radius);
+    frame->deepest = fminf(frame->deepest, z - radius);
+}
+
+static MesoCamera end_frame(const Frame *frame, float fov_degrees)
+{
+    float x = 0, y = 0, z = 1, middle = 0;
+    if (frame->nearest >= frame->deepest) {
+        x = 0.5f * (frame->right_most - frame->left_most);
+        y = 0.5f * (frame->high_most - frame->low_most);
+        z = fmaxf(0.5f * (frame->right_most + frame->left_most) / frame->tan_x,
+                  0.5f * (frame->high_most + frame->low_most) / frame->tan_y);
+        middle = 0.5f * (frame->nearest + frame->deepest);
+        /* A single point has no size to fit. */
+        if (!(z > frame->nearest))
+            z = frame->nearest + fmaxf(1e-3f * fabsf(frame->nearest), 1e-3f);
+    }
+    MesoVec3 axis = meso_vec3_mad(meso_vec3_scale(frame->right, x), y, frame->up);
+    return (MesoCamera){meso_vec3_mad(axis, z, frame->back), meso_vec3_mad(axis, middle, frame->back),
+                        frame->world_up, fov_degrees};
+}
+
+MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
+{
+    Frame frame = begin_frame(up, fov_degrees, aspect);
+    for (uint32_t i = 0; i < 8; i++)
+        add_ball(&frame, meso_box_corner(low, high, i), 0);
+    return end_frame(&frame, fov_degrees);
+}
+
+static MesoVec3 curve_point(const MesoVec3 p[4], float t)
+{
+    MesoVec3 a = meso_vec3_lerp(p[0], p[1], t), b = meso_vec3_lerp(p[1], p[2], t);
+    MesoVec3 c = meso_vec3_lerp(p[2], p[3], t);
+    return meso_vec3_lerp(meso_vec3_lerp(a, b, t), meso_vec3_lerp(b, c, t), t);
+}
+
+/* The largest distance of a kind's profile from its trajectory. */
+static float profile_radius(const MesoStructure *structure, const MesoSweepKind *kind)
+{
+    float radius = 0;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        const MesoSweepColumn *column = &structure->columns[kind->column_begin + c];
+        radius = fmaxf(radius, fmaxf(meso_vec2_length(column->start), meso_vec2_length(column->end)));
+    }
+    return radius * structure->options.section_scale;
+}
+
+static void add_kind(Frame *frame, const MesoStructure *structure, const MesoSweepKind *kind)
+{
+    float radius = profile_radius(structure, kind);
+    for (uint32_t i = 0; i < kind->instance_count; i++) {
+        const MesoSweepInstance *instance = &structure->instances[kind->instance_begin + i];
+        if (kind->cap)
+            add_ball(frame, instance->p[0],
+                     fmaxf(radius, MESO_CAP_RISE * structure->options.section_scale));
+        for (uint32_t k = 0; k <= 4 && !kind->cap; k++)
+            add_ball(frame, curve_point(instance->p, (float)k / 4), radius);
+    }
+}
+
+/* Inner meshes lie in their slots' shells, unless an artist's mesh sticks out. */
+static void add_inner(Frame *frame, const MesoStructure *structure, uint32_t slot)
+{
+    const MesoQuadMesh *surface = &structure->model->surface;
+    const MesoMapOptions *options = &structure->options;
+    for (uint32_t k = 0; k < 4; k++) {
+        MesoVec3 p = surface->positions[surface->face_vertices[4 * (size_t)slot + k]];
+        MesoVec3 n = surface->normals[surface->face_normals[4 * (size_t)slot + k]];
+        add_ball(frame, meso_vec3_mad(p, options->offset, n), 0);
+        add_ball(frame, meso_vec3_mad(p, options->offset + 0.5f * options->thickness, n), 0);
+    }
+}
+
+MesoCamera meso_camera_frame_structure(const MesoStructure *structure, MesoVec3 up, float fov_degrees,
+                                       float aspect)
+{
+    Frame frame = begin_frame(up, fov_degrees, aspect);
+    for (uint32_t k = 0; k < structure->kind_count; k++)
+        add_kind(&frame, structure, &structure->kinds[k]);
+    for (uint32_t i = 0; i < structure->inner_count; i++)
+        add_inner(&frame, structure, structure->inners[i].slot);
+    return end_frame(&frame, fov_degrees);
+}

@@ -1,0 +1,32 @@
+/*
+ * Level of detail: how many columns and rings of a kind a picture needs, so
+ * that what is drawn stays within a tolerance of the kind's own surface.
+ */
+#ifndef MESO_DETAIL_H
+#define MESO_DETAIL_H
+
+#include "libcore/shell/structure.h"
+
+/*
+ * Thins the columns of a kind.
+ *
+ * columns    [count]
+ * tolerance  how far a dropped profile point may lie from the line that
+ *            replaces it, in edge lengths; 0 keeps all
+ * kept       [count] gets ascending indices; kept[k] joins kept[k + 1] where
+ *            columns[kept[k]] joins its next
+ *
+ * Ends of runs stay; normals of neighbours stay within 45 degrees. Returns the
+ * number kept. O(count).
+ */
+uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance,
+                             uint32_t *kept);
+
+/*
+ * Vertices along a sweep of `kind` so that its trajectories and profiles stay
+ * within `tolerance` (scene units) of the curves; at least 2, at most the
+ * kind's division_count. O(instances + columns).
+ */
+uint32_t meso_detail_rings(const MesoStructure *structure, const MesoSweepKind *kind, float tolerance);
+
+#endif

@@ -1,0 +1,94 @@
+#include "libcore/render/projection.h"
+
+/* Any direction that is not parallel to `axis`. */
+static MesoVec3 across(MesoVec3 axis)
+{
+    return fabsf(axis.y) < 0.9f ? (MesoVec3){0, 1, 0} : (MesoVec3){0, 0, 1};
+}
+
+static void build_basis(MesoVec3 forward, MesoVec3 up, MesoVec3 *right, MesoVec3 *true_up)
+{
+    MesoVec3 side = meso_vec3_cross(forward, up);
+    if (!(meso_vec3_length(side) > 1e-4f * meso_vec3_length(up)))
+        side = meso_vec3_cross(forward, across(forward));
+    *right = meso_vec3_unit(side, (MesoVec3){1, 0, 0});
+    *true_up = meso_vec3_cross(*right, forward);
+}
+
+MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *error)
+{
+    MesoVec3 forward = meso_vec3_sub(camera->target, camera->eye);
+    float distance = meso_vec3_length(forward);
+    if (!meso_vec3_finite(camera->eye) || !meso_vec3_finite(camera->target)
+        || !meso_vec3_finite(camera->up) || !isfinite(distance))
+        return meso_fail(error, MESO_ERR_USAGE, "camera is not finite");
+    if (!(distance > 0))
+        return meso_fail(error, MESO_ERR_USAGE, "camera's eye and target are the same point");
+    if (!(camera->fov_degrees > 0 && camera->fov_degrees < 180))
+        return meso_fail(error, MESO_ERR_USAGE, "field of view of %g degrees is not between 0 and 180",
+                         (double)camera->fov_degrees);
+
+    view->eye = camera->eye;
+    view->forward = meso_vec3_scale(forward, 1 / distance);
+    build_basis(view->forward, camera->up, &view->right, &view->up);
+    view->tan_half_fov = tanf(camera->fov_degrees * (float)(3.14159265358979323846 / 360));
+    return MESO_OK;
+}
+
+static void set_row(MesoMatrix *matrix, uint32_t row, MesoVec3 axis, float offset)
+{
+    matrix->m[row] = axis.x;
+    matrix->m[row + 4] = axis.y;
+    matrix->m[row + 8] = axis.z;
+    matrix->m[row + 12] = offset;
+}
+
+/* Rows x and y, on NDC of the whole image, become those of the window, by X' = s X + o w. */
+MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uint32_t width,
+                                     uint32_t height, MesoWindow window)
+{
+    float full_x = (float)width, full_y = (float)height;
+    float part_x = (float)window.width, part_y = (float)window.height;
+    float scale_x = full_x / part_x, offset_x = (full_x - 2 * (float)window.x) / part_x - 1;
+    float scale_y = -full_y / part_y, offset_y = (full_y - 2 * (float)window.y) / part_y - 1;
+    float focal_y = 1 / view->tan_half_fov, focal_x = focal_y * full_y / full_x;
+
+    MesoVec3 x = meso_vec3_add(meso_vec3_scale(view->right, focal_x * scale_x),
+                               meso_vec3_scale(view->forward, offset_x));
+    MesoVec3 y = meso_vec3_add(meso_vec3_scale(view->up, focal_y * scale_y),
+                               meso_vec3_scale(view->forward, offset_y));
+    MesoMatrix matrix;
+    set_row(&matrix, 0, x, -meso_vec3_dot(x, view->eye));
+    set_row(&matrix, 1, y, -meso_vec3_dot(y, view->eye));
+    set_row(&matrix, 2, (MesoVec3){0, 0, 0}, near_depth);
+    set_row(&matrix, 3, view->forward, -meso_vec3_dot(view->forward, view->eye));
+    return matrix;
+}
+
+MesoMatrix meso_light_clip_from_world(MesoVec3 direction, MesoVec3 low, MesoVec3 high, float *extent)
+{
+    MesoVec3 axes[3] = {{0, 0, 0}, {0, 0, 0}, meso_vec3_scale(direction, -1)};
+    build_basis(direction, across(direction), &axes[0], &axes[1]);
+
+    float center[3], half[3];
+    for (uint32_t a = 0; a < 3; a++) {
+        float least = INFINITY, most = -INFINITY;
+        for (uint32_t i = 0; i < 8; i++) {
+            float d = meso_vec3_dot(axes[a], meso_box_corner(low, high, i));
+            least = fminf(least, d);
+            most = fmaxf(most, d);
+        }
+        center[a] = 0.5f * (least + most);
+        half[a] = 0.5f * (most - least);
+    }
+    float side = 1.02f * fmaxf(fmaxf(half[0], half[1]), 1e-20f);
+    float deep = 1.02f * fmaxf(half[2], 1e-20f);
+    *extent = 2 * side;
+
+    MesoMatrix matrix;
+    set_row(&matrix, 0, meso_vec3_scale(axes[0], 1 / side), -center[0] / side);
+    set_row(&matrix, 1, meso_vec3_scale(axes[1], 1 / side), -center[1] / side);
+    set_row(&matrix, 2, meso_vec3_scale(axes[2], 0.5f / deep), 0.5f - 0.5f * center[2] / deep);
+    set_row(&matrix, 3, (MesoVec3){0, 0, 0}, 1);
+    return matrix;
+}

@@ -1,0 +1,52 @@
+/*
+ * From the world to pixels: the basis of a camera, and matrices for a window
+ * of its image and for the light's orthographic view. Depth is reversed and
+ * infinite: 1 at the near plane, 0 at infinity, which keeps floats exact where
+ * the picture needs them.
+ */
+#ifndef MESO_PROJECTION_H
+#define MESO_PROJECTION_H
+
+#include "libcore/render/render.h"
+
+/* Column-major, as GL takes it. */
+typedef struct MesoMatrix {
+    float m[16];
+} MesoMatrix;
+
+/* A camera's orthonormal basis; `forward` runs from the eye into the picture. */
+typedef struct MesoView {
+    MesoVec3 eye, right, up, forward;
+    float tan_half_fov;     /* of the vertical field of view */
+} MesoView;
+
+/* A rectangle of the image's pixels, rows from the top. */
+typedef struct MesoWindow {
+    uint32_t x, y, width, height;
+} MesoWindow;
+
+/*
+ * `up` is turned perpendicular to the view; where it is parallel to it,
+ * another axis takes its place. MESO_ERR_USAGE for numbers that are not
+ * finite, an eye at its target, or a field of view outside (0, 180).
+ */
+MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *error);
+
+/* World to clip space of `window` in an image of `width` x `height`; row 0 of GL is the top. */
+MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uint32_t width,
+                                     uint32_t height, MesoWindow window);
+
+/*
+ * World to the light's clip space (z in [0,1], 1 nearest): looks along `direction`
+ * (unit, from the light), tight around the box. `extent` gets the width of the
+ * view, which is square, in scene units.
+ */
+MesoMatrix meso_light_clip_from_world(MesoVec3 direction, MesoVec3 low, MesoVec3 high, float *extent);
+
+/* Corner 0..7 of a box. */
+static inline MesoVec3 meso_box_corner(MesoVec3 low, MesoVec3 high, uint32_t i)
+{
+    return (MesoVec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+}
+
+#endif

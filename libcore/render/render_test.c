@@ -1,0 +1,262 @@
+/*
+ * The renderer on one bar of eight sides along x, closed at one end by a cap:
+ *
+ *        ________________
+ *      (|________________|      cap at x = -1, bar from -1 to 1
+ *
+ * seen from +z. Every AOV is compared with the geometry's own numbers.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "libcore/base/arena.h"
+#include "libcore/base/check.h"
+#include "libcore/render/context_makers.h"
+#include "libcore/render/render.h"
+
+enum { SIDES = 64, WIDTH = 160, HEIGHT = 90 };
+
+static const float RADIUS = 0.25f;
+
+typedef struct Bar {
+    MesoSection sections[2];
+    MesoModel model;
+    MesoSweepColumn columns[SIDES + 1];
+    MesoSweepKind kinds[2];
+    MesoSweepInstance instances[2];
+    MesoStructure structure;
+} Bar;
+
+static void make_bar(Bar *bar)
+{
+    *bar = (Bar){0};
+    bar->sections[0].material = (MesoMaterial){{0.75f, 0.25f, 0.125f}, 0.5f, 0};
+    bar->sections[1].material = (MesoMaterial){{0.125f, 0.25f, 0.75f}, 0.5f, 0};
+    bar->model.tile_set.sections = bar->sections;
+    bar->model.tile_set.section_count = 2;
+    for (uint32_t i = 0; i <= SIDES; i++) {     /* clockwise around the tangent */
+        double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
+        MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
+        MesoVec2 s = {RADIUS * n.x, RADIUS * n.y};
+        bar->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES};
+    }
+    bar->kinds[0] = (MesoSweepKind){.column_count = SIDES + 1, .joint_count = SIDES,
+        .division_count = 9, .instance_count = 1, .tile = 6, .start_section = 0, .end_section = 1};
+    bar->kinds[1] = (MesoSweepKind){.column_count = SIDES + 1, .joint_count = SIDES,
+        .division_count = 9, .instance_begin = 1, .instance_count = 1, .tile = 8,
+        .sweep = MESO_NO_INDEX, .cap = true};
+    bar->instances[0] = (MesoSweepInstance){
+        {{-1, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
+        {{1, 0, 0}, {1, 0, 0}}, 40};
+    bar->instances[1] = (MesoSweepInstance){
+        {{-1, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
+        {{-1, 0, 0}, {-1, 0, 0}}, 41};
+    bar->structure = (MesoStructure){.model = &bar->model, .kind_count = 2, .column_count = SIDES + 1,
+        .instance_count = 2, .kinds = bar->kinds, .columns = bar->columns,
+        .instances = bar->instances};
+    bar->structure.options.section_scale = 1;
+    bar->structure.options.thickness = 0.5f;
+}
+
+/* At 10 units the picture is 4 x 2.25 units wide: 40 pixels a unit. */
+static MesoRenderOptions look(uint32_t samples)
+{
+    float fov = 2 * atanf(1.125f / 10) * (float)(180 / 3.14159265358979323846);
+    return (MesoRenderOptions){WIDTH, HEIGHT, {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, fov}, samples, false};
+}
+
+static MesoImage draw(MesoArena *arena, const MesoStructure *structure, const MesoRenderOptions *options,
+                      const char *maker, uint32_t threads)
+{
+    MesoGlContext context;
+    MesoError error = {0};
+    MesoImage image;
+    if (meso_gl_context_init(&context, maker, threads, &error)
+        || meso_render(&image, arena, &context, structure, options, &error))
+        fprintf(stderr, "%s\n", error.message);
+    CHECK(error.status == MESO_OK);
+    meso_gl_context_release(&context);
+    return image;
+}
+
+static bool same_pixels(const MesoImage *a, const MesoImage *b)
+{
+    size_t n = (size_t)a->width * a->height;
+    return a->width == b->width && a->height == b->height
+        && memcmp(a->color, b->color, 16 * n) == 0 && memcmp(a->depth, b->depth, 4 * n) == 0
+        && memcmp(a->normal, b->normal, 12 * n) == 0 && memcmp(a->albedo, b->albedo, 12 * n) == 0
+        && memcmp(a->slot, b->slot, 4 * n) == 0 && memcmp(a->tile, b->tile, 4 * n) == 0;
+}
+
+/* Pixel (x, y) sees the point ((x + 0.5 - 80) / 40, (45 - y - 0.5) / 40) of the plane z = 0. */
+static void test_values(const MesoImage *image)
+{
+    size_t covered = 0;
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            size_t i = (size_t)y * WIDTH + x;
+            bool empty = image->slot[i] == 0;
+            CHECK(empty == (image->tile[i] == 0) && empty == (isinf(image->depth[i]) != 0));
+            CHECK(empty == (image->normal[3 * i] == 0 && image->normal[3 * i + 1] == 0
+                            && image->normal[3 * i + 2] == 0));
+            CHECK(image->color[4 * i + 3] >= 0 && image->color[4 * i + 3] <= 1);
+            covered += !empty;
+
+            /* The bar's front, by the ray through the pixel. */
+            double px = (x + 0.5 - 80) / 40, py = (45 - (y + 0.5)) / 40, slope = py / 10;
+            double a = 1 + slope * slope, b = -10 * slope * slope;
+            double c = 100 * slope * slope - (double)RADIUS * RADIUS;
+            double z = (-b + sqrt(fmax(b * b - a * c, 0))) / a;
+            double world_x = px * (10 - z) / 10;
+            bool inside = b * b - a * c > 0.002 && fabs(world_x) < 0.98;
+            if (!inside)
+                continue;
+            CHECK(image->slot[i] == 41 && image->tile[i] == 7);
+            CHECK(fabs(image->depth[i] - (10 - z)) < 0.25 / 40 * (double)RADIUS / z + 1e-3);
+            CHECK(fabs(image->normal[3 * i]) < 1e-3);
+            CHECK(fabs(image->normal[3 * i + 1] - (10 - z) * slope / (double)RADIUS) < 0.05);
+            CHECK(image->normal[3 * i + 2] > 0);
+            double v = (world_x + 1) / 2, w = v * v * (3 - 2 * v);
+            /* Handles of a quarter: B(v) is not v, so ask only for the middle and the order. */
+            CHECK(fabs(image->albedo[3 * i + 1] - 0.25) < 1e-3);
+            if (fabs(world_x) < 0.01)
+                CHECK(fabs(image->albedo[3 * i] - (0.75 - 0.625 * w)) < 0.02);
+            CHECK(image->albedo[3 * i] + image->albedo[3 * i + 2] > 0.87f);
+            CHECK(image->color[4 * i + 3] == 1 && image->color[4 * i] > 0);
+        }
+    /* The bar's 80 x 20 pixels, nearer than the plane by its radius, and the cap's dome. */
+    CHECK(covered > 1600 && covered < 1800);
+    size_t cap = (size_t)(HEIGHT / 2) * WIDTH + 37;     /* world x = -1.06 */
+    CHECK(image->slot[cap] == 42 && image->tile[cap] == 9 && image->albedo[3 * cap] == 0.75f);
+    CHECK(image->normal[3 * cap] < 0);
+}
+
+/* The row of the top is first: a bar above the axis is seen in the upper half. */
+static void test_orientation(MesoArena *arena)
+{
+    Bar bar;
+    make_bar(&bar);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 4; k++) {
+            bar.instances[i].p[k].x += 0.5f;
+            bar.instances[i].p[k].y += 0.5f;
+        }
+    MesoRenderOptions options = look(1);
+    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    CHECK(image.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 + 50] == 41);
+    CHECK(image.slot[(HEIGHT / 2 + 20) * WIDTH + WIDTH / 2 + 50] == 0);
+    CHECK(image.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 - 30] == 0);
+}
+
+/* Thinned geometry changes a picture by less than half a pixel of its outline. */
+static void test_detail(MesoArena *arena)
+{
+    Bar bar;
+    make_bar(&bar);
+    MesoRenderOptions options = look(1);
+    MesoImage thin = draw(arena, &bar.structure, &options, "osmesa", 0);
+    options.full_detail = true;
+    MesoImage full = draw(arena, &bar.structure, &options, "osmesa", 0);
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        if (thin.slot[i] && full.slot[i] && full.normal[3 * i + 2] > 0.2f)
+            CHECK(fabsf(thin.depth[i] - full.depth[i]) < 0.5f / 40 / full.normal[3 * i + 2]);
+    CHECK(!same_pixels(&thin, &full));
+}
+
+/* An image of several windows is the same as one drawn at once, but for rounding at the seams. */
+static void test_windows(MesoArena *arena)
+{
+    Bar bar;
+    make_bar(&bar);
+    MesoRenderOptions options = look(1);
+    options.width = 4200;
+    options.height = 64;
+    options.camera.fov_degrees = 2;
+    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    float pixel = 2 * tanf((float)(3.14159265358979323846 / 180)) * 10 / 64;
+    for (uint32_t x = 0; x < 4200; x++) {
+        float world_x = ((float)x + 0.5f - 2100) * pixel * (10 - RADIUS) / 10;
+        if (fabsf(world_x) < 0.98f)
+            CHECK(image.slot[32 * 4200 + x] == 41);
+        else if (fabsf(world_x) > 1.2f)
+            CHECK(image.slot[32 * 4200 + x] == 0);
+    }
+}
+
+static void test_nothing(MesoArena *arena)
+{
+    Bar bar;
+    make_bar(&bar);
+    bar.structure.kind_count = bar.structure.instance_count = 0;
+    MesoRenderOptions options = look(4);
+    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        CHECK(image.slot[i] == 0 && isinf(image.depth[i]) && image.color[4 * i + 3] == 0);
+}
+
+static void test_refusals(MesoArena *arena)
+{
+    Bar bar;
+    make_bar(&bar);
+    MesoGlContext context;
+    MesoError error;
+    MesoImage image;
+    CHECK(meso_gl_context_init(&context, "glx", 0, &error) == MESO_ERR_USAGE);
+    CHECK(meso_gl_context_init(&context, "osmesa", 0, &error) == MESO_OK);
+    MesoRenderOptions options = look(2);
+    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_USAGE);
+    options = look(1);
+    options.width = 16385;
+    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_LIMIT);
+    options = look(1);
+    options.camera.eye.z = 0;
+    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_USAGE);
+    options.camera.eye.z = NAN;
+    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_USAGE);
+    meso_gl_context_release(&context);
+    CHECK(meso_gl_is_software("llvmpipe (LLVM 15.0.6, 256 bits)") && !meso_gl_is_software("NVIDIA H200"));
+}
+
+/* EGL may be missing where only OSMesa is installed; where it is there and software, it agrees. */
+static void test_makers(MesoArena *arena, const MesoStructure *structure, const MesoImage *expected)
+{
+    MesoGlContext context;
+    if (meso_gl_context_init(&context, "egl", 0, NULL) != MESO_OK)
+        return;
+    bool software = meso_gl_is_software(context.renderer);
+    meso_gl_context_release(&context);
+    MesoRenderOptions options = look(4);
+    MesoImage image = draw(arena, structure, &options, "egl", 0);
+    if (software)
+        CHECK(same_pixels(&image, expected));
+    else
+        test_values(&image);
+    image = draw(arena, structure, &options, "auto", 0);
+    CHECK(image.slot[HEIGHT / 2 * WIDTH + WIDTH / 2] == 41);
+}
+
+int main(void)
+{
+    MesoArena arena;
+    Bar bar;
+    meso_arena_init(&arena);
+    make_bar(&bar);
+    MesoRenderOptions options = look(1);
+    MesoImage one = draw(&arena, &bar.structure, &options, "osmesa", 0);
+    test_values(&one);
+    options = look(4);
+    MesoImage four = draw(&arena, &bar.structure, &options, "osmesa", 1);
+    test_values(&four);
+    CHECK(memcmp(one.depth, four.depth, 4 * WIDTH * HEIGHT) == 0);
+    MesoImage again = draw(&arena, &bar.structure, &options, "osmesa", 2);
+    CHECK(same_pixels(&four, &again));
+
+    test_makers(&arena, &bar.structure, &four);
+    test_orientation(&arena);
+    test_detail(&arena);
+    test_windows(&arena);
+    test_nothing(&arena);
+    test_refusals(&arena);
+    meso_arena_release(&arena);
+    return 0;
+}

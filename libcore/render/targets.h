@@ -1,0 +1,36 @@
+/* The framebuffers of one window of the image, and their textures. */
+#ifndef MESO_TARGETS_H
+#define MESO_TARGETS_H
+
+#include "libcore/render/gl_functions.h"
+
+/* What the surface pass writes, in the order of its outputs. */
+typedef enum MesoSurfaceTarget {
+    MESO_TARGET_NORMAL,     /* and roughness */
+    MESO_TARGET_ALBEDO,     /* and metallic */
+    MESO_TARGET_DEPTH,
+    MESO_TARGET_IDS,
+    MESO_SURFACE_TARGETS
+} MesoSurfaceTarget;
+
+typedef struct MesoTargets {
+    const MesoGl *gl;
+    uint32_t width, height, samples, shadow_size;
+    GLuint center[MESO_SURFACE_TARGETS];    /* at the pixels' centres */
+    GLuint multi[MESO_SURFACE_TARGETS];     /* `samples` a pixel, without ids; 0 for 1 */
+    GLuint center_z, multi_z;
+    GLuint openness_raw, openness, color, shadow;
+    GLuint center_frame, multi_frame, openness_raw_frame, openness_frame, color_frame, shadow_frame;
+} MesoTargets;
+
+/* MESO_ERR_LIMIT where the driver has no such framebuffers. */
+MesoStatus meso_targets_init(MesoTargets *targets, const MesoGl *gl, uint32_t width, uint32_t height,
+                             uint32_t samples, uint32_t shadow_size, MesoError *error);
+void meso_targets_release(MesoTargets *targets);
+
+/* Binds, sets the viewport, and clears: to nothing seen, infinitely far. */
+void meso_targets_begin_center(const MesoTargets *targets);
+void meso_targets_begin_multi(const MesoTargets *targets);
+void meso_targets_begin_shadow(const MesoTargets *targets);
+
+#endif
