@@ -15,7 +15,15 @@ namespace {
 
 using draco::GeometryAttribute;
 
-/* Adds an attribute whose value i belongs to vertex i; gives back where the values go. */
+/*
+ * Draco's explicit quantization goes through decimal text with six digits
+ * behind the point, too coarse for small scenes. Its automatic one takes the
+ * box of the attribute's values, whether faces use them or not: two corners
+ * that no face uses set the box, and Edgebreaker does not encode them.
+ */
+constexpr uint32_t CORNERS = 2;
+
+/* Adds an attribute whose value i belongs to vertex i; gives back where the values go, zeroes now. */
 template <typename T>
 T *add_attribute(draco::Mesh *mesh, GeometryAttribute::Type type, draco::DataType data_type,
                  int8_t components, const char *name, uint32_t count, int *id)
@@ -23,7 +31,7 @@ T *add_attribute(draco::Mesh *mesh, GeometryAttribute::Type type, draco::DataTyp
     GeometryAttribute attribute;
     attribute.Init(type, nullptr, static_cast<uint8_t>(components), data_type, false,
                    static_cast<int64_t>(sizeof(T)) * components, 0);
-    *id = mesh->AddAttribute(attribute, true, count);
+    *id = mesh->AddAttribute(attribute, true, count + CORNERS);
     if (*id < 0)
         throw std::bad_alloc();
     if (name) {
@@ -31,7 +39,9 @@ T *add_attribute(draco::Mesh *mesh, GeometryAttribute::Type type, draco::DataTyp
         metadata->AddEntryString("name", name);
         mesh->AddAttributeMetadata(*id, std::move(metadata));
     }
-    return reinterpret_cast<T *>(mesh->attribute(*id)->GetAddress(draco::AttributeValueIndex(0)));
+    uint8_t *values = mesh->attribute(*id)->GetAddress(draco::AttributeValueIndex(0));
+    std::memset(values, 0, sizeof(T) * static_cast<size_t>(components) * (static_cast<size_t>(count) + CORNERS));
+    return reinterpret_cast<T *>(values);
 }
 
 /* Attribute numbers within a mesh. */
@@ -39,18 +49,26 @@ struct Ids {
     int position, normal, uv, slot, tile, material;
 };
 
-void add_vertices(draco::Mesh *mesh, const MesoDracoMesh &from, Ids *ids)
+void add_vertices(draco::Mesh *mesh, const MesoDracoMesh &from, const MesoDracoOptions &options, Ids *ids)
 {
+    const size_t n = from.vertex_count;
     float *position = add_attribute<float>(mesh, GeometryAttribute::POSITION, draco::DT_FLOAT32, 3,
                                            nullptr, from.vertex_count, &ids->position);
     float *normal = add_attribute<float>(mesh, GeometryAttribute::NORMAL, draco::DT_FLOAT32, 3,
                                          nullptr, from.vertex_count, &ids->normal);
     float *uv = add_attribute<float>(mesh, GeometryAttribute::TEX_COORD, draco::DT_FLOAT32, 2,
                                      nullptr, from.vertex_count, &ids->uv);
-    for (size_t i = 0; i < from.vertex_count; i++) {
+    for (size_t i = 0; i < n; i++) {
         std::memcpy(position + 3 * i, &from.vertices[i].position, 12);
         std::memcpy(normal + 3 * i, &from.vertices[i].normal, 12);
         std::memcpy(uv + 2 * i, &from.vertices[i].uv, 8);
+    }
+    const MesoMeshVertex corners[CORNERS] = {{options.low, {0, 0, 1}, {0, 0}},
+                                             {options.high, {0, 0, 1}, {1, 1}}};
+    for (size_t i = 0; i < CORNERS; i++) {
+        std::memcpy(position + 3 * (n + i), &corners[i].position, 12);
+        std::memcpy(normal + 3 * (n + i), &corners[i].normal, 12);
+        std::memcpy(uv + 2 * (n + i), &corners[i].uv, 8);
     }
 }
 
@@ -126,24 +144,24 @@ void add_texts(draco::Mesh *mesh, const MesoDracoOptions &options)
 
 void set_options(draco::ExpertEncoder *encoder, const MesoDracoOptions &options, const Ids &ids)
 {
-    const float low[3] = {options.low.x, options.low.y, options.low.z};
-    const float uv_low[2] = {0, 0};
     encoder->SetSpeedOptions(static_cast<int>(options.speed), static_cast<int>(options.speed));
-    encoder->SetAttributeExplicitQuantization(ids.position, static_cast<int>(options.position_bits),
-                                              3, low, options.range);
+    encoder->SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+    encoder->SetAttributeQuantization(ids.position, static_cast<int>(options.position_bits));
     encoder->SetAttributeQuantization(ids.normal, static_cast<int>(options.normal_bits));
-    encoder->SetAttributeExplicitQuantization(ids.uv, static_cast<int>(options.uv_bits), 2, uv_low, 1);
-    encoder->SetTrackEncodedProperties(true);
+    encoder->SetAttributeQuantization(ids.uv, static_cast<int>(options.uv_bits));
+    encoder->SetTrackEncodedProperties(options.for_gltf);
 }
 
-/* What Draco's own quantizer and dequantizer make of a coordinate. */
+/* What Draco's own quantizer and dequantizer make of a coordinate; its range is the box's largest extent. */
 float decoded(float value, float low, const MesoDracoOptions &options)
 {
     const int32_t steps = static_cast<int32_t>((1u << options.position_bits) - 1);
+    const float range = std::fmax(options.high.x - options.low.x,
+                                  std::fmax(options.high.y - options.low.y, options.high.z - options.low.z));
     draco::Quantizer quantizer;
     draco::Dequantizer dequantizer;
-    quantizer.Init(options.range, steps);
-    dequantizer.Init(options.range, steps);
+    quantizer.Init(range > 0 ? range : 1, steps);
+    dequantizer.Init(range > 0 ? range : 1, steps);
     return dequantizer.DequantizeFloat(quantizer.QuantizeFloat(value - low)) + low;
 }
 
@@ -189,12 +207,13 @@ MesoStatus encode(const MesoDracoMesh &from, const MesoDracoOptions &options,
 {
     draco::Mesh mesh;
     Ids ids = {-1, -1, -1, -1, -1, -1};
-    mesh.set_num_points(from.vertex_count);
-    add_vertices(&mesh, from, &ids);
+    mesh.set_num_points(from.vertex_count + CORNERS);
+    add_vertices(&mesh, from, options, &ids);
     add_numbers(&mesh, from, options.for_gltf, &ids);
     add_faces(&mesh, from);
     add_texts(&mesh, options);
-    bound(from, options, result);
+    if (options.for_gltf)
+        bound(from, options, result);
 
     draco::ExpertEncoder encoder(mesh);
     draco::EncoderBuffer buffer;
@@ -218,7 +237,7 @@ MesoStatus encode(const MesoDracoMesh &from, const MesoDracoOptions &options,
 extern "C" MesoStatus meso_draco_encode(const MesoDracoMesh *mesh, const MesoDracoOptions *options,
                                         MesoDracoResult *result, MesoError *error)
 {
-    assert(mesh->vertex_count > 0 && mesh->face_count > 0 && options->range > 0);
+    assert(mesh->vertex_count > 0 && mesh->face_count > 0);
     *result = MesoDracoResult{};
     try {
         return encode(*mesh, *options, result, error);

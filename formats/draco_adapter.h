@@ -29,10 +29,8 @@ typedef struct MesoDracoText {
 typedef struct MesoDracoOptions {
     uint32_t position_bits, normal_bits, uv_bits;   /* in [1, 30] */
     uint32_t speed;                 /* 0 best to 10 fastest */
-    /* Positions lie in the cube of edge `range` > 0 at `low`; meshes that share
-     * it share the grid that positions are rounded to. */
-    MesoVec3 low;
-    float range;
+    /* Positions lie in this box; meshes that share it share the grid that positions are rounded to. */
+    MesoVec3 low, high;
     /* Slots as two 16-bit components, low then high, and no materials: what glTF can say. */
     bool for_gltf;
     uint32_t text_count;            /* metadata of the geometry */
@@ -42,8 +40,9 @@ typedef struct MesoDracoOptions {
 typedef struct MesoDracoResult {
     uint8_t *data;                  /* [size] to be freed by meso_draco_result_release() */
     size_t size;
-    uint32_t vertex_count, triangle_count;  /* of what a decoder will give */
-    MesoVec3 decoded_low, decoded_high;     /* box of the positions that a decoder will give */
+    /* What a decoder will give, and the box of its positions; only for_gltf, as it takes time. */
+    uint32_t vertex_count, triangle_count;
+    MesoVec3 decoded_low, decoded_high;
     uint32_t position_id, normal_id, uv_id, slot_id, tile_id, material_id;  /* unique ids */
 } MesoDracoResult;
 

@@ -16,16 +16,13 @@ MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoTessellati
     MesoStatus status = meso_mesh_bounds(t, options->thread_count, &low, &high, error);
     if (status != MESO_OK)
         return status;
-
-    MesoVec3 extent = meso_vec3_sub(high, low);
-    float range = fmaxf(extent.x, fmaxf(extent.y, extent.z));
     *draco = (MesoDracoOptions){
         .position_bits = options->position_bits ? options->position_bits : POSITION_BITS,
         .normal_bits = options->normal_bits ? options->normal_bits : NORMAL_BITS,
         .uv_bits = UV_BITS,
         .speed = options->speed,
         .low = low,
-        .range = range > 0 && isfinite(range) ? range : 1,
+        .high = high,
     };
     return MESO_OK;
 }

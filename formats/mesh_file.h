@@ -17,7 +17,8 @@ typedef struct MesoMeshWriteOptions {
     void *progress_context;
 } MesoMeshWriteOptions;
 
-/* The most triangles in one .drc: Draco takes about 400 bytes of memory for each. */
+/* The most triangles in one .drc, for each of which Draco takes 160 bytes of memory at speeds of 6
+ * and more, 300 below: 5 to 10 GB. */
 enum { MESO_DRACO_TRIANGLES = 1 << 25 };
 
 /*
