@@ -1,7 +1,18 @@
-# meso: make [config=release|debug|sanitize|coverage|fuzz] [all check bench demo install clean]
+# meso: make [config=release|debug|sanitize|coverage|fuzz] TARGET
+#
+#   all               the tools, to build/bin (release) or build/CONFIG/bin
+#   check             every test: units, folder pages, man pages, command lines
+#   check-reference   comparison with the prototype's published data in $(DATA)
+#   bench             rates of every stage, beside the prototype's
+#   demo              pictures and meshes of a woven vase and a teapot, to build/demo
+#   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
+#   install           to $(DESTDIR)$(PREFIX)
+#   clean
 
 config ?= release
 PREFIX ?= /usr/local
+DATA   ?= ../shared/data/mesogen
+FUZZ_SECONDS ?= 60
 BUILD  ?= build
 WERROR ?= $(if $(CI),-Werror)
 
@@ -47,6 +58,7 @@ TOOLS   := $(patsubst cmd/%.c,%,$(wildcard cmd/meso-*.c))
 TESTS   := $(patsubst %.c,%,$(wildcard libcore/*/*_test.c formats/*_test.c cmd/*_test.c))
 BENCHES := $(patsubst %.c,%,$(wildcard libcore/*/*_bench.c formats/*_bench.c))
 FUZZERS := $(patsubst %.c,%,$(wildcard libcore/*/*_fuzz.c formats/*_fuzz.c))
+GENERATORS := make_vase make_teapot
 REFERENCES := $(patsubst %.c,%,$(wildcard libcore/*/*_reference.c formats/*_reference.c))
 SHADERS := $(wildcard shaders/*.glsl)
 
@@ -88,17 +100,38 @@ $(OUT)/fuzz/%: $(OUT)/obj/%.c.o $(LIB)
 	@mkdir -p $(@D)
 	$(link) -fsanitize=fuzzer
 
-tests: $(TESTS:%=$(OUT)/test/%)
-check-unit: tests
-	@for t in $(TESTS); do $(OUT)/test/$$t || { echo "failed: $$t"; exit 1; }; done
-	@echo "$(words $(TESTS)) passed, 0 failed"
+$(GENERATORS:%=$(OUT)/scripts/%): $(OUT)/scripts/%: $(OUT)/obj/scripts/%.c.o $(OUT)/obj/scripts/quad_obj.c.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ -lm
+
+generators: $(GENERATORS:%=$(OUT)/scripts/%)
+tests: $(TESTS:%=$(OUT)/test/%) generators
 fuzzers: $(FUZZERS:%=$(OUT)/fuzz/%)
 benches: $(BENCHES:%=$(OUT)/test/%)
 references: $(REFERENCES:%=$(OUT)/test/%)
 
+check: all tests
+	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%) folders man cli
+check-unit: tests
+	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%)
+check-cli: all tests
+	@scripts/run-tests $(OUT) $(BIN) man cli
+check-reference: all references
+	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
+bench: all benches generators
+	@scripts/bench $(OUT) $(BIN) $(DATA) $(BENCHES)
+demo: all generators
+	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
+fuzz-run: fuzzers
+	@scripts/run-fuzzers $(OUT) $(FUZZ_SECONDS) $(FUZZERS)
+
+install: all
+	@scripts/install-files $(BIN) "$(DESTDIR)$(PREFIX)"
+
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all tests check-unit fuzzers benches references clean
+.PHONY: all tests generators check check-unit check-cli check-reference bench demo fuzz-run \
+        fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

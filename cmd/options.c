@@ -315,7 +315,7 @@ static MesoStatus set_value(const MesoOption *option, const char *text, MesoErro
     case MESO_OPTION_GROUP:
         break;
     }
-    assert(!"a group is no option");
+    assert(false);  /* a group is no option, and never found */
     return MESO_ERR_INTERNAL;
 }
 

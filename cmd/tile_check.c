@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cmd/tile_command.h"
+#include "formats/json_text.h"
 #include "formats/tiles_file.h"
 #include "libcore/tile/contour.h"
 
@@ -23,6 +24,7 @@ typedef struct Findings {
     MesoTileText text;
     uint32_t errors, warnings;
     json_t *list;       /* the report's */
+    bool failed;        /* memory for it was out */
 } Findings;
 
 /* Names may hold anything while they are not checked; a finding stays on its line. */
@@ -38,10 +40,15 @@ static void add_finding(void *context, const char *severity, const char *where, 
     bool is_error = strcmp(severity, "error") == 0;
     findings->errors += is_error;
     findings->warnings += !is_error;
-    json_array_append_new(findings->list, json_pack("{s:s, s:s, s:s}", "severity", severity, "where", where,
-                                                    "message", message));
-    if (findings->tool->quiet && !is_error && !findings->strict)
-        return;
+    json_t *item = json_object();
+    int failed = json_object_set_new(item, "severity", json_string(severity));
+    failed |= json_object_set_new(item, "where", meso_json_string(where));
+    failed |= json_object_set_new(item, "message", meso_json_string(message));
+    failed |= json_array_append_new(findings->list, item);
+    findings->failed |= failed != 0;
+    bool wanted = is_error || findings->strict || !findings->tool->quiet;
+    if (!wanted || meso_tile_streams_clash(findings->tool))
+        return;     /* the report on standard output holds it, or nobody asks */
     FILE *stream = findings->text.stream;
     print_plain(stream, findings->tool->operands[0]);
     fprintf(stream, ": %s: ", severity);
@@ -85,9 +92,9 @@ static MesoStatus look(Findings *findings)
     meso_input_close(&input);
     if (status != MESO_OK)
         return status;
-    meso_tile_report_counts(tool, &set);
-    if (meso_tile_set_check(&set, add_finding, findings) > 0)
-        return MESO_OK;
+    status = meso_tile_report_counts(tool, &set, NULL);
+    if (status != MESO_OK || meso_tile_set_check(&set, add_finding, findings) > 0)
+        return status;
     status = find_empty_drawings(&set, findings);
     if (status == MESO_OK)
         status = meso_tile_find_meshes(&set, input.path, &tool->arena, add_finding, findings, error);
@@ -99,9 +106,11 @@ static MesoStatus run(Findings *findings)
     MesoTool *tool = findings->tool;
     MesoStatus status = meso_tile_text_init(&findings->text, &tool->error);
     findings->list = json_array();
-    json_object_set_new(tool->report, "findings", findings->list);
+    findings->failed = json_object_set_new(tool->report, "findings", findings->list) != 0;
     if (status == MESO_OK)
         status = look(findings);
+    if (status == MESO_OK && findings->failed)
+        status = meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report");
     status = meso_tile_text_finish(&findings->text, tool->output, status, &tool->error);
     if (status != MESO_OK)
         return status;

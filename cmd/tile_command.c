@@ -74,11 +74,29 @@ MesoStatus meso_tile_find_meshes(const MesoTileSet *set, const char *path, MesoA
     return MESO_OK;
 }
 
-void meso_tile_report_counts(MesoTool *tool, const MesoTileSet *set)
+bool meso_tile_streams_clash(const MesoTool *tool)
 {
-    json_object_set_new(tool->report, "interfaces", json_integer(set->interface_count));
-    json_object_set_new(tool->report, "cross_sections", json_integer(set->section_count));
-    json_object_set_new(tool->report, "tiles", json_integer(set->tile_count));
-    json_object_set_new(tool->report, "sweeps", json_integer(set->sweep_count));
-    json_object_set_new(tool->report, "inner_meshes", json_integer(set->inner_count));
+    return !tool->output && tool->json && (!*tool->json || strcmp(tool->json, "-") == 0);
+}
+
+MesoStatus meso_tile_refuse_clash(MesoTool *tool)
+{
+    if (!meso_tile_streams_clash(tool))
+        return MESO_OK;
+    tool->json = NULL;
+    return meso_fail(&tool->error, MESO_ERR_USAGE, "the product and the report cannot both go to standard "
+                     "output; use --json=FILE or -o FILE");
+}
+
+MesoStatus meso_tile_report_counts(MesoTool *tool, const MesoTileSet *set, const uint32_t *variants)
+{
+    json_t *report = tool->report;
+    int failed = json_object_set_new(report, "interfaces", json_integer(set->interface_count));
+    failed |= json_object_set_new(report, "cross_sections", json_integer(set->section_count));
+    failed |= json_object_set_new(report, "tiles", json_integer(set->tile_count));
+    failed |= json_object_set_new(report, "sweeps", json_integer(set->sweep_count));
+    failed |= json_object_set_new(report, "inner_meshes", json_integer(set->inner_count));
+    if (variants)
+        failed |= json_object_set_new(report, "variants", json_integer(*variants));
+    return failed ? meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report") : MESO_OK;
 }

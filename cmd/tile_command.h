@@ -36,7 +36,13 @@ MesoStatus meso_tile_text_finish(MesoTileText *text, const char *path, MesoStatu
 MesoStatus meso_tile_find_meshes(const MesoTileSet *set, const char *path, MesoArena *arena,
                                  MesoProblemReport *report, void *context, MesoError *error);
 
-/* Adds the set's counts to the report of the tool. */
-void meso_tile_report_counts(MesoTool *tool, const MesoTileSet *set);
+/* True if --json puts the report where the product goes without -o. */
+bool meso_tile_streams_clash(const MesoTool *tool);
+
+/* meso_fail() for commands whose product must not be mixed with the report. */
+MesoStatus meso_tile_refuse_clash(MesoTool *tool);
+
+/* Adds the set's counts, and `variants` where that is given, to the report of the tool. */
+MesoStatus meso_tile_report_counts(MesoTool *tool, const MesoTileSet *set, const uint32_t *variants);
 
 #endif

@@ -73,14 +73,17 @@ static MesoStatus write_set(const MesoTool *tool, const MesoTileSet *set, MesoEr
 static MesoStatus run(MesoTool *tool)
 {
     MesoTileSet set;
-    MesoStatus status = read_set(tool, &set);
+    MesoStatus status = meso_tile_refuse_clash(tool);
+    if (status == MESO_OK)
+        status = read_set(tool, &set);
+    if (status == MESO_OK)
+        status = meso_tile_report_counts(tool, &set, NULL);
     if (status == MESO_OK)
         status = write_set(tool, &set, &tool->error);
     if (status == MESO_OK && tool->output && strcmp(tool->output, "-") != 0)
         status = meso_tile_find_meshes(&set, tool->output, &tool->arena, say_problem, tool, &tool->error);
     if (status != MESO_OK)
         return status;
-    meso_tile_report_counts(tool, &set);
     meso_tool_say(tool, "%s: %u interfaces, %u cross-sections, %u tiles, %u sweeps, %u inner meshes",
                   tool->operands[0], set.interface_count, set.section_count, set.tile_count,
                   set.sweep_count, set.inner_count);

@@ -168,9 +168,13 @@ static MesoStatus run(MesoTool *tool)
     MesoError *error = &tool->error;
     MesoTileSet set;
     MesoVariantSet variants;
-    MesoStatus status = read_set(tool, &set);
+    MesoStatus status = meso_tile_refuse_clash(tool);
+    if (status == MESO_OK)
+        status = read_set(tool, &set);
     if (status == MESO_OK)
         status = meso_variant_set_build(&variants, arena, &set, error);
+    if (status == MESO_OK)
+        status = meso_tile_report_counts(tool, &set, &variants.count);
     if (status != MESO_OK)
         return status;
     uint32_t *variant_counts = MESO_NEW(arena, uint32_t, set.tile_count, error);
@@ -187,10 +191,7 @@ static MesoStatus run(MesoTool *tool)
         fputc('\n', text.stream);
     if (status == MESO_OK)
         status = list_tiles(&set, variant_counts, text.stream, arena, error);
-    status = meso_tile_text_finish(&text, tool->output, status, error);
-    meso_tile_report_counts(tool, &set);
-    json_object_set_new(tool->report, "variants", json_integer(variants.count));
-    return status;
+    return meso_tile_text_finish(&text, tool->output, status, error);
 }
 
 int meso_tile_list(int argc, char **argv)

@@ -72,7 +72,8 @@ static MesoStatus check_operands(const MesoToolInfo *info, uint32_t count, MesoE
 static MesoStatus check_standard_output(const MesoTool *tool, MesoError *error)
 {
     bool report = tool->json && (*tool->json == 0 || strcmp(tool->json, "-") == 0);
-    if (report && tool->output && strcmp(tool->output, "-") == 0)
+    bool product = tool->output ? strcmp(tool->output, "-") == 0 : tool->info->to_standard_output;
+    if (report && product)
         return meso_fail(error, MESO_ERR_USAGE,
                          "the product and the report cannot both go to standard output; use "
                          "--json=FILE");

@@ -28,6 +28,7 @@ typedef struct MesoToolInfo {
     const char *purpose;    /* one line */
     const char *examples;   /* lines */
     uint32_t operands_low, operands_high;
+    bool to_standard_output;    /* the product goes there without -o, and so no report may */
 } MesoToolInfo;
 
 typedef struct MesoTool {

@@ -26,6 +26,44 @@ bool skip_image(tinygltf::Image *, const int, std::string *, std::string *, int,
     return true;
 }
 
+struct Bytes {
+    const unsigned char *begin, *end;
+};
+
+/* The JSON of a .gltf, or of a .glb's first chunk, as far as there is one. */
+Bytes json_of(const MesoInput *input, bool binary)
+{
+    Bytes all = {input->data, input->data + input->size};
+    const std::size_t header = 20;
+    if (!binary)
+        return all;
+    if (input->size < header)
+        return {all.end, all.end};
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; i++)
+        length |= static_cast<std::size_t>(input->data[12 + i]) << 8 * i;
+    return {all.begin + header, length < input->size - header ? all.begin + header + length : all.end};
+}
+
+/* tinygltf copies extras and extensions recursively: without a limit, brackets exhaust the stack. */
+bool too_deep(Bytes json)
+{
+    const int limit = 200;
+    int depth = 0;
+    bool quoted = false;
+    for (const unsigned char *at = json.begin; at < json.end; at++) {
+        if (quoted && *at == '\\')
+            at++;
+        else if (*at == '"')
+            quoted = !quoted;
+        else if (!quoted && (*at == '[' || *at == '{') && ++depth > limit)
+            return true;
+        else if (!quoted && (*at == ']' || *at == '}'))
+            depth--;
+    }
+    return false;
+}
+
 /* tinygltf ends each of its lines with a line end; one line is enough. */
 std::string first_line(const std::string &text)
 {
@@ -46,6 +84,8 @@ try {
 
     auto size = static_cast<unsigned int>(input->size);
     bool binary = input->size >= 4 && std::memcmp(input->data, "glTF", 4) == 0;
+    if (too_deep(json_of(input, binary)))
+        return meso_fail(error, MESO_ERR_INPUT, "%s: broken glTF: nested more than 200 deep", input->path);
     bool read = binary
         ? reader.LoadBinaryFromMemory(&model, &failure, &warning, input->data, size, "", 0)
         : reader.LoadASCIIFromString(&model, &failure, &warning, reinterpret_cast<const char *>(input->data), size, "", 0);

@@ -136,59 +136,67 @@ static char *format_key(const char *key)
     return quoted;
 }
 
-static bool line_add_scalar(Line *line, const json_t *value)
+static bool line_add_value(Line *line, const json_t *value, bool nested);
+
+static bool line_add_array(Line *line, const json_t *value)
 {
+    size_t index;
+    json_t *item;
+    line_add(line, "[", 1);
+    json_array_foreach(value, index, item) {
+        if (is_container(item))
+            line->overflow = true;
+        if (line->overflow)
+            return true;
+        line_add(line, ", ", index > 0 ? 2 : 0);
+        if (!line_add_value(line, item, true))
+            return false;
+    }
+    line_add(line, "]", 1);
+    return true;
+}
+
+static bool line_add_object(Line *line, const json_t *value)
+{
+    const char *key;
+    json_t *item;
+    bool first = true;
+    line_add(line, "{", 1);
+    json_object_foreach((json_t *)value, key, item) {
+        if (json_is_object(item))
+            line->overflow = true;
+        if (line->overflow)
+            return true;
+        char *quoted = format_key(key);
+        if (!quoted)
+            return false;
+        line_add(line, ", ", first ? 0 : 2);
+        line_add(line, quoted, strlen(quoted));
+        line_add(line, ": ", 2);
+        free(quoted);
+        if (!line_add_value(line, item, true))
+            return false;
+        first = false;
+    }
+    line_add(line, "}", 1);
+    return true;
+}
+
+/* Scalars, arrays of scalars, objects of both; false when memory is out. */
+static bool line_add_value(Line *line, const json_t *value, bool nested)
+{
+    if (json_is_array(value))
+        return line_add_array(line, value);
+    if (json_is_object(value)) {
+        line->overflow |= nested;
+        return line->overflow || line_add_object(line, value);
+    }
     char number[32], *owned;
     const char *text = format_scalar(value, number, &owned);
     if (text)
         line_add(line, text, strlen(text));
     free(owned);
     return text != NULL;
-}
-
-/* Tries a container of scalars on one line; false when memory is out. */
-static bool line_try(Line *line, const json_t *value)
-{
-    size_t index;
-    const char *key;
-    json_t *item;
-    const char *separator = "";
-    *line = (Line){.length = 0};
-
-    if (json_is_array(value)) {
-        line_add(line, "[", 1);
-        json_array_foreach(value, index, item) {
-            if (is_container(item) || line->overflow) {
-                line->overflow = true;
-                return true;
-            }
-            line_add(line, separator, strlen(separator));
-            if (!line_add_scalar(line, item))
-                return false;
-            separator = ", ";
-        }
-        line_add(line, "]", 1);
-        return true;
-    }
-    line_add(line, "{", 1);
-    json_object_foreach((json_t *)value, key, item) {
-        if (is_container(item) || line->overflow) {
-            line->overflow = true;
-            return true;
-        }
-        char *quoted = format_key(key);
-        if (!quoted)
-            return false;
-        line_add(line, separator, strlen(separator));
-        line_add(line, quoted, strlen(quoted));
-        line_add(line, ": ", 2);
-        free(quoted);
-        if (!line_add_scalar(line, item))
-            return false;
-        separator = ", ";
-    }
-    line_add(line, "}", 1);
-    return true;
 }
 
 static MesoStatus write_text(MesoOutput *output, const char *text, MesoError *error)
@@ -235,8 +243,8 @@ static MesoStatus write_item(const char *key, const json_t *item, bool first, ui
 static MesoStatus write_container(const json_t *value, uint32_t level, size_t column,
                                   MesoOutput *output, MesoError *error)
 {
-    Line line;
-    if (!line_try(&line, value))
+    Line line = {.length = 0};
+    if (!line_add_value(&line, value, false))
         return memory_is_out(error);
     if (!line.overflow && (column + line.length < LINE_WIDTH || line.length == 2))
         return meso_output_write(output, line.text, line.length, error);

@@ -19,8 +19,8 @@ json_t *meso_json_string(const char *text);
 
 /*
  * Appends `value` as text: two spaces of indent, keys in the order of insertion, the shortest
- * numbers that read back to the same double, a final newline. Arrays and objects that hold no
- * other array or object stand on one line where they fit in 100 columns.
+ * numbers that read back to the same double, a final newline. Arrays of scalars, and objects of
+ * scalars and such arrays, stand on one line where they fit in 100 columns.
  */
 MesoStatus meso_json_write(const json_t *value, MesoOutput *output, MesoError *error);
 

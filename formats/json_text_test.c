@@ -106,7 +106,7 @@ static void test_layout(const TestFolder *folder)
     expect_text(folder, json_pack("[f,f,f]", 2.0, 1e300, -0.0), "[2.0, 1e+300, -0.0]\n");
     expect_text(folder, json_pack("{s:s,s:[i,i],s:{s:[]},s:[{s:i},{}]}", "z", "first", "a", 1, 2,
                                   "b", "c", "d", "e", 1),
-                "{\n  \"z\": \"first\",\n  \"a\": [1, 2],\n  \"b\": {\n    \"c\": []\n  },\n"
+                "{\n  \"z\": \"first\",\n  \"a\": [1, 2],\n  \"b\": {\"c\": []},\n"
                 "  \"d\": [\n    {\"e\": 1},\n    {}\n  ]\n}\n");
     json_t *longer = json_array();
     for (int i = 0; i < 40; i++)

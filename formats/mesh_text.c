@@ -54,10 +54,11 @@ bool meso_mesh_text_line(MesoMeshText *text, bool joined)
     text->next_line++;
     char *comment = comment_begin(text, text->at, text->end);
     char *backslash;
-    while (!comment && joined && text->end < limit &&
-           (backslash = joining_backslash(text->at, text->end))) {
-        memset(backslash, ' ', (size_t)(text->end + 1 - backslash));
-        char *more = text->end + 1;
+    while (!comment && joined && (backslash = joining_backslash(text->at, text->end))) {
+        char *more = text->end < limit ? text->end + 1 : limit;
+        memset(backslash, ' ', (size_t)(more - backslash));
+        if (more == limit)
+            break;
         text->end = line_end(text, more);
         text->next_line++;
         comment = comment_begin(text, more, text->end);

@@ -41,8 +41,10 @@ static MesoStatus read_keyword(Off *off, MesoError *error)
 
     memset(word.text, ' ', word.size);
     memcpy(word.text, off->normals ? "NOFF" : "OFF", off->normals ? 4 : 3);
-    if (rest < off->text.end)
+    if (rest < off->text.end) {
         *rest = '\n';
+        off->text.at = rest + 1;
+    }
     off->begin = word.text;
     return MESO_OK;
 }
@@ -150,7 +152,7 @@ MesoStatus meso_off_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
         return status;
     scan->bytes = off.begin;
     scan->size = (size_t)(off.text.bytes + off.text.size - off.begin);
-    if (scan->normal_count)
+    if (scan->normal_count && scan->corner_count)
         memcpy(scan->corner_normals, scan->corner_vertices, scan->corner_count * sizeof *scan->corner_normals);
     return meso_mesh_scan_check(scan, input->path, error);
 }

@@ -1,7 +1,7 @@
 #include "formats/openmesh_adapter.h"
 
 #include <exception>
-#include <iostream>
+#include <istream>
 #include <new>
 #include <streambuf>
 #include <vector>
@@ -49,12 +49,23 @@ class Recorder : public IO::BaseImporter {
 public:
     explicit Recorder(const MesoOpenMeshSink &sink) : sink_(sink) {}
 
-    VertexHandle add_vertex(const Vec3f &p) override
+    /* Positions may come after their vertices, so they wait here until all is read. */
+    void deliver_vertices() const
     {
-        sink_.vertex(sink_.context, p[0], p[1], p[2]);
-        return VertexHandle(static_cast<int>(vertex_count_++));
+        for (const Vec3f &p : points_)
+            sink_.vertex(sink_.context, p[0], p[1], p[2]);
+    }
+
+    VertexHandle add_vertex(const Vec3f &point) override
+    {
+        points_.push_back(point);
+        return VertexHandle(static_cast<int>(points_.size() - 1));
     }
     VertexHandle add_vertex() override { return add_vertex(Vec3f(0, 0, 0)); }
+    void set_point(VertexHandle vertex, const Vec3f &point) override
+    {
+        points_.at(static_cast<std::size_t>(vertex.idx())) = point;
+    }
     FaceHandle add_face(const VHandles &handles) override
     {
         indices_.clear();
@@ -63,7 +74,7 @@ public:
         sink_.face(sink_.context, indices_.data(), static_cast<std::uint32_t>(indices_.size()));
         return FaceHandle(static_cast<int>(face_count_++));
     }
-    size_t n_vertices() const override { return vertex_count_; }
+    size_t n_vertices() const override { return points_.size(); }
     size_t n_faces() const override { return face_count_; }
     size_t n_edges() const override { return 0; }
 
@@ -72,7 +83,6 @@ public:
     void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec2f> &) override {}
     void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec3f> &) override {}
     void set_face_texindex(FaceHandle, int) override {}
-    void set_point(VertexHandle, const Vec3f &) override {}
     void set_halfedge(VertexHandle, HalfedgeHandle) override {}
     void set_normal(VertexHandle, const Vec3f &) override {}
     void set_normal(VertexHandle, const Vec3d &) override {}
@@ -105,16 +115,20 @@ public:
 
 private:
     const MesoOpenMeshSink &sink_;
-    std::size_t vertex_count_ = 0, face_count_ = 0;
+    std::size_t face_count_ = 0;
+    std::vector<Vec3f> points_;
     std::vector<std::uint32_t> indices_;
 };
 
-/* A library of ours prints nothing; a tool's product may be on standard output. */
+/*
+ * A library of ours prints nothing; a tool's product may be on standard output.
+ * (Taking their targets off, the other way, leaks them.)
+ */
 void silence()
 {
-    omerr().disconnect(std::cerr);
-    omlog().disconnect(std::clog);
-    omout().disconnect(std::cout);
+    omerr().disable();
+    omlog().disable();
+    omout().disable();
 }
 
 IO::BaseReader &reader_of(MesoOpenMeshKind kind)
@@ -138,6 +152,7 @@ try {
     IO::Options options;
     if (!reader_of(kind).read(stream, recorder, options))
         return meso_fail(error, MESO_ERR_INPUT, "OpenMesh cannot read the file");
+    recorder.deliver_vertices();
     return MESO_OK;
 } catch (const std::bad_alloc &) {
     return meso_fail(error, MESO_ERR_MEMORY, "out of memory in OpenMesh");

@@ -13,9 +13,9 @@ extern "C" {
 
 typedef enum MesoOpenMeshKind { MESO_OPENMESH_OBJ, MESO_OPENMESH_PLY, MESO_OPENMESH_OFF } MesoOpenMeshKind;
 
-/* What the readers deliver, in the order of the file; `context` is the first argument of each. */
+/* Takes what the readers deliver: faces, then vertices, each in the order of the file. */
 typedef struct MesoOpenMeshSink {
-    void *context;
+    void *context;          /* first argument of both */
     void (*vertex)(void *context, float x, float y, float z);
     void (*face)(void *context, const uint32_t *vertices, uint32_t count);
 } MesoOpenMeshSink;

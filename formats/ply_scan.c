@@ -371,7 +371,7 @@ MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
         return status;
     scan->bytes = (const char *)input->data;
     scan->size = input->size;
-    if (scan->normal_count)
+    if (scan->normal_count && scan->corner_count)
         memcpy(scan->corner_normals, scan->corner_vertices, scan->corner_count * sizeof *scan->corner_normals);
     return meso_mesh_scan_check(scan, input->path, error);
 }

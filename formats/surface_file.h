@@ -1,7 +1,8 @@
 /*
- * Surfaces from mesh files: OBJ, PLY, OFF through OpenMesh, GLB through
- * tinygltf. OpenMesh mends what is broken without a word, so the elements of
- * the file are counted by ourselves and compared.
+ * Surfaces from mesh files: OBJ, PLY, OFF through OpenMesh, GLB and glTF
+ * through tinygltf, so far only to refuse them with the reason. OpenMesh mends
+ * what is broken without a word, so the elements of the file are read by
+ * ourselves as well, and compared.
  */
 #ifndef MESO_SURFACE_FILE_H
 #define MESO_SURFACE_FILE_H
@@ -20,7 +21,11 @@
 MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInput *input,
                              MesoError *error);
 
-/* Reads any polygon mesh as triangles (fans), for inner meshes. Same errors, except for the quads. */
+/*
+ * Reads any polygon mesh as triangles (fans), for inner meshes; vertices are
+ * split where their corners have different normals. Same errors, except that
+ * faces may have any number of sides, and edges any number of faces.
+ */
 MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, const MesoInput *input,
                                    MesoError *error);
 

@@ -4,9 +4,8 @@
 // Masking-Shadowing Function", Heitz 2014); the sky's reflection by Karis's
 // fit. SAMPLES > 1: shades every sample once, or once for all that agree.
 #if SAMPLES > 1
-layout(binding = 0) uniform sampler2DMS depth_samples;
-layout(binding = 1) uniform sampler2DMS normal_samples;
-layout(binding = 2) uniform sampler2DMS albedo_samples;
+layout(binding = 0) uniform sampler2DMS z_samples;
+layout(binding = 1) uniform usampler2DMS packed_samples;
 #else
 layout(binding = 0) uniform sampler2D depth_samples;
 layout(binding = 1) uniform sampler2D normal_samples;
@@ -24,15 +23,16 @@ layout(location = 7) uniform vec3 to_key;
 layout(location = 8) uniform vec3 to_rim;
 layout(location = 9) uniform vec3 sky_up;
 layout(location = 10) uniform float shadow_texel;   // scene units
+layout(location = 11) uniform float near_depth;
 
 layout(location = 0) out vec4 out_color;
 
 const float PI = 3.14159265;
 const float EMPTY = 1e30;
-const vec3 KEY = vec3(1.0, 0.94, 0.85) * 3.3;
-const vec3 RIM = vec3(0.85, 0.92, 1.0) * 0.8;
-const vec3 SKY = vec3(0.78, 0.88, 1.0) * 0.95;
-const vec3 GROUND = vec3(0.55, 0.50, 0.45) * 0.55;
+const vec3 KEY = vec3(1.0, 0.94, 0.85) * 2.5;
+const vec3 RIM = vec3(0.85, 0.92, 1.0) * 0.6;
+const vec3 SKY = vec3(0.80, 0.89, 1.0) * 0.50;
+const vec3 GROUND = vec3(0.55, 0.50, 0.45) * 0.34;
 
 struct Surface {
     vec3 position;      // from the eye
@@ -121,6 +121,48 @@ vec3 shade(Surface s, float openness)
     return light + RIM * direct(s, to_eye, to_rim, f0) * openness;
 }
 
+#if SAMPLES > 1
+vec3 from_octahedral(vec2 p)
+{
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float fold = max(-n.z, 0.0);
+    n.xy -= vec2(n.x >= 0.0 ? fold : -fold, n.y >= 0.0 ? fold : -fold);
+    return normalize(n);
+}
+
+// Depth is reversed and infinite: z = near / depth.
+float depth_of(ivec2 pixel, int i)
+{
+    float z = texelFetch(z_samples, pixel, i).r;
+    return z > 0.0 ? near_depth / z : 2.0 * EMPTY;
+}
+
+void fetch(ivec2 pixel, int i, inout Surface s)
+{
+    uvec4 bits = texelFetch(packed_samples, pixel, i);
+    vec2 blue_metallic = unpackUnorm2x16(bits.z);
+    s.normal = from_octahedral(unpackSnorm2x16(bits.x));
+    s.albedo = vec3(unpackUnorm2x16(bits.y), blue_metallic.x);
+    s.metallic = blue_metallic.y;
+    s.roughness = uintBitsToFloat(bits.w);
+}
+#else
+float depth_of(ivec2 pixel, int i)
+{
+    return texelFetch(depth_samples, pixel, i).r;
+}
+
+void fetch(ivec2 pixel, int i, inout Surface s)
+{
+    vec4 normal = texelFetch(normal_samples, pixel, i);
+    vec4 albedo = texelFetch(albedo_samples, pixel, i);
+    s.normal = normalize(normal.xyz);
+    s.albedo = albedo.rgb;
+    s.metallic = albedo.a;
+    s.roughness = normal.w;
+}
+#endif
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -130,23 +172,20 @@ void main()
     vec4 sum = vec4(0.0);
     for (int i = 0; i < SAMPLES; i++) {
         Surface s;
-        s.depth = texelFetch(depth_samples, pixel, i).r;
+        s.depth = depth_of(pixel, i);
         if (s.depth > EMPTY) {
             surfaces[i].depth = s.depth;
             continue;
         }
-        vec4 normal = texelFetch(normal_samples, pixel, i);
-        vec4 albedo = texelFetch(albedo_samples, pixel, i);
+        fetch(pixel, i, s);
         s.position = s.depth * ray;
-        s.normal = normalize(normal.xyz);
-        s.albedo = albedo.rgb;
-        s.roughness = clamp(normal.w, 0.08, 1.0);
-        s.metallic = albedo.a;
+        s.roughness = clamp(s.roughness, 0.08, 1.0);
 
         int like = -1;
         for (int k = 0; k < i; k++)
             if (abs(surfaces[k].depth - s.depth) < 0.002 * s.depth
-                && dot(surfaces[k].normal, s.normal) > 0.98 && surfaces[k].albedo == s.albedo)
+                && dot(surfaces[k].normal, s.normal) > 0.98
+                && all(lessThan(abs(surfaces[k].albedo - s.albedo), vec3(0.01))))
                 like = k;
         surfaces[i] = s;
         colors[i] = like >= 0 ? colors[like] : shade(s, openness_at(pixel, s.depth));

@@ -10,10 +10,11 @@
 /* Columns that one kept column may stand for: bounds the look-ahead. */
 enum { MAX_SKIP = 64 };
 
-static const float NORMAL_COSINE = 0.70710678f;     /* 45 degrees */
+/* Normals of neighbours turn by less than this: 5 columns around a thread of a pixel or two. */
+static const float NORMAL_COSINE = 0.2588f;         /* 75 degrees */
 
 /* Largest turn of a shading normal between two rings, in radians. */
-static const float RING_TURN = 0.5f;
+static const float RING_TURN = 1.0f;
 
 static float distance_to_chord(MesoVec2 p, MesoVec2 a, MesoVec2 b)
 {

@@ -16,7 +16,7 @@
  * kept       [count] gets ascending indices; kept[k] joins kept[k + 1] where
  *            columns[kept[k]] joins its next
  *
- * Ends of runs stay; normals of neighbours stay within 45 degrees. Returns the
+ * Ends of runs stay; normals of neighbours stay within 75 degrees. Returns the
  * number kept. O(count).
  */
 uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance,

@@ -19,7 +19,7 @@ enum { MAX_SIZE = 16384, WINDOW_SIZE = 2048, MIN_SHADOW = 1024, MAX_SHADOW = 819
 enum {
     RAY_ORIGIN, RAY_RIGHT, RAY_DOWN,
     OCCLUSION_RADIUS = 3, PIXELS_AT_ONE, RADIUS_PIXELS, TARGET_ORIGIN,
-    LIGHT_FROM_EYE = 3, TO_KEY = 7, TO_RIM, SKY_UP, SHADOW_TEXEL
+    LIGHT_FROM_EYE = 3, TO_KEY = 7, TO_RIM, SKY_UP, SHADOW_TEXEL, NEAR_DEPTH
 };
 
 /* How far thinned geometry may lie from the kind's own, in pixels. */
@@ -34,7 +34,7 @@ typedef struct Renderer {
     const MesoRenderOptions *options;
     MesoView view;
     MesoScene scene;
-    MesoScenePrograms surface, depth;
+    MesoScenePrograms surface, packed, depth;
     GLuint occlusion, blur, shade, empty_array;
     MesoTargets targets;
     MesoMatrix light;
@@ -75,9 +75,11 @@ static MesoStatus make_programs(Renderer *r, MesoError *error)
 {
     const char *screen = meso_shader_screen_vertex;
     const char *samples = r->options->samples == 4 ? "#define SAMPLES 4\n" : "#define SAMPLES 1\n";
-    MesoStatus status = meso_scene_programs_init(&r->surface, &r->gl, true, error);
+    MesoStatus status = meso_scene_programs_init(&r->surface, &r->gl, MESO_DRAW_SURFACE, error);
+    if (!status && r->options->samples > 1)
+        status = meso_scene_programs_init(&r->packed, &r->gl, MESO_DRAW_PACKED, error);
     if (!status)
-        status = meso_scene_programs_init(&r->depth, &r->gl, false, error);
+        status = meso_scene_programs_init(&r->depth, &r->gl, MESO_DRAW_DEPTH, error);
     if (!status)
         status = meso_gl_program(&r->occlusion, &r->gl, "", screen, meso_shader_occlusion_fragment, error);
     if (!status)
@@ -201,7 +203,6 @@ static void draw_light(const Renderer *r, MesoWindow window)
 {
     const MesoGl *gl = &r->gl;
     const MesoTargets *targets = &r->targets;
-    const GLuint *surface = targets->samples > 1 ? targets->multi : targets->center;
     MesoMatrix light = r->light;
     for (uint32_t row = 0; row < 4; row++)
         light.m[12 + row] += light.m[row] * r->view.eye.x + light.m[4 + row] * r->view.eye.y
@@ -213,9 +214,15 @@ static void draw_light(const Renderer *r, MesoWindow window)
     gl->ProgramUniform3f(r->shade, TO_RIM, r->to_rim.x, r->to_rim.y, r->to_rim.z);
     gl->ProgramUniform3f(r->shade, SKY_UP, r->view.up.x, r->view.up.y, r->view.up.z);
     gl->ProgramUniform1f(r->shade, SHADOW_TEXEL, r->shadow_texel);
-    gl->BindTextureUnit(0, surface[MESO_TARGET_DEPTH]);
-    gl->BindTextureUnit(1, surface[MESO_TARGET_NORMAL]);
-    gl->BindTextureUnit(2, surface[MESO_TARGET_ALBEDO]);
+    gl->ProgramUniform1f(r->shade, NEAR_DEPTH, r->near_depth);
+    if (targets->samples > 1) {
+        gl->BindTextureUnit(0, targets->multi_z);
+        gl->BindTextureUnit(1, targets->multi);
+    } else {
+        gl->BindTextureUnit(0, targets->center[MESO_TARGET_DEPTH]);
+        gl->BindTextureUnit(1, targets->center[MESO_TARGET_NORMAL]);
+        gl->BindTextureUnit(2, targets->center[MESO_TARGET_ALBEDO]);
+    }
     gl->BindTextureUnit(3, targets->center[MESO_TARGET_DEPTH]);
     gl->BindTextureUnit(4, targets->openness);
     gl->BindTextureUnit(5, targets->shadow);
@@ -266,7 +273,7 @@ static void draw_window(const Renderer *r, MesoImage *image, MesoWindow inner)
     meso_scene_draw(&r->scene, &r->surface, &clip, &r->view);
     if (r->targets.samples > 1) {
         meso_targets_begin_multi(&r->targets);
-        meso_scene_draw(&r->scene, &r->surface, &clip, &r->view);
+        meso_scene_draw(&r->scene, &r->packed, &clip, &r->view);
     }
     r->gl.Disable(GL_DEPTH_TEST);
     draw_occlusion(r, outer);
@@ -298,6 +305,7 @@ static void release(Renderer *r)
     meso_targets_release(&r->targets);
     meso_scene_release(&r->scene);
     meso_scene_programs_release(&r->surface, gl);
+    meso_scene_programs_release(&r->packed, gl);
     meso_scene_programs_release(&r->depth, gl);
     gl->DeleteProgram(r->occlusion);
     gl->DeleteProgram(r->blur);

@@ -311,18 +311,24 @@ void meso_scene_release(MesoScene *scene)
     *scene = (MesoScene){0};
 }
 
-MesoStatus meso_scene_programs_init(MesoScenePrograms *programs, const MesoGl *gl, bool shaded,
-                                    MesoError *error)
+MesoStatus meso_scene_programs_init(MesoScenePrograms *programs, const MesoGl *gl,
+                                    MesoScenePurpose purpose, MesoError *error)
 {
-    const char *fragment = shaded ? meso_shader_surface_fragment : meso_shader_depth_fragment;
+    static const char *const defines[][2] = {
+        [MESO_DRAW_SURFACE] = {"", "#define CAP\n"},
+        [MESO_DRAW_PACKED] = {"#define PACKED\n", "#define CAP\n#define PACKED\n"},
+        [MESO_DRAW_DEPTH] = {"", "#define CAP\n"},
+    };
+    const char *const *text = defines[purpose];
+    const char *sweep = meso_shader_sweep_vertex, *inner = meso_shader_inner_vertex;
+    const char *fragment = purpose == MESO_DRAW_DEPTH ? meso_shader_depth_fragment
+                                                      : meso_shader_surface_fragment;
     *programs = (MesoScenePrograms){0};
-    MesoStatus status = meso_gl_program(&programs->sweep, gl, "", meso_shader_sweep_vertex,
-                                        fragment, error);
+    MesoStatus status = meso_gl_program(&programs->sweep, gl, text[0], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->cap, gl, "#define CAP\n", meso_shader_sweep_vertex,
-                                 fragment, error);
+        status = meso_gl_program(&programs->cap, gl, text[1], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->inner, gl, "", meso_shader_inner_vertex, fragment, error);
+        status = meso_gl_program(&programs->inner, gl, text[0], inner, fragment, error);
     if (status)
         meso_scene_programs_release(programs, gl);
     return status;

@@ -43,9 +43,15 @@ MesoStatus meso_scene_init(MesoScene *scene, MesoArena *arena, const MesoGl *gl,
                            float tolerance_pixels, MesoError *error);
 void meso_scene_release(MesoScene *scene);
 
-/* `shaded`: with fragment outputs; else for depth alone. */
-MesoStatus meso_scene_programs_init(MesoScenePrograms *programs, const MesoGl *gl, bool shaded,
-                                    MesoError *error);
+/* What the fragments write. */
+typedef enum MesoScenePurpose {
+    MESO_DRAW_SURFACE,      /* the targets of MesoSurfaceTarget */
+    MESO_DRAW_PACKED,       /* normal and material in one */
+    MESO_DRAW_DEPTH         /* depth alone */
+} MesoScenePurpose;
+
+MesoStatus meso_scene_programs_init(MesoScenePrograms *programs, const MesoGl *gl,
+                                    MesoScenePurpose purpose, MesoError *error);
 void meso_scene_programs_release(MesoScenePrograms *programs, const MesoGl *gl);
 
 /*

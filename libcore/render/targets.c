@@ -44,16 +44,14 @@ static void make_surface(MesoTargets *targets)
 {
     const MesoGl *gl = targets->gl;
     uint32_t w = targets->width, h = targets->height, n = targets->samples;
-    for (uint32_t i = 0; i < MESO_SURFACE_TARGETS; i++) {
+    for (uint32_t i = 0; i < MESO_SURFACE_TARGETS; i++)
         targets->center[i] = make_texture(gl, SURFACE_FORMATS[i], w, h, 1);
-        if (n > 1 && i != MESO_TARGET_IDS)
-            targets->multi[i] = make_texture(gl, SURFACE_FORMATS[i], w, h, n);
-    }
     targets->center_z = make_texture(gl, GL_DEPTH_COMPONENT32F, w, h, 1);
     targets->center_frame = make_frame(gl, targets->center, MESO_SURFACE_TARGETS, targets->center_z);
     if (n > 1) {
+        targets->multi = make_texture(gl, GL_RGBA32UI, w, h, n);
         targets->multi_z = make_texture(gl, GL_DEPTH_COMPONENT32F, w, h, n);
-        targets->multi_frame = make_frame(gl, targets->multi, MESO_TARGET_IDS, targets->multi_z);
+        targets->multi_frame = make_frame(gl, &targets->multi, 1, targets->multi_z);
     }
 }
 
@@ -113,37 +111,40 @@ void meso_targets_release(MesoTargets *targets)
     const GLuint frames[] = {targets->center_frame, targets->multi_frame,
                              targets->openness_raw_frame, targets->openness_frame,
                              targets->color_frame, targets->shadow_frame};
-    const GLuint textures[] = {targets->center_z, targets->multi_z, targets->openness_raw,
+    const GLuint textures[] = {targets->multi, targets->center_z, targets->multi_z, targets->openness_raw,
                                targets->openness, targets->color, targets->shadow};
     gl->DeleteFramebuffers(sizeof frames / sizeof *frames, frames);
     gl->DeleteTextures(sizeof textures / sizeof *textures, textures);
     gl->DeleteTextures(MESO_SURFACE_TARGETS, targets->center);
-    gl->DeleteTextures(MESO_SURFACE_TARGETS, targets->multi);
     *targets = (MesoTargets){0};
 }
 
-static void begin_surface(const MesoTargets *targets, GLuint frame)
+static void begin(const MesoTargets *targets, GLuint frame)
 {
-    static const float nothing[4] = {0}, farthest[4] = {INFINITY, 0, 0, 0}, z = 0;
+    static const float z = 0;
     const MesoGl *gl = targets->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
     gl->Viewport(0, 0, (GLsizei)targets->width, (GLsizei)targets->height);
-    gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_NORMAL, nothing);
-    gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_ALBEDO, nothing);
-    gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_DEPTH, farthest);
     gl->ClearNamedFramebufferfv(frame, GL_DEPTH, 0, &z);
 }
 
 void meso_targets_begin_center(const MesoTargets *targets)
 {
+    static const float nothing[4] = {0}, farthest[4] = {INFINITY, 0, 0, 0};
     static const GLuint nobody[4] = {0};
-    begin_surface(targets, targets->center_frame);
-    targets->gl->ClearNamedFramebufferuiv(targets->center_frame, GL_COLOR, MESO_TARGET_IDS, nobody);
+    const MesoGl *gl = targets->gl;
+    GLuint frame = targets->center_frame;
+    begin(targets, frame);
+    gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_NORMAL, nothing);
+    gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_ALBEDO, nothing);
+    gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_DEPTH, farthest);
+    gl->ClearNamedFramebufferuiv(frame, GL_COLOR, MESO_TARGET_IDS, nobody);
 }
 
+/* Its depth buffer tells what is empty. */
 void meso_targets_begin_multi(const MesoTargets *targets)
 {
-    begin_surface(targets, targets->multi_frame);
+    begin(targets, targets->multi_frame);
 }
 
 void meso_targets_begin_shadow(const MesoTargets *targets)

@@ -17,7 +17,7 @@ typedef struct MesoTargets {
     const MesoGl *gl;
     uint32_t width, height, samples, shadow_size;
     GLuint center[MESO_SURFACE_TARGETS];    /* at the pixels' centres */
-    GLuint multi[MESO_SURFACE_TARGETS];     /* `samples` a pixel, without ids; 0 for 1 */
+    GLuint multi;                           /* `samples` a pixel, packed; 0 for 1 */
     GLuint center_z, multi_z;
     GLuint openness_raw, openness, color, shadow;
     GLuint center_frame, multi_frame, openness_raw_frame, openness_frame, color_frame, shadow_frame;

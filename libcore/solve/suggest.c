@@ -317,13 +317,29 @@ static MesoStatus elect(MesoSuggestion *best, const Ballot *ballot, MesoArena *a
         if (ballot->keys[i])
             hold_orbit(best, &best_key, ballot, &group, ballot->keys[i] - 1, existing, existing_count);
     if (!best->votes)
-        return meso_fail(error, MESO_ERR_NO, "nothing to suggest: no new tile fits a dead end");
+        return MESO_ERR_NO;
 
     uint32_t codes[4];
     codes_of(ballot, best_key, codes);
     for (uint32_t k = 0; k < 4; k++)
         best->labels[k] = codes[k] % 2 ? -(int32_t)(codes[k] / 2 + 1) : (int32_t)(codes[k] / 2 + 1);
     return MESO_OK;
+}
+
+/* Why there is no candidate: most often because the border rules leave none. */
+static MesoStatus say_no(const MesoTileSet *set, uint32_t dead_end_count, const MesoDeadEnd *dead_ends,
+                         MesoError *error)
+{
+    bool border_possible = false, border_met = false;
+    for (uint32_t i = 0; i < set->interface_count; i++)
+        border_possible |= !set->interfaces[i].border_exempt;
+    for (uint32_t d = 0; d < dead_end_count; d++)
+        for (uint32_t k = 0; k < 4; k++)
+            border_met |= dead_ends[d].border[k];
+    if (border_met && !border_possible)
+        return meso_fail(error, MESO_ERR_NO, "nothing to suggest: dead ends lie on the border, and every "
+                         "interface is border exempt");
+    return meso_fail(error, MESO_ERR_NO, "nothing to suggest: no new tile fits a dead end");
 }
 
 MesoStatus meso_suggest(MesoSuggestion *suggestion, MesoArena *arena, const MesoTileSet *set,
@@ -339,7 +355,7 @@ MesoStatus meso_suggest(MesoSuggestion *suggestion, MesoArena *arena, const Meso
     if (!status)
         status = elect(suggestion, &ballot, arena, set, error);
     meso_arena_rewind(arena, mark);
-    return status;
+    return status == MESO_ERR_NO ? say_no(set, dead_end_count, dead_ends, error) : status;
 }
 
 /* --- the new tile --- */

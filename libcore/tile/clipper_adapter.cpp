@@ -7,16 +7,21 @@
 using ClipperLib::Path;
 using ClipperLib::Paths;
 
-static Path to_path(const MesoIntPoint *points, uint32_t count)
+/*
+ * Counter-clockwise. Outlines do not cross themselves, so they need no clean-up,
+ * which would move their first point: sweeps join rings by their first points.
+ */
+static Path to_outline(const MesoIntPoint *points, uint32_t count)
 {
     Path path;
     path.reserve(count);
     for (uint32_t i = 0; i < count; i++)
         path.push_back(ClipperLib::IntPoint(points[i].x, points[i].y));
+    if (!ClipperLib::Orientation(path))
+        ClipperLib::ReversePath(path);
     return path;
 }
 
-/* A union with nothing resolves crossings and sets the orientation. */
 static Paths clip(const Paths &left, const Paths &right, MesoClipOp op)
 {
     ClipperLib::Clipper clipper;
@@ -34,8 +39,7 @@ static Paths run(const MesoClipStep *steps, uint32_t step_count, const MesoIntPo
     for (uint32_t i = 0; i < step_count; i++) {
         const MesoClipStep &step = steps[i];
         if (step.op == MESO_CLIP_PATH)
-            values[i] = clip(Paths(1, to_path(points + step.point_begin, step.point_count)), Paths(),
-                             MESO_CLIP_UNION);
+            values[i] = Paths(1, to_outline(points + step.point_begin, step.point_count));
         else
             values[i] = clip(values[step.left], values[step.right], step.op);
     }

@@ -68,7 +68,8 @@ typedef struct MesoSweep {
 /* A mesh of the artist's that a tile carries along. */
 typedef struct MesoInnerMesh {
     const char *file;       /* relative to the tile set's folder; "" for none */
-    float transform[12];    /* row-major 3 x 4, mesh to tile [0,1]^3 */
+    float transform[12];    /* row-major 3 x 4, mesh to tile: [0,1] x [0,1] x [0,1/2], the
+                               shell being half an edge length high, as in drawings */
     MesoMaterial material;
 } MesoInnerMesh;
 

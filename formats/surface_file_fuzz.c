@@ -1,0 +1,31 @@
+/* Any bytes as a surface and as triangles; the first one chooses the kind of file. */
+#include "formats/surface_file.h"
+#include "libcore/base/check.h"
+#include "libcore/surface/slot_graph.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char *const paths[] = {"a.obj", "a.ply", "a.off", "a.glb", "a"};
+    if (size == 0)
+        return 0;
+    MesoArena arena;
+    MesoInput input;
+    MesoQuadMesh mesh;
+    MesoSlotGraph graph;
+    MesoTriangleMesh triangles;
+    MesoError error;
+    meso_arena_init(&arena);
+    meso_input_wrap(&input, paths[data[0] % 5], data + 1, size - 1);
+    if (meso_surface_read(&mesh, &arena, &input, &error) == MESO_OK) {
+        CHECK(meso_slot_graph_build(&graph, &arena, &mesh, &error) == MESO_OK);
+        uint32_t *component = MESO_NEW(&arena, uint32_t, mesh.face_count, &error);
+        CHECK(component && meso_slot_graph_components(&graph, component) >= 1);
+    }
+    if (meso_triangle_mesh_read(&triangles, &arena, &input, &error) == MESO_OK)
+        for (uint32_t i = 0; i < 3 * triangles.triangle_count; i++)
+            CHECK(triangles.triangles[i] < triangles.vertex_count);
+    meso_arena_release(&arena);
+    return 0;
+}

@@ -1,0 +1,103 @@
+/* Framing: everything inside, touching the margin on two sides. And matrices. */
+#include <math.h>
+
+#include "libcore/base/check.h"
+#include "libcore/render/projection.h"
+
+/* Position on the picture, -1 to 1 on both axes, y down. */
+static MesoVec2 project(const MesoMatrix *m, MesoVec3 p)
+{
+    float c[4];
+    for (int row = 0; row < 4; row++)
+        c[row] = m->m[row] * p.x + m->m[4 + row] * p.y + m->m[8 + row] * p.z + m->m[12 + row];
+    CHECK(c[3] > 0);
+    return (MesoVec2){c[0] / c[3], c[1] / c[3]};
+}
+
+static MesoMatrix matrix_of(const MesoCamera *camera, uint32_t width, uint32_t height, MesoWindow window)
+{
+    MesoView view;
+    MesoError error;
+    CHECK(meso_view_build(&view, camera, &error) == MESO_OK);
+    return meso_view_clip_from_world(&view, 0.1f, width, height, window);
+}
+
+/* The box fills 0.9 of the picture in one direction, both sides alike. */
+static void test_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, uint32_t width, uint32_t height)
+{
+    MesoCamera camera = meso_camera_frame(low, high, up, 30, (float)width / (float)height);
+    MesoMatrix m = matrix_of(&camera, width, height, (MesoWindow){0, 0, width, height});
+    MesoVec2 least = {2, 2}, most = {-2, -2};
+    for (uint32_t i = 0; i < 8; i++) {
+        MesoVec2 p = project(&m, meso_box_corner(low, high, i));
+        least = (MesoVec2){fminf(least.x, p.x), fminf(least.y, p.y)};
+        most = (MesoVec2){fmaxf(most.x, p.x), fmaxf(most.y, p.y)};
+    }
+    CHECK(least.x > -0.9001f && most.x < 0.9001f && least.y > -0.9001f && most.y < 0.9001f);
+    bool fits_x = fabsf(least.x + 0.9f) < 1e-3f && fabsf(most.x - 0.9f) < 1e-3f;
+    bool fits_y = fabsf(least.y + 0.9f) < 1e-3f && fabsf(most.y - 0.9f) < 1e-3f;
+    CHECK(fits_x || fits_y);
+    CHECK(fabsf(project(&m, camera.target).x) < 1e-5f && fabsf(project(&m, camera.target).y) < 1e-5f);
+    MesoVec3 above = meso_vec3_mad(camera.target, 0.1f, up);
+    CHECK(project(&m, above).y < 0);
+    CHECK(meso_vec3_dot(meso_vec3_sub(camera.eye, camera.target), up) > 0);
+}
+
+static void test_degenerate(void)
+{
+    MesoView view;
+    MesoVec3 point = {3, 4, 5};
+    MesoCamera camera = meso_camera_frame(point, point, (MesoVec3){0, 1, 0}, 30, 1);
+    CHECK(meso_view_build(&view, &camera, NULL) == MESO_OK);
+    MesoVec3 none = {INFINITY, INFINITY, INFINITY}, nothing = {-INFINITY, -INFINITY, -INFINITY};
+    camera = meso_camera_frame(none, nothing, (MesoVec3){0, 0, 0}, 30, 1);
+    CHECK(meso_vec3_finite(camera.eye) && meso_view_build(&view, &camera, NULL) == MESO_OK);
+
+    camera = (MesoCamera){{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 30};     /* up along the view */
+    CHECK(meso_view_build(&view, &camera, NULL) == MESO_OK);
+    CHECK(fabsf(meso_vec3_length(view.right) - 1) < 1e-6f && fabsf(meso_vec3_length(view.up) - 1) < 1e-6f);
+    camera.fov_degrees = 180;
+    CHECK(meso_view_build(&view, &camera, NULL) == MESO_ERR_USAGE);
+    camera = (MesoCamera){{0, 5, 0}, {0, 5, 0}, {0, 1, 0}, 30};
+    CHECK(meso_view_build(&view, &camera, NULL) == MESO_ERR_USAGE);
+}
+
+/* The pixel of a point is the same through every window. */
+static void test_windows(void)
+{
+    MesoCamera camera = {{1, 2, 8}, {0, 0.2f, 0}, {0, 1, 0}, 40};
+    MesoVec3 p = {0.7f, -0.4f, 0.3f};
+    MesoMatrix whole = matrix_of(&camera, 640, 360, (MesoWindow){0, 0, 640, 360});
+    MesoMatrix part = matrix_of(&camera, 640, 360, (MesoWindow){200, 100, 300, 200});
+    MesoVec2 a = project(&whole, p), b = project(&part, p);
+    CHECK(fabsf((a.x + 1) * 320 - (200 + (b.x + 1) * 150)) < 1e-3f);
+    CHECK(fabsf((a.y + 1) * 180 - (100 + (b.y + 1) * 100)) < 1e-3f);
+}
+
+static void test_light(void)
+{
+    MesoVec3 low = {-1, -2, -3}, high = {4, 5, 6};
+    float extent;
+    MesoMatrix m = meso_light_clip_from_world(meso_vec3_unit((MesoVec3){1, -2, -1}, low), low, high, &extent);
+    for (uint32_t i = 0; i < 8; i++) {
+        MesoVec3 c = meso_box_corner(low, high, i);
+        for (int row = 0; row < 3; row++) {
+            float value = m.m[row] * c.x + m.m[4 + row] * c.y + m.m[8 + row] * c.z + m.m[12 + row];
+            CHECK(value <= 1 && value >= (row < 2 ? -1 : 0));
+        }
+    }
+    CHECK(extent > 5 && extent < 14);
+}
+
+int main(void)
+{
+    MesoVec3 y = {0, 1, 0}, z = {0, 0, 1};
+    test_frame((MesoVec3){-1, -1, -1}, (MesoVec3){1, 1, 1}, y, 1280, 720);
+    test_frame((MesoVec3){10, 0, 5}, (MesoVec3){12, 9, 6}, y, 720, 1280);
+    test_frame((MesoVec3){0, 0, 0}, (MesoVec3){1, 1e-3f, 1}, y, 500, 500);
+    test_frame((MesoVec3){-3, -2, 0}, (MesoVec3){1, 1, 2}, z, 1280, 720);
+    test_degenerate();
+    test_windows();
+    test_light();
+    return 0;
+}
