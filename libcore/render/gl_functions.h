@@ -54,6 +54,7 @@
     X(PIXELSTOREI, PixelStorei)                                                     \
     X(POLYGONOFFSET, PolygonOffset)                                                 \
     X(PROGRAMUNIFORM1F, ProgramUniform1f)                                           \
+    X(PROGRAMUNIFORM1I, ProgramUniform1i)                                           \
     X(PROGRAMUNIFORM1UI, ProgramUniform1ui)                                         \
     X(PROGRAMUNIFORM2I, ProgramUniform2i)                                           \
     X(PROGRAMUNIFORM3F, ProgramUniform3f)                                           \
