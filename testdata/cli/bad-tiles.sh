@@ -3,17 +3,17 @@ try() {
     meso-solve "$1" "$fixtures/vase.obj" -o x.slots
     echo "status $?" >&2
 }
-set() {
+tiles() {
     printf '{"format": "meso-tiles", "version": %s,\n "interfaces": [{"name": "a", "sections": []}],\n "tiles": [%s]}\n' "$1" "$2"
 }
-set 1 '{"name": "t", "sides": ["a", "b", "a", "a"]}' >unknown-interface.json
-set 1 '{"name": "t", "sides": ["a", "a", "a"]}' >three-sides.json
-set 1 '{"name": "t", "sides": ["a", "a", "a", "a"], "sweeps": [{"from": "0/1", "to": "2/1"}]}' >unknown-section.json
-set 1 '' >no-tiles.json
-set 2 '{"name": "t", "sides": ["a", "a", "a", "a"]}' >newer.json
-set '"one"' '{"name": "t", "sides": ["a", "a", "a", "a"]}' >version.json
-set 1 '{"name": "t", "sides": ["a", "a", "a", "a"]}, {"name": "t", "sides": ["a", "a", "a", "a"]}' >twins.json
-set 1 '{"name": "t", "sides": ["a", "a", "a", "a"]' >broken.json
+tiles 1 '{"name": "t", "sides": ["a", "b", "a", "a"]}' >unknown-interface.json
+tiles 1 '{"name": "t", "sides": ["a", "a", "a"]}' >three-sides.json
+tiles 1 '{"name": "t", "sides": ["a", "a", "a", "a"], "sweeps": [{"from": "0/1", "to": "2/1"}]}' >unknown-section.json
+tiles 1 '' >no-tiles.json
+tiles 2 '{"name": "t", "sides": ["a", "a", "a", "a"]}' >newer.json
+tiles '"one"' '{"name": "t", "sides": ["a", "a", "a", "a"]}' >version.json
+tiles 1 '{"name": "t", "sides": ["a", "a", "a", "a"]}, {"name": "t", "sides": ["a", "a", "a", "a"]}' >twins.json
+tiles 1 '{"name": "t", "sides": ["a", "a", "a", "a"]' >broken.json
 printf '{"format": "other", "version": 1}\n' >other.json
 printf '{"a": 1, "a": 2}\n' >duplicate.json
 printf '[1, 2\n' >cut.json

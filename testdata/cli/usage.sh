@@ -21,6 +21,7 @@ try meso-render --eye 1,2 vase.meso -o x.png
 try meso-render --samples 3 vase.meso -o x.png
 try meso-suggest vase.tiles.json
 try meso-tile nonsense vase.tiles.json
-try meso-solve --json vase.tiles.json vase.obj -o -
+try meso-solve --json=report.json vase.tiles.json vase.obj -o -
+try meso-solve vase.tiles.json vase.obj
 ls x* 2>/dev/null
 true
