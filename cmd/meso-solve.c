@@ -23,8 +23,8 @@ static const MesoToolInfo info = {
     .name = "meso-solve",
     .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]",
     .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
-    .examples = "meso-solve wicker.tiles.json vase.obj -o vase.slots\n"
-                "meso-solve --seed 7 --attempts 100 --report vase.json wicker.tiles.json vase.obj -o vase.slots",
+    .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots",
     .operands_low = 2,
     .operands_high = 2,
 };

@@ -18,8 +18,8 @@ static const MesoToolInfo info = {
     .synopsis = "meso-suggest [options] TILES REPORT -o OUT.tiles.json\n"
                 "meso-suggest [options] TILES --surface SURFACE -o OUT.tiles.json",
     .purpose = "Adds to TILES the tile that the dead ends of a solve ask for most.",
-    .examples = "meso-suggest wicker.tiles.json vase.json -o more.tiles.json\n"
-                "meso-suggest --surface vase.obj --until-solved 5 wicker.tiles.json -o more.tiles.json",
+    .examples = "meso-suggest gap.tiles.json gap.json -o mended.tiles.json\n"
+                "meso-suggest --surface vase.obj gap.tiles.json -o mended.tiles.json",
     .operands_low = 1,
     .operands_high = 2,
 };

@@ -24,7 +24,8 @@ typedef struct MesoMeshScan {
     uint32_t *corner_vertices;  /* [corner_count] below vertex_count */
     uint32_t *corner_normals;   /* [corner_count] below normal_count, or MESO_NO_INDEX */
 
-    /* The file as OpenMesh gets it: without what would lead it astray. */
+    /* The file as OpenMesh gets it, without what would lead it astray. NULL where it does not
+       know the layout at all, so that the scan stands alone. */
     const char *bytes;
     size_t size;
     bool relative;              /* OBJ with negative indices, which OpenMesh counts from the last

@@ -166,7 +166,11 @@ static MesoStatus read_property(Ply *ply, MesoError *error)
         return status;
     if (!meso_mesh_text_word(&ply->text, &word))
         return meso_mesh_text_fail(&ply->text, error, "property without a name");
-    return set_role(ply, element, property, word, error);
+    status = set_role(ply, element, property, word, error);
+    /* OpenMesh is to compare positions and faces: under this name it passes over the rest. */
+    if (!status && property->role > ROLE_Z && property->role != ROLE_INDICES)
+        word.text[0] = '_';
+    return status;
 }
 
 /* An element without properties takes no bytes: any count would fit any file. */
@@ -190,6 +194,30 @@ static MesoStatus check_header(const Ply *ply, const char *path, MesoError *erro
     if (!vertices || !faces)
         return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no element '%s'", path, vertices ? "face" : "vertex");
     return MESO_OK;
+}
+
+/*
+ * Whether OpenMesh knows the layout: it takes vertices before faces, no list
+ * before the vertex indices, counts of two types only, and in binary files
+ * coordinates that are not integers.
+ */
+static bool known_to_openmesh(const Ply *ply)
+{
+    bool vertices = false, indices = false;
+    for (const PlyElement *element = ply->elements; element < ply->elements + ply->element_count; element++) {
+        vertices |= element->kind == KIND_VERTEX;
+        if (element->kind == KIND_FACE && !vertices)
+            return false;
+        for (uint32_t p = element->property_begin; p < element->property_end; p++) {
+            const PlyProperty *property = &ply->properties[p];
+            indices |= property->role == ROLE_INDICES;
+            if (property->list && (!indices || (property->count_type != UINT8 && property->count_type != INT32)))
+                return false;
+            if (ply->form != FORM_ASCII && property->role <= ROLE_Z && property->type < FLOAT32)
+                return false;
+        }
+    }
+    return true;
 }
 
 static MesoStatus read_header(Ply *ply, MesoError *error)
@@ -369,8 +397,8 @@ MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
         status = check_end(ply, error);
     if (status)
         return status;
-    scan->bytes = (const char *)input->data;
-    scan->size = input->size;
+    scan->bytes = known_to_openmesh(ply) ? ply->text.bytes : NULL;
+    scan->size = ply->text.size;
     if (scan->normal_count && scan->corner_count)
         memcpy(scan->corner_normals, scan->corner_vertices, scan->corner_count * sizeof *scan->corner_normals);
     return meso_mesh_scan_check(scan, input->path, error);

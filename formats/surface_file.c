@@ -109,6 +109,8 @@ static MesoStatus cross_check(const MesoMeshScan *scan, FileKind kind, const cha
                                              [KIND_OFF] = MESO_OPENMESH_OFF};
     Comparison comparison = {.scan = scan, .wrong_vertex = MESO_NO_INDEX, .wrong_face = MESO_NO_INDEX};
     MesoOpenMeshSink sink = {&comparison, compare_vertex, compare_face};
+    if (!scan->bytes)
+        return MESO_OK;
     if (meso_openmesh_read(kinds[kind], scan->bytes, scan->size, &sink, error))
         return meso_fail_prefix(error, path);
     if (comparison.wrong_vertex != MESO_NO_INDEX)

@@ -2,7 +2,8 @@
  * Surfaces from mesh files: OBJ, PLY, OFF through OpenMesh, GLB and glTF
  * through tinygltf, so far only to refuse them with the reason. OpenMesh mends
  * what is broken without a word, so the elements of the file are read by
- * ourselves as well, and compared.
+ * ourselves as well, and compared. (A few layouts of PLY that OpenMesh does
+ * not know, such as faces before vertices, are read by ourselves alone.)
  */
 #ifndef MESO_SURFACE_FILE_H
 #define MESO_SURFACE_FILE_H
