@@ -30,21 +30,54 @@ static MesoStatus next_room(uint32_t room, uint32_t *wanted, MesoError *error)
     return MESO_OK;
 }
 
+/* Room for one more of `size` bytes. */
+static MesoStatus reserve(MesoArena *arena, void **array, uint32_t count, uint32_t *room, size_t size,
+                          MesoError *error)
+{
+    uint32_t wanted = 0;
+    if (count < *room)
+        return MESO_OK;
+    MesoStatus status = next_room(*room, &wanted, error);
+    if (!status)
+        status = enlarge(arena, array, count, wanted, size, error);
+    if (!status)
+        *room = wanted;
+    return status;
+}
+
 static MesoStatus append_point(MesoArena *arena, MesoVec3 **points, uint32_t *count, uint32_t *room,
                                MesoVec3 point, MesoError *error)
 {
-    if (*count == *room) {
-        void *array = *points;
-        uint32_t wanted = 0;
-        MesoStatus status = next_room(*room, &wanted, error);
-        if (!status)
-            status = enlarge(arena, &array, *count, wanted, sizeof point, error);
-        if (status)
-            return status;
-        *points = array;
-        *room = wanted;
-    }
+    void *array = *points;
+    MesoStatus status = reserve(arena, &array, *count, room, sizeof point, error);
+    if (status)
+        return status;
+    *points = array;
     (*points)[(*count)++] = point;
+    return MESO_OK;
+}
+
+MesoStatus meso_mesh_scan_number(MesoArena *arena, float **numbers, uint32_t *count, uint32_t *room,
+                                 float number, MesoError *error)
+{
+    void *array = *numbers;
+    MesoStatus status = reserve(arena, &array, *count, room, sizeof number, error);
+    if (status)
+        return status;
+    *numbers = array;
+    (*numbers)[(*count)++] = number;
+    return MESO_OK;
+}
+
+MesoStatus meso_mesh_scan_index(MesoArena *arena, uint32_t **indices, uint32_t *count, uint32_t *room,
+                                uint32_t index, MesoError *error)
+{
+    void *array = *indices;
+    MesoStatus status = reserve(arena, &array, *count, room, sizeof index, error);
+    if (status)
+        return status;
+    *indices = array;
+    (*indices)[(*count)++] = index;
     return MESO_OK;
 }
 

@@ -40,6 +40,7 @@ typedef struct PlyProperty {
     PlyType type, count_type;
     bool list;
     PlyRole role;
+    MesoScanColumn *column;     /* NULL: not asked for */
 } PlyProperty;
 
 typedef struct PlyElement {
@@ -52,6 +53,7 @@ typedef struct PlyElement {
 
 typedef struct Ply {
     MesoMeshScan *scan;
+    MesoMeshExtras *extras;     /* NULL: none asked for */
     MesoMeshText text;          /* after the header of a binary file, `next` is where its bytes go on */
     PlyForm form;
     uint32_t element_count, property_count;
@@ -139,6 +141,32 @@ static MesoStatus set_role(Ply *ply, PlyElement *element, PlyProperty *property,
     return MESO_OK;
 }
 
+/* Columns of the element that `property` of that name is kept in; NULL where nobody asked for it. */
+static MesoScanColumn *find_column(const Ply *ply, const PlyElement *element, const PlyProperty *property,
+                                   MesoWord name)
+{
+    if (!ply->extras || property->list || element->kind == KIND_OTHER)
+        return NULL;
+    for (uint32_t i = 0; i < ply->extras->column_count; i++) {
+        MesoScanColumn *column = &ply->extras->columns[i];
+        if (meso_word_is(name, column->name))
+            return column;
+    }
+    return NULL;
+}
+
+/* A name that comes twice is an error for what is used; so it is for columns. */
+static MesoStatus set_column(Ply *ply, const PlyElement *element, PlyProperty *property, MesoWord name,
+                             MesoError *error)
+{
+    property->column = find_column(ply, element, property, name);
+    for (uint32_t p = element->property_begin; property->column && &ply->properties[p] < property; p++)
+        if (ply->properties[p].column == property->column)
+            return meso_mesh_text_fail(&ply->text, error, "property '%.*s' comes twice",
+                                       MESO_WORD_ARGUMENTS(name));
+    return MESO_OK;
+}
+
 static MesoStatus read_property(Ply *ply, MesoError *error)
 {
     if (ply->element_count == 0)
@@ -167,6 +195,8 @@ static MesoStatus read_property(Ply *ply, MesoError *error)
     if (!meso_mesh_text_word(&ply->text, &word))
         return meso_mesh_text_fail(&ply->text, error, "property without a name");
     status = set_role(ply, element, property, word, error);
+    if (!status)
+        status = set_column(ply, element, property, word, error);
     /* OpenMesh is to compare positions and faces: under this name it passes over the rest. */
     if (!status && property->role > ROLE_Z && property->role != ROLE_INDICES)
         word.text[0] = '_';
@@ -197,9 +227,10 @@ static MesoStatus check_header(const Ply *ply, const char *path, MesoError *erro
 }
 
 /*
- * Whether OpenMesh knows the layout: it takes vertices before faces, no list
- * before the vertex indices, counts of two types only, and in binary files
- * coordinates that are not integers.
+ * Whether OpenMesh knows the layout: it takes vertices before faces, nothing in
+ * a face before the vertex indices, no list elsewhere before them, counts of two types only, in binary files
+ * coordinates that are not integers, and in text no property of one byte, which
+ * it reads as a character and never ends.
  */
 static bool known_to_openmesh(const Ply *ply)
 {
@@ -211,7 +242,11 @@ static bool known_to_openmesh(const Ply *ply)
         for (uint32_t p = element->property_begin; p < element->property_end; p++) {
             const PlyProperty *property = &ply->properties[p];
             indices |= property->role == ROLE_INDICES;
+            if (element->kind == KIND_FACE && !indices)
+                return false;
             if (property->list && (!indices || (property->count_type != UINT8 && property->count_type != INT32)))
+                return false;
+            if (ply->form == FORM_ASCII && !property->list && types[property->type].size == 1)
                 return false;
             if (ply->form != FORM_ASCII && property->role <= ROLE_Z && property->type < FLOAT32)
                 return false;
@@ -346,6 +381,17 @@ static MesoStatus add_vertex(Ply *ply, const double *numbers, MesoError *error)
     return status;
 }
 
+static MesoStatus keep_number(const Ply *ply, MesoScanColumn *column, double value, MesoError *error)
+{
+    /* Beyond the range of floats there is infinity, which the reader of the column judges. */
+    float number = fabs(value) <= (double)FLT_MAX ? (float)value : INFINITY;
+    if (ply->element->kind == KIND_VERTEX)
+        return meso_mesh_scan_number(ply->scan->arena, &column->of_vertices, &column->vertex_count,
+                                     &column->vertex_room, number, error);
+    return meso_mesh_scan_number(ply->scan->arena, &column->of_faces, &column->face_count,
+                                 &column->face_room, number, error);
+}
+
 static MesoStatus read_item(Ply *ply, MesoError *error)
 {
     double numbers[ROLE_NONE + 1] = {0};
@@ -357,6 +403,8 @@ static MesoStatus read_item(Ply *ply, MesoError *error)
         const PlyProperty *property = &ply->properties[p];
         status = property->list ? read_list(ply, property, error)
                                 : read_scalar(ply, property->type, &numbers[property->role], error);
+        if (!status && property->column)
+            status = keep_number(ply, property->column, numbers[property->role], error);
     }
     MesoWord more;
     if (!status && ply->form == FORM_ASCII && meso_mesh_text_word(&ply->text, &more))
@@ -378,13 +426,15 @@ static MesoStatus check_end(Ply *ply, MesoError *error)
     return MESO_OK;
 }
 
-MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+MesoStatus meso_ply_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+                                const MesoInput *input, MesoError *error)
 {
     Ply *ply = MESO_NEW(arena, Ply, 1, error);
     if (!ply)
         return MESO_ERR_MEMORY;
     *scan = (MesoMeshScan){.arena = arena};
     ply->scan = scan;
+    ply->extras = extras;
     MesoStatus status = meso_mesh_text_init(&ply->text, arena, input, 0, error);
     if (!status)
         status = read_header(ply, error);
@@ -402,4 +452,9 @@ MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
     if (scan->normal_count && scan->corner_count)
         memcpy(scan->corner_normals, scan->corner_vertices, scan->corner_count * sizeof *scan->corner_normals);
     return meso_mesh_scan_check(scan, input->path, error);
+}
+
+MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    return meso_ply_scan_extras(scan, NULL, arena, input, error);
 }

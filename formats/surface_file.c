@@ -137,12 +137,20 @@ static MesoStatus refuse_gltf(const MesoInput *input, MesoError *error)
                      "needs quads; export OBJ, PLY or OFF", input->path);
 }
 
-/* Reads every element of the file to `scan`, by the kind that it turns out to be. */
-static MesoStatus scan_file(MesoMeshScan *scan, FileKind *kind, MesoArena *arena, const MesoInput *input,
-                            MesoError *error)
+static MesoStatus scan_off(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+                           const MesoInput *input, MesoError *error)
 {
-    static MesoStatus (*const scans[])(MesoMeshScan *, MesoArena *, const MesoInput *, MesoError *) = {
-        [KIND_OBJ] = meso_obj_scan, [KIND_PLY] = meso_ply_scan, [KIND_OFF] = meso_off_scan,
+    (void)extras;
+    return meso_off_scan(scan, arena, input, error);
+}
+
+/* Reads every element of the file to `scan`, by the kind that it turns out to be. */
+static MesoStatus scan_file(MesoMeshScan *scan, MesoMeshExtras *extras, FileKind *kind, MesoArena *arena,
+                            const MesoInput *input, MesoError *error)
+{
+    static MesoStatus (*const scans[])(MesoMeshScan *, MesoMeshExtras *, MesoArena *, const MesoInput *,
+                                       MesoError *) = {
+        [KIND_OBJ] = meso_obj_scan_extras, [KIND_PLY] = meso_ply_scan_extras, [KIND_OFF] = scan_off,
     };
     if (input->size == 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: empty file", input->path);
@@ -153,10 +161,17 @@ static MesoStatus scan_file(MesoMeshScan *scan, FileKind *kind, MesoArena *arena
         return meso_fail(error, MESO_ERR_INPUT, "%s: not a mesh; OBJ, PLY and OFF are read", input->path);
     if (*kind == KIND_GLB)
         return refuse_gltf(input, error);
-    MesoStatus status = scans[*kind](scan, arena, input, error);
+    MesoStatus status = scans[*kind](scan, extras, arena, input, error);
     if (!status && scan->face_count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no faces", input->path);
     return status;
+}
+
+MesoStatus meso_mesh_scan_file(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+                               const MesoInput *input, MesoError *error)
+{
+    FileKind kind;
+    return scan_file(scan, extras, &kind, arena, input, error);
 }
 
 static MesoStatus check_quads(const MesoMeshScan *scan, const char *path, MesoError *error)
@@ -191,7 +206,7 @@ MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInp
     MesoArena scratch;
     FileKind kind;
     meso_arena_init(&scratch);
-    MesoStatus status = scan_file(&scan, &kind, &scratch, input, error);
+    MesoStatus status = scan_file(&scan, NULL, &kind, &scratch, input, error);
     if (!status)
         status = check_quads(&scan, input->path, error);
     if (!status)
@@ -209,7 +224,7 @@ MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, con
     MesoArena scratch;
     FileKind kind;
     meso_arena_init(&scratch);
-    MesoStatus status = scan_file(&scan, &kind, &scratch, input, error);
+    MesoStatus status = scan_file(&scan, NULL, &kind, &scratch, input, error);
     if (!status)
         status = cross_check(&scan, kind, input->path, error);
     if (!status && meso_mesh_scan_triangulate(mesh, arena, &scan, error))
