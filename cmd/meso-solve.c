@@ -2,19 +2,20 @@
 #include <string.h>
 
 #include "cmd/solve_inputs.h"
+#include "cmd/solve_surface.h"
 #include "formats/report_file.h"
 #include "formats/slots_file.h"
 
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
-    const char *report;
+    const char *report, *orient;
 } Arguments;
 
 typedef struct Problem {
     MesoTileSet set;
-    MesoSlotGraph graph;
-    uint64_t tiles_hash[2], surface_hash[2];
+    MesoSolveSurface surface;
+    uint64_t tiles_hash[2];
     MesoVariantSet variants;
     MesoSolveResult result;
 } Problem;
@@ -44,14 +45,14 @@ static MesoStatus check_arguments(Arguments *a)
     if (streams > 1)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "only one of -o, --report and --json can go "
                          "to standard output");
-    return MESO_OK;
+    return meso_orient_check(a->orient, &tool->error);
 }
 
 static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
-        status = meso_tool_read_graph(&a->tool, a->tool.operands[1], &p->graph, p->surface_hash);
+        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], a->orient, &p->surface);
     return status;
 }
 
@@ -62,8 +63,8 @@ static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slo
     bool solved = p->result.verdict == MESO_VERDICT_SOLVED;
     MesoStatus status = MESO_OK;
     if (solved)
-        status = meso_slots_write(&p->result.assignment, &p->set, p->tiles_hash, p->surface_hash,
-                                  &tool->provenance, *slots, &tool->error);
+        status = meso_slots_write(&p->result.assignment, &p->set, p->surface.quarters, p->tiles_hash,
+                                  p->surface.hash, &tool->provenance, *slots, &tool->error);
     if (!status && *report)
         status = meso_tool_write_json(meso_report_to_json(tool->report, &tool->provenance), *report,
                                       &tool->error);
@@ -83,14 +84,14 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
     const MesoSolveResult *result = &p->result;
     switch (result->verdict) {
     case MESO_VERDICT_SOLVED:
-        meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->graph.slot_count,
-                      p->graph.slot_count == 1 ? "" : "s", result->attempts,
+        meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->surface.graph.slot_count,
+                      p->surface.graph.slot_count == 1 ? "" : "s", result->attempts,
                       result->attempts == 1 ? "" : "s");
         return MESO_OK;
     case MESO_VERDICT_UNSOLVABLE:
         return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: no tile fits %llu of %u slots, "
                          "whatever the others hold; the first is slot %u",
-                         (unsigned long long)result->dead_end_total, p->graph.slot_count,
+                         (unsigned long long)result->dead_end_total, p->surface.graph.slot_count,
                          result->dead_ends[0].slot);
     case MESO_VERDICT_GAVE_UP:
         break;
@@ -103,9 +104,9 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->graph, a->attempts, &p->variants, &p->result);
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->surface.graph, a->attempts, &p->variants, &p->result);
     if (!status)
-        status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->graph,
+        status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
                                   &tool->error);
     if (!status)
         status = write_outputs(a, p, slots, report);
@@ -139,6 +140,7 @@ int main(int argc, char **argv)
         {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts before giving up (default 20)",
          &a.attempts, 0, 1, 1e9, 0},
+        MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
         MESO_TOOL_OPTIONS(a.tool),

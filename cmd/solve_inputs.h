@@ -13,10 +13,6 @@ enum { MESO_REPORT_DEAD_ENDS = 1000 };
 MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
                                 uint64_t hash[2]);
 
-/* Reads a surface and builds its slot graph, and notes it in the provenance. `hash` may be NULL. */
-MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
-                                uint64_t hash[2]);
-
 /* Builds the variants and solves, with progress; with -v says how long it took. */
 MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoSlotGraph *graph,
                            uint32_t max_attempts, MesoVariantSet *variants, MesoSolveResult *result);
