@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cmd/solve_inputs.h"
+#include "cmd/solve_seeds.h"
 #include "cmd/solve_surface.h"
 #include "formats/report_file.h"
 #include "formats/slots_file.h"
@@ -9,7 +10,12 @@
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
+    bool attempts_given;
     const char *report, *orient;
+    MesoSeedOptions seeds;
+    const MesoOption *options;  /* the table, and what it parsed */
+    int argc;
+    char **argv;
 } Arguments;
 
 typedef struct Problem {
@@ -22,10 +28,12 @@ typedef struct Problem {
 
 static const MesoToolInfo info = {
     .name = "meso-solve",
-    .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]",
+    .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]\n"
+                "meso-solve [options] --seeds A-B TILES SURFACE [-o OUT.jsonl]",
     .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
     .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
-                "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots",
+                "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --seeds 1-100 --best balance=vase.slots vase.tiles.json vase.obj -o vase.jsonl",
     .operands_low = 2,
     .operands_high = 2,
 };
@@ -38,6 +46,15 @@ static bool is_standard_output(const char *path)
 static MesoStatus check_arguments(Arguments *a)
 {
     MesoTool *tool = &a->tool;
+    MesoStatus status = meso_seed_options_check(&a->seeds, tool, a->attempts_given, &tool->error);
+    if (!status)
+        status = meso_orient_check(a->orient, &tool->error);
+    if (status)
+        return status;
+    if (a->seeds.seeds && a->report)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "--report is of one seed; --seeds writes a line each");
+    if (a->seeds.seeds)
+        return MESO_OK;
     if (!tool->output)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "no place for the assignment; use -o OUT.slots");
     int streams = is_standard_output(tool->output) + is_standard_output(a->report) +
@@ -45,7 +62,7 @@ static MesoStatus check_arguments(Arguments *a)
     if (streams > 1)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "only one of -o, --report and --json can go "
                          "to standard output");
-    return meso_orient_check(a->orient, &tool->error);
+    return MESO_OK;
 }
 
 static MesoStatus read_inputs(Arguments *a, Problem *p)
@@ -113,6 +130,15 @@ static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, 
     return status ? status : say_verdict(a, p);
 }
 
+static MesoStatus solve_seeds(Arguments *a, const Problem *p)
+{
+    const MesoSeedProblem problem = {
+        .set = &p->set, .surface = &p->surface, .tiles_hash = p->tiles_hash, .attempts = a->attempts,
+        .attempts_given = a->attempts_given, .others = "", .options = a->options, .argc = a->argc, .argv = a->argv,
+    };
+    return meso_solve_seeds(&a->tool, &a->seeds, &problem);
+}
+
 /* Opens the outputs before the work, so that a place that cannot be written to is known at once. */
 static MesoStatus run(Arguments *a)
 {
@@ -122,6 +148,8 @@ static MesoStatus run(Arguments *a)
     MesoStatus status = check_arguments(a);
     if (!status)
         status = read_inputs(a, &problem);
+    if (!status && a->seeds.seeds)
+        return solve_seeds(a, &problem);
     if (!status)
         status = meso_output_open(&slots, tool->output, &tool->error);
     if (!status && a->report)
@@ -139,13 +167,17 @@ int main(int argc, char **argv)
     const MesoOption options[] = {
         {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts before giving up (default 20)",
-         &a.attempts, 0, 1, 1e9, 0},
+         &a.attempts, &a.attempts_given, 1, 1e9, 0},
         MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
+        MESO_SEED_OPTIONS(a.seeds),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };
+    a.options = options;
+    a.argc = argc;
+    a.argv = argv;
     if (meso_tool_start(&a.tool, &info, options, argc, argv))
         a.tool.status = run(&a);
     return meso_tool_finish(&a.tool);
