@@ -4,8 +4,8 @@
 // Masking-Shadowing Function", Heitz 2014); the sky's reflection by Karis's
 // fit. SAMPLES > 1: shades every sample once, or once for all that agree.
 #if SAMPLES > 1
-layout(binding = 0) uniform sampler2DMS z_samples;
-layout(binding = 1) uniform usampler2DMS packed_samples;
+layout(binding = 0) uniform sampler2D z_samples;
+layout(binding = 1) uniform usampler2D packed_samples;
 #else
 layout(binding = 0) uniform sampler2D depth_samples;
 layout(binding = 1) uniform sampler2D normal_samples;
@@ -137,16 +137,22 @@ vec3 from_octahedral(vec2 p)
     return normalize(n);
 }
 
+// Four samples on a grid of 2 x 2.
+ivec2 place_of(ivec2 pixel, int i)
+{
+    return 2 * pixel + ivec2(i & 1, i >> 1);
+}
+
 // Depth is reversed and infinite: z = near / depth.
 float depth_of(ivec2 pixel, int i)
 {
-    float z = texelFetch(z_samples, pixel, i).r;
+    float z = texelFetch(z_samples, place_of(pixel, i), 0).r;
     return z > 0.0 ? near_depth / z : 2.0 * EMPTY;
 }
 
 void fetch(ivec2 pixel, int i, inout Surface s)
 {
-    uvec4 bits = texelFetch(packed_samples, pixel, i);
+    uvec4 bits = texelFetch(packed_samples, place_of(pixel, i), 0);
     vec2 blue_metallic = unpackUnorm2x16(bits.z);
     s.normal = from_octahedral(unpackSnorm2x16(bits.x));
     s.albedo = vec3(unpackUnorm2x16(bits.y), blue_metallic.x);
@@ -156,13 +162,13 @@ void fetch(ivec2 pixel, int i, inout Surface s)
 #else
 float depth_of(ivec2 pixel, int i)
 {
-    return texelFetch(depth_samples, pixel, i).r;
+    return texelFetch(depth_samples, pixel, 0).r;
 }
 
 void fetch(ivec2 pixel, int i, inout Surface s)
 {
-    vec4 normal = texelFetch(normal_samples, pixel, i);
-    vec4 albedo = texelFetch(albedo_samples, pixel, i);
+    vec4 normal = texelFetch(normal_samples, pixel, 0);
+    vec4 albedo = texelFetch(albedo_samples, pixel, 0);
     s.normal = normalize(normal.xyz);
     s.albedo = albedo.rgb;
     s.metallic = albedo.a;

@@ -64,7 +64,6 @@
     X(SHADERSOURCE, ShaderSource)                                                   \
     X(TEXTUREPARAMETERI, TextureParameteri)                                         \
     X(TEXTURESTORAGE2D, TextureStorage2D)                                           \
-    X(TEXTURESTORAGE2DMULTISAMPLE, TextureStorage2DMultisample)                     \
     X(USEPROGRAM, UseProgram)                                                       \
     X(VERTEXARRAYATTRIBBINDING, VertexArrayAttribBinding)                           \
     X(VERTEXARRAYATTRIBFORMAT, VertexArrayAttribFormat)                             \

@@ -146,8 +146,8 @@ static MesoStatus make_targets(Renderer *r, MesoError *error)
     r->margin = smaller(options->height / 12 + 2, MAX_OCCLUSION_PIXELS);
     uint32_t most = WINDOW_SIZE + 2 * r->margin;
     return meso_targets_init(&r->targets, &r->gl, smaller(options->width, most),
-                             smaller(options->height, most), options->samples, shadow_size(options),
-                             error);
+                             smaller(options->height, most), options->samples == 4 ? 2 : 1,
+                             shadow_size(options), error);
 }
 
 static void draw_shadow(Renderer *r)
@@ -219,9 +219,9 @@ static void draw_light(const Renderer *r, MesoWindow window)
     gl->ProgramUniform3f(r->shade, SKY_UP, r->view.up.x, r->view.up.y, r->view.up.z);
     gl->ProgramUniform1f(r->shade, SHADOW_TEXEL, r->shadow_texel);
     gl->ProgramUniform1f(r->shade, NEAR_DEPTH, r->near_depth);
-    gl->ProgramUniform1i(r->shade, SAMPLE_COUNT, (GLint)targets->samples);
+    gl->ProgramUniform1i(r->shade, SAMPLE_COUNT, (GLint)r->options->samples);
     gl->ProgramUniform1i(r->shade, SHADOW_SIDE, SHADOW_TAPS);
-    if (targets->samples > 1) {
+    if (targets->sample_side > 1) {
         gl->BindTextureUnit(0, targets->multi_z);
         gl->BindTextureUnit(1, targets->multi);
     } else {
@@ -277,7 +277,7 @@ static void draw_window(const Renderer *r, MesoImage *image, MesoWindow inner)
                                                 r->options->height, outer);
     meso_targets_begin_center(&r->targets);
     meso_scene_draw(&r->scene, &r->surface, &clip, &r->view);
-    if (r->targets.samples > 1) {
+    if (r->targets.sample_side > 1) {
         meso_targets_begin_multi(&r->targets);
         meso_scene_draw(&r->scene, &r->packed, &clip, &r->view);
     }
