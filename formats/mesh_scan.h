@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "formats/input.h"
+#include "formats/surface_groups.h"
 #include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
 
@@ -48,6 +49,12 @@ typedef struct MesoMeshScan {
 MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_off_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
+
+/* The same, and what the file says of faces beside their shape goes to `groups`; NULL: nowhere. */
+MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                                const MesoInput *input, MesoError *error);
+MesoStatus meso_ply_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                                const MesoInput *input, MesoError *error);
 
 /* For the scans: append one element. MESO_ERR_MEMORY, or MESO_ERR_LIMIT past 2^32 - 2 of a kind. */
 MesoStatus meso_mesh_scan_vertex(MesoMeshScan *scan, MesoVec3 position, MesoError *error);

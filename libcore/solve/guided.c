@@ -80,8 +80,12 @@ static MesoStatus push_choice(MesoGuidedSearch *search, uint32_t slot, uint32_t 
 static MesoStatus pop_choice(MesoGuidedSearch *search, MesoGuidedChoice *choice, bool *done, MesoError *error)
 {
     *done = false;
-    if (search->choice_count == 0)
+    if (search->choice_count == 0) {
+        /* What was excluded so far was excluded for good, unless slots were kept that need not be. */
+        search->exhausted = !search->constraints->keep &&
+                            search->generation == search->propagation->generation;
         return MESO_OK;
+    }
     *choice = search->choices[--search->choice_count];
     MesoStatus status = meso_propagation_undo(search->propagation, choice->mark, done, error);
     if (status || !*done)
@@ -192,7 +196,8 @@ static MesoStatus begin_attempt(MesoGuidedSearch *search, MesoError *error)
 {
     search->choice_count = 0;
     search->strands_seen = 0;
-    search->strands_broken = false;
+    search->strands_broken = search->exhausted = false;
+    search->generation = search->propagation->generation;
     if (search->propagation->decided)
         meso_strand_search_undo(&search->strands, search->strand_base);
     return search->constraints->keep ? keep_variants(search, error) : MESO_OK;

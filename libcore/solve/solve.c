@@ -180,9 +180,12 @@ static MesoStatus say_violations(Search *search, MesoError *error)
     for (uint32_t i = 0; i < count; i++)
         if (result->violations[i] > result->violations[worst])
             worst = i;
-    if (result->verdict != MESO_VERDICT_GAVE_UP || count == 0 || result->violations[worst] == 0)
+    if (search->guided.exhausted)
+        result->reason = "every choice was tried";
+    if (result->verdict == MESO_VERDICT_SOLVED || count == 0 || result->violations[worst] == 0)
         return MESO_OK;
-    result->reason = meso_arena_print(search->arena, error, "most often %s stood in the way: %llu times",
+    result->reason = meso_arena_print(search->arena, error, "%smost often %s stood in the way: %llu times",
+                                      search->guided.exhausted ? "every choice was tried; " : "",
                                       meso_constraint_name(constraints, worst),
                                       (unsigned long long)result->violations[worst]);
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
@@ -213,12 +216,13 @@ static MesoStatus run(Search *search, MesoError *error)
     if (!status && disproved)
         return say_unsolvable(search, error);
 
-    while (!status && !solved && result->attempts < search->options->max_attempts) {
+    while (!status && !solved && !search->guided.exhausted &&
+           result->attempts < search->options->max_attempts) {
         status = meso_propagation_restart(propagation, error);
         if (!status)
             status = run_attempt(search, ++result->attempts, &solved, error);
     }
-    result->verdict = MESO_VERDICT_GAVE_UP;
+    result->verdict = search->guided.exhausted ? MESO_VERDICT_UNSOLVABLE : MESO_VERDICT_GAVE_UP;
     if (!status && solved)
         status = extract(search, error);
     return !status && search->options->constraints ? say_violations(search, error) : status;

@@ -12,7 +12,8 @@
 typedef enum MesoVerdict {
     MESO_VERDICT_SOLVED,
     MESO_VERDICT_UNSOLVABLE,    /* proved: the initial propagation empties a slot, or disproves a
-                                   quota or the rule on strands */
+                                   quota or the rule on strands, or the search under
+                                   constraints went through every choice */
     MESO_VERDICT_GAVE_UP        /* all attempts met a dead end */
 } MesoVerdict;
 
