@@ -1,9 +1,8 @@
 /* meso-solve: assigns a tile to every slot of a surface. */
 #include <string.h>
 
-#include "cmd/solve_inputs.h"
+#include "cmd/solve_constraints.h"
 #include "cmd/solve_seeds.h"
-#include "cmd/solve_surface.h"
 #include "formats/report_file.h"
 #include "formats/slots_file.h"
 
@@ -12,6 +11,7 @@ typedef struct Arguments {
     uint32_t attempts;
     bool attempts_given;
     const char *report, *orient;
+    MesoControlArguments control;
     MesoSeedOptions seeds;
     const MesoOption *options;  /* the table, and what it parsed */
     int argc;
@@ -23,6 +23,7 @@ typedef struct Problem {
     MesoSolveSurface surface;
     uint64_t tiles_hash[2];
     MesoVariantSet variants;
+    const MesoConstraints *constraints;     /* NULL: none */
     MesoSolveResult result;
 } Problem;
 
@@ -33,6 +34,7 @@ static const MesoToolInfo info = {
     .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
     .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --constraints knobs.json vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --seeds 1-100 --best balance=vase.slots vase.tiles.json vase.obj -o vase.jsonl",
     .operands_low = 2,
     .operands_high = 2,
@@ -69,7 +71,12 @@ static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
-        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], a->orient, &p->surface);
+        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], a->orient, a->control.constraints != NULL,
+                                        &p->surface);
+    if (!status)
+        status = meso_variant_set_build(&p->variants, &a->tool.arena, &p->set, &a->tool.error);
+    if (!status)
+        status = meso_tool_read_control(&a->tool, &a->control, &p->set, &p->variants, &p->surface, &p->constraints);
     return status;
 }
 
@@ -104,8 +111,13 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
         meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->surface.graph.slot_count,
                       p->surface.graph.slot_count == 1 ? "" : "s", result->attempts,
                       result->attempts == 1 ? "" : "s");
+        if (a->control.keep)
+            meso_tool_say(&a->tool, "%u of the slots to keep changed",
+                          meso_constraints_changed(p->constraints, &result->assignment, &p->variants));
         return MESO_OK;
     case MESO_VERDICT_UNSOLVABLE:
+        if (*result->reason)
+            return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: %s", result->reason);
         return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: no tile fits %llu of %u slots, "
                          "whatever the others hold; the first is slot %u",
                          (unsigned long long)result->dead_end_total, p->surface.graph.slot_count,
@@ -114,17 +126,21 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
         break;
     }
     return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s, each with a dead "
-                     "end; try --attempts, --seed or meso-suggest", result->attempts,
-                     result->attempts == 1 ? "" : "s");
+                     "end%s%s; try --attempts, --seed or meso-suggest", result->attempts,
+                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason);
 }
 
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->surface.graph, a->attempts, &p->variants, &p->result);
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->surface.graph, p->constraints, a->attempts,
+                                        &p->result);
     if (!status)
         status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
                                   &tool->error);
+    if (!status && (a->report || tool->json))
+        status = meso_report_fill_control(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
+                                          p->constraints, &tool->error);
     if (!status)
         status = write_outputs(a, p, slots, report);
     return status ? status : say_verdict(a, p);
@@ -133,8 +149,9 @@ static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, 
 static MesoStatus solve_seeds(Arguments *a, const Problem *p)
 {
     const MesoSeedProblem problem = {
-        .set = &p->set, .surface = &p->surface, .tiles_hash = p->tiles_hash, .attempts = a->attempts,
-        .attempts_given = a->attempts_given, .others = "", .options = a->options, .argc = a->argc, .argv = a->argv,
+        .set = &p->set, .variants = &p->variants, .surface = &p->surface, .constraints = p->constraints,
+        .tiles_hash = p->tiles_hash, .attempts = a->attempts,
+        .others = a->control.strands ? a->control.strands : "", .options = a->options, .argc = a->argc, .argv = a->argv,
     };
     return meso_solve_seeds(&a->tool, &a->seeds, &problem);
 }
@@ -171,6 +188,7 @@ int main(int argc, char **argv)
         MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
+        MESO_CONTROL_OPTIONS(a.control),
         MESO_SEED_OPTIONS(a.seeds),
         MESO_TOOL_OPTIONS(a.tool),
         {0},

@@ -118,11 +118,13 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
     MesoSolveSurface surface;
     MesoVariantSet variants;
     MesoSolveResult result;
-    MesoStatus status = meso_tool_read_surface(tool, a->surface, a->orient, &surface);
+    MesoStatus status = meso_tool_read_surface(tool, a->surface, a->orient, false, &surface);
     for (uint32_t added = 0; !status; added++) {
         if (added == 1 && !a->until_given)
             return MESO_OK;
-        status = meso_tool_solve(tool, set, &surface.graph, a->attempts, &variants, &result);
+        status = meso_variant_set_build(&variants, &tool->arena, set, &tool->error);
+        if (!status)
+            status = meso_tool_solve(tool, set, &variants, &surface.graph, NULL, a->attempts, &result);
         if (status)
             return status;
         if (result.verdict == MESO_VERDICT_SOLVED && added == 0)

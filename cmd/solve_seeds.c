@@ -79,7 +79,13 @@ static void rate_balance(const MesoSeedLine *line, uint64_t rating[2])
     rating[1] = 0;
 }
 
-static const Metric metrics[] = {{"attempts", rate_attempts}, {"balance", rate_balance}};
+static void rate_loops(const MesoSeedLine *line, uint64_t rating[2])
+{
+    rating[0] = line->loop_count;
+    rating[1] = line->strand_count;
+}
+
+static const Metric metrics[] = {{"attempts", rate_attempts}, {"balance", rate_balance}, {"loops", rate_loops}};
 enum { METRIC_COUNT = sizeof metrics / sizeof *metrics };
 
 static MesoStatus parse_best(const Metric **metric, const char **file, const char *text, MesoError *error)
@@ -92,7 +98,7 @@ static MesoStatus parse_best(const Metric **metric, const char **file, const cha
             *metric = &metrics[i];
             return MESO_OK;
         }
-    return meso_fail(error, MESO_ERR_USAGE, "--best: '%s' is not attempts or balance, with or without =FILE", text);
+    return meso_fail(error, MESO_ERR_USAGE, "--best: '%s' is not attempts, balance or loops, with or without =FILE", text);
 }
 
 /* One %d, any number of %%, and no other %. */
@@ -149,7 +155,6 @@ typedef struct Seeds {
     SeedRange range;
     uint32_t attempts;
     uint64_t hash[2];           /* of the problem */
-    MesoVariantSet variants;
     uint64_t *todo;             /* [todo_count] seeds to solve */
     uint32_t todo_count;
     const char *partial;        /* NULL: none is kept */
@@ -243,18 +248,18 @@ static MesoStatus tell_lines(Seeds *seeds, MesoError *error)
     return status;
 }
 
-static MesoStatus add_line(Seeds *seeds, uint64_t seed, const MesoSolveResult *result, MesoError *error)
+/* Copies the line's text to the tool's arena. */
+static MesoStatus add_line(Seeds *seeds, const MesoSeedLine *made, MesoError *error)
 {
-    MesoSeedLine *line = &seeds->lines[seed - seeds->range.first];
-    const char *known = line->text;     /* taken over, but its assignment was not there */
-    MesoStatus status = meso_seed_line_make(line, &seeds->tool->arena, seed, seeds->hash, result, seeds->problem->set,
-                                            error);
-    if (!status && known && strcmp(known, line->text) != 0)
-        return fail_differs(seeds, seed, error);
-    if (status || known)
-        return status;
-    if (seeds->partial)
-        status = meso_line_file_append(&seeds->journal, line->text, error);
+    MesoSeedLine *line = &seeds->lines[made->seed - seeds->range.first];
+    if (line->text)     /* taken over, but its assignment was not there */
+        return strcmp(line->text, made->text) == 0 ? MESO_OK : fail_differs(seeds, made->seed, error);
+    const char *text = meso_arena_copy_text(&seeds->tool->arena, made->text, error);
+    if (!text)
+        return MESO_ERR_MEMORY;
+    *line = *made;
+    line->text = text;
+    MesoStatus status = seeds->partial ? meso_line_file_append(&seeds->journal, text, error) : MESO_OK;
     meso_tool_progress(seeds->tool, ++seeds->done, seeds->range.count);
     return status ? status : tell_lines(seeds, error);
 }
@@ -263,15 +268,22 @@ static MesoStatus add_line(Seeds *seeds, uint64_t seed, const MesoSolveResult *r
 static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResult *result, MesoError *error)
 {
     Seeds *seeds = context;
+    const MesoSeedProblem *p = seeds->problem;
     uint64_t seed = seeds->todo[index];
+    MesoSeedLine line;
+    MesoArena arena;
+    meso_arena_init(&arena);
     MesoStatus status = MESO_OK;
     if (seeds->options->each && result->verdict == MESO_VERDICT_SOLVED)
         status = write_each(seeds, seed, &result->assignment, error);
-    if (status)
-        return status;
-    mtx_lock(&seeds->lock);
-    status = add_line(seeds, seed, result, error);
-    mtx_unlock(&seeds->lock);
+    if (!status)
+        status = meso_seed_line_make(&line, &arena, seed, seeds->hash, result, p->set, &p->surface->graph, error);
+    if (!status) {
+        mtx_lock(&seeds->lock);
+        status = add_line(seeds, &line, error);
+        mtx_unlock(&seeds->lock);
+    }
+    meso_arena_release(&arena);
     return status;
 }
 
@@ -371,12 +383,18 @@ static MesoStatus open_journal(Seeds *seeds, MesoError *error)
 
 /* ---- all seeds ---- */
 
+static MesoSolveOptions solve_options(const Seeds *seeds)
+{
+    return (MesoSolveOptions){.max_attempts = seeds->attempts, .max_dead_ends = 1,
+                              .constraints = seeds->problem->constraints};
+}
+
 static MesoStatus sweep(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
     const MesoSeedSweep all = {
-        .set = seeds->problem->set, .variants = &seeds->variants, .graph = &seeds->problem->surface->graph,
-        .options = {.max_attempts = seeds->attempts, .max_dead_ends = 1}, .thread_count = tool->threads,
+        .set = seeds->problem->set, .variants = seeds->problem->variants, .graph = &seeds->problem->surface->graph,
+        .options = solve_options(seeds), .thread_count = tool->threads,
         .seeds = seeds->todo, .seed_count = seeds->todo_count, .take = take_result, .context = seeds,
     };
     meso_tool_progress_begin(tool, "solving", "seeds");
@@ -435,10 +453,11 @@ static const MesoSeedLine *find_best(const Seeds *seeds, const Metric *metric)
 static MesoStatus write_best(const Seeds *seeds, const MesoSeedLine *best, const char *path, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
-    const MesoSolveOptions options = {.seed = best->seed, .max_attempts = seeds->attempts, .max_dead_ends = 1};
+    MesoSolveOptions options = solve_options(seeds);
     MesoSolveResult result;
     uint64_t hash[2] = {0};
-    MesoStatus status = meso_solve(&result, &tool->arena, seeds->problem->set, &seeds->variants,
+    options.seed = best->seed;
+    MesoStatus status = meso_solve(&result, &tool->arena, seeds->problem->set, seeds->problem->variants,
                                    &seeds->problem->surface->graph, &options, error);
     if (status)
         return status;
@@ -500,9 +519,7 @@ static MesoStatus prepare(Seeds *seeds, MesoError *error)
     if (!seeds->lines)
         return MESO_ERR_MEMORY;
     meso_seed_problem(seeds->hash, &tool->provenance, p->surface->quarters, p->surface->graph.slot_count, options);
-    status = meso_variant_set_build(&seeds->variants, &tool->arena, p->set, error);
-    if (!status)
-        status = read_lines(seeds, error);
+    status = read_lines(seeds, error);
     return status ? status : list_todo(seeds, error);
 }
 

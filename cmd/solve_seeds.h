@@ -17,16 +17,17 @@ typedef struct MesoSeedOptions {
      &(o).each, 0, 0, 0, 0},                                                                  \
     {MESO_OPTION_TEXT, 0, "resume", "FILE", "take the lines that FILE has of these seeds instead of solving them again", \
      &(o).resume, 0, 0, 0, 0},                                                                \
-    {MESO_OPTION_TEXT, 0, "best", "METRIC[=FILE]", "say which seed is best by attempts or balance, and write its " \
+    {MESO_OPTION_TEXT, 0, "best", "METRIC[=FILE]", "say which seed is best by attempts, balance or loops, and write its " \
      "assignment to FILE", &(o).best, 0, 0, 0, 0}
 
 /* What is solved for each seed, and how the command that did is written down. */
 typedef struct MesoSeedProblem {
     const MesoTileSet *set;
+    const MesoVariantSet *variants;
+    const MesoConstraints *constraints;     /* NULL: none */
     const MesoSolveSurface *surface;
     const uint64_t *tiles_hash;     /* [2] */
     uint32_t attempts;              /* unless --seeds says */
-    bool attempts_given;
     const char *others;             /* names whatever else results depend on; part of the problem's hash */
     const MesoOption *options;      /* of the tool, with its arguments */
     int argc;

@@ -29,7 +29,6 @@ typedef struct Orienting {
     MesoTool *tool;
     const char *orient;
     const MesoInput *input;
-    const MesoQuadMesh *mesh;
     MesoSolveSurface *surface;
     uint32_t without;           /* faces that the field says nothing about */
 } Orienting;
@@ -40,14 +39,14 @@ static MesoStatus follow_field(Orienting *o)
     MesoVec3 *directions = NULL;
     const char *attribute = attribute_of(o->orient);
     MesoArenaMark mark = meso_arena_mark(&tool->arena);
-    MesoStatus status = attribute ? meso_surface_attribute_read(&directions, &tool->arena, o->mesh, o->input,
+    MesoStatus status = attribute ? meso_surface_attribute_read(&directions, &tool->arena, &o->surface->mesh, o->input,
                                                                 attribute, &tool->error)
-                                  : meso_surface_texture_read(&directions, &tool->arena, o->mesh, o->input,
+                                  : meso_surface_texture_read(&directions, &tool->arena, &o->surface->mesh, o->input,
                                                               &tool->error);
     if (!status)
-        o->without = meso_orientation_along(o->surface->quarters, o->mesh, directions);
+        o->without = meso_orientation_along(o->surface->quarters, &o->surface->mesh, directions);
     meso_arena_rewind(&tool->arena, mark);
-    if (!status && o->without == o->mesh->face_count)
+    if (!status && o->without == o->surface->mesh.face_count)
         return meso_fail(&tool->error, MESO_ERR_INPUT, "%s: %s gives no face a direction", o->input->path, o->orient);
     return status;
 }
@@ -87,7 +86,7 @@ static MesoStatus tell_orientation(const Orienting *o)
     const MesoSlotGraph *graph = &o->surface->graph;
     uint32_t singular, vertices[MESO_REPORT_SINGULAR];
     uint32_t disagreeing = meso_orientation_disagreeing(graph, o->surface->quarters);
-    MesoStatus status = meso_orientation_singular(&singular, vertices, MESO_REPORT_SINGULAR, &tool->arena, o->mesh,
+    MesoStatus status = meso_orientation_singular(&singular, vertices, MESO_REPORT_SINGULAR, &tool->arena, &o->surface->mesh,
                                                   graph, &tool->error);
     if (status)
         return status;
@@ -104,26 +103,33 @@ static MesoStatus orient(Orienting *o)
     MesoStatus status = find_quarters(o);
     if (!status)
         status = tell_orientation(o);
-    if (!status)
+    if (!status) {
         meso_orientation_turn_graph(&o->surface->graph, o->surface->quarters);
+        meso_orientation_turn_mesh(&o->surface->mesh, o->surface->quarters);
+    }
     return status;
 }
 
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *how, MesoSolveSurface *surface)
+MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *how, bool groups,
+                                  MesoSolveSurface *surface)
 {
     MesoInput input;
-    MesoQuadMesh mesh;
+    MesoError *error = &tool->error;
     *surface = (MesoSolveSurface){0};
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    MesoStatus status = meso_input_open(&input, path, error);
     if (status)
         return status;
     meso_provenance_add(&tool->provenance, "surface", &input);
     memcpy(surface->hash, input.hash, sizeof surface->hash);
-    status = meso_surface_read(&mesh, &tool->arena, &input, &tool->error);
-    if (!status && meso_slot_graph_build(&surface->graph, &tool->arena, &mesh, &tool->error))
-        status = tool->error.status == MESO_ERR_INPUT ? meso_fail_prefix(&tool->error, path) : tool->error.status;
+    status = groups ? meso_surface_read_groups(&surface->mesh, &surface->groups, &tool->arena, &input, error)
+                    : meso_surface_read(&surface->mesh, &tool->arena, &input, error);
+    if (!status) {
+        status = meso_slot_graph_build(&surface->graph, &tool->arena, &surface->mesh, error);
+        if (status == MESO_ERR_INPUT)
+            meso_fail_prefix(error, path);
+    }
     if (!status && how) {
-        Orienting o = {.tool = tool, .orient = how, .input = &input, .mesh = &mesh, .surface = surface};
+        Orienting o = {.tool = tool, .orient = how, .input = &input, .surface = surface};
         status = orient(&o);
     }
     meso_input_close(&input);

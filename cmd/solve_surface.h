@@ -3,6 +3,7 @@
 #define MESO_SOLVE_SURFACE_H
 
 #include "cmd/tool.h"
+#include "formats/surface_groups.h"
 #include "libcore/surface/slot_graph.h"
 
 #define MESO_ORIENT_OPTION(orient)                                                            \
@@ -14,7 +15,9 @@
 enum { MESO_REPORT_SINGULAR = 1000 };
 
 typedef struct MesoSolveSurface {
+    MesoQuadMesh mesh;          /* corners and */
     MesoSlotGraph graph;        /* sides as oriented */
+    MesoSurfaceGroups groups;   /* where asked for */
     uint8_t *quarters;          /* [slot_count] see orientation.h; NULL: as in the file */
     uint64_t hash[2];           /* of the file */
 } MesoSolveSurface;
@@ -23,11 +26,11 @@ typedef struct MesoSolveSurface {
 MesoStatus meso_orient_check(const char *orient, MesoError *error);
 
 /*
- * Reads a surface, notes it in the provenance, builds its slot graph and orients
- * it. Where `orient` is given, says in one line what remains of disagreement,
+ * Reads a surface, with its groups where `groups` says, notes it in the
+ * provenance, builds its slot graph and orients it. Where `orient` is given, says in one line what remains of disagreement,
  * and puts it in the report as "orientation".
  */
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *orient,
+MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *orient, bool groups,
                                   MesoSolveSurface *surface);
 
 #endif

@@ -57,30 +57,6 @@ static MesoStatus append_point(MesoArena *arena, MesoVec3 **points, uint32_t *co
     return MESO_OK;
 }
 
-MesoStatus meso_mesh_scan_number(MesoArena *arena, float **numbers, uint32_t *count, uint32_t *room,
-                                 float number, MesoError *error)
-{
-    void *array = *numbers;
-    MesoStatus status = reserve(arena, &array, *count, room, sizeof number, error);
-    if (status)
-        return status;
-    *numbers = array;
-    (*numbers)[(*count)++] = number;
-    return MESO_OK;
-}
-
-MesoStatus meso_mesh_scan_index(MesoArena *arena, uint32_t **indices, uint32_t *count, uint32_t *room,
-                                uint32_t index, MesoError *error)
-{
-    void *array = *indices;
-    MesoStatus status = reserve(arena, &array, *count, room, sizeof index, error);
-    if (status)
-        return status;
-    *indices = array;
-    (*indices)[(*count)++] = index;
-    return MESO_OK;
-}
-
 MesoStatus meso_mesh_scan_vertex(MesoMeshScan *scan, MesoVec3 position, MesoError *error)
 {
     return append_point(scan->arena, &scan->positions, &scan->vertex_count, &scan->vertex_room,

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "formats/input.h"
+#include "formats/surface_groups.h"
 #include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
 
@@ -32,28 +33,6 @@ typedef struct MesoMeshScan {
                                    vertex of the file and not from the last one so far */
 } MesoMeshScan;
 
-/* Numbers beside the shape: a scalar property of vertices, of faces, or both. */
-typedef struct MesoScanColumn {
-    char name[64];
-    uint32_t vertex_count, vertex_room;
-    uint32_t face_count, face_room;
-    float *of_vertices;         /* [vertex_count] all of them, or NULL where vertices have none */
-    float *of_faces;            /* [face_count] likewise */
-} MesoScanColumn;
-
-enum { MESO_SCAN_COLUMNS = 8 };
-
-/* What a scan is asked to keep that is not the shape. Zeroed but for what is asked for. */
-typedef struct MesoMeshExtras {
-    uint32_t column_count;
-    MesoScanColumn columns[MESO_SCAN_COLUMNS];  /* PLY: names are asked for; values may not be finite */
-    bool textures;              /* OBJ: texture coordinates are asked for */
-    uint32_t texture_count, texture_room;
-    float *texture_u;           /* [texture_count] first coordinate of each vt */
-    uint32_t corner_texture_count, corner_texture_room;
-    uint32_t *corner_textures;  /* [corner_texture_count] below texture_count, or MESO_NO_INDEX */
-} MesoMeshExtras;
-
 /*
  * Each scans one kind of file into `arena`, which stays the caller's, and
  * fails with MESO_ERR_INPUT, naming file and line (the element in binary
@@ -71,17 +50,17 @@ MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
 MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_off_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
 
-/* The same with extras; what the file has none of stays NULL. */
-MesoStatus meso_obj_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+/* The same, and what the file says of faces beside their shape goes to `groups`; NULL: nowhere. */
+MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
                                 const MesoInput *input, MesoError *error);
-MesoStatus meso_ply_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+MesoStatus meso_ply_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
                                 const MesoInput *input, MesoError *error);
 
 /*
  * Scans a file of any kind, known by its name or content, and refuses glTF and
- * files without faces. `extras` may be NULL; OFF has none.
+ * files without faces. `groups` may be NULL; OFF has none.
  */
-MesoStatus meso_mesh_scan_file(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+MesoStatus meso_mesh_scan_file(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
                                const MesoInput *input, MesoError *error);
 
 /* For the scans: append one element. MESO_ERR_MEMORY, or MESO_ERR_LIMIT past 2^32 - 2 of a kind. */
@@ -90,12 +69,6 @@ MesoStatus meso_mesh_scan_normal(MesoMeshScan *scan, MesoVec3 normal, MesoError 
 MesoStatus meso_mesh_scan_corner(MesoMeshScan *scan, uint32_t vertex, uint32_t normal, MesoError *error);
 /* Ends the face that the last corners belong to. */
 MesoStatus meso_mesh_scan_face(MesoMeshScan *scan, uint32_t line, MesoError *error);
-
-/* For the scans: append one number of a column, or of what else is kept beside the shape. */
-MesoStatus meso_mesh_scan_number(MesoArena *arena, float **numbers, uint32_t *count, uint32_t *room,
-                                 float number, MesoError *error);
-MesoStatus meso_mesh_scan_index(MesoArena *arena, uint32_t **indices, uint32_t *count, uint32_t *room,
-                                uint32_t index, MesoError *error);
 
 /* For the scans, at the end: checks indices and faces as said above. */
 MesoStatus meso_mesh_scan_check(const MesoMeshScan *scan, const char *path, MesoError *error);

@@ -7,12 +7,12 @@
 typedef struct ObjScan {
     MesoMeshScan *scan;
     MesoMeshText *text;
-    MesoMeshExtras *extras;     /* NULL: none asked for */
+    MesoGroupsBuilder *groups;  /* or NULL */
 } ObjScan;
 
 static bool wants_textures(const ObjScan *obj)
 {
-    return obj->extras && obj->extras->textures;
+    return obj->groups && obj->groups->textures;
 }
 
 /* What is neither vertex nor face, and says nothing about the shape of the faces. */
@@ -34,15 +34,16 @@ static void blank(char *begin, char *end)
     memset(begin, ' ', (size_t)(end - begin));
 }
 
-/* Three numbers; a weight or a colour may follow, and is blanked out. */
-static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *point, MesoError *error)
+/* Three numbers; a weight or a colour may follow, and is blanked out. `colour` has 3 and a 1 where it is there. */
+static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *point, float colour[4],
+                             MesoError *error)
 {
-    float *numbers[3] = {&point->x, &point->y, &point->z}, ignored;
+    float *numbers[6] = {&point->x, &point->y, &point->z, colour, colour + 1, colour + 2}, ignored;
     MesoWord word;
     uint32_t count = 0;
     char *behind = NULL;
     for (; meso_mesh_text_word(obj->text, &word); count++) {
-        MesoStatus status = meso_word_number(obj->text, word, what, count < 3 ? numbers[count] : &ignored, error);
+        MesoStatus status = meso_word_number(obj->text, word, what, count < 6 ? numbers[count] : &ignored, error);
         if (status)
             return status;
         if (count == 2)
@@ -51,6 +52,7 @@ static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *poi
     if (count < 3)
         return meso_mesh_text_fail(obj->text, error, "%s has %u numbers instead of 3", what, count);
     blank(behind, obj->text->end);
+    colour[3] = count == 6;
     return MESO_OK;
 }
 
@@ -99,15 +101,11 @@ static bool split_corner(MesoWord word, ObjCorner *corner)
 /* Unlike vertices and normals, coordinates that nobody asks for need not be there. */
 static MesoStatus keep_texture(const ObjScan *obj, const ObjCorner *corner, MesoError *error)
 {
-    MesoMeshExtras *extras = obj->extras;
     uint32_t texture = MESO_NO_INDEX;
     MesoStatus status = MESO_OK;
     if (corner->has_texture)
-        status = resolve(obj, corner->texture, extras->texture_count, "texture coordinate", &texture, error);
-    if (!status)
-        status = meso_mesh_scan_index(obj->scan->arena, &extras->corner_textures, &extras->corner_texture_count,
-                                      &extras->corner_texture_room, texture, error);
-    return status;
+        status = resolve(obj, corner->texture, obj->groups->texture_count, "texture coordinate", &texture, error);
+    return status ? status : meso_groups_corner_texture(obj->groups, texture, error);
 }
 
 static MesoStatus read_corner(const ObjScan *obj, MesoWord word, MesoError *error)
@@ -137,74 +135,110 @@ static MesoStatus read_face(const ObjScan *obj, MesoError *error)
     MesoStatus status = MESO_OK;
     while (!status && meso_mesh_text_word(obj->text, &word))
         status = read_corner(obj, word, error);
+    if (!status && obj->groups)
+        status = meso_groups_face(obj->groups, error);
     return status ? status : meso_mesh_scan_face(obj->scan, obj->text->line, error);
+}
+
+/* The names of a `g`, `o` or `usemtl`: the words behind it, with one blank between each two. */
+static MesoStatus read_names(const ObjScan *obj, MesoWord statement, MesoError *error)
+{
+    static const char *const statements[] = {
+        [MESO_GROUP_GROUP] = "g", [MESO_GROUP_OBJECT] = "o", [MESO_GROUP_MATERIAL] = "usemtl"};
+    for (uint32_t kind = 0; obj->groups && kind < MESO_GROUP_KINDS; kind++) {
+        if (!meso_word_is(statement, statements[kind]))
+            continue;
+        char *names = statement.text + statement.size + 1, *end = names;
+        MesoWord word;
+        while (meso_mesh_text_word(obj->text, &word)) {
+            if (end > names)
+                *end++ = ' ';
+            memmove(end, word.text, word.size);
+            end += word.size;
+        }
+        return meso_groups_name(obj->groups, (MesoGroupKind)kind, names, (size_t)(end - names), error);
+    }
+    return MESO_OK;
+}
+
+/* Columns 0 to 2 of the groups are red, green and blue. */
+static MesoStatus read_vertex(const ObjScan *obj, MesoError *error)
+{
+    MesoVec3 point = {0};
+    float colour[4];
+    MesoStatus status = read_point(obj, "coordinate", &point, colour, error);
+    for (uint32_t c = 0; c < 3 && obj->groups && colour[3] > 0 && !status; c++)
+        status = meso_groups_value(obj->groups, c, (double)colour[c], error);
+    return status ? status : meso_mesh_scan_vertex(obj->scan, point, error);
 }
 
 static MesoStatus read_texture(const ObjScan *obj, MesoError *error)
 {
-    MesoMeshExtras *extras = obj->extras;
     MesoWord word;
     float u;
     if (!meso_mesh_text_word(obj->text, &word))
         return meso_mesh_text_fail(obj->text, error, "texture coordinate has no numbers");
     MesoStatus status = meso_word_number(obj->text, word, "texture coordinate", &u, error);
-    return status ? status : meso_mesh_scan_number(obj->scan->arena, &extras->texture_u, &extras->texture_count,
-                                                   &extras->texture_room, u, error);
+    return status ? status : meso_groups_texture(obj->groups, u, error);
 }
 
 static MesoStatus read_line(const ObjScan *obj, MesoWord word, MesoError *error)
 {
     MesoVec3 point = {0};
-    MesoStatus status;
+    float none[4];
     if (meso_word_is(word, "f"))
         return read_face(obj, error);
-    if (meso_word_is(word, "v")) {
-        status = read_point(obj, "coordinate", &point, error);
-        return status ? status : meso_mesh_scan_vertex(obj->scan, point, error);
-    }
+    if (meso_word_is(word, "v"))
+        return read_vertex(obj, error);
     bool normal = meso_word_is(word, "vn");
     if (!normal && !is_passed_over(word))
         return meso_mesh_text_fail(obj->text, error, "unknown statement '%.*s'", MESO_WORD_ARGUMENTS(word));
-    if (normal) {
-        status = read_point(obj, "normal", &point, error);
-        if (!status)
-            status = meso_mesh_scan_normal(obj->scan, point, error);
-        if (status)
-            return status;
-    }
-    if (wants_textures(obj) && meso_word_is(word, "vt")) {
+    MesoStatus status = normal ? read_point(obj, "normal", &point, none, error) : read_names(obj, word, error);
+    if (!status && normal)
+        status = meso_mesh_scan_normal(obj->scan, point, error);
+    if (!status && wants_textures(obj) && meso_word_is(word, "vt"))
         status = read_texture(obj, error);
-        if (status)
-            return status;
-    }
+    if (status)
+        return status;
     /* OpenMesh needs none of it, and opens the files that mtllib names. */
     blank(word.text, obj->text->end);
     return MESO_OK;
 }
 
+static MesoStatus add_colours(MesoGroupsBuilder *groups, MesoError *error)
+{
+    static const char *const names[3] = {"red", "green", "blue"};
+    MesoStatus status = MESO_OK;
+    for (uint32_t c = 0, column; c < 3 && !status; c++)
+        status = meso_groups_column(groups, names[c], strlen(names[c]), true, 1, &column, error);
+    return status;
+}
+
 /* Texture coordinates may come after the faces that use them. */
-static MesoStatus check_textures(const MesoMeshScan *scan, const MesoMeshExtras *extras, const char *path,
+static MesoStatus check_textures(const MesoMeshScan *scan, const MesoGroupsBuilder *groups, const char *path,
                                  MesoError *error)
 {
     uint32_t face = 0;
-    for (uint32_t c = 0; c < extras->corner_texture_count; c++) {
+    for (uint32_t c = 0; c < groups->corner_count; c++) {
         while (c >= scan->face_ends[face])
             face++;
-        uint32_t texture = extras->corner_textures[c];
-        if (texture >= extras->texture_count && texture != MESO_NO_INDEX)
+        uint32_t texture = groups->corner_textures[c];
+        if (texture >= groups->texture_count && texture != MESO_NO_INDEX)
             return meso_mesh_scan_fail(scan, path, face, error, "uses texture coordinate %llu of %u",
-                                       texture + 1ull, extras->texture_count);
+                                       texture + 1ull, groups->texture_count);
     }
     return MESO_OK;
 }
 
-MesoStatus meso_obj_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
                                 const MesoInput *input, MesoError *error)
 {
     MesoMeshText text;
-    ObjScan obj = {scan, &text, extras};
+    ObjScan obj = {scan, &text, groups};
     *scan = (MesoMeshScan){.arena = arena};
     MesoStatus status = meso_mesh_text_init(&text, arena, input, '#', error);
+    if (!status && groups)
+        status = add_colours(groups, error);
     while (!status && meso_mesh_text_line(&text, true)) {
         MesoWord word;
         if (meso_mesh_text_word(&text, &word))
@@ -215,10 +249,10 @@ MesoStatus meso_obj_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, Meso
     scan->bytes = text.bytes;
     scan->size = text.size;
     status = meso_mesh_scan_check(scan, input->path, error);
-    return status || !wants_textures(&obj) ? status : check_textures(scan, extras, input->path, error);
+    return status || !wants_textures(&obj) ? status : check_textures(scan, groups, input->path, error);
 }
 
 MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
-    return meso_obj_scan_extras(scan, NULL, arena, input, error);
+    return meso_obj_scan_groups(scan, NULL, arena, input, error);
 }

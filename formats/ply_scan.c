@@ -40,7 +40,7 @@ typedef struct PlyProperty {
     PlyType type, count_type;
     bool list;
     PlyRole role;
-    MesoScanColumn *column;     /* NULL: not asked for */
+    uint32_t column;            /* of the groups, or MESO_NO_INDEX */
 } PlyProperty;
 
 typedef struct PlyElement {
@@ -53,7 +53,7 @@ typedef struct PlyElement {
 
 typedef struct Ply {
     MesoMeshScan *scan;
-    MesoMeshExtras *extras;     /* NULL: none asked for */
+    MesoGroupsBuilder *groups;  /* or NULL */
     MesoMeshText text;          /* after the header of a binary file, `next` is where its bytes go on */
     PlyForm form;
     uint32_t element_count, property_count;
@@ -141,30 +141,20 @@ static MesoStatus set_role(Ply *ply, PlyElement *element, PlyProperty *property,
     return MESO_OK;
 }
 
-/* Columns of the element that `property` of that name is kept in; NULL where nobody asked for it. */
-static MesoScanColumn *find_column(const Ply *ply, const PlyElement *element, const PlyProperty *property,
-                                   MesoWord name)
-{
-    if (!ply->extras || property->list || element->kind == KIND_OTHER)
-        return NULL;
-    for (uint32_t i = 0; i < ply->extras->column_count; i++) {
-        MesoScanColumn *column = &ply->extras->columns[i];
-        if (meso_word_is(name, column->name))
-            return column;
-    }
-    return NULL;
-}
-
-/* A name that comes twice is an error for what is used; so it is for columns. */
-static MesoStatus set_column(Ply *ply, const PlyElement *element, PlyProperty *property, MesoWord name,
+/* A number of faces or vertices that has no part in their shape. Colours are fractions of the largest. */
+static MesoStatus add_column(Ply *ply, const PlyElement *element, PlyProperty *property, MesoWord name,
                              MesoError *error)
 {
-    property->column = find_column(ply, element, property, name);
-    for (uint32_t p = element->property_begin; property->column && &ply->properties[p] < property; p++)
-        if (ply->properties[p].column == property->column)
-            return meso_mesh_text_fail(&ply->text, error, "property '%.*s' comes twice",
-                                       MESO_WORD_ARGUMENTS(name));
-    return MESO_OK;
+    static const char *const colours[] = {"red", "green", "blue", "alpha"};
+    double scale = 1;
+    property->column = MESO_NO_INDEX;
+    if (!ply->groups || property->list || property->role != ROLE_NONE || element->kind == KIND_OTHER)
+        return MESO_OK;
+    for (uint32_t c = 0; c < 4; c++)
+        if (meso_word_is(name, colours[c]) && (property->type == UINT8 || property->type == UINT16))
+            scale = property->type == UINT8 ? 1.0 / 255 : 1.0 / 65535;
+    return meso_groups_column(ply->groups, name.text, name.size, element->kind == KIND_VERTEX, scale,
+                              &property->column, error);
 }
 
 static MesoStatus read_property(Ply *ply, MesoError *error)
@@ -196,7 +186,7 @@ static MesoStatus read_property(Ply *ply, MesoError *error)
         return meso_mesh_text_fail(&ply->text, error, "property without a name");
     status = set_role(ply, element, property, word, error);
     if (!status)
-        status = set_column(ply, element, property, word, error);
+        status = add_column(ply, element, property, word, error);
     /* OpenMesh is to compare positions and faces: under this name it passes over the rest. */
     if (!status && property->role > ROLE_Z && property->role != ROLE_INDICES)
         word.text[0] = '_';
@@ -228,9 +218,9 @@ static MesoStatus check_header(const Ply *ply, const char *path, MesoError *erro
 
 /*
  * Whether OpenMesh knows the layout: it takes vertices before faces, nothing in
- * a face before the vertex indices, no list elsewhere before them, counts of two types only, in binary files
- * coordinates that are not integers, and in text no property of one byte, which
- * it reads as a character and never ends.
+ * a face before the vertex indices, no list elsewhere before them, counts of two
+ * types only, in binary files coordinates that are not integers, and in text no
+ * property of one byte, which it reads as a character and never ends.
  */
 static bool known_to_openmesh(const Ply *ply)
 {
@@ -381,17 +371,6 @@ static MesoStatus add_vertex(Ply *ply, const double *numbers, MesoError *error)
     return status;
 }
 
-static MesoStatus keep_number(const Ply *ply, MesoScanColumn *column, double value, MesoError *error)
-{
-    /* Beyond the range of floats there is infinity, which the reader of the column judges. */
-    float number = fabs(value) <= (double)FLT_MAX ? (float)value : INFINITY;
-    if (ply->element->kind == KIND_VERTEX)
-        return meso_mesh_scan_number(ply->scan->arena, &column->of_vertices, &column->vertex_count,
-                                     &column->vertex_room, number, error);
-    return meso_mesh_scan_number(ply->scan->arena, &column->of_faces, &column->face_count,
-                                 &column->face_room, number, error);
-}
-
 static MesoStatus read_item(Ply *ply, MesoError *error)
 {
     double numbers[ROLE_NONE + 1] = {0};
@@ -403,8 +382,8 @@ static MesoStatus read_item(Ply *ply, MesoError *error)
         const PlyProperty *property = &ply->properties[p];
         status = property->list ? read_list(ply, property, error)
                                 : read_scalar(ply, property->type, &numbers[property->role], error);
-        if (!status && property->column)
-            status = keep_number(ply, property->column, numbers[property->role], error);
+        if (!status && property->column != MESO_NO_INDEX)
+            status = meso_groups_value(ply->groups, property->column, numbers[ROLE_NONE], error);
     }
     MesoWord more;
     if (!status && ply->form == FORM_ASCII && meso_mesh_text_word(&ply->text, &more))
@@ -426,7 +405,7 @@ static MesoStatus check_end(Ply *ply, MesoError *error)
     return MESO_OK;
 }
 
-MesoStatus meso_ply_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, MesoArena *arena,
+MesoStatus meso_ply_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
                                 const MesoInput *input, MesoError *error)
 {
     Ply *ply = MESO_NEW(arena, Ply, 1, error);
@@ -434,7 +413,7 @@ MesoStatus meso_ply_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, Meso
         return MESO_ERR_MEMORY;
     *scan = (MesoMeshScan){.arena = arena};
     ply->scan = scan;
-    ply->extras = extras;
+    ply->groups = groups;
     MesoStatus status = meso_mesh_text_init(&ply->text, arena, input, 0, error);
     if (!status)
         status = read_header(ply, error);
@@ -456,5 +435,5 @@ MesoStatus meso_ply_scan_extras(MesoMeshScan *scan, MesoMeshExtras *extras, Meso
 
 MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
-    return meso_ply_scan_extras(scan, NULL, arena, input, error);
+    return meso_ply_scan_groups(scan, NULL, arena, input, error);
 }

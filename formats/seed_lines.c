@@ -62,7 +62,8 @@ static void add_square(MesoSeedLine *line, uint64_t count)
     line->tile_squares += count * count;
 }
 
-static int put_assignment(json_t *object, MesoSeedLine *line, const MesoAssignment *assignment, const MesoTileSet *set)
+static int put_assignment(json_t *object, MesoSeedLine *line, const MesoAssignment *assignment, const MesoTileSet *set,
+                          const MesoStrandStatistics *strands)
 {
     json_t *tiles = meso_report_histogram(assignment, set), *count;
     const char *name;
@@ -70,20 +71,29 @@ static int put_assignment(json_t *object, MesoSeedLine *line, const MesoAssignme
     json_object_foreach(tiles, name, count)
         add_square(line, (uint64_t)json_integer_value(count));
     int failed = json_object_set_new(object, "tiles", tiles);
+    failed |= json_object_set_new(object, "strands", meso_report_strands(strands));
+    line->strand_count = strands->strand_count;
+    line->loop_count = strands->loop_count;
     return failed | json_object_set_new(object, "assignment", hash_json(line->assignment));
 }
 
 MesoStatus meso_seed_line_make(MesoSeedLine *line, MesoArena *arena, uint64_t seed, const uint64_t problem[2],
-                               const MesoSolveResult *result, const MesoTileSet *set, MesoError *error)
+                               const MesoSolveResult *result, const MesoTileSet *set, const MesoSlotGraph *graph,
+                               MesoError *error)
 {
+    MesoStrandStatistics strands;
+    bool solved = result->verdict == MESO_VERDICT_SOLVED;
+    MesoStatus status = solved ? meso_strands_count(&strands, &result->assignment, set, graph, error) : MESO_OK;
+    if (status)
+        return status;
     *line = (MesoSeedLine){.seed = seed, .verdict = result->verdict, .attempts = result->attempts,
                            .observations = result->observations};
     json_t *object = json_pack("{sIsssIsIsI}", "seed", (json_int_t)seed, "verdict", meso_verdict_name(line->verdict),
                                "attempts", (json_int_t)line->attempts, "observations", (json_int_t)line->observations,
                                "dead_ends", (json_int_t)result->dead_end_total);
     int failed = object == NULL;
-    if (line->verdict == MESO_VERDICT_SOLVED)
-        failed |= put_assignment(object, line, &result->assignment, set);
+    if (solved)
+        failed |= put_assignment(object, line, &result->assignment, set, &strands);
     failed |= json_object_set_new(object, "problem", hash_json(problem));
     char *text = failed ? NULL : json_dumps(object, JSON_COMPACT);
     json_decref(object);
@@ -122,8 +132,12 @@ static uint64_t read_count(const MesoJsonField *object, const char *key, int64_t
 static void read_assignment(MesoSeedLine *line, const MesoJsonField *root)
 {
     MesoJsonField hash = meso_json_key(root, "assignment"), tiles = meso_json_key(root, "tiles");
+    MesoJsonField strands = meso_json_key(root, "strands");
     void *iterator;
     read_hash(line->assignment, &hash);
+    meso_json_object(&strands, NULL);
+    line->strand_count = read_count(&strands, "count", INT64_MAX);
+    line->loop_count = read_count(&strands, "loops", INT64_MAX);
     meso_json_require(&tiles);
     if (!meso_json_good(root) || !meso_json_object(&tiles, NULL))
         return;

@@ -2,10 +2,10 @@
  * Results of a sweep over seeds: JSON lines, one a seed, in the order of the keys
  *
  *     {"seed": 7, "verdict": "solved", "attempts": 1, "observations": 812, "dead_ends": 0,
- *      "tiles": {name: slots that hold it, ...}, "assignment": "XXH3-128, 32 digits",
- *      "problem": "XXH3-128, 32 digits"}
+ *      "tiles": {name: slots that hold it, ...}, "strands": {"count": ..., "loops": ..., and so on},
+ *      "assignment": "XXH3-128, 32 digits", "problem": "XXH3-128, 32 digits"}
  *
- * without blanks; "tiles" and "assignment" only where solved. A line depends
+ * without blanks; "tiles", "strands" (as in report_file.h) and "assignment" only where solved. A line depends
  * on the problem and the seed alone: on no other seed, thread, shard or path.
  */
 #ifndef MESO_SEED_LINES_H
@@ -20,6 +20,7 @@ typedef struct MesoSeedLine {
     MesoVerdict verdict;
     uint32_t attempts;
     uint64_t observations;
+    uint64_t strand_count, loop_count;
     uint64_t tile_squares;      /* sum of the squares of the numbers of slots by tile */
     uint64_t assignment[2];     /* hash, high word first; 0 where not solved */
     const char *text;           /* the line, without its end */
@@ -39,9 +40,10 @@ void meso_seed_problem(uint64_t problem[2], const MesoProvenance *provenance, co
 /* XXH3-128, of the tiles (u32 a slot) and of the transforms (u8 a slot), folded together. */
 void meso_assignment_hash(uint64_t hash[2], const MesoAssignment *assignment);
 
-/* Line of a result; its text lives in `arena`. MESO_ERR_MEMORY alone. */
+/* Line of a result; its text lives in `arena`. MESO_ERR_MEMORY, or MESO_ERR_LIMIT as meso_strands_count(). */
 MesoStatus meso_seed_line_make(MesoSeedLine *line, MesoArena *arena, uint64_t seed, const uint64_t problem[2],
-                               const MesoSolveResult *result, const MesoTileSet *set, MesoError *error);
+                               const MesoSolveResult *result, const MesoTileSet *set, const MesoSlotGraph *graph,
+                               MesoError *error);
 
 /*
  * Reads lines in any order, from any number of shards one after the other, into

@@ -49,9 +49,11 @@ static void test_round_trip(void)
     MesoSeedLine line;
     MesoError error;
     char text[1000];
-    CHECK(meso_seed_line_make(&line, &arena, MESO_SEED_LIMIT, problem, &result, &set, &error) == MESO_OK);
+    MesoSlotGraph graph = fixture_graph(&arena, 5);
+    CHECK(meso_seed_line_make(&line, &arena, MESO_SEED_LIMIT, problem, &result, &set, &graph, &error) == MESO_OK);
     CHECK(strcmp(line.text, "{\"seed\":9223372036854775807,\"verdict\":\"solved\",\"attempts\":3,"
                  "\"observations\":5000000000,\"dead_ends\":2,\"tiles\":{\"t0\":2,\"t1\":3},"
+                 "\"strands\":{\"count\":0,\"loops\":0,\"cyclic\":0,\"sweeps\":0,\"shortest\":0,\"longest\":0,\"lengths\":[]},"
                  "\"assignment\":\"a1c22c02265f0cf20e121b869d23b163\"," PROBLEM) == 0);
     snprintf(text, sizeof text, "%s\n", line.text);
     MesoSeedLine *back = read(text, 1);

@@ -9,6 +9,7 @@
 #define MESO_SURFACE_FILE_H
 
 #include "formats/input.h"
+#include "formats/surface_groups.h"
 #include "libcore/shell/model.h"
 #include "libcore/surface/quad_mesh.h"
 
@@ -21,6 +22,13 @@
  */
 MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInput *input,
                              MesoError *error);
+
+/*
+ * The same, with what the file says of faces beside their shape, into `arena`
+ * too: OBJ and PLY say something, OFF nothing.
+ */
+MesoStatus meso_surface_read_groups(MesoQuadMesh *mesh, MesoSurfaceGroups *groups, MesoArena *arena,
+                                    const MesoInput *input, MesoError *error);
 
 /*
  * Reads any polygon mesh as triangles (fans), for inner meshes; vertices are

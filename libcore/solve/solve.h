@@ -7,10 +7,13 @@
 #define MESO_SOLVE_H
 
 #include "libcore/solve/assignment.h"
+#include "libcore/solve/constraints.h"
 
 typedef enum MesoVerdict {
     MESO_VERDICT_SOLVED,
-    MESO_VERDICT_UNSOLVABLE,    /* proved: the initial propagation empties a slot */
+    MESO_VERDICT_UNSOLVABLE,    /* proved: the initial propagation empties a slot, or disproves a
+                                   quota or the rule on strands, or the search under
+                                   constraints went through every choice */
     MESO_VERDICT_GAVE_UP        /* all attempts met a dead end */
 } MesoVerdict;
 
@@ -34,14 +37,19 @@ typedef struct MesoSolveOptions {
     uint64_t seed;
     uint32_t max_attempts;      /* at least 1 */
     uint32_t max_dead_ends;     /* kept for the report */
+    const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
 } MesoSolveOptions;
 
 typedef struct MesoSolveResult {
     MesoVerdict verdict;
+    const char *reason;         /* in words, where constraints have a part in the verdict; or "" */
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
+    uint64_t backtracks;        /* choices taken back: only quotas and rules on strands call for it */
+    uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; without
+                                   constraints not to be read */
     MesoAssignment assignment;  /* where solved */
     uint32_t dead_end_count;    /* kept; all attempts, in order */
     uint64_t dead_end_total;    /* met */
@@ -51,7 +59,8 @@ typedef struct MesoSolveResult {
 
 /*
  * Assigns variants to slots. The result depends on the arguments alone. A
- * solved assignment has passed meso_assignment_check(). Returns MESO_OK for
+ * solved assignment has passed meso_assignment_check() and
+ * meso_constraints_check(). Returns MESO_OK for
  * every verdict; MESO_ERR_MEMORY, or MESO_ERR_INPUT for a set without
  * variants. Memory O(slots * (words of variants + words of labels)).
  */
