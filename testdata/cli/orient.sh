@@ -40,3 +40,13 @@ sed 's/^vt .*/vt 0 0/' band.obj >flat.obj
 meso-solve --orient u,v stripes.json flat.obj -o x.slots || echo "status $?"
 ls x.* 2>/dev/null
 true
+
+# An assignment to keep is seen from the direction of now.
+sed 's/"rotation": false/"rotation": true/' "$fixtures/vase.tiles.json" >vase.tiles.json
+cp "$fixtures/vase.obj" .
+awk '$1 == "f" { q = NR * 7 % 5 % 4; printf "f"; for (i = 0; i < 4; i++) printf " %s", $(2 + (i + q) % 4); print ""; next }
+     { print }' vase.obj >scrambled.obj
+meso-solve -q --seed 3 vase.tiles.json scrambled.obj -o old.slots
+meso-solve --seed 4 --orient comb --keep old.slots vase.tiles.json scrambled.obj -o new.slots
+cmp old.slots new.slots >/dev/null || echo "other slots"
+[ "$(meso-info old.slots | grep '"tiles": {')" = "$(meso-info new.slots | grep '"tiles": {')" ] && echo "the same tiles"
