@@ -3,9 +3,18 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/solve/counting.h"
+#include "libcore/solve/exact.h"
+#include "libcore/solve/parity.h"
 #include "libcore/solve/propagate.h"
 
 enum { PROGRESS_INTERVAL = 4096 };  /* observations */
+
+/* Word operations of the parity prover: a second or two. */
+static const uint64_t parity_work = (uint64_t)1 << 32;
+
+/* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
+enum { PHASED_CONFLICTS = 20000 };
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -96,9 +105,9 @@ static MesoStatus run_attempt(Search *search, uint32_t attempt, bool *solved, Me
     return MESO_OK;
 }
 
-static MesoStatus extract(Search *search, MesoError *error)
+/* Takes variant[slot_count] as the solution, once checked. */
+static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider decider, MesoError *error)
 {
-    MesoPropagation *propagation = &search->propagation;
     MesoAssignment *assignment = &search->result->assignment;
     uint32_t count = search->graph->slot_count;
 
@@ -108,35 +117,152 @@ static MesoStatus extract(Search *search, MesoError *error)
         return MESO_ERR_MEMORY;
     assignment->slot_count = count;
     for (uint32_t s = 0; s < count; s++) {
-        uint32_t variant = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
-        assignment->tile[s] = search->variants->tile[variant];
-        assignment->transform[s] = search->variants->transform[variant];
+        assignment->tile[s] = search->variants->tile[variant[s]];
+        assignment->transform[s] = search->variants->transform[variant[s]];
     }
     MesoError finding;
     if (meso_assignment_check(assignment, search->set, search->graph, &finding))
         return meso_fail(error, MESO_ERR_INTERNAL, "the solver's assignment is wrong: %s",
                          finding.message);
     search->result->verdict = MESO_VERDICT_SOLVED;
+    search->result->decider = decider;
     return MESO_OK;
 }
 
-static MesoStatus run(Search *search, MesoError *error)
+static MesoStatus accept_states(Search *search, MesoError *error)
+{
+    const MesoPropagation *propagation = &search->propagation;
+    uint32_t count = search->graph->slot_count;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, count, error);
+    if (!variant)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < count; s++)
+        variant[s] = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
+    return accept(search, variant, MESO_DECIDER_SEARCH, error);
+}
+
+static bool told_to_stop(const Search *search)
+{
+    return search->options->stop && search->options->stop(search->options->stop_context);
+}
+
+static MesoStatus search_for(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    MesoPropagation *propagation = &search->propagation;
-
-    if (propagation->initial_dead_count) {
-        result->verdict = MESO_VERDICT_UNSOLVABLE;
-        return record_initial_dead_ends(search, error);
-    }
     bool solved = false;
     while (!solved && result->attempts < search->options->max_attempts) {
-        if (meso_propagation_restart(propagation, error) ||
+        if (meso_propagation_restart(&search->propagation, error) ||
             run_attempt(search, ++result->attempts, &solved, error))
             return MESO_ERR_MEMORY;
     }
+    return solved ? accept_states(search, error) : MESO_OK;
+}
+
+static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
+                             MesoError *error)
+{
+    const MesoSolveOptions *options = search->options;
+    uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
+    MesoStatus status = meso_exact_choose_phases(exact, search->propagation.state, random, error);
+    if (!status)
+        status = meso_sat_solve(exact->sat, answer, NULL, 0, phased, options->stop,
+                                options->stop_context, error);
+    left -= phased;
+    if (status || *answer != MESO_SAT_UNKNOWN || left == 0 || told_to_stop(search))
+        return status;
+    status = meso_sat_forget_phases(exact->sat, error);
+    if (status)
+        return status;
+    return meso_sat_solve(exact->sat, answer, NULL, 0, left < INT32_MAX ? (uint32_t)left : INT32_MAX,
+                          options->stop, options->stop_context, error);
+}
+
+static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer answer, MesoRandom *random,
+                              MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    if (answer == MESO_SAT_YES) {
+        uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+        if (!variant)
+            return MESO_ERR_MEMORY;
+        MesoStatus status = meso_exact_extract(exact, variant, random, error);
+        return status ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
+    }
+    if (answer == MESO_SAT_NO) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_EXACT;
+    } else {
+        result->decider = told_to_stop(search) ? MESO_DECIDER_STOP : MESO_DECIDER_CONFLICTS;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus decide_exactly(Search *search, MesoError *error)
+{
+    MesoExact exact;
+    MesoRandom random;
+    MesoSatAnswer answer = MESO_SAT_UNKNOWN;
+    const MesoExactOptions options = {0};
+    meso_random_init(&random, search->options->seed, UINT64_MAX);
+    MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);
+    if (!status)
+        status = ask_engine(search, &exact, &answer, &random, error);
+    if (!status)
+        status = read_answer(search, &exact, answer, &random, error);
+    meso_exact_release(&exact);
+    return status;
+}
+
+/* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
+static MesoStatus decide_by_numbers(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    MesoPatternTable table;
+    MesoCountingProof proof;
+    uint32_t slot;
+    if (meso_pattern_table_init(&table, &search->scratch, &search->propagation, NULL, error) ||
+        meso_counting_prove(&proof, &search->scratch, &table, error))
+        return MESO_ERR_MEMORY;
+    if (proof.found) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_COUNTING;
+        result->reason = meso_counting_explain(&proof, search->arena, search->set, error);
+        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    }
+    if (meso_parity_prove(&slot, &search->scratch, &table, parity_work, error))
+        return MESO_ERR_MEMORY;
+    if (slot == MESO_NO_INDEX)
+        return MESO_OK;
+    result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = MESO_DECIDER_PARITY;
+    result->reason = meso_arena_print(search->arena, error, "the numbers of labels that the tiles show, "
+                                      "odd or even, contradict each other on the piece of the surface "
+                                      "around slot %u", slot);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* The ladder: each rung leaves the verdict "gave up", or a better one. */
+static MesoStatus run(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    MesoEngine engine = search->options->engine;
+    MesoStatus status = MESO_OK;
+
+    if (search->propagation.initial_dead_count) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_PROPAGATION;
+        return record_initial_dead_ends(search, error);
+    }
     result->verdict = MESO_VERDICT_GAVE_UP;
-    return solved ? extract(search, error) : MESO_OK;
+    result->decider = MESO_DECIDER_ATTEMPTS;
+    if (engine != MESO_ENGINE_EXACT)
+        status = search_for(search, error);
+    if (!status && result->verdict == MESO_VERDICT_GAVE_UP && engine != MESO_ENGINE_WFC)
+        status = decide_by_numbers(search, error);
+    if (!status && result->verdict == MESO_VERDICT_GAVE_UP && engine != MESO_ENGINE_WFC)
+        status = decide_exactly(search, error);
+    return status;
 }
 
 /* Dead ends to make room for: one an attempt, or one a slot met initially. */
@@ -156,7 +282,7 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                       const MesoSolveOptions *options, MesoError *error)
 {
     assert(options->max_attempts >= 1);
-    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count)};
+    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = ""};
     if (variants->count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 
