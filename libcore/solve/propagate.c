@@ -11,7 +11,11 @@ enum { COLLECT_STATES = 1 << 16 };
 /* The step cache: 2^17 entries are 2 MiB, about a core's second cache; a small graph needs few. */
 enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
 
-enum { ALL_SIDES = 15 };
+/* Entries of the first trail. */
+enum { LEAST_TRAIL = 1024 };
+
+/* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball at hand. */
+enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64 };
 
 void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)
 {
@@ -87,12 +91,12 @@ static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena
 
 static void push(MesoPropagation *propagation, uint32_t slot, uint8_t sides)
 {
-    if (sides && !propagation->pending[slot]) {
+    if (sides && !(propagation->pending[slot] & ALL_SIDES)) {
         uint32_t end = propagation->list_head + propagation->list_count++;
         uint32_t size = propagation->graph->slot_count;
         propagation->list[end < size ? end : end - size] = slot;
     }
-    propagation->pending[slot] |= sides;
+    propagation->pending[slot] |= sides & ALL_SIDES;
 }
 
 static uint32_t pop(MesoPropagation *propagation)
@@ -113,31 +117,59 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
     return (uint8_t)sides;
 }
 
+static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
+    uint8_t *marks = &propagation->pending[slot];
+    if (!(*marks & TOUCHED))
+        propagation->touched[propagation->touched_count++] = slot;
+    if (!(*marks & ON_TRAIL)) {
+        if (propagation->trail_count == propagation->trail_capacity) {
+            uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
+            MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
+            if (!trail)
+                return MESO_ERR_MEMORY;
+            if (propagation->trail_count)
+                memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
+            propagation->trail = trail;
+            propagation->trail_capacity = capacity;
+        }
+        propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    }
+    *marks |= TOUCHED | ON_TRAIL;
+    return MESO_OK;
+}
+
+/* Gives `slot` another state, and moves it in the queue. */
+static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uint32_t next, MesoError *error)
+{
+    uint32_t before = propagation->domains.domains[propagation->state[slot]].size;
+    uint32_t after = propagation->domains.domains[next].size;
+    propagation->state[slot] = next;
+    if (before > 1)
+        meso_bucket_queue_remove(&propagation->queue, slot, before);
+    return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
+}
+
 /* Gives `slot` the smaller state `next`, which is not empty. */
 static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_t next,
                             MesoError *error)
 {
-    uint32_t state = propagation->state[slot];
-    const MesoDomain *before = &propagation->domains.domains[state];
-    const MesoDomain *after = &propagation->domains.domains[next];
-
-    propagation->state[slot] = next;
-    push(propagation, slot, changed_sides(before, after));
-    if (!propagation->searching)
+    const MesoDomain *domains = propagation->domains.domains;
+    push(propagation, slot, changed_sides(&domains[propagation->state[slot]], &domains[next]));
+    if (!propagation->searching) {
+        propagation->state[slot] = next;
         return MESO_OK;
-    if (state == propagation->initial[slot])
-        propagation->touched[propagation->touched_count++] = slot;
-    meso_bucket_queue_remove(&propagation->queue, slot, before->size);
-    if (after->size == 1)
-        return MESO_OK;
-    return meso_bucket_queue_insert(&propagation->queue, slot, after->size, error);
+    }
+    if (note_change(propagation, slot, error))
+        return MESO_ERR_MEMORY;
+    return move_to_state(propagation, slot, next, error);
 }
 
 /* Forgets what is still to be told. */
 static void clear_list(MesoPropagation *propagation)
 {
     while (propagation->list_count)
-        propagation->pending[pop(propagation)] = 0;
+        propagation->pending[pop(propagation)] &= (uint8_t)~ALL_SIDES;
 }
 
 /* Tells the neighbour across half-edge `half_edge` which labels it may still show there. */
@@ -168,9 +200,9 @@ static MesoStatus run(MesoPropagation *propagation, MesoError *error)
     propagation->dead_slot = MESO_NO_INDEX;
     while (propagation->list_count) {
         uint32_t slot = pop(propagation);
-        uint32_t sides = propagation->pending[slot];
+        uint32_t sides = propagation->pending[slot] & ALL_SIDES;
         const uint32_t *twin = propagation->graph->twin + 4 * (size_t)slot;
-        propagation->pending[slot] = 0;
+        propagation->pending[slot] &= (uint8_t)~ALL_SIDES;
         if (propagation->state[slot] == MESO_DOMAIN_EMPTY)
             continue;
         for (; sides; sides &= sides - 1) {
@@ -240,7 +272,7 @@ MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
                                  const MesoTileSet *set, const MesoVariantSet *variants,
                                  const MesoSlotGraph *graph, MesoError *error)
 {
-    *propagation = (MesoPropagation){.graph = graph, .set = set};
+    *propagation = (MesoPropagation){.graph = graph, .set = set, .arena = arena};
     uint32_t step_count = LEAST_STEPS;
     while (step_count < MOST_STEPS && step_count < 4 * (uint64_t)graph->slot_count)
         step_count *= 2;
@@ -259,34 +291,123 @@ void meso_propagation_release(MesoPropagation *propagation)
     meso_domain_table_release(&propagation->domains);
 }
 
+/* Room for new states, and an empty trail. */
+static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
+{
+    while (propagation->trail_count)
+        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+    if (propagation->domains.states.count < propagation->collect_at)
+        return MESO_OK;
+    if (meso_domain_collect(&propagation->domains, propagation->graph->slot_count,
+                            propagation->state, propagation->initial, error))
+        return MESO_ERR_MEMORY;
+    plan_collection(propagation);
+    return MESO_OK;
+}
+
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error)
 {
-    if (propagation->domains.states.count >= propagation->collect_at) {
-        if (meso_domain_collect(&propagation->domains, propagation->graph->slot_count,
-                                propagation->state, propagation->initial, error))
-            return MESO_ERR_MEMORY;
-        plan_collection(propagation);
-    }
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
     uint32_t next = meso_domain_single(&propagation->domains, variant, error);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
         return MESO_ERR_MEMORY;
     return run(propagation, error);
 }
 
-MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
+MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
+                                    MesoError *error)
 {
-    const MesoDomain *domains = propagation->domains.domains;
-    while (propagation->touched_count) {
-        uint32_t slot = propagation->touched[--propagation->touched_count];
-        uint32_t size = domains[propagation->state[slot]].size;
-        if (size > 1)
-            meso_bucket_queue_remove(&propagation->queue, slot, size);
-        propagation->state[slot] = propagation->initial[slot];
-        size = domains[propagation->state[slot]].size;
-        if (meso_bucket_queue_insert(&propagation->queue, slot, size, error))
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
+    uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
+    assert(next != MESO_DOMAIN_EMPTY);
+    if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
+        return MESO_ERR_MEMORY;
+    return run(propagation, error);
+}
+
+MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
+{
+    while (propagation->trail_count) {
+        MesoTrailEntry entry = propagation->trail[--propagation->trail_count];
+        propagation->pending[entry.slot] &= (uint8_t)~ON_TRAIL;
+        if (move_to_state(propagation, entry.slot, entry.state, error))
             return MESO_ERR_MEMORY;
     }
+    return MESO_OK;
+}
+
+/* Puts the slots up to `radius` edges around `slot` on the list, breadth first, and marks them. */
+static void collect_ball(MesoPropagation *propagation, uint32_t slot, uint32_t radius)
+{
+    const uint32_t *twins = propagation->graph->twin;
+    uint32_t begin = 0, end = 1;
+    propagation->list[0] = slot;
+    propagation->pending[slot] |= IN_BALL;
+    for (; radius > 0 && begin < end; radius--) {
+        uint32_t ring_end = end;
+        for (; begin < ring_end; begin++)
+            for (uint32_t k = 0; k < 4; k++) {
+                uint32_t twin = twins[4 * (size_t)propagation->list[begin] + k];
+                if (twin == MESO_NO_INDEX || propagation->pending[twin / 4] & IN_BALL)
+                    continue;
+                propagation->pending[twin / 4] |= IN_BALL;
+                propagation->list[end++] = twin / 4;
+            }
+    }
+    propagation->list_head = 0;
+    propagation->list_count = end;
+}
+
+/* The slots on the list have all to tell, and to hear from those around them that are not on it. */
+static void push_ball(MesoPropagation *propagation)
+{
+    const uint32_t *twins = propagation->graph->twin;
+    uint32_t count = propagation->list_count;
+    for (uint32_t i = 0; i < count; i++)
+        propagation->pending[propagation->list[i]] |= ALL_SIDES;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t twin = twins[4 * (size_t)propagation->list[i] + k];
+            if (twin != MESO_NO_INDEX && !(propagation->pending[twin / 4] & IN_BALL))
+                push(propagation, twin / 4, (uint8_t)(1u << (twin % 4)));
+        }
+    for (uint32_t i = 0; i < count; i++)
+        propagation->pending[propagation->list[i]] &= (uint8_t)~IN_BALL;
+}
+
+MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
+                                   uint32_t *reopened, MesoError *error)
+{
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
+    assert(propagation->list_count == 0);
+    collect_ball(propagation, slot, radius);
+    *reopened = propagation->list_count;
+    for (uint32_t i = 0; i < *reopened; i++) {
+        uint32_t inner = propagation->list[i];
+        if (propagation->state[inner] == propagation->initial[inner])
+            continue;
+        if (note_change(propagation, inner, error) ||
+            move_to_state(propagation, inner, propagation->initial[inner], error))
+            return MESO_ERR_MEMORY;
+    }
+    push_ball(propagation);
+    return run(propagation, error);
+}
+
+MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
+{
+    while (propagation->touched_count) {
+        uint32_t slot = propagation->touched[--propagation->touched_count];
+        propagation->pending[slot] &= (uint8_t)~(TOUCHED | ON_TRAIL);
+        if (propagation->state[slot] != propagation->initial[slot] &&
+            move_to_state(propagation, slot, propagation->initial[slot], error))
+            return MESO_ERR_MEMORY;
+    }
+    propagation->trail_count = 0;
     return MESO_OK;
 }
 

@@ -10,6 +10,10 @@
 #include "libcore/solve/domain.h"
 #include "libcore/surface/slot_graph.h"
 
+typedef struct MesoTrailEntry {
+    uint32_t slot, state;       /* that it had before */
+} MesoTrailEntry;
+
 typedef struct MesoPropagation {
     const MesoSlotGraph *graph;
     const MesoTileSet *set;
@@ -19,8 +23,11 @@ typedef struct MesoPropagation {
     uint32_t *state;            /* [slot_count] */
     uint32_t *initial;          /* [slot_count] the fixed point before any choice */
     uint32_t *touched;          /* [slot_count] slots whose state is not the initial one */
-    uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got */
+    uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got, and marks */
     uint32_t *list;             /* [slot_count] ring of the slots with pending sides */
+    MesoArena *arena;           /* of the trail, which grows */
+    MesoTrailEntry *trail;        /* [trail_capacity] what the last step changed, each slot once */
+    uint32_t trail_count, trail_capacity;
     uint32_t touched_count;
     uint32_t list_head, list_count;
     uint32_t dead_slot;         /* met by the last call, or MESO_NO_INDEX */
@@ -47,12 +54,27 @@ MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
 void meso_propagation_release(MesoPropagation *propagation);
 
 /*
- * Reduces `slot` to `variant` of its state and propagates to the fixed point,
- * or until a slot has nothing left: `dead_slot`, which then keeps the state
- * it had before.
+ * A step: reduces `slot` to `variant` of its state and propagates to the fixed
+ * point, or until a slot has nothing left: `dead_slot`, which then keeps the
+ * state it had before. After a dead slot, undo, reopen or restart.
  */
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error);
+
+/* As meso_propagation_assign(), a step that takes `variant` away; it must leave another. */
+MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
+                                    MesoError *error);
+
+/* Takes the last step back, and what followed from it. O(slots that it changed). */
+MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
+
+/*
+ * A step that gives the slots up to `radius` edges around `slot` their initial
+ * states again, as far as the slots around them allow. `reopened` gets their
+ * number. The states must be consistent.
+ */
+MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
+                                   uint32_t *reopened, MesoError *error);
 
 /* Back to the initial fixed point. O(slots touched). MESO_ERR_MEMORY alone. */
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error);

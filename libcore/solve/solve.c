@@ -6,15 +6,13 @@
 #include "libcore/solve/counting.h"
 #include "libcore/solve/exact.h"
 #include "libcore/solve/parity.h"
-#include "libcore/solve/propagate.h"
-
-enum { PROGRESS_INTERVAL = 4096 };  /* observations */
+#include "libcore/solve/search.h"
 
 /* Word operations of the parity prover: a second or two. */
 static const uint64_t parity_work = (uint64_t)1 << 32;
 
 /* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
-enum { PHASED_CONFLICTS = 20000 };
+enum { PHASED_CONFLICTS = 1000 };
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -65,44 +63,26 @@ static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-static void tell_progress(const Search *search)
+static bool told_to_stop(const Search *search)
 {
+    return search->options->stop && search->options->stop(search->options->stop_context);
+}
+
+/* Tells the progress; false where the search is to stop. */
+static bool tick(void *context)
+{
+    const Search *search = context;
     uint32_t total = search->graph->slot_count;
     if (search->options->progress)
         search->options->progress(search->options->progress_context,
                                   total - search->propagation.queue.count, total);
+    return !told_to_stop(search);
 }
 
-/* Observe: a random variant for a random slot of those with the fewest variants above one. */
-static MesoStatus observe(Search *search, MesoRandom *random, MesoError *error)
+static MesoStatus note_dead_end(void *context, uint32_t slot, MesoError *error)
 {
-    MesoPropagation *propagation = &search->propagation;
-    uint32_t slot = meso_bucket_queue_draw(&propagation->queue, random);
-    uint32_t state = propagation->state[slot];
-    uint32_t rank = meso_random_below(random, propagation->domains.domains[state].size);
-    uint32_t variant = meso_domain_variant(&propagation->domains, state, rank);
-
-    if (search->result->observations++ % PROGRESS_INTERVAL == 0)
-        tell_progress(search);
-    return meso_propagation_assign(propagation, slot, variant, error);
-}
-
-/* Observes until every slot has one variant, or one has none: then the attempt's dead end is recorded. */
-static MesoStatus run_attempt(Search *search, uint32_t attempt, bool *solved, MesoError *error)
-{
-    MesoPropagation *propagation = &search->propagation;
-    MesoRandom random;
-    meso_random_init(&random, search->options->seed, attempt);
-
-    while (propagation->queue.count) {
-        if (observe(search, &random, error))
-            return MESO_ERR_MEMORY;
-        if (propagation->dead_slot != MESO_NO_INDEX)
-            return record_dead_end(search, propagation->dead_slot, attempt, error);
-    }
-    *solved = true;
-    tell_progress(search);
-    return MESO_OK;
+    Search *search = context;
+    return record_dead_end(search, slot, search->result->attempts, error);
 }
 
 /* Takes variant[slot_count] as the solution, once checked. */
@@ -141,21 +121,38 @@ static MesoStatus accept_states(Search *search, MesoError *error)
     return accept(search, variant, MESO_DECIDER_SEARCH, error);
 }
 
-static bool told_to_stop(const Search *search)
-{
-    return search->options->stop && search->options->stop(search->options->stop_context);
-}
-
+/* The search's rung: attempts from sub-seeds. */
 static MesoStatus search_for(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    bool solved = false;
-    while (!solved && result->attempts < search->options->max_attempts) {
-        if (meso_propagation_restart(&search->propagation, error) ||
-            run_attempt(search, ++result->attempts, &solved, error))
-            return MESO_ERR_MEMORY;
+    const MesoSolveOptions *options = search->options;
+    MesoSearch wfc = {.propagation = &search->propagation, .tick = tick, .dead_end = note_dead_end, .context = search,
+                      .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
+    MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
+    MesoStatus status = MESO_OK;
+    while (!status && outcome == MESO_SEARCH_STUCK && result->attempts < options->max_attempts) {
+        meso_random_init(&wfc.random, options->seed, ++result->attempts);
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = meso_search_attempt(&wfc, &outcome, error);
     }
-    return solved ? accept_states(search, error) : MESO_OK;
+    result->observations = wfc.observations;
+    result->repairs = wfc.repairs;
+    if (status)
+        return status;
+    tick(search);
+    if (outcome == MESO_SEARCH_DONE)
+        return accept_states(search, error);
+    if (outcome == MESO_SEARCH_IMPOSSIBLE) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_SEARCH;
+        result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leaves another "
+                                          "slot without any", wfc.impossible_slot);
+        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    }
+    if (told_to_stop(search))
+        result->decider = MESO_DECIDER_STOP;
+    return MESO_OK;
 }
 
 static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
@@ -258,9 +255,11 @@ static MesoStatus run(Search *search, MesoError *error)
     result->decider = MESO_DECIDER_ATTEMPTS;
     if (engine != MESO_ENGINE_EXACT)
         status = search_for(search, error);
-    if (!status && result->verdict == MESO_VERDICT_GAVE_UP && engine != MESO_ENGINE_WFC)
+    if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
+        return status;
+    if (result->verdict == MESO_VERDICT_GAVE_UP)
         status = decide_by_numbers(search, error);
-    if (!status && result->verdict == MESO_VERDICT_GAVE_UP && engine != MESO_ENGINE_WFC)
+    if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
         status = decide_exactly(search, error);
     return status;
 }

@@ -25,7 +25,7 @@ typedef enum MesoEngine {
 /* What led to the verdict. */
 typedef enum MesoDecider {
     MESO_DECIDER_PROPAGATION,   /* unsolvable: the border rules alone empty a slot */
-    MESO_DECIDER_SEARCH,        /* solved */
+    MESO_DECIDER_SEARCH,        /* solved; or unsolvable: each variant of one slot leads to a dead end at once */
     MESO_DECIDER_COUNTING,      /* unsolvable: the numbers of labels do not add up */
     MESO_DECIDER_PARITY,        /* unsolvable: sums modulo 2 over all edges contradict each other */
     MESO_DECIDER_EXACT,         /* solved or unsolvable */
@@ -54,6 +54,7 @@ typedef struct MesoSolveOptions {
     uint64_t seed;
     MesoEngine engine;
     uint32_t max_attempts;      /* of the search; at least 1 */
+    uint64_t max_observations;  /* of the search, over all attempts; 0: no limit */
     uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
@@ -71,9 +72,10 @@ typedef struct MesoSolveResult {
     const char *reason;         /* in words, for the user; "" where solved */
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
+    uint64_t repairs;           /* over all attempts: balls of slots reopened around a dead end */
     MesoAssignment assignment;  /* where solved */
-    uint32_t dead_end_count;    /* kept; all attempts, in order */
-    uint64_t dead_end_total;    /* met */
+    uint32_t dead_end_count;    /* kept; the first of each attempt, in order */
+    uint64_t dead_end_total;    /* attempts that met one; or slots that the initial constraints empty */
     MesoDeadEnd *dead_ends;
     uint32_t label_word_count;
 } MesoSolveResult;
