@@ -137,17 +137,17 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
 
 static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange change, MesoError *error)
 {
-    if (propagation->trail_count == propagation->trail_capacity) {
-        size_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : 1024;
-        MesoStateChange *trail = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
-        if (!trail)
+    if (propagation->history_count == propagation->history_capacity) {
+        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : 1024;
+        MesoStateChange *history = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
+        if (!history)
             return MESO_ERR_MEMORY;
-        if (propagation->trail_count)
-            memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
-        propagation->trail = trail;
-        propagation->trail_capacity = capacity;
+        if (propagation->history_count)
+            memcpy(history, propagation->history, propagation->history_count * sizeof *history);
+        propagation->history = history;
+        propagation->history_capacity = capacity;
     }
-    propagation->trail[propagation->trail_count++] = change;
+    propagation->history[propagation->history_count++] = change;
     return MESO_OK;
 }
 
@@ -373,7 +373,7 @@ void meso_propagation_release(MesoPropagation *propagation)
 
 void meso_propagation_forget(MesoPropagation *propagation)
 {
-    propagation->trail_count = 0;
+    propagation->history_count = 0;
     propagation->generation++;
 }
 
@@ -392,7 +392,7 @@ static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *err
 MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMark *mark, MesoError *error)
 {
     MesoStatus status = collect_where_due(propagation, error);
-    *mark = (MesoPropagationMark){propagation->trail_count, propagation->decided_count,
+    *mark = (MesoPropagationMark){propagation->history_count, propagation->decided_count,
                                   propagation->generation};
     return status;
 }
@@ -423,12 +423,12 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
     return run_with_quotas(propagation, error);
 }
 
-MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
                                  MesoError *error)
 {
     *done = mark.generation == propagation->generation;
-    while (*done && propagation->trail_count > mark.trail_count) {
-        const MesoStateChange *change = &propagation->trail[--propagation->trail_count];
+    while (*done && propagation->history_count > mark.history_count) {
+        const MesoStateChange *change = &propagation->history[--propagation->history_count];
         const MesoDomain *now = &propagation->domains.domains[propagation->state[change->slot]];
         const MesoDomain *then = &propagation->domains.domains[change->state];
         meso_quota_change(&propagation->quotas,

@@ -40,11 +40,11 @@ typedef struct MesoPropagation {
     uint32_t *decided;          /* [slot_count] slots that came to a single variant since the initial
                                    fixed point, in order; NULL where no rule on strands asks for it */
     uint32_t decided_count;
-    bool tracing;               /* keep a trail, for meso_propagation_undo() */
+    bool tracing;               /* keep a history, for meso_propagation_rewind() */
     MesoArena *arena;
-    MesoStateChange *trail;     /* since the last restart, or the last collection */
-    size_t trail_count, trail_capacity;
-    uint32_t generation;        /* of the trail: marks of an earlier one are void */
+    MesoStateChange *history;     /* since the last restart, or the last collection */
+    size_t history_count, history_capacity;
+    uint32_t generation;        /* of the history: marks of an earlier one are void */
 } MesoPropagation;
 
 /* Label codes that border rules allow on a side; `labels` [label words]. */
@@ -75,9 +75,9 @@ void meso_propagation_release(MesoPropagation *propagation);
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error);
 
-/* A place in the trail of a propagation that is `tracing`. */
+/* A place in the history of a propagation that is `tracing`. */
 typedef struct MesoPropagationMark {
-    size_t trail_count;
+    size_t history_count;
     uint32_t decided_count, generation;
 } MesoPropagationMark;
 
@@ -88,10 +88,10 @@ MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMa
  * Takes back what was done since `mark`. `*done` is false, and nothing is, where a restart or a
  * collection of states has voided the mark. O(changes). MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
                                  MesoError *error);
 
-/* Forgets the trail: what was done so far is there to stay, and marks are void. */
+/* Forgets the history: what was done so far is there to stay, and marks are void. */
 void meso_propagation_forget(MesoPropagation *propagation);
 
 /* As meso_propagation_assign(), but takes `variant`, one of several, from the state of `slot`. */
