@@ -32,6 +32,7 @@ typedef struct MapArguments {
     const char *kind;           /* --to */
     const char *mesh_path;
     uint32_t position_bits, normal_bits, speed;
+    bool draco_given[3];        /* of these three */
 } MapArguments;
 
 typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
@@ -40,11 +41,12 @@ typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMes
 typedef struct OutputKind {
     const char *name;           /* and extension */
     WriteMesh *write;           /* NULL: a model */
+    bool draco;
 } OutputKind;
 
 static const OutputKind OUTPUT_KINDS[] = {
-    {"meso", NULL}, {"ply", meso_ply_write}, {"obj", meso_obj_write},
-    {"glb", meso_glb_write}, {"drc", meso_drc_write},
+    {"meso", NULL, false},         {"ply", meso_ply_write, false}, {"obj", meso_obj_write, false},
+    {"glb", meso_glb_write, true}, {"drc", meso_drc_write, true},
 };
 enum { OUTPUT_KIND_COUNT = sizeof OUTPUT_KINDS / sizeof *OUTPUT_KINDS };
 
@@ -70,6 +72,21 @@ static MesoStatus choose_kind(const MapArguments *a, const OutputKind **kind, Me
     return meso_fail(error, MESO_ERR_USAGE,
                      "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb or "
                      ".drc, or give --to", output);
+}
+
+/* An option that would change nothing was meant for something else. */
+static MesoStatus check_options(const MapArguments *a, const OutputKind *kind, MesoError *error)
+{
+    static const char *const draco_options[] = {"position-bits", "normal-bits", "speed"};
+    for (int i = 0; i < 3; i++)
+        if (a->draco_given[i] && !kind->draco)
+            return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .%s",
+                             draco_options[i], kind->name);
+    if (a->tool.operand_count == 2)
+        return meso_fail(error, MESO_ERR_USAGE, "2 operands: give TILES SURFACE SLOTS, or MODEL alone");
+    if (a->mesh_path && a->tool.operand_count == 1)
+        return meso_fail(error, MESO_ERR_USAGE, "--mesh-path is for TILES; a model holds its meshes");
+    return MESO_OK;
 }
 
 /* ---- inner meshes ---- */
@@ -193,11 +210,11 @@ static MesoStatus bind_slots(MesoTool *tool, MesoModel *model, MesoSlotsFile *sl
                          "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another surface",
                          inputs->slots.path, slots->assignment.slot_count, inputs->surface.path,
                          model->surface.face_count);
-    MesoStatus status = meso_slots_bind(slots, &model->tile_set, error);
-    if (status == MESO_OK)
-        status = meso_slot_graph_build(&graph, &tool->arena, &model->surface, error);
+    if (meso_slots_bind(slots, &model->tile_set, error) != MESO_OK)
+        return meso_fail_prefix(error, inputs->slots.path);
+    MesoStatus status = meso_slot_graph_build(&graph, &tool->arena, &model->surface, error);
     if (status != MESO_OK)
-        return status;
+        return meso_fail_prefix(error, inputs->surface.path);
     model->assignment = slots->assignment;
     if (meso_assignment_check(&model->assignment, &model->tile_set, &graph, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
@@ -250,9 +267,6 @@ static MesoMapOptions merge_options(const MapArguments *a, MesoMapOptions of_mod
 /* `inputs` stay open: the model may point into them. */
 static MesoStatus read_model(MapArguments *a, Inputs *inputs, MesoModel *model, MesoError *error)
 {
-    if (a->tool.operand_count == 2)
-        return meso_fail(error, MESO_ERR_USAGE,
-                         "2 operands: give TILES SURFACE SLOTS, or MODEL alone");
     MesoStatus status;
     if (a->tool.operand_count == 1) {
         status = open_input(&a->tool, &inputs->tiles, 0, "model", error);
@@ -293,8 +307,7 @@ static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const M
     MesoStatus status = meso_output_open(&output, tool->output, error);
     if (status != MESO_OK)
         return status;
-    meso_tool_progress_begin(tool, "writing", kind->write == meso_drc_write || kind->write == meso_glb_write
-                                                  ? "triangles" : "vertices");
+    meso_tool_progress_begin(tool, "writing", kind->draco ? "triangles" : "vertices");
     status = kind->write ? kind->write(tessellation, &options, output, error)
                          : meso_model_write(model, &tool->provenance, output, error);
     if (status == MESO_OK)
@@ -334,6 +347,8 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
         tool->output = "-";
     MesoStatus status = choose_kind(a, &kind, error);
     if (status == MESO_OK)
+        status = check_options(a, kind, error);
+    if (status == MESO_OK)
         status = read_model(a, inputs, &model, error);
     if (status == MESO_OK)
         status = meso_structure_build(&structure, &tool->arena, &model, tool->threads, error);
@@ -370,10 +385,11 @@ int main(int argc, char **argv)
          &a.mesh_path, 0, 0, 0, 0},
         {MESO_OPTION_GROUP, 0, "Draco (.drc, .glb)", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "position-bits", "N", "precision of positions (default 14)",
-         &a.position_bits, 0, 4, 24, 0},
+         &a.position_bits, &a.draco_given[0], 4, 24, 0},
         {MESO_OPTION_COUNT, 0, "normal-bits", "N", "precision of normals (default 10)",
-         &a.normal_bits, 0, 4, 16, 0},
-        {MESO_OPTION_COUNT, 0, "speed", "N", "0 smallest to 10 fastest (default 7)", &a.speed, 0, 0, 10, 0},
+         &a.normal_bits, &a.draco_given[1], 4, 16, 0},
+        {MESO_OPTION_COUNT, 0, "speed", "N", "0 smallest to 10 fastest (default 7)",
+         &a.speed, &a.draco_given[2], 0, 10, 0},
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -1,7 +1,7 @@
 /* meso-solve: assigns a tile to every slot of a surface. */
 #include <string.h>
 
-#include "cmd/solve_inputs.h"
+#include "cmd/solve_constraints.h"
 #include "formats/report_file.h"
 #include "formats/slots_file.h"
 
@@ -9,13 +9,17 @@ typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
     const char *report;
+    MesoControlArguments control;
 } Arguments;
 
 typedef struct Problem {
     MesoTileSet set;
+    MesoQuadMesh mesh;
+    MesoSurfaceGroups groups;
     MesoSlotGraph graph;
     uint64_t tiles_hash[2], surface_hash[2];
     MesoVariantSet variants;
+    const MesoConstraints *constraints;     /* NULL: none */
     MesoSolveResult result;
 } Problem;
 
@@ -23,8 +27,9 @@ static const MesoToolInfo info = {
     .name = "meso-solve",
     .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]",
     .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
-    .examples = "meso-solve wicker.tiles.json vase.obj -o vase.slots\n"
-                "meso-solve --seed 7 --attempts 100 --report vase.json wicker.tiles.json vase.obj -o vase.slots",
+    .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --constraints knobs.json vase.tiles.json vase.obj -o vase.slots",
     .operands_low = 2,
     .operands_high = 2,
 };
@@ -51,7 +56,13 @@ static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
-        status = meso_tool_read_graph(&a->tool, a->tool.operands[1], &p->graph, p->surface_hash);
+        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], &p->mesh,
+                                        a->control.constraints ? &p->groups : NULL, &p->graph, p->surface_hash);
+    if (!status)
+        status = meso_variant_set_build(&p->variants, &a->tool.arena, &p->set, &a->tool.error);
+    if (!status)
+        status = meso_tool_read_control(&a->tool, &a->control, &p->set, &p->variants, &p->mesh, &p->graph,
+                                        &p->groups, &p->constraints);
     return status;
 }
 
@@ -86,8 +97,13 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
         meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->graph.slot_count,
                       p->graph.slot_count == 1 ? "" : "s", result->attempts,
                       result->attempts == 1 ? "" : "s");
+        if (a->control.keep)
+            meso_tool_say(&a->tool, "%u of the slots to keep changed",
+                          meso_constraints_changed(p->constraints, &result->assignment, &p->variants));
         return MESO_OK;
     case MESO_VERDICT_UNSOLVABLE:
+        if (*result->reason)
+            return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: %s", result->reason);
         return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: no tile fits %llu of %u slots, "
                          "whatever the others hold; the first is slot %u",
                          (unsigned long long)result->dead_end_total, p->graph.slot_count,
@@ -96,17 +112,21 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
         break;
     }
     return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s, each with a dead "
-                     "end; try --attempts, --seed or meso-suggest", result->attempts,
-                     result->attempts == 1 ? "" : "s");
+                     "end%s%s; try --attempts, --seed or meso-suggest", result->attempts,
+                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason);
 }
 
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->graph, a->attempts, &p->variants, &p->result);
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->graph, p->constraints, a->attempts,
+                                        &p->result);
     if (!status)
         status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->graph,
                                   &tool->error);
+    if (!status && (a->report || tool->json))
+        status = meso_report_fill_control(tool->report, &p->result, &p->set, &p->variants, &p->graph,
+                                          p->constraints, &tool->error);
     if (!status)
         status = write_outputs(a, p, slots, report);
     return status ? status : say_verdict(a, p);
@@ -141,6 +161,7 @@ int main(int argc, char **argv)
          &a.attempts, 0, 1, 1e9, 0},
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
+        MESO_CONTROL_OPTIONS(a.control),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

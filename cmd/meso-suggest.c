@@ -18,8 +18,8 @@ static const MesoToolInfo info = {
     .synopsis = "meso-suggest [options] TILES REPORT -o OUT.tiles.json\n"
                 "meso-suggest [options] TILES --surface SURFACE -o OUT.tiles.json",
     .purpose = "Adds to TILES the tile that the dead ends of a solve ask for most.",
-    .examples = "meso-suggest wicker.tiles.json vase.json -o more.tiles.json\n"
-                "meso-suggest --surface vase.obj --until-solved 5 wicker.tiles.json -o more.tiles.json",
+    .examples = "meso-suggest gap.tiles.json gap.json -o mended.tiles.json\n"
+                "meso-suggest --surface vase.obj gap.tiles.json -o mended.tiles.json",
     .operands_low = 1,
     .operands_high = 2,
 };
@@ -119,7 +119,9 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
     for (uint32_t added = 0; !status; added++) {
         if (added == 1 && !a->until_given)
             return MESO_OK;
-        status = meso_tool_solve(tool, set, &graph, a->attempts, &variants, &result);
+        status = meso_variant_set_build(&variants, &tool->arena, set, &tool->error);
+        if (!status)
+            status = meso_tool_solve(tool, set, &variants, &graph, NULL, a->attempts, &result);
         if (status)
             return status;
         if (result.verdict == MESO_VERDICT_SOLVED && added == 0)

@@ -51,22 +51,21 @@ static double milliseconds(void)
     return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
 }
 
-MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoSlotGraph *graph,
-                           uint32_t max_attempts, MesoVariantSet *variants, MesoSolveResult *result)
+MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
+                           const MesoSlotGraph *graph, const MesoConstraints *constraints,
+                           uint32_t max_attempts, MesoSolveResult *result)
 {
     MesoSolveOptions options = {
         .seed = tool->seed,
         .max_attempts = max_attempts,
         .max_dead_ends = MESO_REPORT_DEAD_ENDS,
+        .constraints = constraints,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };
-    MesoStatus status = meso_variant_set_build(variants, &tool->arena, set, &tool->error);
-    if (status)
-        return status;
     meso_tool_progress_begin(tool, "solving", "slots");
     double start = milliseconds();
-    status = meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
+    MesoStatus status = meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
     double duration = milliseconds() - start;
     if (!status && tool->verbose)
         meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations in %u attempt%s",

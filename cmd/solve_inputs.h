@@ -17,9 +17,10 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
 MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
                                 uint64_t hash[2]);
 
-/* Builds the variants and solves, with progress; with -v says how long it took. */
-MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoSlotGraph *graph,
-                           uint32_t max_attempts, MesoVariantSet *variants, MesoSolveResult *result);
+/* Solves, with progress, under `constraints` (NULL: none); with -v says how long it took. */
+MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
+                           const MesoSlotGraph *graph, const MesoConstraints *constraints,
+                           uint32_t max_attempts, MesoSolveResult *result);
 
 /* Writes `value`, or says that memory is out where it is NULL; frees it. Does not commit. */
 MesoStatus meso_tool_write_json(json_t *value, MesoOutput *output, MesoError *error);

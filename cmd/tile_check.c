@@ -88,10 +88,10 @@ static MesoStatus look(Findings *findings)
     if (status != MESO_OK)
         return status;
     meso_provenance_add(&tool->provenance, "tiles", &input);
-    status = meso_tiles_parse(&set, &tool->arena, &input, error);
+    status = meso_tiles_survey(&set, &tool->arena, &input, add_finding, findings, error);
     meso_input_close(&input);
-    if (status != MESO_OK)
-        return status;
+    if (status != MESO_OK)  /* of a file that can be read at all, the findings are the answer */
+        return status == MESO_ERR_INPUT && findings->errors ? MESO_OK : status;
     status = meso_tile_report_counts(tool, &set, NULL);
     if (status != MESO_OK || meso_tile_set_check(&set, add_finding, findings) > 0)
         return status;

@@ -60,8 +60,14 @@ void meso_json_wrong(const MesoJsonField *field, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    field->reader->status = meso_fail(field->reader->error, MESO_ERR_INPUT, "%s: %s%s%s",
-                                      field->reader->path, place, *place ? ": " : "", message);
+    MesoJsonReader *reader = field->reader;
+    if (reader->report) {
+        reader->reported++;
+        reader->report(reader->report_context, "error", *place ? place : "file", message);
+        return;
+    }
+    reader->status = meso_fail(reader->error, MESO_ERR_INPUT, "%s: %s%s%s", reader->path, place,
+                               *place ? ": " : "", message);
 }
 
 void meso_json_require(const MesoJsonField *field)
@@ -125,7 +131,8 @@ bool meso_json_object(const MesoJsonField *field, const char *const *keys)
             char known[200];
             list_keys(keys, known, sizeof known);
             meso_json_wrong(field, "unknown key \"%.40s\"; there are %s", key, known);
-            return false;
+            if (!field->reader->report)
+                return false;
         }
     }
     return true;

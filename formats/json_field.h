@@ -2,7 +2,9 @@
  * Reading fields of parsed JSON, with errors that name the place:
  * "vase.tiles.json: tiles[3].sides[1]: ...". The first problem is kept in the
  * reader; after it every call returns its fallback at once, so that a caller
- * may read on and ask once at the end.
+ * may read on and ask once at the end. A reader with a `report` hears of every
+ * problem instead and reads on with the fallbacks; what was read is then worth
+ * nothing if any was reported, but must not be out of bounds.
  */
 #ifndef MESO_JSON_FIELD_H
 #define MESO_JSON_FIELD_H
@@ -18,7 +20,10 @@ typedef struct MesoJsonReader {
     const char *path;       /* of the file, for messages */
     MesoArena *arena;       /* texts are copied there */
     MesoError *error;
-    MesoStatus status;      /* MESO_OK until something is wrong */
+    MesoStatus status;      /* MESO_OK until something is wrong; with `report`, until memory is out */
+    void (*report)(void *context, const char *severity, const char *where, const char *message);
+    void *report_context;
+    uint32_t reported;      /* problems that `report` has heard of */
 } MesoJsonReader;
 
 /* A place in the JSON. Its parents must outlive it: they are what the message names. */
@@ -34,7 +39,7 @@ MesoJsonField meso_json_root(MesoJsonReader *reader, const json_t *root);
 MesoJsonField meso_json_key(const MesoJsonField *object, const char *key);
 MesoJsonField meso_json_item(const MesoJsonField *array, size_t index);
 
-/* Says what is wrong at `field`, unless something was wrong before. */
+/* Says what is wrong at `field`, unless something was wrong before and nobody wants to hear more. */
 void meso_json_wrong(const MesoJsonField *field, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -46,7 +51,10 @@ static inline bool meso_json_good(const MesoJsonField *field)
     return field->reader->status == MESO_OK;
 }
 
-/* True if it is an object; `keys` (NULL: any) lists the ones that it may have, ended by NULL. */
+/*
+ * True if it is an object; `keys` (NULL: any) lists the ones that it may have, ended by NULL.
+ * Others are wrong, but an object with them is read on where `report` is set.
+ */
 bool meso_json_object(const MesoJsonField *field, const char *const *keys);
 
 /* Length of an array in [low, high]; a missing one has length 0. 0 where that is wrong. */

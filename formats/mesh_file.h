@@ -18,8 +18,8 @@ typedef struct MesoMeshWriteOptions {
 } MesoMeshWriteOptions;
 
 /* The most triangles in one .drc, for each of which Draco takes 160 bytes of memory at speeds of 6
- * and more, 300 below: 5 to 10 GB. */
-enum { MESO_DRACO_TRIANGLES = 1 << 25 };
+ * and more, 300 below: 11 to 20 GB. */
+enum { MESO_DRACO_TRIANGLES = 1 << 26 };
 
 /*
  * Each writes all parts of `tessellation`. PLY and OBJ stream in windows of

@@ -448,7 +448,7 @@ static void test_refusals(void)
     uint64_t nothing[1] = {0}, too_many[2] = {0, UINT32_MAX}, some[2] = {0, 1 << 26};
     MesoTessellation empty = {&scene.structure, 0, nothing, nothing, 0};
     MesoTessellation huge = {&scene.structure, 1, too_many, too_many, 2 * (uint64_t)UINT32_MAX};
-    MesoTessellation large = {&scene.structure, 1, some, some, 1 << 26};
+    MesoTessellation large = {&scene.structure, 1, some, some, (1 << 26) + 1};
     for (int i = 0; i < WRITER_COUNT; i++) {
         CHECK(try_write(WRITERS[i], &empty, &error) == MESO_ERR_INPUT);
         CHECK(try_write(WRITERS[i], &huge, &error) == MESO_ERR_LIMIT && strstr(error.message, "--divisions"));

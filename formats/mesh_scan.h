@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "formats/input.h"
+#include "formats/surface_groups.h"
 #include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
 
@@ -24,7 +25,8 @@ typedef struct MesoMeshScan {
     uint32_t *corner_vertices;  /* [corner_count] below vertex_count */
     uint32_t *corner_normals;   /* [corner_count] below normal_count, or MESO_NO_INDEX */
 
-    /* The file as OpenMesh gets it: without what would lead it astray. */
+    /* The file as OpenMesh gets it, without what would lead it astray. NULL where it does not
+       know the layout at all, so that the scan stands alone. */
     const char *bytes;
     size_t size;
     bool relative;              /* OBJ with negative indices, which OpenMesh counts from the last
@@ -47,6 +49,12 @@ typedef struct MesoMeshScan {
 MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_off_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error);
+
+/* The same, and what the file says of faces beside their shape goes to `groups`; NULL: nowhere. */
+MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                                const MesoInput *input, MesoError *error);
+MesoStatus meso_ply_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                                const MesoInput *input, MesoError *error);
 
 /* For the scans: append one element. MESO_ERR_MEMORY, or MESO_ERR_LIMIT past 2^32 - 2 of a kind. */
 MesoStatus meso_mesh_scan_vertex(MesoMeshScan *scan, MesoVec3 position, MesoError *error);

@@ -7,6 +7,7 @@
 typedef struct ObjScan {
     MesoMeshScan *scan;
     MesoMeshText *text;
+    MesoGroupsBuilder *groups;  /* or NULL */
 } ObjScan;
 
 /* What is neither vertex nor face, and says nothing about the shape of the faces. */
@@ -28,15 +29,16 @@ static void blank(char *begin, char *end)
     memset(begin, ' ', (size_t)(end - begin));
 }
 
-/* Three numbers; a weight or a colour may follow, and is blanked out. */
-static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *point, MesoError *error)
+/* Three numbers; a weight or a colour may follow, and is blanked out. `colour` has 3 and a 1 where it is there. */
+static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *point, float colour[4],
+                             MesoError *error)
 {
-    float *numbers[3] = {&point->x, &point->y, &point->z}, ignored;
+    float *numbers[6] = {&point->x, &point->y, &point->z, colour, colour + 1, colour + 2}, ignored;
     MesoWord word;
     uint32_t count = 0;
     char *behind = NULL;
     for (; meso_mesh_text_word(obj->text, &word); count++) {
-        MesoStatus status = meso_word_number(obj->text, word, what, count < 3 ? numbers[count] : &ignored, error);
+        MesoStatus status = meso_word_number(obj->text, word, what, count < 6 ? numbers[count] : &ignored, error);
         if (status)
             return status;
         if (count == 2)
@@ -45,6 +47,7 @@ static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *poi
     if (count < 3)
         return meso_mesh_text_fail(obj->text, error, "%s has %u numbers instead of 3", what, count);
     blank(behind, obj->text->end);
+    colour[3] = count == 6;
     return MESO_OK;
 }
 
@@ -111,40 +114,82 @@ static MesoStatus read_face(const ObjScan *obj, MesoError *error)
     MesoStatus status = MESO_OK;
     while (!status && meso_mesh_text_word(obj->text, &word))
         status = read_corner(obj, word, error);
+    if (!status && obj->groups)
+        status = meso_groups_face(obj->groups, error);
     return status ? status : meso_mesh_scan_face(obj->scan, obj->text->line, error);
+}
+
+/* The names of a `g`, `o` or `usemtl`: the words behind it, with one blank between each two. */
+static MesoStatus read_names(const ObjScan *obj, MesoWord statement, MesoError *error)
+{
+    static const char *const statements[] = {
+        [MESO_GROUP_GROUP] = "g", [MESO_GROUP_OBJECT] = "o", [MESO_GROUP_MATERIAL] = "usemtl"};
+    for (uint32_t kind = 0; obj->groups && kind < MESO_GROUP_KINDS; kind++) {
+        if (!meso_word_is(statement, statements[kind]))
+            continue;
+        char *names = statement.text + statement.size + 1, *end = names;
+        MesoWord word;
+        while (meso_mesh_text_word(obj->text, &word)) {
+            if (end > names)
+                *end++ = ' ';
+            memmove(end, word.text, word.size);
+            end += word.size;
+        }
+        return meso_groups_name(obj->groups, (MesoGroupKind)kind, names, (size_t)(end - names), error);
+    }
+    return MESO_OK;
+}
+
+/* Columns 0 to 2 of the groups are red, green and blue. */
+static MesoStatus read_vertex(const ObjScan *obj, MesoError *error)
+{
+    MesoVec3 point = {0};
+    float colour[4];
+    MesoStatus status = read_point(obj, "coordinate", &point, colour, error);
+    for (uint32_t c = 0; c < 3 && obj->groups && colour[3] > 0 && !status; c++)
+        status = meso_groups_value(obj->groups, c, (double)colour[c], error);
+    return status ? status : meso_mesh_scan_vertex(obj->scan, point, error);
 }
 
 static MesoStatus read_line(const ObjScan *obj, MesoWord word, MesoError *error)
 {
     MesoVec3 point = {0};
-    MesoStatus status;
+    float none[4];
     if (meso_word_is(word, "f"))
         return read_face(obj, error);
-    if (meso_word_is(word, "v")) {
-        status = read_point(obj, "coordinate", &point, error);
-        return status ? status : meso_mesh_scan_vertex(obj->scan, point, error);
-    }
+    if (meso_word_is(word, "v"))
+        return read_vertex(obj, error);
     bool normal = meso_word_is(word, "vn");
     if (!normal && !is_passed_over(word))
         return meso_mesh_text_fail(obj->text, error, "unknown statement '%.*s'", MESO_WORD_ARGUMENTS(word));
-    if (normal) {
-        status = read_point(obj, "normal", &point, error);
-        if (!status)
-            status = meso_mesh_scan_normal(obj->scan, point, error);
-        if (status)
-            return status;
-    }
+    MesoStatus status = normal ? read_point(obj, "normal", &point, none, error) : read_names(obj, word, error);
+    if (!status && normal)
+        status = meso_mesh_scan_normal(obj->scan, point, error);
+    if (status)
+        return status;
     /* OpenMesh needs none of it, and opens the files that mtllib names. */
     blank(word.text, obj->text->end);
     return MESO_OK;
 }
 
-MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+static MesoStatus add_colours(MesoGroupsBuilder *groups, MesoError *error)
+{
+    static const char *const names[3] = {"red", "green", "blue"};
+    MesoStatus status = MESO_OK;
+    for (uint32_t c = 0, column; c < 3 && !status; c++)
+        status = meso_groups_column(groups, names[c], strlen(names[c]), true, 1, &column, error);
+    return status;
+}
+
+MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                                const MesoInput *input, MesoError *error)
 {
     MesoMeshText text;
-    ObjScan obj = {scan, &text};
+    ObjScan obj = {scan, &text, groups};
     *scan = (MesoMeshScan){.arena = arena};
     MesoStatus status = meso_mesh_text_init(&text, arena, input, '#', error);
+    if (!status && groups)
+        status = add_colours(groups, error);
     while (!status && meso_mesh_text_line(&text, true)) {
         MesoWord word;
         if (meso_mesh_text_word(&text, &word))
@@ -155,4 +200,9 @@ MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
     scan->bytes = text.bytes;
     scan->size = text.size;
     return meso_mesh_scan_check(scan, input->path, error);
+}
+
+MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    return meso_obj_scan_groups(scan, NULL, arena, input, error);
 }

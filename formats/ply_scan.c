@@ -40,6 +40,7 @@ typedef struct PlyProperty {
     PlyType type, count_type;
     bool list;
     PlyRole role;
+    uint32_t column;            /* of the groups, or MESO_NO_INDEX */
 } PlyProperty;
 
 typedef struct PlyElement {
@@ -52,6 +53,7 @@ typedef struct PlyElement {
 
 typedef struct Ply {
     MesoMeshScan *scan;
+    MesoGroupsBuilder *groups;  /* or NULL */
     MesoMeshText text;          /* after the header of a binary file, `next` is where its bytes go on */
     PlyForm form;
     uint32_t element_count, property_count;
@@ -139,6 +141,22 @@ static MesoStatus set_role(Ply *ply, PlyElement *element, PlyProperty *property,
     return MESO_OK;
 }
 
+/* A number of faces or vertices that has no part in their shape. Colours are fractions of the largest. */
+static MesoStatus add_column(Ply *ply, const PlyElement *element, PlyProperty *property, MesoWord name,
+                             MesoError *error)
+{
+    static const char *const colours[] = {"red", "green", "blue", "alpha"};
+    double scale = 1;
+    property->column = MESO_NO_INDEX;
+    if (!ply->groups || property->list || property->role != ROLE_NONE || element->kind == KIND_OTHER)
+        return MESO_OK;
+    for (uint32_t c = 0; c < 4; c++)
+        if (meso_word_is(name, colours[c]) && (property->type == UINT8 || property->type == UINT16))
+            scale = property->type == UINT8 ? 1.0 / 255 : 1.0 / 65535;
+    return meso_groups_column(ply->groups, name.text, name.size, element->kind == KIND_VERTEX, scale,
+                              &property->column, error);
+}
+
 static MesoStatus read_property(Ply *ply, MesoError *error)
 {
     if (ply->element_count == 0)
@@ -166,7 +184,13 @@ static MesoStatus read_property(Ply *ply, MesoError *error)
         return status;
     if (!meso_mesh_text_word(&ply->text, &word))
         return meso_mesh_text_fail(&ply->text, error, "property without a name");
-    return set_role(ply, element, property, word, error);
+    status = set_role(ply, element, property, word, error);
+    if (!status)
+        status = add_column(ply, element, property, word, error);
+    /* OpenMesh is to compare positions and faces: under this name it passes over the rest. */
+    if (!status && property->role > ROLE_Z && property->role != ROLE_INDICES)
+        word.text[0] = '_';
+    return status;
 }
 
 /* An element without properties takes no bytes: any count would fit any file. */
@@ -190,6 +214,30 @@ static MesoStatus check_header(const Ply *ply, const char *path, MesoError *erro
     if (!vertices || !faces)
         return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no element '%s'", path, vertices ? "face" : "vertex");
     return MESO_OK;
+}
+
+/*
+ * Whether OpenMesh knows the layout: it takes vertices before faces, no list
+ * before the vertex indices, counts of two types only, and in binary files
+ * coordinates that are not integers.
+ */
+static bool known_to_openmesh(const Ply *ply)
+{
+    bool vertices = false, indices = false;
+    for (const PlyElement *element = ply->elements; element < ply->elements + ply->element_count; element++) {
+        vertices |= element->kind == KIND_VERTEX;
+        if (element->kind == KIND_FACE && !vertices)
+            return false;
+        for (uint32_t p = element->property_begin; p < element->property_end; p++) {
+            const PlyProperty *property = &ply->properties[p];
+            indices |= property->role == ROLE_INDICES;
+            if (property->list && (!indices || (property->count_type != UINT8 && property->count_type != INT32)))
+                return false;
+            if (ply->form != FORM_ASCII && property->role <= ROLE_Z && property->type < FLOAT32)
+                return false;
+        }
+    }
+    return true;
 }
 
 static MesoStatus read_header(Ply *ply, MesoError *error)
@@ -329,6 +377,8 @@ static MesoStatus read_item(Ply *ply, MesoError *error)
         const PlyProperty *property = &ply->properties[p];
         status = property->list ? read_list(ply, property, error)
                                 : read_scalar(ply, property->type, &numbers[property->role], error);
+        if (!status && property->column != MESO_NO_INDEX)
+            status = meso_groups_value(ply->groups, property->column, numbers[ROLE_NONE], error);
     }
     MesoWord more;
     if (!status && ply->form == FORM_ASCII && meso_mesh_text_word(&ply->text, &more))
@@ -350,13 +400,15 @@ static MesoStatus check_end(Ply *ply, MesoError *error)
     return MESO_OK;
 }
 
-MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+MesoStatus meso_ply_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                                const MesoInput *input, MesoError *error)
 {
     Ply *ply = MESO_NEW(arena, Ply, 1, error);
     if (!ply)
         return MESO_ERR_MEMORY;
     *scan = (MesoMeshScan){.arena = arena};
     ply->scan = scan;
+    ply->groups = groups;
     MesoStatus status = meso_mesh_text_init(&ply->text, arena, input, 0, error);
     if (!status)
         status = read_header(ply, error);
@@ -369,9 +421,14 @@ MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *
         status = check_end(ply, error);
     if (status)
         return status;
-    scan->bytes = (const char *)input->data;
-    scan->size = input->size;
+    scan->bytes = known_to_openmesh(ply) ? ply->text.bytes : NULL;
+    scan->size = ply->text.size;
     if (scan->normal_count && scan->corner_count)
         memcpy(scan->corner_normals, scan->corner_vertices, scan->corner_count * sizeof *scan->corner_normals);
     return meso_mesh_scan_check(scan, input->path, error);
+}
+
+MesoStatus meso_ply_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    return meso_ply_scan_groups(scan, NULL, arena, input, error);
 }

@@ -124,6 +124,20 @@ static void test_binary(void)
     }
 }
 
+/* Layouts that OpenMesh does not know: faces first, a list in the vertices, unusual counts, integers. */
+static void test_foreign(void)
+{
+    const char *faces_first = "ply\nformat ascii 1.0\nelement face 2\nproperty list ushort int vertex_indices\n"
+        "element vertex 6\nproperty float x\nproperty list uchar int q\nproperty float y\nproperty float z\n"
+        "end_header\n4 0 1 2 3\n4 1 4 5 2\n0 0 0 0\n2 1 7 0 0\n2 0 2 0\n0 0 2 0\n2 2 7 8 0 2\n2 0 2 2.25\n";
+    check_mesh(read_bytes(faces_first, strlen(faces_first)));
+    static const char integers[] = "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty char x\n"
+        "property char y\nproperty uchar z\nelement face 1\nproperty list uchar char vertex_index\nend_header\n"
+        "\0\0\0" "\1\0\0" "\1\377\0" "\0\377\377" "\4\0\1\2\3";
+    CHECK(read_bytes(integers, sizeof integers - 1) == MESO_OK);
+    CHECK(mesh.positions[3].y == -1 && mesh.positions[3].z == 255 && mesh.face_vertices[3] == 3);
+}
+
 static void test_not_finite(void)
 {
     unsigned char bytes[1000];
@@ -197,6 +211,7 @@ int main(void)
     test_ascii();
     test_normals();
     test_binary();
+    test_foreign();
     test_not_finite();
     test_header();
     test_body();

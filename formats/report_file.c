@@ -104,6 +104,8 @@ MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const
                             MesoError *error)
 {
     int failed = json_object_set_new(object, "verdict", json_string(meso_verdict_name(result->verdict)));
+    if (*result->reason)
+        failed |= json_object_set_new(object, "reason", meso_json_string(result->reason));
     failed |= json_object_set_new(object, "attempts", json_integer(result->attempts));
     failed |= json_object_set_new(object, "observations", json_integer((json_int_t)result->observations));
     failed |= json_object_set_new(object, "slots", json_integer(graph->slot_count));
@@ -113,6 +115,69 @@ MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const
     failed |= json_object_set_new(object, "dead_end_total",
                                   json_integer((json_int_t)result->dead_end_total));
     failed |= json_object_set_new(object, "dead_ends", write_dead_ends(result, set));
+    return failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the report") : MESO_OK;
+}
+
+json_t *meso_report_strands(const MesoStrandStatistics *statistics)
+{
+    json_t *lengths = json_array();
+    int failed = lengths == NULL;
+    uint32_t count = MESO_STRAND_BUCKETS;
+    while (count > 0 && statistics->lengths[count - 1] == 0)
+        count--;
+    for (uint32_t b = 0; b < count && !failed; b++)
+        failed |= json_array_append_new(lengths, json_integer((json_int_t)statistics->lengths[b]));
+    if (!failed)
+        return json_pack("{sIsIsIsIsIsIso}", "count", (json_int_t)statistics->strand_count,
+                         "loops", (json_int_t)statistics->loop_count,
+                         "cyclic", (json_int_t)statistics->cyclic_count,
+                         "sweeps", (json_int_t)statistics->link_count,
+                         "shortest", (json_int_t)statistics->shortest,
+                         "longest", (json_int_t)statistics->longest, "lengths", lengths);
+    json_decref(lengths);
+    return NULL;
+}
+
+/* Names of constraints are unique: each has its number in its list. */
+static json_t *write_constraints(const MesoSolveResult *result, const MesoVariantSet *variants,
+                                 const MesoConstraints *constraints)
+{
+    json_t *violations = json_object(), *object = json_object();
+    int failed = !violations || !object;
+    for (uint32_t i = 0; i < meso_constraint_count(constraints) && result->violations && !failed; i++)
+        if (result->violations[i])
+            failed |= json_object_set_new(violations, meso_constraint_name(constraints, i),
+                                          json_integer((json_int_t)result->violations[i]));
+    failed |= json_object_set_new(object, "backtracks", json_integer((json_int_t)result->backtracks));
+    failed |= json_object_set_new(object, "violations", violations);
+    if (!failed && constraints->keep && result->verdict == MESO_VERDICT_SOLVED) {
+        uint32_t wanted = 0, slots = result->assignment.slot_count;
+        for (uint32_t s = 0; s < slots; s++)
+            wanted += constraints->keep[s] != MESO_NO_INDEX;
+        uint32_t changed = meso_constraints_changed(constraints, &result->assignment, variants);
+        failed |= json_object_set_new(object, "kept", json_integer(wanted - changed));
+        failed |= json_object_set_new(object, "changed", json_integer(slots - wanted + changed));
+    }
+    if (!failed)
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+MesoStatus meso_report_fill_control(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
+                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                                    const MesoConstraints *constraints, MesoError *error)
+{
+    int failed = 0;
+    if (constraints)
+        failed |= json_object_set_new(object, "constraints", write_constraints(result, variants, constraints));
+    if (result->verdict == MESO_VERDICT_SOLVED) {
+        MesoStrandStatistics statistics;
+        MesoStatus status = meso_strands_count(&statistics, &result->assignment, set, graph, error);
+        if (status)
+            return status;
+        failed |= json_object_set_new(object, "strands", meso_report_strands(&statistics));
+    }
     return failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the report") : MESO_OK;
 }
 

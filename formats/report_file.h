@@ -3,8 +3,13 @@
  *
  *     {"format": "meso-report", "version": 1, "tool": "meso-solve",
  *      "verdict": "solved", "unsolvable" or "gave-up",
+ *      "reason": why, in words, where constraints have a part in it
  *      "attempts", "observations", "slots", "variants": numbers,
  *      "tiles": {name: slots that hold it, ...}                    where solved
+ *      "constraints": {"backtracks": choices taken back, "violations": {name: times, ...},
+ *          "kept", "changed": slots, where an assignment was to be kept}   where there are any
+ *      "strands": {"count", "loops", "cyclic", "sweeps", "shortest", "longest": numbers,
+ *          "lengths": [strands of 1 sweep, of 2 and 3, of 4 to 7, ...]}    where solved
  *      "dead_end_total": met, "dead_ends": the ones that were kept
  *          [{"slot", "attempt", "initial",
  *            "sides": [{"border": true or false, "labels": ["a", "b'", ...]}, x 4]}, ...],
@@ -48,6 +53,17 @@ const char *meso_decider_name(MesoDecider decider);
 MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
                             const MesoVariantSet *variants, const MesoSlotGraph *graph,
                             MesoError *error);
+
+/*
+ * Sets "strands" and, where `constraints` is not NULL, "constraints" in `object`.
+ * Arguments as above. MESO_ERR_MEMORY, or MESO_ERR_LIMIT as meso_strands_count().
+ */
+MesoStatus meso_report_fill_control(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
+                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                                    const MesoConstraints *constraints, MesoError *error);
+
+/* The value of "strands"; NULL when memory is out. */
+json_t *meso_report_strands(const MesoStrandStatistics *statistics);
 
 /* A whole report: format, version, tool, `content` as filled, provenance; NULL when memory is out. */
 json_t *meso_report_to_json(const json_t *content, const MesoProvenance *provenance);

@@ -109,6 +109,8 @@ static MesoStatus cross_check(const MesoMeshScan *scan, FileKind kind, const cha
                                              [KIND_OFF] = MESO_OPENMESH_OFF};
     Comparison comparison = {.scan = scan, .wrong_vertex = MESO_NO_INDEX, .wrong_face = MESO_NO_INDEX};
     MesoOpenMeshSink sink = {&comparison, compare_vertex, compare_face};
+    if (!scan->bytes)
+        return MESO_OK;
     if (meso_openmesh_read(kinds[kind], scan->bytes, scan->size, &sink, error))
         return meso_fail_prefix(error, path);
     if (comparison.wrong_vertex != MESO_NO_INDEX)
@@ -135,13 +137,10 @@ static MesoStatus refuse_gltf(const MesoInput *input, MesoError *error)
                      "needs quads; export OBJ, PLY or OFF", input->path);
 }
 
-/* Reads every element of the file to `scan`, by the kind that it turns out to be. */
-static MesoStatus scan_file(MesoMeshScan *scan, FileKind *kind, MesoArena *arena, const MesoInput *input,
-                            MesoError *error)
+/* Reads every element of the file to `scan`, by the kind that it turns out to be; `groups` may be NULL. */
+static MesoStatus scan_file(MesoMeshScan *scan, FileKind *kind, MesoGroupsBuilder *groups, MesoArena *arena,
+                            const MesoInput *input, MesoError *error)
 {
-    static MesoStatus (*const scans[])(MesoMeshScan *, MesoArena *, const MesoInput *, MesoError *) = {
-        [KIND_OBJ] = meso_obj_scan, [KIND_PLY] = meso_ply_scan, [KIND_OFF] = meso_off_scan,
-    };
     if (input->size == 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: empty file", input->path);
     *kind = kind_by_name(input->path);
@@ -151,7 +150,9 @@ static MesoStatus scan_file(MesoMeshScan *scan, FileKind *kind, MesoArena *arena
         return meso_fail(error, MESO_ERR_INPUT, "%s: not a mesh; OBJ, PLY and OFF are read", input->path);
     if (*kind == KIND_GLB)
         return refuse_gltf(input, error);
-    MesoStatus status = scans[*kind](scan, arena, input, error);
+    MesoStatus status = *kind == KIND_OBJ   ? meso_obj_scan_groups(scan, groups, arena, input, error)
+                        : *kind == KIND_PLY ? meso_ply_scan_groups(scan, groups, arena, input, error)
+                                            : meso_off_scan(scan, arena, input, error);
     if (!status && scan->face_count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no faces", input->path);
     return status;
@@ -183,21 +184,39 @@ static MesoStatus build_surface(MesoQuadMesh *mesh, MesoArena *arena, MesoMeshSc
     return status ? meso_fail_prefix(error, path) : MESO_OK;
 }
 
-MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInput *input, MesoError *error)
+static MesoStatus read_surface(MesoQuadMesh *mesh, MesoSurfaceGroups *groups, MesoArena *arena,
+                               const MesoInput *input, MesoError *error)
 {
     MesoMeshScan scan;
     MesoArena scratch;
+    MesoGroupsBuilder builder;
     FileKind kind;
     meso_arena_init(&scratch);
-    MesoStatus status = scan_file(&scan, &kind, &scratch, input, error);
+    meso_groups_begin(&builder, &scratch);
+    MesoStatus status = scan_file(&scan, &kind, groups ? &builder : NULL, &scratch, input, error);
     if (!status)
         status = check_quads(&scan, input->path, error);
     if (!status)
         status = cross_check(&scan, kind, input->path, error);
     if (!status)
         status = build_surface(mesh, arena, &scan, input->path, error);
+    if (!status && groups)
+        status = meso_groups_finish(&builder, groups, arena, scan.vertex_count, scan.face_count,
+                                    scan.corner_vertices, error);
+    meso_groups_release(&builder);
     meso_arena_release(&scratch);
     return status;
+}
+
+MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    return read_surface(mesh, NULL, arena, input, error);
+}
+
+MesoStatus meso_surface_read_groups(MesoQuadMesh *mesh, MesoSurfaceGroups *groups, MesoArena *arena,
+                                    const MesoInput *input, MesoError *error)
+{
+    return read_surface(mesh, groups, arena, input, error);
 }
 
 MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, const MesoInput *input,
@@ -207,7 +226,7 @@ MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, con
     MesoArena scratch;
     FileKind kind;
     meso_arena_init(&scratch);
-    MesoStatus status = scan_file(&scan, &kind, &scratch, input, error);
+    MesoStatus status = scan_file(&scan, &kind, NULL, &scratch, input, error);
     if (!status)
         status = cross_check(&scan, kind, input->path, error);
     if (!status && meso_mesh_scan_triangulate(mesh, arena, &scan, error))

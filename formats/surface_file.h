@@ -2,12 +2,14 @@
  * Surfaces from mesh files: OBJ, PLY, OFF through OpenMesh, GLB and glTF
  * through tinygltf, so far only to refuse them with the reason. OpenMesh mends
  * what is broken without a word, so the elements of the file are read by
- * ourselves as well, and compared.
+ * ourselves as well, and compared. (A few layouts of PLY that OpenMesh does
+ * not know, such as faces before vertices, are read by ourselves alone.)
  */
 #ifndef MESO_SURFACE_FILE_H
 #define MESO_SURFACE_FILE_H
 
 #include "formats/input.h"
+#include "formats/surface_groups.h"
 #include "libcore/shell/model.h"
 #include "libcore/surface/quad_mesh.h"
 
@@ -20,6 +22,13 @@
  */
 MesoStatus meso_surface_read(MesoQuadMesh *mesh, MesoArena *arena, const MesoInput *input,
                              MesoError *error);
+
+/*
+ * The same, with what the file says of faces beside their shape, into `arena`
+ * too: OBJ and PLY say something, OFF nothing.
+ */
+MesoStatus meso_surface_read_groups(MesoQuadMesh *mesh, MesoSurfaceGroups *groups, MesoArena *arena,
+                                    const MesoInput *input, MesoError *error);
 
 /*
  * Reads any polygon mesh as triangles (fans), for inner meshes; vertices are

@@ -112,8 +112,10 @@ static uint32_t read_shape(Parser *parser, const MesoJsonField *field, uint32_t 
         return 0;
     }
     MesoCsgKind kind = MESO_CSG_DISC;
-    while (!json_object_get(field->value, shape_names[kind]))
+    while (shape_names[kind] && !json_object_get(field->value, shape_names[kind]))
         kind++;
+    if (!shape_names[kind])     /* another key, which has been reported */
+        return 0;
     MesoJsonField content = meso_json_key(field, shape_names[kind]);
     if (kind == MESO_CSG_DISC || kind == MESO_CSG_BOX)
         return add_node(parser, &content, read_leaf(&content, kind));
@@ -406,25 +408,32 @@ static void parse_ours(MesoTileSet *set, MesoJsonReader *reader, const json_t *r
     json_decref(parser.sections);
 }
 
-MesoStatus meso_tiles_from_json(MesoTileSet *set, MesoArena *arena, const json_t *root,
-                                const char *path, MesoError *error)
+/* Of either kind; `warn` hears of what the prototype's files have and we have not. */
+static MesoStatus read_any(MesoTileSet *set, MesoJsonReader *reader, const json_t *root,
+                           MesoProblemReport *warn, void *context)
 {
-    return meso_tiles_import(set, arena, root, path, NULL, NULL, error);
+    *set = (MesoTileSet){0};
+    if (json_object_get(root, "format"))
+        parse_ours(set, reader, root);
+    else if (meso_prototype_recognise(root))
+        meso_prototype_parse(set, reader, root, warn, context);
+    else
+        return meso_fail(reader->error, MESO_ERR_INPUT, "%s: not a tile set: neither \"format\": "
+                         "\"meso-tiles\" nor the prototype's \"tileTypes\" and \"edgeTypes\"", reader->path);
+    return reader->status;
 }
 
 MesoStatus meso_tiles_import(MesoTileSet *set, MesoArena *arena, const json_t *root, const char *path,
                              MesoProblemReport *report, void *context, MesoError *error)
 {
     MesoJsonReader reader = {.path = path, .arena = arena, .error = error};
-    *set = (MesoTileSet){0};
-    if (json_object_get(root, "format"))
-        parse_ours(set, &reader, root);
-    else if (meso_prototype_recognise(root))
-        meso_prototype_parse(set, &reader, root, report, context);
-    else
-        return meso_fail(error, MESO_ERR_INPUT, "%s: not a tile set: neither \"format\": "
-                         "\"meso-tiles\" nor the prototype's \"tileTypes\" and \"edgeTypes\"", path);
-    return reader.status;
+    return read_any(set, &reader, root, report, context);
+}
+
+MesoStatus meso_tiles_from_json(MesoTileSet *set, MesoArena *arena, const json_t *root,
+                                const char *path, MesoError *error)
+{
+    return meso_tiles_import(set, arena, root, path, NULL, NULL, error);
 }
 
 MesoStatus meso_tiles_parse(MesoTileSet *set, MesoArena *arena, const MesoInput *input, MesoError *error)
@@ -433,6 +442,21 @@ MesoStatus meso_tiles_parse(MesoTileSet *set, MesoArena *arena, const MesoInput 
     MesoStatus status = meso_json_parse(&root, input, error);
     if (status == MESO_OK)
         status = meso_tiles_from_json(set, arena, root, input->path, error);
+    json_decref(root);
+    return status;
+}
+
+MesoStatus meso_tiles_survey(MesoTileSet *set, MesoArena *arena, const MesoInput *input,
+                             MesoProblemReport *report, void *context, MesoError *error)
+{
+    json_t *root;
+    MesoJsonReader reader = {.path = input->path, .arena = arena, .error = error,
+                             .report = report, .report_context = context};
+    MesoStatus status = meso_json_parse(&root, input, error);
+    if (status == MESO_OK)
+        status = read_any(set, &reader, root, report, context);
+    if (status == MESO_OK && reader.reported)
+        status = meso_fail(error, MESO_ERR_INPUT, "%s", "");
     json_decref(root);
     return status;
 }

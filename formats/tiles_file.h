@@ -21,8 +21,16 @@ enum { MESO_TILES_VERSION = 1, MESO_TILES_ITEMS = 1 << 20 };  /* the most items 
  */
 MesoStatus meso_tiles_read(MesoTileSet *set, MesoArena *arena, const MesoInput *input, MesoError *error);
 
-/* The same without the check, for `meso-tile check`, which wants every problem. */
+/* The same without the check. */
 MesoStatus meso_tiles_parse(MesoTileSet *set, MesoArena *arena, const MesoInput *input, MesoError *error);
+
+/*
+ * The same for `meso-tile check`, which wants every problem: `report` hears of
+ * each one in the fields, by its place, and the reading goes on. MESO_ERR_INPUT
+ * with an empty message where it heard of any; other errors as above.
+ */
+MesoStatus meso_tiles_survey(MesoTileSet *set, MesoArena *arena, const MesoInput *input,
+                             MesoProblemReport *report, void *context, MesoError *error);
 
 /* Our form as JSON; NULL when memory is out. meso_tiles_from_json(meso_tiles_to_json(x)) is x. */
 json_t *meso_tiles_to_json(const MesoTileSet *set);

@@ -24,6 +24,11 @@ static void read_again(const MesoTileSet *set)
     meso_arena_release(&arena);
 }
 
+static void ignore(void *context, const char *severity, const char *where, const char *message)
+{
+    (void)context, (void)severity, (void)where, (void)message;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     MesoArena arena;
@@ -38,6 +43,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (meso_variant_set_build(&variants, &arena, &set, &error) != MESO_OK)
             abort();
     }
+    meso_tiles_survey(&set, &arena, &input, ignore, NULL, &error);
     meso_arena_release(&arena);
     return 0;
 }

@@ -464,6 +464,40 @@ static void test_prototype_names(void)
     meso_arena_release(&arena);
 }
 
+static void count_place(void *context, const char *severity, const char *where, const char *message)
+{
+    static const char *const places[] = {"interfaces[0]", "interfaces[0].sections[0].shape.disc.size[1]",
+                                         "interfaces[1].sections[0].shape", "tiles[0].sides[1]",
+                                         "tiles[0].sweeps[0].to", "tiles[1].sides"};
+    uint32_t *count = context;
+    CHECK(strcmp(severity, "error") == 0 && *message);
+    CHECK(*count < sizeof places / sizeof *places && strcmp(where, places[*count]) == 0);
+    ++*count;
+}
+
+/* A survey goes on after a problem. */
+static void test_survey(void)
+{
+    static const char text[] =
+        "{\"format\":\"meso-tiles\",\"version\":1,\"interfaces\":[{\"name\":\"a\",\"colour\":[1,1,1],"
+        "\"sections\":[{\"name\":\"1\",\"shape\":{\"disc\":{\"center\":[0,0],\"size\":[0.2,\"x\"]}}}]},"
+        "{\"name\":\"b\",\"sections\":[{\"name\":\"1\",\"shape\":{\"disk\":{}}}]}],"
+        "\"tiles\":[{\"name\":\"t\",\"sides\":[\"a\",\"c\",\"a\",\"a'\"],\"sweeps\":[{\"from\":\"0/1\",\"to\":\"7\"}]},"
+        "{\"name\":\"u\",\"sides\":[\"a\",\"a\"]}]}";
+    MesoArena arena;
+    MesoInput input;
+    MesoTileSet set;
+    MesoError error;
+    uint32_t count = 0;
+    meso_arena_init(&arena);
+    meso_input_wrap(&input, "survey", text, sizeof text - 1);
+    CHECK(meso_tiles_survey(&set, &arena, &input, count_place, &count, &error) == MESO_ERR_INPUT);
+    CHECK(count == 6);
+    CHECK(meso_tiles_parse(&set, &arena, &input, &error) == MESO_ERR_INPUT);
+    CHECK(strstr(error.message, "interfaces[0]: unknown key"));
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     test_everything();
@@ -478,5 +512,6 @@ int main(void)
     test_prototype_warnings(prototype);
     test_prototype_names();
     free(prototype);
+    test_survey();
     return 0;
 }

@@ -11,10 +11,10 @@ layout(location = 3) uniform float radius;          // scene units
 layout(location = 4) uniform float pixels_at_one;   // pixels of one unit at depth 1
 layout(location = 5) uniform float radius_pixels;   // most
 layout(location = 6) uniform ivec2 origin;          // of the target in the image
+layout(location = 7) uniform int sample_count;      // a uniform, so that the loop is not unrolled
 
 layout(location = 0) out float openness;
 
-const int SAMPLES = 20;
 const float GOLDEN_ANGLE = 2.39996323;
 const float STRENGTH = 2.6;
 const float EMPTY = 1e30;
@@ -44,8 +44,8 @@ void main()
     float bias = 1.5 * depth / pixels_at_one;
 
     float sum = 0.0;
-    for (int i = 0; i < SAMPLES; i++) {
-        float share = (float(i) + 0.5) / float(SAMPLES);
+    for (int i = 0; i < sample_count; i++) {
+        float share = (float(i) + 0.5) / float(sample_count);
         float angle = float(i) * GOLDEN_ANGLE + turn;
         ivec2 other = pixel + ivec2(round(reach * share * vec2(cos(angle), sin(angle))));
         if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size)))
@@ -58,5 +58,5 @@ void main()
         float fade = max(1.0 - square / (radius * radius), 0.0);
         sum += fade * max(dot(to, normal) - bias, 0.0) * radius / (square + 0.01 * radius * radius);
     }
-    openness = max(1.0 - STRENGTH * sum / float(SAMPLES), 0.0);
+    openness = max(1.0 - STRENGTH * sum / float(sample_count), 0.0);
 }

@@ -4,8 +4,8 @@
 // Masking-Shadowing Function", Heitz 2014); the sky's reflection by Karis's
 // fit. SAMPLES > 1: shades every sample once, or once for all that agree.
 #if SAMPLES > 1
-layout(binding = 0) uniform sampler2DMS z_samples;
-layout(binding = 1) uniform usampler2DMS packed_samples;
+layout(binding = 0) uniform sampler2D z_samples;
+layout(binding = 1) uniform usampler2D packed_samples;
 #else
 layout(binding = 0) uniform sampler2D depth_samples;
 layout(binding = 1) uniform sampler2D normal_samples;
@@ -24,6 +24,10 @@ layout(location = 8) uniform vec3 to_rim;
 layout(location = 9) uniform vec3 sky_up;
 layout(location = 10) uniform float shadow_texel;   // scene units
 layout(location = 11) uniform float near_depth;
+// Loops end at uniforms: unrolled, they would take a driver that compiles for
+// the CPU longer to compile than to run.
+layout(location = 12) uniform int sample_count;
+layout(location = 13) uniform int shadow_side;      // taps a side
 
 layout(location = 0) out vec4 out_color;
 
@@ -49,10 +53,13 @@ float shadow_at(Surface s)
     vec2 uv = 0.5 * place.xy + 0.5;
     vec2 step_uv = 1.25 / vec2(textureSize(shadow_map, 0));
     float lit = 0.0;
-    for (int y = 0; y < 4; y++)
-        for (int x = 0; x < 4; x++)
-            lit += texture(shadow_map, vec3(uv + (vec2(x, y) - 1.5) * step_uv, place.z));
-    return lit / 16.0;
+    int taps = shadow_side * shadow_side;
+    float middle = 0.5 * float(shadow_side - 1);
+    for (int i = 0; i < taps; i++) {
+        vec2 tap = vec2(i % shadow_side, i / shadow_side) - middle;
+        lit += texture(shadow_map, vec3(uv + tap * step_uv, place.z));
+    }
+    return lit / float(taps);
 }
 
 // The pixel's occlusion is that of its centre: a sample on another surface asks the neighbours.
@@ -130,16 +137,22 @@ vec3 from_octahedral(vec2 p)
     return normalize(n);
 }
 
+// Four samples on a grid of 2 x 2.
+ivec2 place_of(ivec2 pixel, int i)
+{
+    return 2 * pixel + ivec2(i & 1, i >> 1);
+}
+
 // Depth is reversed and infinite: z = near / depth.
 float depth_of(ivec2 pixel, int i)
 {
-    float z = texelFetch(z_samples, pixel, i).r;
+    float z = texelFetch(z_samples, place_of(pixel, i), 0).r;
     return z > 0.0 ? near_depth / z : 2.0 * EMPTY;
 }
 
 void fetch(ivec2 pixel, int i, inout Surface s)
 {
-    uvec4 bits = texelFetch(packed_samples, pixel, i);
+    uvec4 bits = texelFetch(packed_samples, place_of(pixel, i), 0);
     vec2 blue_metallic = unpackUnorm2x16(bits.z);
     s.normal = from_octahedral(unpackSnorm2x16(bits.x));
     s.albedo = vec3(unpackUnorm2x16(bits.y), blue_metallic.x);
@@ -149,13 +162,13 @@ void fetch(ivec2 pixel, int i, inout Surface s)
 #else
 float depth_of(ivec2 pixel, int i)
 {
-    return texelFetch(depth_samples, pixel, i).r;
+    return texelFetch(depth_samples, pixel, 0).r;
 }
 
 void fetch(ivec2 pixel, int i, inout Surface s)
 {
-    vec4 normal = texelFetch(normal_samples, pixel, i);
-    vec4 albedo = texelFetch(albedo_samples, pixel, i);
+    vec4 normal = texelFetch(normal_samples, pixel, 0);
+    vec4 albedo = texelFetch(albedo_samples, pixel, 0);
     s.normal = normalize(normal.xyz);
     s.albedo = albedo.rgb;
     s.metallic = albedo.a;
@@ -170,7 +183,7 @@ void main()
     Surface surfaces[SAMPLES];
     vec3 colors[SAMPLES];
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < SAMPLES; i++) {
+    for (int i = 0; i < sample_count; i++) {
         Surface s;
         s.depth = depth_of(pixel, i);
         if (s.depth > EMPTY) {
@@ -191,5 +204,5 @@ void main()
         colors[i] = like >= 0 ? colors[like] : shade(s, openness_at(pixel, s.depth));
         sum += vec4(colors[i], 1.0);
     }
-    out_color = sum / float(SAMPLES);
+    out_color = sum / float(sample_count);
 }

@@ -73,9 +73,10 @@ static MesoCamera end_frame(const Frame *frame, float fov_degrees)
         z = fmaxf(0.5f * (frame->right_most + frame->left_most) / frame->tan_x,
                   0.5f * (frame->high_most + frame->low_most) / frame->tan_y);
         middle = 0.5f * (frame->nearest + frame->deepest);
-        /* A single point has no size to fit. */
-        if (!(z > frame->nearest))
-            z = frame->nearest + fmaxf(1e-3f * fabsf(frame->nearest), 1e-3f);
+        /* What is smaller than the rounding of its place has no size to fit. */
+        float least = 1e-5f * (fabsf(x) + fabsf(y) + fabsf(middle));
+        if (!(z - frame->nearest > least))
+            z = frame->nearest + fmaxf(100 * least, 1e-3f);
     }
     MesoVec3 axis = meso_vec3_mad(meso_vec3_scale(frame->right, x), y, frame->up);
     return (MesoCamera){meso_vec3_mad(axis, z, frame->back), meso_vec3_mad(axis, middle, frame->back),

@@ -6,6 +6,12 @@
 
 /* Mesa's LLVM keeps 200 to 320 bytes a context to the end. */
 #if defined(__SANITIZE_ADDRESS__)
+const char *__lsan_default_options(void);
+const char *__lsan_default_options(void)
+{
+    return "print_suppressions=0";
+}
+
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {

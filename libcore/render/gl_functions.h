@@ -54,6 +54,7 @@
     X(PIXELSTOREI, PixelStorei)                                                     \
     X(POLYGONOFFSET, PolygonOffset)                                                 \
     X(PROGRAMUNIFORM1F, ProgramUniform1f)                                           \
+    X(PROGRAMUNIFORM1I, ProgramUniform1i)                                           \
     X(PROGRAMUNIFORM1UI, ProgramUniform1ui)                                         \
     X(PROGRAMUNIFORM2I, ProgramUniform2i)                                           \
     X(PROGRAMUNIFORM3F, ProgramUniform3f)                                           \
@@ -63,7 +64,6 @@
     X(SHADERSOURCE, ShaderSource)                                                   \
     X(TEXTUREPARAMETERI, TextureParameteri)                                         \
     X(TEXTURESTORAGE2D, TextureStorage2D)                                           \
-    X(TEXTURESTORAGE2DMULTISAMPLE, TextureStorage2DMultisample)                     \
     X(USEPROGRAM, UseProgram)                                                       \
     X(VERTEXARRAYATTRIBBINDING, VertexArrayAttribBinding)                           \
     X(VERTEXARRAYATTRIBFORMAT, VertexArrayAttribFormat)                             \

@@ -13,17 +13,20 @@
 extern const char meso_shader_screen_vertex[], meso_shader_occlusion_fragment[];
 extern const char meso_shader_occlusion_blur_fragment[], meso_shader_shade_fragment[];
 
-enum { MAX_SIZE = 16384, WINDOW_SIZE = 2048, MIN_SHADOW = 1024, MAX_SHADOW = 8192 };
+enum { MAX_SIZE = 16384, WINDOW_SIZE = 2048, MIN_SHADOW = 1024, MAX_SHADOW = 4096 };
 
 /* Uniforms by the locations that the shaders give them. */
 enum {
     RAY_ORIGIN, RAY_RIGHT, RAY_DOWN,
-    OCCLUSION_RADIUS = 3, PIXELS_AT_ONE, RADIUS_PIXELS, TARGET_ORIGIN,
-    LIGHT_FROM_EYE = 3, TO_KEY = 7, TO_RIM, SKY_UP, SHADOW_TEXEL, NEAR_DEPTH
+    OCCLUSION_RADIUS = 3, PIXELS_AT_ONE, RADIUS_PIXELS, TARGET_ORIGIN, OCCLUSION_COUNT,
+    LIGHT_FROM_EYE = 3, TO_KEY = 7, TO_RIM, SKY_UP, SHADOW_TEXEL, NEAR_DEPTH, SAMPLE_COUNT, SHADOW_SIDE
 };
 
 /* How far thinned geometry may lie from the kind's own, in pixels. */
 static const float TOLERANCE_PIXELS = 0.25f;
+
+/* Places that the occlusion of a pixel looks at; taps a side of the shadow's filter. */
+enum { OCCLUSION_SAMPLES = 20, SHADOW_TAPS = 4 };
 
 /* Occlusion reaches over a slot's shell and a share of the whole, at most so many pixels of a window. */
 static const float OCCLUSION_SHELLS = 0.9f, OCCLUSION_SHARE = 0.015f;
@@ -127,7 +130,7 @@ static uint32_t smaller(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-/* A texel of the shadow is about half a pixel of the image. */
+/* A texel of the shadow is about half a pixel of the image, up to a size that is still quick. */
 static uint32_t shadow_size(const MesoRenderOptions *options)
 {
     uint32_t wanted = 2 * (options->width > options->height ? options->width : options->height);
@@ -143,8 +146,8 @@ static MesoStatus make_targets(Renderer *r, MesoError *error)
     r->margin = smaller(options->height / 12 + 2, MAX_OCCLUSION_PIXELS);
     uint32_t most = WINDOW_SIZE + 2 * r->margin;
     return meso_targets_init(&r->targets, &r->gl, smaller(options->width, most),
-                             smaller(options->height, most), options->samples, shadow_size(options),
-                             error);
+                             smaller(options->height, most), options->samples == 4 ? 2 : 1,
+                             shadow_size(options), error);
 }
 
 static void draw_shadow(Renderer *r)
@@ -190,6 +193,7 @@ static void draw_occlusion(const Renderer *r, MesoWindow window)
                          (float)r->options->height / (2 * r->view.tan_half_fov));
     gl->ProgramUniform1f(r->occlusion, RADIUS_PIXELS, (float)(r->margin - 2));
     gl->ProgramUniform2i(r->occlusion, TARGET_ORIGIN, (GLint)window.x, (GLint)window.y);
+    gl->ProgramUniform1i(r->occlusion, OCCLUSION_COUNT, OCCLUSION_SAMPLES);
     gl->BindTextureUnit(0, targets->center[MESO_TARGET_DEPTH]);
     gl->BindTextureUnit(1, targets->center[MESO_TARGET_NORMAL]);
     draw_screen(r, targets->openness_raw_frame, r->occlusion);
@@ -215,7 +219,9 @@ static void draw_light(const Renderer *r, MesoWindow window)
     gl->ProgramUniform3f(r->shade, SKY_UP, r->view.up.x, r->view.up.y, r->view.up.z);
     gl->ProgramUniform1f(r->shade, SHADOW_TEXEL, r->shadow_texel);
     gl->ProgramUniform1f(r->shade, NEAR_DEPTH, r->near_depth);
-    if (targets->samples > 1) {
+    gl->ProgramUniform1i(r->shade, SAMPLE_COUNT, (GLint)r->options->samples);
+    gl->ProgramUniform1i(r->shade, SHADOW_SIDE, SHADOW_TAPS);
+    if (targets->sample_side > 1) {
         gl->BindTextureUnit(0, targets->multi_z);
         gl->BindTextureUnit(1, targets->multi);
     } else {
@@ -271,7 +277,7 @@ static void draw_window(const Renderer *r, MesoImage *image, MesoWindow inner)
                                                 r->options->height, outer);
     meso_targets_begin_center(&r->targets);
     meso_scene_draw(&r->scene, &r->surface, &clip, &r->view);
-    if (r->targets.samples > 1) {
+    if (r->targets.sample_side > 1) {
         meso_targets_begin_multi(&r->targets);
         meso_scene_draw(&r->scene, &r->packed, &clip, &r->view);
     }

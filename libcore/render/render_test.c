@@ -131,8 +131,11 @@ static void test_values(const MesoImage *image)
     CHECK(image->normal[3 * cap] < 0);
 }
 
-/* The row of the top is first: a bar above the axis is seen in the upper half. */
-static void test_orientation(MesoArena *arena)
+/*
+ * Thinned geometry changes a picture by less than half a pixel; and the row of
+ * the top is first: a bar above the axis is seen in the upper half.
+ */
+static void test_detail(MesoArena *arena)
 {
     Bar bar;
     make_bar(&bar);
@@ -142,18 +145,6 @@ static void test_orientation(MesoArena *arena)
             bar.instances[i].p[k].y += 0.5f;
         }
     MesoRenderOptions options = look(1);
-    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
-    CHECK(image.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 + 50] == 41);
-    CHECK(image.slot[(HEIGHT / 2 + 20) * WIDTH + WIDTH / 2 + 50] == 0);
-    CHECK(image.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 - 30] == 0);
-}
-
-/* Thinned geometry changes a picture by less than half a pixel of its outline. */
-static void test_detail(MesoArena *arena)
-{
-    Bar bar;
-    make_bar(&bar);
-    MesoRenderOptions options = look(1);
     MesoImage thin = draw(arena, &bar.structure, &options, "osmesa", 0);
     options.full_detail = true;
     MesoImage full = draw(arena, &bar.structure, &options, "osmesa", 0);
@@ -161,6 +152,9 @@ static void test_detail(MesoArena *arena)
         if (thin.slot[i] && full.slot[i] && full.normal[3 * i + 2] > 0.2f)
             CHECK(fabsf(thin.depth[i] - full.depth[i]) < 0.5f / 40 / full.normal[3 * i + 2]);
     CHECK(!same_pixels(&thin, &full));
+    CHECK(full.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 + 50] == 41);
+    CHECK(full.slot[(HEIGHT / 2 + 20) * WIDTH + WIDTH / 2 + 50] == 0);
+    CHECK(full.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 - 30] == 0);
 }
 
 /* An image of several windows is the same as one drawn at once, but for rounding at the seams. */
@@ -169,17 +163,17 @@ static void test_windows(MesoArena *arena)
     Bar bar;
     make_bar(&bar);
     MesoRenderOptions options = look(1);
-    options.width = 4200;
+    options.width = 2400;
     options.height = 64;
-    options.camera.fov_degrees = 2;
+    options.camera.fov_degrees = 1;
     MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
-    float pixel = 2 * tanf((float)(3.14159265358979323846 / 180)) * 10 / 64;
-    for (uint32_t x = 0; x < 4200; x++) {
-        float world_x = ((float)x + 0.5f - 2100) * pixel * (10 - RADIUS) / 10;
+    float pixel = 2 * tanf((float)(3.14159265358979323846 / 360)) * 10 / 64;
+    for (uint32_t x = 0; x < 2400; x++) {
+        float world_x = ((float)x + 0.5f - 1200) * pixel * (10 - RADIUS) / 10;
         if (fabsf(world_x) < 0.98f)
-            CHECK(image.slot[32 * 4200 + x] == 41);
+            CHECK(image.slot[32 * 2400 + x] == 41);
         else if (fabsf(world_x) > 1.2f)
-            CHECK(image.slot[32 * 4200 + x] == 0);
+            CHECK(image.slot[32 * 2400 + x] == 0);
     }
 }
 
@@ -217,7 +211,7 @@ static void test_refusals(MesoArena *arena)
     CHECK(meso_gl_is_software("llvmpipe (LLVM 15.0.6, 256 bits)") && !meso_gl_is_software("NVIDIA H200"));
 }
 
-/* EGL may be missing where only OSMesa is installed; where it is there and software, it agrees. */
+/* EGL may offer nothing; where it is software, it agrees, for another number of threads too. */
 static void test_makers(MesoArena *arena, const MesoStructure *structure, const MesoImage *expected)
 {
     MesoGlContext context;
@@ -226,13 +220,14 @@ static void test_makers(MesoArena *arena, const MesoStructure *structure, const 
     bool software = meso_gl_is_software(context.renderer);
     meso_gl_context_release(&context);
     MesoRenderOptions options = look(4);
-    MesoImage image = draw(arena, structure, &options, "egl", 0);
+    MesoImage image = draw(arena, structure, &options, "egl", 2);
     if (software)
         CHECK(same_pixels(&image, expected));
     else
         test_values(&image);
-    image = draw(arena, structure, &options, "auto", 0);
-    CHECK(image.slot[HEIGHT / 2 * WIDTH + WIDTH / 2] == 41);
+    CHECK(meso_gl_context_init(&context, "auto", 0, NULL) == MESO_OK);
+    CHECK(meso_gl_is_software(context.renderer) || !software);
+    meso_gl_context_release(&context);
 }
 
 int main(void)
@@ -252,7 +247,6 @@ int main(void)
     CHECK(same_pixels(&four, &again));
 
     test_makers(&arena, &bar.structure, &four);
-    test_orientation(&arena);
     test_detail(&arena);
     test_windows(&arena);
     test_nothing(&arena);

@@ -10,19 +10,13 @@ static const GLenum SURFACE_FORMATS[MESO_SURFACE_TARGETS] = {
     [MESO_TARGET_IDS] = GL_RG32UI,
 };
 
-static GLuint make_texture(const MesoGl *gl, GLenum format, uint32_t width, uint32_t height,
-                           uint32_t samples)
+static GLuint make_texture(const MesoGl *gl, GLenum format, uint32_t width, uint32_t height)
 {
     GLuint texture = 0;
-    gl->CreateTextures(samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &texture);
-    if (samples > 1) {
-        gl->TextureStorage2DMultisample(texture, (GLsizei)samples, format, (GLsizei)width,
-                                        (GLsizei)height, GL_TRUE);
-    } else {
-        gl->TextureStorage2D(texture, 1, format, (GLsizei)width, (GLsizei)height);
-        gl->TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl->TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
+    gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
+    gl->TextureStorage2D(texture, 1, format, (GLsizei)width, (GLsizei)height);
+    gl->TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 
@@ -43,14 +37,14 @@ static GLuint make_frame(const MesoGl *gl, const GLuint *colors, GLsizei color_c
 static void make_surface(MesoTargets *targets)
 {
     const MesoGl *gl = targets->gl;
-    uint32_t w = targets->width, h = targets->height, n = targets->samples;
+    uint32_t w = targets->width, h = targets->height, n = targets->sample_side;
     for (uint32_t i = 0; i < MESO_SURFACE_TARGETS; i++)
-        targets->center[i] = make_texture(gl, SURFACE_FORMATS[i], w, h, 1);
-    targets->center_z = make_texture(gl, GL_DEPTH_COMPONENT32F, w, h, 1);
+        targets->center[i] = make_texture(gl, SURFACE_FORMATS[i], w, h);
+    targets->center_z = make_texture(gl, GL_DEPTH_COMPONENT32F, w, h);
     targets->center_frame = make_frame(gl, targets->center, MESO_SURFACE_TARGETS, targets->center_z);
     if (n > 1) {
-        targets->multi = make_texture(gl, GL_RGBA32UI, w, h, n);
-        targets->multi_z = make_texture(gl, GL_DEPTH_COMPONENT32F, w, h, n);
+        targets->multi = make_texture(gl, GL_RGBA32UI, n * w, n * h);
+        targets->multi_z = make_texture(gl, GL_DEPTH_COMPONENT32F, n * w, n * h);
         targets->multi_frame = make_frame(gl, &targets->multi, 1, targets->multi_z);
     }
 }
@@ -59,7 +53,7 @@ static void make_shadow(MesoTargets *targets)
 {
     const MesoGl *gl = targets->gl;
     targets->shadow = make_texture(gl, GL_DEPTH_COMPONENT32F, targets->shadow_size,
-                                   targets->shadow_size, 1);
+                                   targets->shadow_size);
     gl->TextureParameteri(targets->shadow, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl->TextureParameteri(targets->shadow, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl->TextureParameteri(targets->shadow, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -78,21 +72,22 @@ static MesoStatus check_frames(const MesoTargets *targets, MesoError *error)
     for (size_t i = 0; !status && i < sizeof frames / sizeof *frames; i++)
         if (frames[i] && targets->gl->CheckNamedFramebufferStatus(frames[i], GL_FRAMEBUFFER)
                              != GL_FRAMEBUFFER_COMPLETE)
-            status = meso_fail(error, MESO_ERR_LIMIT, "GL driver has no framebuffer of %u x %u with %u "
-                               "samples", targets->width, targets->height, targets->samples);
+            status = meso_fail(error, MESO_ERR_LIMIT, "GL driver has no framebuffer of %u x %u",
+                               targets->sample_side * targets->width,
+                               targets->sample_side * targets->height);
     return status;
 }
 
 MesoStatus meso_targets_init(MesoTargets *targets, const MesoGl *gl, uint32_t width, uint32_t height,
-                             uint32_t samples, uint32_t shadow_size, MesoError *error)
+                             uint32_t sample_side, uint32_t shadow_size, MesoError *error)
 {
-    *targets = (MesoTargets){.gl = gl, .width = width, .height = height, .samples = samples,
+    *targets = (MesoTargets){.gl = gl, .width = width, .height = height, .sample_side = sample_side,
                              .shadow_size = shadow_size};
     make_surface(targets);
     make_shadow(targets);
-    targets->openness_raw = make_texture(gl, GL_R16F, width, height, 1);
-    targets->openness = make_texture(gl, GL_R16F, width, height, 1);
-    targets->color = make_texture(gl, GL_RGBA32F, width, height, 1);
+    targets->openness_raw = make_texture(gl, GL_R16F, width, height);
+    targets->openness = make_texture(gl, GL_R16F, width, height);
+    targets->color = make_texture(gl, GL_RGBA32F, width, height);
     targets->openness_raw_frame = make_frame(gl, &targets->openness_raw, 1, 0);
     targets->openness_frame = make_frame(gl, &targets->openness, 1, 0);
     targets->color_frame = make_frame(gl, &targets->color, 1, 0);
@@ -119,12 +114,12 @@ void meso_targets_release(MesoTargets *targets)
     *targets = (MesoTargets){0};
 }
 
-static void begin(const MesoTargets *targets, GLuint frame)
+static void begin(const MesoTargets *targets, GLuint frame, uint32_t side)
 {
     static const float z = 0;
     const MesoGl *gl = targets->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
-    gl->Viewport(0, 0, (GLsizei)targets->width, (GLsizei)targets->height);
+    gl->Viewport(0, 0, (GLsizei)(side * targets->width), (GLsizei)(side * targets->height));
     gl->ClearNamedFramebufferfv(frame, GL_DEPTH, 0, &z);
 }
 
@@ -134,7 +129,7 @@ void meso_targets_begin_center(const MesoTargets *targets)
     static const GLuint nobody[4] = {0};
     const MesoGl *gl = targets->gl;
     GLuint frame = targets->center_frame;
-    begin(targets, frame);
+    begin(targets, frame, 1);
     gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_NORMAL, nothing);
     gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_ALBEDO, nothing);
     gl->ClearNamedFramebufferfv(frame, GL_COLOR, MESO_TARGET_DEPTH, farthest);
@@ -144,7 +139,7 @@ void meso_targets_begin_center(const MesoTargets *targets)
 /* Its depth buffer tells what is empty. */
 void meso_targets_begin_multi(const MesoTargets *targets)
 {
-    begin(targets, targets->multi_frame);
+    begin(targets, targets->multi_frame, targets->sample_side);
 }
 
 void meso_targets_begin_shadow(const MesoTargets *targets)

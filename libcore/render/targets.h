@@ -15,17 +15,21 @@ typedef enum MesoSurfaceTarget {
 
 typedef struct MesoTargets {
     const MesoGl *gl;
-    uint32_t width, height, samples, shadow_size;
+    uint32_t width, height, sample_side, shadow_size;
     GLuint center[MESO_SURFACE_TARGETS];    /* at the pixels' centres */
-    GLuint multi;                           /* `samples` a pixel, packed; 0 for 1 */
+    GLuint multi;                           /* sample_side x sample_side a pixel, packed; 0 for 1 */
     GLuint center_z, multi_z;
     GLuint openness_raw, openness, color, shadow;
     GLuint center_frame, multi_frame, openness_raw_frame, openness_frame, color_frame, shadow_frame;
 } MesoTargets;
 
-/* MESO_ERR_LIMIT where the driver has no such framebuffers. */
+/*
+ * Samples lie on a grid in larger textures rather than in multisampled ones:
+ * software drivers take three times as long for those where triangles are small.
+ * MESO_ERR_LIMIT where the driver has no such framebuffers.
+ */
 MesoStatus meso_targets_init(MesoTargets *targets, const MesoGl *gl, uint32_t width, uint32_t height,
-                             uint32_t samples, uint32_t shadow_size, MesoError *error);
+                             uint32_t sample_side, uint32_t shadow_size, MesoError *error);
 void meso_targets_release(MesoTargets *targets);
 
 /* Binds, sets the viewport, and clears: to nothing seen, infinitely far. */

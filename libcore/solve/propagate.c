@@ -40,12 +40,12 @@ static bool side_allows(const MesoPropagation *propagation, const uint64_t *cons
 
 /* State of the variants that fit `slot` whatever its neighbours hold. */
 static uint32_t slot_constraint(MesoPropagation *propagation, const uint64_t *const *rules,
-                                uint32_t slot, uint64_t *bits, MesoError *error)
+                                uint32_t slot, const uint64_t *mask, uint64_t *bits, MesoError *error)
 {
     uint32_t count = propagation->domains.variant_count;
     memset(bits, 0, meso_bits_words(count) * sizeof *bits);
     for (uint32_t v = 0; v < count; v++) {
-        bool fits = true;
+        bool fits = !mask || meso_bits_test(mask, v);
         for (uint32_t k = 0; fits && k < 4; k++)
             fits = side_allows(propagation, rules, slot, k, propagation->codes + 4 * (size_t)v);
         if (fits)
@@ -54,39 +54,61 @@ static uint32_t slot_constraint(MesoPropagation *propagation, const uint64_t *co
     return meso_domain_intern(&propagation->domains, bits, error);
 }
 
-/* Algorithm 2 before its Collapse. Slots alike in borders, and not glued to themselves, share a state. */
-static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena, MesoError *error)
+/* Algorithm 2 before its Collapse. Slots alike in borders and masks, and not glued to themselves, share a state. */
+static MesoStatus constrain_by_masks(MesoPropagation *propagation, MesoArena *arena,
+                                     const MesoSlotMasks *masks, MesoError *error)
 {
     uint32_t label_words = propagation->domains.sets.word_count;
+    uint32_t state_words = propagation->domains.states.word_count;
     uint64_t *inner = MESO_NEW(arena, uint64_t, label_words, error);
     uint64_t *border = MESO_NEW(arena, uint64_t, label_words, error);
-    uint64_t *bits = MESO_NEW(arena, uint64_t, propagation->domains.states.word_count, error);
-    if (!inner || !border || !bits)
+    uint64_t *bits = MESO_NEW(arena, uint64_t, state_words, error);
+    uint32_t *by_border = MESO_NEW(arena, uint32_t, 16 * (size_t)masks->mask_count, error);
+    if (!inner || !border || !bits || !by_border)
         return MESO_ERR_MEMORY;
     meso_border_labels(propagation->set, false, inner);
     meso_border_labels(propagation->set, true, border);
     const uint64_t *const rules[2] = {inner, border};
 
-    uint32_t by_border[16];
-    memset(by_border, 0xff, sizeof by_border);
+    memset(by_border, 0xff, 16 * (size_t)masks->mask_count * sizeof *by_border);
     for (uint32_t s = 0; s < propagation->graph->slot_count; s++) {
         const uint32_t *twin = propagation->graph->twin + 4 * (size_t)s;
-        uint32_t mask = 0, unused = MESO_NO_INDEX;
+        uint32_t mask = masks->slot_mask ? masks->slot_mask[s] : 0;
+        uint32_t borders = 0, unused = MESO_NO_INDEX;
         uint32_t *known = NULL;
         bool glued = false;
         for (uint32_t k = 0; k < 4; k++) {
-            mask |= (uint32_t)(twin[k] == MESO_NO_INDEX) << k;
+            borders |= (uint32_t)(twin[k] == MESO_NO_INDEX) << k;
             glued |= twin[k] != MESO_NO_INDEX && twin[k] / 4 == s;
         }
-        known = glued ? &unused : &by_border[mask];
+        known = glued ? &unused : &by_border[16 * (size_t)mask + borders];
         if (*known == MESO_NO_INDEX)
-            *known = slot_constraint(propagation, rules, s, bits, error);
+            *known = slot_constraint(propagation, rules, s,
+                                     masks->masks ? masks->masks + (size_t)mask * state_words : NULL,
+                                     bits, error);
         if (*known == MESO_NO_INDEX)
             return MESO_ERR_MEMORY;
         propagation->state[s] = *known;
         propagation->initial_dead_count += *known == MESO_DOMAIN_EMPTY;
     }
     return MESO_OK;
+}
+
+static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena,
+                                  const MesoVariantSet *variants,
+                                  const MesoConstraints *constraints, MesoError *error)
+{
+    MesoSlotMasks masks = {.mask_count = 1};
+    MesoArena scratch;
+    MesoStatus status = MESO_OK;
+    meso_arena_init(&scratch);
+    if (constraints && constraints->restriction_count)
+        status = meso_slot_masks_build(&masks, &scratch, constraints, variants,
+                                       propagation->graph->slot_count, error);
+    if (!status)
+        status = constrain_by_masks(propagation, arena, &masks, error);
+    meso_arena_release(&scratch);
+    return status;
 }
 
 static void push(MesoPropagation *propagation, uint32_t slot, uint8_t sides)
@@ -117,34 +139,66 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
     return (uint8_t)sides;
 }
 
+static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange change, MesoError *error)
+{
+    if (propagation->history_count == propagation->history_capacity) {
+        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : 1024;
+        MesoStateChange *history = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
+        if (!history)
+            return MESO_ERR_MEMORY;
+        if (propagation->history_count)
+            memcpy(history, propagation->history, propagation->history_count * sizeof *history);
+        propagation->history = history;
+        propagation->history_capacity = capacity;
+    }
+    propagation->history[propagation->history_count++] = change;
+    return MESO_OK;
+}
+
+static MesoStatus record_on_trail(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
+    if (propagation->trail_count == propagation->trail_capacity) {
+        uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
+        MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
+        if (!trail)
+            return MESO_ERR_MEMORY;
+        if (propagation->trail_count)
+            memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
+        propagation->trail = trail;
+        propagation->trail_capacity = capacity;
+    }
+    propagation->pending[slot] |= ON_TRAIL;
+    propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    return MESO_OK;
+}
+
+/* Notes the state that `slot` is about to lose. */
 static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
 {
-    uint8_t *marks = &propagation->pending[slot];
-    if (!(*marks & TOUCHED))
-        propagation->touched[propagation->touched_count++] = slot;
-    if (!(*marks & ON_TRAIL)) {
-        if (propagation->trail_count == propagation->trail_capacity) {
-            uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
-            MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
-            if (!trail)
-                return MESO_ERR_MEMORY;
-            if (propagation->trail_count)
-                memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
-            propagation->trail = trail;
-            propagation->trail_capacity = capacity;
-        }
-        propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    bool first_touch = !(propagation->pending[slot] & TOUCHED);
+    if (propagation->tracing) {
+        if (record_change(propagation, (MesoStateChange){slot, propagation->state[slot], first_touch}, error))
+            return MESO_ERR_MEMORY;
+    } else if (!(propagation->pending[slot] & ON_TRAIL) && record_on_trail(propagation, slot, error)) {
+        return MESO_ERR_MEMORY;
     }
-    *marks |= TOUCHED | ON_TRAIL;
+    if (first_touch)
+        propagation->touched[propagation->touched_count++] = slot;
+    propagation->pending[slot] |= TOUCHED;
     return MESO_OK;
 }
 
 /* Gives `slot` another state, and moves it in the queue. */
 static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uint32_t next, MesoError *error)
 {
-    uint32_t before = propagation->domains.domains[propagation->state[slot]].size;
-    uint32_t after = propagation->domains.domains[next].size;
+    uint32_t state = propagation->state[slot];
+    uint32_t before = propagation->domains.domains[state].size, after = propagation->domains.domains[next].size;
     propagation->state[slot] = next;
+    if (propagation->quotas.count)
+        meso_quota_change(&propagation->quotas, meso_domain_bits(&propagation->domains, state),
+                          meso_domain_bits(&propagation->domains, next));
+    if (!propagation->searching)
+        return MESO_OK;
     if (before > 1)
         meso_bucket_queue_remove(&propagation->queue, slot, before);
     return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
@@ -156,12 +210,10 @@ static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_
 {
     const MesoDomain *domains = propagation->domains.domains;
     push(propagation, slot, changed_sides(&domains[propagation->state[slot]], &domains[next]));
-    if (!propagation->searching) {
-        propagation->state[slot] = next;
-        return MESO_OK;
-    }
-    if (note_change(propagation, slot, error))
+    if (propagation->searching && note_change(propagation, slot, error))
         return MESO_ERR_MEMORY;
+    if (propagation->searching && propagation->decided && domains[next].size == 1)
+        propagation->decided[propagation->decided_count++] = slot;
     return move_to_state(propagation, slot, next, error);
 }
 
@@ -224,14 +276,71 @@ static MesoStatus run(MesoPropagation *propagation, MesoError *error)
     return MESO_OK;
 }
 
+/* Lets `quota`, used up or in need of all, narrow every slot: once in an attempt, for then it is calm. */
+static MesoStatus apply_quota(MesoPropagation *propagation, uint32_t quota, MesoQuotaCall call,
+                              MesoError *error)
+{
+    for (uint32_t s = 0; s < propagation->graph->slot_count; s++) {
+        const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->state[s]);
+        if (!meso_quota_narrow(&propagation->quotas, quota, call, bits))
+            continue;
+        uint32_t next = meso_domain_intern(&propagation->domains, propagation->quotas.scratch, error);
+        if (next == MESO_NO_INDEX || set_state(propagation, s, next, error))
+            return MESO_ERR_MEMORY;
+    }
+    return MESO_OK;
+}
+
+/* Collapse with quotas: on to the fixed point of both. */
+static MesoStatus run_with_quotas(MesoPropagation *propagation, MesoError *error)
+{
+    propagation->broken_quota = MESO_NO_INDEX;
+    MesoStatus status = run(propagation, error);
+    uint32_t quota = 0;
+    while (!status && quota < propagation->quotas.count && propagation->dead_slot == MESO_NO_INDEX) {
+        MesoQuotaCall call = meso_quota_call(&propagation->quotas, quota);
+        if (call == MESO_QUOTA_BROKEN) {
+            propagation->broken_quota = quota;
+            return MESO_OK;
+        }
+        if (call == MESO_QUOTA_CALM) {
+            quota++;
+            continue;
+        }
+        status = apply_quota(propagation, quota, call, error);
+        if (!status)
+            status = run(propagation, error);
+        quota = 0;
+    }
+    return status;
+}
+
+/* Counts what the quotas ask for, and carries on what follows; not where slots are dead already. */
+static MesoStatus run_initial_quotas(MesoPropagation *propagation, MesoError *error)
+{
+    propagation->broken_quota = MESO_NO_INDEX;
+    if (propagation->initial_dead_count || !propagation->quotas.count)
+        return MESO_OK;
+    return run_with_quotas(propagation, error);
+}
+
+static void count_for_quotas(MesoPropagation *propagation)
+{
+    for (uint32_t s = 0; propagation->quotas.count && s < propagation->graph->slot_count; s++)
+        meso_quota_change(&propagation->quotas, NULL,
+                          meso_domain_bits(&propagation->domains, propagation->state[s]));
+}
+
 /* The fixed point before any choice, and the queue of the slots that have one. */
 static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
 {
     uint32_t slot_count = propagation->graph->slot_count;
     for (uint32_t s = 0; s < slot_count; s++)
         push(propagation, s, ALL_SIDES);
-    if (run(propagation, error))
+    count_for_quotas(propagation);
+    if (run(propagation, error) || run_initial_quotas(propagation, error))
         return MESO_ERR_MEMORY;
+    meso_quota_keep(&propagation->quotas);
 
     for (uint32_t s = 0; s < slot_count; s++) {
         uint32_t size = propagation->domains.domains[propagation->state[s]].size;
@@ -244,7 +353,8 @@ static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
 }
 
 static MesoStatus allocate(MesoPropagation *propagation, MesoArena *arena,
-                           const MesoVariantSet *variants, MesoError *error)
+                           const MesoVariantSet *variants, const MesoConstraints *constraints,
+                           MesoError *error)
 {
     uint32_t slot_count = propagation->graph->slot_count;
     propagation->codes = MESO_NEW(arena, uint32_t, 4 * (size_t)variants->count, error);
@@ -253,11 +363,17 @@ static MesoStatus allocate(MesoPropagation *propagation, MesoArena *arena,
     propagation->touched = MESO_NEW(arena, uint32_t, slot_count, error);
     propagation->pending = MESO_NEW(arena, uint8_t, slot_count, error);
     propagation->list = MESO_NEW(arena, uint32_t, slot_count, error);
+    if (constraints && meso_strand_rule_given(&constraints->strands) &&
+        !(propagation->decided = MESO_NEW(arena, uint32_t, slot_count, error)))
+        return MESO_ERR_MEMORY;
     if (!propagation->codes || !propagation->state || !propagation->initial ||
         !propagation->touched || !propagation->pending || !propagation->list)
         return MESO_ERR_MEMORY;
     for (size_t i = 0; i < 4 * (size_t)variants->count; i++)
         propagation->codes[i] = meso_label_code(variants->labels[i]);
+    if (meso_quota_track_init(&propagation->quotas, arena, constraints,
+                              meso_bits_words(variants->count), error))
+        return MESO_ERR_MEMORY;
     return meso_bucket_queue_init(&propagation->queue, arena, slot_count, variants->count, error);
 }
 
@@ -270,17 +386,18 @@ static void plan_collection(MesoPropagation *propagation)
 
 MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
                                  const MesoTileSet *set, const MesoVariantSet *variants,
-                                 const MesoSlotGraph *graph, MesoError *error)
+                                 const MesoSlotGraph *graph, const MesoConstraints *constraints,
+                                 MesoError *error)
 {
     *propagation = (MesoPropagation){.graph = graph, .set = set, .arena = arena};
     uint32_t step_count = LEAST_STEPS;
     while (step_count < MOST_STEPS && step_count < 4 * (uint64_t)graph->slot_count)
         step_count *= 2;
 
-    if (allocate(propagation, arena, variants, error) ||
+    if (allocate(propagation, arena, variants, constraints, error) ||
         meso_domain_table_init(&propagation->domains, variants->count, propagation->codes,
                                2 * set->interface_count, step_count, error) ||
-        constrain_slots(propagation, arena, error) || run_initial(propagation, error))
+        constrain_slots(propagation, arena, variants, constraints, error) || run_initial(propagation, error))
         return MESO_ERR_MEMORY;
     plan_collection(propagation);
     return MESO_OK;
@@ -291,18 +408,43 @@ void meso_propagation_release(MesoPropagation *propagation)
     meso_domain_table_release(&propagation->domains);
 }
 
-/* Room for new states, and an empty trail. */
-static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
+void meso_propagation_forget(MesoPropagation *propagation)
 {
-    while (propagation->trail_count)
-        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+    propagation->history_count = 0;
+    propagation->generation++;
+}
+
+static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *error)
+{
     if (propagation->domains.states.count < propagation->collect_at)
         return MESO_OK;
     if (meso_domain_collect(&propagation->domains, propagation->graph->slot_count,
                             propagation->state, propagation->initial, error))
         return MESO_ERR_MEMORY;
     plan_collection(propagation);
+    meso_propagation_forget(propagation);
     return MESO_OK;
+}
+
+MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMark *mark, MesoError *error)
+{
+    MesoStatus status = collect_where_due(propagation, error);
+    *mark = (MesoPropagationMark){propagation->history_count, propagation->decided_count,
+                                  propagation->generation};
+    return status;
+}
+
+static void clear_trail(MesoPropagation *propagation)
+{
+    while (propagation->trail_count)
+        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+}
+
+/* Room for new states, and an empty trail. */
+static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
+{
+    clear_trail(propagation);
+    return collect_where_due(propagation, error);
 }
 
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
@@ -313,19 +455,36 @@ MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, 
     uint32_t next = meso_domain_single(&propagation->domains, variant, error);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
         return MESO_ERR_MEMORY;
-    return run(propagation, error);
+    return run_with_quotas(propagation, error);
 }
 
 MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                     MesoError *error)
 {
-    if (begin_step(propagation, error))
-        return MESO_ERR_MEMORY;
+    clear_trail(propagation);
     uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
     assert(next != MESO_DOMAIN_EMPTY);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
         return MESO_ERR_MEMORY;
-    return run(propagation, error);
+    return run_with_quotas(propagation, error);
+}
+
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+                                 MesoError *error)
+{
+    *done = mark.generation == propagation->generation;
+    while (*done && propagation->history_count > mark.history_count) {
+        const MesoStateChange *change = &propagation->history[--propagation->history_count];
+        if (move_to_state(propagation, change->slot, change->state, error))
+            return MESO_ERR_MEMORY;
+        if (change->first_touch) {
+            propagation->touched_count--;
+            propagation->pending[change->slot] &= (uint8_t)~TOUCHED;
+        }
+    }
+    if (*done)
+        propagation->decided_count = mark.decided_count;
+    return MESO_OK;
 }
 
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
@@ -395,7 +554,7 @@ MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, 
             return MESO_ERR_MEMORY;
     }
     push_ball(propagation);
-    return run(propagation, error);
+    return run_with_quotas(propagation, error);
 }
 
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
@@ -408,6 +567,9 @@ MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *err
             return MESO_ERR_MEMORY;
     }
     propagation->trail_count = 0;
+    meso_quota_restart(&propagation->quotas);
+    propagation->decided_count = 0;
+    meso_propagation_forget(propagation);
     return MESO_OK;
 }
 

@@ -20,9 +20,7 @@ static MesoStatus observe(MesoSearch *search, uint32_t *slot, uint32_t *variant,
 {
     MesoPropagation *propagation = search->propagation;
     *slot = meso_bucket_queue_draw(&propagation->queue, &search->random);
-    uint32_t state = propagation->state[*slot];
-    uint32_t rank = meso_random_below(&search->random, propagation->domains.domains[state].size);
-    *variant = meso_domain_variant(&propagation->domains, state, rank);
+    *variant = meso_choose_variant(propagation, search->constraints, *slot, false, &search->random);
     search->observations++;
     return meso_propagation_assign(propagation, *slot, *variant, error);
 }

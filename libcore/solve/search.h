@@ -8,7 +8,7 @@
 #ifndef MESO_SEARCH_H
 #define MESO_SEARCH_H
 
-#include "libcore/solve/propagate.h"
+#include "libcore/solve/choice.h"
 
 typedef enum MesoSearchOutcome {
     MESO_SEARCH_DONE,           /* every slot has one variant */
@@ -19,6 +19,7 @@ typedef enum MesoSearchOutcome {
 
 typedef struct MesoSearch {
     MesoPropagation *propagation;
+    const MesoConstraints *constraints;     /* for their weights; NULL: none */
     MesoRandom random;
     uint64_t observations;      /* made, over all attempts */
     uint64_t max_observations;

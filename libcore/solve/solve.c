@@ -3,16 +3,12 @@
 #include <assert.h>
 #include <string.h>
 
-#include "libcore/solve/counting.h"
-#include "libcore/solve/exact.h"
-#include "libcore/solve/parity.h"
+#include "libcore/solve/decide.h"
+#include "libcore/solve/explain.h"
+#include "libcore/solve/guided.h"
 #include "libcore/solve/search.h"
 
-/* Word operations of the parity prover: a second or two. */
-static const uint64_t parity_work = (uint64_t)1 << 32;
-
-/* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
-enum { PHASED_CONFLICTS = 1000 };
+enum { PROGRESS_INTERVAL = 4096 };  /* observations */
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -23,6 +19,7 @@ typedef struct Search {
     MesoArena *arena;               /* of the result */
     MesoArena scratch;
     MesoPropagation propagation;
+    MesoGuidedSearch guided;        /* where there are constraints */
 } Search;
 
 /* RecordNeighbors: what a tile for `slot` would have to show. */
@@ -63,6 +60,14 @@ static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
     return MESO_OK;
 }
 
+static void tell_progress(const Search *search)
+{
+    uint32_t total = search->graph->slot_count;
+    if (search->options->progress)
+        search->options->progress(search->options->progress_context,
+                                  total - search->propagation.queue.count, total);
+}
+
 static bool told_to_stop(const Search *search)
 {
     return search->options->stop && search->options->stop(search->options->stop_context);
@@ -72,10 +77,7 @@ static bool told_to_stop(const Search *search)
 static bool tick(void *context)
 {
     const Search *search = context;
-    uint32_t total = search->graph->slot_count;
-    if (search->options->progress)
-        search->options->progress(search->options->progress_context,
-                                  total - search->propagation.queue.count, total);
+    tell_progress(search);
     return !told_to_stop(search);
 }
 
@@ -85,10 +87,33 @@ static MesoStatus note_dead_end(void *context, uint32_t slot, MesoError *error)
     return record_dead_end(search, slot, search->result->attempts, error);
 }
 
+static void tell_guided_progress(void *context)
+{
+    const Search *search = context;
+    if (search->guided.observations % PROGRESS_INTERVAL == 1)
+        tell_progress(search);
+}
+
+/* An attempt under constraints: where a quota or strands end it, there is no dead slot to record. */
+static MesoStatus run_guided_attempt(Search *search, uint32_t attempt, bool *solved, MesoError *error)
+{
+    MesoRandom random;
+    meso_random_init(&random, search->options->seed, attempt);
+    MesoStatus status = meso_guided_attempt(&search->guided, &random, solved, error);
+    search->result->observations = search->guided.observations;
+    search->result->backtracks = search->guided.backtracks;
+    uint32_t dead = search->propagation.dead_slot;
+    if (!status && !*solved && dead != MESO_NO_INDEX)
+        status = record_dead_end(search, dead, attempt, error);
+    tell_progress(search);
+    return status;
+}
+
 /* Takes variant[slot_count] as the solution, once checked. */
-static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider decider, MesoError *error)
+static MesoStatus accept(Search *search, const uint32_t *variant, MesoError *error)
 {
     MesoAssignment *assignment = &search->result->assignment;
+    const MesoConstraints *constraints = search->options->constraints;
     uint32_t count = search->graph->slot_count;
 
     assignment->tile = MESO_NEW(search->arena, uint32_t, count, error);
@@ -101,11 +126,12 @@ static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider de
         assignment->transform[s] = search->variants->transform[variant[s]];
     }
     MesoError finding;
-    if (meso_assignment_check(assignment, search->set, search->graph, &finding))
+    if (meso_assignment_check(assignment, search->set, search->graph, &finding) ||
+        (constraints && meso_constraints_check(constraints, assignment, search->set, search->variants,
+                                               search->graph, &finding)))
         return meso_fail(error, MESO_ERR_INTERNAL, "the solver's assignment is wrong: %s",
                          finding.message);
     search->result->verdict = MESO_VERDICT_SOLVED;
-    search->result->decider = decider;
     return MESO_OK;
 }
 
@@ -118,15 +144,80 @@ static MesoStatus accept_states(Search *search, MesoError *error)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < count; s++)
         variant[s] = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
-    return accept(search, variant, MESO_DECIDER_SEARCH, error);
+    search->result->decider = MESO_DECIDER_SEARCH;
+    return accept(search, variant, error);
+}
+
+/* Which constraints the initial fixed point disproves, in words. */
+static MesoStatus explain(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    const MesoSolveResult *result = search->result;
+    uint32_t count = 0, slot = result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
+    uint32_t *numbers = MESO_NEW(&search->scratch, uint32_t, meso_constraint_count(constraints), error);
+    if (!numbers || meso_explain(numbers, &count, search->set, search->variants, search->graph, constraints,
+                                 slot, error))
+        return MESO_ERR_MEMORY;
+    search->result->reason = meso_explanation_text(search->arena, constraints, numbers, count, error);
+    return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus say_unsolvable(Search *search, MesoError *error)
+{
+    search->result->verdict = MESO_VERDICT_UNSOLVABLE;
+    search->result->decider = MESO_DECIDER_PROPAGATION;
+    MesoStatus status = record_initial_dead_ends(search, error);
+    return !status && search->options->constraints ? explain(search, error) : status;
+}
+
+/* The constraint that the search met most often, in words. */
+static MesoStatus say_violations(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    MesoSolveResult *result = search->result;
+    uint32_t worst = 0, count = meso_constraint_count(constraints);
+    result->violations = search->guided.violations;
+    for (uint32_t i = 0; i < count; i++)
+        if (result->violations[i] > result->violations[worst])
+            worst = i;
+    if (search->guided.exhausted)
+        result->reason = "every choice was tried";
+    if (result->verdict == MESO_VERDICT_SOLVED || count == 0 || result->violations[worst] == 0)
+        return MESO_OK;
+    result->reason = meso_arena_print(search->arena, error, "%smost often %s stood in the way: %llu times",
+                                      search->guided.exhausted ? "every choice was tried; " : "",
+                                      meso_constraint_name(constraints, worst),
+                                      (unsigned long long)result->violations[worst]);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    uint64_t *violations = MESO_NEW(search->arena, uint64_t, meso_constraint_count(constraints), error);
+    if (!violations)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_guided_init(&search->guided, &search->scratch, &search->propagation,
+                                         search->variants, constraints, violations, disproved, error);
+    search->guided.progress = tell_guided_progress;
+    search->guided.progress_context = search;
+    return status;
+}
+
+/* Quotas, strands and variants to keep call for the guided search, and are beyond the exact engine. */
+static bool needs_guidance(const MesoConstraints *constraints)
+{
+    return constraints && (constraints->quota_count || constraints->keep ||
+                           meso_strand_rule_given(&constraints->strands));
 }
 
 /* The search's rung: attempts from sub-seeds. */
-static MesoStatus search_for(Search *search, MesoError *error)
+static MesoStatus search_freely(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     const MesoSolveOptions *options = search->options;
-    MesoSearch wfc = {.propagation = &search->propagation, .tick = tick, .dead_end = note_dead_end, .context = search,
+    MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints,
+                      .tick = tick, .dead_end = note_dead_end, .context = search,
                       .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
     MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
     MesoStatus status = MESO_OK;
@@ -140,7 +231,6 @@ static MesoStatus search_for(Search *search, MesoError *error)
     result->repairs = wfc.repairs;
     if (status)
         return status;
-    tick(search);
     if (outcome == MESO_SEARCH_DONE)
         return accept_states(search, error);
     if (outcome == MESO_SEARCH_IMPOSSIBLE) {
@@ -155,113 +245,91 @@ static MesoStatus search_for(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                             MesoError *error)
-{
-    const MesoSolveOptions *options = search->options;
-    uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
-    uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
-    MesoStatus status = meso_exact_choose_phases(exact, search->propagation.state, random, error);
-    if (!status)
-        status = meso_sat_solve(exact->sat, answer, NULL, 0, phased, options->stop,
-                                options->stop_context, error);
-    left -= phased;
-    if (status || *answer != MESO_SAT_UNKNOWN || left == 0 || told_to_stop(search))
-        return status;
-    status = meso_sat_forget_phases(exact->sat, error);
-    if (status)
-        return status;
-    return meso_sat_solve(exact->sat, answer, NULL, 0, left < INT32_MAX ? (uint32_t)left : INT32_MAX,
-                          options->stop, options->stop_context, error);
-}
-
-static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer answer, MesoRandom *random,
-                              MesoError *error)
+static MesoStatus search_guided(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    if (answer == MESO_SAT_YES) {
-        uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
-        if (!variant)
-            return MESO_ERR_MEMORY;
-        MesoStatus status = meso_exact_extract(exact, variant, random, error);
-        return status ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
+    const MesoSolveOptions *options = search->options;
+    bool solved = false;
+    MesoStatus status = MESO_OK;
+    while (!status && !solved && !search->guided.exhausted && !told_to_stop(search) &&
+           result->attempts < options->max_attempts &&
+           (!options->max_observations || result->observations < options->max_observations)) {
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = run_guided_attempt(search, ++result->attempts, &solved, error);
     }
-    if (answer == MESO_SAT_NO) {
+    if (status)
+        return status;
+    if (solved)
+        return accept_states(search, error);
+    if (search->guided.exhausted) {
         result->verdict = MESO_VERDICT_UNSOLVABLE;
-        result->decider = MESO_DECIDER_EXACT;
-    } else {
-        result->decider = told_to_stop(search) ? MESO_DECIDER_STOP : MESO_DECIDER_CONFLICTS;
+        result->decider = MESO_DECIDER_SEARCH;
+    } else if (told_to_stop(search)) {
+        result->decider = MESO_DECIDER_STOP;
     }
     return MESO_OK;
 }
 
-static MesoStatus decide_exactly(Search *search, MesoError *error)
+static MesoStatus search_for(Search *search, MesoError *error)
 {
-    MesoExact exact;
-    MesoRandom random;
-    MesoSatAnswer answer = MESO_SAT_UNKNOWN;
-    const MesoExactOptions options = {0};
-    meso_random_init(&random, search->options->seed, UINT64_MAX);
-    MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);
-    if (!status)
-        status = ask_engine(search, &exact, &answer, &random, error);
-    if (!status)
-        status = read_answer(search, &exact, answer, &random, error);
-    meso_exact_release(&exact);
+    bool guided = needs_guidance(search->options->constraints);
+    MesoStatus status = guided ? search_guided(search, error) : search_freely(search, error);
+    tell_progress(search);
     return status;
 }
 
-/* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
-static MesoStatus decide_by_numbers(Search *search, MesoError *error)
+/* Proofs hold under every constraint; a solution counts only where it meets those that the engine does not know. */
+static MesoStatus decide(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    MesoPatternTable table;
-    MesoCountingProof proof;
-    uint32_t slot;
-    if (meso_pattern_table_init(&table, &search->scratch, &search->propagation, NULL, error) ||
-        meso_counting_prove(&proof, &search->scratch, &table, error))
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    if (!variant)
         return MESO_ERR_MEMORY;
-    if (proof.found) {
-        result->verdict = MESO_VERDICT_UNSOLVABLE;
-        result->decider = MESO_DECIDER_COUNTING;
-        result->reason = meso_counting_explain(&proof, search->arena, search->set, error);
-        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
-    }
-    if (meso_parity_prove(&slot, &search->scratch, &table, parity_work, error))
-        return MESO_ERR_MEMORY;
-    if (slot == MESO_NO_INDEX)
+    MesoStatus status = meso_decide_by_numbers(result, search->arena, &search->scratch, &search->propagation,
+                                               error);
+    if (status || result->verdict != MESO_VERDICT_GAVE_UP)
+        return status;
+    MesoSolveResult exact = *result;
+    status = meso_decide_exactly(&exact, variant, &search->scratch, &search->propagation, search->options,
+                                 error);
+    if (status)
+        return status;
+    if (exact.verdict == MESO_VERDICT_SOLVED && needs_guidance(search->options->constraints))
         return MESO_OK;
-    result->verdict = MESO_VERDICT_UNSOLVABLE;
-    result->decider = MESO_DECIDER_PARITY;
-    result->reason = meso_arena_print(search->arena, error, "the numbers of labels that the tiles show, "
-                                      "odd or even, contradict each other on the piece of the surface "
-                                      "around slot %u", slot);
-    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    *result = exact;
+    return exact.verdict == MESO_VERDICT_SOLVED ? accept(search, variant, error) : MESO_OK;
 }
 
 /* The ladder: each rung leaves the verdict "gave up", or a better one. */
-static MesoStatus run(Search *search, MesoError *error)
+static MesoStatus climb(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     MesoEngine engine = search->options->engine;
     MesoStatus status = MESO_OK;
-
-    if (search->propagation.initial_dead_count) {
-        result->verdict = MESO_VERDICT_UNSOLVABLE;
-        result->decider = MESO_DECIDER_PROPAGATION;
-        return record_initial_dead_ends(search, error);
-    }
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
-    if (engine != MESO_ENGINE_EXACT)
+    if (engine != MESO_ENGINE_EXACT || needs_guidance(search->options->constraints))
         status = search_for(search, error);
-    if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
+    if (status || result->verdict != MESO_VERDICT_GAVE_UP || engine == MESO_ENGINE_WFC ||
+        result->decider == MESO_DECIDER_STOP)
         return status;
-    if (result->verdict == MESO_VERDICT_GAVE_UP)
-        status = decide_by_numbers(search, error);
-    if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
-        status = decide_exactly(search, error);
-    return status;
+    return decide(search, error);
+}
+
+static MesoStatus run(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    const MesoPropagation *propagation = &search->propagation;
+    bool disproved = propagation->initial_dead_count || propagation->broken_quota != MESO_NO_INDEX;
+    MesoStatus status = MESO_OK;
+    if (!disproved && constraints)
+        status = prepare_guided(search, &disproved, error);
+    if (!status && disproved)
+        return say_unsolvable(search, error);
+    if (!status)
+        status = climb(search, error);
+    return !status && constraints ? say_violations(search, error) : status;
 }
 
 /* Dead ends to make room for: one an attempt, or one a slot met initially. */
@@ -281,7 +349,8 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                       const MesoSolveOptions *options, MesoError *error)
 {
     assert(options->max_attempts >= 1);
-    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = ""};
+    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count),
+                                .reason = ""};
     if (variants->count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 
@@ -289,7 +358,7 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                      .options = options, .result = result, .arena = arena};
     meso_arena_init(&search.scratch);
     MesoStatus status = meso_propagation_init(&search.propagation, &search.scratch, set, variants,
-                                              graph, error);
+                                              graph, options->constraints, error);
     if (!status)
         status = allocate_dead_ends(&search, error);
     if (!status)

@@ -9,6 +9,7 @@
 #define MESO_SOLVE_H
 
 #include "libcore/solve/assignment.h"
+#include "libcore/solve/constraints.h"
 
 typedef enum MesoVerdict {
     MESO_VERDICT_SOLVED,
@@ -24,8 +25,8 @@ typedef enum MesoEngine {
 
 /* What led to the verdict. */
 typedef enum MesoDecider {
-    MESO_DECIDER_PROPAGATION,   /* unsolvable: the border rules alone empty a slot */
-    MESO_DECIDER_SEARCH,        /* solved; or unsolvable: each variant of one slot leads to a dead end at once */
+    MESO_DECIDER_PROPAGATION,   /* unsolvable: border rules and constraints alone empty a slot, or disprove a quota */
+    MESO_DECIDER_SEARCH,        /* solved; or unsolvable: every choice leads to a dead end */
     MESO_DECIDER_COUNTING,      /* unsolvable: the numbers of labels do not add up */
     MESO_DECIDER_PARITY,        /* unsolvable: sums modulo 2 over all edges contradict each other */
     MESO_DECIDER_EXACT,         /* solved or unsolvable */
@@ -57,6 +58,7 @@ typedef struct MesoSolveOptions {
     uint64_t max_observations;  /* of the search, over all attempts; 0: no limit */
     uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
+    const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
     bool (*stop)(void *context);    /* asked now and then: true ends the work; may be NULL */
@@ -69,10 +71,13 @@ enum { MESO_SOLVE_CONFLICTS = 2000000 };
 typedef struct MesoSolveResult {
     MesoVerdict verdict;
     MesoDecider decider;
-    const char *reason;         /* in words, for the user; "" where solved */
+    const char *reason;         /* in words, for the user: what proves it, or stood in the way; or "" */
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
     uint64_t repairs;           /* over all attempts: balls of slots reopened around a dead end */
+    uint64_t backtracks;        /* choices taken back: only quotas and rules on strands call for it */
+    uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; without
+                                   constraints not to be read */
     MesoAssignment assignment;  /* where solved */
     uint32_t dead_end_count;    /* kept; the first of each attempt, in order */
     uint64_t dead_end_total;    /* attempts that met one; or slots that the initial constraints empty */
@@ -82,7 +87,8 @@ typedef struct MesoSolveResult {
 
 /*
  * Assigns variants to slots. The result depends on the arguments alone, unless
- * `stop` ended the work. A solved assignment has passed meso_assignment_check(). Returns MESO_OK for
+ * `stop` ended the work. A solved assignment has passed meso_assignment_check() and
+ * meso_constraints_check(). Returns MESO_OK for
  * every verdict; MESO_ERR_MEMORY, or MESO_ERR_INPUT for a set without
  * variants. Memory O(slots * (words of variants + words of labels)).
  */

@@ -251,8 +251,8 @@ static void test_collection(void)
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
 
     MesoPropagation often, never;
-    CHECK(meso_propagation_init(&often, &arena, &set, &variants, &graph, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&never, &arena, &set, &variants, &graph, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&often, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&never, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
     MesoRandom random, same_random;
     meso_random_init(&random, 1, 1);
     same_random = random;

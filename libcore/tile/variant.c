@@ -162,3 +162,48 @@ MesoStatus meso_variant_set_build(MesoVariantSet *variants, MesoArena *arena,
     meso_arena_rewind(arena, mark);
     return MESO_OK;
 }
+
+/* Equal lists of sweeps in the slot, whatever their order: each is there as often under both. */
+static bool same_sweeps(const MesoTileSet *set, const MesoTile *tile, MesoTransform a, MesoTransform b)
+{
+    for (uint32_t i = 0; i < tile->sweep_count; i++) {
+        PlacedSweep placed = place_sweep(&set->sweeps[tile->sweep_begin + i], a);
+        uint32_t under_a = 0, under_b = 0;
+        for (uint32_t j = 0; j < tile->sweep_count; j++) {
+            const MesoSweep *other = &set->sweeps[tile->sweep_begin + j];
+            PlacedSweep other_a = place_sweep(other, a), other_b = place_sweep(other, b);
+            under_a += compare_placed(&placed, &other_a) == 0;
+            under_b += compare_placed(&placed, &other_b) == 0;
+        }
+        if (under_a != under_b)
+            return false;
+    }
+    return true;
+}
+
+uint32_t meso_variant_find(const MesoVariantSet *variants, const MesoTileSet *set, uint32_t tile,
+                           MesoTransform transform)
+{
+    uint32_t low = 0, high = variants->count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (variants->tile[middle] < tile)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    uint32_t end = low;
+    while (end < variants->count && variants->tile[end] == tile)
+        if (variants->transform[end++] == transform)
+            return end - 1;
+    if (low == end || !meso_tile_allows(&set->tiles[tile], transform) || !may_merge(&set->tiles[tile]))
+        return MESO_NO_INDEX;
+    for (uint32_t v = low; v < end; v++) {
+        bool same = true;
+        for (uint32_t k = 0; k < 4; k++)
+            same &= variants->labels[4 * (size_t)v + k] == meso_tile_label(&set->tiles[tile], transform, k);
+        if (same && same_sweeps(set, &set->tiles[tile], transform, variants->transform[v]))
+            return v;
+    }
+    return MESO_NO_INDEX;
+}

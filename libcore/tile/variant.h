@@ -66,4 +66,11 @@ typedef struct MesoVariantSet {
 MesoStatus meso_variant_set_build(MesoVariantSet *variants, MesoArena *arena,
                                   const MesoTileSet *set, MesoError *error);
 
+/*
+ * The variant of `tile` under `transform`, or the one that it was merged with;
+ * MESO_NO_INDEX where there is none. O(log(variants) + sweeps squared).
+ */
+uint32_t meso_variant_find(const MesoVariantSet *variants, const MesoTileSet *set, uint32_t tile,
+                           MesoTransform transform);
+
 #endif

@@ -1,0 +1,112 @@
+#include "cmd/solve_constraints.h"
+
+#include <string.h>
+
+#include "formats/constraints_file.h"
+#include "formats/slots_file.h"
+#include "formats/surface_file.h"
+
+MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, MesoQuadMesh *mesh,
+                                  MesoSurfaceGroups *groups, MesoSlotGraph *graph, uint64_t hash[2])
+{
+    MesoInput input;
+    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    if (status)
+        return status;
+    meso_provenance_add(&tool->provenance, "surface", &input);
+    memcpy(hash, input.hash, sizeof input.hash);
+    status = groups ? meso_surface_read_groups(mesh, groups, &tool->arena, &input, &tool->error)
+                    : meso_surface_read(mesh, &tool->arena, &input, &tool->error);
+    meso_input_close(&input);
+    if (status)
+        return status;
+    status = meso_slot_graph_build(graph, &tool->arena, mesh, &tool->error);
+    return status == MESO_ERR_INPUT ? meso_fail_prefix(&tool->error, path) : status;
+}
+
+static MesoStatus read_file(MesoTool *tool, const char *path, const MesoConstraintScope *scope,
+                            MesoConstraints *constraints)
+{
+    MesoInput input;
+    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    if (status)
+        return status;
+    meso_provenance_add(&tool->provenance, "constraints", &input);
+    status = meso_constraints_read(constraints, &tool->arena, &input, scope, &tool->error);
+    meso_input_close(&input);
+    return status;
+}
+
+/* Tile of `set` that has the name of each tile of the file, or MESO_NO_INDEX; NULL: out of memory. */
+static uint32_t *match_tiles(MesoTool *tool, const MesoSlotsFile *slots, const MesoTileSet *set)
+{
+    uint32_t *tiles = MESO_NEW(&tool->arena, uint32_t, slots->tile_count, &tool->error);
+    json_t *numbers = json_object();
+    bool failed = !tiles || !numbers;
+    for (uint32_t t = 0; t < set->tile_count && !failed; t++)
+        failed = json_object_set_new_nocheck(numbers, set->tiles[t].name, json_integer(t)) != 0;
+    for (uint32_t t = 0; t < slots->tile_count && !failed; t++) {
+        const json_t *number = json_object_get(numbers, slots->tile_names[t]);
+        tiles[t] = number ? (uint32_t)json_integer_value(number) : MESO_NO_INDEX;
+    }
+    json_decref(numbers);
+    if (failed)
+        meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the slots to keep");
+    return failed ? NULL : tiles;
+}
+
+/* Slots go by number and tiles by name: what is gone, or was not there, is free. */
+static MesoStatus read_keep(MesoTool *tool, const char *path, const MesoTileSet *set,
+                            const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                            MesoConstraints *constraints)
+{
+    MesoInput input;
+    MesoSlotsFile slots;
+    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    if (status)
+        return status;
+    meso_provenance_add(&tool->provenance, "keep", &input);
+    status = meso_slots_read(&slots, &tool->arena, &input, &tool->error);
+    meso_input_close(&input);
+    if (status)
+        return status;
+    uint32_t *keep = MESO_NEW(&tool->arena, uint32_t, graph->slot_count, &tool->error);
+    const uint32_t *tiles = match_tiles(tool, &slots, set);
+    if (!keep || !tiles)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < graph->slot_count; s++) {
+        uint32_t tile = s < slots.assignment.slot_count ? tiles[slots.assignment.tile[s]] : MESO_NO_INDEX;
+        keep[s] = tile == MESO_NO_INDEX
+                      ? MESO_NO_INDEX
+                      : meso_variant_find(variants, set, tile, slots.assignment.transform[s]);
+    }
+    constraints->keep = keep;
+    return MESO_OK;
+}
+
+MesoStatus meso_tool_read_control(MesoTool *tool, const MesoControlArguments *arguments, const MesoTileSet *set,
+                                  const MesoVariantSet *variants, const MesoQuadMesh *mesh,
+                                  const MesoSlotGraph *graph, const MesoSurfaceGroups *groups,
+                                  const MesoConstraints **constraints)
+{
+    MesoStatus status = MESO_OK;
+    *constraints = NULL;
+    if (!arguments->constraints && !arguments->strands && !arguments->keep)
+        return MESO_OK;
+    MesoConstraints *read = MESO_NEW(&tool->arena, MesoConstraints, 1, &tool->error);
+    if (!read)
+        return MESO_ERR_MEMORY;
+    if (arguments->constraints) {
+        MesoBoundary boundary;
+        status = meso_boundary_build(&boundary, &tool->arena, mesh, graph, &tool->error);
+        const MesoConstraintScope scope = {set, variants, graph, &boundary, groups};
+        if (!status)
+            status = read_file(tool, arguments->constraints, &scope, read);
+    }
+    if (!status && arguments->strands)
+        status = meso_strand_rule_parse(&read->strands, arguments->strands, &tool->error);
+    if (!status && arguments->keep)
+        status = read_keep(tool, arguments->keep, set, variants, graph, read);
+    *constraints = read;
+    return status;
+}

@@ -1,0 +1,35 @@
+/* The options by which meso-solve takes constraints, and their reading. */
+#ifndef MESO_SOLVE_CONSTRAINTS_H
+#define MESO_SOLVE_CONSTRAINTS_H
+
+#include "cmd/solve_inputs.h"
+#include "formats/surface_groups.h"
+
+typedef struct MesoControlArguments {
+    const char *constraints;    /* file, or NULL */
+    const char *strands;        /* rules in words, or NULL */
+    const char *keep;           /* assignment file, or NULL */
+} MesoControlArguments;
+
+#define MESO_CONTROL_OPTIONS(control)                                                             \
+    {MESO_OPTION_TEXT, 0, "constraints", "FILE", "pins, regions, weights, border rules and quotas (JSON)", \
+     &(control).constraints, 0, 0, 0, 0},                                                         \
+    {MESO_OPTION_TEXT, 0, "strands", "RULES", "connected, acyclic, no-loops, max-length=N, or several", \
+     &(control).strands, 0, 0, 0, 0},                                                             \
+    {MESO_OPTION_TEXT, 0, "keep", "OLD.slots", "change as few slots of this assignment as possible", \
+     &(control).keep, 0, 0, 0, 0}
+
+/* meso_tool_read_graph() with the mesh and, unless `groups` is NULL, its groups. */
+MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, MesoQuadMesh *mesh,
+                                  MesoSurfaceGroups *groups, MesoSlotGraph *graph, uint64_t hash[2]);
+
+/*
+ * Reads what the arguments name, and notes the files in the provenance.
+ * `*constraints` becomes NULL where the arguments ask for nothing.
+ */
+MesoStatus meso_tool_read_control(MesoTool *tool, const MesoControlArguments *arguments, const MesoTileSet *set,
+                                  const MesoVariantSet *variants, const MesoQuadMesh *mesh,
+                                  const MesoSlotGraph *graph, const MesoSurfaceGroups *groups,
+                                  const MesoConstraints **constraints);
+
+#endif

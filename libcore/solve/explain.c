@@ -1,0 +1,167 @@
+#include "libcore/solve/explain.h"
+
+#include <assert.h>
+#include <string.h>
+
+#include "libcore/solve/propagate.h"
+#include "libcore/solve/strand_search.h"
+
+/* Slots that all tries together may go through; a few seconds. */
+static const uint64_t work_limit = (uint64_t)1 << 26;
+enum { LEAST_TRIES = 64, NAMES_IN_TEXT = 8 };
+
+typedef struct Explainer {
+    const MesoTileSet *set;
+    const MesoVariantSet *variants;
+    const MesoSlotGraph *graph;
+    const MesoConstraints *constraints;
+    MesoRestriction *restrictions;      /* [restriction_count] room for a selection */
+    MesoQuota *quotas;                  /* [quota_count] the same */
+    uint32_t *selected;                 /* [constraint count] the ones that a try has */
+    uint64_t tries_left;
+    MesoStatus status;
+    MesoError *error;
+} Explainer;
+
+static MesoConstraints select_constraints(Explainer *explainer, const uint32_t *numbers, uint32_t count)
+{
+    const MesoConstraints *all = explainer->constraints;
+    MesoConstraints some = {.restrictions = explainer->restrictions, .quotas = explainer->quotas};
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t number = numbers[i];
+        if (number < all->restriction_count)
+            explainer->restrictions[some.restriction_count++] = all->restrictions[number];
+        else if (number < all->restriction_count + all->quota_count)
+            explainer->quotas[some.quota_count++] = all->quotas[number - all->restriction_count];
+        else
+            some.strands = all->strands;
+    }
+    return some;
+}
+
+/* Whether the initial propagation disproves these constraints. */
+static bool disproved(Explainer *explainer, const uint32_t *numbers, uint32_t count)
+{
+    if (explainer->status || explainer->tries_left == 0)
+        return false;
+    explainer->tries_left--;
+    MesoConstraints some = select_constraints(explainer, numbers, count);
+    MesoPropagation propagation;
+    MesoArena scratch;
+    bool no = false;
+    meso_arena_init(&scratch);
+    explainer->status = meso_propagation_init(&propagation, &scratch, explainer->set, explainer->variants,
+                                              explainer->graph, &some, explainer->error);
+    if (!explainer->status) {
+        no = propagation.initial_dead_count || propagation.broken_quota != MESO_NO_INDEX;
+        if (!no)
+            explainer->status = meso_strand_search_disproves(&no, &scratch, &propagation, explainer->variants,
+                                                             &some, explainer->error);
+    }
+    meso_propagation_release(&propagation);
+    meso_arena_release(&scratch);
+    return no;
+}
+
+/*
+ * Leaves in items[0..result) what of items[0..count) is needed beside `base` items that
+ * stand in `selected`. `grown`: the base has grown since the last try.
+ */
+static uint32_t shrink(Explainer *explainer, uint32_t base, bool grown, uint32_t *items, uint32_t count)
+{
+    if (grown && disproved(explainer, explainer->selected, base))
+        return 0;
+    if (count <= 1)
+        return count;
+    uint32_t half = count / 2;
+    memcpy(explainer->selected + base, items, half * sizeof *items);
+    uint32_t right = shrink(explainer, base + half, true, items + half, count - half);
+    memcpy(explainer->selected + base, items + half, right * sizeof *items);
+    uint32_t left = shrink(explainer, base + right, right > 0, items, half);
+    memmove(items + left, items + half, right * sizeof *items);
+    return left + right;
+}
+
+/* Whether `restriction` speaks of `slot` or one of its neighbours. */
+static bool touches(const MesoRestriction *restriction, const MesoSlotGraph *graph, uint32_t slot)
+{
+    for (uint32_t i = 0; i < restriction->place_count; i++) {
+        uint32_t place = restriction->sided ? restriction->places[i] / 4 : restriction->places[i];
+        if (place == slot)
+            return true;
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t twin = graph->twin[4 * (size_t)slot + k];
+            if (twin != MESO_NO_INDEX && twin / 4 == place)
+                return true;
+        }
+    }
+    return false;
+}
+
+/* The constraints to shrink: those around `slot`, or all. */
+static uint32_t collect(Explainer *explainer, uint32_t *numbers, uint32_t slot)
+{
+    const MesoConstraints *constraints = explainer->constraints;
+    uint32_t count = 0, all = meso_constraint_count(constraints);
+    if (slot != MESO_NO_INDEX) {
+        for (uint32_t r = 0; r < constraints->restriction_count; r++)
+            if (touches(&constraints->restrictions[r], explainer->graph, slot))
+                numbers[count++] = r;
+        if (disproved(explainer, numbers, count))
+            return count;
+    }
+    for (count = 0; count < all; count++)
+        numbers[count] = count;
+    return all;
+}
+
+static void sort_ascending(uint32_t *numbers, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++)
+        for (uint32_t j = i; j > 0 && numbers[j - 1] > numbers[j]; j--) {
+            uint32_t number = numbers[j];
+            numbers[j] = numbers[j - 1];
+            numbers[j - 1] = number;
+        }
+}
+
+MesoStatus meso_explain(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
+                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                        const MesoConstraints *constraints, uint32_t slot, MesoError *error)
+{
+    MesoArena arena;
+    Explainer explainer = {.set = set, .variants = variants, .graph = graph, .constraints = constraints,
+                           .tries_left = LEAST_TRIES + work_limit / (graph->slot_count + 1u), .error = error};
+    meso_arena_init(&arena);
+    explainer.restrictions = MESO_NEW(&arena, MesoRestriction, constraints->restriction_count, error);
+    explainer.quotas = MESO_NEW(&arena, MesoQuota, constraints->quota_count, error);
+    explainer.selected = MESO_NEW(&arena, uint32_t, meso_constraint_count(constraints), error);
+    if (!explainer.restrictions || !explainer.quotas || !explainer.selected)
+        explainer.status = MESO_ERR_MEMORY;
+    if (!explainer.status) {
+        *count = collect(&explainer, numbers, slot);
+        *count = shrink(&explainer, 0, true, numbers, *count);
+    }
+    /* Halves that were put back stand in their order, unless the tries ran out. */
+    if (!explainer.status)
+        sort_ascending(numbers, *count);
+    meso_arena_release(&arena);
+    return explainer.status;
+}
+
+const char *meso_explanation_text(MesoArena *arena, const MesoConstraints *constraints,
+                                  const uint32_t *numbers, uint32_t count, MesoError *error)
+{
+    if (count == 0)
+        return "tile set and surface cannot go together, whatever the constraints";
+    if (count == 1)
+        return meso_arena_print(arena, error, "%s cannot hold", meso_constraint_name(constraints, numbers[0]));
+    uint32_t named = count < NAMES_IN_TEXT ? count : NAMES_IN_TEXT;
+    const char *text = meso_constraint_name(constraints, numbers[0]);
+    for (uint32_t i = 1; i < named && text; i++)
+        text = meso_arena_print(arena, error, "%s%s %s", text, i + 1 < count ? "," : " and",
+                                meso_constraint_name(constraints, numbers[i]));
+    if (text && named < count)
+        text = meso_arena_print(arena, error, "%s and %u more", text, count - named);
+    return text ? meso_arena_print(arena, error, "%s cannot hold together", text) : NULL;
+}

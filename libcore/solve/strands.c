@@ -1,0 +1,182 @@
+#include "libcore/solve/strands.h"
+
+#include <stdio.h>
+
+#include "libcore/solve/strand_forest.h"
+
+/*
+ * Joints are numbered by the sections of the label at the first of the two
+ * half-edges of an edge: base[h] + the section's place in its interface. The
+ * sections on top and bottom are joints of one slot alone.
+ */
+typedef struct StrandMap {
+    const MesoAssignment *assignment;
+    const MesoTileSet *set;
+    const MesoSlotGraph *graph;
+    uint32_t *base;             /* [6 * slot_count] first joint of each side, top and bottom too */
+    uint32_t joint_count;
+    MesoStrandForest forest;
+} StrandMap;
+
+static uint32_t section_count(const StrandMap *map, uint32_t slot, uint32_t side)
+{
+    const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
+    int32_t label = side < 4 ? meso_tile_label(tile, map->assignment->transform[slot], side) : tile->labels[side];
+    return label ? map->set->interfaces[meso_label_interface(label)].section_count : 0;
+}
+
+static MesoStatus number_joints(StrandMap *map, MesoArena *arena, MesoError *error)
+{
+    uint64_t count = 0;
+    map->base = MESO_NEW(arena, uint32_t, 6 * (size_t)map->graph->slot_count, error);
+    if (!map->base)
+        return MESO_ERR_MEMORY;
+    for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
+        for (uint32_t side = 0; side < 6; side++) {
+            uint32_t half_edge = 4 * slot + side;
+            uint32_t twin = side < 4 ? map->graph->twin[half_edge] : MESO_NO_INDEX;
+            size_t at = 6 * (size_t)slot + side;
+            if (twin != MESO_NO_INDEX && twin < half_edge) {
+                map->base[at] = map->base[6 * (size_t)(twin / 4) + twin % 4];
+                continue;
+            }
+            map->base[at] = (uint32_t)count;
+            count += section_count(map, slot, side);
+            if (count >= MESO_NO_INDEX)
+                return meso_fail(error, MESO_ERR_LIMIT, "too many cross-sections for strands: over %u", MESO_NO_INDEX - 1);
+        }
+    map->joint_count = (uint32_t)count;
+    return meso_strand_forest_init(&map->forest, arena, map->joint_count, error);
+}
+
+static uint32_t joint(const StrandMap *map, uint32_t slot, uint32_t side, uint32_t section)
+{
+    uint32_t place = meso_transform_side(map->assignment->transform[slot], side);
+    uint32_t first = map->set->interfaces[map->set->sections[section].interface].section_begin;
+    return map->base[6 * (size_t)slot + place] + section - first;
+}
+
+static void link_slot(StrandMap *map, uint32_t slot)
+{
+    const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
+    for (uint32_t i = 0; i < tile->sweep_count; i++) {
+        const MesoSweep *sweep = &map->set->sweeps[tile->sweep_begin + i];
+        meso_strand_link(&map->forest, joint(map, slot, sweep->from_side, sweep->from_section),
+                         joint(map, slot, sweep->to_side, sweep->to_section));
+    }
+}
+
+static MesoStatus build(StrandMap *map, MesoArena *arena, const MesoAssignment *assignment,
+                        const MesoTileSet *set, const MesoSlotGraph *graph, MesoError *error)
+{
+    *map = (StrandMap){.assignment = assignment, .set = set, .graph = graph};
+    MesoStatus status = number_joints(map, arena, error);
+    for (uint32_t slot = 0; slot < graph->slot_count && !status; slot++)
+        link_slot(map, slot);
+    return status;
+}
+
+static bool is_strand(const StrandMap *map, uint32_t node)
+{
+    const MesoStrandNode *root = &map->forest.nodes[node];
+    return root->parent == node && root->links > 0;
+}
+
+static void count_strand(MesoStrandStatistics *statistics, const MesoStrandNode *root)
+{
+    uint64_t length = root->links;
+    statistics->strand_count++;
+    statistics->link_count += length;
+    statistics->loop_count += meso_strand_ring(root);
+    statistics->cyclic_count += meso_strand_cyclic(root);
+    statistics->lengths[63 - __builtin_clzll(length)]++;
+    if (statistics->strand_count == 1 || length < statistics->shortest)
+        statistics->shortest = length;
+    if (length > statistics->longest)
+        statistics->longest = length;
+}
+
+MesoStatus meso_strands_count(MesoStrandStatistics *statistics, const MesoAssignment *assignment,
+                              const MesoTileSet *set, const MesoSlotGraph *graph, MesoError *error)
+{
+    StrandMap map;
+    MesoArena arena;
+    *statistics = (MesoStrandStatistics){0};
+    meso_arena_init(&arena);
+    MesoStatus status = build(&map, &arena, assignment, set, graph, error);
+    for (uint32_t i = 0; !status && i < map.joint_count; i++)
+        if (is_strand(&map, i))
+            count_strand(statistics, &map.forest.nodes[i]);
+    meso_arena_release(&arena);
+    return status;
+}
+
+/* What a strand by itself does against the rule, or NULL. */
+static const char *offence(const MesoStrandRule *rule, const MesoStrandNode *root)
+{
+    if (rule->acyclic && meso_strand_cyclic(root))
+        return "has a cycle";
+    if (rule->no_loops && meso_strand_ring(root))
+        return "is a closed loop";
+    if (rule->max_length && root->links > rule->max_length)
+        return "is too long";
+    return NULL;
+}
+
+/* `first` [pieces] holds the strand met first on each piece of the surface, or MESO_NO_INDEX. */
+static MesoStatus check_strands(const StrandMap *map, const MesoStrandRule *rule, const uint32_t *component,
+                                uint32_t *first, MesoError *error)
+{
+    for (uint32_t slot = 0; slot < map->graph->slot_count; slot++) {
+        const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
+        for (uint32_t i = 0; i < tile->sweep_count; i++) {
+            const MesoSweep *sweep = &map->set->sweeps[tile->sweep_begin + i];
+            uint32_t strand = meso_strand_root(&map->forest, joint(map, slot, sweep->from_side, sweep->from_section));
+            const char *what = offence(rule, &map->forest.nodes[strand]);
+            if (what)
+                return meso_fail(error, MESO_ERR_INPUT, "the strand of %u sweeps through slot %u %s",
+                                 map->forest.nodes[strand].links, slot, what);
+            if (first[component[slot]] == MESO_NO_INDEX)
+                first[component[slot]] = strand;
+            if (rule->connected && first[component[slot]] != strand)
+                return meso_fail(error, MESO_ERR_INPUT, "the strand of %u sweeps through slot %u is not "
+                                 "connected to others", map->forest.nodes[strand].links, slot);
+        }
+    }
+    return MESO_OK;
+}
+
+MesoStatus meso_strands_check(const MesoStrandRule *rule, const MesoAssignment *assignment,
+                              const MesoTileSet *set, const MesoSlotGraph *graph, MesoError *error)
+{
+    StrandMap map;
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoStatus status = build(&map, &arena, assignment, set, graph, error);
+    uint32_t *component = MESO_NEW(&arena, uint32_t, graph->slot_count, error);
+    uint32_t *first = MESO_NEW(&arena, uint32_t, graph->slot_count, error);
+    if (!status && (!component || !first))
+        status = MESO_ERR_MEMORY;
+    if (!status) {
+        meso_slot_graph_components(graph, component);
+        for (uint32_t i = 0; i < graph->slot_count; i++)
+            first[i] = MESO_NO_INDEX;
+        status = check_strands(&map, rule, component, first, error);
+    }
+    meso_arena_release(&arena);
+    return status;
+}
+
+const char *meso_strand_rule_name(const MesoStrandRule *rule, char text[64])
+{
+    int used = 0;
+    text[0] = '\0';
+    const char *const names[] = {rule->connected ? "connected" : NULL, rule->acyclic ? "acyclic" : NULL,
+                                 rule->no_loops ? "no-loops" : NULL};
+    for (uint32_t i = 0; i < 3; i++)
+        if (names[i])
+            used += snprintf(text + used, 64 - (size_t)used, "%s%s", used ? ", " : "", names[i]);
+    if (rule->max_length)
+        snprintf(text + used, 64 - (size_t)used, "%smax-length %u", used ? ", " : "", rule->max_length);
+    return text;
+}

@@ -1,0 +1,204 @@
+#include "libcore/solve/strands.h"
+
+#include <string.h>
+
+#include "libcore/solve/solve_fixture.h"
+#include "libcore/solve/strand_search.h"
+
+/*
+ * Truchet: both interfaces of a set have one section. t0 joins sides 0 and 1, and 2 and 3; t1 joins
+ * 0 and 2, and 1 and 3; t2 joins all four in a star; t3 has no sweep at all.
+ */
+static MesoTileSet truchet(MesoArena *arena, uint32_t tile_count, bool rotation)
+{
+    static const int32_t labels[4][4] = {{1, 1, -1, -1}, {1, 1, -1, -1}, {1, 1, -1, -1}, {1, 1, -1, -1}};
+    static const uint8_t sides[7][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 1}, {0, 2}, {0, 3}};
+    static const uint32_t begin[5] = {0, 2, 4, 7, 7};
+    MesoTileSet set = fixture_set(arena, 1, tile_count, labels, rotation, false, false);
+    set.sections = MESO_NEW(arena, MesoSection, 1, NULL);
+    set.sweeps = MESO_NEW(arena, MesoSweep, 7, NULL);
+    CHECK(set.sections && set.sweeps);
+    set.sections[0].name = "s";
+    set.section_count = set.interfaces[0].section_count = 1;
+    set.sweep_count = 7;
+    for (uint32_t i = 0; i < 7; i++)
+        set.sweeps[i] = (MesoSweep){.from_side = sides[i][0], .to_side = sides[i][1]};
+    for (uint32_t t = 0; t < tile_count; t++) {
+        set.tiles[t].sweep_begin = begin[t];
+        set.tiles[t].sweep_count = begin[t + 1] - begin[t];
+    }
+    return set;
+}
+
+static MesoStrandStatistics count(const MesoTileSet *set, const MesoSlotGraph *graph, uint32_t *tile,
+                                  MesoTransform *transform)
+{
+    MesoStrandStatistics statistics;
+    const MesoAssignment assignment = {graph->slot_count, tile, transform};
+    CHECK(meso_strands_count(&statistics, &assignment, set, graph, NULL) == MESO_OK);
+    return statistics;
+}
+
+static void test_count(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoTileSet set = truchet(&arena, 4, true);
+    uint32_t straight[6] = {1, 1, 1, 1, 1, 1}, star[6] = {2, 3, 2, 3, 2, 3};
+    MesoTransform as_is[6] = {0};
+
+    /* Three columns, two rows: two strands of three, three of two. */
+    MesoSlotGraph graph = fixture_grid(&arena, 3, 2, false, false, false);
+    MesoStrandStatistics statistics = count(&set, &graph, straight, as_is);
+    CHECK(statistics.strand_count == 5 && statistics.loop_count == 0 && statistics.link_count == 12);
+    CHECK(statistics.shortest == 2 && statistics.longest == 3 && statistics.lengths[1] == 5);
+
+    /* Closed rows: two rings. On the torus five. */
+    graph = fixture_grid(&arena, 3, 2, true, false, false);
+    statistics = count(&set, &graph, straight, as_is);
+    CHECK(statistics.strand_count == 5 && statistics.loop_count == 2 && statistics.cyclic_count == 2);
+    graph = fixture_grid(&arena, 3, 2, true, true, false);
+    statistics = count(&set, &graph, straight, as_is);
+    CHECK(statistics.strand_count == 5 && statistics.loop_count == 5);
+
+    /* The Moebius band's rows are one ring. */
+    graph = fixture_grid(&arena, 3, 2, true, false, true);
+    statistics = count(&set, &graph, straight, as_is);
+    CHECK(statistics.strand_count == 4 && statistics.loop_count == 1 && statistics.longest == 6);
+
+    /* Stars of three sweeps apart, and joined: a fork closes no ring. */
+    graph = fixture_grid(&arena, 6, 1, false, false, false);
+    statistics = count(&set, &graph, star, as_is);
+    CHECK(statistics.strand_count == 3 && statistics.longest == 3 && statistics.cyclic_count == 0);
+    star[1] = 2;
+    graph = fixture_grid(&arena, 2, 1, true, false, false);
+    statistics = count(&set, &graph, star, as_is);
+    CHECK(statistics.strand_count == 1 && statistics.cyclic_count == 1 && statistics.loop_count == 0);
+    meso_arena_release(&arena);
+}
+
+/* Four quarter circles about the middle of a 2 x 2 grid make a ring, which only one rule of them minds. */
+static void test_check(void)
+{
+    MesoArena arena;
+    MesoError error;
+    meso_arena_init(&arena);
+    MesoTileSet set = truchet(&arena, 4, true);
+    MesoSlotGraph graph = fixture_grid(&arena, 2, 2, false, false, false);
+    uint32_t tile[4] = {0, 0, 0, 0};
+    MesoTransform transform[4] = {0, 1, 1, 0};
+    const MesoAssignment assignment = {4, tile, transform};
+    MesoStrandStatistics statistics = count(&set, &graph, tile, transform);
+    CHECK(statistics.strand_count == 5 && statistics.loop_count == 1 && statistics.longest == 4);
+
+    MesoStrandRule rule = {.no_loops = true};
+    CHECK(meso_strands_check(&rule, &assignment, &set, &graph, &error) == MESO_ERR_INPUT);
+    CHECK(strstr(error.message, "of 4 sweeps through slot 0 is a closed loop"));
+    rule = (MesoStrandRule){.acyclic = true};
+    CHECK(meso_strands_check(&rule, &assignment, &set, &graph, &error) == MESO_ERR_INPUT);
+    rule = (MesoStrandRule){.max_length = 3};
+    CHECK(meso_strands_check(&rule, &assignment, &set, &graph, &error) == MESO_ERR_INPUT);
+    rule = (MesoStrandRule){.connected = true};
+    CHECK(meso_strands_check(&rule, &assignment, &set, &graph, &error) == MESO_ERR_INPUT);
+    rule = (MesoStrandRule){.max_length = 4};
+    CHECK(meso_strands_check(&rule, &assignment, &set, &graph, &error) == MESO_OK);
+
+    char text[64];
+    rule = (MesoStrandRule){.connected = true, .acyclic = true, .no_loops = true, .max_length = 4294967295u};
+    CHECK(strcmp(meso_strand_rule_name(&rule, text), "connected, acyclic, no-loops, max-length 4294967295") == 0);
+    meso_arena_release(&arena);
+}
+
+/* Every rule that the search keeps to holds in the result, by the check's own way. */
+static void test_search(void)
+{
+    static const MesoStrandRule rules[4] = {
+        {.no_loops = true}, {.max_length = 6}, {.acyclic = true, .max_length = 9}, {.connected = true}};
+    MesoArena arena;
+    MesoError error;
+    meso_arena_init(&arena);
+    for (uint32_t r = 0; r < 4; r++)
+        for (uint64_t seed = 0; seed < 10; seed++) {
+           /* Where all must connect, stars may stand. */
+            MesoTileSet set = truchet(&arena, r == 0 ? 2 : 4, true);
+            MesoSlotGraph graph = fixture_grid(&arena, r == 3 ? 4 : 12, r == 3 ? 3 : 9, r != 0, false, false);
+            MesoVariantSet variants;
+            MesoSolveResult result;
+            MesoConstraints constraints = {.strands = rules[r]};
+            MesoSolveOptions options = {.seed = seed, .max_attempts = 50, .max_dead_ends = 10,
+                                        .constraints = &constraints};
+            CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
+            CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+            CHECK(result.verdict == MESO_VERDICT_SOLVED);
+            CHECK(meso_strands_check(&rules[r], &result.assignment, &set, &graph, &error) == MESO_OK);
+        }
+    meso_arena_release(&arena);
+}
+
+/* Straight tiles alone on closed rows can only make rings: that is the rule's fault, and said so. */
+static void test_explanation(void)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoVariantSet variants;
+    MesoSolveResult result;
+    meso_arena_init(&arena);
+    MesoTileSet set = truchet(&arena, 2, false);
+    MesoSlotGraph graph = fixture_grid(&arena, 3, 2, true, false, false);
+    static const uint32_t row[3] = {0, 1, 2};
+    static const uint64_t straight[1] = {2};
+    MesoRestriction region = {.name = "regions[0] 'row'", .place_count = 3, .places = row, .allowed = straight};
+    MesoConstraints constraints = {.strands = {.no_loops = true}, .restriction_count = 1, .restrictions = &region};
+    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10, .constraints = &constraints};
+    CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
+    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+    CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
+    CHECK(strcmp(result.reason, "regions[0] 'row' and the rule on strands cannot hold together") == 0);
+    meso_arena_release(&arena);
+}
+
+/* What is added and taken back in the opposite order leaves nothing behind. */
+static void test_undo(void)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoVariantSet variants;
+    MesoStrandSearch search, fresh;
+    MesoRandom random;
+    meso_arena_init(&arena);
+    meso_random_init(&random, 5, 0);
+    MesoTileSet set = truchet(&arena, 4, true);
+    MesoSlotGraph graph = fixture_grid(&arena, 5, 4, true, true, false);
+    const MesoStrandRule rule = {.connected = true, .no_loops = true};
+    CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
+    CHECK(meso_strand_search_init(&search, &arena, &rule, &set, &variants, &graph, &error) == MESO_OK);
+    CHECK(meso_strand_search_init(&fresh, &arena, &rule, &set, &variants, &graph, &error) == MESO_OK);
+    size_t marks[21] = {0};
+    uint32_t depth = 0;
+    for (uint32_t step = 0; step < 2000; step++) {
+        bool kept = true;
+        if (depth == 20 || (depth > 0 && meso_random_below(&random, 3) == 0)) {
+            depth = meso_random_below(&random, depth);
+            meso_strand_search_undo(&search, marks[depth]);
+        }
+        marks[depth] = search.trail_count;
+        CHECK(meso_strand_search_add(&search, (7 * depth) % 20, meso_random_below(&random, variants.count), &kept,
+                                     &error) == MESO_OK);
+        depth++;
+    }
+    meso_strand_search_undo(&search, 0);
+    CHECK(memcmp(search.forest.nodes, fresh.forest.nodes, search.forest.count * sizeof *search.forest.nodes) == 0);
+    CHECK(memcmp(search.finished, fresh.finished, search.forest.count) == 0);
+    CHECK(search.strand_count[0] == 0 && search.finished_count[0] == 0);
+    meso_arena_release(&arena);
+}
+
+int main(void)
+{
+    test_count();
+    test_check();
+    test_search();
+    test_explanation();
+    test_undo();
+    return 0;
+}

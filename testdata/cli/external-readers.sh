@@ -1,0 +1,19 @@
+# Other programs read what is written here.
+cp "$fixtures/vase.meso" .
+meso-map -q --divisions 6 vase.meso -o vase.drc
+meso-map -q --divisions 6 vase.meso -o vase.glb
+meso-map -q --divisions 6 vase.meso -o vase.ply
+meso-render -q --size 160x120 vase.meso -o vase.exr --png vase.png
+
+draco_decoder -i vase.drc -o decoded.ply >/dev/null || echo "draco_decoder: status $?"
+for element in vertex face; do
+    grep -a "^element $element" decoded.ply >counts && grep -q '[1-9]' counts || echo "no $element in the Draco file"
+done
+if [ -d "$npm/node_modules/gltf-validator" ]; then
+    NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" vase.glb >said || { echo "validator: $?" && cat said; }
+elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
+    echo "gltf-validator is not installed" >&2
+fi
+exrheader vase.exr | grep -o -e '^ *[A-Za-z.]*, .*sampling' | sed 's/, sampling//'
+exrinfo vase.exr >/dev/null || echo "exrinfo: status $?"
+oiiotool vase.exr -d float -o copy.tif && oiiotool --info vase.png | sed 's/ *: */: /'
