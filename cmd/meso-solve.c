@@ -149,8 +149,8 @@ static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, 
 static MesoStatus solve_seeds(Arguments *a, const Problem *p)
 {
     const MesoSeedProblem problem = {
-        .set = &p->set, .variants = &p->variants, .surface = &p->surface, .constraints = p->constraints,
-        .tiles_hash = p->tiles_hash, .attempts = a->attempts,
+        .set = &p->set, .variants = &p->variants, .surface = &p->surface, .tiles_hash = p->tiles_hash,
+        .solve = {.max_attempts = a->attempts, .constraints = p->constraints},
         .others = a->control.strands ? a->control.strands : "", .options = a->options, .argc = a->argc, .argv = a->argv,
     };
     return meso_solve_seeds(&a->tool, &a->seeds, &problem);

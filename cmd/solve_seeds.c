@@ -153,7 +153,7 @@ typedef struct Seeds {
     const MesoSeedOptions *options;
     const MesoSeedProblem *problem;
     SeedRange range;
-    uint32_t attempts;
+    MesoSolveOptions solve;
     uint64_t hash[2];           /* of the problem */
     uint64_t *todo;             /* [todo_count] seeds to solve */
     uint32_t todo_count;
@@ -383,18 +383,12 @@ static MesoStatus open_journal(Seeds *seeds, MesoError *error)
 
 /* ---- all seeds ---- */
 
-static MesoSolveOptions solve_options(const Seeds *seeds)
-{
-    return (MesoSolveOptions){.max_attempts = seeds->attempts, .max_dead_ends = 1,
-                              .constraints = seeds->problem->constraints};
-}
-
 static MesoStatus sweep(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
     const MesoSeedSweep all = {
         .set = seeds->problem->set, .variants = seeds->problem->variants, .graph = &seeds->problem->surface->graph,
-        .options = solve_options(seeds), .thread_count = tool->threads,
+        .options = seeds->solve, .thread_count = tool->threads,
         .seeds = seeds->todo, .seed_count = seeds->todo_count, .take = take_result, .context = seeds,
     };
     meso_tool_progress_begin(tool, "solving", "seeds");
@@ -453,7 +447,7 @@ static const MesoSeedLine *find_best(const Seeds *seeds, const Metric *metric)
 static MesoStatus write_best(const Seeds *seeds, const MesoSeedLine *best, const char *path, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
-    MesoSolveOptions options = solve_options(seeds);
+    MesoSolveOptions options = seeds->solve;
     MesoSolveResult result;
     uint64_t hash[2] = {0};
     options.seed = best->seed;
@@ -506,6 +500,14 @@ static MesoStatus tell_verdicts(const Seeds *seeds, MesoError *error)
                      count == 1 ? "" : "s");
 }
 
+/* What results depend on beside the inputs and the seed. */
+static char *describe_options(const MesoSolveOptions *solve, const char *others, MesoArena *arena, MesoError *error)
+{
+    return meso_arena_print(arena, error, "engine %d, %u attempts, %" PRIu64 " observations, %" PRIu64 " conflicts, %s",
+                            (int)solve->engine, solve->max_attempts, solve->max_observations, solve->max_conflicts,
+                            others);
+}
+
 static MesoStatus prepare(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
@@ -513,8 +515,11 @@ static MesoStatus prepare(Seeds *seeds, MesoError *error)
     MesoStatus status = parse_range(&seeds->range, seeds->options->seeds, error);
     if (status)
         return status;
-    seeds->attempts = seeds->range.attempts ? seeds->range.attempts : p->attempts;
-    const char *options = meso_arena_print(&tool->arena, error, "attempts=%u %s", seeds->attempts, p->others);
+    seeds->solve = p->solve;
+    seeds->solve.max_dead_ends = 1;
+    if (seeds->range.attempts)
+        seeds->solve.max_attempts = seeds->range.attempts;
+    const char *options = describe_options(&seeds->solve, p->others, &tool->arena, error);
     seeds->lines = options ? MESO_NEW(&tool->arena, MesoSeedLine, seeds->range.count, error) : NULL;
     if (!seeds->lines)
         return MESO_ERR_MEMORY;

@@ -24,11 +24,10 @@ typedef struct MesoSeedOptions {
 typedef struct MesoSeedProblem {
     const MesoTileSet *set;
     const MesoVariantSet *variants;
-    const MesoConstraints *constraints;     /* NULL: none */
     const MesoSolveSurface *surface;
     const uint64_t *tiles_hash;     /* [2] */
-    uint32_t attempts;              /* unless --seeds says */
-    const char *others;             /* names whatever else results depend on; part of the problem's hash */
+    MesoSolveOptions solve;         /* but for seed and progress; its attempts unless --seeds says */
+    const char *others;             /* whatever else is asked for, in words: part of the problem's hash */
     const MesoOption *options;      /* of the tool, with its arguments */
     int argc;
     char **argv;

@@ -13,6 +13,17 @@ static const char *const verdict_names[] = {
     [MESO_VERDICT_GAVE_UP] = "gave-up",
 };
 
+static const char *const decider_names[] = {
+    [MESO_DECIDER_PROPAGATION] = "propagation",
+    [MESO_DECIDER_SEARCH] = "search",
+    [MESO_DECIDER_COUNTING] = "counting",
+    [MESO_DECIDER_PARITY] = "parity",
+    [MESO_DECIDER_EXACT] = "exact",
+    [MESO_DECIDER_ATTEMPTS] = "attempts",
+    [MESO_DECIDER_CONFLICTS] = "conflicts",
+    [MESO_DECIDER_STOP] = "stop",
+};
+
 enum { VERDICT_COUNT = sizeof verdict_names / sizeof *verdict_names };
 
 /* Words of labels for all dead ends: 1 GiB. */
@@ -31,6 +42,11 @@ bool meso_verdict_parse(const char *name, MesoVerdict *verdict)
             return true;
         }
     return false;
+}
+
+const char *meso_decider_name(MesoDecider decider)
+{
+    return decider_names[decider];
 }
 
 /* --- writing --- */

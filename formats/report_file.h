@@ -48,6 +48,9 @@ bool meso_verdict_parse(const char *name, MesoVerdict *verdict);
 /* Slots by tile name, in the set's order; tiles without a slot too, ignored ones not. NULL when memory is out. */
 json_t *meso_report_histogram(const MesoAssignment *assignment, const MesoTileSet *set);
 
+/* "propagation", "search", "counting", "parity", "exact", "attempts", "conflicts", "stop" */
+const char *meso_decider_name(MesoDecider decider);
+
 /*
  * Sets in `object` the keys from "verdict" to "dead_ends"; whatever else makes
  * a report is the caller's. `graph`, `variants` and `set` are what `result` was

@@ -88,8 +88,8 @@ MesoStatus meso_seed_line_make(MesoSeedLine *line, MesoArena *arena, uint64_t se
         return status;
     *line = (MesoSeedLine){.seed = seed, .verdict = result->verdict, .attempts = result->attempts,
                            .observations = result->observations};
-    json_t *object = json_pack("{sIsssIsIsI}", "seed", (json_int_t)seed, "verdict", meso_verdict_name(line->verdict),
-                               "attempts", (json_int_t)line->attempts, "observations", (json_int_t)line->observations,
+    json_t *object = json_pack("{sIsssssIsIsI}", "seed", (json_int_t)seed, "verdict", meso_verdict_name(line->verdict),
+                               "decider", meso_decider_name(result->decider), "attempts", (json_int_t)line->attempts, "observations", (json_int_t)line->observations,
                                "dead_ends", (json_int_t)result->dead_end_total);
     int failed = object == NULL;
     if (solved)

@@ -1,12 +1,14 @@
 /*
  * Results of a sweep over seeds: JSON lines, one a seed, in the order of the keys
  *
- *     {"seed": 7, "verdict": "solved", "attempts": 1, "observations": 812, "dead_ends": 0,
- *      "tiles": {name: slots that hold it, ...}, "strands": {"count": ..., "loops": ..., and so on},
+ *     {"seed": 7, "verdict": "solved", "decider": "search", "attempts": 1, "observations": 812,
+ *      "dead_ends": 0, "tiles": {name: slots that hold it, ...},
+ *      "strands": {"count": ..., "loops": ..., and so on},
  *      "assignment": "XXH3-128, 32 digits", "problem": "XXH3-128, 32 digits"}
  *
- * without blanks; "tiles", "strands" (as in report_file.h) and "assignment" only where solved. A line depends
- * on the problem and the seed alone: on no other seed, thread, shard or path.
+ * without blanks; "tiles", "strands" (as in report_file.h) and "assignment"
+ * only where solved. A line depends on the problem and the seed alone: on no
+ * other seed, thread, shard or path.
  */
 #ifndef MESO_SEED_LINES_H
 #define MESO_SEED_LINES_H

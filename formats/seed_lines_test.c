@@ -44,14 +44,14 @@ static void test_round_trip(void)
     uint32_t tiles[5] = {1, 0, 1, 1, 0};
     MesoTransform transforms[5] = {0, 1, 2, 3, 7};
     MesoTileSet set = fixture_set(&arena, 1, 2, labels, true, true, false);
-    MesoSolveResult result = {.verdict = MESO_VERDICT_SOLVED, .attempts = 3, .observations = 5000000000,
+    MesoSolveResult result = {.verdict = MESO_VERDICT_SOLVED, .decider = MESO_DECIDER_SEARCH, .attempts = 3, .observations = 5000000000,
                               .assignment = {5, tiles, transforms}, .dead_end_total = 2};
     MesoSeedLine line;
     MesoError error;
     char text[1000];
     MesoSlotGraph graph = fixture_graph(&arena, 5);
     CHECK(meso_seed_line_make(&line, &arena, MESO_SEED_LIMIT, problem, &result, &set, &graph, &error) == MESO_OK);
-    CHECK(strcmp(line.text, "{\"seed\":9223372036854775807,\"verdict\":\"solved\",\"attempts\":3,"
+    CHECK(strcmp(line.text, "{\"seed\":9223372036854775807,\"verdict\":\"solved\",\"decider\":\"search\",\"attempts\":3,"
                  "\"observations\":5000000000,\"dead_ends\":2,\"tiles\":{\"t0\":2,\"t1\":3},"
                  "\"strands\":{\"count\":0,\"loops\":0,\"cyclic\":0,\"sweeps\":0,\"shortest\":0,\"longest\":0,\"lengths\":[]},"
                  "\"assignment\":\"a1c22c02265f0cf20e121b869d23b163\"," PROBLEM) == 0);

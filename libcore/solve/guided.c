@@ -87,7 +87,7 @@ static MesoStatus pop_choice(MesoGuidedSearch *search, MesoGuidedChoice *choice,
         return MESO_OK;
     }
     *choice = search->choices[--search->choice_count];
-    MesoStatus status = meso_propagation_undo(search->propagation, choice->mark, done, error);
+    MesoStatus status = meso_propagation_rewind(search->propagation, choice->mark, done, error);
     if (status || !*done)
         return status;
     if (search->propagation->decided) {

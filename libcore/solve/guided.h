@@ -26,7 +26,7 @@ typedef struct MesoGuidedSearch {
     MesoGuidedChoice *choices;
     uint32_t choice_count, choice_capacity;
     bool strands_broken;        /* by the last step */
-    uint32_t generation;        /* of the propagation's trail when the attempt's choices began */
+    uint32_t generation;        /* of the propagation's history when the attempt's choices began */
     bool exhausted;             /* the last attempt took back all of its choices, and none was left: there
                                    is no assignment */
     uint8_t *released;          /* [slot_count] not to be kept any more; NULL where nothing is */

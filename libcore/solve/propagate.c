@@ -11,7 +11,11 @@ enum { COLLECT_STATES = 1 << 16 };
 /* The step cache: 2^17 entries are 2 MiB, about a core's second cache; a small graph needs few. */
 enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
 
-enum { ALL_SIDES = 15 };
+/* Entries of the first trail. */
+enum { LEAST_TRAIL = 1024 };
+
+/* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball at hand. */
+enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64 };
 
 void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)
 {
@@ -109,12 +113,12 @@ static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena
 
 static void push(MesoPropagation *propagation, uint32_t slot, uint8_t sides)
 {
-    if (sides && !propagation->pending[slot]) {
+    if (sides && !(propagation->pending[slot] & ALL_SIDES)) {
         uint32_t end = propagation->list_head + propagation->list_count++;
         uint32_t size = propagation->graph->slot_count;
         propagation->list[end < size ? end : end - size] = slot;
     }
-    propagation->pending[slot] |= sides;
+    propagation->pending[slot] |= sides & ALL_SIDES;
 }
 
 static uint32_t pop(MesoPropagation *propagation)
@@ -137,9 +141,25 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
 
 static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange change, MesoError *error)
 {
+    if (propagation->history_count == propagation->history_capacity) {
+        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : 1024;
+        MesoStateChange *history = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
+        if (!history)
+            return MESO_ERR_MEMORY;
+        if (propagation->history_count)
+            memcpy(history, propagation->history, propagation->history_count * sizeof *history);
+        propagation->history = history;
+        propagation->history_capacity = capacity;
+    }
+    propagation->history[propagation->history_count++] = change;
+    return MESO_OK;
+}
+
+static MesoStatus record_on_trail(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
     if (propagation->trail_count == propagation->trail_capacity) {
-        size_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : 1024;
-        MesoStateChange *trail = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
+        uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
+        MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
         if (!trail)
             return MESO_ERR_MEMORY;
         if (propagation->trail_count)
@@ -147,44 +167,61 @@ static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange ch
         propagation->trail = trail;
         propagation->trail_capacity = capacity;
     }
-    propagation->trail[propagation->trail_count++] = change;
+    propagation->pending[slot] |= ON_TRAIL;
+    propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
     return MESO_OK;
+}
+
+/* Notes the state that `slot` is about to lose. */
+static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
+    bool first_touch = !(propagation->pending[slot] & TOUCHED);
+    if (propagation->tracing) {
+        if (record_change(propagation, (MesoStateChange){slot, propagation->state[slot], first_touch}, error))
+            return MESO_ERR_MEMORY;
+    } else if (!(propagation->pending[slot] & ON_TRAIL) && record_on_trail(propagation, slot, error)) {
+        return MESO_ERR_MEMORY;
+    }
+    if (first_touch)
+        propagation->touched[propagation->touched_count++] = slot;
+    propagation->pending[slot] |= TOUCHED;
+    return MESO_OK;
+}
+
+/* Gives `slot` another state, and moves it in the queue. */
+static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uint32_t next, MesoError *error)
+{
+    uint32_t state = propagation->state[slot];
+    uint32_t before = propagation->domains.domains[state].size, after = propagation->domains.domains[next].size;
+    propagation->state[slot] = next;
+    if (propagation->quotas.count)
+        meso_quota_change(&propagation->quotas, meso_domain_bits(&propagation->domains, state),
+                          meso_domain_bits(&propagation->domains, next));
+    if (!propagation->searching)
+        return MESO_OK;
+    if (before > 1)
+        meso_bucket_queue_remove(&propagation->queue, slot, before);
+    return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
 }
 
 /* Gives `slot` the smaller state `next`, which is not empty. */
 static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_t next,
                             MesoError *error)
 {
-    uint32_t state = propagation->state[slot];
-    const MesoDomain *before = &propagation->domains.domains[state];
-    const MesoDomain *after = &propagation->domains.domains[next];
-
-    propagation->state[slot] = next;
-    push(propagation, slot, changed_sides(before, after));
-    if (propagation->quotas.count)
-        meso_quota_change(&propagation->quotas, meso_domain_bits(&propagation->domains, state),
-                          meso_domain_bits(&propagation->domains, next));
-    if (!propagation->searching)
-        return MESO_OK;
-    bool first_touch = state == propagation->initial[slot];
-    if (propagation->tracing &&
-        record_change(propagation, (MesoStateChange){slot, state, first_touch}, error))
+    const MesoDomain *domains = propagation->domains.domains;
+    push(propagation, slot, changed_sides(&domains[propagation->state[slot]], &domains[next]));
+    if (propagation->searching && note_change(propagation, slot, error))
         return MESO_ERR_MEMORY;
-    if (first_touch)
-        propagation->touched[propagation->touched_count++] = slot;
-    meso_bucket_queue_remove(&propagation->queue, slot, before->size);
-    if (after->size == 1 && propagation->decided)
+    if (propagation->searching && propagation->decided && domains[next].size == 1)
         propagation->decided[propagation->decided_count++] = slot;
-    if (after->size == 1)
-        return MESO_OK;
-    return meso_bucket_queue_insert(&propagation->queue, slot, after->size, error);
+    return move_to_state(propagation, slot, next, error);
 }
 
 /* Forgets what is still to be told. */
 static void clear_list(MesoPropagation *propagation)
 {
     while (propagation->list_count)
-        propagation->pending[pop(propagation)] = 0;
+        propagation->pending[pop(propagation)] &= (uint8_t)~ALL_SIDES;
 }
 
 /* Tells the neighbour across half-edge `half_edge` which labels it may still show there. */
@@ -215,9 +252,9 @@ static MesoStatus run(MesoPropagation *propagation, MesoError *error)
     propagation->dead_slot = MESO_NO_INDEX;
     while (propagation->list_count) {
         uint32_t slot = pop(propagation);
-        uint32_t sides = propagation->pending[slot];
+        uint32_t sides = propagation->pending[slot] & ALL_SIDES;
         const uint32_t *twin = propagation->graph->twin + 4 * (size_t)slot;
-        propagation->pending[slot] = 0;
+        propagation->pending[slot] &= (uint8_t)~ALL_SIDES;
         if (propagation->state[slot] == MESO_DOMAIN_EMPTY)
             continue;
         for (; sides; sides &= sides - 1) {
@@ -373,7 +410,7 @@ void meso_propagation_release(MesoPropagation *propagation)
 
 void meso_propagation_forget(MesoPropagation *propagation)
 {
-    propagation->trail_count = 0;
+    propagation->history_count = 0;
     propagation->generation++;
 }
 
@@ -392,15 +429,28 @@ static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *err
 MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMark *mark, MesoError *error)
 {
     MesoStatus status = collect_where_due(propagation, error);
-    *mark = (MesoPropagationMark){propagation->trail_count, propagation->decided_count,
+    *mark = (MesoPropagationMark){propagation->history_count, propagation->decided_count,
                                   propagation->generation};
     return status;
+}
+
+static void clear_trail(MesoPropagation *propagation)
+{
+    while (propagation->trail_count)
+        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+}
+
+/* Room for new states, and an empty trail. */
+static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
+{
+    clear_trail(propagation);
+    return collect_where_due(propagation, error);
 }
 
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error)
 {
-    if (collect_where_due(propagation, error))
+    if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
     uint32_t next = meso_domain_single(&propagation->domains, variant, error);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
@@ -411,54 +461,112 @@ MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, 
 MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                     MesoError *error)
 {
-    uint64_t *bits = propagation->domains.scratch_state;
-    memcpy(bits, meso_domain_bits(&propagation->domains, propagation->state[slot]),
-           propagation->domains.states.word_count * sizeof *bits);
-    assert(meso_bits_test(bits, variant));
-    meso_bits_clear(bits, variant);
-    uint32_t next = meso_domain_intern(&propagation->domains, bits, error);
+    clear_trail(propagation);
+    uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
     assert(next != MESO_DOMAIN_EMPTY);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
         return MESO_ERR_MEMORY;
     return run_with_quotas(propagation, error);
 }
 
-MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
                                  MesoError *error)
 {
     *done = mark.generation == propagation->generation;
-    while (*done && propagation->trail_count > mark.trail_count) {
-        const MesoStateChange *change = &propagation->trail[--propagation->trail_count];
-        const MesoDomain *now = &propagation->domains.domains[propagation->state[change->slot]];
-        const MesoDomain *then = &propagation->domains.domains[change->state];
-        meso_quota_change(&propagation->quotas,
-                          meso_domain_bits(&propagation->domains, propagation->state[change->slot]),
-                          meso_domain_bits(&propagation->domains, change->state));
-        if (now->size > 1)
-            meso_bucket_queue_remove(&propagation->queue, change->slot, now->size);
-        propagation->state[change->slot] = change->state;
-        propagation->touched_count -= change->first_touch;
-        if (meso_bucket_queue_insert(&propagation->queue, change->slot, then->size, error))
+    while (*done && propagation->history_count > mark.history_count) {
+        const MesoStateChange *change = &propagation->history[--propagation->history_count];
+        if (move_to_state(propagation, change->slot, change->state, error))
             return MESO_ERR_MEMORY;
+        if (change->first_touch) {
+            propagation->touched_count--;
+            propagation->pending[change->slot] &= (uint8_t)~TOUCHED;
+        }
     }
     if (*done)
         propagation->decided_count = mark.decided_count;
     return MESO_OK;
 }
 
-MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
+MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 {
-    const MesoDomain *domains = propagation->domains.domains;
-    while (propagation->touched_count) {
-        uint32_t slot = propagation->touched[--propagation->touched_count];
-        uint32_t size = domains[propagation->state[slot]].size;
-        if (size > 1)
-            meso_bucket_queue_remove(&propagation->queue, slot, size);
-        propagation->state[slot] = propagation->initial[slot];
-        size = domains[propagation->state[slot]].size;
-        if (meso_bucket_queue_insert(&propagation->queue, slot, size, error))
+    while (propagation->trail_count) {
+        MesoTrailEntry entry = propagation->trail[--propagation->trail_count];
+        propagation->pending[entry.slot] &= (uint8_t)~ON_TRAIL;
+        if (move_to_state(propagation, entry.slot, entry.state, error))
             return MESO_ERR_MEMORY;
     }
+    return MESO_OK;
+}
+
+/* Puts the slots up to `radius` edges around `slot` on the list, breadth first, and marks them. */
+static void collect_ball(MesoPropagation *propagation, uint32_t slot, uint32_t radius)
+{
+    const uint32_t *twins = propagation->graph->twin;
+    uint32_t begin = 0, end = 1;
+    propagation->list[0] = slot;
+    propagation->pending[slot] |= IN_BALL;
+    for (; radius > 0 && begin < end; radius--) {
+        uint32_t ring_end = end;
+        for (; begin < ring_end; begin++)
+            for (uint32_t k = 0; k < 4; k++) {
+                uint32_t twin = twins[4 * (size_t)propagation->list[begin] + k];
+                if (twin == MESO_NO_INDEX || propagation->pending[twin / 4] & IN_BALL)
+                    continue;
+                propagation->pending[twin / 4] |= IN_BALL;
+                propagation->list[end++] = twin / 4;
+            }
+    }
+    propagation->list_head = 0;
+    propagation->list_count = end;
+}
+
+/* The slots on the list have all to tell, and to hear from those around them that are not on it. */
+static void push_ball(MesoPropagation *propagation)
+{
+    const uint32_t *twins = propagation->graph->twin;
+    uint32_t count = propagation->list_count;
+    for (uint32_t i = 0; i < count; i++)
+        propagation->pending[propagation->list[i]] |= ALL_SIDES;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t twin = twins[4 * (size_t)propagation->list[i] + k];
+            if (twin != MESO_NO_INDEX && !(propagation->pending[twin / 4] & IN_BALL))
+                push(propagation, twin / 4, (uint8_t)(1u << (twin % 4)));
+        }
+    for (uint32_t i = 0; i < count; i++)
+        propagation->pending[propagation->list[i]] &= (uint8_t)~IN_BALL;
+}
+
+MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
+                                   uint32_t *reopened, MesoError *error)
+{
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
+    assert(propagation->list_count == 0);
+    collect_ball(propagation, slot, radius);
+    *reopened = propagation->list_count;
+    for (uint32_t i = 0; i < *reopened; i++) {
+        uint32_t inner = propagation->list[i];
+        if (propagation->state[inner] == propagation->initial[inner])
+            continue;
+        if (note_change(propagation, inner, error) ||
+            move_to_state(propagation, inner, propagation->initial[inner], error))
+            return MESO_ERR_MEMORY;
+    }
+    push_ball(propagation);
+    return run_with_quotas(propagation, error);
+}
+
+MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
+{
+    while (propagation->touched_count) {
+        uint32_t slot = propagation->touched[--propagation->touched_count];
+        propagation->pending[slot] &= (uint8_t)~(TOUCHED | ON_TRAIL);
+        if (propagation->state[slot] != propagation->initial[slot] &&
+            move_to_state(propagation, slot, propagation->initial[slot], error))
+            return MESO_ERR_MEMORY;
+    }
+    propagation->trail_count = 0;
     meso_quota_restart(&propagation->quotas);
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);

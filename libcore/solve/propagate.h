@@ -18,6 +18,10 @@ typedef struct MesoStateChange {
     bool first_touch;           /* the slot was not among the touched ones before */
 } MesoStateChange;
 
+typedef struct MesoTrailEntry {
+    uint32_t slot, state;       /* that it had before */
+} MesoTrailEntry;
+
 typedef struct MesoPropagation {
     const MesoSlotGraph *graph;
     const MesoTileSet *set;
@@ -26,8 +30,8 @@ typedef struct MesoPropagation {
     uint32_t *codes;            /* [4 * variant_count] label codes */
     uint32_t *state;            /* [slot_count] */
     uint32_t *initial;          /* [slot_count] the fixed point before any choice */
-    uint32_t *touched;          /* [slot_count] slots whose state is not the initial one */
-    uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got */
+    uint32_t *touched;          /* [slot_count] slots whose state may differ from the initial one */
+    uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got, and marks */
     uint32_t *list;             /* [slot_count] ring of the slots with pending sides */
     uint32_t touched_count;
     uint32_t list_head, list_count;
@@ -40,11 +44,13 @@ typedef struct MesoPropagation {
     uint32_t *decided;          /* [slot_count] slots that came to a single variant since the initial
                                    fixed point, in order; NULL where no rule on strands asks for it */
     uint32_t decided_count;
-    bool tracing;               /* keep a trail, for meso_propagation_undo() */
-    MesoArena *arena;
-    MesoStateChange *trail;     /* since the last restart, or the last collection */
-    size_t trail_count, trail_capacity;
-    uint32_t generation;        /* of the trail: marks of an earlier one are void */
+    bool tracing;               /* keep a history, for meso_propagation_rewind() */
+    MesoArena *arena;           /* of trail and history, which grow */
+    MesoTrailEntry *trail;      /* [trail_capacity] what the last step changed, each slot once; not where tracing */
+    uint32_t trail_count, trail_capacity;
+    MesoStateChange *history;     /* since the last restart, or the last collection */
+    size_t history_count, history_capacity;
+    uint32_t generation;        /* of the history: marks of an earlier one are void */
 } MesoPropagation;
 
 /* Label codes that border rules allow on a side; `labels` [label words]. */
@@ -68,16 +74,16 @@ MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
 void meso_propagation_release(MesoPropagation *propagation);
 
 /*
- * Reduces `slot` to `variant` of its state and propagates to the fixed point,
- * or until a slot has nothing left: `dead_slot`, which then keeps the state
- * it had before; or until a quota cannot be met any more: `broken_quota`.
+ * A step: reduces `slot` to `variant` of its state and propagates to the fixed
+ * point, or until a slot has nothing left: `dead_slot`, which then keeps the
+ * state it had before; or until a quota cannot be met any more: `broken_quota`.
  */
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error);
 
-/* A place in the trail of a propagation that is `tracing`. */
+/* A place in the history of a propagation that is `tracing`. */
 typedef struct MesoPropagationMark {
-    size_t trail_count;
+    size_t history_count;
     uint32_t decided_count, generation;
 } MesoPropagationMark;
 
@@ -88,15 +94,26 @@ MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMa
  * Takes back what was done since `mark`. `*done` is false, and nothing is, where a restart or a
  * collection of states has voided the mark. O(changes). MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
                                  MesoError *error);
 
-/* Forgets the trail: what was done so far is there to stay, and marks are void. */
+/* Forgets the history: what was done so far is there to stay, and marks are void. */
 void meso_propagation_forget(MesoPropagation *propagation);
 
 /* As meso_propagation_assign(), but takes `variant`, one of several, from the state of `slot`. */
 MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                     MesoError *error);
+
+/* Takes the last step back, and what followed from it; not where tracing. O(slots that it changed). */
+MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
+
+/*
+ * A step, not where tracing, that gives the slots up to `radius` edges around `slot` their
+ * initial states again, as far as the slots around them allow. `reopened` gets their
+ * number. The states must be consistent.
+ */
+MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
+                                   uint32_t *reopened, MesoError *error);
 
 /* Back to the initial fixed point. O(slots touched). MESO_ERR_MEMORY alone. */
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error);

@@ -3,8 +3,10 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/solve/decide.h"
 #include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
+#include "libcore/solve/search.h"
 
 enum { PROGRESS_INTERVAL = 4096 };  /* observations */
 
@@ -66,18 +68,23 @@ static void tell_progress(const Search *search)
                                   total - search->propagation.queue.count, total);
 }
 
-/* Observe: a random variant for a random slot of those with the fewest variants above one. */
-static MesoStatus observe(Search *search, MesoRandom *random, MesoError *error)
+static bool told_to_stop(const Search *search)
 {
-    MesoPropagation *propagation = &search->propagation;
-    uint32_t slot = meso_bucket_queue_draw(&propagation->queue, random);
-    uint32_t state = propagation->state[slot];
-    uint32_t rank = meso_random_below(random, propagation->domains.domains[state].size);
-    uint32_t variant = meso_domain_variant(&propagation->domains, state, rank);
+    return search->options->stop && search->options->stop(search->options->stop_context);
+}
 
-    if (search->result->observations++ % PROGRESS_INTERVAL == 0)
-        tell_progress(search);
-    return meso_propagation_assign(propagation, slot, variant, error);
+/* Tells the progress; false where the search is to stop. */
+static bool tick(void *context)
+{
+    const Search *search = context;
+    tell_progress(search);
+    return !told_to_stop(search);
+}
+
+static MesoStatus note_dead_end(void *context, uint32_t slot, MesoError *error)
+{
+    Search *search = context;
+    return record_dead_end(search, slot, search->result->attempts, error);
 }
 
 static void tell_guided_progress(void *context)
@@ -102,30 +109,11 @@ static MesoStatus run_guided_attempt(Search *search, uint32_t attempt, bool *sol
     return status;
 }
 
-/* Observes until every slot has one variant, or one has none: then the attempt's dead end is recorded. */
-static MesoStatus run_attempt(Search *search, uint32_t attempt, bool *solved, MesoError *error)
+/* Takes variant[slot_count] as the solution, once checked. */
+static MesoStatus accept(Search *search, const uint32_t *variant, MesoError *error)
 {
-    MesoPropagation *propagation = &search->propagation;
-    MesoRandom random;
-    if (search->options->constraints)
-        return run_guided_attempt(search, attempt, solved, error);
-    meso_random_init(&random, search->options->seed, attempt);
-
-    while (propagation->queue.count) {
-        if (observe(search, &random, error))
-            return MESO_ERR_MEMORY;
-        if (propagation->dead_slot != MESO_NO_INDEX)
-            return record_dead_end(search, propagation->dead_slot, attempt, error);
-    }
-    *solved = true;
-    tell_progress(search);
-    return MESO_OK;
-}
-
-static MesoStatus extract(Search *search, MesoError *error)
-{
-    MesoPropagation *propagation = &search->propagation;
     MesoAssignment *assignment = &search->result->assignment;
+    const MesoConstraints *constraints = search->options->constraints;
     uint32_t count = search->graph->slot_count;
 
     assignment->tile = MESO_NEW(search->arena, uint32_t, count, error);
@@ -134,12 +122,10 @@ static MesoStatus extract(Search *search, MesoError *error)
         return MESO_ERR_MEMORY;
     assignment->slot_count = count;
     for (uint32_t s = 0; s < count; s++) {
-        uint32_t variant = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
-        assignment->tile[s] = search->variants->tile[variant];
-        assignment->transform[s] = search->variants->transform[variant];
+        assignment->tile[s] = search->variants->tile[variant[s]];
+        assignment->transform[s] = search->variants->transform[variant[s]];
     }
     MesoError finding;
-    const MesoConstraints *constraints = search->options->constraints;
     if (meso_assignment_check(assignment, search->set, search->graph, &finding) ||
         (constraints && meso_constraints_check(constraints, assignment, search->set, search->variants,
                                                search->graph, &finding)))
@@ -147,6 +133,19 @@ static MesoStatus extract(Search *search, MesoError *error)
                          finding.message);
     search->result->verdict = MESO_VERDICT_SOLVED;
     return MESO_OK;
+}
+
+static MesoStatus accept_states(Search *search, MesoError *error)
+{
+    const MesoPropagation *propagation = &search->propagation;
+    uint32_t count = search->graph->slot_count;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, count, error);
+    if (!variant)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < count; s++)
+        variant[s] = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
+    search->result->decider = MESO_DECIDER_SEARCH;
+    return accept(search, variant, error);
 }
 
 /* Which constraints the initial fixed point disproves, in words. */
@@ -166,6 +165,7 @@ static MesoStatus explain(Search *search, MesoError *error)
 static MesoStatus say_unsolvable(Search *search, MesoError *error)
 {
     search->result->verdict = MESO_VERDICT_UNSOLVABLE;
+    search->result->decider = MESO_DECIDER_PROPAGATION;
     MesoStatus status = record_initial_dead_ends(search, error);
     return !status && search->options->constraints ? explain(search, error) : status;
 }
@@ -204,28 +204,132 @@ static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *err
     return status;
 }
 
-static MesoStatus run(Search *search, MesoError *error)
+/* Quotas, strands and variants to keep call for the guided search, and are beyond the exact engine. */
+static bool needs_guidance(const MesoConstraints *constraints)
+{
+    return constraints && (constraints->quota_count || constraints->keep ||
+                           meso_strand_rule_given(&constraints->strands));
+}
+
+/* The search's rung: attempts from sub-seeds. */
+static MesoStatus search_freely(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    MesoPropagation *propagation = &search->propagation;
-    bool solved = false, disproved = propagation->initial_dead_count ||
-                                     propagation->broken_quota != MESO_NO_INDEX;
+    const MesoSolveOptions *options = search->options;
+    MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints,
+                      .tick = tick, .dead_end = note_dead_end, .context = search,
+                      .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
+    MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
     MesoStatus status = MESO_OK;
-    if (!disproved && search->options->constraints)
+    while (!status && outcome == MESO_SEARCH_STUCK && result->attempts < options->max_attempts) {
+        meso_random_init(&wfc.random, options->seed, ++result->attempts);
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = meso_search_attempt(&wfc, &outcome, error);
+    }
+    result->observations = wfc.observations;
+    result->repairs = wfc.repairs;
+    if (status)
+        return status;
+    if (outcome == MESO_SEARCH_DONE)
+        return accept_states(search, error);
+    if (outcome == MESO_SEARCH_IMPOSSIBLE) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_SEARCH;
+        result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leaves another "
+                                          "slot without any", wfc.impossible_slot);
+        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    }
+    if (told_to_stop(search))
+        result->decider = MESO_DECIDER_STOP;
+    return MESO_OK;
+}
+
+static MesoStatus search_guided(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    const MesoSolveOptions *options = search->options;
+    bool solved = false;
+    MesoStatus status = MESO_OK;
+    while (!status && !solved && !search->guided.exhausted && !told_to_stop(search) &&
+           result->attempts < options->max_attempts &&
+           (!options->max_observations || result->observations < options->max_observations)) {
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = run_guided_attempt(search, ++result->attempts, &solved, error);
+    }
+    if (status)
+        return status;
+    if (solved)
+        return accept_states(search, error);
+    if (search->guided.exhausted) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_SEARCH;
+    } else if (told_to_stop(search)) {
+        result->decider = MESO_DECIDER_STOP;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus search_for(Search *search, MesoError *error)
+{
+    bool guided = needs_guidance(search->options->constraints);
+    MesoStatus status = guided ? search_guided(search, error) : search_freely(search, error);
+    tell_progress(search);
+    return status;
+}
+
+/* Proofs hold under every constraint; a solution counts only where it meets those that the engine does not know. */
+static MesoStatus decide(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    if (!variant)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_decide_by_numbers(result, search->arena, &search->scratch, &search->propagation,
+                                               error);
+    if (status || result->verdict != MESO_VERDICT_GAVE_UP)
+        return status;
+    MesoSolveResult exact = *result;
+    status = meso_decide_exactly(&exact, variant, &search->scratch, &search->propagation, search->options,
+                                 error);
+    if (status)
+        return status;
+    if (exact.verdict == MESO_VERDICT_SOLVED && needs_guidance(search->options->constraints))
+        return MESO_OK;
+    *result = exact;
+    return exact.verdict == MESO_VERDICT_SOLVED ? accept(search, variant, error) : MESO_OK;
+}
+
+/* The ladder: each rung leaves the verdict "gave up", or a better one. */
+static MesoStatus climb(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    MesoEngine engine = search->options->engine;
+    MesoStatus status = MESO_OK;
+    result->verdict = MESO_VERDICT_GAVE_UP;
+    result->decider = MESO_DECIDER_ATTEMPTS;
+    if (engine != MESO_ENGINE_EXACT || needs_guidance(search->options->constraints))
+        status = search_for(search, error);
+    if (status || result->verdict != MESO_VERDICT_GAVE_UP || engine == MESO_ENGINE_WFC ||
+        result->decider == MESO_DECIDER_STOP)
+        return status;
+    return decide(search, error);
+}
+
+static MesoStatus run(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    const MesoPropagation *propagation = &search->propagation;
+    bool disproved = propagation->initial_dead_count || propagation->broken_quota != MESO_NO_INDEX;
+    MesoStatus status = MESO_OK;
+    if (!disproved && constraints)
         status = prepare_guided(search, &disproved, error);
     if (!status && disproved)
         return say_unsolvable(search, error);
-
-    while (!status && !solved && !search->guided.exhausted &&
-           result->attempts < search->options->max_attempts) {
-        status = meso_propagation_restart(propagation, error);
-        if (!status)
-            status = run_attempt(search, ++result->attempts, &solved, error);
-    }
-    result->verdict = search->guided.exhausted ? MESO_VERDICT_UNSOLVABLE : MESO_VERDICT_GAVE_UP;
-    if (!status && solved)
-        status = extract(search, error);
-    return !status && search->options->constraints ? say_violations(search, error) : status;
+    if (!status)
+        status = climb(search, error);
+    return !status && constraints ? say_violations(search, error) : status;
 }
 
 /* Dead ends to make room for: one an attempt, or one a slot met initially. */
