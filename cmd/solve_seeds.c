@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -383,6 +384,16 @@ static MesoStatus open_journal(Seeds *seeds, MesoError *error)
 
 /* ---- all seeds ---- */
 
+/*
+ * Every seed needs the same memory again: given back to the system between two,
+ * threads would spend a tenth of their time waiting for each other to get it.
+ */
+static void keep_memory(void)
+{
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
 static MesoStatus sweep(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
@@ -391,6 +402,7 @@ static MesoStatus sweep(Seeds *seeds, MesoError *error)
         .options = seeds->solve, .thread_count = tool->threads,
         .seeds = seeds->todo, .seed_count = seeds->todo_count, .take = take_result, .context = seeds,
     };
+    keep_memory();
     meso_tool_progress_begin(tool, "solving", "seeds");
     meso_tool_progress(tool, seeds->done, seeds->range.count);
     MesoStatus status = tell_lines(seeds, error);
