@@ -67,7 +67,8 @@ MesoStatus meso_decide_exactly(MesoSolveResult *result, uint32_t *variant, MesoA
     MesoExact exact;
     MesoRandom random;
     MesoSatAnswer answer = MESO_SAT_UNKNOWN;
-    const MesoExactOptions exact_options = {0};
+    const MesoExactOptions exact_options = {.proof = options->proof, .clause = options->clause,
+                                            .context = options->proof_context};
     meso_random_init(&random, options->seed, UINT64_MAX);
     MesoStatus status = meso_exact_init(&exact, scratch, propagation, &exact_options, error);
     if (!status)

@@ -61,6 +61,10 @@ typedef struct MesoSolveOptions {
     const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
+    bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof
+                                       (DRAT), in pieces; false: cannot; may be NULL */
+    void (*clause)(void *context, const int32_t *literals, uint32_t count); /* gets its clauses; may be NULL */
+    void *proof_context;
     bool (*stop)(void *context);    /* asked now and then: true ends the work; may be NULL */
     void *stop_context;
 } MesoSolveOptions;
