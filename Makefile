@@ -49,7 +49,7 @@ CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) $(OPENMP) $(WARN)
 CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) $(OPENMP) $(WARN)
 LDFLAGS  := $(LINK_$(config)) $(OPENMP) -Wl,--as-needed
 LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -lOSMesa -lEGL \
-            -lOpenEXRCore-3_1 -lpng -lz -ljansson -lxxhash -lm
+            -lOpenEXRCore-3_1 -lpng -lz -ljansson -lxxhash -lcadical -lm
 
 SOURCES := $(wildcard libcore/*/*.c libcore/*/*.cpp formats/*.c formats/*.cpp)
 SHARED  := $(filter-out cmd/meso-%,$(wildcard cmd/*.c))

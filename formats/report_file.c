@@ -13,6 +13,17 @@ static const char *const verdict_names[] = {
     [MESO_VERDICT_GAVE_UP] = "gave-up",
 };
 
+static const char *const decider_names[] = {
+    [MESO_DECIDER_PROPAGATION] = "propagation",
+    [MESO_DECIDER_SEARCH] = "search",
+    [MESO_DECIDER_COUNTING] = "counting",
+    [MESO_DECIDER_PARITY] = "parity",
+    [MESO_DECIDER_EXACT] = "exact",
+    [MESO_DECIDER_ATTEMPTS] = "attempts",
+    [MESO_DECIDER_CONFLICTS] = "conflicts",
+    [MESO_DECIDER_STOP] = "stop",
+};
+
 enum { VERDICT_COUNT = sizeof verdict_names / sizeof *verdict_names };
 
 /* Words of labels for all dead ends: 1 GiB. */
@@ -21,6 +32,11 @@ static const uint64_t label_words_limit = (uint64_t)1 << 27;
 const char *meso_verdict_name(MesoVerdict verdict)
 {
     return verdict_names[verdict];
+}
+
+const char *meso_decider_name(MesoDecider decider)
+{
+    return decider_names[decider];
 }
 
 /* --- writing --- */

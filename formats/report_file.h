@@ -42,6 +42,9 @@ typedef struct MesoReport {
 /* "solved", "unsolvable", "gave-up" */
 const char *meso_verdict_name(MesoVerdict verdict);
 
+/* "propagation", "search", "counting", "parity", "exact", "attempts", "conflicts", "stop" */
+const char *meso_decider_name(MesoDecider decider);
+
 /*
  * Sets in `object` the keys from "verdict" to "dead_ends"; whatever else makes
  * a report is the caller's. `graph`, `variants` and `set` are what `result` was

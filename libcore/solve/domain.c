@@ -159,6 +159,14 @@ uint32_t meso_domain_single(MesoDomainTable *table, uint32_t variant, MesoError 
     return meso_domain_intern(table, table->scratch_state, error);
 }
 
+uint32_t meso_domain_without(MesoDomainTable *table, uint32_t state, uint32_t variant, MesoError *error)
+{
+    memcpy(table->scratch_state, meso_domain_bits(table, state),
+           table->states.word_count * sizeof *table->scratch_state);
+    meso_bits_clear(table->scratch_state, variant);
+    return meso_domain_intern(table, table->scratch_state, error);
+}
+
 uint32_t meso_domain_variant(const MesoDomainTable *table, uint32_t state, uint32_t rank)
 {
     const uint64_t *bits = meso_domain_bits(table, state);

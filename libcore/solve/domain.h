@@ -81,6 +81,9 @@ uint32_t meso_domain_intern(MesoDomainTable *table, const uint64_t *bits, MesoEr
 /* State of variant `variant` alone; as meso_domain_intern(). */
 uint32_t meso_domain_single(MesoDomainTable *table, uint32_t variant, MesoError *error);
 
+/* `state` without `variant`; as meso_domain_intern(). */
+uint32_t meso_domain_without(MesoDomainTable *table, uint32_t state, uint32_t variant, MesoError *error);
+
 /* The `rank`-th variant of a state, counted from 0; rank < its size. */
 uint32_t meso_domain_variant(const MesoDomainTable *table, uint32_t state, uint32_t rank);
 

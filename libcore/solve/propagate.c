@@ -11,7 +11,11 @@ enum { COLLECT_STATES = 1 << 16 };
 /* The step cache: 2^17 entries are 2 MiB, about a core's second cache; a small graph needs few. */
 enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
 
-enum { ALL_SIDES = 15 };
+/* Entries of the first trail. */
+enum { LEAST_TRAIL = 1024 };
+
+/* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball at hand. */
+enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64 };
 
 void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)
 {
@@ -109,12 +113,12 @@ static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena
 
 static void push(MesoPropagation *propagation, uint32_t slot, uint8_t sides)
 {
-    if (sides && !propagation->pending[slot]) {
+    if (sides && !(propagation->pending[slot] & ALL_SIDES)) {
         uint32_t end = propagation->list_head + propagation->list_count++;
         uint32_t size = propagation->graph->slot_count;
         propagation->list[end < size ? end : end - size] = slot;
     }
-    propagation->pending[slot] |= sides;
+    propagation->pending[slot] |= sides & ALL_SIDES;
 }
 
 static uint32_t pop(MesoPropagation *propagation)
@@ -135,11 +139,33 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
     return (uint8_t)sides;
 }
 
-static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange change, MesoError *error)
+static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
+    uint8_t *marks = &propagation->pending[slot];
+    if (!(*marks & TOUCHED))
+        propagation->touched[propagation->touched_count++] = slot;
+    if (!(*marks & ON_TRAIL)) {
+        if (propagation->trail_count == propagation->trail_capacity) {
+            uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
+            MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
+            if (!trail)
+                return MESO_ERR_MEMORY;
+            if (propagation->trail_count)
+                memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
+            propagation->trail = trail;
+            propagation->trail_capacity = capacity;
+        }
+        propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    }
+    *marks |= TOUCHED | ON_TRAIL;
+    return MESO_OK;
+}
+
+static MesoStatus record_history(MesoPropagation *propagation, uint32_t slot, MesoError *error)
 {
     if (propagation->history_count == propagation->history_capacity) {
-        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : 1024;
-        MesoStateChange *history = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
+        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : LEAST_TRAIL;
+        MesoTrailEntry *history = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
         if (!history)
             return MESO_ERR_MEMORY;
         if (propagation->history_count)
@@ -147,44 +173,55 @@ static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange ch
         propagation->history = history;
         propagation->history_capacity = capacity;
     }
-    propagation->history[propagation->history_count++] = change;
+    propagation->history[propagation->history_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
     return MESO_OK;
+}
+
+/* Tells the quotas that `slot` goes from its state to `next`. */
+static void tell_quotas(MesoPropagation *propagation, uint32_t slot, uint32_t next)
+{
+    if (propagation->quotas.count)
+        meso_quota_change(&propagation->quotas,
+                          meso_domain_bits(&propagation->domains, propagation->state[slot]),
+                          meso_domain_bits(&propagation->domains, next));
+}
+
+/* Gives `slot` another state, and moves it in the queue. */
+static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uint32_t next, MesoError *error)
+{
+    uint32_t before = propagation->domains.domains[propagation->state[slot]].size;
+    uint32_t after = propagation->domains.domains[next].size;
+    tell_quotas(propagation, slot, next);
+    propagation->state[slot] = next;
+    if (after == 1 && propagation->decided)
+        propagation->decided[propagation->decided_count++] = slot;
+    if (before > 1)
+        meso_bucket_queue_remove(&propagation->queue, slot, before);
+    return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
 }
 
 /* Gives `slot` the smaller state `next`, which is not empty. */
 static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_t next,
                             MesoError *error)
 {
-    uint32_t state = propagation->state[slot];
-    const MesoDomain *before = &propagation->domains.domains[state];
-    const MesoDomain *after = &propagation->domains.domains[next];
-
-    propagation->state[slot] = next;
-    push(propagation, slot, changed_sides(before, after));
-    if (propagation->quotas.count)
-        meso_quota_change(&propagation->quotas, meso_domain_bits(&propagation->domains, state),
-                          meso_domain_bits(&propagation->domains, next));
-    if (!propagation->searching)
+    const MesoDomain *domains = propagation->domains.domains;
+    push(propagation, slot, changed_sides(&domains[propagation->state[slot]], &domains[next]));
+    if (!propagation->searching) {
+        tell_quotas(propagation, slot, next);
+        propagation->state[slot] = next;
         return MESO_OK;
-    bool first_touch = state == propagation->initial[slot];
-    if (propagation->tracing &&
-        record_change(propagation, (MesoStateChange){slot, state, first_touch}, error))
+    }
+    if (note_change(propagation, slot, error) ||
+        (propagation->tracing && record_history(propagation, slot, error)))
         return MESO_ERR_MEMORY;
-    if (first_touch)
-        propagation->touched[propagation->touched_count++] = slot;
-    meso_bucket_queue_remove(&propagation->queue, slot, before->size);
-    if (after->size == 1 && propagation->decided)
-        propagation->decided[propagation->decided_count++] = slot;
-    if (after->size == 1)
-        return MESO_OK;
-    return meso_bucket_queue_insert(&propagation->queue, slot, after->size, error);
+    return move_to_state(propagation, slot, next, error);
 }
 
 /* Forgets what is still to be told. */
 static void clear_list(MesoPropagation *propagation)
 {
     while (propagation->list_count)
-        propagation->pending[pop(propagation)] = 0;
+        propagation->pending[pop(propagation)] &= (uint8_t)~ALL_SIDES;
 }
 
 /* Tells the neighbour across half-edge `half_edge` which labels it may still show there. */
@@ -215,9 +252,9 @@ static MesoStatus run(MesoPropagation *propagation, MesoError *error)
     propagation->dead_slot = MESO_NO_INDEX;
     while (propagation->list_count) {
         uint32_t slot = pop(propagation);
-        uint32_t sides = propagation->pending[slot];
+        uint32_t sides = propagation->pending[slot] & ALL_SIDES;
         const uint32_t *twin = propagation->graph->twin + 4 * (size_t)slot;
-        propagation->pending[slot] = 0;
+        propagation->pending[slot] &= (uint8_t)~ALL_SIDES;
         if (propagation->state[slot] == MESO_DOMAIN_EMPTY)
             continue;
         for (; sides; sides &= sides - 1) {
@@ -303,7 +340,6 @@ static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
     count_for_quotas(propagation);
     if (run(propagation, error) || run_initial_quotas(propagation, error))
         return MESO_ERR_MEMORY;
-    meso_quota_keep(&propagation->quotas);
 
     for (uint32_t s = 0; s < slot_count; s++) {
         uint32_t size = propagation->domains.domains[propagation->state[s]].size;
@@ -377,8 +413,16 @@ void meso_propagation_forget(MesoPropagation *propagation)
     propagation->generation++;
 }
 
-static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *error)
+static void clear_trail(MesoPropagation *propagation)
 {
+    while (propagation->trail_count)
+        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+}
+
+/* Room for new states, and an empty trail. */
+static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
+{
+    clear_trail(propagation);
     if (propagation->domains.states.count < propagation->collect_at)
         return MESO_OK;
     if (meso_domain_collect(&propagation->domains, propagation->graph->slot_count,
@@ -391,16 +435,32 @@ static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *err
 
 MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMark *mark, MesoError *error)
 {
-    MesoStatus status = collect_where_due(propagation, error);
+    MesoStatus status = begin_step(propagation, error);
     *mark = (MesoPropagationMark){propagation->history_count, propagation->decided_count,
                                   propagation->generation};
     return status;
 }
 
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+                                   MesoError *error)
+{
+    *done = mark.generation == propagation->generation;
+    if (!*done)
+        return MESO_OK;
+    clear_trail(propagation);
+    while (propagation->history_count > mark.history_count) {
+        MesoTrailEntry entry = propagation->history[--propagation->history_count];
+        if (move_to_state(propagation, entry.slot, entry.state, error))
+            return MESO_ERR_MEMORY;
+    }
+    propagation->decided_count = mark.decided_count;
+    return MESO_OK;
+}
+
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error)
 {
-    if (collect_where_due(propagation, error))
+    if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
     uint32_t next = meso_domain_single(&propagation->domains, variant, error);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
@@ -411,55 +471,95 @@ MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, 
 MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                     MesoError *error)
 {
-    uint64_t *bits = propagation->domains.scratch_state;
-    memcpy(bits, meso_domain_bits(&propagation->domains, propagation->state[slot]),
-           propagation->domains.states.word_count * sizeof *bits);
-    assert(meso_bits_test(bits, variant));
-    meso_bits_clear(bits, variant);
-    uint32_t next = meso_domain_intern(&propagation->domains, bits, error);
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
+    uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
     assert(next != MESO_DOMAIN_EMPTY);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
         return MESO_ERR_MEMORY;
     return run_with_quotas(propagation, error);
 }
 
-MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
-                                 MesoError *error)
+MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 {
-    *done = mark.generation == propagation->generation;
-    while (*done && propagation->history_count > mark.history_count) {
-        const MesoStateChange *change = &propagation->history[--propagation->history_count];
-        const MesoDomain *now = &propagation->domains.domains[propagation->state[change->slot]];
-        const MesoDomain *then = &propagation->domains.domains[change->state];
-        meso_quota_change(&propagation->quotas,
-                          meso_domain_bits(&propagation->domains, propagation->state[change->slot]),
-                          meso_domain_bits(&propagation->domains, change->state));
-        if (now->size > 1)
-            meso_bucket_queue_remove(&propagation->queue, change->slot, now->size);
-        propagation->state[change->slot] = change->state;
-        propagation->touched_count -= change->first_touch;
-        if (meso_bucket_queue_insert(&propagation->queue, change->slot, then->size, error))
+    while (propagation->trail_count) {
+        MesoTrailEntry entry = propagation->trail[--propagation->trail_count];
+        propagation->pending[entry.slot] &= (uint8_t)~ON_TRAIL;
+        if (move_to_state(propagation, entry.slot, entry.state, error))
             return MESO_ERR_MEMORY;
     }
-    if (*done)
-        propagation->decided_count = mark.decided_count;
     return MESO_OK;
+}
+
+/* Puts the slots up to `radius` edges around `slot` on the list, breadth first, and marks them. */
+static void collect_ball(MesoPropagation *propagation, uint32_t slot, uint32_t radius)
+{
+    const uint32_t *twins = propagation->graph->twin;
+    uint32_t begin = 0, end = 1;
+    propagation->list[0] = slot;
+    propagation->pending[slot] |= IN_BALL;
+    for (; radius > 0 && begin < end; radius--) {
+        uint32_t ring_end = end;
+        for (; begin < ring_end; begin++)
+            for (uint32_t k = 0; k < 4; k++) {
+                uint32_t twin = twins[4 * (size_t)propagation->list[begin] + k];
+                if (twin == MESO_NO_INDEX || propagation->pending[twin / 4] & IN_BALL)
+                    continue;
+                propagation->pending[twin / 4] |= IN_BALL;
+                propagation->list[end++] = twin / 4;
+            }
+    }
+    propagation->list_head = 0;
+    propagation->list_count = end;
+}
+
+/* The slots on the list have all to tell, and to hear from those around them that are not on it. */
+static void push_ball(MesoPropagation *propagation)
+{
+    const uint32_t *twins = propagation->graph->twin;
+    uint32_t count = propagation->list_count;
+    for (uint32_t i = 0; i < count; i++)
+        propagation->pending[propagation->list[i]] |= ALL_SIDES;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t twin = twins[4 * (size_t)propagation->list[i] + k];
+            if (twin != MESO_NO_INDEX && !(propagation->pending[twin / 4] & IN_BALL))
+                push(propagation, twin / 4, (uint8_t)(1u << (twin % 4)));
+        }
+    for (uint32_t i = 0; i < count; i++)
+        propagation->pending[propagation->list[i]] &= (uint8_t)~IN_BALL;
+}
+
+MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
+                                   uint32_t *reopened, MesoError *error)
+{
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
+    assert(propagation->list_count == 0);
+    collect_ball(propagation, slot, radius);
+    *reopened = propagation->list_count;
+    for (uint32_t i = 0; i < *reopened; i++) {
+        uint32_t inner = propagation->list[i];
+        if (propagation->state[inner] == propagation->initial[inner])
+            continue;
+        if (note_change(propagation, inner, error) ||
+            move_to_state(propagation, inner, propagation->initial[inner], error))
+            return MESO_ERR_MEMORY;
+    }
+    push_ball(propagation);
+    return run_with_quotas(propagation, error);
 }
 
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
 {
-    const MesoDomain *domains = propagation->domains.domains;
     while (propagation->touched_count) {
         uint32_t slot = propagation->touched[--propagation->touched_count];
-        uint32_t size = domains[propagation->state[slot]].size;
-        if (size > 1)
-            meso_bucket_queue_remove(&propagation->queue, slot, size);
-        propagation->state[slot] = propagation->initial[slot];
-        size = domains[propagation->state[slot]].size;
-        if (meso_bucket_queue_insert(&propagation->queue, slot, size, error))
+        propagation->pending[slot] &= (uint8_t)~(TOUCHED | ON_TRAIL);
+        if (propagation->state[slot] != propagation->initial[slot] &&
+            move_to_state(propagation, slot, propagation->initial[slot], error))
             return MESO_ERR_MEMORY;
     }
-    meso_quota_restart(&propagation->quotas);
+    propagation->trail_count = 0;
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);
     return MESO_OK;

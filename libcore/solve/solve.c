@@ -3,10 +3,21 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/solve/counting.h"
+#include "libcore/solve/exact_control.h"
 #include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
+#include "libcore/solve/parity.h"
+#include "libcore/solve/search.h"
 
-enum { PROGRESS_INTERVAL = 4096 };  /* observations */
+/* Word operations of the parity prover: a second or two. */
+static const uint64_t parity_work = (uint64_t)1 << 32;
+
+/* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
+enum { PHASED_CONFLICTS = 1000 };
+
+/* Solutions of the exact engine that a rule on strands may cut off. */
+enum { MOST_CUT_ROUNDS = 2000 };
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -17,7 +28,7 @@ typedef struct Search {
     MesoArena *arena;               /* of the result */
     MesoArena scratch;
     MesoPropagation propagation;
-    MesoGuidedSearch guided;        /* where there are constraints */
+    MesoGuidedSearch guided;        /* where constraints call for it */
 } Search;
 
 /* RecordNeighbors: what a tile for `slot` would have to show. */
@@ -58,73 +69,31 @@ static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-static void tell_progress(const Search *search)
+static bool told_to_stop(const Search *search)
 {
+    return search->options->stop && search->options->stop(search->options->stop_context);
+}
+
+/* Tells the progress; false where the search is to stop. */
+static bool tick(void *context)
+{
+    const Search *search = context;
     uint32_t total = search->graph->slot_count;
     if (search->options->progress)
         search->options->progress(search->options->progress_context,
                                   total - search->propagation.queue.count, total);
+    return !told_to_stop(search);
 }
 
-/* Observe: a random variant for a random slot of those with the fewest variants above one. */
-static MesoStatus observe(Search *search, MesoRandom *random, MesoError *error)
+static MesoStatus note_dead_end(void *context, uint32_t slot, MesoError *error)
 {
-    MesoPropagation *propagation = &search->propagation;
-    uint32_t slot = meso_bucket_queue_draw(&propagation->queue, random);
-    uint32_t state = propagation->state[slot];
-    uint32_t rank = meso_random_below(random, propagation->domains.domains[state].size);
-    uint32_t variant = meso_domain_variant(&propagation->domains, state, rank);
-
-    if (search->result->observations++ % PROGRESS_INTERVAL == 0)
-        tell_progress(search);
-    return meso_propagation_assign(propagation, slot, variant, error);
+    Search *search = context;
+    return record_dead_end(search, slot, search->result->attempts, error);
 }
 
-static void tell_guided_progress(void *context)
+/* Takes variant[slot_count] as the solution, once checked. */
+static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider decider, MesoError *error)
 {
-    const Search *search = context;
-    if (search->guided.observations % PROGRESS_INTERVAL == 1)
-        tell_progress(search);
-}
-
-/* An attempt under constraints: where a quota or strands end it, there is no dead slot to record. */
-static MesoStatus run_guided_attempt(Search *search, uint32_t attempt, bool *solved, MesoError *error)
-{
-    MesoRandom random;
-    meso_random_init(&random, search->options->seed, attempt);
-    MesoStatus status = meso_guided_attempt(&search->guided, &random, solved, error);
-    search->result->observations = search->guided.observations;
-    search->result->backtracks = search->guided.backtracks;
-    uint32_t dead = search->propagation.dead_slot;
-    if (!status && !*solved && dead != MESO_NO_INDEX)
-        status = record_dead_end(search, dead, attempt, error);
-    tell_progress(search);
-    return status;
-}
-
-/* Observes until every slot has one variant, or one has none: then the attempt's dead end is recorded. */
-static MesoStatus run_attempt(Search *search, uint32_t attempt, bool *solved, MesoError *error)
-{
-    MesoPropagation *propagation = &search->propagation;
-    MesoRandom random;
-    if (search->options->constraints)
-        return run_guided_attempt(search, attempt, solved, error);
-    meso_random_init(&random, search->options->seed, attempt);
-
-    while (propagation->queue.count) {
-        if (observe(search, &random, error))
-            return MESO_ERR_MEMORY;
-        if (propagation->dead_slot != MESO_NO_INDEX)
-            return record_dead_end(search, propagation->dead_slot, attempt, error);
-    }
-    *solved = true;
-    tell_progress(search);
-    return MESO_OK;
-}
-
-static MesoStatus extract(Search *search, MesoError *error)
-{
-    MesoPropagation *propagation = &search->propagation;
     MesoAssignment *assignment = &search->result->assignment;
     uint32_t count = search->graph->slot_count;
 
@@ -134,9 +103,8 @@ static MesoStatus extract(Search *search, MesoError *error)
         return MESO_ERR_MEMORY;
     assignment->slot_count = count;
     for (uint32_t s = 0; s < count; s++) {
-        uint32_t variant = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
-        assignment->tile[s] = search->variants->tile[variant];
-        assignment->transform[s] = search->variants->transform[variant];
+        assignment->tile[s] = search->variants->tile[variant[s]];
+        assignment->transform[s] = search->variants->transform[variant[s]];
     }
     MesoError finding;
     const MesoConstraints *constraints = search->options->constraints;
@@ -146,7 +114,185 @@ static MesoStatus extract(Search *search, MesoError *error)
         return meso_fail(error, MESO_ERR_INTERNAL, "the solver's assignment is wrong: %s",
                          finding.message);
     search->result->verdict = MESO_VERDICT_SOLVED;
+    search->result->decider = decider;
+    search->result->reason = "";
     return MESO_OK;
+}
+
+static MesoStatus accept_states(Search *search, MesoError *error)
+{
+    const MesoPropagation *propagation = &search->propagation;
+    uint32_t count = search->graph->slot_count;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, count, error);
+    if (!variant)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < count; s++)
+        variant[s] = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
+    return accept(search, variant, MESO_DECIDER_SEARCH, error);
+}
+
+/* The search's rung: attempts from sub-seeds. */
+static MesoStatus search_for(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    const MesoSolveOptions *options = search->options;
+    MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints, .tick = tick, .dead_end = note_dead_end, .context = search,
+                      .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
+    MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
+    MesoStatus status = MESO_OK;
+    while (!status && outcome == MESO_SEARCH_STUCK && result->attempts < options->max_attempts) {
+        meso_random_init(&wfc.random, options->seed, ++result->attempts);
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = meso_search_attempt(&wfc, &outcome, error);
+    }
+    result->observations = wfc.observations;
+    result->repairs = wfc.repairs;
+    if (status)
+        return status;
+    tick(search);
+    if (outcome == MESO_SEARCH_DONE)
+        return accept_states(search, error);
+    if (outcome == MESO_SEARCH_IMPOSSIBLE) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_SEARCH;
+        result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leaves another "
+                                          "slot without any", wfc.impossible_slot);
+        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    }
+    if (told_to_stop(search))
+        result->decider = MESO_DECIDER_STOP;
+    return MESO_OK;
+}
+
+/* What decisions try first: the variants to keep, or what the search came to. */
+static MesoStatus choose_phases(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    const uint32_t *hint = search->propagation.state;
+    if (constraints && constraints->keep) {
+        uint32_t count = search->graph->slot_count;
+        uint32_t *kept = MESO_NEW(&search->scratch, uint32_t, count, error);
+        for (uint32_t s = 0; kept && s < count; s++) {
+            kept[s] = search->propagation.state[s];
+            if (constraints->keep[s] == MESO_NO_INDEX)
+                continue;
+            kept[s] = meso_domain_single(&search->propagation.domains, constraints->keep[s], error);
+            if (kept[s] == MESO_NO_INDEX)
+                return MESO_ERR_MEMORY;
+        }
+        hint = kept;
+    }
+    return hint ? meso_exact_choose_phases(exact, hint, random, error) : MESO_ERR_MEMORY;
+}
+
+static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
+                             MesoError *error)
+{
+    const MesoSolveOptions *options = search->options;
+    uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
+    MesoStatus status = choose_phases(search, exact, random, error);
+    if (!status)
+        status = meso_sat_solve(exact->sat, answer, NULL, 0, phased, options->stop,
+                                options->stop_context, error);
+    left -= phased;
+    if (status || *answer != MESO_SAT_UNKNOWN || left == 0 || told_to_stop(search))
+        return status;
+    status = meso_sat_forget_phases(exact->sat, error);
+    if (status)
+        return status;
+    return meso_sat_solve(exact->sat, answer, NULL, 0, left < INT32_MAX ? (uint32_t)left : INT32_MAX,
+                          options->stop, options->stop_context, error);
+}
+
+/* Takes the engine's solution, unless it breaks the rule on strands: then `*cuts` says how often. */
+static MesoStatus take_solution(Search *search, MesoExact *exact, MesoRandom *random, uint32_t *cuts,
+                                MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    if (!variant)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_exact_extract(exact, variant, random, error);
+    if (!status && constraints && meso_strand_rule_given(&constraints->strands))
+        status = meso_exact_cut_strands(exact, &constraints->strands, variant, search->variants, cuts, error);
+    return status || *cuts ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
+}
+
+/* Asks until there is an answer that no rule on strands cuts off. */
+static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    for (uint32_t round = 0; round < MOST_CUT_ROUNDS; round++) {
+        MesoSatAnswer answer = MESO_SAT_UNKNOWN;
+        uint32_t cuts = 0;
+        MesoStatus status = ask_engine(search, exact, &answer, random, error);
+        if (!status && answer == MESO_SAT_YES)
+            status = take_solution(search, exact, random, &cuts, error);
+        if (status || cuts == 0) {
+            if (answer == MESO_SAT_NO) {
+                result->verdict = MESO_VERDICT_UNSOLVABLE;
+                result->decider = MESO_DECIDER_EXACT;
+            } else if (answer == MESO_SAT_UNKNOWN)
+                result->decider = told_to_stop(search) ? MESO_DECIDER_STOP : MESO_DECIDER_CONFLICTS;
+            return status;
+        }
+        if (told_to_stop(search)) {
+            result->decider = MESO_DECIDER_STOP;
+            return MESO_OK;
+        }
+    }
+    result->decider = MESO_DECIDER_CONFLICTS;
+    return MESO_OK;
+}
+
+static MesoStatus decide_exactly(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    MesoExact exact;
+    MesoRandom random;
+    MesoExactOptions options = {0};
+    bool complete = true;
+    meso_random_init(&random, search->options->seed, UINT64_MAX);
+    if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);
+    if (!status && constraints)
+        status = meso_exact_add_quotas(&exact, constraints, &complete, error);
+    /* Where a quota is too large to be counted, what the engine finds need not keep to it. */
+    if (!status && complete)
+        status = ask_until_kept(search, &exact, &random, error);
+    meso_exact_release(&exact);
+    return status;
+}
+
+/* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
+static MesoStatus decide_by_numbers(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    MesoPatternTable table;
+    MesoCountingProof proof;
+    uint32_t slot;
+    if (meso_pattern_table_init(&table, &search->scratch, &search->propagation, NULL, error) ||
+        meso_counting_prove(&proof, &search->scratch, &table, error))
+        return MESO_ERR_MEMORY;
+    if (proof.found) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_COUNTING;
+        result->reason = meso_counting_explain(&proof, search->arena, search->set, error);
+        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    }
+    if (meso_parity_prove(&slot, &search->scratch, &table, parity_work, error))
+        return MESO_ERR_MEMORY;
+    if (slot == MESO_NO_INDEX)
+        return MESO_OK;
+    result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = MESO_DECIDER_PARITY;
+    result->reason = meso_arena_print(search->arena, error, "the numbers of labels that the tiles show, "
+                                      "odd or even, contradict each other on the piece of the surface "
+                                      "around slot %u", slot);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* Which constraints the initial fixed point disproves, in words. */
@@ -163,26 +309,29 @@ static MesoStatus explain(Search *search, MesoError *error)
     return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static MesoStatus say_unsolvable(Search *search, MesoError *error)
+static MesoStatus say_disproved(Search *search, MesoError *error)
 {
     search->result->verdict = MESO_VERDICT_UNSOLVABLE;
+    search->result->decider = MESO_DECIDER_PROPAGATION;
     MesoStatus status = record_initial_dead_ends(search, error);
     return !status && search->options->constraints ? explain(search, error) : status;
 }
 
-/* The constraint that the search met most often, in words. */
+/* After a guided search without a solution: the constraint that it met most often, in words. */
 static MesoStatus say_violations(Search *search, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
     MesoSolveResult *result = search->result;
     uint32_t worst = 0, count = meso_constraint_count(constraints);
-    result->violations = search->guided.violations;
+    if (search->guided.exhausted) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_SEARCH;
+        result->reason = "every choice was tried";
+    }
     for (uint32_t i = 0; i < count; i++)
         if (result->violations[i] > result->violations[worst])
             worst = i;
-    if (search->guided.exhausted)
-        result->reason = "every choice was tried";
-    if (result->verdict == MESO_VERDICT_SOLVED || count == 0 || result->violations[worst] == 0)
+    if (count == 0 || result->violations[worst] == 0)
         return MESO_OK;
     result->reason = meso_arena_print(search->arena, error, "%smost often %s stood in the way: %llu times",
                                       search->guided.exhausted ? "every choice was tried; " : "",
@@ -199,33 +348,65 @@ static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *err
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_guided_init(&search->guided, &search->scratch, &search->propagation,
                                          search->variants, constraints, violations, disproved, error);
-    search->guided.progress = tell_guided_progress;
-    search->guided.progress_context = search;
+    search->result->violations = violations;
+    search->guided.tick = tick;
+    search->guided.context = search;
+    if (search->options->max_observations)
+        search->guided.max_observations = search->options->max_observations;
     return status;
 }
 
+/* The search's rung under quotas, rules on strands, or with an assignment to keep. */
+static MesoStatus search_guided(Search *search, MesoError *error)
+{
+    MesoGuidedSearch *guided = &search->guided;
+    MesoSolveResult *result = search->result;
+    bool solved = false;
+    MesoStatus status = MESO_OK;
+    while (!status && !solved && !guided->exhausted && !guided->stopped &&
+           result->attempts < search->options->max_attempts) {
+        MesoRandom random;
+        meso_random_init(&random, search->options->seed, ++result->attempts);
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = meso_guided_attempt(guided, &random, &solved, error);
+        /* Where a quota or strands ended the attempt, there is no dead slot to tell of. */
+        if (!status && !solved && search->propagation.dead_slot != MESO_NO_INDEX)
+            status = record_dead_end(search, search->propagation.dead_slot, result->attempts, error);
+    }
+    result->observations = guided->observations;
+    result->backtracks = guided->backtracks;
+    if (status)
+        return status;
+    if (!tick(search))
+        result->decider = MESO_DECIDER_STOP;
+    return solved ? accept_states(search, error) : say_violations(search, error);
+}
+
+/* The ladder: each rung leaves the verdict "gave up", or a better one. */
 static MesoStatus run(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    MesoPropagation *propagation = &search->propagation;
-    bool solved = false, disproved = propagation->initial_dead_count ||
-                                     propagation->broken_quota != MESO_NO_INDEX;
-    MesoStatus status = MESO_OK;
-    if (!disproved && search->options->constraints)
-        status = prepare_guided(search, &disproved, error);
+    MesoEngine engine = search->options->engine;
+    const MesoConstraints *constraints = search->options->constraints;
+    bool guided = constraints && meso_constraints_need_guidance(constraints);
+    bool disproved = search->propagation.initial_dead_count ||
+                     search->propagation.broken_quota != MESO_NO_INDEX;
+    MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
     if (!status && disproved)
-        return say_unsolvable(search, error);
+        return say_disproved(search, error);
 
-    while (!status && !solved && !search->guided.exhausted &&
-           result->attempts < search->options->max_attempts) {
-        status = meso_propagation_restart(propagation, error);
-        if (!status)
-            status = run_attempt(search, ++result->attempts, &solved, error);
-    }
-    result->verdict = search->guided.exhausted ? MESO_VERDICT_UNSOLVABLE : MESO_VERDICT_GAVE_UP;
-    if (!status && solved)
-        status = extract(search, error);
-    return !status && search->options->constraints ? say_violations(search, error) : status;
+    result->verdict = MESO_VERDICT_GAVE_UP;
+    result->decider = MESO_DECIDER_ATTEMPTS;
+    if (!status && engine != MESO_ENGINE_EXACT)
+        status = guided ? search_guided(search, error) : search_for(search, error);
+    if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
+        return status;
+    if (result->verdict == MESO_VERDICT_GAVE_UP)
+        status = decide_by_numbers(search, error);
+    if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
+        status = decide_exactly(search, error);
+    return status;
 }
 
 /* Dead ends to make room for: one an attempt, or one a slot met initially. */
@@ -245,8 +426,7 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                       const MesoSolveOptions *options, MesoError *error)
 {
     assert(options->max_attempts >= 1);
-    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count),
-                                .reason = ""};
+    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = ""};
     if (variants->count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 

@@ -1,7 +1,9 @@
 /*
  * Solver: Algorithms 1 and 2 of MesoGen (section 3.3), wave function collapse
  * on label domains. A slot's domain is a bit set of variants; what passes
- * across a side is the set of signed labels that the domain shows there.
+ * across a side is the set of signed labels that the domain shows there. What
+ * that does not decide goes to counting arguments (counting.h, parity.h) and
+ * then to the exact engine (exact.h).
  */
 #ifndef MESO_SOLVE_H
 #define MESO_SOLVE_H
@@ -11,11 +13,29 @@
 
 typedef enum MesoVerdict {
     MESO_VERDICT_SOLVED,
-    MESO_VERDICT_UNSOLVABLE,    /* proved: the initial propagation empties a slot, or disproves a
-                                   quota or the rule on strands, or the search under
-                                   constraints went through every choice */
-    MESO_VERDICT_GAVE_UP        /* all attempts met a dead end */
+    MESO_VERDICT_UNSOLVABLE,    /* proved */
+    MESO_VERDICT_GAVE_UP        /* at a limit */
 } MesoVerdict;
+
+typedef enum MesoEngine {
+    MESO_ENGINE_AUTO,           /* the search; where it gives up, counting and the exact engine */
+    MESO_ENGINE_WFC,            /* the search alone */
+    MESO_ENGINE_EXACT           /* counting and the exact engine alone */
+} MesoEngine;
+
+/* What led to the verdict. */
+typedef enum MesoDecider {
+    MESO_DECIDER_PROPAGATION,   /* unsolvable: border rules and constraints alone empty a slot, or
+                                   disprove a quota or the rule on strands */
+    MESO_DECIDER_SEARCH,        /* solved; or unsolvable: each variant of one slot leads to a dead end
+                                   at once, or, under constraints, every choice was tried */
+    MESO_DECIDER_COUNTING,      /* unsolvable: the numbers of labels do not add up */
+    MESO_DECIDER_PARITY,        /* unsolvable: sums modulo 2 over all edges contradict each other */
+    MESO_DECIDER_EXACT,         /* solved or unsolvable */
+    MESO_DECIDER_ATTEMPTS,      /* gave up: the search had its attempts, or its observations */
+    MESO_DECIDER_CONFLICTS,     /* gave up: the exact engine had its conflicts */
+    MESO_DECIDER_STOP           /* gave up: was told to, by `stop` */
+} MesoDecider;
 
 /* A slot left with no variant, with the labels that it could have shown to its neighbours. */
 typedef struct MesoDeadEnd {
@@ -35,33 +55,42 @@ static inline uint32_t meso_label_code(int32_t label)
 
 typedef struct MesoSolveOptions {
     uint64_t seed;
-    uint32_t max_attempts;      /* at least 1 */
+    MesoEngine engine;
+    uint32_t max_attempts;      /* of the search; at least 1 */
+    uint64_t max_observations;  /* of the search, over all attempts; 0: no limit */
+    uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
     const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
+    bool (*stop)(void *context);    /* asked now and then: true ends the work; may be NULL */
+    void *stop_context;
 } MesoSolveOptions;
+
+/* A minute or a few of the exact engine. */
+enum { MESO_SOLVE_CONFLICTS = 2000000 };
 
 typedef struct MesoSolveResult {
     MesoVerdict verdict;
-    const char *reason;         /* in words, where constraints have a part in the verdict; or "" */
+    MesoDecider decider;
+    const char *reason;         /* in words, for the user; "" where solved */
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
-    uint64_t backtracks;        /* choices taken back: only quotas and rules on strands call for it */
-    uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; without
-                                   constraints not to be read */
+    uint64_t repairs;           /* over all attempts: balls of slots reopened around a dead end */
+    uint64_t backtracks;        /* choices taken back: only quotas, rules on strands and what is to be
+                                   kept call for it */
+    uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; or NULL */
     MesoAssignment assignment;  /* where solved */
-    uint32_t dead_end_count;    /* kept; all attempts, in order */
-    uint64_t dead_end_total;    /* met */
+    uint32_t dead_end_count;    /* kept; the first of each attempt, in order */
+    uint64_t dead_end_total;    /* attempts that met one; or slots that the initial constraints empty */
     MesoDeadEnd *dead_ends;
     uint32_t label_word_count;
 } MesoSolveResult;
 
 /*
- * Assigns variants to slots. The result depends on the arguments alone. A
- * solved assignment has passed meso_assignment_check() and
- * meso_constraints_check(). Returns MESO_OK for
- * every verdict; MESO_ERR_MEMORY, or MESO_ERR_INPUT for a set without
+ * Assigns variants to slots. The result depends on the arguments alone, unless
+ * `stop` ended the work. A solved assignment has passed meso_assignment_check() and
+ * meso_constraints_check(). Returns MESO_OK for every verdict; MESO_ERR_MEMORY, or MESO_ERR_INPUT for a set without
  * variants. Memory O(slots * (words of variants + words of labels)).
  */
 MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,

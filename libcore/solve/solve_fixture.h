@@ -85,18 +85,27 @@ static inline MesoSlotGraph fixture_grid(MesoArena *arena, uint32_t width, uint3
     return graph;
 }
 
-/* Solves with the fixture's usual options. */
-static inline MesoSolveResult fixture_solve(MesoArena *arena, const MesoTileSet *set,
-                                            const MesoSlotGraph *graph, uint64_t seed,
-                                            uint32_t attempts)
+/* Solves with one of the engines and the fixture's usual options. */
+static inline MesoSolveResult fixture_solve_by(MesoEngine engine, MesoArena *arena, const MesoTileSet *set,
+                                               const MesoSlotGraph *graph, uint64_t seed,
+                                               uint32_t attempts)
 {
     MesoVariantSet variants;
     MesoSolveResult result;
     MesoError error;
-    MesoSolveOptions options = {.seed = seed, .max_attempts = attempts, .max_dead_ends = 100};
+    MesoSolveOptions options = {.engine = engine, .seed = seed, .max_attempts = attempts,
+                                .max_dead_ends = 100};
     CHECK(meso_variant_set_build(&variants, arena, set, &error) == MESO_OK);
     CHECK(meso_solve(&result, arena, set, &variants, graph, &options, &error) == MESO_OK);
     return result;
+}
+
+/* Solves by the search alone. */
+static inline MesoSolveResult fixture_solve(MesoArena *arena, const MesoTileSet *set,
+                                            const MesoSlotGraph *graph, uint64_t seed,
+                                            uint32_t attempts)
+{
+    return fixture_solve_by(MESO_ENGINE_WFC, arena, set, graph, seed, attempts);
 }
 
 #endif

@@ -1,0 +1,301 @@
+#include "libcore/solve/exact.h"
+
+#include <assert.h>
+#include <string.h>
+
+static const uint32_t variable_limit = 1u << 30;
+
+/*
+ * One of `count` choices whose variables begin at `first`: none is needed for
+ * one choice, one for two.
+ */
+static int32_t choice_literal(uint32_t first, uint32_t count, uint32_t rank)
+{
+    if (count == 1)
+        return MESO_EXACT_TRUE;
+    if (count == 2)
+        return rank == 0 ? (int32_t)first : -(int32_t)first;
+    return (int32_t)(first + rank);
+}
+
+static uint32_t choice_variables(uint32_t count)
+{
+    return count < 3 ? count - 1 : count;
+}
+
+/* Labels that the far side of `half_edge` may show. */
+static const uint64_t *far_labels(const MesoPropagation *propagation, uint32_t half_edge)
+{
+    uint32_t state = propagation->initial[half_edge / 4];
+    return meso_domain_labels(&propagation->domains,
+                              propagation->domains.domains[state].allow[half_edge % 4]);
+}
+
+static uint32_t label_rank(const uint64_t *labels, uint32_t code)
+{
+    uint64_t below = labels[code / 64] & (((uint64_t)1 << (code % 64)) - 1);
+    return meso_bits_count(labels, code / 64) + (uint32_t)__builtin_popcountll(below);
+}
+
+int32_t meso_exact_label_literal(const MesoExact *exact, uint32_t slot, uint32_t side, uint32_t code)
+{
+    uint32_t half_edge = 4 * slot + side;
+    uint32_t twin = exact->propagation->graph->twin[half_edge];
+    assert(twin != MESO_NO_INDEX);
+    /* The edge is known by its lower half-edge and by what the far side shows. */
+    uint32_t lower = half_edge < twin ? half_edge : twin;
+    uint32_t far_code = half_edge < twin ? code ^ 1 : code;
+    const uint64_t *labels = far_labels(exact->propagation, lower);
+    if (!meso_bits_test(labels, far_code))
+        return -MESO_EXACT_TRUE;
+    uint32_t count = meso_bits_count(labels, exact->propagation->domains.sets.word_count);
+    return choice_literal(exact->edge_first[lower], count, label_rank(labels, far_code));
+}
+
+int32_t meso_exact_new_variable(MesoExact *exact)
+{
+    return (int32_t)++exact->variable_count;
+}
+
+MesoStatus meso_exact_add(MesoExact *exact, int32_t *literals, uint32_t count, MesoError *error)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (literals[i] == MESO_EXACT_TRUE)
+            return MESO_OK;
+        if (literals[i] != -MESO_EXACT_TRUE)
+            literals[kept++] = literals[i];
+    }
+    exact->clause_count++;
+    if (exact->clause)
+        exact->clause(exact->context, literals, kept);
+    return meso_sat_add(exact->sat, literals, kept, error);
+}
+
+/* Exactly one of `count` choices; with two, their variable says so already. */
+static MesoStatus add_one_of(MesoExact *exact, uint32_t first, uint32_t count, bool at_most,
+                             int32_t *literals, MesoError *error)
+{
+    if (count < 3)
+        return MESO_OK;
+    for (uint32_t i = 0; i < count; i++)
+        literals[i] = choice_literal(first, count, i);
+    MesoStatus status = meso_exact_add(exact, literals, count, error);
+    for (uint32_t i = 0; at_most && i < count && !status; i++)
+        for (uint32_t j = i + 1; j < count && !status; j++) {
+            int32_t pair[2] = {-choice_literal(first, count, i), -choice_literal(first, count, j)};
+            status = meso_exact_add(exact, pair, 2, error);
+        }
+    return status;
+}
+
+static MesoStatus number_variables(MesoExact *exact, MesoError *error)
+{
+    const MesoPropagation *propagation = exact->propagation;
+    uint64_t next = 1;
+    for (uint32_t s = 0; s < propagation->graph->slot_count; s++) {
+        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
+        if (!list)
+            return MESO_ERR_MEMORY;
+        assert(list->count > 0);
+        exact->slot_first[s] = (uint32_t)next;
+        next += choice_variables(list->count);
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t h = 4 * s + k, twin = propagation->graph->twin[h];
+            if (twin == MESO_NO_INDEX || twin < h)
+                continue;
+            exact->edge_first[h] = (uint32_t)next;
+            next += choice_variables(meso_bits_count(far_labels(propagation, h),
+                                                     propagation->domains.sets.word_count));
+        }
+        if (next > variable_limit)
+            return meso_fail(error, MESO_ERR_LIMIT, "too many slots and tiles for the exact engine");
+    }
+    exact->variable_count = (uint32_t)(next - 1);
+    return MESO_OK;
+}
+
+/* A label on a side implies that one of the patterns with it is there. */
+static MesoStatus add_supports(MesoExact *exact, uint32_t slot, uint32_t side,
+                               const MesoPatternList *list, int32_t *literals, bool *told,
+                               MesoError *error)
+{
+    memset(told, 0, list->count * sizeof *told);
+    for (uint32_t p = 0; p < list->count; p++) {
+        if (told[p])
+            continue;
+        uint32_t code = list->codes[4 * (size_t)p + side], count = 0;
+        literals[count++] = -meso_exact_label_literal(exact, slot, side, code);
+        for (uint32_t q = p; q < list->count; q++)
+            if (list->codes[4 * (size_t)q + side] == code) {
+                told[q] = true;
+                literals[count++] = choice_literal(exact->slot_first[slot], list->count, q);
+            }
+        MesoStatus status = meso_exact_add(exact, literals, count, error);
+        if (status)
+            return status;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus add_slot(MesoExact *exact, uint32_t slot, int32_t *literals, bool *told,
+                           MesoError *error)
+{
+    const MesoPatternList *list = meso_pattern_list(&exact->patterns, slot, error);
+    if (!list)
+        return MESO_ERR_MEMORY;
+    if (list->count == 1)
+        return MESO_OK;
+    uint32_t first = exact->slot_first[slot];
+    /* That no two patterns hold follows from their labels, unless a group tells them apart. */
+    MesoStatus status = add_one_of(exact, first, list->count, exact->patterns.group != NULL, literals, error);
+    for (uint32_t k = 0; k < 4 && !status; k++) {
+        if (list->codes[k] == MESO_PATTERN_BORDER)
+            continue;
+        for (uint32_t p = 0; p < list->count && !status; p++) {
+            int32_t implies[2] = {-choice_literal(first, list->count, p),
+                                  meso_exact_label_literal(exact, slot, k, list->codes[4 * (size_t)p + k])};
+            status = meso_exact_add(exact, implies, 2, error);
+        }
+        if (!status)
+            status = add_supports(exact, slot, k, list, literals, told, error);
+    }
+    return status;
+}
+
+static MesoStatus add_clauses(MesoExact *exact, MesoError *error)
+{
+    const MesoPropagation *propagation = exact->propagation;
+    uint32_t most = propagation->domains.variant_count + 1;
+    uint32_t label_count = 2 * propagation->set->interface_count;
+    most = most > label_count ? most : label_count;
+    int32_t *literals = MESO_NEW(exact->arena, int32_t, most, error);
+    bool *told = MESO_NEW(exact->arena, bool, most, error);
+    if (!literals || !told)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = MESO_OK;
+    for (uint32_t s = 0; s < propagation->graph->slot_count && !status; s++) {
+        status = add_slot(exact, s, literals, told, error);
+        for (uint32_t k = 0; k < 4 && !status; k++) {
+            uint32_t h = 4 * s + k, twin = propagation->graph->twin[h];
+            if (twin == MESO_NO_INDEX || twin < h)
+                continue;
+            uint32_t count = meso_bits_count(far_labels(propagation, h),
+                                             propagation->domains.sets.word_count);
+            status = add_one_of(exact, exact->edge_first[h], count, true, literals, error);
+        }
+    }
+    return status;
+}
+
+MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropagation *propagation,
+                           const MesoExactOptions *options, MesoError *error)
+{
+    uint32_t slot_count = propagation->graph->slot_count;
+    *exact = (MesoExact){.propagation = propagation,
+                         .arena = arena, .clause = options->clause, .context = options->context};
+    MesoStatus status = meso_sat_init(&exact->sat, options->proof, options->context, error);
+    if (!status)
+        status = meso_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
+    if (status)
+        return status;
+    exact->edge_first = MESO_NEW(arena, uint32_t, 4 * (size_t)slot_count, error);
+    exact->slot_first = MESO_NEW(arena, uint32_t, slot_count, error);
+    if (!exact->edge_first || !exact->slot_first)
+        return MESO_ERR_MEMORY;
+    status = number_variables(exact, error);
+    return status ? status : add_clauses(exact, error);
+}
+
+void meso_exact_release(MesoExact *exact)
+{
+    meso_sat_release(exact->sat);
+}
+
+static uint32_t pattern_of_variant(const MesoPatternList *list, uint32_t variant)
+{
+    for (uint32_t p = 0; p < list->count; p++)
+        for (uint32_t i = list->begin[p]; i < list->begin[p + 1]; i++)
+            if (list->variants[i] == variant)
+                return p;
+    return MESO_NO_INDEX;
+}
+
+int32_t meso_exact_literal(MesoExact *exact, uint32_t slot, uint32_t variant)
+{
+    /* Every list was made when the variables were numbered. */
+    const MesoPatternList *list = meso_pattern_list(&exact->patterns, slot, NULL);
+    assert(list);
+    uint32_t pattern = pattern_of_variant(list, variant);
+    if (pattern == MESO_NO_INDEX)
+        return -MESO_EXACT_TRUE;
+    return choice_literal(exact->slot_first[slot], list->count, pattern);
+}
+
+/* Prefers choice `rank` of `count`. */
+static MesoStatus prefer(MesoExact *exact, uint32_t first, uint32_t count, uint32_t rank, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    if (count == 2)
+        return meso_sat_phase(exact->sat, choice_literal(first, 2, rank), error);
+    for (uint32_t i = 0; count > 2 && i < count && !status; i++) {
+        int32_t literal = choice_literal(first, count, i);
+        status = meso_sat_phase(exact->sat, i == rank ? literal : -literal, error);
+    }
+    return status;
+}
+
+static MesoStatus prefer_labels(MesoExact *exact, uint32_t slot, const uint32_t *codes, MesoError *error)
+{
+    const MesoPropagation *propagation = exact->propagation;
+    MesoStatus status = MESO_OK;
+    for (uint32_t k = 0; k < 4 && !status; k++) {
+        uint32_t h = 4 * slot + k, twin = propagation->graph->twin[h];
+        if (twin == MESO_NO_INDEX || twin < h)
+            continue;
+        const uint64_t *labels = far_labels(propagation, h);
+        uint32_t count = meso_bits_count(labels, propagation->domains.sets.word_count);
+        status = prefer(exact, exact->edge_first[h], count, label_rank(labels, codes[k] ^ 1), error);
+    }
+    return status;
+}
+
+MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, MesoRandom *random,
+                                    MesoError *error)
+{
+    const MesoDomainTable *domains = &exact->propagation->domains;
+    MesoStatus status = MESO_OK;
+    for (uint32_t s = 0; s < exact->propagation->graph->slot_count && !status; s++) {
+        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
+        uint32_t state = hint ? hint[s] : MESO_DOMAIN_EMPTY;
+        if (!list)
+            return MESO_ERR_MEMORY;
+        if (domains->domains[state].size != 1)
+            state = exact->propagation->initial[s];
+        uint32_t rank = meso_random_below(random, domains->domains[state].size);
+        uint32_t pattern = pattern_of_variant(list, meso_domain_variant(domains, state, rank));
+        assert(pattern != MESO_NO_INDEX);
+        status = prefer(exact, exact->slot_first[s], list->count, pattern, error);
+        if (!status)
+            status = prefer_labels(exact, s, list->codes + 4 * (size_t)pattern, error);
+    }
+    return status;
+}
+
+MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *random, MesoError *error)
+{
+    for (uint32_t s = 0; s < exact->propagation->graph->slot_count; s++) {
+        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
+        uint32_t p = 0;
+        if (!list)
+            return MESO_ERR_MEMORY;
+        while (list->count > 1 && p < list->count &&
+               !meso_sat_value(exact->sat, choice_literal(exact->slot_first[s], list->count, p)))
+            p++;
+        if (p == list->count)
+            return meso_fail(error, MESO_ERR_INTERNAL, "the exact engine left slot %u without a tile", s);
+        uint32_t size = list->begin[p + 1] - list->begin[p];
+        variant[s] = list->variants[list->begin[p] + meso_random_below(random, size)];
+    }
+    return MESO_OK;
+}

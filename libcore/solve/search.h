@@ -1,0 +1,40 @@
+/*
+ * Search: observes slots until all have one variant (Algorithm 1 of MesoGen). A
+ * dead end is repaired in three steps, each where the one before does not help:
+ * the variant that led to it is taken away from its slot; a ball of slots around
+ * the dead one is reopened, growing while the search does not get further; the
+ * attempt ends.
+ */
+#ifndef MESO_SEARCH_H
+#define MESO_SEARCH_H
+
+#include "libcore/solve/propagate.h"
+
+typedef enum MesoSearchOutcome {
+    MESO_SEARCH_DONE,           /* every slot has one variant */
+    MESO_SEARCH_STUCK,          /* the attempt's effort is spent */
+    MESO_SEARCH_IMPOSSIBLE,     /* proved: each variant of a slot fails before any other choice */
+    MESO_SEARCH_STOPPED         /* out of observations, or told to stop */
+} MesoSearchOutcome;
+
+typedef struct MesoSearch {
+    MesoPropagation *propagation;
+    const MesoConstraints *constraints;     /* of which the weights guide the choice; NULL: none */
+    MesoRandom random;
+    uint64_t observations;      /* made, over all attempts */
+    uint64_t max_observations;
+    uint64_t repairs;           /* balls reopened, over all attempts */
+    uint32_t impossible_slot;
+    bool (*tick)(void *context);    /* called now and then; false stops the search; may be NULL */
+    MesoStatus (*dead_end)(void *context, uint32_t slot, MesoError *error); /* the first of an attempt; may be NULL */
+    void *context;
+} MesoSearch;
+
+/*
+ * One attempt from the states as they are: the initial ones, for a proof of
+ * MESO_SEARCH_IMPOSSIBLE to hold. Takes `random` further. MESO_ERR_MEMORY, or what
+ * `dead_end` returns. At most eight times as many slots are reopened as there are.
+ */
+MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error);
+
+#endif
