@@ -12,6 +12,7 @@ typedef struct Arguments {
     bool attempts_given;
     const char *report, *orient;
     MesoControlArguments control;
+    MesoEngineArguments engine;
     MesoSeedOptions seeds;
     const MesoOption *options;  /* the table, and what it parsed */
     int argc;
@@ -53,6 +54,10 @@ static MesoStatus check_arguments(Arguments *a)
         status = meso_orient_check(a->orient, &tool->error);
     if (status)
         return status;
+    if (a->seeds.seeds && (a->engine.proof || a->engine.budget > 0))
+        return meso_fail(&tool->error, MESO_ERR_USAGE, a->engine.proof ? "--proof is of one seed"
+                         : "--budget goes by the clock, which the lines of --seeds must not depend on; use "
+                           "--observations and --conflicts");
     if (a->seeds.seeds && a->report)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--report is of one seed; --seeds writes a line each");
     if (a->seeds.seeds)
@@ -103,6 +108,19 @@ static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slo
     return status;
 }
 
+static MesoStatus say_limit(Arguments *a, const MesoSolveResult *result)
+{
+    static const char *const limits[] = {
+        [MESO_DECIDER_ATTEMPTS] = "the end of the search's attempts or observations; try --attempts, --engine auto, "
+                                  "--seed or meso-suggest",
+        [MESO_DECIDER_CONFLICTS] = "the end of the exact engine's conflicts; try --conflicts, --seed or meso-suggest",
+        [MESO_DECIDER_STOP] = "the end of the time; try --budget, --seed or meso-suggest",
+    };
+    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s%s%s, at %s", result->attempts,
+                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason,
+                     limits[result->decider]);
+}
+
 static MesoStatus say_verdict(Arguments *a, const Problem *p)
 {
     const MesoSolveResult *result = &p->result;
@@ -125,16 +143,14 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
     case MESO_VERDICT_GAVE_UP:
         break;
     }
-    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s, each with a dead "
-                     "end%s%s; try --attempts, --seed or meso-suggest", result->attempts,
-                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason);
+    return say_limit(a, result);
 }
 
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->surface.graph, p->constraints, a->attempts,
-                                        &p->result);
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->surface.graph, p->constraints, &a->engine,
+                                        a->attempts, &p->result);
     if (!status)
         status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
                                   &tool->error);
@@ -148,11 +164,12 @@ static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, 
 
 static MesoStatus solve_seeds(Arguments *a, const Problem *p)
 {
-    const MesoSeedProblem problem = {
+    MesoSeedProblem problem = {
         .set = &p->set, .variants = &p->variants, .surface = &p->surface, .tiles_hash = p->tiles_hash,
         .solve = {.max_attempts = a->attempts, .constraints = p->constraints},
         .others = a->control.strands ? a->control.strands : "", .options = a->options, .argc = a->argc, .argv = a->argv,
     };
+    meso_engine_choose(&a->engine, &problem.solve);
     return meso_solve_seeds(&a->tool, &a->seeds, &problem);
 }
 
@@ -183,11 +200,12 @@ int main(int argc, char **argv)
     Arguments a = {.attempts = 20};
     const MesoOption options[] = {
         {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts before giving up (default 20)",
+        {MESO_OPTION_COUNT, 0, "attempts", "N", "attempts of the search (default 20)",
          &a.attempts, &a.attempts_given, 1, 1e9, 0},
         MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
+        MESO_ENGINE_OPTIONS(a.engine),
         MESO_CONTROL_OPTIONS(a.control),
         MESO_SEED_OPTIONS(a.seeds),
         MESO_TOOL_OPTIONS(a.tool),

@@ -62,6 +62,12 @@ static inline uint32_t meso_constraint_count(const MesoConstraints *constraints)
            meso_strand_rule_given(&constraints->strands);
 }
 
+/* Whether they ask for more than domains and weights: for guided.h. */
+static inline bool meso_constraints_need_guidance(const MesoConstraints *constraints)
+{
+    return constraints->quota_count || constraints->keep || meso_strand_rule_given(&constraints->strands);
+}
+
 const char *meso_constraint_name(const MesoConstraints *constraints, uint32_t number);
 
 /* Tables of variants from tables of tile weights, [table_count * tile_count]; NULL: out of memory. */

@@ -5,12 +5,14 @@
 /* Choices that an attempt may take back: so many, and a part of the slots. */
 enum { LEAST_BACKTRACKS = 1000, BACKTRACK_PART = 4 };
 
+enum { TICK_INTERVAL = 4096 };  /* observations */
+
 MesoStatus meso_guided_init(MesoGuidedSearch *search, MesoArena *arena, MesoPropagation *propagation,
                             const MesoVariantSet *variants, const MesoConstraints *constraints,
                             uint64_t *violations, bool *disproved, MesoError *error)
 {
     *search = (MesoGuidedSearch){.propagation = propagation, .constraints = constraints, .arena = arena,
-                                 .violations = violations};
+                                 .violations = violations, .max_observations = UINT64_MAX};
     *disproved = false;
     bool strands = meso_strand_rule_given(&constraints->strands), kept = true;
     propagation->tracing = constraints->quota_count || strands || constraints->keep;
@@ -203,6 +205,13 @@ static MesoStatus begin_attempt(MesoGuidedSearch *search, MesoError *error)
     return search->constraints->keep ? keep_variants(search, error) : MESO_OK;
 }
 
+static bool may_go_on(const MesoGuidedSearch *search)
+{
+    if (search->observations >= search->max_observations)
+        return false;
+    return search->observations % TICK_INTERVAL != 0 || !search->tick || search->tick(search->context);
+}
+
 MesoStatus meso_guided_attempt(MesoGuidedSearch *search, MesoRandom *random, bool *solved, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
@@ -211,6 +220,10 @@ MesoStatus meso_guided_attempt(MesoGuidedSearch *search, MesoRandom *random, boo
     bool going = true;
     MesoStatus status = begin_attempt(search, error);
     while (!status && going && propagation->queue.count) {
+        if (!may_go_on(search)) {
+            search->stopped = true;
+            break;
+        }
         slot = meso_bucket_queue_draw(&propagation->queue, random);
         uint32_t variant = meso_choose_variant(propagation, search->constraints, slot,
                                                !search->released || !search->released[slot], random);
@@ -221,10 +234,8 @@ MesoStatus meso_guided_attempt(MesoGuidedSearch *search, MesoRandom *random, boo
             status = assign(search, slot, variant, error);
         if (!status)
             status = backtrack(search, &left, &going, error);
-        if (search->progress)
-            search->progress(search->progress_context);
     }
-    *solved = going;
+    *solved = going && !search->stopped;
     if (!status && !going && search->released)
         status = release_after_failure(search, slot, error);
     return status;

@@ -33,8 +33,10 @@ typedef struct MesoGuidedSearch {
     uint32_t failures;          /* attempts that failed while variants were to be kept */
     uint64_t observations, backtracks;
     uint64_t *violations;       /* [meso_constraint_count()] the caller's; counted up */
-    void (*progress)(void *context);    /* after each observation; may be NULL */
-    void *progress_context;
+    uint64_t max_observations;
+    bool stopped;               /* the last attempt: out of observations, or told to stop */
+    bool (*tick)(void *context);    /* called now and then; false stops the attempt; may be NULL */
+    void *context;
 } MesoGuidedSearch;
 
 /*

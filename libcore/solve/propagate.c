@@ -139,11 +139,33 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
     return (uint8_t)sides;
 }
 
-static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange change, MesoError *error)
+static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
+    uint8_t *marks = &propagation->pending[slot];
+    if (!(*marks & TOUCHED))
+        propagation->touched[propagation->touched_count++] = slot;
+    if (!(*marks & ON_TRAIL)) {
+        if (propagation->trail_count == propagation->trail_capacity) {
+            uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
+            MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
+            if (!trail)
+                return MESO_ERR_MEMORY;
+            if (propagation->trail_count)
+                memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
+            propagation->trail = trail;
+            propagation->trail_capacity = capacity;
+        }
+        propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    }
+    *marks |= TOUCHED | ON_TRAIL;
+    return MESO_OK;
+}
+
+static MesoStatus record_history(MesoPropagation *propagation, uint32_t slot, MesoError *error)
 {
     if (propagation->history_count == propagation->history_capacity) {
-        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : 1024;
-        MesoStateChange *history = MESO_NEW(propagation->arena, MesoStateChange, capacity, error);
+        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : LEAST_TRAIL;
+        MesoTrailEntry *history = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
         if (!history)
             return MESO_ERR_MEMORY;
         if (propagation->history_count)
@@ -151,54 +173,28 @@ static MesoStatus record_change(MesoPropagation *propagation, MesoStateChange ch
         propagation->history = history;
         propagation->history_capacity = capacity;
     }
-    propagation->history[propagation->history_count++] = change;
+    propagation->history[propagation->history_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
     return MESO_OK;
 }
 
-static MesoStatus record_on_trail(MesoPropagation *propagation, uint32_t slot, MesoError *error)
+/* Tells the quotas that `slot` goes from its state to `next`. */
+static void tell_quotas(MesoPropagation *propagation, uint32_t slot, uint32_t next)
 {
-    if (propagation->trail_count == propagation->trail_capacity) {
-        uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
-        MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
-        if (!trail)
-            return MESO_ERR_MEMORY;
-        if (propagation->trail_count)
-            memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
-        propagation->trail = trail;
-        propagation->trail_capacity = capacity;
-    }
-    propagation->pending[slot] |= ON_TRAIL;
-    propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
-    return MESO_OK;
-}
-
-/* Notes the state that `slot` is about to lose. */
-static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
-{
-    bool first_touch = !(propagation->pending[slot] & TOUCHED);
-    if (propagation->tracing) {
-        if (record_change(propagation, (MesoStateChange){slot, propagation->state[slot], first_touch}, error))
-            return MESO_ERR_MEMORY;
-    } else if (!(propagation->pending[slot] & ON_TRAIL) && record_on_trail(propagation, slot, error)) {
-        return MESO_ERR_MEMORY;
-    }
-    if (first_touch)
-        propagation->touched[propagation->touched_count++] = slot;
-    propagation->pending[slot] |= TOUCHED;
-    return MESO_OK;
+    if (propagation->quotas.count)
+        meso_quota_change(&propagation->quotas,
+                          meso_domain_bits(&propagation->domains, propagation->state[slot]),
+                          meso_domain_bits(&propagation->domains, next));
 }
 
 /* Gives `slot` another state, and moves it in the queue. */
 static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uint32_t next, MesoError *error)
 {
-    uint32_t state = propagation->state[slot];
-    uint32_t before = propagation->domains.domains[state].size, after = propagation->domains.domains[next].size;
+    uint32_t before = propagation->domains.domains[propagation->state[slot]].size;
+    uint32_t after = propagation->domains.domains[next].size;
+    tell_quotas(propagation, slot, next);
     propagation->state[slot] = next;
-    if (propagation->quotas.count)
-        meso_quota_change(&propagation->quotas, meso_domain_bits(&propagation->domains, state),
-                          meso_domain_bits(&propagation->domains, next));
-    if (!propagation->searching)
-        return MESO_OK;
+    if (after == 1 && propagation->decided)
+        propagation->decided[propagation->decided_count++] = slot;
     if (before > 1)
         meso_bucket_queue_remove(&propagation->queue, slot, before);
     return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
@@ -210,10 +206,14 @@ static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_
 {
     const MesoDomain *domains = propagation->domains.domains;
     push(propagation, slot, changed_sides(&domains[propagation->state[slot]], &domains[next]));
-    if (propagation->searching && note_change(propagation, slot, error))
+    if (!propagation->searching) {
+        tell_quotas(propagation, slot, next);
+        propagation->state[slot] = next;
+        return MESO_OK;
+    }
+    if (note_change(propagation, slot, error) ||
+        (propagation->tracing && record_history(propagation, slot, error)))
         return MESO_ERR_MEMORY;
-    if (propagation->searching && propagation->decided && domains[next].size == 1)
-        propagation->decided[propagation->decided_count++] = slot;
     return move_to_state(propagation, slot, next, error);
 }
 
@@ -340,7 +340,6 @@ static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
     count_for_quotas(propagation);
     if (run(propagation, error) || run_initial_quotas(propagation, error))
         return MESO_ERR_MEMORY;
-    meso_quota_keep(&propagation->quotas);
 
     for (uint32_t s = 0; s < slot_count; s++) {
         uint32_t size = propagation->domains.domains[propagation->state[s]].size;
@@ -414,8 +413,16 @@ void meso_propagation_forget(MesoPropagation *propagation)
     propagation->generation++;
 }
 
-static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *error)
+static void clear_trail(MesoPropagation *propagation)
 {
+    while (propagation->trail_count)
+        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+}
+
+/* Room for new states, and an empty trail. */
+static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
+{
+    clear_trail(propagation);
     if (propagation->domains.states.count < propagation->collect_at)
         return MESO_OK;
     if (meso_domain_collect(&propagation->domains, propagation->graph->slot_count,
@@ -428,23 +435,26 @@ static MesoStatus collect_where_due(MesoPropagation *propagation, MesoError *err
 
 MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMark *mark, MesoError *error)
 {
-    MesoStatus status = collect_where_due(propagation, error);
+    MesoStatus status = begin_step(propagation, error);
     *mark = (MesoPropagationMark){propagation->history_count, propagation->decided_count,
                                   propagation->generation};
     return status;
 }
 
-static void clear_trail(MesoPropagation *propagation)
+MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
+                                   MesoError *error)
 {
-    while (propagation->trail_count)
-        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
-}
-
-/* Room for new states, and an empty trail. */
-static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
-{
+    *done = mark.generation == propagation->generation;
+    if (!*done)
+        return MESO_OK;
     clear_trail(propagation);
-    return collect_where_due(propagation, error);
+    while (propagation->history_count > mark.history_count) {
+        MesoTrailEntry entry = propagation->history[--propagation->history_count];
+        if (move_to_state(propagation, entry.slot, entry.state, error))
+            return MESO_ERR_MEMORY;
+    }
+    propagation->decided_count = mark.decided_count;
+    return MESO_OK;
 }
 
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
@@ -461,30 +471,13 @@ MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, 
 MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                     MesoError *error)
 {
-    clear_trail(propagation);
+    if (begin_step(propagation, error))
+        return MESO_ERR_MEMORY;
     uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
     assert(next != MESO_DOMAIN_EMPTY);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
         return MESO_ERR_MEMORY;
     return run_with_quotas(propagation, error);
-}
-
-MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
-                                 MesoError *error)
-{
-    *done = mark.generation == propagation->generation;
-    while (*done && propagation->history_count > mark.history_count) {
-        const MesoStateChange *change = &propagation->history[--propagation->history_count];
-        if (move_to_state(propagation, change->slot, change->state, error))
-            return MESO_ERR_MEMORY;
-        if (change->first_touch) {
-            propagation->touched_count--;
-            propagation->pending[change->slot] &= (uint8_t)~TOUCHED;
-        }
-    }
-    if (*done)
-        propagation->decided_count = mark.decided_count;
-    return MESO_OK;
 }
 
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
@@ -567,7 +560,6 @@ MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *err
             return MESO_ERR_MEMORY;
     }
     propagation->trail_count = 0;
-    meso_quota_restart(&propagation->quotas);
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);
     return MESO_OK;

@@ -12,12 +12,6 @@
 #include "libcore/solve/quota.h"
 #include "libcore/surface/slot_graph.h"
 
-/* A state that a slot had. */
-typedef struct MesoStateChange {
-    uint32_t slot, state;
-    bool first_touch;           /* the slot was not among the touched ones before */
-} MesoStateChange;
-
 typedef struct MesoTrailEntry {
     uint32_t slot, state;       /* that it had before */
 } MesoTrailEntry;
@@ -30,9 +24,12 @@ typedef struct MesoPropagation {
     uint32_t *codes;            /* [4 * variant_count] label codes */
     uint32_t *state;            /* [slot_count] */
     uint32_t *initial;          /* [slot_count] the fixed point before any choice */
-    uint32_t *touched;          /* [slot_count] slots whose state may differ from the initial one */
+    uint32_t *touched;          /* [slot_count] slots whose state is not the initial one */
     uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got, and marks */
     uint32_t *list;             /* [slot_count] ring of the slots with pending sides */
+    MesoArena *arena;           /* of trail and history, which grow */
+    MesoTrailEntry *trail;      /* [trail_capacity] what the last step changed, each slot once */
+    uint32_t trail_count, trail_capacity;
     uint32_t touched_count;
     uint32_t list_head, list_count;
     uint32_t dead_slot;         /* met by the last call, or MESO_NO_INDEX */
@@ -45,10 +42,7 @@ typedef struct MesoPropagation {
                                    fixed point, in order; NULL where no rule on strands asks for it */
     uint32_t decided_count;
     bool tracing;               /* keep a history, for meso_propagation_rewind() */
-    MesoArena *arena;           /* of trail and history, which grow */
-    MesoTrailEntry *trail;      /* [trail_capacity] what the last step changed, each slot once; not where tracing */
-    uint32_t trail_count, trail_capacity;
-    MesoStateChange *history;     /* since the last restart, or the last collection */
+    MesoTrailEntry *history;    /* every change since the last restart, or the last collection */
     size_t history_count, history_capacity;
     uint32_t generation;        /* of the history: marks of an earlier one are void */
 } MesoPropagation;
@@ -62,9 +56,8 @@ void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels);
  * proved dead: it counts in `initial_dead_count`, and propagation goes on
  * around it as if it were not there, so that all of them are found. Where there
  * is none, quotas join the propagation; `broken_quota` is one that proves to be
- * out of reach. What `propagation` points to must
- * outlive it; arrays live in `arena`. MESO_ERR_MEMORY alone;
- * meso_propagation_release() is due in any case. O(slots) for a set at hand.
+ * out of reach. What `propagation` points to must outlive it; arrays live in
+ * `arena`. MESO_ERR_MEMORY alone; meso_propagation_release() is due in any case. O(slots) for a set at hand.
  */
 MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
                                  const MesoTileSet *set, const MesoVariantSet *variants,
@@ -77,11 +70,27 @@ void meso_propagation_release(MesoPropagation *propagation);
  * A step: reduces `slot` to `variant` of its state and propagates to the fixed
  * point, or until a slot has nothing left: `dead_slot`, which then keeps the
  * state it had before; or until a quota cannot be met any more: `broken_quota`.
+ * After either, undo, reopen, rewind or restart.
  */
 MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
                                    MesoError *error);
 
-/* A place in the history of a propagation that is `tracing`. */
+/* As meso_propagation_assign(), a step that takes `variant` away; it must leave another. */
+MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
+                                    MesoError *error);
+
+/* Takes the last step back, and what followed from it. O(slots that it changed). */
+MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
+
+/*
+ * A step that gives the slots up to `radius` edges around `slot` their initial
+ * states again, as far as the slots around them allow. `reopened` gets their
+ * number. The states must be consistent.
+ */
+MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
+                                   uint32_t *reopened, MesoError *error);
+
+/* A place in the history of a propagation that is `tracing`: for more than the last step. */
 typedef struct MesoPropagationMark {
     size_t history_count;
     uint32_t decided_count, generation;
@@ -95,25 +104,10 @@ MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMa
  * collection of states has voided the mark. O(changes). MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagationMark mark, bool *done,
-                                 MesoError *error);
+                                   MesoError *error);
 
 /* Forgets the history: what was done so far is there to stay, and marks are void. */
 void meso_propagation_forget(MesoPropagation *propagation);
-
-/* As meso_propagation_assign(), but takes `variant`, one of several, from the state of `slot`. */
-MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot, uint32_t variant,
-                                    MesoError *error);
-
-/* Takes the last step back, and what followed from it; not where tracing. O(slots that it changed). */
-MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
-
-/*
- * A step, not where tracing, that gives the slots up to `radius` edges around `slot` their
- * initial states again, as far as the slots around them allow. `reopened` gets their
- * number. The states must be consistent.
- */
-MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
-                                   uint32_t *reopened, MesoError *error);
 
 /* Back to the initial fixed point. O(slots touched). MESO_ERR_MEMORY alone. */
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error);

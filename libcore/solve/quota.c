@@ -1,7 +1,5 @@
 #include "libcore/solve/quota.h"
 
-#include <string.h>
-
 MesoStatus meso_quota_track_init(MesoQuotaTrack *track, MesoArena *arena,
                                  const MesoConstraints *constraints, uint32_t word_count,
                                  MesoError *error)
@@ -12,9 +10,8 @@ MesoStatus meso_quota_track_init(MesoQuotaTrack *track, MesoArena *arena,
     track->count = constraints->quota_count;
     track->quotas = constraints->quotas;
     track->counts = MESO_NEW(arena, MesoQuotaCount, track->count, error);
-    track->initial = MESO_NEW(arena, MesoQuotaCount, track->count, error);
     track->scratch = MESO_NEW(arena, uint64_t, word_count, error);
-    return track->counts && track->initial && track->scratch ? MESO_OK : MESO_ERR_MEMORY;
+    return track->counts && track->scratch ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 typedef struct Membership {
@@ -62,16 +59,4 @@ bool meso_quota_narrow(MesoQuotaTrack *track, uint32_t quota, MesoQuotaCall call
     for (uint32_t w = 0; w < track->word_count; w++)
         track->scratch[w] = bits[w] & (call == MESO_QUOTA_USED_UP ? ~variants[w] : variants[w]);
     return true;
-}
-
-void meso_quota_keep(MesoQuotaTrack *track)
-{
-    if (track->count)
-        memcpy(track->initial, track->counts, track->count * sizeof *track->counts);
-}
-
-void meso_quota_restart(MesoQuotaTrack *track)
-{
-    if (track->count)
-        memcpy(track->counts, track->initial, track->count * sizeof *track->counts);
 }

@@ -13,7 +13,6 @@ typedef struct MesoQuotaTrack {
     uint32_t count, word_count;
     const MesoQuota *quotas;    /* [count] */
     MesoQuotaCount *counts;     /* [count] */
-    MesoQuotaCount *initial;    /* [count] at the fixed point before any choice */
     uint64_t *scratch;          /* [word_count] */
 } MesoQuotaTrack;
 
@@ -40,9 +39,5 @@ MesoQuotaCall meso_quota_call(const MesoQuotaTrack *track, uint32_t quota);
  * `scratch`; false where that is all of it. Never empty.
  */
 bool meso_quota_narrow(MesoQuotaTrack *track, uint32_t quota, MesoQuotaCall call, const uint64_t *bits);
-
-/* Remember the counts as initial; go back to them. */
-void meso_quota_keep(MesoQuotaTrack *track);
-void meso_quota_restart(MesoQuotaTrack *track);
 
 #endif

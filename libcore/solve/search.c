@@ -1,5 +1,7 @@
 #include "libcore/solve/search.h"
 
+#include "libcore/solve/choice.h"
+
 enum { TICK_INTERVAL = 4096 };  /* observations */
 
 /* Radius of the first ball, and after how many repairs without progress it grows by one. */

@@ -8,7 +8,7 @@
 #ifndef MESO_SEARCH_H
 #define MESO_SEARCH_H
 
-#include "libcore/solve/choice.h"
+#include "libcore/solve/propagate.h"
 
 typedef enum MesoSearchOutcome {
     MESO_SEARCH_DONE,           /* every slot has one variant */
@@ -19,7 +19,7 @@ typedef enum MesoSearchOutcome {
 
 typedef struct MesoSearch {
     MesoPropagation *propagation;
-    const MesoConstraints *constraints;     /* for their weights; NULL: none */
+    const MesoConstraints *constraints;     /* of which the weights guide the choice; NULL: none */
     MesoRandom random;
     uint64_t observations;      /* made, over all attempts */
     uint64_t max_observations;

@@ -3,12 +3,21 @@
 #include <assert.h>
 #include <string.h>
 
-#include "libcore/solve/decide.h"
+#include "libcore/solve/counting.h"
+#include "libcore/solve/exact_control.h"
 #include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
+#include "libcore/solve/parity.h"
 #include "libcore/solve/search.h"
 
-enum { PROGRESS_INTERVAL = 4096 };  /* observations */
+/* Word operations of the parity prover: a second or two. */
+static const uint64_t parity_work = (uint64_t)1 << 32;
+
+/* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
+enum { PHASED_CONFLICTS = 1000 };
+
+/* Solutions of the exact engine that a rule on strands may cut off. */
+enum { MOST_CUT_ROUNDS = 2000 };
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -19,7 +28,7 @@ typedef struct Search {
     MesoArena *arena;               /* of the result */
     MesoArena scratch;
     MesoPropagation propagation;
-    MesoGuidedSearch guided;        /* where there are constraints */
+    MesoGuidedSearch guided;        /* where constraints call for it */
 } Search;
 
 /* RecordNeighbors: what a tile for `slot` would have to show. */
@@ -60,14 +69,6 @@ static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-static void tell_progress(const Search *search)
-{
-    uint32_t total = search->graph->slot_count;
-    if (search->options->progress)
-        search->options->progress(search->options->progress_context,
-                                  total - search->propagation.queue.count, total);
-}
-
 static bool told_to_stop(const Search *search)
 {
     return search->options->stop && search->options->stop(search->options->stop_context);
@@ -77,7 +78,10 @@ static bool told_to_stop(const Search *search)
 static bool tick(void *context)
 {
     const Search *search = context;
-    tell_progress(search);
+    uint32_t total = search->graph->slot_count;
+    if (search->options->progress)
+        search->options->progress(search->options->progress_context,
+                                  total - search->propagation.queue.count, total);
     return !told_to_stop(search);
 }
 
@@ -87,33 +91,10 @@ static MesoStatus note_dead_end(void *context, uint32_t slot, MesoError *error)
     return record_dead_end(search, slot, search->result->attempts, error);
 }
 
-static void tell_guided_progress(void *context)
-{
-    const Search *search = context;
-    if (search->guided.observations % PROGRESS_INTERVAL == 1)
-        tell_progress(search);
-}
-
-/* An attempt under constraints: where a quota or strands end it, there is no dead slot to record. */
-static MesoStatus run_guided_attempt(Search *search, uint32_t attempt, bool *solved, MesoError *error)
-{
-    MesoRandom random;
-    meso_random_init(&random, search->options->seed, attempt);
-    MesoStatus status = meso_guided_attempt(&search->guided, &random, solved, error);
-    search->result->observations = search->guided.observations;
-    search->result->backtracks = search->guided.backtracks;
-    uint32_t dead = search->propagation.dead_slot;
-    if (!status && !*solved && dead != MESO_NO_INDEX)
-        status = record_dead_end(search, dead, attempt, error);
-    tell_progress(search);
-    return status;
-}
-
 /* Takes variant[slot_count] as the solution, once checked. */
-static MesoStatus accept(Search *search, const uint32_t *variant, MesoError *error)
+static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider decider, MesoError *error)
 {
     MesoAssignment *assignment = &search->result->assignment;
-    const MesoConstraints *constraints = search->options->constraints;
     uint32_t count = search->graph->slot_count;
 
     assignment->tile = MESO_NEW(search->arena, uint32_t, count, error);
@@ -126,12 +107,15 @@ static MesoStatus accept(Search *search, const uint32_t *variant, MesoError *err
         assignment->transform[s] = search->variants->transform[variant[s]];
     }
     MesoError finding;
+    const MesoConstraints *constraints = search->options->constraints;
     if (meso_assignment_check(assignment, search->set, search->graph, &finding) ||
         (constraints && meso_constraints_check(constraints, assignment, search->set, search->variants,
                                                search->graph, &finding)))
         return meso_fail(error, MESO_ERR_INTERNAL, "the solver's assignment is wrong: %s",
                          finding.message);
     search->result->verdict = MESO_VERDICT_SOLVED;
+    search->result->decider = decider;
+    search->result->reason = "";
     return MESO_OK;
 }
 
@@ -144,75 +128,11 @@ static MesoStatus accept_states(Search *search, MesoError *error)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < count; s++)
         variant[s] = meso_domain_variant(&propagation->domains, propagation->state[s], 0);
-    search->result->decider = MESO_DECIDER_SEARCH;
-    return accept(search, variant, error);
-}
-
-/* Which constraints the initial fixed point disproves, in words. */
-static MesoStatus explain(Search *search, MesoError *error)
-{
-    const MesoConstraints *constraints = search->options->constraints;
-    const MesoSolveResult *result = search->result;
-    uint32_t count = 0, slot = result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
-    uint32_t *numbers = MESO_NEW(&search->scratch, uint32_t, meso_constraint_count(constraints), error);
-    if (!numbers || meso_explain(numbers, &count, search->set, search->variants, search->graph, constraints,
-                                 slot, error))
-        return MESO_ERR_MEMORY;
-    search->result->reason = meso_explanation_text(search->arena, constraints, numbers, count, error);
-    return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
-}
-
-static MesoStatus say_unsolvable(Search *search, MesoError *error)
-{
-    search->result->verdict = MESO_VERDICT_UNSOLVABLE;
-    search->result->decider = MESO_DECIDER_PROPAGATION;
-    MesoStatus status = record_initial_dead_ends(search, error);
-    return !status && search->options->constraints ? explain(search, error) : status;
-}
-
-/* The constraint that the search met most often, in words. */
-static MesoStatus say_violations(Search *search, MesoError *error)
-{
-    const MesoConstraints *constraints = search->options->constraints;
-    MesoSolveResult *result = search->result;
-    uint32_t worst = 0, count = meso_constraint_count(constraints);
-    result->violations = search->guided.violations;
-    for (uint32_t i = 0; i < count; i++)
-        if (result->violations[i] > result->violations[worst])
-            worst = i;
-    if (search->guided.exhausted)
-        result->reason = "every choice was tried";
-    if (result->verdict == MESO_VERDICT_SOLVED || count == 0 || result->violations[worst] == 0)
-        return MESO_OK;
-    result->reason = meso_arena_print(search->arena, error, "%smost often %s stood in the way: %llu times",
-                                      search->guided.exhausted ? "every choice was tried; " : "",
-                                      meso_constraint_name(constraints, worst),
-                                      (unsigned long long)result->violations[worst]);
-    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
-}
-
-static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *error)
-{
-    const MesoConstraints *constraints = search->options->constraints;
-    uint64_t *violations = MESO_NEW(search->arena, uint64_t, meso_constraint_count(constraints), error);
-    if (!violations)
-        return MESO_ERR_MEMORY;
-    MesoStatus status = meso_guided_init(&search->guided, &search->scratch, &search->propagation,
-                                         search->variants, constraints, violations, disproved, error);
-    search->guided.progress = tell_guided_progress;
-    search->guided.progress_context = search;
-    return status;
-}
-
-/* Quotas, strands and variants to keep call for the guided search, and are beyond the exact engine. */
-static bool needs_guidance(const MesoConstraints *constraints)
-{
-    return constraints && (constraints->quota_count || constraints->keep ||
-                           meso_strand_rule_given(&constraints->strands));
+    return accept(search, variant, MESO_DECIDER_SEARCH, error);
 }
 
 /* The search's rung: attempts from sub-seeds. */
-static MesoStatus search_freely(Search *search, MesoError *error)
+static MesoStatus search_for(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     const MesoSolveOptions *options = search->options;
@@ -231,6 +151,7 @@ static MesoStatus search_freely(Search *search, MesoError *error)
     result->repairs = wfc.repairs;
     if (status)
         return status;
+    tick(search);
     if (outcome == MESO_SEARCH_DONE)
         return accept_states(search, error);
     if (outcome == MESO_SEARCH_IMPOSSIBLE) {
@@ -245,91 +166,251 @@ static MesoStatus search_freely(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus search_guided(Search *search, MesoError *error)
+/* What decisions try first: the variants to keep, or what the search came to. */
+static MesoStatus choose_phases(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
 {
-    MesoSolveResult *result = search->result;
-    const MesoSolveOptions *options = search->options;
-    bool solved = false;
-    MesoStatus status = MESO_OK;
-    while (!status && !solved && !search->guided.exhausted && !told_to_stop(search) &&
-           result->attempts < options->max_attempts &&
-           (!options->max_observations || result->observations < options->max_observations)) {
-        status = meso_propagation_restart(&search->propagation, error);
-        if (!status)
-            status = run_guided_attempt(search, ++result->attempts, &solved, error);
+    const MesoConstraints *constraints = search->options->constraints;
+    const uint32_t *hint = search->propagation.state;
+    if (constraints && constraints->keep) {
+        uint32_t count = search->graph->slot_count;
+        uint32_t *kept = MESO_NEW(&search->scratch, uint32_t, count, error);
+        for (uint32_t s = 0; kept && s < count; s++) {
+            kept[s] = search->propagation.state[s];
+            if (constraints->keep[s] == MESO_NO_INDEX)
+                continue;
+            kept[s] = meso_domain_single(&search->propagation.domains, constraints->keep[s], error);
+            if (kept[s] == MESO_NO_INDEX)
+                return MESO_ERR_MEMORY;
+        }
+        hint = kept;
     }
+    return hint ? meso_exact_choose_phases(exact, hint, random, error) : MESO_ERR_MEMORY;
+}
+
+static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
+                             MesoError *error)
+{
+    const MesoSolveOptions *options = search->options;
+    uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
+    MesoStatus status = choose_phases(search, exact, random, error);
+    if (!status)
+        status = meso_sat_solve(exact->sat, answer, NULL, 0, phased, options->stop,
+                                options->stop_context, error);
+    left -= phased;
+    if (status || *answer != MESO_SAT_UNKNOWN || left == 0 || told_to_stop(search))
+        return status;
+    status = meso_sat_forget_phases(exact->sat, error);
     if (status)
         return status;
-    if (solved)
-        return accept_states(search, error);
-    if (search->guided.exhausted) {
-        result->verdict = MESO_VERDICT_UNSOLVABLE;
-        result->decider = MESO_DECIDER_SEARCH;
-    } else if (told_to_stop(search)) {
-        result->decider = MESO_DECIDER_STOP;
-    }
-    return MESO_OK;
+    return meso_sat_solve(exact->sat, answer, NULL, 0, left < INT32_MAX ? (uint32_t)left : INT32_MAX,
+                          options->stop, options->stop_context, error);
 }
 
-static MesoStatus search_for(Search *search, MesoError *error)
+/* Takes the engine's solution, unless it breaks the rule on strands: then `*cuts` says how often. */
+static MesoStatus take_solution(Search *search, MesoExact *exact, MesoRandom *random, uint32_t *cuts,
+                                MesoError *error)
 {
-    bool guided = needs_guidance(search->options->constraints);
-    MesoStatus status = guided ? search_guided(search, error) : search_freely(search, error);
-    tell_progress(search);
-    return status;
-}
-
-/* Proofs hold under every constraint; a solution counts only where it meets those that the engine does not know. */
-static MesoStatus decide(Search *search, MesoError *error)
-{
-    MesoSolveResult *result = search->result;
+    const MesoConstraints *constraints = search->options->constraints;
     uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
     if (!variant)
         return MESO_ERR_MEMORY;
-    MesoStatus status = meso_decide_by_numbers(result, search->arena, &search->scratch, &search->propagation,
-                                               error);
-    if (status || result->verdict != MESO_VERDICT_GAVE_UP)
-        return status;
-    MesoSolveResult exact = *result;
-    status = meso_decide_exactly(&exact, variant, &search->scratch, &search->propagation, search->options,
-                                 error);
+    MesoStatus status = meso_exact_extract(exact, variant, random, error);
+    if (!status && constraints && meso_strand_rule_given(&constraints->strands))
+        status = meso_exact_cut_strands(exact, &constraints->strands, variant, search->variants, cuts, error);
+    return status || *cuts ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
+}
+
+/* Asks until there is an answer that no rule on strands cuts off. */
+static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    for (uint32_t round = 0; round < MOST_CUT_ROUNDS; round++) {
+        MesoSatAnswer answer = MESO_SAT_UNKNOWN;
+        uint32_t cuts = 0;
+        MesoStatus status = ask_engine(search, exact, &answer, random, error);
+        if (!status && answer == MESO_SAT_YES)
+            status = take_solution(search, exact, random, &cuts, error);
+        if (status || cuts == 0) {
+            if (answer == MESO_SAT_NO) {
+                result->verdict = MESO_VERDICT_UNSOLVABLE;
+                result->decider = MESO_DECIDER_EXACT;
+                if (!*result->reason)
+                    result->reason = "the exact engine went through all cases";
+            } else if (answer == MESO_SAT_UNKNOWN)
+                result->decider = told_to_stop(search) ? MESO_DECIDER_STOP : MESO_DECIDER_CONFLICTS;
+            return status;
+        }
+        if (told_to_stop(search)) {
+            result->decider = MESO_DECIDER_STOP;
+            return MESO_OK;
+        }
+    }
+    result->decider = MESO_DECIDER_CONFLICTS;
+    return MESO_OK;
+}
+
+static MesoStatus decide_exactly(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    MesoExact exact;
+    MesoRandom random;
+    MesoExactOptions options = {.proof = search->options->proof, .clause = search->options->clause,
+                                .context = search->options->proof_context};
+    bool complete = true;
+    meso_random_init(&random, search->options->seed, UINT64_MAX);
+    if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);
+    if (!status && constraints)
+        status = meso_exact_add_quotas(&exact, constraints, &complete, error);
+    /* Where a quota is too large to be counted, what the engine finds need not keep to it. */
+    if (!status && complete)
+        status = ask_until_kept(search, &exact, &random, error);
+    meso_exact_release(&exact);
+    return status;
+}
+
+/* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
+static MesoStatus decide_by_numbers(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    MesoPatternTable table;
+    MesoCountingProof proof;
+    uint32_t slot;
+    if (meso_pattern_table_init(&table, &search->scratch, &search->propagation, NULL, error) ||
+        meso_counting_prove(&proof, &search->scratch, &table, error))
+        return MESO_ERR_MEMORY;
+    if (proof.found) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_COUNTING;
+        result->reason = meso_counting_explain(&proof, search->arena, search->set, error);
+        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    }
+    if (meso_parity_prove(&slot, &search->scratch, &table, parity_work, error))
+        return MESO_ERR_MEMORY;
+    if (slot == MESO_NO_INDEX)
+        return MESO_OK;
+    result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = MESO_DECIDER_PARITY;
+    result->reason = meso_arena_print(search->arena, error, "the numbers of labels that the tiles show, "
+                                      "odd or even, contradict each other on the piece of the surface "
+                                      "around slot %u", slot);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* Which constraints the initial fixed point disproves, in words. */
+static MesoStatus explain(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    const MesoSolveResult *result = search->result;
+    uint32_t count = 0, slot = result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
+    uint32_t *numbers = MESO_NEW(&search->scratch, uint32_t, meso_constraint_count(constraints), error);
+    if (!numbers || meso_explain(numbers, &count, search->set, search->variants, search->graph, constraints,
+                                 slot, error))
+        return MESO_ERR_MEMORY;
+    search->result->reason = meso_explanation_text(search->arena, constraints, numbers, count, error);
+    return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus say_disproved(Search *search, MesoError *error)
+{
+    search->result->verdict = MESO_VERDICT_UNSOLVABLE;
+    search->result->decider = MESO_DECIDER_PROPAGATION;
+    MesoStatus status = record_initial_dead_ends(search, error);
+    return !status && search->options->constraints ? explain(search, error) : status;
+}
+
+/* After a guided search without a solution: the constraint that it met most often, in words. */
+static MesoStatus say_violations(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    MesoSolveResult *result = search->result;
+    uint32_t worst = 0, count = meso_constraint_count(constraints);
+    if (search->guided.exhausted) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        result->decider = MESO_DECIDER_SEARCH;
+        result->reason = "every choice was tried";
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (result->violations[i] > result->violations[worst])
+            worst = i;
+    if (count == 0 || result->violations[worst] == 0)
+        return MESO_OK;
+    result->reason = meso_arena_print(search->arena, error, "%smost often %s stood in the way: %llu times",
+                                      search->guided.exhausted ? "every choice was tried; " : "",
+                                      meso_constraint_name(constraints, worst),
+                                      (unsigned long long)result->violations[worst]);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    uint64_t *violations = MESO_NEW(search->arena, uint64_t, meso_constraint_count(constraints), error);
+    if (!violations)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_guided_init(&search->guided, &search->scratch, &search->propagation,
+                                         search->variants, constraints, violations, disproved, error);
+    search->result->violations = violations;
+    search->guided.tick = tick;
+    search->guided.context = search;
+    if (search->options->max_observations)
+        search->guided.max_observations = search->options->max_observations;
+    return status;
+}
+
+/* The search's rung under quotas, rules on strands, or with an assignment to keep. */
+static MesoStatus search_guided(Search *search, MesoError *error)
+{
+    MesoGuidedSearch *guided = &search->guided;
+    MesoSolveResult *result = search->result;
+    bool solved = false;
+    MesoStatus status = MESO_OK;
+    while (!status && !solved && !guided->exhausted && !guided->stopped &&
+           result->attempts < search->options->max_attempts) {
+        MesoRandom random;
+        meso_random_init(&random, search->options->seed, ++result->attempts);
+        status = meso_propagation_restart(&search->propagation, error);
+        if (!status)
+            status = meso_guided_attempt(guided, &random, &solved, error);
+        /* Where a quota or strands ended the attempt, there is no dead slot to tell of. */
+        if (!status && !solved && search->propagation.dead_slot != MESO_NO_INDEX)
+            status = record_dead_end(search, search->propagation.dead_slot, result->attempts, error);
+    }
+    result->observations = guided->observations;
+    result->backtracks = guided->backtracks;
     if (status)
         return status;
-    if (exact.verdict == MESO_VERDICT_SOLVED && needs_guidance(search->options->constraints))
-        return MESO_OK;
-    *result = exact;
-    return exact.verdict == MESO_VERDICT_SOLVED ? accept(search, variant, error) : MESO_OK;
+    if (!tick(search))
+        result->decider = MESO_DECIDER_STOP;
+    return solved ? accept_states(search, error) : say_violations(search, error);
 }
 
 /* The ladder: each rung leaves the verdict "gave up", or a better one. */
-static MesoStatus climb(Search *search, MesoError *error)
+static MesoStatus run(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     MesoEngine engine = search->options->engine;
-    MesoStatus status = MESO_OK;
+    const MesoConstraints *constraints = search->options->constraints;
+    bool guided = constraints && meso_constraints_need_guidance(constraints);
+    bool disproved = search->propagation.initial_dead_count ||
+                     search->propagation.broken_quota != MESO_NO_INDEX;
+    MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
+    if (!status && disproved)
+        return say_disproved(search, error);
+
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
-    if (engine != MESO_ENGINE_EXACT || needs_guidance(search->options->constraints))
-        status = search_for(search, error);
-    if (status || result->verdict != MESO_VERDICT_GAVE_UP || engine == MESO_ENGINE_WFC ||
-        result->decider == MESO_DECIDER_STOP)
+    if (!status && engine != MESO_ENGINE_EXACT)
+        status = guided ? search_guided(search, error) : search_for(search, error);
+    if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
         return status;
-    return decide(search, error);
-}
-
-static MesoStatus run(Search *search, MesoError *error)
-{
-    const MesoConstraints *constraints = search->options->constraints;
-    const MesoPropagation *propagation = &search->propagation;
-    bool disproved = propagation->initial_dead_count || propagation->broken_quota != MESO_NO_INDEX;
-    MesoStatus status = MESO_OK;
-    if (!disproved && constraints)
-        status = prepare_guided(search, &disproved, error);
-    if (!status && disproved)
-        return say_unsolvable(search, error);
-    if (!status)
-        status = climb(search, error);
-    return !status && constraints ? say_violations(search, error) : status;
+    if (result->verdict == MESO_VERDICT_GAVE_UP)
+        status = decide_by_numbers(search, error);
+    if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
+        status = decide_exactly(search, error);
+    return status;
 }
 
 /* Dead ends to make room for: one an attempt, or one a slot met initially. */
@@ -349,8 +430,7 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                       const MesoSolveOptions *options, MesoError *error)
 {
     assert(options->max_attempts >= 1);
-    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count),
-                                .reason = ""};
+    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = ""};
     if (variants->count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 

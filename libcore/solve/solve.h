@@ -25,8 +25,10 @@ typedef enum MesoEngine {
 
 /* What led to the verdict. */
 typedef enum MesoDecider {
-    MESO_DECIDER_PROPAGATION,   /* unsolvable: border rules and constraints alone empty a slot, or disprove a quota */
-    MESO_DECIDER_SEARCH,        /* solved; or unsolvable: every choice leads to a dead end */
+    MESO_DECIDER_PROPAGATION,   /* unsolvable: border rules and constraints alone empty a slot, or
+                                   disprove a quota or the rule on strands */
+    MESO_DECIDER_SEARCH,        /* solved; or unsolvable: each variant of one slot leads to a dead end
+                                   at once, or, under constraints, every choice was tried */
     MESO_DECIDER_COUNTING,      /* unsolvable: the numbers of labels do not add up */
     MESO_DECIDER_PARITY,        /* unsolvable: sums modulo 2 over all edges contradict each other */
     MESO_DECIDER_EXACT,         /* solved or unsolvable */
@@ -61,6 +63,10 @@ typedef struct MesoSolveOptions {
     const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
+    bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof
+                                       (DRAT), in pieces; false: cannot; may be NULL */
+    void (*clause)(void *context, const int32_t *literals, uint32_t count); /* gets its clauses; may be NULL */
+    void *proof_context;
     bool (*stop)(void *context);    /* asked now and then: true ends the work; may be NULL */
     void *stop_context;
 } MesoSolveOptions;
@@ -75,9 +81,9 @@ typedef struct MesoSolveResult {
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
     uint64_t repairs;           /* over all attempts: balls of slots reopened around a dead end */
-    uint64_t backtracks;        /* choices taken back: only quotas and rules on strands call for it */
-    uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; without
-                                   constraints not to be read */
+    uint64_t backtracks;        /* choices taken back: only quotas, rules on strands and what is to be
+                                   kept call for it */
+    uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; or NULL */
     MesoAssignment assignment;  /* where solved */
     uint32_t dead_end_count;    /* kept; the first of each attempt, in order */
     uint64_t dead_end_total;    /* attempts that met one; or slots that the initial constraints empty */
@@ -88,9 +94,8 @@ typedef struct MesoSolveResult {
 /*
  * Assigns variants to slots. The result depends on the arguments alone, unless
  * `stop` ended the work. A solved assignment has passed meso_assignment_check() and
- * meso_constraints_check(). Returns MESO_OK for
- * every verdict; MESO_ERR_MEMORY, or MESO_ERR_INPUT for a set without
- * variants. Memory O(slots * (words of variants + words of labels)).
+ * meso_constraints_check(). Returns MESO_OK for every verdict; MESO_ERR_MEMORY, or
+ * MESO_ERR_INPUT for a set without variants. Memory O(slots * (words of variants + words of labels)).
  */
 MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
                       const MesoVariantSet *variants, const MesoSlotGraph *graph,

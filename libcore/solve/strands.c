@@ -1,6 +1,7 @@
 #include "libcore/solve/strands.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "libcore/solve/strand_forest.h"
 
@@ -111,6 +112,19 @@ MesoStatus meso_strands_count(MesoStrandStatistics *statistics, const MesoAssign
     return status;
 }
 
+/* The strand of the slot's sweep `i`, by its root. */
+static uint32_t strand_at(const StrandMap *map, uint32_t slot, uint32_t i)
+{
+    const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
+    const MesoSweep *sweep = &map->set->sweeps[tile->sweep_begin + i];
+    return meso_strand_root(&map->forest, joint(map, slot, sweep->from_side, sweep->from_section));
+}
+
+static uint32_t sweep_count(const StrandMap *map, uint32_t slot)
+{
+    return map->set->tiles[map->assignment->tile[slot]].sweep_count;
+}
+
 /* What a strand by itself does against the rule, or NULL. */
 static const char *offence(const MesoStrandRule *rule, const MesoStrandNode *root)
 {
@@ -128,10 +142,8 @@ static MesoStatus check_strands(const StrandMap *map, const MesoStrandRule *rule
                                 uint32_t *first, MesoError *error)
 {
     for (uint32_t slot = 0; slot < map->graph->slot_count; slot++) {
-        const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
-        for (uint32_t i = 0; i < tile->sweep_count; i++) {
-            const MesoSweep *sweep = &map->set->sweeps[tile->sweep_begin + i];
-            uint32_t strand = meso_strand_root(&map->forest, joint(map, slot, sweep->from_side, sweep->from_section));
+        for (uint32_t i = 0; i < sweep_count(map, slot); i++) {
+            uint32_t strand = strand_at(map, slot, i);
             const char *what = offence(rule, &map->forest.nodes[strand]);
             if (what)
                 return meso_fail(error, MESO_ERR_INPUT, "the strand of %u sweeps through slot %u %s",
@@ -164,6 +176,116 @@ MesoStatus meso_strands_check(const MesoStrandRule *rule, const MesoAssignment *
         status = check_strands(&map, rule, component, first, error);
     }
     meso_arena_release(&arena);
+    return status;
+}
+
+/* The two shortest strands of a piece of the surface, by their roots, or MESO_NO_INDEX. */
+typedef struct StrandPair {
+    uint32_t root[2];
+} StrandPair;
+
+/* Cuts under construction. Each strand may belong to one. */
+typedef struct CutBuilder {
+    const StrandMap *map;
+    const MesoStrandRule *rule;
+    uint32_t *cut_of;           /* [joints] cut of the strand with this root, plus 1; 0: none */
+    uint32_t count, most;
+} CutBuilder;
+
+static void number_offenders(CutBuilder *builder)
+{
+    for (uint32_t i = 0; i < builder->map->joint_count && builder->count < builder->most; i++)
+        if (is_strand(builder->map, i) && offence(builder->rule, &builder->map->forest.nodes[i]))
+            builder->cut_of[i] = ++builder->count;
+}
+
+/* On each piece the two shortest strands, which one cut keeps from staying both. */
+static void number_unconnected(CutBuilder *builder, const uint32_t *component, StrandPair *shortest)
+{
+    const StrandMap *map = builder->map;
+    for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
+        for (uint32_t i = 0; i < sweep_count(map, slot); i++) {
+            uint32_t strand = strand_at(map, slot, i);
+            uint32_t *two = shortest[component[slot]].root;
+            const MesoStrandNode *nodes = map->forest.nodes;
+            if (strand == two[0] || strand == two[1])
+                continue;
+            if (two[0] == MESO_NO_INDEX || nodes[strand].links < nodes[two[0]].links) {
+                two[1] = two[0];
+                two[0] = strand;
+            } else if (two[1] == MESO_NO_INDEX || nodes[strand].links < nodes[two[1]].links)
+                two[1] = strand;
+        }
+    for (uint32_t piece = 0; piece < map->graph->slot_count && builder->count < builder->most; piece++) {
+        const uint32_t *two = shortest[piece].root;
+        if (two[1] == MESO_NO_INDEX || builder->cut_of[two[0]] || builder->cut_of[two[1]])
+            continue;
+        builder->cut_of[two[0]] = builder->cut_of[two[1]] = ++builder->count;
+    }
+}
+
+/* Lists the slots of each cut: counts where `slots` is NULL, `fill` [count] being where each cut goes on. */
+static void go_through_cuts(const CutBuilder *builder, uint32_t *fill, uint32_t *slots)
+{
+    const StrandMap *map = builder->map;
+    for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
+        for (uint32_t i = 0; i < sweep_count(map, slot); i++) {
+            uint32_t cut = builder->cut_of[strand_at(map, slot, i)];
+            bool told = cut == 0;
+            for (uint32_t j = 0; j < i && !told; j++)
+                told = builder->cut_of[strand_at(map, slot, j)] == cut;
+            if (told)
+                continue;
+            if (slots)
+                slots[fill[cut - 1]] = slot;
+            fill[cut - 1]++;
+        }
+}
+
+static MesoStatus list_cuts(const CutBuilder *builder, MesoStrandCuts *cuts, MesoArena *arena, uint32_t *fill,
+                            MesoError *error)
+{
+    cuts->begin = MESO_NEW(arena, uint32_t, builder->count + (size_t)1, error);
+    if (!cuts->begin)
+        return MESO_ERR_MEMORY;
+    go_through_cuts(builder, fill, NULL);
+    for (uint32_t c = 0; c < builder->count; c++) {
+        cuts->begin[c + 1] = cuts->begin[c] + fill[c];
+        fill[c] = cuts->begin[c];
+    }
+    cuts->slots = MESO_NEW(arena, uint32_t, cuts->begin[builder->count], error);
+    if (!cuts->slots)
+        return MESO_ERR_MEMORY;
+    go_through_cuts(builder, fill, cuts->slots);
+    cuts->count = builder->count;
+    return MESO_OK;
+}
+
+MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoStrandRule *rule,
+                             const MesoAssignment *assignment, const MesoTileSet *set,
+                             const MesoSlotGraph *graph, uint32_t most, MesoError *error)
+{
+    StrandMap map;
+    MesoArena scratch;
+    *cuts = (MesoStrandCuts){0};
+    meso_arena_init(&scratch);
+    MesoStatus status = build(&map, &scratch, assignment, set, graph, error);
+    CutBuilder builder = {.map = &map, .rule = rule, .most = most};
+    builder.cut_of = MESO_NEW(&scratch, uint32_t, map.joint_count, error);
+    uint32_t *component = MESO_NEW(&scratch, uint32_t, graph->slot_count, error);
+    StrandPair *shortest = MESO_NEW(&scratch, StrandPair, graph->slot_count, error);
+    if (!status && (!builder.cut_of || !component || !shortest))
+        status = MESO_ERR_MEMORY;
+    if (!status) {
+        memset(shortest, 0xff, graph->slot_count * sizeof *shortest);
+        meso_slot_graph_components(graph, component);
+        number_offenders(&builder);
+        if (rule->connected)
+            number_unconnected(&builder, component, shortest);
+        uint32_t *fill = MESO_NEW(&scratch, uint32_t, builder.count, error);
+        status = fill ? list_cuts(&builder, cuts, arena, fill, error) : MESO_ERR_MEMORY;
+    }
+    meso_arena_release(&scratch);
     return status;
 }
 

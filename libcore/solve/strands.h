@@ -48,6 +48,24 @@ MesoStatus meso_strands_count(MesoStrandStatistics *statistics, const MesoAssign
 MesoStatus meso_strands_check(const MesoStrandRule *rule, const MesoAssignment *assignment,
                               const MesoTileSet *set, const MesoSlotGraph *graph, MesoError *error);
 
+/* Sets of slots that break a rule as long as each of them keeps its variant. */
+typedef struct MesoStrandCuts {
+    uint32_t count;
+    uint32_t *begin;            /* [count + 1] into slots */
+    uint32_t *slots;            /* each slot once in a set */
+} MesoStrandCuts;
+
+/*
+ * What breaks `rule` in a checked assignment: for each strand that does, the
+ * slots that it runs through; where strands should be connected, those of two
+ * strands on each piece of the surface. At most `most` sets. None exactly where
+ * meso_strands_check() is content. O(sweeps * log(sweeps)). Errors as
+ * meso_strands_count().
+ */
+MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoStrandRule *rule,
+                             const MesoAssignment *assignment, const MesoTileSet *set,
+                             const MesoSlotGraph *graph, uint32_t most, MesoError *error);
+
 /* "no-loops", or several, "connected, max-length 12". */
 const char *meso_strand_rule_name(const MesoStrandRule *rule, char text[64]);
 

@@ -3,17 +3,17 @@ cp "$fixtures/vase.obj" "$fixtures/vase.tiles.json" "$fixtures/vase.slots" .
 constraints() {
     printf '{"format": "meso-constraints", "version": 1, %s}\n' "$1" >"$2"
 }
-constraints '"pins": [{"slot": 1000, "tile": "double"}], "quotas": [{"tile": "reed turn", "least": 300, "most": 300}],
+constraints '"pins": [{"slot": 200, "tile": "double"}], "quotas": [{"tile": "reed turn", "least": 20, "most": 20}],
     "weights": {"reed loops": 5}' sound.json
 meso-solve -q --constraints sound.json --report sound.report vase.tiles.json vase.obj -o sound.slots
 meso-info sound.slots | grep -o '"reed turn": [0-9]*'
 
 constraints '"pins": [{"name": "first", "slot": 0, "tile": "double"}]' alone.json
 meso-solve --constraints alone.json vase.tiles.json vase.obj -o no.slots || echo "alone: $?"
-constraints '"pins": [{"slot": 1000, "tile": "double"}, {"name": "beside", "slot": 1001, "tile": "ribbon"}],
-    "quotas": [{"tile": "double", "most": 300}]' together.json
+constraints '"pins": [{"slot": 200, "tile": "double"}, {"name": "beside", "slot": 201, "tile": "ribbon"}],
+    "quotas": [{"tile": "double", "most": 30}]' together.json
 meso-solve --constraints together.json vase.tiles.json vase.obj -o no.slots || echo "together: $?"
-constraints '"quotas": [{"tile": "foot", "most": 63}]' quota.json
+constraints '"quotas": [{"tile": "foot", "most": 15}]' quota.json
 meso-solve --constraints quota.json vase.tiles.json vase.obj -o no.slots || echo "quota: $?"
 constraints '"pins": [{"slot": 4000, "tile": "double"}]' beyond.json
 meso-solve --constraints beyond.json vase.tiles.json vase.obj -o no.slots || echo "beyond: $?"
