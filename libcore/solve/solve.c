@@ -165,34 +165,27 @@ static MesoStatus search_for(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-/* What decisions try first: the variants to keep, or what the search came to. */
-static MesoStatus choose_phases(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
+/* The states of one variant each where variant[slot_count] says one, and those of the search elsewhere. */
+static MesoStatus fill_single_states(Search *search, const uint32_t *variant, uint32_t *states, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
-    const uint32_t *hint = search->propagation.state;
-    if (constraints && constraints->keep) {
-        uint32_t count = search->graph->slot_count;
-        uint32_t *kept = MESO_NEW(&search->scratch, uint32_t, count, error);
-        for (uint32_t s = 0; kept && s < count; s++) {
-            kept[s] = search->propagation.state[s];
-            if (constraints->keep[s] == MESO_NO_INDEX)
-                continue;
-            kept[s] = meso_domain_single(&search->propagation.domains, constraints->keep[s], error);
-            if (kept[s] == MESO_NO_INDEX)
-                return MESO_ERR_MEMORY;
-        }
-        hint = kept;
+    for (uint32_t s = 0; s < search->graph->slot_count; s++) {
+        states[s] = variant[s] == MESO_NO_INDEX
+                        ? search->propagation.state[s]
+                        : meso_domain_single(&search->propagation.domains, variant[s], error);
+        if (states[s] == MESO_NO_INDEX)
+            return MESO_ERR_MEMORY;
     }
-    return hint ? meso_exact_choose_phases(exact, hint, random, error) : MESO_ERR_MEMORY;
+    return MESO_OK;
 }
 
-static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                             MesoError *error)
+/* `hint` [slot_count] has the states that decisions try first. */
+static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *hint, MesoSatAnswer *answer,
+                             MesoRandom *random, MesoError *error)
 {
     const MesoSolveOptions *options = search->options;
     uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
     uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
-    MesoStatus status = choose_phases(search, exact, random, error);
+    MesoStatus status = meso_exact_choose_phases(exact, hint, random, error);
     if (!status)
         status = meso_sat_solve(exact->sat, answer, NULL, 0, phased, options->stop,
                                 options->stop_context, error);
@@ -206,44 +199,56 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *an
                           options->stop, options->stop_context, error);
 }
 
-/* Takes the engine's solution, unless it breaks the rule on strands: then `*cuts` says how often. */
-static MesoStatus take_solution(Search *search, MesoExact *exact, MesoRandom *random, uint32_t *cuts,
-                                MesoError *error)
+/* Tells the answer; a solution goes to `variant`, unless it breaks the rule on strands: then there are `*cuts`. */
+static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer answer, uint32_t *variant,
+                              uint32_t *cuts, MesoRandom *random, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
-    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
-    if (!variant)
-        return MESO_ERR_MEMORY;
+    MesoSolveResult *result = search->result;
+    if (answer == MESO_SAT_NO)
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = answer != MESO_SAT_UNKNOWN ? MESO_DECIDER_EXACT
+                      : told_to_stop(search)     ? MESO_DECIDER_STOP
+                                                 : MESO_DECIDER_CONFLICTS;
+    if (answer != MESO_SAT_YES)
+        return MESO_OK;
     MesoStatus status = meso_exact_extract(exact, variant, random, error);
     if (!status && constraints && meso_strand_rule_given(&constraints->strands))
         status = meso_exact_cut_strands(exact, &constraints->strands, variant, search->variants, cuts, error);
     return status || *cuts ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
 }
 
-/* Asks until there is an answer that no rule on strands cuts off. */
+/* Asks until there is an answer that no rule on strands cuts off, each time for one like the last. */
 static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
 {
-    MesoSolveResult *result = search->result;
+    const MesoConstraints *constraints = search->options->constraints;
+    const uint32_t *hint = search->propagation.state;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    uint32_t *like_last = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    if (!variant || !like_last)
+        return MESO_ERR_MEMORY;
+    if (constraints && constraints->keep) {
+        if (fill_single_states(search, constraints->keep, like_last, error))
+            return MESO_ERR_MEMORY;
+        hint = like_last;
+    }
     for (uint32_t round = 0; round < MOST_CUT_ROUNDS; round++) {
         MesoSatAnswer answer = MESO_SAT_UNKNOWN;
         uint32_t cuts = 0;
-        MesoStatus status = ask_engine(search, exact, &answer, random, error);
-        if (!status && answer == MESO_SAT_YES)
-            status = take_solution(search, exact, random, &cuts, error);
-        if (status || cuts == 0) {
-            if (answer == MESO_SAT_NO) {
-                result->verdict = MESO_VERDICT_UNSOLVABLE;
-                result->decider = MESO_DECIDER_EXACT;
-            } else if (answer == MESO_SAT_UNKNOWN)
-                result->decider = told_to_stop(search) ? MESO_DECIDER_STOP : MESO_DECIDER_CONFLICTS;
+        MesoStatus status = ask_engine(search, exact, hint, &answer, random, error);
+        if (!status)
+            status = read_answer(search, exact, answer, variant, &cuts, random, error);
+        if (status || cuts == 0)
             return status;
-        }
+        if (fill_single_states(search, variant, like_last, error))
+            return MESO_ERR_MEMORY;
+        hint = like_last;
         if (told_to_stop(search)) {
-            result->decider = MESO_DECIDER_STOP;
+            search->result->decider = MESO_DECIDER_STOP;
             return MESO_OK;
         }
     }
-    result->decider = MESO_DECIDER_CONFLICTS;
+    search->result->decider = MESO_DECIDER_CONFLICTS;
     return MESO_OK;
 }
 
