@@ -4,6 +4,7 @@
 #   check             every test: units, folder pages, man pages, command lines
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   bench             rates of every stage, beside the prototype's
+#   bench-solve       the solver alone, and every combination of the data's surfaces and tile sets
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -120,6 +121,10 @@ check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
 	@scripts/bench $(OUT) $(BIN) $(DATA) $(BENCHES)
+bench-solve: benches
+	$(OUT)/test/libcore/solve/solve_bench
+	$(OUT)/test/formats/solve_pairs_bench $(DATA)
+	$(OUT)/test/formats/solve_table_bench $(DATA)
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 fuzz-run: fuzzers
@@ -131,7 +136,7 @@ install: all
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all tests generators check check-unit check-cli check-reference bench demo fuzz-run \
+.PHONY: all tests generators check check-unit check-cli check-reference bench bench-solve demo fuzz-run \
         fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

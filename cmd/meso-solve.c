@@ -10,6 +10,7 @@ typedef struct Arguments {
     uint32_t attempts;
     const char *report;
     MesoControlArguments control;
+    MesoEngineArguments engine;
 } Arguments;
 
 typedef struct Problem {
@@ -89,6 +90,19 @@ static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slo
     return status;
 }
 
+static MesoStatus say_limit(Arguments *a, const MesoSolveResult *result)
+{
+    static const char *const limits[] = {
+        [MESO_DECIDER_ATTEMPTS] = "the end of the search's attempts or observations; try --attempts, --engine auto, "
+                                  "--seed or meso-suggest",
+        [MESO_DECIDER_CONFLICTS] = "the end of the exact engine's conflicts; try --conflicts, --seed or meso-suggest",
+        [MESO_DECIDER_STOP] = "the end of the time; try --budget, --seed or meso-suggest",
+    };
+    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s%s%s, at %s", result->attempts,
+                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason,
+                     limits[result->decider]);
+}
+
 static MesoStatus say_verdict(Arguments *a, const Problem *p)
 {
     const MesoSolveResult *result = &p->result;
@@ -111,16 +125,14 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
     case MESO_VERDICT_GAVE_UP:
         break;
     }
-    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s, each with a dead "
-                     "end%s%s; try --attempts, --seed or meso-suggest", result->attempts,
-                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason);
+    return say_limit(a, result);
 }
 
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->graph, p->constraints, a->attempts,
-                                        &p->result);
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->graph, p->constraints, &a->engine,
+                                        a->attempts, &p->result);
     if (!status)
         status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->graph,
                                   &tool->error);
@@ -157,10 +169,11 @@ int main(int argc, char **argv)
     Arguments a = {.attempts = 20};
     const MesoOption options[] = {
         {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts before giving up (default 20)",
+        {MESO_OPTION_COUNT, 0, "attempts", "N", "attempts of the search (default 20)",
          &a.attempts, 0, 1, 1e9, 0},
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
+        MESO_ENGINE_OPTIONS(a.engine),
         MESO_CONTROL_OPTIONS(a.control),
         MESO_TOOL_OPTIONS(a.tool),
         {0},

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "formats/json_text.h"
+#include "formats/report_file.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
 
@@ -51,12 +52,29 @@ static double milliseconds(void)
     return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
 }
 
+static MesoStatus solve_by_engine(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
+                                  const MesoSlotGraph *graph, const MesoEngineArguments *engine,
+                                  MesoSolveOptions *options, MesoSolveResult *result)
+{
+    MesoEngineRun *run = MESO_NEW(&tool->arena, MesoEngineRun, 1, &tool->error);
+    if (!run)
+        return MESO_ERR_MEMORY;
+    options->engine = MESO_ENGINE_AUTO;
+    MesoStatus status = meso_engine_start(run, tool, engine, options);
+    if (!status)
+        status = meso_solve(result, &tool->arena, set, variants, graph, options, &tool->error);
+    MesoStatus written = meso_engine_finish(run, tool, status ? NULL : result);
+    return status ? status : written;
+}
+
 MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
                            const MesoSlotGraph *graph, const MesoConstraints *constraints,
-                           uint32_t max_attempts, MesoSolveResult *result)
+                           const MesoEngineArguments *engine, uint32_t max_attempts,
+                           MesoSolveResult *result)
 {
     MesoSolveOptions options = {
         .seed = tool->seed,
+        .engine = MESO_ENGINE_WFC,
         .max_attempts = max_attempts,
         .max_dead_ends = MESO_REPORT_DEAD_ENDS,
         .constraints = constraints,
@@ -65,13 +83,14 @@ MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVar
     };
     meso_tool_progress_begin(tool, "solving", "slots");
     double start = milliseconds();
-    MesoStatus status = meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
+    MesoStatus status = engine ? solve_by_engine(tool, set, variants, graph, engine, &options, result)
+                               : meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
     double duration = milliseconds() - start;
     if (!status && tool->verbose)
-        meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations in %u attempt%s",
-                      graph->slot_count, variants->count, duration,
-                      (unsigned long long)result->observations, result->attempts,
-                      result->attempts == 1 ? "" : "s");
+        meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations and %llu repairs in %u attempt%s, "
+                      "decided by %s", graph->slot_count, variants->count, duration,
+                      (unsigned long long)result->observations, (unsigned long long)result->repairs,
+                      result->attempts, result->attempts == 1 ? "" : "s", meso_decider_name(result->decider));
     return status;
 }
 

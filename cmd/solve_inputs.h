@@ -2,7 +2,7 @@
 #ifndef MESO_SOLVE_INPUTS_H
 #define MESO_SOLVE_INPUTS_H
 
-#include "cmd/tool.h"
+#include "cmd/solve_engine.h"
 #include "formats/output.h"
 #include "libcore/solve/solve.h"
 
@@ -17,10 +17,14 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
 MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
                                 uint64_t hash[2]);
 
-/* Solves, with progress, under `constraints` (NULL: none); with -v says how long it took. */
+/*
+ * Solves, with progress, under `constraints` (NULL: none) by `engine` (NULL: the
+ * search alone); with -v says how long it took.
+ */
 MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
                            const MesoSlotGraph *graph, const MesoConstraints *constraints,
-                           uint32_t max_attempts, MesoSolveResult *result);
+                           const MesoEngineArguments *engine, uint32_t max_attempts,
+                           MesoSolveResult *result);
 
 /* Writes `value`, or says that memory is out where it is NULL; frees it. Does not commit. */
 MesoStatus meso_tool_write_json(json_t *value, MesoOutput *output, MesoError *error);

@@ -106,8 +106,10 @@ MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const
     int failed = json_object_set_new(object, "verdict", json_string(meso_verdict_name(result->verdict)));
     if (*result->reason)
         failed |= json_object_set_new(object, "reason", meso_json_string(result->reason));
+    failed |= json_object_set_new(object, "decided_by", json_string(meso_decider_name(result->decider)));
     failed |= json_object_set_new(object, "attempts", json_integer(result->attempts));
     failed |= json_object_set_new(object, "observations", json_integer((json_int_t)result->observations));
+    failed |= json_object_set_new(object, "repairs", json_integer((json_int_t)result->repairs));
     failed |= json_object_set_new(object, "slots", json_integer(graph->slot_count));
     failed |= json_object_set_new(object, "variants", json_integer(variants->count));
     if (result->verdict == MESO_VERDICT_SOLVED)

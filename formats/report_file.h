@@ -3,8 +3,10 @@
  *
  *     {"format": "meso-report", "version": 1, "tool": "meso-solve",
  *      "verdict": "solved", "unsolvable" or "gave-up",
- *      "reason": why, in words, where constraints have a part in it
- *      "attempts", "observations", "slots", "variants": numbers,
+ *      "decided_by": "propagation", "search", "counting", "parity" or "exact"; where the solver gave up,
+ *          the limit: "attempts", "conflicts" or "stop"
+ *      "reason": why, in words, where it is not plain that a slot is left without a tile
+ *      "attempts", "observations", "repairs", "slots", "variants": numbers,
  *      "tiles": {name: slots that hold it, ...}                    where solved
  *      "constraints": {"backtracks": choices taken back, "violations": {name: times, ...},
  *          "kept", "changed": slots, where an assignment was to be kept}   where there are any

@@ -136,7 +136,8 @@ static MesoStatus search_for(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     const MesoSolveOptions *options = search->options;
-    MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints, .tick = tick, .dead_end = note_dead_end, .context = search,
+    MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints,
+                      .tick = tick, .dead_end = note_dead_end, .context = search,
                       .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
     MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
     MesoStatus status = MESO_OK;
@@ -205,8 +206,11 @@ static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer an
 {
     const MesoConstraints *constraints = search->options->constraints;
     MesoSolveResult *result = search->result;
-    if (answer == MESO_SAT_NO)
+    if (answer == MESO_SAT_NO) {
         result->verdict = MESO_VERDICT_UNSOLVABLE;
+        if (!*result->reason)
+            result->reason = "the exact engine went through all cases";
+    }
     result->decider = answer != MESO_SAT_UNKNOWN ? MESO_DECIDER_EXACT
                       : told_to_stop(search)     ? MESO_DECIDER_STOP
                                                  : MESO_DECIDER_CONFLICTS;
@@ -257,7 +261,8 @@ static MesoStatus decide_exactly(Search *search, MesoError *error)
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
     MesoRandom random;
-    MesoExactOptions options = {0};
+    MesoExactOptions options = {.proof = search->options->proof, .clause = search->options->clause,
+                                .context = search->options->proof_context};
     bool complete = true;
     meso_random_init(&random, search->options->seed, UINT64_MAX);
     if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))

@@ -63,6 +63,10 @@ typedef struct MesoSolveOptions {
     const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
+    bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof
+                                       (DRAT), in pieces; false: cannot; may be NULL */
+    void (*clause)(void *context, const int32_t *literals, uint32_t count); /* gets its clauses; may be NULL */
+    void *proof_context;
     bool (*stop)(void *context);    /* asked now and then: true ends the work; may be NULL */
     void *stop_context;
 } MesoSolveOptions;
@@ -73,7 +77,7 @@ enum { MESO_SOLVE_CONFLICTS = 2000000 };
 typedef struct MesoSolveResult {
     MesoVerdict verdict;
     MesoDecider decider;
-    const char *reason;         /* in words, for the user; "" where solved */
+    const char *reason;         /* in words, for the user: what proves it, or stood in the way; or "" */
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
     uint64_t repairs;           /* over all attempts: balls of slots reopened around a dead end */
@@ -90,8 +94,8 @@ typedef struct MesoSolveResult {
 /*
  * Assigns variants to slots. The result depends on the arguments alone, unless
  * `stop` ended the work. A solved assignment has passed meso_assignment_check() and
- * meso_constraints_check(). Returns MESO_OK for every verdict; MESO_ERR_MEMORY, or MESO_ERR_INPUT for a set without
- * variants. Memory O(slots * (words of variants + words of labels)).
+ * meso_constraints_check(). Returns MESO_OK for every verdict; MESO_ERR_MEMORY, or
+ * MESO_ERR_INPUT for a set without variants. Memory O(slots * (words of variants + words of labels)).
  */
 MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
                       const MesoVariantSet *variants, const MesoSlotGraph *graph,
