@@ -266,6 +266,7 @@ static void test_quota_gives_up(void)
     CHECK(result.violations[0] + result.violations[1] > 0 && strstr(result.reason, "quotas["));
     result = solve_by(&c, MESO_ENGINE_AUTO, 0, 1);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
+    CHECK(strstr(result.reason, "quotas[0] and quotas[1] cannot hold together: ") == result.reason);
     quotas[1].most = 5;
     result = solve(&c, 0, 20);
     CHECK(result.verdict == MESO_VERDICT_SOLVED && uses(&result.assignment, 1) >= 5);

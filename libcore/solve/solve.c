@@ -305,18 +305,28 @@ static MesoStatus decide_by_numbers(Search *search, MesoError *error)
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* Which constraints the initial fixed point disproves, in words. */
-static MesoStatus explain(Search *search, MesoError *error)
+/*
+ * Which constraints are disproved, in words, before the reason that there is: by
+ * the initial fixed point, or where `deep` by more. No news where the fault is not theirs.
+ */
+static MesoStatus explain(Search *search, bool deep, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
-    const MesoSolveResult *result = search->result;
-    uint32_t count = 0, slot = result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
+    MesoSolveResult *result = search->result;
+    if (!constraints || search->options->unexplained || meso_constraint_count(constraints) == 0)
+        return MESO_OK;
+    uint32_t count = 0, slot = !deep && result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
     uint32_t *numbers = MESO_NEW(&search->scratch, uint32_t, meso_constraint_count(constraints), error);
     if (!numbers || meso_explain(numbers, &count, search->set, search->variants, search->graph, constraints,
-                                 slot, error))
+                                 slot, deep, search->options->seed, error))
         return MESO_ERR_MEMORY;
-    search->result->reason = meso_explanation_text(search->arena, constraints, numbers, count, error);
-    return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    if (deep && count == 0)
+        return MESO_OK;
+    const char *text = meso_explanation_text(search->arena, constraints, numbers, count, error);
+    if (text && *result->reason)
+        text = meso_arena_print(search->arena, error, "%s: %s", text, result->reason);
+    result->reason = text;
+    return text ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static MesoStatus say_disproved(Search *search, MesoError *error)
@@ -324,7 +334,7 @@ static MesoStatus say_disproved(Search *search, MesoError *error)
     search->result->verdict = MESO_VERDICT_UNSOLVABLE;
     search->result->decider = MESO_DECIDER_PROPAGATION;
     MesoStatus status = record_initial_dead_ends(search, error);
-    return !status && search->options->constraints ? explain(search, error) : status;
+    return status ? status : explain(search, false, error);
 }
 
 /* After a guided search without a solution: the constraint that it met most often, in words. */
@@ -394,21 +404,14 @@ static MesoStatus search_guided(Search *search, MesoError *error)
 }
 
 /* The ladder: each rung leaves the verdict "gave up", or a better one. */
-static MesoStatus run(Search *search, MesoError *error)
+static MesoStatus climb(Search *search, bool guided, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     MesoEngine engine = search->options->engine;
-    const MesoConstraints *constraints = search->options->constraints;
-    bool guided = constraints && meso_constraints_need_guidance(constraints);
-    bool disproved = search->propagation.initial_dead_count ||
-                     search->propagation.broken_quota != MESO_NO_INDEX;
-    MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
-    if (!status && disproved)
-        return say_disproved(search, error);
-
+    MesoStatus status = MESO_OK;
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
-    if (!status && engine != MESO_ENGINE_EXACT)
+    if (engine != MESO_ENGINE_EXACT)
         status = guided ? search_guided(search, error) : search_for(search, error);
     if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
         return status;
@@ -416,6 +419,22 @@ static MesoStatus run(Search *search, MesoError *error)
         status = decide_by_numbers(search, error);
     if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
         status = decide_exactly(search, error);
+    return status;
+}
+
+static MesoStatus run(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    bool guided = constraints && meso_constraints_need_guidance(constraints);
+    bool disproved = search->propagation.initial_dead_count ||
+                     search->propagation.broken_quota != MESO_NO_INDEX;
+    MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
+    if (!status && disproved)
+        return say_disproved(search, error);
+    if (!status)
+        status = climb(search, guided, error);
+    if (!status && search->result->verdict == MESO_VERDICT_UNSOLVABLE)
+        status = explain(search, true, error);
     return status;
 }
 
