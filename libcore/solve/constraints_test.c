@@ -26,17 +26,22 @@ static void begin(Case *c, const int32_t (*labels)[4], uint32_t interfaces, uint
     CHECK(c->variants.count == tiles);
 }
 
-static MesoSolveResult solve(Case *c, uint64_t seed, uint32_t attempts)
+static MesoSolveResult solve_by(Case *c, MesoEngine engine, uint64_t seed, uint32_t attempts)
 {
     MesoSolveResult result;
     MesoError error;
-    MesoSolveOptions options = {.seed = seed, .max_attempts = attempts, .max_dead_ends = 10,
+    MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = attempts, .max_dead_ends = 10,
                                 .constraints = &c->constraints};
     CHECK(meso_solve(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
     if (result.verdict == MESO_VERDICT_SOLVED)
         CHECK(meso_constraints_check(&c->constraints, &result.assignment, &c->set, &c->variants, &c->graph,
                                      &error) == MESO_OK);
     return result;
+}
+
+static MesoSolveResult solve(Case *c, uint64_t seed, uint32_t attempts)
+{
+    return solve_by(c, MESO_ENGINE_WFC, seed, attempts);
 }
 
 /* Chi square with 3 degrees of freedom is above 16.3 once in a thousand times. */
@@ -210,6 +215,8 @@ static void test_quotas(void)
         MesoSolveResult result = solve(&c, seed, 2);
         CHECK(result.verdict == MESO_VERDICT_SOLVED);
         CHECK(uses(&result.assignment, 0) <= 7 && uses(&result.assignment, 1) >= 90);
+        result = solve_by(&c, MESO_ENGINE_EXACT, seed, 1);
+        CHECK(result.verdict == MESO_VERDICT_SOLVED && uses(&result.assignment, 1) >= 90);
     }
     /* Exactly all of them: nothing is left to choose. */
     quotas[2].least = quotas[2].most = 30;
@@ -257,6 +264,9 @@ static void test_quota_gives_up(void)
     MesoSolveResult result = solve(&c, 0, 2);
     CHECK(result.verdict != MESO_VERDICT_SOLVED && result.backtracks > 0);
     CHECK(result.violations[0] + result.violations[1] > 0 && strstr(result.reason, "quotas["));
+    result = solve_by(&c, MESO_ENGINE_AUTO, 0, 1);
+    CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
+    CHECK(strstr(result.reason, "quotas[0] and quotas[1] cannot hold together: ") == result.reason);
     quotas[1].most = 5;
     result = solve(&c, 0, 20);
     CHECK(result.verdict == MESO_VERDICT_SOLVED && uses(&result.assignment, 1) >= 5);
@@ -320,6 +330,8 @@ static void test_exhaustion(void)
             MesoSolveResult result = solve(&c, most, 3);
             CHECK(result.verdict == (possible ? MESO_VERDICT_SOLVED : MESO_VERDICT_UNSOLVABLE));
             CHECK(possible || strstr(result.reason, "quotas[0]") || strstr(result.reason, "every choice"));
+            result = solve_by(&c, MESO_ENGINE_EXACT, most, 1);
+            CHECK(result.verdict == (possible ? MESO_VERDICT_SOLVED : MESO_VERDICT_UNSOLVABLE));
             meso_arena_release(&c.arena);
         }
 }

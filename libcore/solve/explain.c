@@ -4,11 +4,16 @@
 #include <string.h>
 
 #include "libcore/solve/propagate.h"
+#include "libcore/solve/solve.h"
 #include "libcore/solve/strand_search.h"
 
 /* Slots that all tries together may go through; a few seconds. */
 static const uint64_t work_limit = (uint64_t)1 << 26;
-enum { LEAST_TRIES = 64, NAMES_IN_TEXT = 8 };
+static const uint64_t deep_work_limit = (uint64_t)1 << 18;
+enum { LEAST_TRIES = 64, LEAST_DEEP_TRIES = 8, NAMES_IN_TEXT = 8 };
+
+/* Limits of a solve that is a try. */
+enum { DEEP_CONFLICTS = 20000, DEEP_ATTEMPTS = 1 };
 
 typedef struct Explainer {
     const MesoTileSet *set;
@@ -18,6 +23,8 @@ typedef struct Explainer {
     MesoRestriction *restrictions;      /* [restriction_count] room for a selection */
     MesoQuota *quotas;                  /* [quota_count] the same */
     uint32_t *selected;                 /* [constraint count] the ones that a try has */
+    bool deep;
+    uint64_t seed;
     uint64_t tries_left;
     MesoStatus status;
     MesoError *error;
@@ -39,26 +46,42 @@ static MesoConstraints select_constraints(Explainer *explainer, const uint32_t *
     return some;
 }
 
-/* Whether the initial propagation disproves these constraints. */
+static MesoStatus try_propagation(Explainer *explainer, const MesoConstraints *some, MesoArena *scratch, bool *no)
+{
+    MesoPropagation propagation;
+    MesoStatus status = meso_propagation_init(&propagation, scratch, explainer->set, explainer->variants,
+                                              explainer->graph, some, explainer->error);
+    *no = !status && (propagation.initial_dead_count || propagation.broken_quota != MESO_NO_INDEX);
+    if (!status && !*no)
+        status = meso_strand_search_disproves(no, scratch, &propagation, explainer->variants, some,
+                                              explainer->error);
+    meso_propagation_release(&propagation);
+    return status;
+}
+
+static MesoStatus try_solve(Explainer *explainer, const MesoConstraints *some, MesoArena *scratch, bool *no)
+{
+    MesoSolveResult result;
+    const MesoSolveOptions options = {.seed = explainer->seed, .max_attempts = DEEP_ATTEMPTS,
+                                      .max_conflicts = DEEP_CONFLICTS, .constraints = some, .unexplained = true};
+    MesoStatus status = meso_solve(&result, scratch, explainer->set, explainer->variants, explainer->graph,
+                                   &options, explainer->error);
+    *no = !status && result.verdict == MESO_VERDICT_UNSOLVABLE;
+    return status;
+}
+
+/* Whether a try disproves these constraints. */
 static bool disproved(Explainer *explainer, const uint32_t *numbers, uint32_t count)
 {
     if (explainer->status || explainer->tries_left == 0)
         return false;
     explainer->tries_left--;
     MesoConstraints some = select_constraints(explainer, numbers, count);
-    MesoPropagation propagation;
     MesoArena scratch;
     bool no = false;
     meso_arena_init(&scratch);
-    explainer->status = meso_propagation_init(&propagation, &scratch, explainer->set, explainer->variants,
-                                              explainer->graph, &some, explainer->error);
-    if (!explainer->status) {
-        no = propagation.initial_dead_count || propagation.broken_quota != MESO_NO_INDEX;
-        if (!no)
-            explainer->status = meso_strand_search_disproves(&no, &scratch, &propagation, explainer->variants,
-                                                             &some, explainer->error);
-    }
-    meso_propagation_release(&propagation);
+    explainer->status = explainer->deep ? try_solve(explainer, &some, &scratch, &no)
+                                        : try_propagation(explainer, &some, &scratch, &no);
     meso_arena_release(&scratch);
     return no;
 }
@@ -127,11 +150,14 @@ static void sort_ascending(uint32_t *numbers, uint32_t count)
 
 MesoStatus meso_explain(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
                         const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoConstraints *constraints, uint32_t slot, MesoError *error)
+                        const MesoConstraints *constraints, uint32_t slot, bool deep, uint64_t seed,
+                        MesoError *error)
 {
     MesoArena arena;
     Explainer explainer = {.set = set, .variants = variants, .graph = graph, .constraints = constraints,
-                           .tries_left = LEAST_TRIES + work_limit / (graph->slot_count + 1u), .error = error};
+                           .deep = deep, .seed = seed, .error = error};
+    explainer.tries_left = deep ? LEAST_DEEP_TRIES + deep_work_limit / (graph->slot_count + (uint64_t)1)
+                                : LEAST_TRIES + work_limit / (graph->slot_count + (uint64_t)1);
     meso_arena_init(&arena);
     explainer.restrictions = MESO_NEW(&arena, MesoRestriction, constraints->restriction_count, error);
     explainer.quotas = MESO_NEW(&arena, MesoQuota, constraints->quota_count, error);
@@ -140,7 +166,8 @@ MesoStatus meso_explain(uint32_t *numbers, uint32_t *count, const MesoTileSet *s
         explainer.status = MESO_ERR_MEMORY;
     if (!explainer.status) {
         *count = collect(&explainer, numbers, slot);
-        *count = shrink(&explainer, 0, true, numbers, *count);
+        if (!deep || disproved(&explainer, numbers, *count))
+            *count = shrink(&explainer, 0, true, numbers, *count);
     }
     /* Halves that were put back stand in their order, unless the tries ran out. */
     if (!explainer.status)

@@ -166,34 +166,27 @@ static MesoStatus search_for(Search *search, MesoError *error)
     return MESO_OK;
 }
 
-/* What decisions try first: the variants to keep, or what the search came to. */
-static MesoStatus choose_phases(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
+/* The states of one variant each where variant[slot_count] says one, and those of the search elsewhere. */
+static MesoStatus fill_single_states(Search *search, const uint32_t *variant, uint32_t *states, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
-    const uint32_t *hint = search->propagation.state;
-    if (constraints && constraints->keep) {
-        uint32_t count = search->graph->slot_count;
-        uint32_t *kept = MESO_NEW(&search->scratch, uint32_t, count, error);
-        for (uint32_t s = 0; kept && s < count; s++) {
-            kept[s] = search->propagation.state[s];
-            if (constraints->keep[s] == MESO_NO_INDEX)
-                continue;
-            kept[s] = meso_domain_single(&search->propagation.domains, constraints->keep[s], error);
-            if (kept[s] == MESO_NO_INDEX)
-                return MESO_ERR_MEMORY;
-        }
-        hint = kept;
+    for (uint32_t s = 0; s < search->graph->slot_count; s++) {
+        states[s] = variant[s] == MESO_NO_INDEX
+                        ? search->propagation.state[s]
+                        : meso_domain_single(&search->propagation.domains, variant[s], error);
+        if (states[s] == MESO_NO_INDEX)
+            return MESO_ERR_MEMORY;
     }
-    return hint ? meso_exact_choose_phases(exact, hint, random, error) : MESO_ERR_MEMORY;
+    return MESO_OK;
 }
 
-static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                             MesoError *error)
+/* `hint` [slot_count] has the states that decisions try first. */
+static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *hint, MesoSatAnswer *answer,
+                             MesoRandom *random, MesoError *error)
 {
     const MesoSolveOptions *options = search->options;
     uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
     uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
-    MesoStatus status = choose_phases(search, exact, random, error);
+    MesoStatus status = meso_exact_choose_phases(exact, hint, random, error);
     if (!status)
         status = meso_sat_solve(exact->sat, answer, NULL, 0, phased, options->stop,
                                 options->stop_context, error);
@@ -207,46 +200,59 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, MesoSatAnswer *an
                           options->stop, options->stop_context, error);
 }
 
-/* Takes the engine's solution, unless it breaks the rule on strands: then `*cuts` says how often. */
-static MesoStatus take_solution(Search *search, MesoExact *exact, MesoRandom *random, uint32_t *cuts,
-                                MesoError *error)
+/* Tells the answer; a solution goes to `variant`, unless it breaks the rule on strands: then there are `*cuts`. */
+static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer answer, uint32_t *variant,
+                              uint32_t *cuts, MesoRandom *random, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
-    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
-    if (!variant)
-        return MESO_ERR_MEMORY;
+    MesoSolveResult *result = search->result;
+    if (answer == MESO_SAT_NO) {
+        result->verdict = MESO_VERDICT_UNSOLVABLE;
+        if (!*result->reason)
+            result->reason = "the exact engine went through all cases";
+    }
+    result->decider = answer != MESO_SAT_UNKNOWN ? MESO_DECIDER_EXACT
+                      : told_to_stop(search)     ? MESO_DECIDER_STOP
+                                                 : MESO_DECIDER_CONFLICTS;
+    if (answer != MESO_SAT_YES)
+        return MESO_OK;
     MesoStatus status = meso_exact_extract(exact, variant, random, error);
     if (!status && constraints && meso_strand_rule_given(&constraints->strands))
         status = meso_exact_cut_strands(exact, &constraints->strands, variant, search->variants, cuts, error);
     return status || *cuts ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
 }
 
-/* Asks until there is an answer that no rule on strands cuts off. */
+/* Asks until there is an answer that no rule on strands cuts off, each time for one like the last. */
 static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
 {
-    MesoSolveResult *result = search->result;
+    const MesoConstraints *constraints = search->options->constraints;
+    const uint32_t *hint = search->propagation.state;
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    uint32_t *like_last = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    if (!variant || !like_last)
+        return MESO_ERR_MEMORY;
+    if (constraints && constraints->keep) {
+        if (fill_single_states(search, constraints->keep, like_last, error))
+            return MESO_ERR_MEMORY;
+        hint = like_last;
+    }
     for (uint32_t round = 0; round < MOST_CUT_ROUNDS; round++) {
         MesoSatAnswer answer = MESO_SAT_UNKNOWN;
         uint32_t cuts = 0;
-        MesoStatus status = ask_engine(search, exact, &answer, random, error);
-        if (!status && answer == MESO_SAT_YES)
-            status = take_solution(search, exact, random, &cuts, error);
-        if (status || cuts == 0) {
-            if (answer == MESO_SAT_NO) {
-                result->verdict = MESO_VERDICT_UNSOLVABLE;
-                result->decider = MESO_DECIDER_EXACT;
-                if (!*result->reason)
-                    result->reason = "the exact engine went through all cases";
-            } else if (answer == MESO_SAT_UNKNOWN)
-                result->decider = told_to_stop(search) ? MESO_DECIDER_STOP : MESO_DECIDER_CONFLICTS;
+        MesoStatus status = ask_engine(search, exact, hint, &answer, random, error);
+        if (!status)
+            status = read_answer(search, exact, answer, variant, &cuts, random, error);
+        if (status || cuts == 0)
             return status;
-        }
+        if (fill_single_states(search, variant, like_last, error))
+            return MESO_ERR_MEMORY;
+        hint = like_last;
         if (told_to_stop(search)) {
-            result->decider = MESO_DECIDER_STOP;
+            search->result->decider = MESO_DECIDER_STOP;
             return MESO_OK;
         }
     }
-    result->decider = MESO_DECIDER_CONFLICTS;
+    search->result->decider = MESO_DECIDER_CONFLICTS;
     return MESO_OK;
 }
 
@@ -299,18 +305,28 @@ static MesoStatus decide_by_numbers(Search *search, MesoError *error)
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* Which constraints the initial fixed point disproves, in words. */
-static MesoStatus explain(Search *search, MesoError *error)
+/*
+ * Which constraints are disproved, in words, before the reason that there is: by
+ * the initial fixed point, or where `deep` by more. No news where the fault is not theirs.
+ */
+static MesoStatus explain(Search *search, bool deep, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
-    const MesoSolveResult *result = search->result;
-    uint32_t count = 0, slot = result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
+    MesoSolveResult *result = search->result;
+    if (!constraints || search->options->unexplained || meso_constraint_count(constraints) == 0)
+        return MESO_OK;
+    uint32_t count = 0, slot = !deep && result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
     uint32_t *numbers = MESO_NEW(&search->scratch, uint32_t, meso_constraint_count(constraints), error);
     if (!numbers || meso_explain(numbers, &count, search->set, search->variants, search->graph, constraints,
-                                 slot, error))
+                                 slot, deep, search->options->seed, error))
         return MESO_ERR_MEMORY;
-    search->result->reason = meso_explanation_text(search->arena, constraints, numbers, count, error);
-    return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
+    if (deep && count == 0)
+        return MESO_OK;
+    const char *text = meso_explanation_text(search->arena, constraints, numbers, count, error);
+    if (text && *result->reason)
+        text = meso_arena_print(search->arena, error, "%s: %s", text, result->reason);
+    result->reason = text;
+    return text ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static MesoStatus say_disproved(Search *search, MesoError *error)
@@ -318,7 +334,7 @@ static MesoStatus say_disproved(Search *search, MesoError *error)
     search->result->verdict = MESO_VERDICT_UNSOLVABLE;
     search->result->decider = MESO_DECIDER_PROPAGATION;
     MesoStatus status = record_initial_dead_ends(search, error);
-    return !status && search->options->constraints ? explain(search, error) : status;
+    return status ? status : explain(search, false, error);
 }
 
 /* After a guided search without a solution: the constraint that it met most often, in words. */
@@ -388,21 +404,14 @@ static MesoStatus search_guided(Search *search, MesoError *error)
 }
 
 /* The ladder: each rung leaves the verdict "gave up", or a better one. */
-static MesoStatus run(Search *search, MesoError *error)
+static MesoStatus climb(Search *search, bool guided, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     MesoEngine engine = search->options->engine;
-    const MesoConstraints *constraints = search->options->constraints;
-    bool guided = constraints && meso_constraints_need_guidance(constraints);
-    bool disproved = search->propagation.initial_dead_count ||
-                     search->propagation.broken_quota != MESO_NO_INDEX;
-    MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
-    if (!status && disproved)
-        return say_disproved(search, error);
-
+    MesoStatus status = MESO_OK;
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
-    if (!status && engine != MESO_ENGINE_EXACT)
+    if (engine != MESO_ENGINE_EXACT)
         status = guided ? search_guided(search, error) : search_for(search, error);
     if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
         return status;
@@ -410,6 +419,22 @@ static MesoStatus run(Search *search, MesoError *error)
         status = decide_by_numbers(search, error);
     if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
         status = decide_exactly(search, error);
+    return status;
+}
+
+static MesoStatus run(Search *search, MesoError *error)
+{
+    const MesoConstraints *constraints = search->options->constraints;
+    bool guided = constraints && meso_constraints_need_guidance(constraints);
+    bool disproved = search->propagation.initial_dead_count ||
+                     search->propagation.broken_quota != MESO_NO_INDEX;
+    MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
+    if (!status && disproved)
+        return say_disproved(search, error);
+    if (!status)
+        status = climb(search, guided, error);
+    if (!status && search->result->verdict == MESO_VERDICT_UNSOLVABLE)
+        status = explain(search, true, error);
     return status;
 }
 

@@ -61,6 +61,7 @@ typedef struct MesoSolveOptions {
     uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
     const MesoConstraints *constraints;     /* NULL: none */
+    bool unexplained;           /* do not look for the constraints that a proof needs */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof

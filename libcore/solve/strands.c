@@ -199,6 +199,31 @@ static void number_offenders(CutBuilder *builder)
             builder->cut_of[i] = ++builder->count;
 }
 
+/*
+ * Makes the forest anew without the links at sets that break the rule by a
+ * cycle or their length already: short pieces, so that cuts are strong. A
+ * link that was left out counts for the piece at its start.
+ */
+static MesoStatus break_into_pieces(StrandMap *map, const MesoStrandRule *rule, MesoArena *arena, MesoError *error)
+{
+    const MesoStrandRule growing = {.acyclic = rule->acyclic, .max_length = rule->max_length};
+    if (meso_strand_forest_init(&map->forest, arena, map->joint_count, error))
+        return MESO_ERR_MEMORY;
+    for (uint32_t slot = 0; slot < map->graph->slot_count; slot++) {
+        const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
+        for (uint32_t i = 0; i < tile->sweep_count; i++) {
+            const MesoSweep *sweep = &map->set->sweeps[tile->sweep_begin + i];
+            uint32_t a = joint(map, slot, sweep->from_side, sweep->from_section);
+            uint32_t b = joint(map, slot, sweep->to_side, sweep->to_section);
+            const MesoStrandNode *nodes = map->forest.nodes;
+            if (!offence(&growing, &nodes[meso_strand_root(&map->forest, a)]) &&
+                !offence(&growing, &nodes[meso_strand_root(&map->forest, b)]))
+                meso_strand_link(&map->forest, a, b);
+        }
+    }
+    return MESO_OK;
+}
+
 /* On each piece the two shortest strands, which one cut keeps from staying both. */
 static void number_unconnected(CutBuilder *builder, const uint32_t *component, StrandPair *shortest)
 {
@@ -276,11 +301,21 @@ MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoS
     StrandPair *shortest = MESO_NEW(&scratch, StrandPair, graph->slot_count, error);
     if (!status && (!builder.cut_of || !component || !shortest))
         status = MESO_ERR_MEMORY;
+    if (!status && (rule->acyclic || rule->max_length)) {
+        StrandMap pieces = map;
+        builder.map = &pieces;
+        status = break_into_pieces(&pieces, rule, &scratch, error);
+        if (!status)
+            number_offenders(&builder);
+        map.forest = builder.count ? pieces.forest : map.forest;
+    }
+    builder.map = &map;
     if (!status) {
         memset(shortest, 0xff, graph->slot_count * sizeof *shortest);
         meso_slot_graph_components(graph, component);
-        number_offenders(&builder);
-        if (rule->connected)
+        if (builder.count == 0)
+            number_offenders(&builder);
+        if (builder.count == 0 && rule->connected)
             number_unconnected(&builder, component, shortest);
         uint32_t *fill = MESO_NEW(&scratch, uint32_t, builder.count, error);
         status = fill ? list_cuts(&builder, cuts, arena, fill, error) : MESO_ERR_MEMORY;

@@ -57,8 +57,9 @@ typedef struct MesoStrandCuts {
 
 /*
  * What breaks `rule` in a checked assignment: for each strand that does, the
- * slots that it runs through; where strands should be connected, those of two
- * strands on each piece of the surface. At most `most` sets. None exactly where
+ * slots that it runs through, or those of pieces of it that have a cycle or
+ * are too long already; where strands should be connected, those of two
+ * strands on each piece of the surface. Not all kinds at once. At most `most` sets. None exactly where
  * meso_strands_check() is content. O(sweeps * log(sweeps)). Errors as
  * meso_strands_count().
  */
