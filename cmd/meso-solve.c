@@ -36,7 +36,7 @@ static const MesoToolInfo info = {
     .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --constraints knobs.json vase.tiles.json vase.obj -o vase.slots\n"
-                "meso-solve --seeds 1-100 --best balance=vase.slots vase.tiles.json vase.obj -o vase.jsonl",
+                "meso-solve --seeds 1-100 --best balance=v.slots vase.tiles.json vase.obj",
     .operands_low = 2,
     .operands_high = 2,
 };
