@@ -4,7 +4,8 @@
 #   check             every test: units, folder pages, man pages, command lines
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   bench             rates of every stage, beside the prototype's
-#   bench-solve       the solver alone, and every combination of the data's surfaces and tile sets
+#   bench-solve       the solver alone: pairs, growth, many seeds, and every combination of the data's
+#                     surfaces and tile sets
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -121,10 +122,8 @@ check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
 	@scripts/bench $(OUT) $(BIN) $(DATA) $(BENCHES)
-bench-solve: benches
-	$(OUT)/test/libcore/solve/solve_bench
-	$(OUT)/test/formats/solve_pairs_bench $(DATA)
-	$(OUT)/test/formats/solve_table_bench $(DATA)
+bench-solve: all benches generators
+	@scripts/bench-solve $(OUT) $(BIN) $(DATA)
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 fuzz-run: fuzzers

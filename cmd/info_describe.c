@@ -90,6 +90,19 @@ static MesoStatus put_histograms(json_t *facts, MesoArena *arena, const MesoAssi
     return memory_if(failed, error);
 }
 
+/* How many slots start at each corner of their face. */
+static int put_orientation(json_t *facts, const MesoSlotsFile *slots)
+{
+    uint64_t counts[4] = {0};
+    for (uint32_t i = 0; i < slots->assignment.slot_count; i++)
+        counts[slots->quarters[i]]++;
+    json_t *list = json_array();
+    int failed = 0;
+    for (uint32_t i = 0; i < 4; i++)
+        failed |= json_array_append_new(list, json_integer((json_int_t)counts[i]));
+    return failed | json_object_set_new(facts, "orientation", list);
+}
+
 MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
     MesoSlotsFile slots;
@@ -102,6 +115,7 @@ MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *inp
     failed |= put_provenance(facts, slots.provenance);
     failed |= json_object_set_new(facts, "inputs", inputs);
     failed |= put_count(facts, "slots", slots.assignment.slot_count);
+    failed |= slots.quarters && put_orientation(facts, &slots);
     status = memory_if(failed, error);
     return status ? status : put_histograms(facts, arena, &slots.assignment, slots.tile_count,
                                             slots.tile_names, error);

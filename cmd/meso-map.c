@@ -10,6 +10,7 @@
 #include "formats/slots_file.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
+#include "libcore/surface/orientation.h"
 
 static const MesoToolInfo MAP_TOOL = {
     .name = "meso-map",
@@ -212,6 +213,8 @@ static MesoStatus bind_slots(MesoTool *tool, MesoModel *model, MesoSlotsFile *sl
                          model->surface.face_count);
     if (meso_slots_bind(slots, &model->tile_set, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
+    if (slots->quarters)    /* the model keeps corners in the order that they were solved in */
+        meso_orientation_turn_mesh(&model->surface, slots->quarters);
     MesoStatus status = meso_slot_graph_build(&graph, &tool->arena, &model->surface, error);
     if (status != MESO_OK)
         return meso_fail_prefix(error, inputs->surface.path);

@@ -2,23 +2,27 @@
 #include <string.h>
 
 #include "cmd/solve_constraints.h"
+#include "cmd/solve_seeds.h"
 #include "formats/report_file.h"
 #include "formats/slots_file.h"
 
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
-    const char *report;
+    bool attempts_given;
+    const char *report, *orient;
     MesoControlArguments control;
     MesoEngineArguments engine;
+    MesoSeedOptions seeds;
+    const MesoOption *options;  /* the table, and what it parsed */
+    int argc;
+    char **argv;
 } Arguments;
 
 typedef struct Problem {
     MesoTileSet set;
-    MesoQuadMesh mesh;
-    MesoSurfaceGroups groups;
-    MesoSlotGraph graph;
-    uint64_t tiles_hash[2], surface_hash[2];
+    MesoSolveSurface surface;
+    uint64_t tiles_hash[2];
     MesoVariantSet variants;
     const MesoConstraints *constraints;     /* NULL: none */
     MesoSolveResult result;
@@ -26,11 +30,13 @@ typedef struct Problem {
 
 static const MesoToolInfo info = {
     .name = "meso-solve",
-    .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]",
+    .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]\n"
+                "meso-solve [options] --seeds A-B TILES SURFACE [-o OUT.jsonl]",
     .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
     .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"
-                "meso-solve --constraints knobs.json vase.tiles.json vase.obj -o vase.slots",
+                "meso-solve --constraints knobs.json vase.tiles.json vase.obj -o vase.slots\n"
+                "meso-solve --seeds 1-100 --best balance=vase.slots vase.tiles.json vase.obj -o vase.jsonl",
     .operands_low = 2,
     .operands_high = 2,
 };
@@ -43,6 +49,19 @@ static bool is_standard_output(const char *path)
 static MesoStatus check_arguments(Arguments *a)
 {
     MesoTool *tool = &a->tool;
+    MesoStatus status = meso_seed_options_check(&a->seeds, tool, a->attempts_given, &tool->error);
+    if (!status)
+        status = meso_orient_check(a->orient, &tool->error);
+    if (status)
+        return status;
+    if (a->seeds.seeds && (a->engine.proof || a->engine.budget > 0))
+        return meso_fail(&tool->error, MESO_ERR_USAGE, a->engine.proof ? "--proof is of one seed"
+                         : "--budget goes by the clock, which the lines of --seeds must not depend on; use "
+                           "--observations and --conflicts");
+    if (a->seeds.seeds && a->report)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "--report is of one seed; --seeds writes a line each");
+    if (a->seeds.seeds)
+        return MESO_OK;
     if (!tool->output)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "no place for the assignment; use -o OUT.slots");
     int streams = is_standard_output(tool->output) + is_standard_output(a->report) +
@@ -57,13 +76,12 @@ static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
-        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], &p->mesh,
-                                        a->control.constraints ? &p->groups : NULL, &p->graph, p->surface_hash);
+        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], a->orient, a->control.constraints != NULL,
+                                        &p->surface);
     if (!status)
         status = meso_variant_set_build(&p->variants, &a->tool.arena, &p->set, &a->tool.error);
     if (!status)
-        status = meso_tool_read_control(&a->tool, &a->control, &p->set, &p->variants, &p->mesh, &p->graph,
-                                        &p->groups, &p->constraints);
+        status = meso_tool_read_control(&a->tool, &a->control, &p->set, &p->variants, &p->surface, &p->constraints);
     return status;
 }
 
@@ -74,8 +92,8 @@ static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slo
     bool solved = p->result.verdict == MESO_VERDICT_SOLVED;
     MesoStatus status = MESO_OK;
     if (solved)
-        status = meso_slots_write(&p->result.assignment, &p->set, p->tiles_hash, p->surface_hash,
-                                  &tool->provenance, *slots, &tool->error);
+        status = meso_slots_write(&p->result.assignment, &p->set, p->surface.quarters, p->tiles_hash,
+                                  p->surface.hash, &tool->provenance, *slots, &tool->error);
     if (!status && *report)
         status = meso_tool_write_json(meso_report_to_json(tool->report, &tool->provenance), *report,
                                       &tool->error);
@@ -108,8 +126,8 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
     const MesoSolveResult *result = &p->result;
     switch (result->verdict) {
     case MESO_VERDICT_SOLVED:
-        meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->graph.slot_count,
-                      p->graph.slot_count == 1 ? "" : "s", result->attempts,
+        meso_tool_say(&a->tool, "solved %u slot%s in %u attempt%s", p->surface.graph.slot_count,
+                      p->surface.graph.slot_count == 1 ? "" : "s", result->attempts,
                       result->attempts == 1 ? "" : "s");
         if (a->control.keep)
             meso_tool_say(&a->tool, "%u of the slots to keep changed",
@@ -120,7 +138,7 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
             return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: %s", result->reason);
         return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: no tile fits %llu of %u slots, "
                          "whatever the others hold; the first is slot %u",
-                         (unsigned long long)result->dead_end_total, p->graph.slot_count,
+                         (unsigned long long)result->dead_end_total, p->surface.graph.slot_count,
                          result->dead_ends[0].slot);
     case MESO_VERDICT_GAVE_UP:
         break;
@@ -131,17 +149,28 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->graph, p->constraints, &a->engine,
+    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->surface.graph, p->constraints, &a->engine,
                                         a->attempts, &p->result);
     if (!status)
-        status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->graph,
+        status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
                                   &tool->error);
     if (!status && (a->report || tool->json))
-        status = meso_report_fill_control(tool->report, &p->result, &p->set, &p->variants, &p->graph,
+        status = meso_report_fill_control(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
                                           p->constraints, &tool->error);
     if (!status)
         status = write_outputs(a, p, slots, report);
     return status ? status : say_verdict(a, p);
+}
+
+static MesoStatus solve_seeds(Arguments *a, const Problem *p)
+{
+    MesoSeedProblem problem = {
+        .set = &p->set, .variants = &p->variants, .surface = &p->surface, .tiles_hash = p->tiles_hash,
+        .solve = {.max_attempts = a->attempts, .constraints = p->constraints},
+        .others = a->control.strands ? a->control.strands : "", .options = a->options, .argc = a->argc, .argv = a->argv,
+    };
+    meso_engine_choose(&a->engine, &problem.solve);
+    return meso_solve_seeds(&a->tool, &a->seeds, &problem);
 }
 
 /* Opens the outputs before the work, so that a place that cannot be written to is known at once. */
@@ -153,6 +182,8 @@ static MesoStatus run(Arguments *a)
     MesoStatus status = check_arguments(a);
     if (!status)
         status = read_inputs(a, &problem);
+    if (!status && a->seeds.seeds)
+        return solve_seeds(a, &problem);
     if (!status)
         status = meso_output_open(&slots, tool->output, &tool->error);
     if (!status && a->report)
@@ -170,14 +201,19 @@ int main(int argc, char **argv)
     const MesoOption options[] = {
         {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "attempts", "N", "attempts of the search (default 20)",
-         &a.attempts, 0, 1, 1e9, 0},
+         &a.attempts, &a.attempts_given, 1, 1e9, 0},
+        MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
         MESO_ENGINE_OPTIONS(a.engine),
         MESO_CONTROL_OPTIONS(a.control),
+        MESO_SEED_OPTIONS(a.seeds),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };
+    a.options = options;
+    a.argc = argc;
+    a.argv = argv;
     if (meso_tool_start(&a.tool, &info, options, argc, argv))
         a.tool.status = run(&a);
     return meso_tool_finish(&a.tool);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cmd/solve_inputs.h"
+#include "cmd/solve_surface.h"
 #include "formats/report_file.h"
 #include "formats/tiles_file.h"
 #include "libcore/solve/suggest.h"
@@ -10,7 +11,7 @@ typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts, until_solved;
     bool until_given;
-    const char *surface;
+    const char *surface, *orient;
 } Arguments;
 
 static const MesoToolInfo info = {
@@ -33,10 +34,12 @@ static MesoStatus check_arguments(Arguments *a)
         return meso_fail(error, MESO_ERR_USAGE, "neither a report nor --surface is given");
     if (a->until_given && !a->surface)
         return meso_fail(error, MESO_ERR_USAGE, "--until-solved needs --surface");
+    if (a->orient && !a->surface)
+        return meso_fail(error, MESO_ERR_USAGE, "--orient needs --surface; a report is of slots as they were oriented");
     if (!a->tool.output && a->tool.json && (*a->tool.json == 0 || strcmp(a->tool.json, "-") == 0))
         return meso_fail(error, MESO_ERR_USAGE, "the tile set and the JSON report cannot both go to "
                          "standard output; use -o FILE or --json=FILE");
-    return MESO_OK;
+    return meso_orient_check(a->orient, error);
 }
 
 /* "a b' a c" */
@@ -112,23 +115,23 @@ static MesoStatus extend_by_report(MesoTool *tool, MesoTileSet *set, const char 
 static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
 {
     MesoTool *tool = &a->tool;
-    MesoSlotGraph graph;
+    MesoSolveSurface surface;
     MesoVariantSet variants;
     MesoSolveResult result;
-    MesoStatus status = meso_tool_read_graph(tool, a->surface, &graph, NULL);
+    MesoStatus status = meso_tool_read_surface(tool, a->surface, a->orient, false, &surface);
     for (uint32_t added = 0; !status; added++) {
         if (added == 1 && !a->until_given)
             return MESO_OK;
         status = meso_variant_set_build(&variants, &tool->arena, set, &tool->error);
         if (!status)
-            status = meso_tool_solve(tool, set, &variants, &graph, NULL, NULL, a->attempts, &result);
+            status = meso_tool_solve(tool, set, &variants, &surface.graph, NULL, NULL, a->attempts, &result);
         if (status)
             return status;
         if (result.verdict == MESO_VERDICT_SOLVED && added == 0)
             return meso_fail(&tool->error, MESO_ERR_NO, "nothing to suggest: the tile set solves the "
                              "surface");
         if (result.verdict == MESO_VERDICT_SOLVED) {
-            meso_tool_say(tool, "solved %u slots with %u new tile%s", graph.slot_count, added,
+            meso_tool_say(tool, "solved %u slots with %u new tile%s", surface.graph.slot_count, added,
                           added == 1 ? "" : "s");
             return MESO_OK;
         }
@@ -179,6 +182,7 @@ int main(int argc, char **argv)
         {MESO_OPTION_GROUP, 0, "Suggesting", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_TEXT, 0, "surface", "FILE", "solve this surface for dead ends, without a report",
          &a.surface, 0, 0, 0, 0},
+        MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts of each solve (default 20)",
          &a.attempts, 0, 1, 1e9, 0},
         {MESO_OPTION_COUNT, 0, "until-solved", "N", "add up to N tiles, until the surface is solved",

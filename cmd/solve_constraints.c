@@ -4,25 +4,6 @@
 
 #include "formats/constraints_file.h"
 #include "formats/slots_file.h"
-#include "formats/surface_file.h"
-
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, MesoQuadMesh *mesh,
-                                  MesoSurfaceGroups *groups, MesoSlotGraph *graph, uint64_t hash[2])
-{
-    MesoInput input;
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
-    if (status)
-        return status;
-    meso_provenance_add(&tool->provenance, "surface", &input);
-    memcpy(hash, input.hash, sizeof input.hash);
-    status = groups ? meso_surface_read_groups(mesh, groups, &tool->arena, &input, &tool->error)
-                    : meso_surface_read(mesh, &tool->arena, &input, &tool->error);
-    meso_input_close(&input);
-    if (status)
-        return status;
-    status = meso_slot_graph_build(graph, &tool->arena, mesh, &tool->error);
-    return status == MESO_ERR_INPUT ? meso_fail_prefix(&tool->error, path) : status;
-}
 
 static MesoStatus read_file(MesoTool *tool, const char *path, const MesoConstraintScope *scope,
                             MesoConstraints *constraints)
@@ -55,9 +36,16 @@ static uint32_t *match_tiles(MesoTool *tool, const MesoSlotsFile *slots, const M
     return failed ? NULL : tiles;
 }
 
+/* What slot `slot` of the file holds, seen from the side that is direction 0 now. */
+static MesoTransform turn_to(const MesoSlotsFile *slots, const MesoSolveSurface *surface, uint32_t slot)
+{
+    uint32_t then = slots->quarters ? slots->quarters[slot] : 0, now = surface->quarters ? surface->quarters[slot] : 0;
+    return meso_transform_compose((MesoTransform)((then - now) & 3u), slots->assignment.transform[slot]);
+}
+
 /* Slots go by number and tiles by name: what is gone, or was not there, is free. */
 static MesoStatus read_keep(MesoTool *tool, const char *path, const MesoTileSet *set,
-                            const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                            const MesoVariantSet *variants, const MesoSolveSurface *surface,
                             MesoConstraints *constraints)
 {
     MesoInput input;
@@ -70,23 +58,22 @@ static MesoStatus read_keep(MesoTool *tool, const char *path, const MesoTileSet 
     meso_input_close(&input);
     if (status)
         return status;
-    uint32_t *keep = MESO_NEW(&tool->arena, uint32_t, graph->slot_count, &tool->error);
+    uint32_t *keep = MESO_NEW(&tool->arena, uint32_t, surface->graph.slot_count, &tool->error);
     const uint32_t *tiles = match_tiles(tool, &slots, set);
     if (!keep || !tiles)
         return MESO_ERR_MEMORY;
-    for (uint32_t s = 0; s < graph->slot_count; s++) {
+    for (uint32_t s = 0; s < surface->graph.slot_count; s++) {
         uint32_t tile = s < slots.assignment.slot_count ? tiles[slots.assignment.tile[s]] : MESO_NO_INDEX;
         keep[s] = tile == MESO_NO_INDEX
                       ? MESO_NO_INDEX
-                      : meso_variant_find(variants, set, tile, slots.assignment.transform[s]);
+                      : meso_variant_find(variants, set, tile, turn_to(&slots, surface, s));
     }
     constraints->keep = keep;
     return MESO_OK;
 }
 
 MesoStatus meso_tool_read_control(MesoTool *tool, const MesoControlArguments *arguments, const MesoTileSet *set,
-                                  const MesoVariantSet *variants, const MesoQuadMesh *mesh,
-                                  const MesoSlotGraph *graph, const MesoSurfaceGroups *groups,
+                                  const MesoVariantSet *variants, const MesoSolveSurface *surface,
                                   const MesoConstraints **constraints)
 {
     MesoStatus status = MESO_OK;
@@ -98,15 +85,15 @@ MesoStatus meso_tool_read_control(MesoTool *tool, const MesoControlArguments *ar
         return MESO_ERR_MEMORY;
     if (arguments->constraints) {
         MesoBoundary boundary;
-        status = meso_boundary_build(&boundary, &tool->arena, mesh, graph, &tool->error);
-        const MesoConstraintScope scope = {set, variants, graph, &boundary, groups};
+        status = meso_boundary_build(&boundary, &tool->arena, &surface->mesh, &surface->graph, &tool->error);
+        const MesoConstraintScope scope = {set, variants, &surface->graph, &boundary, &surface->groups};
         if (!status)
             status = read_file(tool, arguments->constraints, &scope, read);
     }
     if (!status && arguments->strands)
         status = meso_strand_rule_parse(&read->strands, arguments->strands, &tool->error);
     if (!status && arguments->keep)
-        status = read_keep(tool, arguments->keep, set, variants, graph, read);
+        status = read_keep(tool, arguments->keep, set, variants, surface, read);
     *constraints = read;
     return status;
 }

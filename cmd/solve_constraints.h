@@ -3,7 +3,7 @@
 #define MESO_SOLVE_CONSTRAINTS_H
 
 #include "cmd/solve_inputs.h"
-#include "formats/surface_groups.h"
+#include "cmd/solve_surface.h"
 
 typedef struct MesoControlArguments {
     const char *constraints;    /* file, or NULL */
@@ -19,17 +19,13 @@ typedef struct MesoControlArguments {
     {MESO_OPTION_TEXT, 0, "keep", "OLD.slots", "change as few slots of this assignment as possible", \
      &(control).keep, 0, 0, 0, 0}
 
-/* meso_tool_read_graph() with the mesh and, unless `groups` is NULL, its groups. */
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, MesoQuadMesh *mesh,
-                                  MesoSurfaceGroups *groups, MesoSlotGraph *graph, uint64_t hash[2]);
-
 /*
  * Reads what the arguments name, and notes the files in the provenance.
- * `*constraints` becomes NULL where the arguments ask for nothing.
+ * `*constraints` becomes NULL where the arguments ask for nothing. Constraints
+ * name sides by direction, as the surface is oriented.
  */
 MesoStatus meso_tool_read_control(MesoTool *tool, const MesoControlArguments *arguments, const MesoTileSet *set,
-                                  const MesoVariantSet *variants, const MesoQuadMesh *mesh,
-                                  const MesoSlotGraph *graph, const MesoSurfaceGroups *groups,
+                                  const MesoVariantSet *variants, const MesoSolveSurface *surface,
                                   const MesoConstraints **constraints);
 
 #endif

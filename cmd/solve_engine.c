@@ -75,16 +75,22 @@ static MesoStatus open_proof(MesoEngineRun *run, MesoTool *tool, const char *pat
     return meso_output_write(run->formula, header, HEADER_SIZE, &tool->error);
 }
 
+void meso_engine_choose(const MesoEngineArguments *arguments, MesoSolveOptions *options)
+{
+    options->engine = MESO_ENGINE_AUTO;
+    if (arguments->engine && strcmp(arguments->engine, "auto") != 0)
+        options->engine = strcmp(arguments->engine, "wfc") == 0 ? MESO_ENGINE_WFC : MESO_ENGINE_EXACT;
+    options->max_observations = arguments->observations;
+    options->max_conflicts = arguments->conflicts;
+}
+
 MesoStatus meso_engine_start(MesoEngineRun *run, MesoTool *tool, const MesoEngineArguments *arguments,
                              MesoSolveOptions *options)
 {
     memset(run, 0, offsetof(MesoEngineRun, buffer));
     run->error = &tool->error;
     run->deadline = seconds() + (double)arguments->budget;
-    if (arguments->engine && strcmp(arguments->engine, "auto") != 0)
-        options->engine = strcmp(arguments->engine, "wfc") == 0 ? MESO_ENGINE_WFC : MESO_ENGINE_EXACT;
-    options->max_observations = arguments->observations;
-    options->max_conflicts = arguments->conflicts;
+    meso_engine_choose(arguments, options);
     if (arguments->budget > 0) {
         options->stop = past_deadline;
         options->stop_context = run;

@@ -25,6 +25,9 @@ typedef struct MesoEngineArguments {
     {MESO_OPTION_TEXT, 0, "proof", "FILE", "write the exact engine's proof (DRAT), and its formula to FILE.cnf", \
      &(arguments).proof, 0, 0, 0, 0}
 
+/* Sets engine and budgets but that of time, which is no part of what a result depends on. */
+void meso_engine_choose(const MesoEngineArguments *arguments, MesoSolveOptions *options);
+
 /* What the arguments mean while a solve runs. */
 typedef struct MesoEngineRun {
     double deadline;            /* of the monotonic clock */

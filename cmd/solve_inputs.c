@@ -5,15 +5,7 @@
 
 #include "formats/json_text.h"
 #include "formats/report_file.h"
-#include "formats/surface_file.h"
 #include "formats/tiles_file.h"
-
-static void note_input(MesoTool *tool, const char *role, const MesoInput *input, uint64_t hash[2])
-{
-    meso_provenance_add(&tool->provenance, role, input);
-    if (hash)
-        memcpy(hash, input->hash, sizeof input->hash);
-}
 
 MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
                                 uint64_t hash[2])
@@ -22,27 +14,12 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
     MesoStatus status = meso_input_open(&input, path, &tool->error);
     if (status)
         return status;
-    note_input(tool, "tiles", &input, hash);
+    meso_provenance_add(&tool->provenance, "tiles", &input);
+    if (hash)
+        memcpy(hash, input.hash, sizeof input.hash);
     status = meso_tiles_read(set, &tool->arena, &input, &tool->error);
     meso_input_close(&input);
     return status;
-}
-
-MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
-                                uint64_t hash[2])
-{
-    MesoInput input;
-    MesoQuadMesh mesh;
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
-    if (status)
-        return status;
-    note_input(tool, "surface", &input, hash);
-    status = meso_surface_read(&mesh, &tool->arena, &input, &tool->error);
-    meso_input_close(&input);
-    if (status)
-        return status;
-    status = meso_slot_graph_build(graph, &tool->arena, &mesh, &tool->error);
-    return status == MESO_ERR_INPUT ? meso_fail_prefix(&tool->error, path) : status;
 }
 
 static double milliseconds(void)
@@ -59,7 +36,6 @@ static MesoStatus solve_by_engine(MesoTool *tool, const MesoTileSet *set, const 
     MesoEngineRun *run = MESO_NEW(&tool->arena, MesoEngineRun, 1, &tool->error);
     if (!run)
         return MESO_ERR_MEMORY;
-    options->engine = MESO_ENGINE_AUTO;
     MesoStatus status = meso_engine_start(run, tool, engine, options);
     if (!status)
         status = meso_solve(result, &tool->arena, set, variants, graph, options, &tool->error);

@@ -13,10 +13,6 @@ enum { MESO_REPORT_DEAD_ENDS = 1000 };
 MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
                                 uint64_t hash[2]);
 
-/* Reads a surface and builds its slot graph, and notes it in the provenance. `hash` may be NULL. */
-MesoStatus meso_tool_read_graph(MesoTool *tool, const char *path, MesoSlotGraph *graph,
-                                uint64_t hash[2]);
-
 /*
  * Solves, with progress, under `constraints` (NULL: none) by `engine` (NULL: the
  * search alone); with -v says how long it took.

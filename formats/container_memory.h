@@ -75,7 +75,7 @@ static inline MesoContainer container_example(const char *kind,
     if (file < 0 || meso_output_open(&output, path, &error) != MESO_OK ||
         write(output, &error) != MESO_OK || meso_output_commit(output, &error) != MESO_OK ||
         meso_input_open(&input, path, &error) != MESO_OK ||
-        meso_container_read(&container, &input, kind, 1, &error) != MESO_OK)
+        meso_container_read(&container, &input, kind, UINT16_MAX, &error) != MESO_OK)
         abort();
     close(file);
     unlink(path);

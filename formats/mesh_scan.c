@@ -30,20 +30,29 @@ static MesoStatus next_room(uint32_t room, uint32_t *wanted, MesoError *error)
     return MESO_OK;
 }
 
+/* Room for one more of `size` bytes. */
+static MesoStatus reserve(MesoArena *arena, void **array, uint32_t count, uint32_t *room, size_t size,
+                          MesoError *error)
+{
+    uint32_t wanted = 0;
+    if (count < *room)
+        return MESO_OK;
+    MesoStatus status = next_room(*room, &wanted, error);
+    if (!status)
+        status = enlarge(arena, array, count, wanted, size, error);
+    if (!status)
+        *room = wanted;
+    return status;
+}
+
 static MesoStatus append_point(MesoArena *arena, MesoVec3 **points, uint32_t *count, uint32_t *room,
                                MesoVec3 point, MesoError *error)
 {
-    if (*count == *room) {
-        void *array = *points;
-        uint32_t wanted = 0;
-        MesoStatus status = next_room(*room, &wanted, error);
-        if (!status)
-            status = enlarge(arena, &array, *count, wanted, sizeof point, error);
-        if (status)
-            return status;
-        *points = array;
-        *room = wanted;
-    }
+    void *array = *points;
+    MesoStatus status = reserve(arena, &array, *count, room, sizeof point, error);
+    if (status)
+        return status;
+    *points = array;
     (*points)[(*count)++] = point;
     return MESO_OK;
 }

@@ -56,6 +56,13 @@ MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, M
 MesoStatus meso_ply_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
                                 const MesoInput *input, MesoError *error);
 
+/*
+ * Scans a file of any kind, known by its name or content, and refuses glTF and
+ * files without faces. `groups` may be NULL; OFF has none.
+ */
+MesoStatus meso_mesh_scan_file(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                               const MesoInput *input, MesoError *error);
+
 /* For the scans: append one element. MESO_ERR_MEMORY, or MESO_ERR_LIMIT past 2^32 - 2 of a kind. */
 MesoStatus meso_mesh_scan_vertex(MesoMeshScan *scan, MesoVec3 position, MesoError *error);
 MesoStatus meso_mesh_scan_normal(MesoMeshScan *scan, MesoVec3 normal, MesoError *error);

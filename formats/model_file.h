@@ -7,6 +7,7 @@
  *               section_step, u32 divisions
  *     position  f32[3 * vertex_count]       normal   f32[3 * normal_count]
  *     face      u32[4 * face_count]         facenorm u32[4 * face_count]
+ *               corners in the slots' order: not the surface file's where slots were oriented
  *     tile      u32[face_count]             xform    u8[face_count]
  *     inner     u32[2 * inner_count]: vertex and triangle count of each inner mesh
  *     innerpos, innernrm  f32[3 * sum]      innertri u32[3 * sum]

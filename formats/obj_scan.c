@@ -10,6 +10,11 @@ typedef struct ObjScan {
     MesoGroupsBuilder *groups;  /* or NULL */
 } ObjScan;
 
+static bool wants_textures(const ObjScan *obj)
+{
+    return obj->groups && obj->groups->textures;
+}
+
 /* What is neither vertex nor face, and says nothing about the shape of the faces. */
 static const char *const passed_over[] = {
     "vt", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "l", "p",
@@ -66,42 +71,58 @@ static MesoStatus resolve(const ObjScan *obj, int64_t given, uint32_t so_far, co
     return MESO_OK;
 }
 
+typedef struct ObjCorner {
+    int64_t vertex, texture, normal;
+    bool has_texture, has_normal;
+} ObjCorner;
+
 /* Splits "v", "v/vt", "v//vn" or "v/vt/vn"; false where it is none of them. */
-static bool split_corner(MesoWord word, int64_t *vertex, int64_t *normal, bool *has_normal)
+static bool split_corner(MesoWord word, ObjCorner *corner)
 {
+    *corner = (ObjCorner){0};
     char *end = word.text + word.size;
     char *slash = memchr(word.text, '/', word.size);
-    *has_normal = false;
-    if (!meso_word_integer((MesoWord){word.text, (size_t)((slash ? slash : end) - word.text)}, vertex))
+    if (!meso_word_integer((MesoWord){word.text, (size_t)((slash ? slash : end) - word.text)}, &corner->vertex))
         return false;
     if (!slash)
         return true;
 
-    int64_t texture;
     char *second = memchr(slash + 1, '/', (size_t)(end - slash - 1));
     MesoWord middle = {slash + 1, (size_t)((second ? second : end) - slash - 1)};
-    if (middle.size && !meso_word_integer(middle, &texture))
+    corner->has_texture = middle.size > 0;
+    if (corner->has_texture && !meso_word_integer(middle, &corner->texture))
         return false;
     if (!second || second + 1 == end)
         return true;
-    *has_normal = true;
-    return meso_word_integer((MesoWord){second + 1, (size_t)(end - second - 1)}, normal);
+    corner->has_normal = true;
+    return meso_word_integer((MesoWord){second + 1, (size_t)(end - second - 1)}, &corner->normal);
+}
+
+/* Unlike vertices and normals, coordinates that nobody asks for need not be there. */
+static MesoStatus keep_texture(const ObjScan *obj, const ObjCorner *corner, MesoError *error)
+{
+    uint32_t texture = MESO_NO_INDEX;
+    MesoStatus status = MESO_OK;
+    if (corner->has_texture)
+        status = resolve(obj, corner->texture, obj->groups->texture_count, "texture coordinate", &texture, error);
+    return status ? status : meso_groups_corner_texture(obj->groups, texture, error);
 }
 
 static MesoStatus read_corner(const ObjScan *obj, MesoWord word, MesoError *error)
 {
-    int64_t given, given_normal = 0;
-    bool has_normal;
-    if (!split_corner(word, &given, &given_normal, &has_normal))
+    ObjCorner corner;
+    if (!split_corner(word, &corner))
         return meso_mesh_text_fail(obj->text, error, "face corner '%.*s' is not v, v/vt, v//vn or v/vt/vn",
                                    MESO_WORD_ARGUMENTS(word));
     uint32_t vertex = MESO_NO_INDEX, normal = MESO_NO_INDEX;
-    MesoStatus status = resolve(obj, given, obj->scan->vertex_count, "vertex", &vertex, error);
-    if (!status && has_normal)
-        status = resolve(obj, given_normal, obj->scan->normal_count, "normal", &normal, error);
+    MesoStatus status = resolve(obj, corner.vertex, obj->scan->vertex_count, "vertex", &vertex, error);
+    if (!status && corner.has_normal)
+        status = resolve(obj, corner.normal, obj->scan->normal_count, "normal", &normal, error);
+    if (!status && wants_textures(obj))
+        status = keep_texture(obj, &corner, error);
     if (status)
         return status;
-    obj->scan->relative |= given < 0;
+    obj->scan->relative |= corner.vertex < 0;
     char *slash = memchr(word.text, '/', word.size);
     if (slash)
         blank(slash, word.text + word.size);
@@ -151,6 +172,16 @@ static MesoStatus read_vertex(const ObjScan *obj, MesoError *error)
     return status ? status : meso_mesh_scan_vertex(obj->scan, point, error);
 }
 
+static MesoStatus read_texture(const ObjScan *obj, MesoError *error)
+{
+    MesoWord word;
+    float u;
+    if (!meso_mesh_text_word(obj->text, &word))
+        return meso_mesh_text_fail(obj->text, error, "texture coordinate has no numbers");
+    MesoStatus status = meso_word_number(obj->text, word, "texture coordinate", &u, error);
+    return status ? status : meso_groups_texture(obj->groups, u, error);
+}
+
 static MesoStatus read_line(const ObjScan *obj, MesoWord word, MesoError *error)
 {
     MesoVec3 point = {0};
@@ -165,6 +196,8 @@ static MesoStatus read_line(const ObjScan *obj, MesoWord word, MesoError *error)
     MesoStatus status = normal ? read_point(obj, "normal", &point, none, error) : read_names(obj, word, error);
     if (!status && normal)
         status = meso_mesh_scan_normal(obj->scan, point, error);
+    if (!status && wants_textures(obj) && meso_word_is(word, "vt"))
+        status = read_texture(obj, error);
     if (status)
         return status;
     /* OpenMesh needs none of it, and opens the files that mtllib names. */
@@ -179,6 +212,22 @@ static MesoStatus add_colours(MesoGroupsBuilder *groups, MesoError *error)
     for (uint32_t c = 0, column; c < 3 && !status; c++)
         status = meso_groups_column(groups, names[c], strlen(names[c]), true, 1, &column, error);
     return status;
+}
+
+/* Texture coordinates may come after the faces that use them. */
+static MesoStatus check_textures(const MesoMeshScan *scan, const MesoGroupsBuilder *groups, const char *path,
+                                 MesoError *error)
+{
+    uint32_t face = 0;
+    for (uint32_t c = 0; c < groups->corner_count; c++) {
+        while (c >= scan->face_ends[face])
+            face++;
+        uint32_t texture = groups->corner_textures[c];
+        if (texture >= groups->texture_count && texture != MESO_NO_INDEX)
+            return meso_mesh_scan_fail(scan, path, face, error, "uses texture coordinate %llu of %u",
+                                       texture + 1ull, groups->texture_count);
+    }
+    return MESO_OK;
 }
 
 MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
@@ -199,7 +248,8 @@ MesoStatus meso_obj_scan_groups(MesoMeshScan *scan, MesoGroupsBuilder *groups, M
         return status;
     scan->bytes = text.bytes;
     scan->size = text.size;
-    return meso_mesh_scan_check(scan, input->path, error);
+    status = meso_mesh_scan_check(scan, input->path, error);
+    return status || !wants_textures(&obj) ? status : check_textures(scan, groups, input->path, error);
 }
 
 MesoStatus meso_obj_scan(MesoMeshScan *scan, MesoArena *arena, const MesoInput *input, MesoError *error)

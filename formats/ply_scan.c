@@ -217,9 +217,10 @@ static MesoStatus check_header(const Ply *ply, const char *path, MesoError *erro
 }
 
 /*
- * Whether OpenMesh knows the layout: it takes vertices before faces, no list
- * before the vertex indices, counts of two types only, and in binary files
- * coordinates that are not integers.
+ * Whether OpenMesh knows the layout: it takes vertices before faces, nothing in
+ * a face before the vertex indices, no list elsewhere before them, counts of two
+ * types only, in binary files coordinates that are not integers, and in text no
+ * property of one byte, which it reads as a character and never ends.
  */
 static bool known_to_openmesh(const Ply *ply)
 {
@@ -231,7 +232,11 @@ static bool known_to_openmesh(const Ply *ply)
         for (uint32_t p = element->property_begin; p < element->property_end; p++) {
             const PlyProperty *property = &ply->properties[p];
             indices |= property->role == ROLE_INDICES;
+            if (element->kind == KIND_FACE && !indices)
+                return false;
             if (property->list && (!indices || (property->count_type != UINT8 && property->count_type != INT32)))
+                return false;
+            if (ply->form == FORM_ASCII && !property->list && types[property->type].size == 1)
                 return false;
             if (ply->form != FORM_ASCII && property->role <= ROLE_Z && property->type < FLOAT32)
                 return false;

@@ -34,6 +34,16 @@ const char *meso_verdict_name(MesoVerdict verdict)
     return verdict_names[verdict];
 }
 
+bool meso_verdict_parse(const char *name, MesoVerdict *verdict)
+{
+    for (uint32_t v = 0; v < VERDICT_COUNT; v++)
+        if (strcmp(name, verdict_names[v]) == 0) {
+            *verdict = (MesoVerdict)v;
+            return true;
+        }
+    return false;
+}
+
 const char *meso_decider_name(MesoDecider decider)
 {
     return decider_names[decider];
@@ -81,8 +91,7 @@ static json_t *write_dead_ends(const MesoSolveResult *result, const MesoTileSet 
     return NULL;
 }
 
-/* Slots by tile name, in the set's order; tiles without a slot too, ignored ones not. */
-static json_t *write_histogram(const MesoAssignment *assignment, const MesoTileSet *set)
+json_t *meso_report_histogram(const MesoAssignment *assignment, const MesoTileSet *set)
 {
     json_t *object = json_object();
     uint32_t *counts = calloc(set->tile_count + (size_t)1, sizeof *counts);
@@ -113,7 +122,7 @@ MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const
     failed |= json_object_set_new(object, "slots", json_integer(graph->slot_count));
     failed |= json_object_set_new(object, "variants", json_integer(variants->count));
     if (result->verdict == MESO_VERDICT_SOLVED)
-        failed |= json_object_set_new(object, "tiles", write_histogram(&result->assignment, set));
+        failed |= json_object_set_new(object, "tiles", meso_report_histogram(&result->assignment, set));
     failed |= json_object_set_new(object, "dead_end_total",
                                   json_integer((json_int_t)result->dead_end_total));
     failed |= json_object_set_new(object, "dead_ends", write_dead_ends(result, set));
@@ -339,13 +348,8 @@ static void read_verdict(MesoReport *report, const MesoJsonField *root)
         return;
     }
     const char *name = meso_json_text(&field);
-    uint32_t v = 0;
-    while (v < VERDICT_COUNT && strcmp(name, verdict_names[v]) != 0)
-        v++;
-    if (v == VERDICT_COUNT)
+    if (!meso_verdict_parse(name, &report->verdict))
         meso_json_wrong(&field, "\"%.40s\"; \"solved\", \"unsolvable\" and \"gave-up\" are possible", name);
-    else
-        report->verdict = (MesoVerdict)v;
 }
 
 MesoStatus meso_report_read(MesoReport *report, MesoArena *arena, const MesoInput *input,

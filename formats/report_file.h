@@ -44,6 +44,12 @@ typedef struct MesoReport {
 /* "solved", "unsolvable", "gave-up" */
 const char *meso_verdict_name(MesoVerdict verdict);
 
+/* False where `name` is none of them. */
+bool meso_verdict_parse(const char *name, MesoVerdict *verdict);
+
+/* Slots by tile name, in the set's order; tiles without a slot too, ignored ones not. NULL when memory is out. */
+json_t *meso_report_histogram(const MesoAssignment *assignment, const MesoTileSet *set);
+
 /* "propagation", "search", "counting", "parity", "exact", "attempts", "conflicts", "stop" */
 const char *meso_decider_name(MesoDecider decider);
 

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAJOR = 1, MINOR = 0 };
+/* Files with an orientation have the newer one. */
+enum { MAJOR = 1, MAJOR_ORIENTED = 2, MINOR = 0 };
 
 /* Half-edges count to 4 * slot_count in 32 bits. */
 static const uint64_t most_slots = UINT32_MAX / 4;
@@ -23,8 +24,16 @@ static char *join_names(const MesoTileSet *set, MesoArena *arena, size_t *size, 
     return names;
 }
 
+static bool turns_any(const uint8_t *quarters, uint32_t slot_count)
+{
+    for (uint32_t s = 0; quarters && s < slot_count; s++)
+        if (quarters[s])
+            return true;
+    return false;
+}
+
 static MesoStatus write_with(const MesoAssignment *assignment, const MesoTileSet *set,
-                             const uint64_t hashes[4], const MesoProvenance *provenance,
+                             const uint8_t *quarters, const uint64_t hashes[4], const MesoProvenance *provenance,
                              MesoOutput *output, MesoArena *arena, MesoError *error)
 {
     size_t names_size;
@@ -32,23 +41,27 @@ static MesoStatus write_with(const MesoAssignment *assignment, const MesoTileSet
     const char *names = text ? join_names(set, arena, &names_size, error) : NULL;
     if (!names)
         return MESO_ERR_MEMORY;
-    MesoContainer container = {.kind = "slots", .major = MAJOR, .minor = MINOR};
+    bool oriented = turns_any(quarters, assignment->slot_count);
+    MesoContainer container = {.kind = "slots", .major = oriented ? MAJOR_ORIENTED : MAJOR, .minor = MINOR};
     meso_container_add(&container, "prov", text, strlen(text));
     meso_container_add(&container, "inputs", hashes, 4 * sizeof *hashes);
     meso_container_add(&container, "names", names, names_size);
     meso_container_add(&container, "tile", assignment->tile, assignment->slot_count * sizeof(uint32_t));
     meso_container_add(&container, "xform", assignment->transform, assignment->slot_count);
+    if (oriented)
+        meso_container_add(&container, "orient", quarters, assignment->slot_count);
     return meso_container_write(&container, output, error);
 }
 
 MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet *set,
-                            const uint64_t tiles_hash[2], const uint64_t surface_hash[2],
-                            const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+                            const uint8_t *quarters, const uint64_t tiles_hash[2],
+                            const uint64_t surface_hash[2], const MesoProvenance *provenance,
+                            MesoOutput *output, MesoError *error)
 {
     uint64_t hashes[4] = {tiles_hash[0], tiles_hash[1], surface_hash[0], surface_hash[1]};
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoStatus status = write_with(assignment, set, hashes, provenance, output, &arena, error);
+    MesoStatus status = write_with(assignment, set, quarters, hashes, provenance, output, &arena, error);
     meso_arena_release(&arena);
     return status;
 }
@@ -145,11 +158,32 @@ static MesoStatus read_assignment(MesoSlotsFile *slots, const MesoContainer *con
     return MESO_OK;
 }
 
+static MesoStatus read_orientation(MesoSlotsFile *slots, const MesoContainer *container,
+                                   MesoArena *arena, const char *path, MesoError *error)
+{
+    uint64_t size;
+    uint32_t count = slots->assignment.slot_count;
+    const uint8_t *quarters = meso_container_find(container, "orient", &size);
+    if (!quarters)
+        return MESO_OK;
+    if (!meso_container_require(container, path, "orient", count, 1, error))
+        return MESO_ERR_INPUT;
+    for (uint32_t i = 0; i < count; i++)
+        if (quarters[i] > 3)
+            return meso_fail(error, MESO_ERR_INPUT, "%s: slot %u has orientation %u of 4", path, i,
+                             quarters[i]);
+    slots->quarters = MESO_NEW(arena, uint8_t, count, error);
+    if (!slots->quarters)
+        return MESO_ERR_MEMORY;
+    memcpy(slots->quarters, quarters, count);
+    return MESO_OK;
+}
+
 MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInput *input,
                            MesoError *error)
 {
     MesoContainer container;
-    MesoStatus status = meso_container_read(&container, input, "slots", MAJOR, error);
+    MesoStatus status = meso_container_read(&container, input, "slots", MAJOR_ORIENTED, error);
     if (status != MESO_OK)
         return status;
 
@@ -169,7 +203,9 @@ MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInp
     status = meso_provenance_copy(&slots->provenance, text, size, input->path, arena, error);
     if (status == MESO_OK)
         status = read_names(slots, &container, arena, input->path, error);
-    return status == MESO_OK ? read_assignment(slots, &container, arena, input->path, error) : status;
+    if (status == MESO_OK)
+        status = read_assignment(slots, &container, arena, input->path, error);
+    return status == MESO_OK ? read_orientation(slots, &container, arena, input->path, error) : status;
 }
 
 /* map[tile of the file] = tile of the set; missing ones, which matter only

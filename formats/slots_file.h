@@ -1,11 +1,15 @@
 /*
- * Assignment files (.slots), version 1.0. Chunks:
+ * Assignment files (.slots), version 1.0, or 2.0 where there is a chunk `orient`,
+ * without which the rest means something else: a reader that does not know it
+ * must refuse the file. Chunks:
  *
  *     prov      provenance, JSON text
  *     inputs    u64[4]: XXH3-128 of the tile set's file, then of the surface's, high words first
  *     names     names of the tiles, each ended by a zero byte, in tile order
  *     tile      u32[slot_count]
- *     xform     u8[slot_count] MesoTransform
+ *     xform     u8[slot_count] MesoTransform, relative to the slot's orientation
+ *     orient    u8[slot_count] 0..3: corner of the face in the surface's file that is the
+ *               slot's corner 0 (see orientation.h); without the chunk always the first
  */
 #ifndef MESO_SLOTS_FILE_H
 #define MESO_SLOTS_FILE_H
@@ -20,11 +24,14 @@ typedef struct MesoSlotsFile {
     uint32_t tile_count;
     const char **tile_names;        /* [tile_count] */
     const char *provenance;         /* JSON text */
+    uint8_t *quarters;              /* [slot_count] orientation; NULL: as in the surface's file */
 } MesoSlotsFile;
 
+/* `quarters` [slot_count] is the orientation; NULL, or all 0: as in the surface's file. */
 MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet *set,
-                            const uint64_t tiles_hash[2], const uint64_t surface_hash[2],
-                            const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+                            const uint8_t *quarters, const uint64_t tiles_hash[2],
+                            const uint64_t surface_hash[2], const MesoProvenance *provenance,
+                            MesoOutput *output, MesoError *error);
 
 /* Copies to `arena`. Checks the file alone; meso_assignment_check() checks it against a surface. */
 MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInput *input,

@@ -10,6 +10,7 @@ static TestFolder folder;
 static const uint64_t tiles_hash[2] = {1, 2}, surface_hash[2] = {3, UINT64_MAX};
 static uint32_t tiles[5] = {0, 2, 1, 2, 0};
 static MesoTransform transforms[5] = {0, 7, 3, 1, 0};
+static const uint8_t quarters[5] = {0, 3, 0, 2, 1};
 
 static MesoTileSet make_set(const char *a, const char *b, const char *c)
 {
@@ -21,7 +22,7 @@ static MesoTileSet make_set(const char *a, const char *b, const char *c)
     return set;
 }
 
-static void write_file(const char *path)
+static void write_oriented(const char *path, const uint8_t *turned)
 {
     MesoTileSet set = make_set("zero", "one", "two");
     MesoAssignment assignment = {5, tiles, transforms};
@@ -29,9 +30,14 @@ static void write_file(const char *path)
     MesoOutput *output;
     MesoError error;
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    CHECK(meso_slots_write(&assignment, &set, tiles_hash, surface_hash, &provenance, output,
-                           &error) == MESO_OK);
+    CHECK(meso_slots_write(&assignment, &set, turned, tiles_hash, surface_hash, &provenance,
+                           output, &error) == MESO_OK);
     CHECK(meso_output_commit(output, &error) == MESO_OK);
+}
+
+static void write_file(const char *path)
+{
+    write_oriented(path, quarters);
 }
 
 static void test_round_trip(void)
@@ -47,6 +53,7 @@ static void test_round_trip(void)
     CHECK(slots.assignment.slot_count == 5);
     CHECK(memcmp(slots.assignment.tile, tiles, sizeof tiles) == 0);
     CHECK(memcmp(slots.assignment.transform, transforms, sizeof transforms) == 0);
+    CHECK(memcmp(slots.quarters, quarters, sizeof quarters) == 0);
     CHECK(memcmp(slots.tiles_hash, tiles_hash, 16) == 0);
     CHECK(memcmp(slots.surface_hash, surface_hash, 16) == 0);
     CHECK(slots.tile_count == 3 && strcmp(slots.tile_names[1], "one") == 0);
@@ -63,6 +70,26 @@ static void test_round_trip(void)
     CHECK(memcmp(slots.assignment.tile, bound, sizeof bound) == 0);
 }
 
+/* Without an orientation, or with the file's own, a file is of the first version. */
+static void test_versions(void)
+{
+    const uint8_t none[5] = {0};
+    const uint8_t *const given[3] = {NULL, none, quarters};
+    for (int i = 0; i < 3; i++) {
+        MesoInput input;
+        MesoError error;
+        MesoContainer container;
+        MesoSlotsFile slots;
+        write_oriented(test_path(&folder, "v.slots"), given[i]);
+        CHECK(meso_input_open(&input, test_path(&folder, "v.slots"), &error) == MESO_OK);
+        CHECK(meso_container_read(&container, &input, "slots", 2, &error) == MESO_OK);
+        CHECK(container.major == (i < 2 ? 1 : 2));
+        CHECK(meso_slots_read(&slots, &arena, &input, &error) == MESO_OK);
+        CHECK((slots.quarters != NULL) == (i == 2));
+        meso_input_close(&input);
+    }
+}
+
 /* A tile that no slot uses may be missing. */
 static void test_unused_name(void)
 {
@@ -75,8 +102,8 @@ static void test_unused_name(void)
     MesoError error;
     MesoSlotsFile slots;
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    CHECK(meso_slots_write(&assignment, &set, tiles_hash, surface_hash, &provenance, output,
-                           &error) == MESO_OK);
+    CHECK(meso_slots_write(&assignment, &set, NULL, tiles_hash, surface_hash, &provenance,
+                           output, &error) == MESO_OK);
     CHECK(meso_output_commit(output, &error) == MESO_OK);
     CHECK(meso_input_open(&input, path, &error) == MESO_OK);
     CHECK(meso_slots_read(&slots, &arena, &input, &error) == MESO_OK);
@@ -96,7 +123,7 @@ static void expect(const char *chunk, const void *data, uint64_t size, const cha
     MesoSlotsFile slots;
     write_file(test_path(&folder, "a.slots"));
     CHECK(meso_input_open(&input, test_path(&folder, "a.slots"), &error) == MESO_OK);
-    CHECK(meso_container_read(&container, &input, "slots", 1, &error) == MESO_OK);
+    CHECK(meso_container_read(&container, &input, "slots", 2, &error) == MESO_OK);
     for (uint32_t i = 0; i < container.chunk_count; i++)
         if (strcmp(container.chunks[i].name, chunk) == 0) {
             if (size == UINT64_MAX)
@@ -137,6 +164,8 @@ static void test_wrong_chunks(void)
     expect("tile", far, 20, "file: slot 3 has tile 3 of 3");
     expect("xform", turned, 4, "file: chunk 'tile' has 20 bytes, not 4 times 4");
     expect("xform", turned, 5, "file: slot 2 has transform 8 of 8");
+    expect("orient", quarters, 4, "file: chunk 'orient' has 4 bytes, not 5 times 1");
+    expect("orient", turned, 5, "file: slot 2 has orientation 8 of 4");
     expect("xform", turned, 0, "file: chunk 'xform' has no possible number of slots");
 }
 
@@ -167,6 +196,7 @@ int main(void)
     folder = test_folder_make();
     meso_arena_init(&arena);
     test_round_trip();
+    test_versions();
     test_unused_name();
     test_wrong_chunks();
     test_every_byte();

@@ -158,6 +158,13 @@ static MesoStatus scan_file(MesoMeshScan *scan, FileKind *kind, MesoGroupsBuilde
     return status;
 }
 
+MesoStatus meso_mesh_scan_file(MesoMeshScan *scan, MesoGroupsBuilder *groups, MesoArena *arena,
+                               const MesoInput *input, MesoError *error)
+{
+    FileKind kind;
+    return scan_file(scan, &kind, groups, arena, input, error);
+}
+
 static MesoStatus check_quads(const MesoMeshScan *scan, const char *path, MesoError *error)
 {
     for (uint32_t f = 0; f < scan->face_count; f++) {

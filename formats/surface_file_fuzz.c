@@ -1,6 +1,8 @@
 /* Any bytes as a surface and as triangles; the first one chooses the kind of file. */
+#include "formats/surface_field.h"
 #include "formats/surface_file.h"
 #include "libcore/base/check.h"
+#include "libcore/surface/orientation.h"
 #include "libcore/surface/slot_graph.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -28,6 +30,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         CHECK(meso_slot_graph_build(&graph, &arena, &mesh, &error) == MESO_OK);
         uint32_t *component = MESO_NEW(&arena, uint32_t, mesh.face_count, &error);
         CHECK(component && meso_slot_graph_components(&graph, component) >= 1);
+        MesoVec3 *directions;
+        meso_surface_texture_read(&directions, &arena, &mesh, &input, &error);
+        if (meso_surface_attribute_read(&directions, &arena, &mesh, &input, "n", &error) == MESO_OK) {
+            uint8_t *quarters = MESO_NEW(&arena, uint8_t, mesh.face_count, &error);
+            CHECK(quarters && meso_orientation_along(quarters, &mesh, directions) <= mesh.face_count);
+        }
     }
     if (meso_triangle_mesh_read(&triangles, &arena, &input, &error) == MESO_OK)
         for (uint32_t i = 0; i < 3 * triangles.triangle_count; i++)

@@ -140,6 +140,39 @@ MesoStatus meso_groups_value(MesoGroupsBuilder *builder, uint32_t column, double
     return MESO_OK;
 }
 
+MesoStatus meso_groups_texture(MesoGroupsBuilder *builder, float u, MesoError *error)
+{
+    float *array = grow_32(builder->arena, builder->texture_u, builder->texture_count, &builder->texture_room,
+                           sizeof *array, error);
+    if (!array)
+        return MESO_ERR_MEMORY;
+    builder->texture_u = array;
+    array[builder->texture_count++] = u;
+    return MESO_OK;
+}
+
+MesoStatus meso_groups_corner_texture(MesoGroupsBuilder *builder, uint32_t texture, MesoError *error)
+{
+    uint32_t *array = grow_32(builder->arena, builder->corner_textures, builder->corner_count, &builder->corner_room,
+                              sizeof *array, error);
+    if (!array)
+        return MESO_ERR_MEMORY;
+    builder->corner_textures = array;
+    array[builder->corner_count++] = texture;
+    return MESO_OK;
+}
+
+const MesoGroupsColumn *meso_groups_find(const MesoGroupsBuilder *builder, const char *name, bool of_vertices,
+                                         uint32_t count)
+{
+    for (uint32_t c = 0; c < builder->column_count; c++) {
+        const MesoGroupsColumn *column = &builder->columns[c];
+        if (column->of_vertices == of_vertices && column->count == count && strcmp(column->name, name) == 0)
+            return column;
+    }
+    return NULL;
+}
+
 static MesoStatus finish_names(const MesoGroupsBuilder *builder, MesoGroupKind kind, MesoFaceNames *names,
                                MesoArena *arena, MesoError *error)
 {

@@ -56,6 +56,11 @@ typedef struct MesoGroupsBuilder {
     uint32_t *of_face;                      /* [MESO_GROUP_KINDS * face_count] */
     uint32_t column_count, column_room;
     struct MesoGroupsColumn *columns;
+    bool textures;              /* set after the beginning: OBJ's texture coordinates are wanted too */
+    uint32_t texture_count, texture_room;
+    float *texture_u;           /* [texture_count] first coordinate of each `vt` */
+    uint32_t corner_count, corner_room;
+    uint32_t *corner_textures;  /* [corner_count] below texture_count, or MESO_NO_INDEX */
 } MesoGroupsBuilder;
 
 typedef struct MesoGroupsColumn {
@@ -81,6 +86,14 @@ MesoStatus meso_groups_column(MesoGroupsBuilder *builder, const char *name, size
                               double scale, uint32_t *column, MesoError *error);
 
 MesoStatus meso_groups_value(MesoGroupsBuilder *builder, uint32_t column, double value, MesoError *error);
+
+/* A texture coordinate, and the one of a corner. */
+MesoStatus meso_groups_texture(MesoGroupsBuilder *builder, float u, MesoError *error);
+MesoStatus meso_groups_corner_texture(MesoGroupsBuilder *builder, uint32_t texture, MesoError *error);
+
+/* Column `name` with `count` values, or NULL. */
+const MesoGroupsColumn *meso_groups_find(const MesoGroupsBuilder *builder, const char *name, bool of_vertices,
+                                         uint32_t count);
 
 /*
  * Puts all together for quads of `corner_vertices` [4 * face_count], into

@@ -1,0 +1,561 @@
+#include "cmd/solve_seeds.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <malloc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <threads.h>
+#include <unistd.h>
+
+#include "formats/line_file.h"
+#include "formats/output.h"
+#include "formats/seed_lines.h"
+#include "formats/slots_file.h"
+#include "libcore/solve/seed_sweep.h"
+
+/* Lines are kept until the end, a few hundred bytes each. */
+enum { MOST_SEEDS = 10000000 };
+
+/* ---- options ---- */
+
+typedef struct SeedRange {
+    uint64_t first;
+    uint32_t count;
+    uint32_t attempts;          /* 0: not given */
+} SeedRange;
+
+/* Digits at `*text`, which goes past them; false where there are none, or too large a number. */
+static bool take_number(const char **text, uint64_t most, uint64_t *number)
+{
+    *number = 0;
+    if (!isdigit((unsigned char)**text))
+        return false;
+    for (; isdigit((unsigned char)**text); ++*text) {
+        uint64_t digit = (uint64_t)(**text - '0');
+        if (*number > (most - digit) / 10)
+            return false;
+        *number = 10 * *number + digit;
+    }
+    return true;
+}
+
+static MesoStatus parse_range(SeedRange *range, const char *text, MesoError *error)
+{
+    const char *at = text;
+    uint64_t last, attempts = 0;
+    bool good = take_number(&at, MESO_SEED_LIMIT, &range->first);
+    last = range->first;
+    if (good && *at == '-')
+        good = at++ && take_number(&at, MESO_SEED_LIMIT, &last);
+    if (good && *at == 'x')
+        good = at++ && take_number(&at, 1000000000, &attempts) && attempts > 0;
+    if (!good || *at || last < range->first)
+        return meso_fail(error, MESO_ERR_USAGE, "--seeds: '%s' is not A-B or A-BxK, with seeds from A to B and K "
+                         "attempts each, like 1-1000x2", text);
+    if (last - range->first >= MOST_SEEDS)
+        return meso_fail(error, MESO_ERR_USAGE, "--seeds: %s are over %d seeds; do them in parts", text, MOST_SEEDS);
+    range->count = (uint32_t)(last - range->first) + 1;
+    range->attempts = (uint32_t)attempts;
+    return MESO_OK;
+}
+
+/* Less is better; ties go to the next number, then to the smaller seed. */
+typedef struct Metric {
+    const char *name;
+    void (*rate)(const MesoSeedLine *line, uint64_t rating[2]);
+} Metric;
+
+static void rate_attempts(const MesoSeedLine *line, uint64_t rating[2])
+{
+    rating[0] = line->attempts;
+    rating[1] = line->observations;
+}
+
+static void rate_balance(const MesoSeedLine *line, uint64_t rating[2])
+{
+    rating[0] = line->tile_squares;
+    rating[1] = 0;
+}
+
+static void rate_loops(const MesoSeedLine *line, uint64_t rating[2])
+{
+    rating[0] = line->loop_count;
+    rating[1] = line->strand_count;
+}
+
+static const Metric metrics[] = {{"attempts", rate_attempts}, {"balance", rate_balance}, {"loops", rate_loops}};
+enum { METRIC_COUNT = sizeof metrics / sizeof *metrics };
+
+static MesoStatus parse_best(const Metric **metric, const char **file, const char *text, MesoError *error)
+{
+    const char *equals = strchr(text, '=');
+    size_t length = equals ? (size_t)(equals - text) : strlen(text);
+    *file = equals ? equals + 1 : NULL;
+    for (uint32_t i = 0; i < METRIC_COUNT; i++)
+        if (strlen(metrics[i].name) == length && strncmp(metrics[i].name, text, length) == 0 && (!*file || **file)) {
+            *metric = &metrics[i];
+            return MESO_OK;
+        }
+    return meso_fail(error, MESO_ERR_USAGE, "--best: '%s' is not attempts, balance or loops, with or without =FILE", text);
+}
+
+/* One %d, any number of %%, and no other %. */
+static bool is_pattern(const char *text)
+{
+    int seeds = 0;
+    for (; *text; text++)
+        if (*text == '%') {
+            text++;
+            seeds += *text == 'd';
+            if (*text != 'd' && *text != '%')
+                return false;
+        }
+    return seeds == 1;
+}
+
+static MesoStatus check_companions(const MesoSeedOptions *o, const MesoTool *tool, MesoError *error)
+{
+    const char *alone = o->each ? "--each" : o->resume ? "--resume" : o->best ? "--best" : NULL;
+    if (!o->seeds && alone)
+        return meso_fail(error, MESO_ERR_USAGE, "%s needs --seeds", alone);
+    if (o->seeds && tool->seed)
+        return meso_fail(error, MESO_ERR_USAGE, "--seed and --seeds are both given; one is needed");
+    if (o->seeds && tool->json && (!*tool->json || strcmp(tool->json, "-") == 0) &&
+        (!tool->output || strcmp(tool->output, "-") == 0))
+        return meso_fail(error, MESO_ERR_USAGE, "the seeds' lines and the JSON report cannot both go to standard "
+                         "output; use -o FILE or --json=FILE");
+    return MESO_OK;
+}
+
+MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *tool, bool attempts_given, MesoError *error)
+{
+    SeedRange range;
+    const Metric *metric;
+    const char *file;
+    MesoStatus status = check_companions(o, tool, error);
+    if (status || !o->seeds)
+        return status;
+    status = parse_range(&range, o->seeds, error);
+    if (!status && range.attempts && attempts_given)
+        return meso_fail(error, MESO_ERR_USAGE, "--attempts and the x%u of --seeds are both given; one is needed",
+                         range.attempts);
+    if (!status && o->each && !is_pattern(o->each))
+        return meso_fail(error, MESO_ERR_USAGE, "--each: '%s' must have one %%d, for the seed; %%%% stands for %%", o->each);
+    return status || !o->best ? status : parse_best(&metric, &file, o->best, error);
+}
+
+/* ---- one seed ---- */
+
+typedef struct Seeds {
+    MesoTool *tool;
+    const MesoSeedOptions *options;
+    const MesoSeedProblem *problem;
+    SeedRange range;
+    MesoSolveOptions solve;
+    uint64_t hash[2];           /* of the problem */
+    uint64_t *todo;             /* [todo_count] seeds to solve */
+    uint32_t todo_count;
+    const char *partial;        /* NULL: none is kept */
+
+    mtx_t lock;                 /* of all below, and of the tool's arena */
+    MesoSeedLine *lines;        /* [range.count] by seed; without text where it is not known yet */
+    uint32_t done, told;        /* lines known; lines that went to standard output */
+    MesoLineFile journal, stream;
+} Seeds;
+
+static char *each_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoError *error)
+{
+    char *path = meso_arena_copy_text(arena, "", error);
+    for (const char *next; path && *pattern; pattern = next) {
+        next = pattern + strcspn(pattern, "%");
+        path = meso_arena_print(arena, error, "%s%.*s", path, (int)(next - pattern), pattern);
+        if (!*next)
+            break;
+        if (path && next[1] == 'd')
+            path = meso_arena_print(arena, error, "%s%" PRIu64, path, seed);
+        else if (path)
+            path = meso_arena_print(arena, error, "%s%%", path);
+        next += 2;
+    }
+    return path;
+}
+
+/*
+ * The command that solves this seed alone, whatever shard it is of: --seed, the
+ * attempts where --seeds gave them, and what else was given.
+ */
+static char *single_command(const Seeds *seeds, uint64_t seed, MesoArena *arena, MesoError *error)
+{
+    static const char *const left_out[] = {"seeds", "each", "resume", "best", "seed", "output", "threads",
+                                           "progress", "quiet", "verbose", "json", NULL};
+    const MesoSeedProblem *p = seeds->problem;
+    char *given = meso_options_command_line(p->options, p->argc, p->argv, left_out, arena, error);
+    size_t name = given ? strcspn(given, " ") : 0;
+    char attempts[32] = "";
+    if (seeds->range.attempts)
+        snprintf(attempts, sizeof attempts, " --attempts %u", seeds->range.attempts);
+    return given ? meso_arena_print(arena, error, "%.*s --seed %" PRIu64 "%s%s", (int)name, given, seed, attempts,
+                                    given + name)
+                 : NULL;
+}
+
+static MesoStatus write_slots(const Seeds *seeds, uint64_t seed, const MesoAssignment *assignment, const char *path,
+                              MesoArena *arena, MesoError *error)
+{
+    const MesoSeedProblem *p = seeds->problem;
+    MesoProvenance *provenance = MESO_NEW(arena, MesoProvenance, 1, error);
+    if (!provenance)
+        return MESO_ERR_MEMORY;
+    *provenance = seeds->tool->provenance;
+    provenance->seed = seed;
+    provenance->command_line = single_command(seeds, seed, arena, error);
+    MesoOutput *output = NULL;
+    MesoStatus status = provenance->command_line ? meso_output_open(&output, path, error) : MESO_ERR_MEMORY;
+    if (!status)
+        status = meso_slots_write(assignment, p->set, p->surface->quarters, p->tiles_hash, p->surface->hash,
+                                  provenance, output, error);
+    if (!status)
+        return meso_output_commit(output, error);
+    meso_output_discard(output);
+    return status;
+}
+
+static MesoStatus write_each(const Seeds *seeds, uint64_t seed, const MesoAssignment *assignment, MesoError *error)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    const char *path = each_path(seeds->options->each, seed, &arena, error);
+    MesoStatus status = path ? write_slots(seeds, seed, assignment, path, &arena, error) : MESO_ERR_MEMORY;
+    meso_arena_release(&arena);
+    return status;
+}
+
+static MesoStatus fail_differs(const Seeds *seeds, uint64_t seed, MesoError *error)
+{
+    return meso_fail(error, MESO_ERR_INPUT, "%s: the line of seed %" PRIu64 " is not what this version solves it to",
+                     seeds->options->resume, seed);
+}
+
+/* Lines to standard output as far as they follow each other. */
+static MesoStatus tell_lines(Seeds *seeds, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    bool streams = seeds->stream.path != NULL;
+    for (; !status && streams && seeds->told < seeds->range.count && seeds->lines[seeds->told].text; seeds->told++)
+        status = meso_line_file_append(&seeds->stream, seeds->lines[seeds->told].text, error);
+    return status;
+}
+
+/* Copies the line's text to the tool's arena. */
+static MesoStatus add_line(Seeds *seeds, const MesoSeedLine *made, MesoError *error)
+{
+    MesoSeedLine *line = &seeds->lines[made->seed - seeds->range.first];
+    if (line->text)     /* taken over, but its assignment was not there */
+        return strcmp(line->text, made->text) == 0 ? MESO_OK : fail_differs(seeds, made->seed, error);
+    const char *text = meso_arena_copy_text(&seeds->tool->arena, made->text, error);
+    if (!text)
+        return MESO_ERR_MEMORY;
+    *line = *made;
+    line->text = text;
+    MesoStatus status = seeds->partial ? meso_line_file_append(&seeds->journal, text, error) : MESO_OK;
+    meso_tool_progress(seeds->tool, ++seeds->done, seeds->range.count);
+    return status ? status : tell_lines(seeds, error);
+}
+
+/* The assignment before the line: what has a line has all. */
+static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResult *result, MesoError *error)
+{
+    Seeds *seeds = context;
+    const MesoSeedProblem *p = seeds->problem;
+    uint64_t seed = seeds->todo[index];
+    MesoSeedLine line;
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoStatus status = MESO_OK;
+    if (seeds->options->each && result->verdict == MESO_VERDICT_SOLVED)
+        status = write_each(seeds, seed, &result->assignment, error);
+    if (!status)
+        status = meso_seed_line_make(&line, &arena, seed, seeds->hash, result, p->set, &p->surface->graph, error);
+    if (!status) {
+        mtx_lock(&seeds->lock);
+        status = add_line(seeds, &line, error);
+        mtx_unlock(&seeds->lock);
+    }
+    meso_arena_release(&arena);
+    return status;
+}
+
+/* ---- what is there ---- */
+
+static bool is_empty_file(const char *path)
+{
+    struct stat file;
+    return stat(path, &file) == 0 && S_ISREG(file.st_mode) && file.st_size == 0;
+}
+
+static MesoStatus read_lines(Seeds *seeds, MesoError *error)
+{
+    const char *path = seeds->options->resume;
+    MesoSeedLine *lines;
+    MesoInput input;
+    uint32_t count;
+    if (!path || is_empty_file(path))
+        return MESO_OK;
+    MesoStatus status = meso_input_open(&input, path, error);
+    if (status)
+        return status;
+    status = meso_seed_lines_read(&lines, &count, &seeds->tool->arena, &input, seeds->hash, error);
+    meso_input_close(&input);
+    for (uint32_t i = 0; !status && i < count; i++)
+        if (lines[i].seed >= seeds->range.first && lines[i].seed - seeds->range.first < seeds->range.count) {
+            seeds->lines[lines[i].seed - seeds->range.first] = lines[i];
+            seeds->done++;
+        }
+    return status;
+}
+
+/* Seeds without a line, or without the assignment that --each asks for. */
+static MesoStatus list_todo(Seeds *seeds, MesoError *error)
+{
+    MesoArena *arena = &seeds->tool->arena;
+    seeds->todo = MESO_NEW(arena, uint64_t, seeds->range.count, error);
+    if (!seeds->todo)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < seeds->range.count; i++) {
+        const MesoSeedLine *line = &seeds->lines[i];
+        uint64_t seed = seeds->range.first + i;
+        bool complete = line->text != NULL;
+        if (complete && seeds->options->each && line->verdict == MESO_VERDICT_SOLVED) {
+            MesoArenaMark mark = meso_arena_mark(arena);
+            const char *path = each_path(seeds->options->each, seed, arena, error);
+            if (!path)
+                return MESO_ERR_MEMORY;
+            complete = access(path, F_OK) == 0;
+            meso_arena_rewind(arena, mark);
+        }
+        if (!complete)
+            seeds->todo[seeds->todo_count++] = seed;
+    }
+    return MESO_OK;
+}
+
+static bool is_same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+    return a && b && stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+/* Begins FILE.partial with the lines that are there; none is kept for devices and pipes. */
+static MesoStatus open_journal(Seeds *seeds, MesoError *error)
+{
+    MesoTool *tool = seeds->tool;
+    struct stat file;
+    if (stat(tool->output, &file) == 0 && !S_ISREG(file.st_mode))
+        return MESO_OK;
+    const char *path = meso_arena_print(&tool->arena, error, "%s.partial", tool->output);
+    if (!path)
+        return MESO_ERR_MEMORY;
+    if (access(path, F_OK) == 0 && !is_same_file(path, seeds->options->resume))
+        return meso_fail(error, MESO_ERR_OUTPUT, "'%s' is there, of a sweep that was cut short: go on with --resume "
+                         "'%s', or remove it", path, path);
+    MesoOutput *output;
+    MesoStatus status = meso_output_open(&output, path, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < seeds->range.count && !status; i++)
+        if (seeds->lines[i].text) {
+            status = meso_output_write(output, seeds->lines[i].text, strlen(seeds->lines[i].text), error);
+            if (!status)
+                status = meso_output_write(output, "\n", 1, error);
+        }
+    if (status)
+        meso_output_discard(output);
+    else
+        status = meso_output_commit(output, error);
+    if (!status)
+        status = meso_line_file_open(&seeds->journal, path, error);
+    seeds->partial = status ? NULL : path;
+    return status;
+}
+
+/* ---- all seeds ---- */
+
+/*
+ * Every seed needs the same memory again: given back to the system between two,
+ * threads would spend a tenth of their time waiting for each other to get it.
+ */
+static void keep_memory(void)
+{
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
+static MesoStatus sweep(Seeds *seeds, MesoError *error)
+{
+    MesoTool *tool = seeds->tool;
+    const MesoSeedSweep all = {
+        .set = seeds->problem->set, .variants = seeds->problem->variants, .graph = &seeds->problem->surface->graph,
+        .options = seeds->solve, .thread_count = tool->threads,
+        .seeds = seeds->todo, .seed_count = seeds->todo_count, .take = take_result, .context = seeds,
+    };
+    keep_memory();
+    meso_tool_progress_begin(tool, "solving", "seeds");
+    meso_tool_progress(tool, seeds->done, seeds->range.count);
+    MesoStatus status = tell_lines(seeds, error);
+    if (!status)
+        status = meso_seed_sweep(&all, error);
+    if (seeds->partial) {
+        MesoError ignored;
+        MesoStatus closed = meso_line_file_close(&seeds->journal, status ? &ignored : error);
+        status = status ? status : closed;
+    }
+    return status;
+}
+
+/* -o FILE: all lines, whole or not at all. */
+static MesoStatus write_lines(const Seeds *seeds, MesoError *error)
+{
+    MesoOutput *output;
+    MesoStatus status = meso_output_open(&output, seeds->tool->output, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < seeds->range.count && !status; i++) {
+        status = meso_output_write(output, seeds->lines[i].text, strlen(seeds->lines[i].text), error);
+        if (!status)
+            status = meso_output_write(output, "\n", 1, error);
+    }
+    if (status) {
+        meso_output_discard(output);
+        return status;
+    }
+    status = meso_output_commit(output, error);
+    if (!status && seeds->partial)
+        unlink(seeds->partial);
+    return status;
+}
+
+static const MesoSeedLine *find_best(const Seeds *seeds, const Metric *metric)
+{
+    const MesoSeedLine *best = NULL;
+    uint64_t least[2] = {0}, rating[2];
+    for (uint32_t i = 0; i < seeds->range.count; i++) {
+        const MesoSeedLine *line = &seeds->lines[i];
+        if (line->verdict != MESO_VERDICT_SOLVED)
+            continue;
+        metric->rate(line, rating);
+        if (!best || rating[0] < least[0] || (rating[0] == least[0] && rating[1] < least[1])) {
+            best = line;
+            memcpy(least, rating, sizeof least);
+        }
+    }
+    return best;
+}
+
+/* Solves the best seed once more, for lines may have been taken over, and assignments are not kept. */
+static MesoStatus write_best(const Seeds *seeds, const MesoSeedLine *best, const char *path, MesoError *error)
+{
+    MesoTool *tool = seeds->tool;
+    MesoSolveOptions options = seeds->solve;
+    MesoSolveResult result;
+    uint64_t hash[2] = {0};
+    options.seed = best->seed;
+    MesoStatus status = meso_solve(&result, &tool->arena, seeds->problem->set, seeds->problem->variants,
+                                   &seeds->problem->surface->graph, &options, error);
+    if (status)
+        return status;
+    if (result.verdict == MESO_VERDICT_SOLVED)
+        meso_assignment_hash(hash, &result.assignment);
+    if (memcmp(hash, best->assignment, sizeof hash) != 0)
+        return fail_differs(seeds, best->seed, error);
+    return write_slots(seeds, best->seed, &result.assignment, path, &tool->arena, error);
+}
+
+static MesoStatus keep_best(const Seeds *seeds, MesoError *error)
+{
+    const Metric *metric;
+    const char *file;
+    MesoStatus status = parse_best(&metric, &file, seeds->options->best, error);
+    const MesoSeedLine *best = status ? NULL : find_best(seeds, metric);
+    if (!best)
+        return status;
+    meso_tool_say(seeds->tool, "best by %s: seed %" PRIu64, metric->name, best->seed);
+    if (json_object_set_new(seeds->tool->report, "best", json_pack("{sssI}", "metric", metric->name, "seed",
+                                                                   (json_int_t)best->seed)))
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for the report");
+    return file ? write_best(seeds, best, file, error) : MESO_OK;
+}
+
+static MesoStatus tell_verdicts(const Seeds *seeds, MesoError *error)
+{
+    uint32_t counts[MESO_VERDICT_GAVE_UP + 1] = {0}, count = seeds->range.count;
+    for (uint32_t i = 0; i < count; i++)
+        counts[seeds->lines[i].verdict]++;
+    uint32_t solved = counts[MESO_VERDICT_SOLVED], unsolvable = counts[MESO_VERDICT_UNSOLVABLE];
+    json_t *report = seeds->tool->report;
+    int failed = json_object_set_new(report, "seeds", json_integer(count));
+    failed |= json_object_set_new(report, "solved", json_integer(solved));
+    failed |= json_object_set_new(report, "unsolvable", json_integer(unsolvable));
+    failed |= json_object_set_new(report, "gave_up", json_integer(counts[MESO_VERDICT_GAVE_UP]));
+    if (failed)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for the report");
+    if (solved) {
+        meso_tool_say(seeds->tool, "solved for %u of %u seed%s", solved, count, count == 1 ? "" : "s");
+        return MESO_OK;
+    }
+    if (unsolvable)
+        return meso_fail(error, MESO_ERR_NO, "unsolvable, whatever the seed");
+    return meso_fail(error, MESO_ERR_LIMIT, "gave up for all of %u seed%s; try more attempts, or meso-suggest", count,
+                     count == 1 ? "" : "s");
+}
+
+/* What results depend on beside the inputs and the seed. */
+static char *describe_options(const MesoSolveOptions *solve, const char *others, MesoArena *arena, MesoError *error)
+{
+    return meso_arena_print(arena, error, "engine %d, %u attempts, %" PRIu64 " observations, %" PRIu64 " conflicts, %s",
+                            (int)solve->engine, solve->max_attempts, solve->max_observations, solve->max_conflicts,
+                            others);
+}
+
+static MesoStatus prepare(Seeds *seeds, MesoError *error)
+{
+    MesoTool *tool = seeds->tool;
+    const MesoSeedProblem *p = seeds->problem;
+    MesoStatus status = parse_range(&seeds->range, seeds->options->seeds, error);
+    if (status)
+        return status;
+    seeds->solve = p->solve;
+    seeds->solve.max_dead_ends = 1;
+    if (seeds->range.attempts)
+        seeds->solve.max_attempts = seeds->range.attempts;
+    const char *options = describe_options(&seeds->solve, p->others, &tool->arena, error);
+    seeds->lines = options ? MESO_NEW(&tool->arena, MesoSeedLine, seeds->range.count, error) : NULL;
+    if (!seeds->lines)
+        return MESO_ERR_MEMORY;
+    meso_seed_problem(seeds->hash, &tool->provenance, p->surface->quarters, p->surface->graph.slot_count, options);
+    status = read_lines(seeds, error);
+    return status ? status : list_todo(seeds, error);
+}
+
+MesoStatus meso_solve_seeds(MesoTool *tool, const MesoSeedOptions *options, const MesoSeedProblem *problem)
+{
+    MesoError *error = &tool->error;
+    Seeds seeds = {.tool = tool, .options = options, .problem = problem};
+    bool streams = !tool->output || strcmp(tool->output, "-") == 0;
+    if (mtx_init(&seeds.lock, mtx_plain) != thrd_success)
+        return meso_fail(error, MESO_ERR_INTERNAL, "no lock for the threads");
+    MesoStatus status = prepare(&seeds, error);
+    if (!status)
+        status = streams ? meso_line_file_open(&seeds.stream, "-", error) : open_journal(&seeds, error);
+    if (!status)
+        status = sweep(&seeds, error);
+    if (!status && !streams)
+        status = write_lines(&seeds, error);
+    if (!status && options->best)
+        status = keep_best(&seeds, error);
+    mtx_destroy(&seeds.lock);
+    return status ? status : tell_verdicts(&seeds, error);
+}
