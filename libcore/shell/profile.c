@@ -13,8 +13,7 @@ enum { MIN_CAP_DIVISIONS = 4 };
 typedef struct Ring {
     uint32_t count;
     MesoVec2 *points;       /* [count] */
-    MesoVec2 *before;       /* [count] outward normal on the side of the previous segment */
-    MesoVec2 *after;        /* [count] and of the next; equal to `before` where smooth */
+    bool *creased;          /* [count] a sharp corner */
 } Ring;
 
 typedef struct Builder {
@@ -80,27 +79,20 @@ MesoStatus meso_contour_resample(const MesoVec2 *contour, uint32_t contour_count
     return MESO_OK;
 }
 
-/* Right-hand normal of a segment: outward where material lies to the left. */
-static MesoVec2 segment_normal(MesoVec2 a, MesoVec2 b)
+static MesoVec2 segment_direction(MesoVec2 a, MesoVec2 b)
 {
     MesoVec2 d = meso_vec2_sub(b, a);
     float length = meso_vec2_length(d);
-    return length > 0 ? (MesoVec2){d.y / length, -d.x / length} : (MesoVec2){1, 0};
+    return length > 0 ? (MesoVec2){d.x / length, d.y / length} : (MesoVec2){1, 0};
 }
 
-static void ring_normals(Ring *ring)
+static void find_creases(Ring *ring)
 {
     for (uint32_t i = 0; i < ring->count; i++) {
         MesoVec2 here = ring->points[i];
-        MesoVec2 a = segment_normal(ring->points[(i + ring->count - 1) % ring->count], here);
-        MesoVec2 b = segment_normal(here, ring->points[(i + 1) % ring->count]);
-        if (a.x * b.x + a.y * b.y >= CREASE_COSINE) {
-            MesoVec2 mean = meso_vec2_add(a, b);
-            float length = meso_vec2_length(mean);
-            a = b = (MesoVec2){mean.x / length, mean.y / length};
-        }
-        ring->before[i] = a;
-        ring->after[i] = b;
+        MesoVec2 a = segment_direction(ring->points[(i + ring->count - 1) % ring->count], here);
+        MesoVec2 b = segment_direction(here, ring->points[(i + 1) % ring->count]);
+        ring->creased[i] = a.x * b.x + a.y * b.y < CREASE_COSINE;
     }
 }
 
@@ -109,14 +101,13 @@ static MesoStatus make_ring(Builder *b, uint32_t contour, uint32_t count, MesoEr
     const MesoContour *c = &b->contours->contours[contour];
     Ring *ring = &b->rings[contour];
     *ring = (Ring){count, MESO_NEW(b->scratch, MesoVec2, count, error),
-                   MESO_NEW(b->scratch, MesoVec2, count, error),
-                   MESO_NEW(b->scratch, MesoVec2, count, error)};
-    if (!ring->points || !ring->before || !ring->after)
+                   MESO_NEW(b->scratch, bool, count, error)};
+    if (!ring->points || !ring->creased)
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_contour_resample(b->contours->points + c->point_begin, c->point_count,
                                               ring->points, count, b->scratch, error);
     if (!status)
-        ring_normals(ring);
+        find_creases(ring);
     return status;
 }
 
@@ -233,20 +224,19 @@ static MesoVec2 walk_point(const Walk *walk, uint32_t k)
     return (MesoVec2){walk->x_sign * p.x, p.y};
 }
 
-/* Normal at step k on the side of the next step, or of the previous one. */
-static MesoVec2 walk_normal(const Walk *walk, uint32_t k, bool next)
-{
-    uint32_t i = walk_index(walk, k);
-    MesoVec2 n = next != walk->backwards ? walk->ring->after[i] : walk->ring->before[i];
-    return (MesoVec2){walk->x_sign * n.x, n.y};
-}
-
 static bool walk_creased(const Walk *walk, uint32_t k)
 {
-    if (!walk->ring)
-        return false;
-    uint32_t i = walk_index(walk, k);
-    return memcmp(&walk->ring->before[i], &walk->ring->after[i], sizeof(MesoVec2)) != 0;
+    return walk->ring && walk->ring->creased[walk_index(walk, k)];
+}
+
+/*
+ * Outward normal of the chord from step `from` to step `to`, as long as the
+ * chord: the one of an interpolated profile is then the interpolated one.
+ */
+static MesoVec2 walk_normal(const Walk *walk, uint32_t from, uint32_t to)
+{
+    MesoVec2 chord = meso_vec2_sub(walk_point(walk, to), walk_point(walk, from));
+    return (MesoVec2){-chord.y, chord.x};   /* walks run clockwise */
 }
 
 static MesoVec2 walk_middle(const Walk *walk)
@@ -259,12 +249,16 @@ static MesoVec2 walk_middle(const Walk *walk)
     return (MesoVec2){(float)(x / walk->ring->count), (float)(y / walk->ring->count)};
 }
 
+/* Which neighbours a column takes its normal from. */
+typedef enum Facing { BOTH, PREVIOUS, NEXT } Facing;
+
 static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t k, uint32_t count,
-                                   bool next, bool joins)
+                                   Facing facing, bool joins)
 {
     const Walk *start_normals = start->ring ? start : end, *end_normals = end->ring ? end : start;
+    uint32_t from = facing == NEXT ? k : k + count - 1, to = facing == PREVIOUS ? k : k + 1;
     return (MesoSweepColumn){walk_point(start, k), walk_point(end, k),
-                             walk_normal(start_normals, k, next), walk_normal(end_normals, k, next),
+                             walk_normal(start_normals, from, to), walk_normal(end_normals, from, to),
                              (float)k / (float)count, joins};
 }
 
@@ -305,13 +299,12 @@ static MesoStatus push_kind(Builder *b, MesoSweepKind kind, Walk start, Walk end
     kind.column_begin = out->column_count;
     kind.joint_count = count;
     for (uint32_t k = 0; k <= count; k++) {
-        bool seam = k == 0 || k == count;
-        bool double_column = !seam && (walk_creased(&start, k) || walk_creased(&end, k));
+        bool creased = walk_creased(&start, k) || walk_creased(&end, k);
         MesoStatus status = MESO_OK;
-        if (double_column)
-            status = push_column(b, make_column(&start, &end, k, count, false, false), error);
-        if (!status)
-            status = push_column(b, make_column(&start, &end, k, count, k < count, k < count), error);
+        if (creased && k > 0)
+            status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, false), error);
+        if (!status && (k < count || !creased))
+            status = push_column(b, make_column(&start, &end, k, count, creased ? NEXT : BOTH, k < count), error);
         if (status)
             return status;
     }

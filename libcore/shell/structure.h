@@ -35,7 +35,7 @@
 /* One line of vertices along a sweep. */
 typedef struct MesoSweepColumn {
     MesoVec2 start, end;                /* profile points at v 0 and 1, edge lengths */
-    MesoVec2 start_normal, end_normal;  /* outward, unit length */
+    MesoVec2 start_normal, end_normal;  /* outward, as long as the chord that they are normal to */
     float u;                            /* around, in [0,1] */
     uint32_t joins_next;                /* 1 if quads lie between this column and the next */
 } MesoSweepColumn;
