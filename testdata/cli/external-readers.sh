@@ -11,7 +11,7 @@ for element in vertex face; do
 done
 if [ -d "$npm/node_modules/gltf-validator" ]; then
     NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" vase.glb >said || { echo "validator: $?" && cat said; }
-elif [ "${CI-}" = true ]; then
+elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
     echo "gltf-validator is not installed" >&2
 fi
 exrheader vase.exr | grep -o -e '^ *[A-Za-z.]*, .*sampling' | sed 's/, sampling//'
