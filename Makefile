@@ -35,8 +35,6 @@ LINK_fuzz      := -fsanitize=address,undefined
 ifeq ($(config),fuzz)
 CC  := clang
 CXX := clang++
-else
-OPENMP := -fopenmp
 endif
 ifeq ($(filter $(config),release debug sanitize coverage fuzz),)
 $(error config=$(config) is not one of release, debug, sanitize, coverage, fuzz)
@@ -47,9 +45,9 @@ FLOATS   := -ffp-contract=off -fno-math-errno -fno-trapping-math
 PACKAGES := draco libpng libxxhash jansson openmesh polyclipping zlib
 WARN     := -Wall -Wextra -Wconversion -Wshadow $(WERROR)
 CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-only-I osmesa $(PACKAGES) 2>/dev/null)
-CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) $(OPENMP) $(WARN)
-CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) $(OPENMP) $(WARN)
-LDFLAGS  := $(LINK_$(config)) $(OPENMP) -Wl,--as-needed
+CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
+CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
+LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
 LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -lOSMesa -lEGL \
             -lOpenEXRCore-3_1 -lpng -lz -ljansson -lxxhash -lcadical -lm
 

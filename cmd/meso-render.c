@@ -65,6 +65,8 @@ static MesoStatus choose_product(RenderArguments *a, MesoError *error)
     const char *dot = strrchr(output, '.');
     if (!kind)
         kind = dot ? dot + 1 : "";
+    if (a->png && strcmp(a->png, output) == 0)
+        return meso_fail(error, MESO_ERR_USAGE, "-o and --png cannot both be '%s'", output);
     a->exr_product = strcmp(kind, "exr") == 0;
     if (a->exr_product || strcmp(kind, "png") == 0)
         return MESO_OK;

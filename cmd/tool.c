@@ -24,15 +24,16 @@ static void die_of_signal(int number)
     raise(number);
 }
 
-/* What the caller chose to ignore (nohup) stays ignored. Writes to a closed
+/* What the caller chose to ignore (nohup) stays ignored. Crashes of libraries, and of an input
+ * that is cut while it is mapped, leave no temporary file either. Writes to a closed
  * pipe and past the size limit become errors that are reported. */
 static void install_handlers(void)
 {
-    static const int deadly[] = {SIGTERM, SIGINT, SIGHUP};
+    static const int deadly[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGSEGV, SIGBUS, SIGABRT};
     for (size_t i = 0; i < sizeof deadly / sizeof *deadly; i++) {
         struct sigaction old, action = {.sa_handler = die_of_signal};
         sigfillset(&action.sa_mask);
-        if (sigaction(deadly[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+        if (sigaction(deadly[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
             sigaction(deadly[i], &action, NULL);
     }
     signal(SIGPIPE, SIG_IGN);
@@ -68,8 +69,8 @@ static MesoStatus check_operands(const MesoToolInfo *info, uint32_t count, MesoE
                      count < low ? "least" : "most", count < low ? low : high);
 }
 
-/* Two products in one stream would be neither. */
-static MesoStatus check_standard_output(const MesoTool *tool, MesoError *error)
+/* Two products in one stream would be neither, and in one file only the second. */
+static MesoStatus check_outputs(MesoTool *tool, MesoError *error)
 {
     bool report = tool->json && (*tool->json == 0 || strcmp(tool->json, "-") == 0);
     bool product = tool->output ? strcmp(tool->output, "-") == 0 : tool->info->to_standard_output;
@@ -77,6 +78,11 @@ static MesoStatus check_standard_output(const MesoTool *tool, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE,
                          "the product and the report cannot both go to standard output; use "
                          "--json=FILE");
+    if (tool->json && tool->output && *tool->json && strcmp(tool->json, tool->output) == 0) {
+        tool->json = NULL;
+        return meso_fail(error, MESO_ERR_USAGE, "the product and the report cannot both be '%s'",
+                         tool->output);
+    }
     return MESO_OK;
 }
 
@@ -93,7 +99,7 @@ static MesoStatus parse(MesoTool *tool, const MesoOption *options, int argc, cha
     if (status == MESO_OK)
         status = check_operands(tool->info, tool->operand_count, error);
     if (status == MESO_OK)
-        status = check_standard_output(tool, error);
+        status = check_outputs(tool, error);
     if (status != MESO_OK)
         return status;
     tool->provenance.seed = tool->seed;

@@ -73,8 +73,8 @@ typedef struct MesoTool {
     {MESO_OPTION_FLAG, 0, "version", 0, "name and version", &(tool).version, 0, 0, 0, 0}
 
 /*
- * Parses, installs the signal handlers (SIGTERM, SIGINT, SIGHUP: remove
- * temporary files, then die of the signal), ignores SIGPIPE. `tool` must be
+ * Parses, installs the signal handlers (SIGTERM, SIGINT, SIGHUP, SIGQUIT,
+ * SIGXCPU and crashes: remove temporary files, then die of the signal), ignores SIGPIPE. `tool` must be
  * zeroed, except for option values that are not the default here. Returns
  * false where there is nothing left to run: --help, --version, or wrong usage.
  */

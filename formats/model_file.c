@@ -7,7 +7,7 @@
 #include "formats/tiles_file.h"
 #include "libcore/surface/slot_graph.h"
 
-enum { MAJOR = 1, MINOR = 0, MOST_DIVISIONS = 4096 };
+enum { MAJOR = 1, MINOR = 0 };
 
 /* How options lie in the file. */
 typedef struct StoredOptions {
@@ -161,25 +161,14 @@ static MesoStatus read_options(const Reading *in, MesoError *error)
     const StoredOptions *o = meso_container_require(&in->file, in->path, "options", 1, sizeof *o, error);
     if (!o)
         return MESO_ERR_INPUT;
-    const char *wrong = NULL;
-    if (!(o->thickness > 0) || !isfinite(o->thickness))
-        wrong = "thickness";
-    else if (!isfinite(o->offset))
-        wrong = "offset";
-    else if (!(o->section_scale > 0) || !isfinite(o->section_scale))
-        wrong = "section scale";
-    else if (!(o->tangent_scale > 0) || !isfinite(o->tangent_scale))
-        wrong = "tangent scale";
-    else if (!(o->section_step >= 1e-4f && o->section_step <= 1))
-        wrong = "section step";
-    else if (o->divisions < 2 || o->divisions > MOST_DIVISIONS)
-        wrong = "number of divisions";
+    const MesoMapOptions options = {
+        .thickness = o->thickness, .offset = o->offset, .section_scale = o->section_scale,
+        .tangent_scale = o->tangent_scale, .section_step = o->section_step, .divisions = o->divisions};
+    const char *wrong = meso_map_options_problem(&options);
     if (wrong)
         return meso_fail(error, MESO_ERR_INPUT, "%s: chunk 'options': the %s is out of range",
                          in->path, wrong);
-    in->model->options = (MesoMapOptions){
-        .thickness = o->thickness, .offset = o->offset, .section_scale = o->section_scale,
-        .tangent_scale = o->tangent_scale, .section_step = o->section_step, .divisions = o->divisions};
+    in->model->options = options;
     return MESO_OK;
 }
 

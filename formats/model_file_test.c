@@ -126,6 +126,9 @@ static void test_options(void)
         {{{1, 0, 1, 1, 0}, 5}, "section step"},       {{{1, 0, 1, 1, 1.5f}, 5}, "section step"},
         {{{1, 0, 1, 1, NAN}, 5}, "section step"},     {{{1, 0, 1, 1, 0.1f}, 1}, "number of divisions"},
         {{{1, 0, 1, 1, 0.1f}, 4097}, "number of divisions"},
+        {{{1e30f, 0, 1, 1, 0.1f}, 5}, "thickness"},   {{{1, -1e30f, 1, 1, 0.1f}, 5}, "offset"},
+        {{{1, 0, 1e30f, 1, 0.1f}, 5}, "section scale"}, {{{1, 0, 1e-30f, 1, 0.1f}, 5}, "section scale"},
+        {{{1, 0, 1, 1e30f, 0.1f}, 5}, "tangent scale"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char message[80];

@@ -15,12 +15,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     MesoArena arena;
     MesoInput input;
     MesoQuadMesh mesh;
+    MesoSurfaceGroups groups;
     MesoSlotGraph graph;
     MesoTriangleMesh triangles;
     MesoError error;
     meso_arena_init(&arena);
     meso_input_wrap(&input, paths[data[0] % 5], data + 1, size - 1);
-    if (meso_surface_read(&mesh, &arena, &input, &error) == MESO_OK) {
+    if (meso_surface_read_groups(&mesh, &groups, &arena, &input, &error) == MESO_OK) {
+        CHECK(groups.face_count == mesh.face_count);
+        for (uint32_t k = 0; k < MESO_GROUP_KINDS; k++)
+            for (uint32_t f = 0; f < mesh.face_count && groups.names[k].of_face; f++)
+                CHECK(groups.names[k].of_face[f] < groups.names[k].count ||
+                      groups.names[k].of_face[f] == MESO_NO_INDEX);
         CHECK(meso_slot_graph_build(&graph, &arena, &mesh, &error) == MESO_OK);
         uint32_t *component = MESO_NEW(&arena, uint32_t, mesh.face_count, &error);
         CHECK(component && meso_slot_graph_components(&graph, component) >= 1);

@@ -8,7 +8,8 @@
  * Calls `body(context, begin, end)` for consecutive ranges of at most `grain`
  * items that together cover [0, count). Ranges are the same for every
  * `thread_count` (0: all cores); which thread runs which is not. `body` must
- * write only to what belongs to its range.
+ * write only to what belongs to its range. Threads that the system refuses are
+ * done without.
  */
 void meso_parallel_for(uint32_t thread_count, uint64_t count, uint64_t grain,
                        void (*body)(void *context, uint64_t begin, uint64_t end), void *context);

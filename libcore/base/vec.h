@@ -90,6 +90,15 @@ static inline MesoVec3 meso_vec3_unit(MesoVec3 a, MesoVec3 fallback)
     return length > 0 && isfinite(length) ? meso_vec3_scale(a, 1 / length) : fallback;
 }
 
+/* The same for components from 1e-37 to 1e37, whose squares single precision does not hold. */
+static inline MesoVec3 meso_vec3_direction(MesoVec3 a, MesoVec3 fallback)
+{
+    float largest = fmaxf(fabsf(a.x), fmaxf(fabsf(a.y), fabsf(a.z)));
+    if (largest > 1e-15f && largest < 1e15f)
+        return meso_vec3_unit(a, fallback);
+    return meso_vec3_unit(meso_vec3_scale(a, 1 / largest), fallback);
+}
+
 static inline bool meso_vec3_finite(MesoVec3 a)
 {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);

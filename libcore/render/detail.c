@@ -27,7 +27,7 @@ static float distance_to_chord(MesoVec2 p, MesoVec2 a, MesoVec2 b)
 
 static bool turns_little(MesoVec2 a, MesoVec2 b)
 {
-    return a.x * b.x + a.y * b.y >= NORMAL_COSINE;
+    return a.x * b.x + a.y * b.y >= NORMAL_COSINE * meso_vec2_length(a) * meso_vec2_length(b);
 }
 
 /* True if the columns between `first` and `last` may go. */

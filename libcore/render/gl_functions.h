@@ -47,6 +47,7 @@
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                           \
     X(GETSHADERIV, GetShaderiv)                                                     \
     X(LINKPROGRAM, LinkProgram)                                                     \
+    X(NAMEDBUFFERDATA, NamedBufferData)                                             \
     X(NAMEDBUFFERSTORAGE, NamedBufferStorage)                                       \
     X(NAMEDFRAMEBUFFERDRAWBUFFERS, NamedFramebufferDrawBuffers)                     \
     X(NAMEDFRAMEBUFFERREADBUFFER, NamedFramebufferReadBuffer)                       \

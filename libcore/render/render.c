@@ -13,7 +13,7 @@
 extern const char meso_shader_screen_vertex[], meso_shader_occlusion_fragment[];
 extern const char meso_shader_occlusion_blur_fragment[], meso_shader_shade_fragment[];
 
-enum { MAX_SIZE = 16384, WINDOW_SIZE = 2048, MIN_SHADOW = 1024, MAX_SHADOW = 4096 };
+enum { MAX_SIZE = 16384, WINDOW_SIZE = 2560, MIN_SHADOW = 1024, MAX_SHADOW = 4096 };
 
 /* Uniforms by the locations that the shaders give them. */
 enum {
@@ -270,11 +270,12 @@ static MesoWindow surround(const Renderer *r, MesoWindow inner)
     return (MesoWindow){smaller(x, r->options->width - w), smaller(y, r->options->height - h), w, h};
 }
 
-static void draw_window(const Renderer *r, MesoImage *image, MesoWindow inner)
+static void draw_window(Renderer *r, MesoImage *image, MesoWindow inner)
 {
     MesoWindow outer = surround(r, inner);
     MesoMatrix clip = meso_view_clip_from_world(&r->view, r->near_depth, r->options->width,
                                                 r->options->height, outer);
+    meso_scene_select(&r->scene, &clip);
     meso_targets_begin_center(&r->targets);
     meso_scene_draw(&r->scene, &r->surface, &clip, &r->view);
     if (r->targets.sample_side > 1) {
@@ -288,7 +289,7 @@ static void draw_window(const Renderer *r, MesoImage *image, MesoWindow inner)
     read_back(r, image, inner, outer);
 }
 
-static void draw_windows(const Renderer *r, MesoImage *image)
+static void draw_windows(Renderer *r, MesoImage *image)
 {
     for (uint32_t y = 0; y < image->height; y += WINDOW_SIZE)
         for (uint32_t x = 0; x < image->width; x += WINDOW_SIZE)

@@ -43,21 +43,28 @@ static GLuint upload(const MesoGl *gl, const void *data, size_t size)
     return buffer;
 }
 
-/* Scene units that one pixel shows at the kind's point nearest to the eye; 0 where the eye is inside. */
-static float finest_pixel(const MesoStructure *structure, const MesoSweepKind *kind,
-                          const MesoView *view, uint32_t height)
+/* How far the surface of a kind lies from the control points of its instances. */
+static float kind_reach(const MesoStructure *structure, const MesoSweepKind *kind)
 {
-    float nearest = INFINITY, reach = 0;
+    float reach = MESO_CAP_RISE;
     for (uint32_t c = 0; c < kind->column_count; c++) {
         const MesoSweepColumn *column = &structure->columns[kind->column_begin + c];
         reach = fmaxf(reach, fmaxf(meso_vec2_length(column->start), meso_vec2_length(column->end)));
     }
+    return reach * structure->options.section_scale;
+}
+
+/* Scene units that one pixel shows at the kind's point nearest to the eye; 0 where the eye is inside. */
+static float finest_pixel(const MesoStructure *structure, const MesoSweepKind *kind,
+                          const MesoView *view, uint32_t height)
+{
+    float nearest = INFINITY;
     for (uint32_t i = 0; i < kind->instance_count; i++)
         for (uint32_t k = 0; k < 4; k++) {
             const MesoVec3 *p = &structure->instances[kind->instance_begin + i].p[k];
             nearest = fminf(nearest, meso_vec3_dot(meso_vec3_sub(*p, view->eye), view->forward));
         }
-    nearest -= fmaxf(reach, MESO_CAP_RISE) * structure->options.section_scale;
+    nearest -= kind_reach(structure, kind);
     return nearest > 0 && isfinite(nearest) ? nearest * 2 * view->tan_half_fov / (float)height : 0;
 }
 
@@ -175,6 +182,7 @@ static MesoStatus upload_sweeps(MesoScene *scene, MesoArena *arena, const Plan *
         MesoDrawSweep *draw = &scene->sweeps[k];
 
         draw->kind = k;
+        draw->reach = kind_reach(structure, kind);
         draw->base_vertex = vertex;
         draw->index_begin = index;
         fill_vertices(&vertices[vertex], columns, kept, kept_count, ring_count);
@@ -185,9 +193,9 @@ static MesoStatus upload_sweeps(MesoScene *scene, MesoArena *arena, const Plan *
     scene->sweep_count = structure->kind_count;
     scene->pattern_vertices = upload(scene->gl, vertices, vertex * sizeof *vertices);
     scene->pattern_indices = upload(scene->gl, indices, index * sizeof *indices);
-    scene->instances = upload(scene->gl, structure->instances,
-                              structure->instance_count * sizeof *structure->instances);
+    scene->gl->CreateBuffers(1, &scene->instances);
     describe_sweeps(scene);
+    meso_scene_select(scene, NULL);
     return meso_gl_check(scene->gl, "upload of the sweeps", error);
 }
 
@@ -283,7 +291,8 @@ MesoStatus meso_scene_init(MesoScene *scene, MesoArena *arena, const MesoGl *gl,
     meso_structure_bounds(structure, &scene->low, &scene->high);
     scene->sweeps = MESO_NEW(arena, MesoDrawSweep, structure->kind_count, error);
     scene->inners = MESO_NEW(arena, MesoDrawInner, structure->inner_count, error);
-    if (!scene->sweeps || !scene->inners)
+    scene->selected = MESO_NEW(arena, MesoSweepInstance, structure->instance_count, error);
+    if (!scene->sweeps || !scene->inners || !scene->selected)
         return MESO_ERR_MEMORY;
 
     MesoArenaMark mark = meso_arena_mark(arena);
@@ -342,6 +351,78 @@ void meso_scene_programs_release(MesoScenePrograms *programs, const MesoGl *gl)
     *programs = (MesoScenePrograms){0};
 }
 
+/* ---- selection ---- */
+
+typedef struct Plane {
+    MesoVec3 normal;    /* unit length, inward */
+    float distance;
+} Plane;
+
+/* Planes of the frustum but the far one: w + x, w - x, w + y, w - y and w of the clip coordinates. */
+static void frustum_planes(Plane planes[5], const MesoMatrix *clip)
+{
+    static const float signs[5][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0, 0}};
+    for (uint32_t i = 0; i < 5; i++) {
+        float p[4];
+        for (uint32_t column = 0; column < 4; column++) {
+            const float *m = &clip->m[4 * column];
+            p[column] = m[3] + signs[i][0] * m[0] + signs[i][1] * m[1];
+        }
+        MesoVec3 normal = {p[0], p[1], p[2]};
+        float length = meso_vec3_length(normal);
+        float scale = length > 0 ? 1 / length : 0;
+        planes[i] = (Plane){meso_vec3_scale(normal, scale), length > 0 ? p[3] * scale : 1};
+    }
+}
+
+/* The curve lies within the hull of its control points. */
+static bool may_show(const Plane planes[5], const MesoSweepInstance *instance, float reach)
+{
+    for (uint32_t i = 0; i < 5; i++) {
+        float furthest = -INFINITY;
+        for (uint32_t k = 0; k < 4; k++)
+            furthest = fmaxf(furthest, meso_vec3_dot(planes[i].normal, instance->p[k]));
+        if (furthest + planes[i].distance < -reach)
+            return false;
+    }
+    return true;
+}
+
+void meso_scene_select(MesoScene *scene, const MesoMatrix *clip_from_world)
+{
+    const MesoStructure *structure = scene->structure;
+    const MesoSweepInstance *shown = structure->instances;
+    uint32_t count = structure->instance_count;
+    if (scene->sweep_count == 0)
+        return;
+    if (clip_from_world) {
+        Plane planes[5];
+        frustum_planes(planes, clip_from_world);
+        shown = scene->selected;
+        count = 0;
+        for (uint32_t d = 0; d < scene->sweep_count; d++) {
+            MesoDrawSweep *draw = &scene->sweeps[d];
+            const MesoSweepKind *kind = &structure->kinds[draw->kind];
+            draw->instance_begin = count;
+            for (uint32_t i = 0; i < kind->instance_count; i++) {
+                const MesoSweepInstance *instance = &structure->instances[kind->instance_begin + i];
+                if (may_show(planes, instance, draw->reach))
+                    scene->selected[count++] = *instance;
+            }
+            draw->instance_count = count - draw->instance_begin;
+        }
+    } else {
+        for (uint32_t d = 0; d < scene->sweep_count; d++) {
+            const MesoSweepKind *kind = &structure->kinds[scene->sweeps[d].kind];
+            scene->sweeps[d].instance_begin = kind->instance_begin;
+            scene->sweeps[d].instance_count = kind->instance_count;
+        }
+    }
+    scene->gl->NamedBufferData(scene->instances, (GLsizeiptr)(count * sizeof *shown), shown, GL_STATIC_DRAW);
+}
+
+/* ---- drawing ---- */
+
 static void set_materials(const MesoScene *scene, GLuint program, uint32_t start, uint32_t end,
                           uint32_t tile)
 {
@@ -374,7 +455,7 @@ static void draw_sweep(const MesoScene *scene, const MesoDrawSweep *draw, GLuint
 {
     const MesoGl *gl = scene->gl;
     const MesoSweepKind *kind = &scene->structure->kinds[draw->kind];
-    if (draw->index_count == 0 || kind->instance_count == 0)
+    if (draw->index_count == 0 || draw->instance_count == 0)
         return;
     if (shaded)
         set_materials(scene, program, kind->start_section,
@@ -382,7 +463,7 @@ static void draw_sweep(const MesoScene *scene, const MesoDrawSweep *draw, GLuint
     gl->UseProgram(program);
     gl->DrawElementsInstancedBaseVertexBaseInstance(
         GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT, index_offset(draw->index_begin),
-        (GLsizei)kind->instance_count, (GLint)draw->base_vertex, kind->instance_begin);
+        (GLsizei)draw->instance_count, (GLint)draw->base_vertex, draw->instance_begin);
 }
 
 static void draw_inner(const MesoScene *scene, const MesoDrawInner *draw, GLuint program, bool shaded)

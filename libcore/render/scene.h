@@ -9,6 +9,8 @@
 typedef struct MesoDrawSweep {
     uint32_t kind;
     uint32_t base_vertex, index_begin, index_count;
+    uint32_t instance_begin, instance_count;    /* of those selected */
+    float reach;            /* how far the kind's surface lies from its control points, scene units */
 } MesoDrawSweep;
 
 /* Consecutive inner meshes of one tile and material. */
@@ -25,6 +27,7 @@ typedef struct MesoScene {
     MesoDrawInner *inners;
     MesoVec3 low, high;                 /* bounds */
     GLuint pattern_vertices, pattern_indices, instances, sweep_array;
+    MesoSweepInstance *selected;        /* [instance_count] scratch of meso_scene_select() */
     GLuint inner_vertices, inner_indices, inner_array;
 } MesoScene;
 
@@ -55,7 +58,14 @@ MesoStatus meso_scene_programs_init(MesoScenePrograms *programs, const MesoGl *g
 void meso_scene_programs_release(MesoScenePrograms *programs, const MesoGl *gl);
 
 /*
- * Draws everything to the bound framebuffer. Where `view` is not NULL the
+ * Selects the sweeps that `clip_from_world` may show for the draws to come: those
+ * whose bounding sphere meets its frustum. NULL selects all. Inner meshes are
+ * always drawn. O(instances).
+ */
+void meso_scene_select(MesoScene *scene, const MesoMatrix *clip_from_world);
+
+/*
+ * Draws what is selected to the bound framebuffer. Where `view` is not NULL the
  * fragments get their depth along it and the materials.
  */
 void meso_scene_draw(const MesoScene *scene, const MesoScenePrograms *programs,

@@ -36,6 +36,14 @@ typedef struct MesoModel {
     MesoTriangleMesh *inner_meshes;     /* [tile_set.inner_count], empty where there is none */
 } MesoModel;
 
+/*
+ * Name of the first of the resolved options that no geometry can be made with,
+ * or NULL: lengths under MESO_SHORTEST_EDGE or over 4 MESO_COORDINATE_LIMIT,
+ * tangent scales outside [1e-6, 1e3], section steps outside [1e-4, 1],
+ * divisions outside [2, 4096], and what is not a number.
+ */
+const char *meso_map_options_problem(const MesoMapOptions *options);
+
 /* `options` with every default filled in from the mean edge length. */
 MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length);
 

@@ -1,4 +1,6 @@
 /* Defaults of the mapping options. */
+#include <string.h>
+
 #include "libcore/base/check.h"
 #include "libcore/shell/model.h"
 
@@ -23,5 +25,15 @@ int main(void)
     MesoMapOptions again = meso_map_options_resolve(kept, 9);
     CHECK(again.thickness == kept.thickness && again.section_scale == kept.section_scale);
     CHECK(again.divisions == kept.divisions && again.tangent_scale == kept.tangent_scale);
+
+    /* The smallest and the largest surfaces have usable defaults. */
+    const float edges[] = {MESO_SHORTEST_EDGE, 1, 3 * MESO_COORDINATE_LIMIT};
+    for (int i = 0; i < 3; i++) {
+        MesoMapOptions fine = meso_map_options_resolve((MesoMapOptions){0}, edges[i]);
+        CHECK(!meso_map_options_problem(&fine));
+    }
+    MesoMapOptions wrong = all;
+    wrong.tangent_scale = 2000;
+    CHECK(strcmp(meso_map_options_problem(&wrong), "tangent scale") == 0);
     return 0;
 }

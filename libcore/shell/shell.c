@@ -68,7 +68,7 @@ MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t 
 
     MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(a1, b0), meso_vec3_sub(b1, a0));
     MesoVec3 none = {0, 0, 0};
-    port->inward = meso_vec3_unit(normal, none);
+    port->inward = meso_vec3_direction(normal, none);
     if (e.reversed)
         port->inward = meso_vec3_scale(port->inward, -1);
     if (meso_vec3_dot(port->inward, port->inward) == 0 || meso_vec3_dot(port->up, port->up) == 0)
@@ -113,7 +113,7 @@ MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, uint32_t s
     MesoVec3 outward = meso_vec3_cross(lid_direction(shell, slot, at, (MesoVec2){1, 0}, h),
                                        lid_direction(shell, slot, at, (MesoVec2){0, 1}, h));
     MesoVec3 none = {0, 0, 0};
-    port->inward = meso_vec3_unit(meso_vec3_scale(outward, bottom ? 1 : -1), none);
+    port->inward = meso_vec3_direction(meso_vec3_scale(outward, bottom ? 1 : -1), none);
     if (meso_vec3_dot(port->inward, port->inward) == 0 || meso_vec3_dot(port->up, port->up) == 0)
         return meso_fail(error, MESO_ERR_INPUT, "slot %u: the shell has no %s (coinciding corners)", slot,
                          bottom ? "bottom" : "top");

@@ -416,6 +416,30 @@ static void test_lids(MesoArena *arena)
     }
 }
 
+/* Surfaces of any size that is let in give finite geometry with unit normals. */
+static void test_scales(MesoArena *arena)
+{
+    const float scales[] = {1e-16f, 1e16f};
+    for (int k = 0; k < 2; k++) {
+        Scene s = {0};
+        uint32_t tile[1] = {0}, corners[4] = {0, 1, 2, 3};
+        MesoTransform transform[1] = {0};
+        float a = scales[k];
+        MesoVec3 flat[4] = {{a, 0, 0}, {a, a, 0}, {0, a, 0}, {0, 0, 0}};
+        make_tile_set(&s);
+        make_grid(&s, arena, 1, tile, transform);
+        CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 0, NULL, 1, corners, NULL, NULL) == MESO_OK);
+        MesoStructure structure = expand(&s.model, arena);
+        MesoTessellation t;
+        MesoMeshFace *faces;
+        MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
+        for (uint64_t i = 0; i < t.vertex_begin[t.part_count]; i++) {
+            CHECK(meso_vec3_finite(v[i].position));
+            CHECK(fabsf(meso_vec3_length(v[i].normal) - 1) < 1e-4f);
+        }
+    }
+}
+
 int main(void)
 {
     MesoArena arena;
@@ -427,6 +451,7 @@ int main(void)
     test_volumes(&arena);
     test_ranges(&arena);
     test_lids(&arena);
+    test_scales(&arena);
     meso_arena_release(&arena);
     return 0;
 }

@@ -233,7 +233,7 @@ static MesoVec3 map_normal(const MesoShell *shell, uint32_t slot, const MesoInne
     MesoVec3 y = meso_vec3_scale(meso_vec3_cross(d[2], d[0]), n.y);
     MesoVec3 z = meso_vec3_scale(meso_vec3_cross(d[0], d[1]), n.z);
     MesoVec3 mapped = meso_vec3_add(x, meso_vec3_add(y, z));
-    return meso_vec3_unit(mirrored ? meso_vec3_scale(mapped, -1) : mapped, (MesoVec3){0, 0, 1});
+    return meso_vec3_direction(mirrored ? meso_vec3_scale(mapped, -1) : mapped, (MesoVec3){0, 0, 1});
 }
 
 static void inner_vertices(const MesoStructure *s, const MesoInnerInstance *instance, MesoMeshVertex *out)

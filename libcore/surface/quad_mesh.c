@@ -177,6 +177,9 @@ static MesoStatus measure_edges(MesoQuadMesh *mesh, MesoError *error)
     mesh->mean_edge_length = (float)(sum / (4.0 * mesh->face_count));
     if (!(mesh->mean_edge_length > 0))
         return meso_fail(error, MESO_ERR_INPUT, "mesh has no extent: all edges have length 0");
+    if (mesh->mean_edge_length < MESO_SHORTEST_EDGE)
+        return meso_fail(error, MESO_ERR_INPUT, "mesh is too small: its mean edge length is %g, at least %g is needed",
+                         (double)mesh->mean_edge_length, (double)MESO_SHORTEST_EDGE);
     return MESO_OK;
 }
 

@@ -11,6 +11,9 @@
  */
 #define MESO_COORDINATE_LIMIT 1e18f
 
+/* A shorter mean edge is refused: products of two lengths would lose their digits. */
+#define MESO_SHORTEST_EDGE 1e-18f
+
 typedef struct MesoQuadMesh {
     uint32_t vertex_count;
     uint32_t normal_count;
@@ -37,7 +40,7 @@ typedef struct MesoQuadMesh {
  * O(vertex_count + face_count).
  * MESO_ERR_INPUT names the first face or vertex (counted from 1, as OBJ
  * files do) that is not finite, too large, out of range, or uses a
- * vertex twice, and refuses a mesh without faces or with no edge longer than 0.
+ * vertex twice, and refuses a mesh without faces or with edges that are too short.
  */
 MesoStatus meso_quad_mesh_build(MesoQuadMesh *mesh, MesoArena *arena,
                                 uint32_t vertex_count, const MesoVec3 *positions,

@@ -99,6 +99,9 @@ static void test_refusals(void)
     const MesoVec3 point[6] = {{0, 0, 0}};
     CHECK(build(point, faces) == MESO_ERR_INPUT);
     CHECK(strstr(error.message, "no extent"));
+    const MesoVec3 speck[6] = {{0, 0, 0}, {1e-20f, 0, 0}};
+    CHECK(build(speck, faces) == MESO_ERR_INPUT);
+    CHECK(strstr(error.message, "too small"));
 }
 
 /* A face folded onto itself has no direction. */
