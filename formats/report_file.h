@@ -3,7 +3,7 @@
  *
  *     {"format": "meso-report", "version": 1, "tool": "meso-solve",
  *      "verdict": "solved", "unsolvable" or "gave-up",
- *      "decided_by": "propagation", "search", "counting", "parity" or "exact"; where the solver gave up,
+ *      "decided_by": "propagation", "search", "counting", "parity", "probing" or "exact"; where the solver gave up,
  *          the limit: "attempts", "conflicts" or "stop"
  *      "reason": why, in words, where it is not plain that a slot is left without a tile
  *      "attempts", "observations", "repairs", "slots", "variants": numbers,
@@ -44,7 +44,7 @@ typedef struct MesoReport {
 /* "solved", "unsolvable", "gave-up" */
 const char *meso_verdict_name(MesoVerdict verdict);
 
-/* "propagation", "search", "counting", "parity", "exact", "attempts", "conflicts", "stop" */
+/* "propagation", "search", "counting", "parity", "probing", "exact", "attempts", "conflicts", "stop" */
 const char *meso_decider_name(MesoDecider decider);
 
 /*
