@@ -18,6 +18,7 @@ static const char *const decider_names[] = {
     [MESO_DECIDER_SEARCH] = "search",
     [MESO_DECIDER_COUNTING] = "counting",
     [MESO_DECIDER_PARITY] = "parity",
+    [MESO_DECIDER_PROBING] = "probing",
     [MESO_DECIDER_EXACT] = "exact",
     [MESO_DECIDER_ATTEMPTS] = "attempts",
     [MESO_DECIDER_CONFLICTS] = "conflicts",

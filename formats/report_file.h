@@ -3,7 +3,7 @@
  *
  *     {"format": "meso-report", "version": 1, "tool": "meso-solve",
  *      "verdict": "solved", "unsolvable" or "gave-up",
- *      "decided_by": "propagation", "search", "counting", "parity" or "exact"; where the solver gave up,
+ *      "decided_by": "propagation", "search", "counting", "parity", "probing" or "exact"; where the solver gave up,
  *          the limit: "attempts", "conflicts" or "stop"
  *      "reason": why, in words, where it is not plain that a slot is left without a tile
  *      "attempts", "observations", "repairs", "slots", "variants": numbers,
@@ -50,7 +50,7 @@ bool meso_verdict_parse(const char *name, MesoVerdict *verdict);
 /* Slots by tile name, in the set's order; tiles without a slot too, ignored ones not. NULL when memory is out. */
 json_t *meso_report_histogram(const MesoAssignment *assignment, const MesoTileSet *set);
 
-/* "propagation", "search", "counting", "parity", "exact", "attempts", "conflicts", "stop" */
+/* "propagation", "search", "counting", "parity", "probing", "exact", "attempts", "conflicts", "stop" */
 const char *meso_decider_name(MesoDecider decider);
 
 /*

@@ -13,7 +13,6 @@ enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
 
 /* Entries of the first trail. */
 enum { LEAST_TRAIL = 1024 };
-
 /* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball at hand. */
 enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64 };
 
@@ -195,6 +194,8 @@ static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uin
     propagation->state[slot] = next;
     if (after == 1 && propagation->decided)
         propagation->decided[propagation->decided_count++] = slot;
+    if (propagation->queue_rests)
+        return MESO_OK;
     if (before > 1)
         meso_bucket_queue_remove(&propagation->queue, slot, before);
     return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
@@ -491,6 +492,19 @@ MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
     return MESO_OK;
 }
 
+MesoStatus meso_propagation_try(MesoPropagation *propagation, uint32_t slot, uint32_t variant, bool *dead,
+                                uint32_t *changes, MesoError *error)
+{
+    propagation->queue_rests = true;
+    MesoStatus status = meso_propagation_assign(propagation, slot, variant, error);
+    *dead = propagation->dead_slot != MESO_NO_INDEX;
+    *changes = propagation->trail_count;
+    if (!status)
+        status = meso_propagation_undo(propagation, error);
+    propagation->queue_rests = false;
+    return status;
+}
+
 /* Puts the slots up to `radius` edges around `slot` on the list, breadth first, and marks them. */
 static void collect_ball(MesoPropagation *propagation, uint32_t slot, uint32_t radius)
 {
@@ -548,6 +562,16 @@ MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, 
     }
     push_ball(propagation);
     return run_with_quotas(propagation, error);
+}
+
+void meso_propagation_settle(MesoPropagation *propagation)
+{
+    clear_trail(propagation);
+    while (propagation->touched_count) {
+        uint32_t slot = propagation->touched[--propagation->touched_count];
+        propagation->initial[slot] = propagation->state[slot];
+        propagation->pending[slot] &= (uint8_t)~TOUCHED;
+    }
 }
 
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)

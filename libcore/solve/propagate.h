@@ -36,6 +36,7 @@ typedef struct MesoPropagation {
     uint32_t initial_dead_count;    /* slots that hold the empty state from the start */
     uint32_t collect_at;        /* number of states that calls for a collection */
     bool searching;             /* the initial fixed point is reached */
+    bool queue_rests;           /* while a step is made that is taken back at once */
     MesoQuotaTrack quotas;      /* none without constraints */
     uint32_t broken_quota;      /* met by the last call, or MESO_NO_INDEX */
     uint32_t *decided;          /* [slot_count] slots that came to a single variant since the initial
@@ -83,6 +84,13 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
 
 /*
+ * Makes the step meso_propagation_assign() and takes it back, not where tracing: whether it meets a
+ * dead slot, and how many slots it changes.
+ */
+MesoStatus meso_propagation_try(MesoPropagation *propagation, uint32_t slot, uint32_t variant, bool *dead,
+                                uint32_t *changes, MesoError *error);
+
+/*
  * A step that gives the slots up to `radius` edges around `slot` their initial
  * states again, as far as the slots around them allow. `reopened` gets their
  * number. The states must be consistent.
@@ -108,6 +116,12 @@ MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagation
 
 /* Forgets the history: what was done so far is there to stay, and marks are void. */
 void meso_propagation_forget(MesoPropagation *propagation);
+
+/*
+ * Takes the present states, which must be consistent, for the initial ones: what
+ * was excluded so far was proved to be impossible. Not where tracing. O(slots touched).
+ */
+void meso_propagation_settle(MesoPropagation *propagation);
 
 /* Back to the initial fixed point. O(slots touched). MESO_ERR_MEMORY alone. */
 MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error);

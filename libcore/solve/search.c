@@ -1,8 +1,10 @@
 #include "libcore/solve/search.h"
 
+#include <string.h>
+
 #include "libcore/solve/choice.h"
 
-enum { TICK_INTERVAL = 4096 };  /* observations */
+enum { TICK_INTERVAL = 4096, PROBE_TICK_INTERVAL = 16 };    /* observations; slots */
 
 /* Radius of the first ball, and after how many repairs without progress it grows by one. */
 enum { FIRST_RADIUS = 2, PATIENCE = 3, MOST_RADIUS = 24 };
@@ -112,5 +114,74 @@ MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, M
             attempt.failures = 0;
         }
     }
+    return MESO_OK;
+}
+
+/* Whether a variant before `variant` in the state of `slot` shows the same labels, so that it was probed for both. */
+static bool probed_before(const MesoPropagation *propagation, uint32_t slot, uint32_t variant)
+{
+    const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->state[slot]);
+    const uint32_t *codes = propagation->codes + 4 * (size_t)variant;
+    for (uint32_t v = 0; v < variant; v++)
+        if (meso_bits_test(bits, v) && memcmp(codes, propagation->codes + 4 * (size_t)v, 4 * sizeof *codes) == 0)
+            return true;
+    return false;
+}
+
+/* Takes from `slot` the variants that lead to a dead end; `*impossible` where it has no other. */
+static MesoStatus probe_slot(MesoSearch *search, uint32_t slot, uint64_t *work, uint64_t *excluded,
+                             bool *impossible, MesoError *error)
+{
+    MesoPropagation *propagation = search->propagation;
+    for (uint32_t v = 0; v < propagation->domains.variant_count; v++) {
+        uint32_t state = propagation->state[slot];
+        if (propagation->domains.domains[state].size == 1)
+            return MESO_OK;
+        if (!meso_bits_test(meso_domain_bits(&propagation->domains, state), v) ||
+            probed_before(propagation, slot, v))
+            continue;
+        bool dead;
+        uint32_t changes;
+        if (meso_propagation_try(propagation, slot, v, &dead, &changes, error))
+            return MESO_ERR_MEMORY;
+        *work += changes;
+        if (!dead)
+            continue;
+        if (meso_propagation_exclude(propagation, slot, v, error))
+            return MESO_ERR_MEMORY;
+        ++*excluded;
+        *impossible = propagation->dead_slot != MESO_NO_INDEX;
+        if (*impossible)
+            return MESO_OK;
+    }
+    return MESO_OK;
+}
+
+MesoStatus meso_search_probe(MesoSearch *search, uint64_t work_limit, MesoSearchOutcome *outcome,
+                             MesoError *error)
+{
+    MesoPropagation *propagation = search->propagation;
+    uint64_t work = 0, excluded = 1;
+    bool impossible = false;
+    *outcome = MESO_SEARCH_STUCK;
+    if (meso_propagation_restart(propagation, error))
+        return MESO_ERR_MEMORY;
+    while (excluded > 0 && work < work_limit) {
+        excluded = 0;
+        for (uint32_t s = 0; s < propagation->graph->slot_count && work < work_limit; s++) {
+            if (probe_slot(search, s, &work, &excluded, &impossible, error))
+                return MESO_ERR_MEMORY;
+            if (impossible) {
+                search->impossible_slot = s;
+                *outcome = MESO_SEARCH_IMPOSSIBLE;
+                return MESO_OK;
+            }
+            if (s % PROBE_TICK_INTERVAL == 0 && search->tick && !search->tick(search->context)) {
+                *outcome = MESO_SEARCH_STOPPED;
+                return MESO_OK;
+            }
+        }
+    }
+    meso_propagation_settle(propagation);
     return MESO_OK;
 }

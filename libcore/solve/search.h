@@ -13,7 +13,8 @@
 typedef enum MesoSearchOutcome {
     MESO_SEARCH_DONE,           /* every slot has one variant */
     MESO_SEARCH_STUCK,          /* the attempt's effort is spent */
-    MESO_SEARCH_IMPOSSIBLE,     /* proved: each variant of a slot fails before any other choice */
+    MESO_SEARCH_IMPOSSIBLE,     /* proved: each variant of a slot fails before any other choice, but for
+                                   variants of other slots that do */
     MESO_SEARCH_STOPPED         /* out of observations, or told to stop */
 } MesoSearchOutcome;
 
@@ -36,5 +37,14 @@ typedef struct MesoSearch {
  * `dead_end` returns. At most eight times as many slots are reopened as there are.
  */
 MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error);
+
+/*
+ * Probes each variant of each slot, from the initial states, and takes those for
+ * good from the initial states that lead to a dead end at once; again, until none
+ * does or `work_limit` changes of states are made. `outcome` is
+ * MESO_SEARCH_STUCK where no slot is left without a variant. MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_search_probe(MesoSearch *search, uint64_t work_limit, MesoSearchOutcome *outcome,
+                             MesoError *error);
 
 #endif

@@ -13,6 +13,12 @@
 /* Word operations of the parity prover: a second or two. */
 static const uint64_t parity_work = (uint64_t)1 << 32;
 
+/* Changes of states that probing may make: half a minute or less. */
+static const uint64_t probe_work = (uint64_t)1 << 27;
+
+/* Conflicts that the exact engine has before probing: about a second. */
+enum { FIRST_CONFLICTS = 3000 };
+
 /* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
 enum { PHASED_CONFLICTS = 1000 };
 
@@ -179,12 +185,11 @@ static MesoStatus fill_single_states(Search *search, const uint32_t *variant, ui
     return MESO_OK;
 }
 
-/* `hint` [slot_count] has the states that decisions try first. */
+/* `hint` [slot_count] has the states that decisions try first; `left` the conflicts that may be met. */
 static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *hint, MesoSatAnswer *answer,
-                             MesoRandom *random, MesoError *error)
+                             MesoRandom *random, uint64_t left, MesoError *error)
 {
     const MesoSolveOptions *options = search->options;
-    uint64_t left = options->max_conflicts ? options->max_conflicts : MESO_SOLVE_CONFLICTS;
     uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
     MesoStatus status = meso_exact_choose_phases(exact, hint, random, error);
     if (!status)
@@ -223,7 +228,8 @@ static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer an
 }
 
 /* Asks until there is an answer that no rule on strands cuts off, each time for one like the last. */
-static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, MesoError *error)
+static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, uint64_t conflicts,
+                                 MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
     const uint32_t *hint = search->propagation.state;
@@ -239,7 +245,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
     for (uint32_t round = 0; round < MOST_CUT_ROUNDS; round++) {
         MesoSatAnswer answer = MESO_SAT_UNKNOWN;
         uint32_t cuts = 0;
-        MesoStatus status = ask_engine(search, exact, hint, &answer, random, error);
+        MesoStatus status = ask_engine(search, exact, hint, &answer, random, conflicts, error);
         if (!status)
             status = read_answer(search, exact, answer, variant, &cuts, random, error);
         if (status || cuts == 0)
@@ -256,7 +262,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
     return MESO_OK;
 }
 
-static MesoStatus decide_exactly(Search *search, MesoError *error)
+static MesoStatus decide_exactly(Search *search, uint64_t conflicts, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
@@ -272,9 +278,45 @@ static MesoStatus decide_exactly(Search *search, MesoError *error)
         status = meso_exact_add_quotas(&exact, constraints, &complete, error);
     /* Where a quota is too large to be counted, what the engine finds need not keep to it. */
     if (!status && complete)
-        status = ask_until_kept(search, &exact, &random, error);
+        status = ask_until_kept(search, &exact, &random, conflicts, error);
     meso_exact_release(&exact);
     return status;
+}
+
+/* What probing excludes was impossible under all constraints: it stays excluded. */
+static MesoStatus probe(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    MesoSearch probing = {.propagation = &search->propagation, .tick = tick, .context = search};
+    MesoSearchOutcome outcome;
+    MesoStatus status = meso_search_probe(&probing, probe_work, &outcome, error);
+    if (status)
+        return status;
+    if (outcome == MESO_SEARCH_STOPPED)
+        result->decider = MESO_DECIDER_STOP;
+    if (outcome != MESO_SEARCH_IMPOSSIBLE)
+        return MESO_OK;
+    result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = MESO_DECIDER_PROBING;
+    result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leads to a slot without any, "
+                                      "once what leads there at once is ruled out everywhere",
+                                      probing.impossible_slot);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* The exact engine, for a while; then, where it did not do, probing, and the engine on what that leaves. */
+static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error)
+{
+    const MesoSolveResult *result = search->result;
+    uint64_t conflicts = search->options->max_conflicts ? search->options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    uint64_t first = conflicts < FIRST_CONFLICTS || guided ? conflicts : FIRST_CONFLICTS;
+    MesoStatus status = decide_exactly(search, first, error);
+    if (status || result->decider != MESO_DECIDER_CONFLICTS || conflicts == first)
+        return status;
+    status = probe(search, error);
+    if (status || result->decider != MESO_DECIDER_CONFLICTS)
+        return status;
+    return decide_exactly(search, conflicts - first, error);
 }
 
 /* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
@@ -418,7 +460,7 @@ static MesoStatus climb(Search *search, bool guided, MesoError *error)
     if (result->verdict == MESO_VERDICT_GAVE_UP)
         status = decide_by_numbers(search, error);
     if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
-        status = decide_exactly(search, error);
+        status = decide_at_length(search, guided, error);
     return status;
 }
 

@@ -31,6 +31,8 @@ typedef enum MesoDecider {
                                    at once, or, under constraints, every choice was tried */
     MESO_DECIDER_COUNTING,      /* unsolvable: the numbers of labels do not add up */
     MESO_DECIDER_PARITY,        /* unsolvable: sums modulo 2 over all edges contradict each other */
+    MESO_DECIDER_PROBING,       /* unsolvable: each variant of a slot leads to a dead end, once variants
+                                   elsewhere that do are excluded */
     MESO_DECIDER_EXACT,         /* solved or unsolvable */
     MESO_DECIDER_ATTEMPTS,      /* gave up: the search had its attempts, or its observations */
     MESO_DECIDER_CONFLICTS,     /* gave up: the exact engine had its conflicts */

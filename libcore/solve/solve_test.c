@@ -3,7 +3,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/solve/brute_force.h"
-#include "libcore/solve/propagate.h"
+#include "libcore/solve/search.h"
 
 /* Up to five slots, their sides glued to each other or to themselves, or free. */
 static MesoSlotGraph random_graph(MesoArena *arena, MesoRandom *random)
@@ -65,11 +65,38 @@ static void compare_search(MesoArena *arena, const MesoTileSet *set, const MesoS
     }
 }
 
+static uint32_t probing_proofs;
+
+/* Probing proves nothing wrong, and leaves the search what it needs. */
+static void compare_probing(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph,
+                            uint64_t seed, bool tiling)
+{
+    MesoVariantSet variants;
+    MesoPropagation propagation;
+    MesoSearchOutcome outcome;
+    CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, arena, set, &variants, graph, NULL, NULL) == MESO_OK);
+    if (propagation.initial_dead_count == 0) {
+        MesoSearch search = {.propagation = &propagation, .max_observations = UINT64_MAX};
+        meso_random_init(&search.random, seed, 1);
+        CHECK(meso_search_probe(&search, UINT64_MAX, &outcome, NULL) == MESO_OK);
+        CHECK(outcome == MESO_SEARCH_STUCK || (outcome == MESO_SEARCH_IMPOSSIBLE && !tiling));
+        probing_proofs += outcome == MESO_SEARCH_IMPOSSIBLE;
+        for (uint32_t i = 0; outcome == MESO_SEARCH_STUCK && tiling && i < 20; i++) {
+            CHECK(meso_propagation_restart(&propagation, NULL) == MESO_OK);
+            CHECK(meso_search_attempt(&search, &outcome, NULL) == MESO_OK);
+        }
+        CHECK(!tiling || outcome == MESO_SEARCH_DONE);
+    }
+    meso_propagation_release(&propagation);
+}
+
 static void compare_with_brute_force(MesoArena *arena, const MesoTileSet *set,
                                      const MesoSlotGraph *graph, uint64_t seed)
 {
     bool tiling = brute_force(arena, set, graph, 1, false).count > 0;
     compare_search(arena, set, graph, seed, tiling);
+    compare_probing(arena, set, graph, seed, tiling);
     MesoVerdict expected = tiling ? MESO_VERDICT_SOLVED : MESO_VERDICT_UNSOLVABLE;
     CHECK(fixture_solve_by(MESO_ENGINE_EXACT, arena, set, graph, seed, 1).verdict == expected);
     CHECK(fixture_solve_by(MESO_ENGINE_AUTO, arena, set, graph, seed, 1).verdict == expected);
@@ -94,6 +121,7 @@ static void test_brute_force(void)
     }
     /* Every kind of case was met; on such small graphs giving up means almost surely that there is none. */
     CHECK(verdict_counts[MESO_VERDICT_SOLVED][true] > 1000);
+    CHECK(probing_proofs > 10);
     CHECK(verdict_counts[MESO_VERDICT_UNSOLVABLE][false] > 1000);
     CHECK(verdict_counts[MESO_VERDICT_GAVE_UP][true] * 10 <= verdict_counts[MESO_VERDICT_GAVE_UP][false]);
     meso_arena_release(&arena);
