@@ -22,8 +22,8 @@ enum { FIRST_CONFLICTS = 3000 };
 /* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
 enum { PHASED_CONFLICTS = 1000 };
 
-/* Solutions of the exact engine that a rule on strands may cut off. */
-enum { MOST_CUT_ROUNDS = 2000 };
+/* Solutions of the exact engine that a rule on strands may cut off: fewer on a large surface. */
+enum { LEAST_CUT_ROUNDS = 20, MOST_CUT_ROUNDS = 2000, CUT_SLOTS = 1 << 20 };
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -242,7 +242,9 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
             return MESO_ERR_MEMORY;
         hint = like_last;
     }
-    for (uint32_t round = 0; round < MOST_CUT_ROUNDS; round++) {
+    uint32_t rounds = LEAST_CUT_ROUNDS + CUT_SLOTS / search->graph->slot_count;
+    rounds = rounds < MOST_CUT_ROUNDS ? rounds : MOST_CUT_ROUNDS;
+    for (uint32_t round = 0; round < rounds; round++) {
         MesoSatAnswer answer = MESO_SAT_UNKNOWN;
         uint32_t cuts = 0;
         MesoStatus status = ask_engine(search, exact, hint, &answer, random, conflicts, error);
