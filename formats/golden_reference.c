@@ -8,8 +8,8 @@
  *    way only 1e-3: on its grid of 1e-4 it drops points of narrow notches
  * 2. control points of every sweep in slots whose tile is not mirrored; 1e-4 of
  *    an edge (mirrored slots carry the prototype's defect 1)
- * 3. its mesh samples at their (u, v): the sweep with its own contours, sampled
- *    as it samples them; 1e-4 of an edge
+ * 3. its mesh samples at their (u, v): our sweep, frames and alignment over its
+ *    own contours, resampled so finely that their points do not matter; 1e-4 of an edge
  * 4. the same samples against the surface that we tessellate with its contours;
  *    our rings are aligned to whole points so that corners and neighbours agree,
  *    which turns a profile by up to half a point, that is one step: 1e-2 of an edge
@@ -26,6 +26,9 @@
 #include "formats/tiles_file.h"
 #include "libcore/shell/tessellate.h"
 #include "libcore/shell/trajectory.h"
+
+/* Points of a finely resampled contour: half of one is 2e-5 of an edge for the longest. */
+enum { FINE = 1 << 16 };
 
 typedef struct Reference {
     MesoArena arena;
@@ -265,20 +268,41 @@ static MesoVec2 sample_contour(const MesoContourSet *set, uint32_t section, doub
                           set->points[c->point_begin + (a + 1) % c->point_count], (float)(x - i));
 }
 
-/* The rule of alignment, in its continuous form. */
-static MesoVec2 profile_at(const Reference *r, const MesoSweepInstance *instance, uint32_t sweep_index, double u,
-                           float v)
+/* Its contours again, each of FINE points spread as its texture spreads them: the steps of our alignment vanish. */
+static MesoContourSet refine(Reference *r)
 {
-    const MesoSweep *sweep = &r->model.tile_set.sweeps[sweep_index];
-    const MesoTile *tile = &r->model.tile_set.tiles[r->model.assignment.tile[instance->slot]];
-    bool f0 = tile->labels[sweep->from_side] < 0, f1 = tile->labels[sweep->to_side] < 0;
-    MesoVec2 start = sample_contour(&r->theirs, sweep->from_section, f0 ? 1 - u : u);
-    MesoVec2 end = sample_contour(&r->theirs, sweep->to_section,
-                                  (f1 ? u : 1 - u) + (f0 != f1 ? 0.5 : 0) + (sweep->half_turn ? 0 : 0.5) +
-                                      (double)sweep->turn);
-    start.x *= f0 ? 1 : -1;
-    end.x *= f1 ? -1 : 1;
-    return meso_vec2_lerp(start, end, v * v * (3 - 2 * v));
+    uint32_t sections = r->model.tile_set.section_count;
+    MesoContourSet fine = r->theirs;
+    fine.section_begin = MESO_NEW(&r->arena, uint32_t, sections + 1, NULL);
+    fine.contours = MESO_NEW(&r->arena, MesoContour, sections, NULL);
+    fine.points = MESO_NEW(&r->arena, MesoVec2, (size_t)sections * FINE, NULL);
+    fine.contour_count = fine.point_count = 0;
+    for (uint32_t s = 0; s < sections; s++) {
+        fine.section_begin[s] = fine.contour_count;
+        fine.contours[fine.contour_count++] = (MesoContour){fine.point_count, FINE, false};
+        for (uint32_t i = 0; i < FINE; i++)
+            fine.points[fine.point_count++] = sample_contour(&r->theirs, s, (i + 0.5) / FINE);
+    }
+    fine.section_begin[sections] = fine.contour_count;
+    return fine;
+}
+
+/* Profile point of our own columns at u around and v along. Columns are in the order of u. */
+static MesoVec2 profile_at(const MesoStructure *s, const MesoSweepInstance *instance, double u, float v)
+{
+    const MesoSweepKind *kind = &s->kinds[meso_structure_kind(s, (uint32_t)(instance - s->instances))];
+    const MesoSweepColumn *columns = s->columns + kind->column_begin;
+    double wanted = u - 0.5 / FINE;
+    uint32_t low = 0, high = kind->column_count - 1;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if ((double)columns[middle].u <= wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    uint32_t nearest = wanted - (double)columns[low].u < (double)columns[high].u - wanted ? low : high;
+    return meso_vec2_lerp(columns[nearest].start, columns[nearest].end, v * v * (3 - 2 * v));
 }
 
 static double compare_at_parameters(const Reference *r, const MesoStructure *structure, const json_t *sample)
@@ -292,7 +316,7 @@ static double compare_at_parameters(const Reference *r, const MesoStructure *str
         float v = (float)number_at(sample, 8);
         if (!instance)
             continue;
-        MesoVec2 s = profile_at(r, instance, tile->sweep_begin + i, number_at(sample, 7), v);
+        MesoVec2 s = profile_at(structure, instance, number_at(sample, 7), v);
         best = fmin(best, apart(meso_sweep_point(structure, instance, s, v), golden));
     }
     return best / r->edge;
@@ -347,7 +371,7 @@ static double compare_with_mesh(const Reference *r, const MesoTessellation *t, W
     return best / r->edge;
 }
 
-static void compare_samples(Reference *r, const MesoStructure *structure)
+static void compare_samples(Reference *r, const MesoStructure *structure, const MesoStructure *fine)
 {
     const json_t *samples = json_object_get(r->golden, "samples");
     double at_parameters = 0, with_mesh = 0;
@@ -369,7 +393,7 @@ static void compare_samples(Reference *r, const MesoStructure *structure)
         const json_t *sample = json_array_get(samples, i);
         if (meso_transform_flips(r->model.assignment.transform[(uint32_t)number_at(sample, 0)]))
             continue;
-        at_parameters = fmax(at_parameters, compare_at_parameters(r, structure, sample));
+        at_parameters = fmax(at_parameters, compare_at_parameters(r, fine, sample));
         double distance = compare_with_mesh(r, &t, &window, sample);
         with_mesh = fmax(with_mesh, distance);
         close += distance <= 1e-4;
@@ -391,12 +415,14 @@ int main(int argc, char **argv)
     printf("%s: %u slots\n", argv[1], r.model.assignment.slot_count);
     compare_contours(&r);
 
-    MesoStructure structure;
+    MesoStructure structure, fine_structure;
     MesoError error;
-    if (meso_structure_build_over(&structure, &r.arena, &r.model, &r.theirs, 0, &error))
+    MesoContourSet fine = refine(&r);
+    if (meso_structure_build_over(&structure, &r.arena, &r.model, &r.theirs, 0, &error) ||
+        meso_structure_build_over(&fine_structure, &r.arena, &r.model, &fine, 0, &error))
         die(&error);
     compare_controls(&r, &structure);
-    compare_samples(&r, &structure);
+    compare_samples(&r, &structure, &fine_structure);
     json_decref(r.golden);
     meso_arena_release(&r.arena);
     return r.failures ? MESO_ERR_NO : MESO_OK;
