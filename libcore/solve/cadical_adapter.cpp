@@ -15,10 +15,23 @@ public:
     bool terminate() override { return stop && stop(context); }
 };
 
+/* Each conflict ends in a clause that is learned. */
+class ConflictCounter : public CaDiCaL::Learner {
+public:
+    uint64_t count = 0;
+    bool learning(int) override
+    {
+        count++;
+        return false;
+    }
+    void learn(int) override {}
+};
+
 } // namespace
 
 struct MesoSat {
     Stopper stopper;
+    ConflictCounter conflicts;
     CaDiCaL::Solver solver;
     std::vector<int> phased;
     bool (*proof)(void *, const char *, size_t) = nullptr;
@@ -80,6 +93,7 @@ extern "C" MesoStatus meso_sat_init(MesoSat **result,
         if (proof && !open_proof(sat))
             return meso_fail(error, MESO_ERR_INTERNAL, "CaDiCaL cannot write its proof");
         sat->solver.connect_terminator(&sat->stopper);
+        sat->solver.connect_learner(&sat->conflicts);
         return MESO_OK;
     } catch (...) {
         return fail(error);
@@ -106,6 +120,32 @@ extern "C" MesoStatus meso_sat_add(MesoSat *sat, const int32_t *literals, uint32
     } catch (...) {
         return fail(error);
     }
+}
+
+extern "C" MesoStatus meso_sat_add_implied(MesoSat *sat, const int32_t *literals, uint32_t count,
+                                           MesoError *error)
+{
+    /* CaDiCaL leaves clauses that it is given out of its proof. */
+    for (uint32_t i = 0; sat->proof_file && i < count; i++)
+        fprintf(sat->proof_file, "%d ", literals[i]);
+    if (sat->proof_file)
+        fputs("0\n", sat->proof_file);
+    return meso_sat_add(sat, literals, count, error);
+}
+
+extern "C" MesoStatus meso_sat_freeze(MesoSat *sat, int32_t variable, MesoError *error)
+{
+    try {
+        sat->solver.freeze(variable);
+        return MESO_OK;
+    } catch (...) {
+        return fail(error);
+    }
+}
+
+extern "C" uint64_t meso_sat_conflicts(const MesoSat *sat)
+{
+    return sat->conflicts.count;
 }
 
 extern "C" MesoStatus meso_sat_phase(MesoSat *sat, int32_t literal, MesoError *error)

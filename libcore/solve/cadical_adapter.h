@@ -33,6 +33,18 @@ void meso_sat_release(MesoSat *sat);
 /* Adds the clause of literals [count]; the empty one makes the formula false. */
 MesoStatus meso_sat_add(MesoSat *sat, const int32_t *literals, uint32_t count, MesoError *error);
 
+/*
+ * The same for a clause that unit propagation shows to follow from what the formula
+ * holds by now, as the opposites of the assumptions that failed do: it stands in the proof too.
+ */
+MesoStatus meso_sat_add_implied(MesoSat *sat, const int32_t *literals, uint32_t count, MesoError *error);
+
+/* The variable is not to be eliminated: it will be assumed again and again. */
+MesoStatus meso_sat_freeze(MesoSat *sat, int32_t variable, MesoError *error);
+
+/* Conflicts met so far. */
+uint64_t meso_sat_conflicts(const MesoSat *sat);
+
 /* Decisions on the variable try `literal` first, until the next meso_sat_forget_phases(). */
 MesoStatus meso_sat_phase(MesoSat *sat, int32_t literal, MesoError *error);
 

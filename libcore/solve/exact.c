@@ -3,6 +3,8 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/solve/carry.h"
+
 static const uint32_t variable_limit = 1u << 30;
 
 /*
@@ -188,6 +190,42 @@ static MesoStatus add_clauses(MesoExact *exact, MesoError *error)
     return status;
 }
 
+/* The chain's bit is equivalent to a set of labels on each of its edges. */
+static MesoStatus add_link(MesoExact *exact, const MesoCarryLink *link, MesoError *error)
+{
+    uint32_t count = meso_bits_count(far_labels(exact->propagation, link->edge),
+                                     exact->propagation->domains.sets.word_count);
+    int32_t bit = (int32_t)(exact->chain_first + link->chain);
+    MesoStatus status = MESO_OK;
+    for (uint32_t r = 0; r < count && !status; r++) {
+        bool holds = (link->ranks >> r & 1) != link->negated;
+        int32_t implies[2] = {-choice_literal(exact->edge_first[link->edge], count, r), holds ? bit : -bit};
+        status = meso_exact_add(exact, implies, 2, error);
+    }
+    return status;
+}
+
+static MesoStatus add_chains(MesoExact *exact, MesoError *error)
+{
+    MesoCarry carry;
+    MesoStatus status = meso_carry_find(&carry, exact->arena, &exact->patterns, error);
+    if (status)
+        return status;
+    exact->chain_first = exact->variable_count + 1;
+    exact->chain_count = carry.chain_count;
+    exact->variable_count += carry.chain_count;
+    exact->chain_length = MESO_NEW(exact->arena, uint32_t, carry.chain_count, error);
+    if (!exact->chain_length)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < carry.link_count && !status; i++) {
+        exact->chain_length[carry.links[i].chain]++;
+        status = add_link(exact, &carry.links[i], error);
+    }
+    for (uint32_t c = 0; c < carry.chain_count && !status; c++)
+        status = meso_sat_freeze(exact->sat, (int32_t)(exact->chain_first + c), error);
+    return status;
+}
+
 MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropagation *propagation,
                            const MesoExactOptions *options, MesoError *error)
 {
@@ -204,7 +242,9 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
     if (!exact->edge_first || !exact->slot_first)
         return MESO_ERR_MEMORY;
     status = number_variables(exact, error);
-    return status ? status : add_clauses(exact, error);
+    if (!status)
+        status = add_clauses(exact, error);
+    return status ? status : add_chains(exact, error);
 }
 
 void meso_exact_release(MesoExact *exact)

@@ -4,6 +4,7 @@
  * edge, and which pattern (see pattern.h) a slot holds, as far as the initial
  * propagation leaves a choice. Clauses join the two both ways: a pattern
  * implies its labels, and a label that one of the patterns with it is there.
+ * A variable for each chain of edges (carry.h) says what the edges share.
  */
 #ifndef MESO_EXACT_H
 #define MESO_EXACT_H
@@ -14,6 +15,9 @@
 /* Literal of what always holds; its negation never does. Not to be given to CaDiCaL. */
 #define MESO_EXACT_TRUE INT32_MAX
 
+/* More chains than this are as if there were none for exact_cubes.h. */
+enum { MESO_EXACT_MOST_CHAINS = 1 << 10 };
+
 typedef struct MesoExact {
     const MesoPropagation *propagation;
     MesoPatternTable patterns;
@@ -23,6 +27,8 @@ typedef struct MesoExact {
     uint64_t clause_count;
     uint32_t *edge_first;       /* [4 * slot_count] first label variable, at the edge's lower half-edge; 0: none */
     uint32_t *slot_first;       /* [slot_count] first pattern variable; 0: the slot has one pattern */
+    uint32_t chain_first, chain_count;  /* variables of the chains (carry.h) */
+    uint32_t *chain_length;     /* [chain_count] edges */
     void (*clause)(void *context, const int32_t *literals, uint32_t count);
     void *context;
 } MesoExact;

@@ -5,6 +5,7 @@
 
 #include "libcore/solve/counting.h"
 #include "libcore/solve/exact_control.h"
+#include "libcore/solve/exact_cubes.h"
 #include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
 #include "libcore/solve/parity.h"
@@ -21,6 +22,9 @@ enum { FIRST_CONFLICTS = 3000 };
 
 /* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
 enum { PHASED_CONFLICTS = 1000 };
+
+/* Conflicts that it then has by cubes (exact_cubes.h), where that gets on. */
+enum { CUBE_CONFLICTS = 200000 };
 
 /* Solutions of the exact engine that a rule on strands may cut off: fewer on a large surface. */
 enum { LEAST_CUT_ROUNDS = 20, MOST_CUT_ROUNDS = 2000, CUT_SLOTS = 1 << 20 };
@@ -185,9 +189,12 @@ static MesoStatus fill_single_states(Search *search, const uint32_t *variant, ui
     return MESO_OK;
 }
 
-/* `hint` [slot_count] has the states that decisions try first; `left` the conflicts that may be met. */
+/*
+ * `hint` [slot_count] has the states that decisions try first; `left` are the conflicts that may be
+ * met, `cubes` those that may be met beyond them by cubes.
+ */
 static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *hint, MesoSatAnswer *answer,
-                             MesoRandom *random, uint64_t left, MesoError *error)
+                             MesoRandom *random, uint64_t left, uint64_t cubes, MesoError *error)
 {
     const MesoSolveOptions *options = search->options;
     uint32_t phased = left < PHASED_CONFLICTS ? (uint32_t)left : PHASED_CONFLICTS;
@@ -199,10 +206,12 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *h
     if (status || *answer != MESO_SAT_UNKNOWN || left == 0 || told_to_stop(search))
         return status;
     status = meso_sat_forget_phases(exact->sat, error);
-    if (status)
+    if (!status)
+        status = meso_sat_solve(exact->sat, answer, NULL, 0, left < INT32_MAX ? (uint32_t)left : INT32_MAX,
+                                options->stop, options->stop_context, error);
+    if (status || *answer != MESO_SAT_UNKNOWN || cubes == 0 || told_to_stop(search))
         return status;
-    return meso_sat_solve(exact->sat, answer, NULL, 0, left < INT32_MAX ? (uint32_t)left : INT32_MAX,
-                          options->stop, options->stop_context, error);
+    return meso_exact_conquer(exact, answer, random, cubes, options->stop, options->stop_context, error);
 }
 
 /* Tells the answer; a solution goes to `variant`, unless it breaks the rule on strands: then there are `*cuts`. */
@@ -229,7 +238,7 @@ static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer an
 
 /* Asks until there is an answer that no rule on strands cuts off, each time for one like the last. */
 static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, uint64_t conflicts,
-                                 MesoError *error)
+                                 uint64_t cubes, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
     const uint32_t *hint = search->propagation.state;
@@ -247,7 +256,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
     for (uint32_t round = 0; round < rounds; round++) {
         MesoSatAnswer answer = MESO_SAT_UNKNOWN;
         uint32_t cuts = 0;
-        MesoStatus status = ask_engine(search, exact, hint, &answer, random, conflicts, error);
+        MesoStatus status = ask_engine(search, exact, hint, &answer, random, conflicts, cubes, error);
         if (!status)
             status = read_answer(search, exact, answer, variant, &cuts, random, error);
         if (status || cuts == 0)
@@ -264,7 +273,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
     return MESO_OK;
 }
 
-static MesoStatus decide_exactly(Search *search, uint64_t conflicts, MesoError *error)
+static MesoStatus decide_exactly(Search *search, uint64_t conflicts, uint64_t cubes, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
@@ -280,7 +289,7 @@ static MesoStatus decide_exactly(Search *search, uint64_t conflicts, MesoError *
         status = meso_exact_add_quotas(&exact, constraints, &complete, error);
     /* Where a quota is too large to be counted, what the engine finds need not keep to it. */
     if (!status && complete)
-        status = ask_until_kept(search, &exact, &random, conflicts, error);
+        status = ask_until_kept(search, &exact, &random, conflicts, cubes, error);
     meso_exact_release(&exact);
     return status;
 }
@@ -306,19 +315,23 @@ static MesoStatus probe(Search *search, MesoError *error)
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* The exact engine, for a while; then, where it did not do, probing, and the engine on what that leaves. */
+/*
+ * The exact engine, for a while, and by cubes; then, where it did not do, probing, and the engine
+ * anew on what that leaves.
+ */
 static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error)
 {
     const MesoSolveResult *result = search->result;
     uint64_t conflicts = search->options->max_conflicts ? search->options->max_conflicts : MESO_SOLVE_CONFLICTS;
     uint64_t first = conflicts < FIRST_CONFLICTS || guided ? conflicts : FIRST_CONFLICTS;
-    MesoStatus status = decide_exactly(search, first, error);
-    if (status || result->decider != MESO_DECIDER_CONFLICTS || conflicts == first)
+    uint64_t left = conflicts - first, cubes = left < CUBE_CONFLICTS ? left : CUBE_CONFLICTS;
+    MesoStatus status = decide_exactly(search, first, cubes, error);
+    if (status || result->decider != MESO_DECIDER_CONFLICTS || left == 0)
         return status;
     status = probe(search, error);
     if (status || result->decider != MESO_DECIDER_CONFLICTS)
         return status;
-    return decide_exactly(search, conflicts - first, error);
+    return decide_exactly(search, left, 0, error);
 }
 
 /* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
