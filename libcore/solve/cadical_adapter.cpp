@@ -15,10 +15,23 @@ public:
     bool terminate() override { return stop && stop(context); }
 };
 
+/* CaDiCaL has no public statistics: each conflict teaches it one clause, of which a learner is told. */
+class Counter : public CaDiCaL::Learner {
+public:
+    uint64_t count = 0;
+    bool learning(int) override
+    {
+        count++;
+        return false;
+    }
+    void learn(int) override {}
+};
+
 } // namespace
 
 struct MesoSat {
     Stopper stopper;
+    Counter counter;
     CaDiCaL::Solver solver;
     std::vector<int> phased;
     bool (*proof)(void *, const char *, size_t) = nullptr;
@@ -80,6 +93,7 @@ extern "C" MesoStatus meso_sat_init(MesoSat **result,
         if (proof && !open_proof(sat))
             return meso_fail(error, MESO_ERR_INTERNAL, "CaDiCaL cannot write its proof");
         sat->solver.connect_terminator(&sat->stopper);
+        sat->solver.connect_learner(&sat->counter);
         return MESO_OK;
     } catch (...) {
         return fail(error);
@@ -147,6 +161,11 @@ extern "C" MesoStatus meso_sat_solve(MesoSat *sat, MesoSatAnswer *answer, const 
     } catch (...) {
         return fail(error);
     }
+}
+
+extern "C" uint64_t meso_sat_conflicts(const MesoSat *sat)
+{
+    return sat->counter.count;
 }
 
 extern "C" bool meso_sat_value(MesoSat *sat, int32_t literal)

@@ -48,6 +48,9 @@ MesoStatus meso_sat_solve(MesoSat *sat, MesoSatAnswer *answer, const int32_t *as
                           uint32_t count, uint32_t conflict_limit, bool (*stop)(void *context),
                           void *context, MesoError *error);
 
+/* Clauses learned so far, in all calls: one a conflict, and now and then one from elsewhere. */
+uint64_t meso_sat_conflicts(const MesoSat *sat);
+
 /* After MESO_SAT_YES: whether `literal` is true. */
 bool meso_sat_value(MesoSat *sat, int32_t literal);
 
