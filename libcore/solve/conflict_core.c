@@ -16,9 +16,17 @@ enum { BALL_CONFLICTS = 4000, DROP_CONFLICTS = 400 };
 /* How often a core is asked for a smaller one before items are left out; other orders to leave them out in. */
 enum { REFINEMENTS = 5, OTHER_ORDERS = 4, MOST_REORDERED = 300 };
 
-/* Variants of all slots of a ball, and literals that all answers may go through: a second or two in all. */
-static const uint64_t ball_limit = (uint64_t)1 << 19;
-static const uint64_t work_limit = (uint64_t)1 << 27;
+/*
+ * Effort is counted in literals that CaDiCaL goes through, about 50 ns each: those of a formula for each answer,
+ * a part of them for each conflict (after which many assumptions are made anew), and some times as many to build
+ * it. The first limit is a second or two; the other is on the variants of all slots of a ball.
+ */
+static const uint64_t work_limit = (uint64_t)1 << 25;
+static const uint64_t ball_limit = (uint64_t)1 << 17;
+enum { BUILD_WORK = 8, CONFLICT_PART = 8 };
+
+/* A set that may be larger than need be tells something while it is a small part of the surface. */
+enum { LEAST_PART = 4 };
 
 typedef struct Finder {
     const MesoCoreProblem *problem;
@@ -40,14 +48,27 @@ typedef struct Items {
     bool minimal;
 } Items;
 
+static void spend(Finder *finder, uint64_t work)
+{
+    finder->work_left -= work < finder->work_left ? work : finder->work_left;
+}
+
+static MesoStatus build_formula(Finder *finder, const uint32_t *slots, uint32_t count, MesoError *error)
+{
+    MesoStatus status = meso_core_formula_init(&finder->formula, finder->problem, slots, count, finder->rank, error);
+    spend(finder, BUILD_WORK * finder->formula.size);
+    return status;
+}
+
 static MesoStatus ask(Finder *finder, const uint32_t *items, uint32_t count, uint32_t conflicts,
                       MesoSatAnswer *answer, MesoError *error)
 {
     *answer = MESO_SAT_UNKNOWN;
-    uint64_t work = finder->formula.size + count;
-    if (finder->conflicts_left == 0 || finder->work_left < work)
+    spend(finder, finder->formula.size + count);
+    uint64_t conflict_work = finder->formula.size / CONFLICT_PART + 1, affordable = finder->work_left / conflict_work;
+    if (finder->conflicts_left == 0 || affordable == 0)
         return MESO_OK;
-    finder->work_left -= work;
+    conflicts = conflicts < affordable ? conflicts : (uint32_t)affordable;
     for (uint32_t i = 0; i < count; i++)
         finder->assumptions[i] = meso_core_formula_literal(&finder->formula, items[i]);
     uint64_t before = meso_sat_conflicts(finder->formula.sat);
@@ -56,6 +77,7 @@ static MesoStatus ask(Finder *finder, const uint32_t *items, uint32_t count, uin
                                        error);
     uint64_t used = meso_sat_conflicts(finder->formula.sat) - before;
     finder->conflicts_left -= used < finder->conflicts_left ? used : finder->conflicts_left;
+    spend(finder, used * conflict_work);
     return status;
 }
 
@@ -119,8 +141,7 @@ static MesoStatus ask_ball(Finder *finder, uint32_t ball, Items *items, MesoSatA
 static MesoStatus find_in_ball(Finder *finder, uint32_t ball, Items *items, MesoError *error)
 {
     MesoSatAnswer answer = MESO_SAT_UNKNOWN;
-    MesoStatus status = meso_core_formula_init(&finder->formula, finder->problem, finder->order, ball, finder->rank,
-                                               error);
+    MesoStatus status = build_formula(finder, finder->order, ball, error);
     if (!status)
         status = ask_ball(finder, ball, items, &answer, error);
     bool found = !status && answer == MESO_SAT_NO;
@@ -185,7 +206,7 @@ static MesoStatus shrink(Finder *finder, Items *items, uint32_t *slots, MesoErro
         size *= 2;
     for (; size > 0 && !status; size /= 2) {
         uint32_t count = slots_of(finder, items, slots);
-        status = meso_core_formula_init(&finder->formula, finder->problem, slots, count, finder->rank, error);
+        status = build_formula(finder, slots, count, error);
         if (!status)
             status = drop_runs(finder, items, size, error);
         meso_core_formula_release(&finder->formula);
@@ -350,7 +371,7 @@ static MesoStatus find_first(Finder *finder, bool grow, Items *items, MesoError 
 {
     MesoStatus status = MESO_OK;
     uint64_t ball = grow ? FIRST_BALL : finder->order_count;
-    for (bool last = false; !last && !status && items->count == 0; ball *= BALL_GROWTH) {
+    for (bool last = false; !last && !status && items->count == 0 && finder->work_left > 0; ball *= BALL_GROWTH) {
         last = ball >= finder->order_count;
         status = find_in_ball(finder, last ? finder->order_count : (uint32_t)ball, items, error);
     }
@@ -377,7 +398,7 @@ MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, con
         status = find_first(&finder, near != MESO_NO_INDEX, &items, error);
     if (!status && items.count > 0)
         status = shrink_in_orders(&finder, &items, error);
-    if (!status && items.count > 0)
+    if (!status && items.count > 0 && (items.minimal || LEAST_PART * (uint64_t)items.count <= all))
         status = tell(&finder, &items, core, arena, error);
     meso_arena_release(&scratch);
     return status;

@@ -29,16 +29,16 @@ typedef struct MesoConflictCore {
 /* Effort, counted so that the result does not depend on the clock. Zero is the default: a second or two. */
 typedef struct MesoCoreLimits {
     uint32_t slots;             /* of the largest ball */
-    uint32_t conflicts;         /* in all */
+    uint32_t conflicts;         /* in all; fewer where formulas are large */
 } MesoCoreLimits;
 
 /*
  * Looks for a core around slot `near`, or on the whole surface where that is
  * MESO_NO_INDEX and the surface is within the limits. `core->found` is false where
- * there is none within reach: that says nothing. Restrictions are left out of it
- * where there is a conflict without them in the same ball. Quotas and the rule on strands are not
- * looked at. The arrays of `core` go to `arena`. The result depends on the
- * arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
+ * there is none within reach, or none found that is either minimal or small: that
+ * says nothing. Restrictions are left out of it where there is a conflict without
+ * them in the same ball. Quotas and the rule on strands are not looked at. The
+ * arrays of `core` go to `arena`. The result depends on the arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
 MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, const MesoCoreProblem *problem,
                                    uint32_t near, const MesoCoreLimits *limits, MesoError *error);

@@ -229,7 +229,8 @@ static int32_t label_literal(const Builder *builder, uint32_t rank, uint32_t sid
 }
 
 /* What pattern `literal` at the slot implies: its labels, and that no item that it breaks is assumed. */
-static MesoStatus add_pattern(Builder *builder, uint32_t rank, const Pattern *pattern, int32_t literal, MesoError *error)
+static MesoStatus add_pattern(Builder *builder, uint32_t rank, const Pattern *pattern, int32_t literal,
+                              MesoError *error)
 {
     const MesoCoreProblem *problem = builder->problem;
     MesoStatus status = MESO_OK;

@@ -14,40 +14,35 @@ static MesoHotSpot *find(MesoHotSpot *entries, uint32_t slot)
     return &entries[place];
 }
 
-/* Takes one from every count, and those out that come to nothing. */
-static MesoStatus lower_all(MesoHotSpots *spots, MesoArena *arena, MesoError *error)
+MesoStatus meso_hot_spots_init(MesoHotSpots *spots, MesoArena *arena, MesoError *error)
 {
-    MesoArenaMark mark = meso_arena_mark(arena);
-    MesoHotSpot *old = MESO_NEW(arena, MesoHotSpot, PLACES, error);
-    if (!old)
-        return MESO_ERR_MEMORY;
-    memcpy(old, spots->entries, PLACES * sizeof *old);
-    memset(spots->entries, 0, PLACES * sizeof *old);
-    spots->count = 0;
-    for (uint32_t p = 0; p < PLACES; p++)
-        if (old[p].dead_ends > 1) {
-            *find(spots->entries, old[p].slot) = (MesoHotSpot){old[p].slot, old[p].dead_ends - 1};
-            spots->count++;
-        }
-    meso_arena_rewind(arena, mark);
-    return MESO_OK;
+    *spots = (MesoHotSpots){.entries = MESO_NEW(arena, MesoHotSpot, PLACES, error),
+                            .spare = MESO_NEW(arena, MesoHotSpot, MESO_HOT_SPOT_ENTRIES, error)};
+    return spots->entries && spots->spare ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-MesoStatus meso_hot_spots_add(MesoHotSpots *spots, MesoArena *arena, uint32_t slot, MesoError *error)
+/* Takes one from every count, and those out that come to nothing. */
+static void lower_all(MesoHotSpots *spots)
 {
-    if (!spots->entries && !(spots->entries = MESO_NEW(arena, MesoHotSpot, PLACES, error)))
-        return MESO_ERR_MEMORY;
-    spots->total++;
+    uint32_t kept = 0;
+    for (uint32_t p = 0; p < PLACES; p++)
+        if (spots->entries[p].dead_ends > 1)
+            spots->spare[kept++] = (MesoHotSpot){spots->entries[p].slot, spots->entries[p].dead_ends - 1};
+    memset(spots->entries, 0, PLACES * sizeof *spots->entries);
+    for (spots->count = 0; spots->count < kept; spots->count++)
+        *find(spots->entries, spots->spare[spots->count].slot) = spots->spare[spots->count];
+}
+
+void meso_hot_spots_add(MesoHotSpots *spots, uint32_t slot)
+{
     MesoHotSpot *entry = find(spots->entries, slot);
-    if (entry->dead_ends) {
-        entry->dead_ends++;
-        return MESO_OK;
+    spots->total++;
+    if (!entry->dead_ends && spots->count == MESO_HOT_SPOT_ENTRIES) {
+        lower_all(spots);
+        return;
     }
-    if (spots->count == MESO_HOT_SPOT_ENTRIES)
-        return lower_all(spots, arena, error);
-    *entry = (MesoHotSpot){slot, 1};
-    spots->count++;
-    return MESO_OK;
+    spots->count += entry->dead_ends == 0;
+    *entry = (MesoHotSpot){slot, entry->dead_ends + 1};
 }
 
 static bool hotter(MesoHotSpot a, MesoHotSpot b)

@@ -22,13 +22,20 @@ typedef struct MesoHotSpot {
 typedef struct MesoHotSpots {
     uint64_t total;             /* dead ends counted */
     uint32_t count;             /* entries in use */
-    MesoHotSpot *entries;       /* [2 * MESO_HOT_SPOT_ENTRIES] by hash; NULL before the first dead end */
+    MesoHotSpot *entries;       /* [2 * MESO_HOT_SPOT_ENTRIES] by hash */
+    MesoHotSpot *spare;         /* [MESO_HOT_SPOT_ENTRIES] */
 } MesoHotSpots;
 
-/* Counts a dead end at `slot`; the table, which starts zeroed, lives in `arena`. MESO_ERR_MEMORY alone. O(1) amortised. */
-MesoStatus meso_hot_spots_add(MesoHotSpots *spots, MesoArena *arena, uint32_t slot, MesoError *error);
+/* An empty table, in `arena`: 192 KiB. MESO_ERR_MEMORY alone. */
+MesoStatus meso_hot_spots_init(MesoHotSpots *spots, MesoArena *arena, MesoError *error);
 
-/* Writes the slots with most dead ends to `top` [most], the smaller slot first among equals; returns how many. */
+/* Counts a dead end at `slot`. O(1) amortised. */
+void meso_hot_spots_add(MesoHotSpots *spots, uint32_t slot);
+
+/*
+ * Writes the slots with most dead ends to `top` [most], the smaller slot first among equals;
+ * returns how many. `spots` may be zeroed: none.
+ */
 uint32_t meso_hot_spots_top(const MesoHotSpots *spots, MesoHotSpot *top, uint32_t most);
 
 #endif
