@@ -189,7 +189,28 @@ static void test_core(void)
     meso_arena_release(&arena);
 }
 
-/* Each tile shows a more often than a', so that no torus has a tiling; the search alone cannot know. */
+/* Ten slots, those with most dead ends first. */
+static void check_hot_spots(const char *text)
+{
+    json_t *json = json_loads(text, 0, NULL), *spots = json_object_get(json, "hot_spots");
+    json_int_t last = INT64_MAX;
+    CHECK(json_array_size(spots) == MESO_SOLVE_HOT_SPOTS);
+    for (size_t i = 0; i < MESO_SOLVE_HOT_SPOTS; i++) {
+        json_t *spot = json_array_get(spots, i);
+        json_int_t count = json_integer_value(json_object_get(spot, "dead_ends"));
+        CHECK(count >= 1 && count <= last && json_integer_value(json_object_get(spot, "slot")) < 25);
+        last = count;
+    }
+    json_decref(json);
+}
+
+static bool always(void *context)
+{
+    (void)context;
+    return true;
+}
+
+/* Each of 25 tiles shows a or a' once, so that one finds no partner: the search alone cannot know. */
 static void test_gave_up(void)
 {
     static const int32_t labels[2][4] = {{1, 2, 2, -2}, {-1, 2, 2, -2}};
@@ -199,11 +220,36 @@ static void test_gave_up(void)
     MesoSlotGraph graph = fixture_grid(&arena, 5, 5, true, true, false);
     MesoSolveOptions options = {.engine = MESO_ENGINE_WFC, .max_attempts = 3, .max_dead_ends = 5};
     char *text = solve_to_text(&arena, &set, &graph, &options);
-    puts(text);
+    CHECK(strstr(text, "\"reason\":\"the search made its 3 attempts; at best ") && strstr(text, " dead ends were at slot "));
+    CHECK(strstr(text, "\"budget\":\"attempts\",\"decided_at_best\":") && !strstr(text, "\"conflicts\""));
+    check_hot_spots(text);
     free(text);
+
     options.max_observations = 2;
     text = solve_to_text(&arena, &set, &graph, &options);
-    puts(text);
+    CHECK(strstr(text, "the search made its 2 observations; at best ") && strstr(text, "\"budget\":\"observations\""));
+    free(text);
+
+    options.max_observations = 0;
+    options.stop = always;
+    text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "the time was over; at best ") && strstr(text, "\"budget\":\"time\""));
+    free(text);
+    meso_arena_release(&arena);
+}
+
+/* A torus that the exact engine does not solve at the first conflicts. */
+static void test_conflicts(void)
+{
+    static const int32_t labels[3][4] = {{1, 2, -1, -2}, {1, 2, 2, -1}, {1, 1, 2, 2}};
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoTileSet set = fixture_set(&arena, 2, 3, labels, true, true, false);
+    MesoSlotGraph graph = fixture_grid(&arena, 30, 30, true, true, false);
+    const MesoSolveOptions options = {.engine = MESO_ENGINE_EXACT, .max_attempts = 1, .max_conflicts = 5};
+    char *text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "\"reason\":\"the exact engine met its 5 conflicts\""));
+    CHECK(strstr(text, "\"budget\":\"conflicts\"") && strstr(text, "\"conflicts\":"));
     free(text);
     meso_arena_release(&arena);
 }
@@ -256,6 +302,7 @@ int main(void)
     test_solved();
     test_core();
     test_gave_up();
+    test_conflicts();
     test_wrong();
     return 0;
 }
