@@ -107,7 +107,7 @@ static bool tick(void *context)
 static MesoStatus note_dead_end(void *context, uint32_t slot, bool first, MesoError *error)
 {
     Search *search = context;
-    if (!search->hot_spots.entries && meso_hot_spots_init(&search->hot_spots, &search->hot_arena, error))
+    if (meso_hot_spots_reserve_one(&search->hot_spots, &search->hot_arena, error))
         return MESO_ERR_MEMORY;
     meso_hot_spots_add(&search->hot_spots, slot);
     return first ? record_dead_end(search, slot, search->result->attempts, error) : MESO_OK;
@@ -429,7 +429,7 @@ static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *err
     if (search->options->max_observations)
         search->guided.max_observations = search->options->max_observations;
     if (!status)
-        status = meso_hot_spots_init(&search->hot_spots, &search->hot_arena, error);
+        status = meso_hot_spots_reserve(&search->hot_spots, &search->hot_arena, error);
     search->guided.hot_spots = &search->hot_spots;
     return status;
 }
