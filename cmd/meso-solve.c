@@ -110,15 +110,16 @@ static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slo
 
 static MesoStatus say_limit(Arguments *a, const MesoSolveResult *result)
 {
-    static const char *const limits[] = {
-        [MESO_DECIDER_ATTEMPTS] = "the end of the search's attempts or observations; try --attempts, --engine auto, "
-                                  "--seed or meso-suggest",
-        [MESO_DECIDER_CONFLICTS] = "the end of the exact engine's conflicts; try --conflicts, --seed or meso-suggest",
-        [MESO_DECIDER_STOP] = "the end of the time; try --budget, --seed or meso-suggest",
+    static const char *const more[] = {
+        [MESO_BUDGET_ATTEMPTS] = "--attempts, --engine auto",
+        [MESO_BUDGET_OBSERVATIONS] = "--observations, --engine auto",
+        [MESO_BUDGET_CONFLICTS] = "--conflicts",
+        [MESO_BUDGET_CUTS] = "--attempts",
+        [MESO_BUDGET_COUNTED] = "--attempts",
+        [MESO_BUDGET_TIME] = "--budget",
     };
-    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up after %u attempt%s%s%s, at %s", result->attempts,
-                     result->attempts == 1 ? "" : "s", *result->reason ? "; " : "", result->reason,
-                     limits[result->decider]);
+    return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up: %s; try %s, --seed or meso-suggest", result->reason,
+                     more[result->budget]);
 }
 
 static MesoStatus say_verdict(Arguments *a, const Problem *p)
@@ -134,6 +135,10 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
                           meso_constraints_changed(p->constraints, &result->assignment, &p->variants));
         return MESO_OK;
     case MESO_VERDICT_UNSOLVABLE:
+        if (*result->reason && result->decider == MESO_DECIDER_PROPAGATION && result->dead_end_total > 1)
+            return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: %s (in all, %llu of %u slots have no tile, "
+                             "whatever the others hold)", result->reason, (unsigned long long)result->dead_end_total,
+                             p->surface.graph.slot_count);
         if (*result->reason)
             return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: %s", result->reason);
         return meso_fail(&a->tool.error, MESO_ERR_NO, "unsolvable: no tile fits %llu of %u slots, "
@@ -153,7 +158,7 @@ static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, 
                                         a->attempts, &p->result);
     if (!status)
         status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
-                                  &tool->error);
+                                  p->constraints, &tool->error);
     if (!status && (a->report || tool->json))
         status = meso_report_fill_control(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
                                           p->constraints, &tool->error);

@@ -54,6 +54,7 @@ MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVar
         .max_attempts = max_attempts,
         .max_dead_ends = MESO_REPORT_DEAD_ENDS,
         .constraints = constraints,
+        .explain = engine != NULL,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };

@@ -25,6 +25,15 @@ static const char *const decider_names[] = {
     [MESO_DECIDER_STOP] = "stop",
 };
 
+static const char *const budget_names[] = {
+    [MESO_BUDGET_ATTEMPTS] = "attempts",
+    [MESO_BUDGET_OBSERVATIONS] = "observations",
+    [MESO_BUDGET_CONFLICTS] = "conflicts",
+    [MESO_BUDGET_CUTS] = "cuts",
+    [MESO_BUDGET_COUNTED] = "counted",
+    [MESO_BUDGET_TIME] = "time",
+};
+
 enum { VERDICT_COUNT = sizeof verdict_names / sizeof *verdict_names };
 
 /* Words of labels for all dead ends: 1 GiB. */
@@ -109,14 +118,75 @@ json_t *meso_report_histogram(const MesoAssignment *assignment, const MesoTileSe
     return NULL;
 }
 
+/* `array` with `name` at its end; NULL when memory is out, or was. */
+static json_t *append_name(json_t *array, const char *name)
+{
+    if (array && json_array_append_new(array, meso_json_string(name)) == 0)
+        return array;
+    json_decref(array);
+    return NULL;
+}
+
+static json_t *write_core(const MesoConflictCore *core, const MesoTileSet *set, const MesoConstraints *constraints)
+{
+    json_t *slots = json_array(), *tiles = json_array(), *rules = json_array(), *names = json_array();
+    int failed = slots == NULL;
+    for (uint32_t i = 0; i < core->slot_count && !failed; i++)
+        failed |= json_array_append_new(slots, json_integer(core->slots[i]));
+    for (uint32_t i = 0; i < core->tile_count; i++)
+        tiles = append_name(tiles, set->tiles[core->tiles[i]].name);
+    for (uint32_t i = 0; i < core->rule_count; i++)
+        if (i == 0 || core->rules[i].interface != core->rules[i - 1].interface)
+            rules = append_name(rules, set->interfaces[core->rules[i].interface].name);
+    for (uint32_t i = 0; i < core->constraint_count; i++)
+        names = append_name(names, meso_constraint_name(constraints, core->constraints[i]));
+    if (!failed && tiles && rules && names)
+        return json_pack("{sbsosososo}", "minimal", core->minimal, "slots", slots, "tiles", tiles, "border_rules", rules,
+                         "constraints", names);
+    json_decref(slots);
+    json_decref(tiles);
+    json_decref(rules);
+    json_decref(names);
+    return NULL;
+}
+
+static json_t *write_hot_spots(const MesoSolveResult *result)
+{
+    json_t *array = json_array();
+    int failed = array == NULL;
+    for (uint32_t i = 0; i < result->hot_spot_count && !failed; i++)
+        failed |= json_array_append_new(array, json_pack("{sIsI}", "slot", (json_int_t)result->hot_spots[i].slot,
+                                                         "dead_ends", (json_int_t)result->hot_spots[i].dead_ends));
+    if (!failed)
+        return array;
+    json_decref(array);
+    return NULL;
+}
+
+/* What ended the work, and how far it came. */
+static int write_limit(json_t *object, const MesoSolveResult *result)
+{
+    int failed = json_object_set_new(object, "budget", json_string(budget_names[result->budget]));
+    failed |= json_object_set_new(object, "decided_at_best", json_integer(result->decided_most));
+    if (result->conflict_limit)
+        failed |= json_object_set_new(object, "conflicts", json_integer((json_int_t)result->conflicts));
+    return failed;
+}
+
 MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
                             const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                            MesoError *error)
+                            const MesoConstraints *constraints, MesoError *error)
 {
     int failed = json_object_set_new(object, "verdict", json_string(meso_verdict_name(result->verdict)));
     if (*result->reason)
         failed |= json_object_set_new(object, "reason", meso_json_string(result->reason));
     failed |= json_object_set_new(object, "decided_by", json_string(meso_decider_name(result->decider)));
+    if (result->core.found)
+        failed |= json_object_set_new(object, "core", write_core(&result->core, set, constraints));
+    if (result->verdict == MESO_VERDICT_GAVE_UP)
+        failed |= write_limit(object, result);
+    if (result->hot_spot_count > 0)
+        failed |= json_object_set_new(object, "hot_spots", write_hot_spots(result));
     failed |= json_object_set_new(object, "attempts", json_integer(result->attempts));
     failed |= json_object_set_new(object, "observations", json_integer((json_int_t)result->observations));
     failed |= json_object_set_new(object, "repairs", json_integer((json_int_t)result->repairs));

@@ -6,6 +6,11 @@
  *      "decided_by": "propagation", "search", "counting", "parity", "probing" or "exact"; where the solver gave up,
  *          the limit: "attempts", "conflicts" or "stop"
  *      "reason": why, in words, where it is not plain that a slot is left without a tile
+ *      "core": {"minimal": true or false, "slots": [numbers], "tiles": [names], "border_rules": [interfaces],
+ *          "constraints": [names]}      where unsolvable, and a set that cannot hold together was found
+ *      "budget": "attempts", "observations", "conflicts", "cuts", "counted" or "time", "decided_at_best": slots,
+ *      "conflicts": that the exact engine met                      where the solver gave up
+ *      "hot_spots": [{"slot", "dead_ends"}, ...]: the slots with most dead ends, where there are any, unless solved
  *      "attempts", "observations", "repairs", "slots", "variants": numbers,
  *      "tiles": {name: slots that hold it, ...}                    where solved
  *      "constraints": {"backtracks": choices taken back, "violations": {name: times, ...},
@@ -55,12 +60,12 @@ const char *meso_decider_name(MesoDecider decider);
 
 /*
  * Sets in `object` the keys from "verdict" to "dead_ends"; whatever else makes
- * a report is the caller's. `graph`, `variants` and `set` are what `result` was
- * solved with. MESO_ERR_MEMORY alone.
+ * a report is the caller's. `graph`, `variants`, `set` and `constraints`
+ * (NULL: none) are what `result` was solved with. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
                             const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                            MesoError *error);
+                            const MesoConstraints *constraints, MesoError *error);
 
 /*
  * Sets "strands" and, where `constraints` is not NULL, "constraints" in `object`.

@@ -36,7 +36,7 @@ static char *unsolvable_report(MesoArena *arena, MesoTileSet *set, MesoSolveResu
 
     MesoProvenance provenance = {.tool = "meso-solve", .command_line = "meso-solve x"};
     json_t *content = json_object();
-    CHECK(meso_report_fill(content, result, set, &variants, &graph, &error) == MESO_OK);
+    CHECK(meso_report_fill(content, result, set, &variants, &graph, NULL, &error) == MESO_OK);
     json_t *json = meso_report_to_json(content, &provenance);
     CHECK(json);
     char *text = text_of(json);
@@ -119,7 +119,7 @@ static void test_solved(void)
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
     MesoProvenance provenance = {.tool = "meso-solve", .command_line = "meso-solve x"};
     json_t *content = json_object();
-    CHECK(meso_report_fill(content, &result, &set, &variants, &graph, &error) == MESO_OK);
+    CHECK(meso_report_fill(content, &result, &set, &variants, &graph, NULL, &error) == MESO_OK);
     json_t *tiles = json_object_get(content, "tiles");
     CHECK(json_object_size(tiles) == 2);
     CHECK(json_integer_value(json_object_get(tiles, "t0")) == 12);
@@ -131,6 +131,126 @@ static void test_solved(void)
     free(text);
     json_decref(json);
     json_decref(content);
+    meso_arena_release(&arena);
+}
+
+/* Text of the report of a solve, which reads back. */
+static char *solve_to_text(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph,
+                           const MesoSolveOptions *options)
+{
+    MesoError error;
+    MesoVariantSet variants;
+    MesoSolveResult result;
+    MesoReport report;
+    MesoProvenance provenance = {.tool = "meso-solve", .command_line = "meso-solve x"};
+    json_t *content = json_object();
+    CHECK(meso_variant_set_build(&variants, arena, set, &error) == MESO_OK);
+    CHECK(meso_solve(&result, arena, set, &variants, graph, options, &error) == MESO_OK);
+    CHECK(meso_report_fill(content, &result, set, &variants, graph, options->constraints, &error) == MESO_OK);
+    json_t *json = meso_report_to_json(content, &provenance);
+    CHECK(json);
+    char *text = text_of(json);
+    json_decref(json);
+    json_decref(content);
+    CHECK(read_text(&report, arena, text, strlen(text), set, &error) == MESO_OK);
+    CHECK(report.verdict == result.verdict && report.dead_end_total == result.dead_end_total);
+    return text;
+}
+
+/* What cannot hold together is there by name: 'c' on inner sides; a pin that leaves no tile. */
+static void test_core(void)
+{
+    static const int32_t labels[2][4] = {{2, 1, 3, 1}, {3, 1, 1, 1}}, loose[2][4] = {{1, 1, -1, -1}, {1, 1, -1, 2}};
+    static const uint32_t places[1] = {4};
+    static const uint64_t t1[1] = {2};
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoTileSet set = fixture_set(&arena, 3, 2, labels, false, false, false);
+    set.interfaces[2].border_only = true;
+    MesoSlotGraph graph = fixture_grid(&arena, 3, 1, false, false, false);
+    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 5, .explain = true};
+    char *text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "\"reason\":\"no tile fits slot 1, where interface 'c' may lie on a border only\""));
+    CHECK(strstr(text, "\"core\":{\"minimal\":true,\"slots\":[1],\"tiles\":[],\"border_rules\":[\"c\"],"
+                       "\"constraints\":[]}"));
+    free(text);
+
+    set = fixture_set(&arena, 2, 2, loose, false, false, false);
+    graph = fixture_grid(&arena, 3, 3, false, false, false);
+    const MesoRestriction pin = {.name = "pins[0] 'knob'", .place_count = 1, .places = places, .allowed = t1};
+    const MesoConstraints constraints = {.restriction_count = 1, .restrictions = &pin};
+    options.constraints = &constraints;
+    text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "\"core\":{\"minimal\":true,\"slots\":[1,4],\"tiles\":[\"t0\",\"t1\"],\"border_rules\":[],"
+                       "\"constraints\":[\"pins[0] 'knob'\"]}"));
+    CHECK(strstr(text, "no tiles fit together on slots 1 and 4, with pins[0] 'knob': only 't1' fits slot 4; each of "
+                       "these is needed"));
+    free(text);
+    meso_arena_release(&arena);
+}
+
+/* Ten slots, those with most dead ends first. */
+static void check_hot_spots(const char *text)
+{
+    json_t *json = json_loads(text, 0, NULL), *spots = json_object_get(json, "hot_spots");
+    json_int_t last = INT64_MAX;
+    CHECK(json_array_size(spots) == MESO_SOLVE_HOT_SPOTS);
+    for (size_t i = 0; i < MESO_SOLVE_HOT_SPOTS; i++) {
+        json_t *spot = json_array_get(spots, i);
+        json_int_t count = json_integer_value(json_object_get(spot, "dead_ends"));
+        CHECK(count >= 1 && count <= last && json_integer_value(json_object_get(spot, "slot")) < 25);
+        last = count;
+    }
+    json_decref(json);
+}
+
+static bool always(void *context)
+{
+    (void)context;
+    return true;
+}
+
+/* Each of 25 tiles shows a or a' once, so that one finds no partner: the search alone cannot know. */
+static void test_gave_up(void)
+{
+    static const int32_t labels[2][4] = {{1, 2, 2, -2}, {-1, 2, 2, -2}};
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoTileSet set = fixture_set(&arena, 2, 2, labels, true, true, false);
+    MesoSlotGraph graph = fixture_grid(&arena, 5, 5, true, true, false);
+    MesoSolveOptions options = {.engine = MESO_ENGINE_WFC, .max_attempts = 3, .max_dead_ends = 5};
+    char *text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "\"reason\":\"the search made its 3 attempts; at best ") && strstr(text, " dead ends were at slot "));
+    CHECK(strstr(text, "\"budget\":\"attempts\",\"decided_at_best\":") && !strstr(text, "\"conflicts\""));
+    check_hot_spots(text);
+    free(text);
+
+    options.max_observations = 2;
+    text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "the search made its 2 observations; at best ") && strstr(text, "\"budget\":\"observations\""));
+    free(text);
+
+    options.max_observations = 0;
+    options.stop = always;
+    text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "the time was over; at best ") && strstr(text, "\"budget\":\"time\""));
+    free(text);
+    meso_arena_release(&arena);
+}
+
+/* A torus that the exact engine does not solve at the first conflicts. */
+static void test_conflicts(void)
+{
+    static const int32_t labels[3][4] = {{1, 2, -1, -2}, {1, 2, 2, -1}, {1, 1, 2, 2}};
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoTileSet set = fixture_set(&arena, 2, 3, labels, true, true, false);
+    MesoSlotGraph graph = fixture_grid(&arena, 30, 30, true, true, false);
+    const MesoSolveOptions options = {.engine = MESO_ENGINE_EXACT, .max_attempts = 1, .max_conflicts = 5};
+    char *text = solve_to_text(&arena, &set, &graph, &options);
+    CHECK(strstr(text, "\"reason\":\"the exact engine met its 5 conflicts\""));
+    CHECK(strstr(text, "\"budget\":\"conflicts\"") && strstr(text, "\"conflicts\":"));
+    free(text);
     meso_arena_release(&arena);
 }
 
@@ -180,6 +300,9 @@ int main(void)
     test_text();
     test_round_trip();
     test_solved();
+    test_core();
+    test_gave_up();
+    test_conflicts();
     test_wrong();
     return 0;
 }

@@ -42,7 +42,7 @@ MesoStatus meso_sat_add_implied(MesoSat *sat, const int32_t *literals, uint32_t 
 /* The variable is not to be eliminated: it will be assumed again and again. */
 MesoStatus meso_sat_freeze(MesoSat *sat, int32_t variable, MesoError *error);
 
-/* Conflicts met so far. */
+/* Conflicts met so far, in all calls: clauses learned, and now and then one from elsewhere. */
 uint64_t meso_sat_conflicts(const MesoSat *sat);
 
 /* Decisions on the variable try `literal` first, until the next meso_sat_forget_phases(). */

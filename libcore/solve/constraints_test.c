@@ -31,7 +31,7 @@ static MesoSolveResult solve_by(Case *c, MesoEngine engine, uint64_t seed, uint3
     MesoSolveResult result;
     MesoError error;
     MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = attempts, .max_dead_ends = 10,
-                                .constraints = &c->constraints};
+                                .constraints = &c->constraints, .explain = true};
     CHECK(meso_solve(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
     if (result.verdict == MESO_VERDICT_SOLVED)
         CHECK(meso_constraints_check(&c->constraints, &result.assignment, &c->set, &c->variants, &c->graph,
@@ -174,13 +174,15 @@ static void test_explanation(void)
     c.constraints.restrictions = pins;
     MesoSolveResult result = solve(&c, 0, 5);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE && result.attempts == 0);
-    CHECK(strcmp(result.reason, "pins[1] and regions[0] cannot hold together") == 0);
+    CHECK(strcmp(result.reason, "no tiles fit together on slots 0 and 1, with pins[1] and regions[0]: only 't1' fits slot "
+                 "0, only 't0' fits slot 1; each of these is needed") == 0);
+    CHECK(result.core.found && result.core.minimal && result.core.slot_count == 2 && result.core.constraint_count == 2);
 
     pins[0].allowed = none;
     pins[3].allowed = t1;
     pins[3].place_count = 0;
     result = solve(&c, 0, 5);
-    CHECK(strcmp(result.reason, "pins[0] 'far' cannot hold") == 0);
+    CHECK(strcmp(result.reason, "no tile fits slot 3, with pins[0] 'far'") == 0);
     meso_arena_release(&c.arena);
 
     /* Not the constraints' fault. */

@@ -244,7 +244,7 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
     status = number_variables(exact, error);
     if (!status)
         status = add_clauses(exact, error);
-    return status ? status : add_chains(exact, error);
+    return status || !options->chains ? status : add_chains(exact, error);
 }
 
 void meso_exact_release(MesoExact *exact)

@@ -35,6 +35,7 @@ typedef struct MesoExact {
 
 typedef struct MesoExactOptions {
     const uint32_t *group;      /* as in MesoPatternTable; for clauses of the caller's own */
+    bool chains;                /* with variables for the chains, where there are any */
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the proof; may be NULL */
     void (*clause)(void *context, const int32_t *literals, uint32_t count); /* told each clause; may be NULL */
     void *context;

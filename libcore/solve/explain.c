@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "libcore/solve/propagate.h"
-#include "libcore/solve/solve.h"
+#include "libcore/solve/reason.h"
 #include "libcore/solve/strand_search.h"
 
 /* Slots that all tries together may go through; a few seconds. */
@@ -14,6 +14,9 @@ enum { LEAST_TRIES = 64, LEAST_DEEP_TRIES = 8, NAMES_IN_TEXT = 8 };
 
 /* Limits of a solve that is a try. */
 enum { DEEP_CONFLICTS = 20000, DEEP_ATTEMPTS = 1 };
+
+/* Limits of the core that a proof by numbers may have instead: a cheap one. */
+enum { NUMBERS_CORE_SLOTS = 800, NUMBERS_CORE_CONFLICTS = 1000 };
 
 typedef struct Explainer {
     const MesoTileSet *set;
@@ -63,7 +66,7 @@ static MesoStatus try_solve(Explainer *explainer, const MesoConstraints *some, M
 {
     MesoSolveResult result;
     const MesoSolveOptions options = {.seed = explainer->seed, .max_attempts = DEEP_ATTEMPTS,
-                                      .max_conflicts = DEEP_CONFLICTS, .constraints = some, .unexplained = true};
+                                      .max_conflicts = DEEP_CONFLICTS, .constraints = some};
     MesoStatus status = meso_solve(&result, scratch, explainer->set, explainer->variants, explainer->graph,
                                    &options, explainer->error);
     *no = !status && result.verdict == MESO_VERDICT_UNSOLVABLE;
@@ -148,10 +151,10 @@ static void sort_ascending(uint32_t *numbers, uint32_t count)
         }
 }
 
-MesoStatus meso_explain(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
-                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoConstraints *constraints, uint32_t slot, bool deep, uint64_t seed,
-                        MesoError *error)
+MesoStatus meso_explain_constraints(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
+                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                                    const MesoConstraints *constraints, uint32_t slot, bool deep,
+                                    uint64_t seed, MesoError *error)
 {
     MesoArena arena;
     Explainer explainer = {.set = set, .variants = variants, .graph = graph, .constraints = constraints,
@@ -176,8 +179,9 @@ MesoStatus meso_explain(uint32_t *numbers, uint32_t *count, const MesoTileSet *s
     return explainer.status;
 }
 
-const char *meso_explanation_text(MesoArena *arena, const MesoConstraints *constraints,
-                                  const uint32_t *numbers, uint32_t count, MesoError *error)
+/* "pins[0] and quotas[1] 'knots' cannot hold together" */
+static const char *constraints_text(MesoArena *arena, const MesoConstraints *constraints,
+                                    const uint32_t *numbers, uint32_t count, MesoError *error)
 {
     if (count == 0)
         return "tile set and surface cannot go together, whatever the constraints";
@@ -191,4 +195,59 @@ const char *meso_explanation_text(MesoArena *arena, const MesoConstraints *const
     if (text && named < count)
         text = meso_arena_print(arena, error, "%s and %u more", text, count - named);
     return text ? meso_arena_print(arena, error, "%s cannot hold together", text) : NULL;
+}
+
+/* Whether a core was found that tells more than the reason that there is: of a proof by numbers, a small one. */
+static MesoStatus explain_by_core(MesoSolveResult *result, MesoArena *arena, const MesoCoreProblem *problem,
+                                  uint32_t near, bool *done, MesoError *error)
+{
+    bool by_numbers = result->decider == MESO_DECIDER_COUNTING || result->decider == MESO_DECIDER_PARITY;
+    const MesoCoreLimits limits = {.slots = by_numbers ? NUMBERS_CORE_SLOTS : 0,
+                                   .conflicts = by_numbers ? NUMBERS_CORE_CONFLICTS : 0};
+    if (near == MESO_NO_INDEX && result->hot_spot_count > 0)
+        near = result->hot_spots[0].slot;
+    MesoStatus status = meso_conflict_core_find(&result->core, arena, problem, near, &limits, error);
+    *done = !status && result->core.found && (!by_numbers || 2 * result->core.slot_count <= problem->graph->slot_count);
+    if (!*done) {
+        result->core = (MesoConflictCore){0};
+        return status;
+    }
+    result->reason = meso_core_text(arena, problem, &result->core, error);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus explain_by_constraints(MesoSolveResult *result, MesoArena *arena, const MesoCoreProblem *problem,
+                                         uint32_t near, bool deep, uint64_t seed, MesoError *error)
+{
+    const MesoConstraints *constraints = problem->constraints;
+    uint32_t count = 0;
+    if (!constraints || meso_constraint_count(constraints) == 0)
+        return MESO_OK;
+    uint32_t *numbers = MESO_NEW(arena, uint32_t, meso_constraint_count(constraints), error);
+    if (!numbers || meso_explain_constraints(numbers, &count, problem->set, problem->variants, problem->graph,
+                                             constraints, deep ? MESO_NO_INDEX : near, deep, seed, error))
+        return MESO_ERR_MEMORY;
+    if (deep && count == 0)
+        return MESO_OK;
+    result->core = (MesoConflictCore){.found = count > 0, .constraint_count = count, .constraints = numbers};
+    const char *text = constraints_text(arena, constraints, numbers, count, error);
+    if (text && *result->reason)
+        text = meso_arena_print(arena, error, "%s: %s", text, result->reason);
+    result->reason = text;
+    return text ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
+                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                        const MesoSolveOptions *options, uint32_t near, MesoError *error)
+{
+    const MesoCoreProblem problem = {set, variants, graph, options->constraints};
+    bool initial = result->decider == MESO_DECIDER_PROPAGATION, done = false;
+    MesoStatus status = MESO_OK;
+    /* Where propagation left no slot dead, it disproved a quota or the rule on strands. */
+    if (!initial || near != MESO_NO_INDEX)
+        status = explain_by_core(result, arena, &problem, near, &done, error);
+    if (status || done)
+        return status;
+    return explain_by_constraints(result, arena, &problem, near, !initial, options->seed, error);
 }

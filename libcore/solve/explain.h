@@ -1,8 +1,24 @@
-/* Explanations: which constraints cannot hold together. */
+/* Explanations of unsolvable problems: what cannot hold together. */
 #ifndef MESO_EXPLAIN_H
 #define MESO_EXPLAIN_H
 
-#include "libcore/solve/constraints.h"
+#include "libcore/solve/solve.h"
+
+/*
+ * Finds what a proved result needs, and puts it into `core` and, in words, into
+ * `reason`: a conflict core (conflict_core.h) around `near`, the slot with most
+ * dead ends, or anywhere; where there is none within reach, or quotas or the rule
+ * on strands have a part in it, constraints alone; else nothing changes. A proof
+ * by numbers keeps its reason unless there is a core of at most half the surface.
+ *
+ * near  slot near which the proof begins, or MESO_NO_INDEX
+ *
+ * A second or two, or tries of whole solves under constraints; the result depends
+ * on the arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
+ */
+MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
+                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                        const MesoSolveOptions *options, uint32_t near, MesoError *error);
 
 /*
  * Finds a set of constraints that is disproved, and none of which can be left
@@ -20,13 +36,9 @@
  * constraints together again, it has all of them. O(tries * slots), or tries
  * solves. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_explain(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
-                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoConstraints *constraints, uint32_t slot, bool deep, uint64_t seed,
-                        MesoError *error);
-
-/* "pins[0] and quotas[1] 'knots' cannot hold together", in `arena`; NULL: out of memory. */
-const char *meso_explanation_text(MesoArena *arena, const MesoConstraints *constraints,
-                                  const uint32_t *numbers, uint32_t count, MesoError *error);
+MesoStatus meso_explain_constraints(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
+                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
+                                    const MesoConstraints *constraints, uint32_t slot, bool deep,
+                                    uint64_t seed, MesoError *error);
 
 #endif

@@ -57,6 +57,8 @@ static bool in_conflict(MesoGuidedSearch *search)
         search->violations[constraints->restriction_count + propagation->broken_quota]++;
     else if (search->strands_broken)
         search->violations[constraints->restriction_count + constraints->quota_count]++;
+    if (search->hot_spots && propagation->dead_slot != MESO_NO_INDEX)
+        meso_hot_spots_add(search->hot_spots, propagation->dead_slot);
     return propagation->broken_quota != MESO_NO_INDEX || search->strands_broken ||
            propagation->dead_slot != MESO_NO_INDEX;
 }
@@ -234,6 +236,8 @@ MesoStatus meso_guided_attempt(MesoGuidedSearch *search, MesoRandom *random, boo
             status = assign(search, slot, variant, error);
         if (!status)
             status = backtrack(search, &left, &going, error);
+        if (going && propagation->queue.count < search->fewest_open)
+            search->fewest_open = propagation->queue.count;
     }
     *solved = going && !search->stopped;
     if (!status && !going && search->released)

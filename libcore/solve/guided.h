@@ -8,6 +8,7 @@
 #define MESO_GUIDED_H
 
 #include "libcore/solve/choice.h"
+#include "libcore/solve/hot_spots.h"
 #include "libcore/solve/strand_search.h"
 
 typedef struct MesoGuidedChoice {
@@ -34,6 +35,8 @@ typedef struct MesoGuidedSearch {
     uint64_t observations, backtracks;
     uint64_t *violations;       /* [meso_constraint_count()] the caller's; counted up */
     uint64_t max_observations;
+    uint32_t fewest_open;       /* lowered to the slots with a choice left at the best moment */
+    MesoHotSpots *hot_spots;    /* gets the dead slots; may be NULL */
     bool stopped;               /* the last attempt: out of observations, or told to stop */
     bool (*tick)(void *context);    /* called now and then; false stops the attempt; may be NULL */
     void *context;

@@ -57,8 +57,8 @@ static MesoStatus retreat(MesoSearch *search, Attempt *attempt, uint32_t slot, u
 {
     MesoPropagation *propagation = search->propagation;
     uint32_t dead_slot = propagation->dead_slot;
-    if (search->dead_end && !attempt->dead_end_told) {
-        MesoStatus status = search->dead_end(search->context, dead_slot, error);
+    if (search->dead_end) {
+        MesoStatus status = search->dead_end(search->context, dead_slot, !attempt->dead_end_told, error);
         if (status)
             return status;
     }
@@ -112,6 +112,8 @@ MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, M
         if (propagation->queue.count < attempt.fewest_open) {
             attempt.fewest_open = propagation->queue.count;
             attempt.failures = 0;
+            if (propagation->queue.count < search->fewest_open)
+                search->fewest_open = propagation->queue.count;
         }
     }
     return MESO_OK;

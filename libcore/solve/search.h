@@ -26,8 +26,10 @@ typedef struct MesoSearch {
     uint64_t max_observations;
     uint64_t repairs;           /* balls reopened, over all attempts */
     uint32_t impossible_slot;
+    uint32_t fewest_open;       /* lowered to the slots with a choice left at the best moment */
     bool (*tick)(void *context);    /* called now and then; false stops the search; may be NULL */
-    MesoStatus (*dead_end)(void *context, uint32_t slot, MesoError *error); /* the first of an attempt; may be NULL */
+    MesoStatus (*dead_end)(void *context, uint32_t slot, bool first, MesoError *error); /* each that is met; the
+                                   first of an attempt; may be NULL */
     void *context;
 } MesoSearch;
 

@@ -9,6 +9,7 @@
 #include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
 #include "libcore/solve/parity.h"
+#include "libcore/solve/reason.h"
 #include "libcore/solve/search.h"
 
 /* Word operations of the parity prover: a second or two. */
@@ -37,8 +38,11 @@ typedef struct Search {
     MesoSolveResult *result;
     MesoArena *arena;               /* of the result */
     MesoArena scratch;
+    MesoArena hot_arena;            /* of `hot_spots`, which are there from the first dead end on */
+    MesoHotSpots hot_spots;
     MesoPropagation propagation;
     MesoGuidedSearch guided;        /* where constraints call for it */
+    uint32_t conflict_slot;         /* near which a proof of unsolvability begins, or MESO_NO_INDEX */
 } Search;
 
 /* RecordNeighbors: what a tile for `slot` would have to show. */
@@ -73,6 +77,9 @@ static MesoStatus record_dead_end(Search *search, uint32_t slot, uint32_t attemp
 
 static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
 {
+    for (uint32_t s = search->graph->slot_count; s-- > 0;)
+        if (search->propagation.state[s] == MESO_DOMAIN_EMPTY)
+            search->conflict_slot = s;
     for (uint32_t s = 0; s < search->graph->slot_count; s++)
         if (search->propagation.state[s] == MESO_DOMAIN_EMPTY && record_dead_end(search, s, 0, error))
             return MESO_ERR_MEMORY;
@@ -82,6 +89,12 @@ static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
 static bool told_to_stop(const Search *search)
 {
     return search->options->stop && search->options->stop(search->options->stop_context);
+}
+
+static void stop(Search *search)
+{
+    search->result->decider = MESO_DECIDER_STOP;
+    search->result->budget = MESO_BUDGET_TIME;
 }
 
 /* Tells the progress; false where the search is to stop. */
@@ -95,10 +108,13 @@ static bool tick(void *context)
     return !told_to_stop(search);
 }
 
-static MesoStatus note_dead_end(void *context, uint32_t slot, MesoError *error)
+static MesoStatus note_dead_end(void *context, uint32_t slot, bool first, MesoError *error)
 {
     Search *search = context;
-    return record_dead_end(search, slot, search->result->attempts, error);
+    if (meso_hot_spots_reserve_one(&search->hot_spots, &search->hot_arena, error))
+        return MESO_ERR_MEMORY;
+    meso_hot_spots_add(&search->hot_spots, slot);
+    return first ? record_dead_end(search, slot, search->result->attempts, error) : MESO_OK;
 }
 
 /* Takes variant[slot_count] as the solution, once checked. */
@@ -148,6 +164,7 @@ static MesoStatus search_for(Search *search, MesoError *error)
     const MesoSolveOptions *options = search->options;
     MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints,
                       .tick = tick, .dead_end = note_dead_end, .context = search,
+                      .fewest_open = search->propagation.queue.count,
                       .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
     MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
     MesoStatus status = MESO_OK;
@@ -159,6 +176,7 @@ static MesoStatus search_for(Search *search, MesoError *error)
     }
     result->observations = wfc.observations;
     result->repairs = wfc.repairs;
+    result->decided_most = search->graph->slot_count - wfc.fewest_open;
     if (status)
         return status;
     tick(search);
@@ -167,12 +185,15 @@ static MesoStatus search_for(Search *search, MesoError *error)
     if (outcome == MESO_SEARCH_IMPOSSIBLE) {
         result->verdict = MESO_VERDICT_UNSOLVABLE;
         result->decider = MESO_DECIDER_SEARCH;
+        search->conflict_slot = wfc.impossible_slot;
         result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leaves another "
                                           "slot without any", wfc.impossible_slot);
         return result->reason ? MESO_OK : MESO_ERR_MEMORY;
     }
+    if (outcome == MESO_SEARCH_STOPPED)
+        result->budget = MESO_BUDGET_OBSERVATIONS;
     if (told_to_stop(search))
-        result->decider = MESO_DECIDER_STOP;
+        stop(search);
     return MESO_OK;
 }
 
@@ -222,12 +243,12 @@ static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer an
     MesoSolveResult *result = search->result;
     if (answer == MESO_SAT_NO) {
         result->verdict = MESO_VERDICT_UNSOLVABLE;
-        if (!*result->reason)
-            result->reason = "the exact engine went through all cases";
+        result->reason = "the exact engine went through all cases";
     }
-    result->decider = answer != MESO_SAT_UNKNOWN ? MESO_DECIDER_EXACT
-                      : told_to_stop(search)     ? MESO_DECIDER_STOP
-                                                 : MESO_DECIDER_CONFLICTS;
+    result->decider = answer != MESO_SAT_UNKNOWN ? MESO_DECIDER_EXACT : MESO_DECIDER_CONFLICTS;
+    result->budget = MESO_BUDGET_CONFLICTS;
+    if (answer == MESO_SAT_UNKNOWN && told_to_stop(search))
+        stop(search);
     if (answer != MESO_SAT_YES)
         return MESO_OK;
     MesoStatus status = meso_exact_extract(exact, variant, random, error);
@@ -265,11 +286,12 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
             return MESO_ERR_MEMORY;
         hint = like_last;
         if (told_to_stop(search)) {
-            search->result->decider = MESO_DECIDER_STOP;
+            stop(search);
             return MESO_OK;
         }
     }
     search->result->decider = MESO_DECIDER_CONFLICTS;
+    search->result->budget = MESO_BUDGET_CUTS;
     return MESO_OK;
 }
 
@@ -278,7 +300,7 @@ static MesoStatus decide_exactly(Search *search, uint64_t conflicts, uint64_t cu
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
     MesoRandom random;
-    MesoExactOptions options = {.proof = search->options->proof, .clause = search->options->clause,
+    MesoExactOptions options = {.chains = cubes > 0, .proof = search->options->proof, .clause = search->options->clause,
                                 .context = search->options->proof_context};
     bool complete = true;
     meso_random_init(&random, search->options->seed, UINT64_MAX);
@@ -290,6 +312,10 @@ static MesoStatus decide_exactly(Search *search, uint64_t conflicts, uint64_t cu
     /* Where a quota is too large to be counted, what the engine finds need not keep to it. */
     if (!status && complete)
         status = ask_until_kept(search, &exact, &random, conflicts, cubes, error);
+    if (!status && complete)
+        search->result->conflicts += meso_sat_conflicts(exact.sat);
+    else
+        search->result->budget = MESO_BUDGET_COUNTED;
     meso_exact_release(&exact);
     return status;
 }
@@ -304,11 +330,12 @@ static MesoStatus probe(Search *search, MesoError *error)
     if (status)
         return status;
     if (outcome == MESO_SEARCH_STOPPED)
-        result->decider = MESO_DECIDER_STOP;
+        stop(search);
     if (outcome != MESO_SEARCH_IMPOSSIBLE)
         return MESO_OK;
     result->verdict = MESO_VERDICT_UNSOLVABLE;
     result->decider = MESO_DECIDER_PROBING;
+    search->conflict_slot = probing.impossible_slot;
     result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leads to a slot without any, "
                                       "once what leads there at once is ruled out everywhere",
                                       probing.impossible_slot);
@@ -317,12 +344,14 @@ static MesoStatus probe(Search *search, MesoError *error)
 
 /*
  * The exact engine, for a while, and by cubes; then, where it did not do, probing, and the engine
- * anew on what that leaves.
+ * anew on what that leaves, without chains: where there are many solutions, but few are near, they
+ * lead it astray.
  */
 static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error)
 {
-    const MesoSolveResult *result = search->result;
+    MesoSolveResult *result = search->result;
     uint64_t conflicts = search->options->max_conflicts ? search->options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    result->conflict_limit = conflicts;
     uint64_t first = conflicts < FIRST_CONFLICTS || guided ? conflicts : FIRST_CONFLICTS;
     uint64_t left = conflicts - first, cubes = left < CUBE_CONFLICTS ? left : CUBE_CONFLICTS;
     MesoStatus status = decide_exactly(search, first, cubes, error);
@@ -362,59 +391,41 @@ static MesoStatus decide_by_numbers(Search *search, MesoError *error)
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/*
- * Which constraints are disproved, in words, before the reason that there is: by
- * the initial fixed point, or where `deep` by more. No news where the fault is not theirs.
- */
-static MesoStatus explain(Search *search, bool deep, MesoError *error)
-{
-    const MesoConstraints *constraints = search->options->constraints;
-    MesoSolveResult *result = search->result;
-    if (!constraints || search->options->unexplained || meso_constraint_count(constraints) == 0)
-        return MESO_OK;
-    uint32_t count = 0, slot = !deep && result->dead_end_count ? result->dead_ends[0].slot : MESO_NO_INDEX;
-    uint32_t *numbers = MESO_NEW(&search->scratch, uint32_t, meso_constraint_count(constraints), error);
-    if (!numbers || meso_explain(numbers, &count, search->set, search->variants, search->graph, constraints,
-                                 slot, deep, search->options->seed, error))
-        return MESO_ERR_MEMORY;
-    if (deep && count == 0)
-        return MESO_OK;
-    const char *text = meso_explanation_text(search->arena, constraints, numbers, count, error);
-    if (text && *result->reason)
-        text = meso_arena_print(search->arena, error, "%s: %s", text, result->reason);
-    result->reason = text;
-    return text ? MESO_OK : MESO_ERR_MEMORY;
-}
-
 static MesoStatus say_disproved(Search *search, MesoError *error)
 {
     search->result->verdict = MESO_VERDICT_UNSOLVABLE;
     search->result->decider = MESO_DECIDER_PROPAGATION;
-    MesoStatus status = record_initial_dead_ends(search, error);
-    return status ? status : explain(search, false, error);
+    return record_initial_dead_ends(search, error);
 }
 
-/* After a guided search without a solution: the constraint that it met most often, in words. */
-static MesoStatus say_violations(Search *search, MesoError *error)
+static MesoStatus say_exhausted(Search *search, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
     MesoSolveResult *result = search->result;
-    uint32_t worst = 0, count = meso_constraint_count(constraints);
-    if (search->guided.exhausted) {
-        result->verdict = MESO_VERDICT_UNSOLVABLE;
-        result->decider = MESO_DECIDER_SEARCH;
-        result->reason = "every choice was tried";
-    }
-    for (uint32_t i = 0; i < count; i++)
-        if (result->violations[i] > result->violations[worst])
-            worst = i;
-    if (count == 0 || result->violations[worst] == 0)
-        return MESO_OK;
-    result->reason = meso_arena_print(search->arena, error, "%smost often %s stood in the way: %llu times",
-                                      search->guided.exhausted ? "every choice was tried; " : "",
-                                      meso_constraint_name(constraints, worst),
-                                      (unsigned long long)result->violations[worst]);
+    result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = MESO_DECIDER_SEARCH;
+    result->reason = meso_violations_text(search->arena, "every choice was tried", result,
+                                          search->options->constraints, error);
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus say_gave_up(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    result->reason = meso_gave_up_text(search->arena, result, search->graph, search->options, error);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus tell_hot_spots(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    result->dead_ends_met = search->hot_spots.total;
+    if (result->verdict == MESO_VERDICT_SOLVED || search->hot_spots.total == 0)
+        return MESO_OK;
+    result->hot_spots = MESO_NEW(search->arena, MesoHotSpot, MESO_SOLVE_HOT_SPOTS, error);
+    if (!result->hot_spots)
+        return MESO_ERR_MEMORY;
+    result->hot_spot_count = meso_hot_spots_top(&search->hot_spots, result->hot_spots, MESO_SOLVE_HOT_SPOTS);
+    return MESO_OK;
 }
 
 static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *error)
@@ -428,8 +439,12 @@ static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *err
     search->result->violations = violations;
     search->guided.tick = tick;
     search->guided.context = search;
+    search->guided.fewest_open = search->propagation.queue.count;
     if (search->options->max_observations)
         search->guided.max_observations = search->options->max_observations;
+    if (!status)
+        status = meso_hot_spots_reserve(&search->hot_spots, &search->hot_arena, error);
+    search->guided.hot_spots = &search->hot_spots;
     return status;
 }
 
@@ -453,11 +468,16 @@ static MesoStatus search_guided(Search *search, MesoError *error)
     }
     result->observations = guided->observations;
     result->backtracks = guided->backtracks;
+    result->decided_most = search->graph->slot_count - guided->fewest_open;
     if (status)
         return status;
+    if (guided->stopped)
+        result->budget = MESO_BUDGET_OBSERVATIONS;
     if (!tick(search))
-        result->decider = MESO_DECIDER_STOP;
-    return solved ? accept_states(search, error) : say_violations(search, error);
+        stop(search);
+    if (!solved && !guided->exhausted)
+        return MESO_OK;
+    return solved ? accept_states(search, error) : say_exhausted(search, error);
 }
 
 /* The ladder: each rung leaves the verdict "gave up", or a better one. */
@@ -486,12 +506,15 @@ static MesoStatus run(Search *search, MesoError *error)
     bool disproved = search->propagation.initial_dead_count ||
                      search->propagation.broken_quota != MESO_NO_INDEX;
     MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
-    if (!status && disproved)
-        return say_disproved(search, error);
     if (!status)
-        status = climb(search, guided, error);
-    if (!status && search->result->verdict == MESO_VERDICT_UNSOLVABLE)
-        status = explain(search, true, error);
+        status = disproved ? say_disproved(search, error) : climb(search, guided, error);
+    if (!status)
+        status = tell_hot_spots(search, error);
+    if (!status && search->options->explain && search->result->verdict == MESO_VERDICT_UNSOLVABLE)
+        status = meso_explain(search->result, search->arena, search->set, search->variants, search->graph,
+                              search->options, search->conflict_slot, error);
+    if (!status && search->result->verdict == MESO_VERDICT_GAVE_UP)
+        status = say_gave_up(search, error);
     return status;
 }
 
@@ -517,8 +540,9 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 
     Search search = {.set = set, .variants = variants, .graph = graph,
-                     .options = options, .result = result, .arena = arena};
+                     .options = options, .result = result, .arena = arena, .conflict_slot = MESO_NO_INDEX};
     meso_arena_init(&search.scratch);
+    meso_arena_init(&search.hot_arena);
     MesoStatus status = meso_propagation_init(&search.propagation, &search.scratch, set, variants,
                                               graph, options->constraints, error);
     if (!status)
@@ -527,5 +551,6 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
         status = run(&search, error);
     meso_propagation_release(&search.propagation);
     meso_arena_release(&search.scratch);
+    meso_arena_release(&search.hot_arena);
     return status;
 }

@@ -9,7 +9,8 @@
 #define MESO_SOLVE_H
 
 #include "libcore/solve/assignment.h"
-#include "libcore/solve/constraints.h"
+#include "libcore/solve/conflict_core.h"
+#include "libcore/solve/hot_spots.h"
 
 typedef enum MesoVerdict {
     MESO_VERDICT_SOLVED,
@@ -39,6 +40,16 @@ typedef enum MesoDecider {
     MESO_DECIDER_STOP           /* gave up: was told to, by `stop` */
 } MesoDecider;
 
+/* What ended the work where it gave up. */
+typedef enum MesoBudget {
+    MESO_BUDGET_ATTEMPTS,       /* of the search */
+    MESO_BUDGET_OBSERVATIONS,
+    MESO_BUDGET_CONFLICTS,      /* of the exact engine */
+    MESO_BUDGET_CUTS,           /* solutions of the exact engine that a rule on strands cut off */
+    MESO_BUDGET_COUNTED,        /* slots that a quota counts: too many for the exact engine */
+    MESO_BUDGET_TIME            /* `stop` said so */
+} MesoBudget;
+
 /* A slot left with no variant, with the labels that it could have shown to its neighbours. */
 typedef struct MesoDeadEnd {
     uint32_t slot, attempt;     /* attempts count from 1; 0 for initial ones */
@@ -63,7 +74,7 @@ typedef struct MesoSolveOptions {
     uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
     const MesoConstraints *constraints;     /* NULL: none */
-    bool unexplained;           /* do not look for the constraints that a proof needs */
+    bool explain;               /* look for what a proof needs: `core`, and a better reason; a second or two */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof
@@ -77,6 +88,9 @@ typedef struct MesoSolveOptions {
 /* A minute or a few of the exact engine. */
 enum { MESO_SOLVE_CONFLICTS = 2000000 };
 
+/* Slots that are told with their number of dead ends. */
+enum { MESO_SOLVE_HOT_SPOTS = 10 };
+
 typedef struct MesoSolveResult {
     MesoVerdict verdict;
     MesoDecider decider;
@@ -88,6 +102,14 @@ typedef struct MesoSolveResult {
                                    kept call for it */
     uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; or NULL */
     MesoAssignment assignment;  /* where solved */
+    MesoConflictCore core;      /* where unsolvable, and one was asked for and found */
+    MesoBudget budget;          /* where gave up */
+    uint32_t decided_most;      /* slots with a single variant at the search's best moment between two choices */
+    uint64_t conflicts;         /* that the exact engine met */
+    uint64_t conflict_limit;    /* that it might have met; 0: it was not asked */
+    uint64_t dead_ends_met;     /* by the search, in all, repaired ones too */
+    uint32_t hot_spot_count;    /* where not solved */
+    MesoHotSpot *hot_spots;     /* slots with most of them, the most first */
     uint32_t dead_end_count;    /* kept; the first of each attempt, in order */
     uint64_t dead_end_total;    /* attempts that met one; or slots that the initial constraints empty */
     MesoDeadEnd *dead_ends;

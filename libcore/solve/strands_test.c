@@ -149,7 +149,7 @@ static void test_explanation(void)
     static const uint64_t straight[1] = {2};
     MesoRestriction region = {.name = "regions[0] 'row'", .place_count = 3, .places = row, .allowed = straight};
     MesoConstraints constraints = {.strands = {.no_loops = true}, .restriction_count = 1, .restrictions = &region};
-    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10, .constraints = &constraints};
+    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10, .constraints = &constraints, .explain = true};
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
     CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);

@@ -1,0 +1,29 @@
+/* Reasons of verdicts in words, for the user. */
+#ifndef MESO_REASON_H
+#define MESO_REASON_H
+
+#include "libcore/solve/solve.h"
+
+/*
+ * A core that was found: "no tiles fit together on slots 3 and 4, with pins[0],
+ * where interface 'rim' may lie on a border only: only 'knot' fits slot 3; each of
+ * these is needed". In `arena`; NULL: out of memory.
+ */
+const char *meso_core_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+                           MesoError *error);
+
+/*
+ * A result that gave up: the budget that ended it, how far it came, where it
+ * failed most. In `arena`; NULL: out of memory.
+ */
+const char *meso_gave_up_text(MesoArena *arena, const MesoSolveResult *result, const MesoSlotGraph *graph,
+                              const MesoSolveOptions *options, MesoError *error);
+
+/*
+ * `text` and, after "; ", the constraint that the search met most often: `text`
+ * alone where it met none. In `arena`; NULL: out of memory.
+ */
+const char *meso_violations_text(MesoArena *arena, const char *text, const MesoSolveResult *result,
+                                 const MesoConstraints *constraints, MesoError *error);
+
+#endif
