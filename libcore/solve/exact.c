@@ -193,7 +193,8 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
 {
     uint32_t slot_count = propagation->graph->slot_count;
     *exact = (MesoExact){.propagation = propagation,
-                         .arena = arena, .clause = options->clause, .context = options->context};
+                         .constraints = options->constraints, .arena = arena,
+                         .clause = options->clause, .context = options->context};
     MesoStatus status = meso_sat_init(&exact->sat, options->proof, options->context, error);
     if (!status)
         status = meso_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
@@ -260,26 +261,51 @@ static MesoStatus prefer_labels(MesoExact *exact, uint32_t slot, const uint32_t 
     return status;
 }
 
+/* A variant of `state`, by weight. */
+static uint32_t draw(const MesoExact *exact, uint32_t slot, uint32_t state, MesoRandom *random)
+{
+    const MesoDomainTable *domains = &exact->propagation->domains;
+    return meso_weights_draw(exact->constraints ? &exact->constraints->weights : NULL, slot,
+                             meso_domain_bits(domains, state), NULL, domains->states.word_count, random);
+}
+
+/* Pattern of the one variant of state `hint`, or where that is not possible, or there are others, a random one. */
+static uint32_t choose_pattern(const MesoExact *exact, uint32_t slot, const MesoPatternList *list, uint32_t hint,
+                               MesoRandom *random)
+{
+    uint32_t pattern = MESO_NO_INDEX;
+    if (exact->propagation->domains.domains[hint].size == 1)
+        pattern = pattern_of_variant(list, draw(exact, slot, hint, random));
+    return pattern != MESO_NO_INDEX
+               ? pattern
+               : pattern_of_variant(list, draw(exact, slot, exact->propagation->initial[slot], random));
+}
+
 MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, MesoRandom *random,
                                     MesoError *error)
 {
-    const MesoDomainTable *domains = &exact->propagation->domains;
     MesoStatus status = MESO_OK;
     for (uint32_t s = 0; s < exact->propagation->graph->slot_count && !status; s++) {
         const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
-        uint32_t state = hint ? hint[s] : MESO_DOMAIN_EMPTY;
         if (!list)
             return MESO_ERR_MEMORY;
-        if (domains->domains[state].size != 1)
-            state = exact->propagation->initial[s];
-        uint32_t rank = meso_random_below(random, domains->domains[state].size);
-        uint32_t pattern = pattern_of_variant(list, meso_domain_variant(domains, state, rank));
-        assert(pattern != MESO_NO_INDEX);
+        uint32_t pattern = choose_pattern(exact, s, list, hint ? hint[s] : MESO_DOMAIN_EMPTY, random);
         status = prefer(exact, exact->slot_first[s], list->count, pattern, error);
         if (!status)
             status = prefer_labels(exact, s, list->codes + 4 * (size_t)pattern, error);
     }
     return status;
+}
+
+/* One of the variants of a pattern of `slot`. */
+static uint32_t choose_listed(const MesoExact *exact, uint32_t slot, const uint32_t *variants, uint32_t count,
+                              MesoRandom *random)
+{
+    const MesoConstraints *constraints = exact->constraints;
+    for (uint32_t i = 0; constraints && constraints->keep && i < count; i++)
+        if (variants[i] == constraints->keep[slot])
+            return variants[i];
+    return meso_weights_draw_listed(constraints ? &constraints->weights : NULL, slot, variants, count, random);
 }
 
 MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *random, MesoError *error)
@@ -294,8 +320,8 @@ MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *r
             p++;
         if (p == list->count)
             return meso_fail(error, MESO_ERR_INTERNAL, "the exact engine left slot %u without a tile", s);
-        uint32_t size = list->begin[p + 1] - list->begin[p];
-        variant[s] = list->variants[list->begin[p] + meso_random_below(random, size)];
+        variant[s] = choose_listed(exact, s, list->variants + list->begin[p], list->begin[p + 1] - list->begin[p],
+                                   random);
     }
     return MESO_OK;
 }

@@ -269,8 +269,8 @@ static MesoStatus decide_exactly(Search *search, uint64_t conflicts, MesoError *
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
     MesoRandom random;
-    MesoExactOptions options = {.proof = search->options->proof, .clause = search->options->clause,
-                                .context = search->options->proof_context};
+    MesoExactOptions options = {.constraints = constraints, .proof = search->options->proof,
+                                .clause = search->options->clause, .context = search->options->proof_context};
     bool complete = true;
     meso_random_init(&random, search->options->seed, UINT64_MAX);
     if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))
