@@ -203,11 +203,46 @@ static void test_keep(void)
     MesoRestriction pin = {.name = "pins[0]", .place_count = 1, .places = place, .allowed = other};
     c.constraints.restriction_count = 1;
     c.constraints.restrictions = &pin;
-    result = solve(&c, 77, 20);
-    CHECK(result.verdict == MESO_VERDICT_SOLVED);
-    uint32_t changed = meso_constraints_changed(&c.constraints, &result.assignment, &c.variants);
-    CHECK(changed >= 1 && changed < 60);
+    for (MesoEngine engine = MESO_ENGINE_WFC; engine <= MESO_ENGINE_EXACT; engine++) {
+        result = fixture_case_solve(&c, engine, 77, 20);
+        CHECK(result.verdict == MESO_VERDICT_SOLVED);
+        uint32_t changed = meso_constraints_changed(&c.constraints, &result.assignment, &c.variants);
+        CHECK(changed >= 1 && changed < 60);
+    }
     meso_arena_release(&c.arena);
+}
+
+static const MesoEngine engines[3] = {MESO_ENGINE_AUTO, MESO_ENGINE_WFC, MESO_ENGINE_EXACT};
+
+/* Slots whose variant is not the one to keep, when all engines have slot 2 of 8 in a row pinned to t1. */
+static void check_changes(const int32_t (*labels)[4], uint32_t interfaces, uint32_t tiles, uint32_t expected)
+{
+    static const uint32_t place[1] = {2}, keep[8] = {0, 0, 0, 0, 0, 0, 0, MESO_NO_INDEX};
+    static const uint64_t t1[1] = {2};
+    MesoRestriction pin = {.name = "pins[0]", .place_count = 1, .places = place, .allowed = t1};
+    FixtureCase c;
+    fixture_case_begin(&c, labels, interfaces, tiles, 8, 1);
+    c.constraints.keep = keep;
+    for (uint32_t e = 0; e < 3; e++)
+        for (uint64_t seed = 0; seed < 20; seed++) {
+            c.constraints.restriction_count = 0;
+            MesoSolveResult result = fixture_case_solve(&c, engines[e], seed, 5);
+            CHECK(result.verdict == MESO_VERDICT_SOLVED && fixture_uses(&result.assignment, 0) >= 7);
+            CHECK(meso_constraints_changed(&c.constraints, &result.assignment, &c.variants) == 0);
+            c.constraints.restriction_count = 1;
+            c.constraints.restrictions = &pin;
+            result = fixture_case_solve(&c, engines[e], seed, 5);
+            CHECK(result.verdict == MESO_VERDICT_SOLVED && result.assignment.tile[2] == 1);
+            CHECK(meso_constraints_changed(&c.constraints, &result.assignment, &c.variants) == expected);
+        }
+    meso_arena_release(&c.arena);
+}
+
+/* Where any tile goes beside any other, the pinned slot alone changes; on the chain the next one has to. */
+static void test_fewest_changes(void)
+{
+    check_changes(loose, 1, 4, 1);
+    check_changes(chain, 2, 3, 2);
 }
 
 /*
@@ -248,5 +283,6 @@ int main(void)
     test_quota_explanation();
     test_quota_gives_up();
     test_keep();
+    test_fewest_changes();
     return 0;
 }
