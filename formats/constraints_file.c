@@ -4,27 +4,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/constraint_names.h"
 #include "formats/constraint_places.h"
+#include "formats/constraint_weights.h"
 #include "formats/json_field.h"
 #include "formats/json_text.h"
 #include "libcore/solve/solve.h"
 
-/* 2 GiB of 64-bit weights. */
-static const uint64_t weights_limit = (uint64_t)1 << 28;
-
-/* What a file is read with. The maps go from names to numbers. */
 typedef struct Parser {
     const MesoConstraintScope *scope;
     MesoJsonReader *reader;
-    json_t *tiles, *interfaces;
+    MesoConstraintNames names;
     MesoPlaceSelector selector;
+    MesoWeightReader weights;
     MesoRestriction *restrictions;
     uint32_t restriction_count;
     MesoQuota *quotas;
-    bool weighted;
-    uint32_t table_count, table_room;
-    uint32_t *tile_weights;         /* [table_count * tile_count] */
-    uint32_t *slot_table;           /* [slot_count] NULL until a region has weights */
 } Parser;
 
 static void out_of_memory(Parser *parser)
@@ -43,65 +38,10 @@ static void *allocate(Parser *parser, uint64_t count, size_t size)
     return array;
 }
 
-static json_t *map_names(Parser *parser, uint32_t count, const char *(*name)(const MesoTileSet *, uint32_t))
-{
-    json_t *map = json_object();
-    bool failed = !map;
-    for (uint32_t i = count; i-- > 0 && !failed;)
-        failed = json_object_set_new_nocheck(map, name(parser->scope->set, i), json_integer(i)) != 0;
-    if (failed)
-        out_of_memory(parser);
-    return map;
-}
-
-static const char *tile_name(const MesoTileSet *set, uint32_t i)
-{
-    return set->tiles[i].name;
-}
-
-static const char *interface_name(const MesoTileSet *set, uint32_t i)
-{
-    return set->interfaces[i].name;
-}
-
-/* Number of the tile that `name` says, or MESO_NO_INDEX. */
-static uint32_t find_tile(Parser *parser, const MesoJsonField *field, const char *name)
-{
-    const json_t *number = json_object_get(parser->tiles, name);
-    uint32_t tile = number ? (uint32_t)json_integer_value(number) : MESO_NO_INDEX;
-    if (!number)
-        meso_json_wrong(field, "unknown tile '%.80s'; the tile set has no such one", name);
-    else if (parser->scope->set->tiles[tile].ignored)
-        meso_json_wrong(field, "tile '%.80s' is marked as ignored", name);
-    else
-        return tile;
-    return MESO_NO_INDEX;
-}
-
 static uint32_t read_tile(Parser *parser, const MesoJsonField *field)
 {
     const char *name = meso_json_text(field);
-    return meso_json_good(field) ? find_tile(parser, field, name) : MESO_NO_INDEX;
-}
-
-/* Code of a label, "a" or "a'", or MESO_NO_INDEX. */
-static uint32_t read_label(Parser *parser, const MesoJsonField *field)
-{
-    const char *name = meso_json_text(field);
-    size_t length = strlen(name);
-    if (!meso_json_good(field))
-        return MESO_NO_INDEX;
-    bool flipped = length > 0 && name[length - 1] == '\'';
-    const char *bare = meso_arena_print(parser->reader->arena, parser->reader->error, "%.*s", (int)(length - flipped), name);
-    if (!bare) {
-        out_of_memory(parser);
-        return MESO_NO_INDEX;
-    }
-    const json_t *number = json_object_get(parser->interfaces, bare);
-    if (number)
-        return 2 * (uint32_t)json_integer_value(number) + flipped;
-    meso_json_wrong(field, "unknown interface '%.80s'; the tile set has no such one", name);
-    return MESO_NO_INDEX;
+    return meso_json_good(field) ? meso_constraint_tile(&parser->names, field, name) : MESO_NO_INDEX;
 }
 
 /* "pins[2]", or "pins[2] 'knob'" for one with a name. */
@@ -173,7 +113,7 @@ static void read_pin_interface(Parser *parser, const MesoJsonField *pin, const M
                                MesoRestriction *restriction, uint32_t *places)
 {
     MesoJsonField side = meso_json_key(pin, "side");
-    uint32_t code = read_label(parser, interface);
+    uint32_t code = meso_constraint_label(&parser->names, interface);
     uint32_t words = meso_bits_words(2 * parser->scope->set->interface_count);
     int64_t k = meso_json_whole(&side, 0, 3, 0);
     uint64_t *allowed = side.value ? allocate(parser, words, sizeof *allowed) : new_variants(parser);
@@ -223,81 +163,7 @@ static void read_pin(Parser *parser, const MesoJsonField *pin)
         read_transforms(parser, pin, number, variants);
 }
 
-/* --- weights and regions --- */
-
-/* Room for one more table, a copy of table `from`; its number, or MESO_NO_INDEX. */
-static uint32_t copy_table(Parser *parser, uint32_t from)
-{
-    uint32_t tiles = parser->scope->set->tile_count;
-    if (((uint64_t)parser->table_count + 1) * parser->scope->variants->count > weights_limit) {
-        parser->reader->status = meso_fail(parser->reader->error, MESO_ERR_LIMIT, "%s: too many tables of weights: "
-                                           "regions overlap in over %u ways", parser->reader->path, parser->table_count);
-        return MESO_NO_INDEX;
-    }
-    if (parser->table_count == parser->table_room) {
-        uint32_t *larger = allocate(parser, 2 * (uint64_t)parser->table_room * tiles, sizeof *larger);
-        if (!larger)
-            return MESO_NO_INDEX;
-        memcpy(larger, parser->tile_weights, (size_t)parser->table_count * tiles * sizeof *larger);
-        parser->tile_weights = larger;
-        parser->table_room *= 2;
-    }
-    memcpy(parser->tile_weights + (size_t)parser->table_count * tiles,
-           parser->tile_weights + (size_t)from * tiles, tiles * sizeof *parser->tile_weights);
-    return parser->table_count++;
-}
-
-static void begin_weights(Parser *parser)
-{
-    uint32_t tiles = parser->scope->set->tile_count;
-    parser->table_room = 4;
-    parser->table_count = 1;
-    parser->tile_weights = allocate(parser, 4 * (uint64_t)tiles, sizeof *parser->tile_weights);
-    for (uint32_t t = 0; parser->tile_weights && t < tiles; t++)
-        parser->tile_weights[t] = 1;
-}
-
-/* Sets the weights that `field`, an object from tile names to weights, gives in table `table`. */
-static void read_weights(Parser *parser, const MesoJsonField *field, uint32_t table)
-{
-    const char *name;
-    json_t *value;
-    if (!field->value || !meso_json_object(field, NULL))
-        return;
-    parser->weighted = true;
-    json_object_foreach((json_t *)(uintptr_t)field->value, name, value) {
-        MesoJsonField weight = meso_json_key(field, name);
-        uint32_t tile = find_tile(parser, &weight, name);
-        int64_t given = meso_json_whole(&weight, 0, MESO_WEIGHT_LIMIT, 1);
-        if (!meso_json_good(field) || tile == MESO_NO_INDEX)
-            return;
-        parser->tile_weights[(size_t)table * parser->scope->set->tile_count + tile] = (uint32_t)given;
-    }
-}
-
-/* Weights of a region: slots that shared a table before share one after. */
-static void weigh_places(Parser *parser, const MesoJsonField *weights, const uint32_t *places, uint32_t count)
-{
-    if (!parser->slot_table)
-        parser->slot_table = allocate(parser, parser->scope->graph->slot_count, sizeof *parser->slot_table);
-    uint32_t known = parser->table_count;
-    uint32_t *next = allocate(parser, known, sizeof *next);
-    if (!parser->slot_table || !next)
-        return;
-    memset(next, 0xff, known * sizeof *next);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t *table = &parser->slot_table[places[i]];
-        if (*table >= known)        /* a slot that is listed twice */
-            continue;
-        if (next[*table] == MESO_NO_INDEX) {
-            next[*table] = copy_table(parser, *table);
-            if (next[*table] == MESO_NO_INDEX)
-                return;
-            read_weights(parser, weights, next[*table]);
-        }
-        *table = next[*table];
-    }
-}
+/* --- regions --- */
 
 /* Variants of the tiles that a list names. */
 static uint64_t *read_tile_list(Parser *parser, const MesoJsonField *list)
@@ -331,8 +197,7 @@ static void read_region(Parser *parser, const MesoJsonField *region)
     if (tiles.value)
         parser->restrictions[parser->restriction_count++] = (MesoRestriction){
             .name = name, .place_count = count, .places = places, .allowed = read_tile_list(parser, &tiles)};
-    if (weights.value)
-        weigh_places(parser, &weights, places, count);
+    meso_weight_reader_add(&parser->weights, &weights, places, count);
 }
 
 /* --- borders and quotas --- */
@@ -360,7 +225,7 @@ static void read_border(Parser *parser, const MesoJsonField *border)
     uint32_t count = meso_json_count(&interfaces, 1, MESO_CONSTRAINTS_ITEMS);
     for (uint32_t i = 0; labels && i < count && meso_json_good(border); i++) {
         MesoJsonField item = meso_json_item(&interfaces, i);
-        uint32_t code = read_label(parser, &item);
+        uint32_t code = meso_constraint_label(&parser->names, &item);
         if (code != MESO_NO_INDEX)
             meso_bits_set(labels, code);
     }
@@ -461,11 +326,11 @@ static void read_all(Parser *parser, const MesoJsonField *root, MesoConstraints 
                     json_array_size(json_object_get(root->value, "regions")) +
                     json_array_size(json_object_get(root->value, "borders"));
     parser->restrictions = allocate(parser, most, sizeof *parser->restrictions);
-    begin_weights(parser);
+    meso_weight_reader_begin(&parser->weights);
     if (!meso_json_good(root))
         return;
     MesoJsonField weights = meso_json_key(root, "weights"), strands = meso_json_key(root, "strands");
-    read_weights(parser, &weights, 0);
+    meso_weight_reader_add(&parser->weights, &weights, NULL, 0);
     read_list(parser, root, "pins", read_pin);
     read_list(parser, root, "regions", read_region);
     read_list(parser, root, "borders", read_border);
@@ -475,18 +340,20 @@ static void read_all(Parser *parser, const MesoJsonField *root, MesoConstraints 
     constraints->restriction_count = parser->restriction_count;
 }
 
-static void finish_weights(Parser *parser, MesoConstraints *constraints)
+static void read_root(Parser *parser, const json_t *json, MesoConstraints *constraints)
 {
-    if (!parser->weighted || parser->reader->status)
-        return;
-    constraints->weights = (MesoWeights){
-        .table_count = parser->table_count,
-        .tables = meso_weights_of_variants(parser->reader->arena, parser->scope->variants,
-                                           parser->scope->set->tile_count, parser->table_count, parser->tile_weights,
-                                           parser->reader->error),
-        .slot_table = parser->slot_table};
-    if (!constraints->weights.tables)
-        out_of_memory(parser);
+    const MesoConstraintScope *scope = parser->scope;
+    MesoJsonField root = meso_json_root(parser->reader, json);
+    parser->selector = (MesoPlaceSelector){.reader = parser->reader, .groups = scope->groups,
+                                           .slot_count = scope->graph->slot_count};
+    parser->weights = (MesoWeightReader){.reader = parser->reader, .names = &parser->names,
+                                         .variants = scope->variants, .groups = scope->groups,
+                                         .slot_count = scope->graph->slot_count};
+    parser->reader->status = meso_constraint_names_init(&parser->names, scope->set, parser->reader->error);
+    if (!parser->reader->status)
+        read_all(parser, &root, constraints);
+    constraints->weights = meso_weight_reader_finish(&parser->weights);
+    meso_constraint_names_release(&parser->names);
 }
 
 MesoStatus meso_constraints_read(MesoConstraints *constraints, MesoArena *arena, const MesoInput *input,
@@ -499,16 +366,8 @@ MesoStatus meso_constraints_read(MesoConstraints *constraints, MesoArena *arena,
         status = meso_json_check_format(json, input->path, "meso-constraints", MESO_CONSTRAINTS_VERSION, error);
     if (!status) {
         MesoJsonReader reader = {.path = input->path, .arena = arena, .error = error};
-        Parser parser = {.scope = scope, .reader = &reader,
-                         .selector = {.reader = &reader, .groups = scope->groups,
-                                      .slot_count = scope->graph->slot_count}};
-        MesoJsonField root = meso_json_root(&reader, json);
-        parser.tiles = map_names(&parser, scope->set->tile_count, tile_name);
-        parser.interfaces = map_names(&parser, scope->set->interface_count, interface_name);
-        read_all(&parser, &root, constraints);
-        finish_weights(&parser, constraints);
-        json_decref(parser.tiles);
-        json_decref(parser.interfaces);
+        Parser parser = {.scope = scope, .reader = &reader};
+        read_root(&parser, json, constraints);
         status = reader.status;
     }
     json_decref(json);

@@ -1,4 +1,5 @@
 /* Any bytes as constraints on a small surface; what is accepted is solved under, and checked. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "formats/constraints_file.h"
@@ -20,15 +21,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static uint32_t loop_begin[2] = {0, 8}, half_edges[8] = {1, 2, 3, 5, 7, 8, 9, 11};
     static const char *names[2] = {"left", "right wing"};
     static uint32_t of_face[3] = {0, 1, UINT32_MAX};
-    static double values[3] = {0, 0.5, 1};
-    static MesoFaceAttribute attributes[1] = {{.name = "red", .values = values}};
+    static double values[3] = {0, 0.5, 1}, partial[3] = {-1e308, NAN, INFINITY};
+    static MesoFaceAttribute attributes[2] = {{.name = "red", .values = values}, {.name = "heat", .values = partial}};
     const MesoTileSet set = {.interface_count = 2, .interfaces = interfaces, .tile_count = 3, .tiles = tiles,
                              .section_count = 1, .sections = sections, .sweep_count = 2, .sweeps = sweeps};
     const MesoSlotGraph graph = {.slot_count = 3, .edge_count = 10, .border_count = 8, .twin = twin};
     const MesoBoundary boundary = {.loop_count = 1, .loop_begin = loop_begin, .half_edges = half_edges};
     const MesoSurfaceGroups groups = {
         .face_count = 3, .names[MESO_GROUP_GROUP] = {.count = 2, .names = names, .of_face = of_face},
-        .attribute_count = 1, .attributes = attributes};
+        .attribute_count = 2, .attributes = attributes};
     MesoArena arena;
     MesoError error;
     MesoInput input;

@@ -1,5 +1,6 @@
 #include "formats/constraints_file.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "formats/surface_file.h"
@@ -159,12 +160,17 @@ static void test_ply(void)
     meso_arena_release(&c.arena);
 }
 
+static uint64_t weight(const Case *c, uint32_t slot, uint32_t variant)
+{
+    return meso_weight_at(&c->constraints.weights, slot, variant);
+}
+
 static void test_weights(Case *c)
 {
     CHECK(read(c, "") == MESO_OK && c->constraints.weights.table_count == 0);
     CHECK(read(c, "\"weights\": {\"knob\": 4}") == MESO_OK);
     CHECK(c->constraints.weights.table_count == 1 && !c->constraints.weights.slot_table);
-    CHECK(c->constraints.weights.tables[0] == 840 && c->constraints.weights.tables[1] == 840);
+    CHECK(weight(c, 3, 0) == 840 && weight(c, 3, 1) == 840);
     /* Later regions speak last; slots that two regions share have a table of their own. */
     CHECK(read(c, "\"weights\": {\"knob\": 4}, \"regions\": ["
                "{\"where\": {\"group\": \"left\"}, \"weights\": {\"plain\": 2}},"
@@ -172,13 +178,77 @@ static void test_weights(Case *c)
     const MesoWeights *weights = &c->constraints.weights;
     static const uint64_t plain[4] = {1, 1, 3, 3}, left_plain[4] = {2, 1, 3, 3}, even[4] = {1, 1, 0, 0};
     CHECK(weights->table_count == 4 && c->constraints.restriction_count == 0);
-    for (uint32_t s = 0; s < 4; s++) {
-        const uint64_t *table = weights->tables + 6 * (size_t)weights->slot_table[s];
-        CHECK(table[0] == 840 * (s == 0 ? left_plain[s] : plain[s]) && table[5] == 840 * even[s] && table[1] == 840);
-    }
+    for (uint32_t s = 0; s < 4; s++)
+        CHECK(weight(c, s, 0) == 840 * (s == 0 ? left_plain[s] : plain[s]) && weight(c, s, 5) == 840 * even[s] &&
+              weight(c, s, 1) == 840);
     expect(c, "\"weights\": {\"knob\": -1}", "weights.knob: -1; it must be from 0 to 1000000");
     expect(c, "\"weights\": {\"nob\": 1}", "unknown tile 'nob'");
     expect(c, "\"weights\": {\"knob\": 0.5}", "a whole number is needed");
+    expect(c, "\"weights\": {\"knob\": \"much\"}", "weights.knob: a whole number, or an object with a ramp, is needed");
+}
+
+/* Vertex colours: red is 1, 0.5, 1, 0.5 in the slots, blue what is left of 1. */
+static void test_ramps(Case *c)
+{
+    static const uint64_t whole[4] = {1200, 600, 1200, 600};
+    CHECK(read(c, "\"weights\": {\"even\": {\"property\": \"red\", \"stops\": [[0.5, 600], [1, 1200]]}}") == MESO_OK);
+    CHECK(c->constraints.weights.table_count == 1 && !c->constraints.weights.slot_table);
+    for (uint32_t s = 0; s < 4; s++)
+        CHECK(weight(c, s, 5) == 840 * whole[s] && weight(c, s, 0) == 840);
+    /* A region's ramp, beside and over those of the file; the four turns of the knob share. */
+    CHECK(read(c, "\"weights\": {\"even\": {\"property\": \"red\", \"stops\": [[0, 0], [1, 1]]}, \"plain\":"
+               " {\"property\": \"blue\", \"stops\": [[-1, 7], [0, 3], [1, 0]]}}, \"regions\": ["
+               "{\"where\": {\"group\": \"top\"}, \"weights\": {\"knob\":"
+               " {\"property\": \"blue\", \"stops\": [[0.2, 0], [0.3, 9]]}}},"
+               "{\"where\": {\"slots\": [3]}, \"weights\": {\"even\": 4}}]") == MESO_OK);
+    static const uint64_t even[4] = {840, 420, 840, 3360}, plain[4] = {2520, 1260, 2520, 1260},
+                          knob[4] = {210, 210, 0, 9 * 210};
+    CHECK(c->constraints.weights.table_count == 3);
+    for (uint32_t s = 0; s < 4; s++)
+        CHECK(weight(c, s, 5) == even[s] && weight(c, s, 0) == plain[s] && weight(c, s, 2) == knob[s]);
+}
+
+#define RAMP(property, stops) "\"weights\": {\"even\": {\"property\": \"" property "\", \"stops\": " stops "}}"
+
+static void test_wrong_ramps(Case *c)
+{
+    expect(c, RAMP("heat", "[[0, 1], [1, 2]]"), "weights.even.property: the surface has no property 'heat'");
+    expect(c, RAMP("red", "[[0, 1], [1, 1000001]]"), "weights.even.stops[1][1]: 1000001; it must be from 0 to 1000000");
+    expect(c, RAMP("red", "[[0, -1], [1, 1]]"), "weights.even.stops[0][1]: -1; it must be from 0 to 1000000");
+    expect(c, RAMP("red", "[[0, 0.5], [1, 1]]"), "weights.even.stops[0][1]: a whole number is needed");
+    expect(c, RAMP("red", "[[0, 1], [0, 2]]"), "weights.even.stops[1][0]: 0 does not lie above 0; stops are listed by");
+    expect(c, RAMP("red", "[[0, 1], [2, 2], [1, 3]]"), "weights.even.stops[2][0]: 1 does not lie above 2");
+    expect(c, RAMP("red", "[[0, 1]]"), "weights.even.stops: 1 items; from 2 to 1024 are possible");
+    expect(c, RAMP("red", "[[0, 1], 7]"), "weights.even.stops[1]: an array is needed");
+    expect(c, RAMP("red", "[[0, 1], [1]]"), "weights.even.stops[1]: 1 items; 2 are needed");
+    expect(c, RAMP("red", "[[\"low\", 1], [1, 1]]"), "weights.even.stops[0][0]: a number is needed");
+    expect(c, "\"weights\": {\"even\": {\"property\": \"red\"}}", "weights.even.stops: missing");
+    expect(c, "\"weights\": {\"even\": {\"stops\": [[0, 1], [1, 2]]}}", "weights.even.property: missing");
+    expect(c, "\"weights\": {\"even\": {\"property\": \"red\", \"from\": 1}}", "unknown key \"from\"");
+    expect(c, "\"weights\": {\"odd\": {\"property\": \"red\", \"stops\": [[0, 1], [1, 2]]}}", "unknown tile 'odd'");
+    expect(c, "\"regions\": [{\"where\": {}, " RAMP("height", "[[0, 1], [1, 2]]") "}]",
+           "regions[0].weights.even.property: the surface has no property 'height'");
+}
+
+/* Properties of vertices and faces; what is not a number has no place on a ramp. */
+static void test_ply_ramps(void)
+{
+    Case c;
+    begin(&c, "s.ply", ply_text);
+    CHECK(read(&c, RAMP("heat", "[[1, 1], [4, 10]]")) == MESO_OK);
+    CHECK(weight(&c, 0, 5) == 840 && weight(&c, 1, 5) == 7 * 840);     /* 1 and 3 */
+    CHECK(read(&c, RAMP("part", "[[0, 1], [8, 9]]")) == MESO_OK);
+    CHECK(weight(&c, 0, 5) == 8 * 840 && weight(&c, 1, 5) == 840);     /* 7 and -2 */
+    c.groups.attributes[0].values[1] = NAN;
+    const char *spoilt = c.groups.attributes[0].name;
+    CHECK(strcmp(spoilt, "part") == 0);
+    expect(&c, RAMP("part", "[[0, 1], [8, 9]]"), "weights.even.property: 'part' of slot 1 is not a number");
+    CHECK(read(&c, "\"regions\": [{\"where\": {\"slots\": [0]}, " RAMP("part", "[[0, 1], [8, 9]]") "}]") == MESO_OK);
+    CHECK(weight(&c, 0, 5) == 8 * 840 && weight(&c, 1, 5) == 840);
+    c.groups.attributes[0].values[0] = -INFINITY;
+    CHECK(read(&c, "\"regions\": [{\"where\": {\"slots\": [0]}, " RAMP("part", "[[0, 3], [8, 9]]") "}]") == MESO_OK);
+    CHECK(weight(&c, 0, 5) == 3 * 840);
+    meso_arena_release(&c.arena);
 }
 
 static void test_borders(Case *c)
@@ -243,11 +313,14 @@ int main(void)
     test_pins(&c);
     test_places(&c);
     test_weights(&c);
+    test_ramps(&c);
+    test_wrong_ramps(&c);
     test_borders(&c);
     test_quotas(&c);
     test_strands(&c);
     test_files(&c);
     meso_arena_release(&c.arena);
     test_ply();
+    test_ply_ramps();
     return 0;
 }

@@ -14,28 +14,6 @@ const char *meso_constraint_name(const MesoConstraints *constraints, uint32_t nu
     return number < constraints->quota_count ? constraints->quotas[number].name : "the rule on strands";
 }
 
-uint64_t *meso_weights_of_variants(MesoArena *arena, const MesoVariantSet *variants,
-                                   uint32_t tile_count, uint32_t table_count,
-                                   const uint32_t *tile_weights, MesoError *error)
-{
-    uint64_t *tables = MESO_NEW(arena, uint64_t, (size_t)table_count * variants->count, error);
-    MesoArenaMark mark = meso_arena_mark(arena);
-    uint32_t *shares = MESO_NEW(arena, uint32_t, tile_count, error);
-    if (!tables || !shares)
-        return NULL;
-    for (uint32_t v = 0; v < variants->count; v++)
-        shares[variants->tile[v]]++;
-    for (uint32_t t = 0; t < table_count; t++)
-        for (uint32_t v = 0; v < variants->count; v++) {
-            uint32_t weight = tile_weights[(size_t)t * tile_count + variants->tile[v]];
-            assert(weight <= MESO_WEIGHT_LIMIT);
-            tables[(size_t)t * variants->count + v] =
-                (uint64_t)weight * (MESO_WEIGHT_SCALE / shares[variants->tile[v]]);
-        }
-    meso_arena_rewind(arena, mark);
-    return tables;
-}
-
 /* Masks under construction. The last step is kept: places mostly come in runs of like ones. */
 typedef struct MaskBuilder {
     MesoInterner interner;

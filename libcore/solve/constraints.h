@@ -10,6 +10,7 @@
 #include "libcore/base/bits.h"
 #include "libcore/solve/assignment.h"
 #include "libcore/solve/strands.h"
+#include "libcore/solve/weights.h"
 
 /* Pins, regions and border rules: at each place one of the allowed. */
 typedef struct MesoRestriction {
@@ -26,25 +27,6 @@ typedef struct MesoQuota {
     const uint64_t *variants;   /* bit set */
     uint32_t least, most;
 } MesoQuota;
-
-/*
- * Weights of variants. Tables hold one weight a variant; the chance of a
- * variant is its weight over the sum of those still possible. Where all of
- * them weigh 0, each has the same chance.
- */
-typedef struct MesoWeights {
-    uint32_t table_count;       /* 0: every variant has the same chance */
-    const uint64_t *tables;     /* [table_count * variant_count], each at most MESO_WEIGHT_LIMIT
-                                   times MESO_WEIGHT_SCALE */
-    const uint32_t *slot_table; /* [slot_count] table of each slot; NULL: the first for all */
-} MesoWeights;
-
-/*
- * A tile's weight, up to MESO_WEIGHT_LIMIT, is shared equally by its variants,
- * so that weights compare tiles however many ways each may be turned.
- * MESO_WEIGHT_SCALE can be divided by every number of variants, 1 to 8.
- */
-enum { MESO_WEIGHT_LIMIT = 1000000, MESO_WEIGHT_SCALE = 840 };
 
 typedef struct MesoConstraints {
     uint32_t restriction_count, quota_count;
@@ -69,11 +51,6 @@ static inline bool meso_constraints_need_guidance(const MesoConstraints *constra
 }
 
 const char *meso_constraint_name(const MesoConstraints *constraints, uint32_t number);
-
-/* Tables of variants from tables of tile weights, [table_count * tile_count]; NULL: out of memory. */
-uint64_t *meso_weights_of_variants(MesoArena *arena, const MesoVariantSet *variants,
-                                   uint32_t tile_count, uint32_t table_count,
-                                   const uint32_t *tile_weights, MesoError *error);
 
 /* What all restrictions together allow at each slot. */
 typedef struct MesoSlotMasks {

@@ -1,101 +1,13 @@
 #include "libcore/solve/constraints.h"
 
-#include <string.h>
-
-#include "libcore/solve/solve_fixture.h"
+#include "libcore/solve/constraints_fixture.h"
 
 /* Four tiles without a turn that all match each other: any choice anywhere is valid. */
 static const int32_t loose[4][4] = {{1, 1, -1, -1}, {1, 1, -1, -1}, {1, 1, -1, -1}, {1, 1, -1, -1}};
 
-typedef struct Case {
-    MesoArena arena;
-    MesoTileSet set;
-    MesoVariantSet variants;
-    MesoSlotGraph graph;
-    MesoConstraints constraints;
-} Case;
-
-static void begin(Case *c, const int32_t (*labels)[4], uint32_t interfaces, uint32_t tiles,
-                  uint32_t width, uint32_t height)
+static MesoSolveResult solve(FixtureCase *c, uint64_t seed, uint32_t attempts)
 {
-    memset(c, 0, sizeof *c);
-    meso_arena_init(&c->arena);
-    c->set = fixture_set(&c->arena, interfaces, tiles, labels, false, false, false);
-    c->graph = fixture_grid(&c->arena, width, height, false, false, false);
-    CHECK(meso_variant_set_build(&c->variants, &c->arena, &c->set, NULL) == MESO_OK);
-    CHECK(c->variants.count == tiles);
-}
-
-static MesoSolveResult solve_by(Case *c, MesoEngine engine, uint64_t seed, uint32_t attempts)
-{
-    MesoSolveResult result;
-    MesoError error;
-    MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = attempts, .max_dead_ends = 10,
-                                .constraints = &c->constraints, .explain = true};
-    CHECK(meso_solve(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
-    if (result.verdict == MESO_VERDICT_SOLVED)
-        CHECK(meso_constraints_check(&c->constraints, &result.assignment, &c->set, &c->variants, &c->graph,
-                                     &error) == MESO_OK);
-    return result;
-}
-
-static MesoSolveResult solve(Case *c, uint64_t seed, uint32_t attempts)
-{
-    return solve_by(c, MESO_ENGINE_WFC, seed, attempts);
-}
-
-/* Chi square with 3 degrees of freedom is above 16.3 once in a thousand times. */
-static void check_frequencies(Case *c, const double *expected, uint32_t tiles)
-{
-    enum { RUNS = 4000 };
-    uint32_t counts[8] = {0};
-    double chi = 0;
-    for (uint64_t seed = 0; seed < RUNS; seed++) {
-        MesoArenaMark mark = meso_arena_mark(&c->arena);
-        counts[solve(c, seed, 1).assignment.tile[0]]++;
-        meso_arena_rewind(&c->arena, mark);
-    }
-    for (uint32_t t = 0; t < tiles; t++) {
-        double mean = RUNS * expected[t], off = counts[t] - mean;
-        CHECK(mean > 0 || counts[t] == 0);
-        chi += mean > 0 ? off * off / mean : 0;
-    }
-    CHECK(chi < 16.3);
-}
-
-static void test_weights(void)
-{
-    static const uint32_t weights[2][4] = {{1, 2, 5, 0}, {0, 0, 0, 0}};
-    static const uint32_t tables[1] = {1};
-    static const double expected[4] = {0.125, 0.25, 0.625, 0}, even[4] = {0.25, 0.25, 0.25, 0.25};
-    Case c;
-    begin(&c, loose, 1, 4, 1, 1);
-    c.constraints.weights = (MesoWeights){
-        .table_count = 2,
-        .tables = meso_weights_of_variants(&c.arena, &c.variants, 4, 2, weights[0], NULL)};
-    check_frequencies(&c, expected, 4);
-    c.constraints.weights.slot_table = tables;      /* where all weigh 0, all have the same chance */
-    check_frequencies(&c, even, 4);
-    meso_arena_release(&c.arena);
-}
-
-/* t0 shows the same however it turns, t1 has four variants: the weights compare the tiles. */
-static void test_shared_weight(void)
-{
-    static const int32_t labels[2][4] = {{1, 1, 1, 1}, {1, 2, 1, 1}};
-    static const uint32_t weights[2] = {1, 3};
-    static const double expected[2] = {0.25, 0.75};
-    Case c;
-    begin(&c, labels, 2, 2, 1, 1);
-    c.set.tiles[0].rotation = c.set.tiles[1].rotation = true;
-    CHECK(meso_variant_set_build(&c.variants, &c.arena, &c.set, NULL) == MESO_OK);
-    CHECK(c.variants.count == 5);
-    c.constraints.weights = (MesoWeights){
-        .table_count = 1,
-        .tables = meso_weights_of_variants(&c.arena, &c.variants, 2, 1, weights, NULL)};
-    CHECK(c.constraints.weights.tables[0] == 840 && c.constraints.weights.tables[4] == 630);
-    check_frequencies(&c, expected, 2);
-    meso_arena_release(&c.arena);
+    return fixture_case_solve(c, MESO_ENGINE_WFC, seed, attempts);
 }
 
 /*
@@ -107,8 +19,8 @@ static void test_restrictions(void)
 {
     static const uint32_t slots[1] = {2}, sides[2] = {0, 4 * 1 + 2};
     static const uint64_t only_t2[1] = {4}, b_or_back[1] = {1 << 2 | 1 << 3};
-    Case c;
-    begin(&c, chain, 2, 3, 3, 1);
+    FixtureCase c;
+    fixture_case_begin(&c, chain, 2, 3, 3, 1);
     MesoRestriction pin = {.name = "pins[0]", .place_count = 1, .places = slots, .allowed = only_t2};
     c.constraints.restriction_count = 1;
     c.constraints.restrictions = &pin;
@@ -136,8 +48,8 @@ static void test_check(void)
     MesoTransform transform[3] = {0};
     MesoAssignment assignment = {3, tile, transform};
     MesoError error;
-    Case c;
-    begin(&c, chain, 2, 3, 3, 1);
+    FixtureCase c;
+    fixture_case_begin(&c, chain, 2, 3, 3, 1);
     MesoRestriction pins[1] = {{.name = "pins[7]", .place_count = 1, .places = slots, .allowed = not_t0}};
     MesoQuota quota = {.name = "quotas[3]", .variants = not_t0, .least = 1, .most = 2};
     c.constraints = (MesoConstraints){.restriction_count = 1, .restrictions = pins};
@@ -162,8 +74,8 @@ static void test_explanation(void)
 {
     static const uint32_t places[4] = {0, 1, 2, 3};
     static const uint64_t t0[1] = {1}, t1[1] = {2}, none[1] = {0};
-    Case c;
-    begin(&c, chain, 2, 3, 4, 1);
+    FixtureCase c;
+    fixture_case_begin(&c, chain, 2, 3, 4, 1);
     MesoRestriction pins[4] = {
         {.name = "pins[0] 'far'", .place_count = 1, .places = places + 3, .allowed = t0},
         {.name = "pins[1]", .place_count = 1, .places = places, .allowed = t1},
@@ -187,7 +99,7 @@ static void test_explanation(void)
 
     /* Not the constraints' fault. */
     static const int32_t alone[1][4] = {{1, 1, 1, 1}};
-    begin(&c, alone, 1, 1, 2, 1);
+    fixture_case_begin(&c, alone, 1, 1, 2, 1);
     c.constraints.restriction_count = 1;
     c.constraints.restrictions = pins;
     result = solve(&c, 0, 5);
@@ -195,19 +107,11 @@ static void test_explanation(void)
     meso_arena_release(&c.arena);
 }
 
-static uint32_t uses(const MesoAssignment *assignment, uint32_t tile)
-{
-    uint32_t count = 0;
-    for (uint32_t s = 0; s < assignment->slot_count; s++)
-        count += assignment->tile[s] == tile;
-    return count;
-}
-
 static void test_quotas(void)
 {
     static const uint64_t t0[1] = {1}, t1[1] = {2}, t23[1] = {12};
-    Case c;
-    begin(&c, loose, 1, 4, 12, 10);
+    FixtureCase c;
+    fixture_case_begin(&c, loose, 1, 4, 12, 10);
     MesoQuota quotas[3] = {{.name = "quotas[0]", .variants = t0, .least = 0, .most = 7},
                            {.name = "quotas[1]", .variants = t1, .least = 90, .most = 120},
                            {.name = "quotas[2]", .variants = t23, .least = 20, .most = 21}};
@@ -216,15 +120,15 @@ static void test_quotas(void)
     for (uint64_t seed = 0; seed < 30; seed++) {
         MesoSolveResult result = solve(&c, seed, 2);
         CHECK(result.verdict == MESO_VERDICT_SOLVED);
-        CHECK(uses(&result.assignment, 0) <= 7 && uses(&result.assignment, 1) >= 90);
-        result = solve_by(&c, MESO_ENGINE_EXACT, seed, 1);
-        CHECK(result.verdict == MESO_VERDICT_SOLVED && uses(&result.assignment, 1) >= 90);
+        CHECK(fixture_uses(&result.assignment, 0) <= 7 && fixture_uses(&result.assignment, 1) >= 90);
+        result = fixture_case_solve(&c, MESO_ENGINE_EXACT, seed, 1);
+        CHECK(result.verdict == MESO_VERDICT_SOLVED && fixture_uses(&result.assignment, 1) >= 90);
     }
     /* Exactly all of them: nothing is left to choose. */
     quotas[2].least = quotas[2].most = 30;
     quotas[0].most = 0;
     MesoSolveResult result = solve(&c, 1, 2);
-    CHECK(result.verdict == MESO_VERDICT_SOLVED && uses(&result.assignment, 1) == 90);
+    CHECK(result.verdict == MESO_VERDICT_SOLVED && fixture_uses(&result.assignment, 1) == 90);
 
     /* More than there are slots; two that need the same slots. */
     quotas[1].least = 121;
@@ -239,8 +143,8 @@ static void test_quota_explanation(void)
 {
     static const uint32_t place[1] = {0};
     static const uint64_t t1[1] = {2}, t2[1] = {4};
-    Case c;
-    begin(&c, chain, 2, 3, 5, 1);
+    FixtureCase c;
+    fixture_case_begin(&c, chain, 2, 3, 5, 1);
     MesoRestriction pin = {.name = "pins[0]", .place_count = 1, .places = place, .allowed = t1};
     MesoQuota quotas[2] = {{.name = "quotas[0]", .variants = t1, .least = 0, .most = 5},
                            {.name = "quotas[1]", .variants = t2, .least = 0, .most = 0}};
@@ -257,8 +161,8 @@ static void test_quota_gives_up(void)
 {
     static const int32_t pairs[3][4] = {{1, 1, -1, -1}, {2, 1, -1, -1}, {1, 1, -2, -1}};
     static const uint64_t t1[1] = {2}, t2[1] = {4};
-    Case c;
-    begin(&c, pairs, 2, 3, 8, 8);
+    FixtureCase c;
+    fixture_case_begin(&c, pairs, 2, 3, 8, 8);
     c.graph = fixture_grid(&c.arena, 8, 8, true, false, false);
     MesoQuota quotas[2] = {{.name = "quotas[0]", .variants = t1, .least = 5, .most = 64},
                            {.name = "quotas[1]", .variants = t2, .least = 0, .most = 4}};
@@ -266,12 +170,12 @@ static void test_quota_gives_up(void)
     MesoSolveResult result = solve(&c, 0, 2);
     CHECK(result.verdict != MESO_VERDICT_SOLVED && result.backtracks > 0);
     CHECK(result.violations[0] + result.violations[1] > 0 && strstr(result.reason, "quotas["));
-    result = solve_by(&c, MESO_ENGINE_AUTO, 0, 1);
+    result = fixture_case_solve(&c, MESO_ENGINE_AUTO, 0, 1);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
     CHECK(strstr(result.reason, "quotas[0] and quotas[1] cannot hold together: ") == result.reason);
     quotas[1].most = 5;
     result = solve(&c, 0, 20);
-    CHECK(result.verdict == MESO_VERDICT_SOLVED && uses(&result.assignment, 1) >= 5);
+    CHECK(result.verdict == MESO_VERDICT_SOLVED && fixture_uses(&result.assignment, 1) >= 5);
     meso_arena_release(&c.arena);
 }
 
@@ -280,11 +184,9 @@ static const int32_t osier[4][4] = {{1, 2, -1, -2}, {1, 2, -1, -3}, {3, 2, -1, -
 /* Kept whole where it is valid; changed about a slot that is pinned to another tile. */
 static void test_keep(void)
 {
-    Case c;
-    begin(&c, osier, 3, 4, 30, 30);
-    for (uint32_t t = 0; t < 4; t++)
-        c.set.tiles[t].rotation = c.set.tiles[t].flip_x = true;
-    CHECK(meso_variant_set_build(&c.variants, &c.arena, &c.set, NULL) == MESO_OK);
+    FixtureCase c;
+    fixture_case_begin(&c, osier, 3, 4, 30, 30);
+    fixture_case_permit(&c, true, true);
     MesoSolveResult old = solve(&c, 3, 20);
     CHECK(old.verdict == MESO_VERDICT_SOLVED);
     uint32_t *keep = MESO_NEW(&c.arena, uint32_t, 900, NULL);
@@ -303,11 +205,46 @@ static void test_keep(void)
     MesoRestriction pin = {.name = "pins[0]", .place_count = 1, .places = place, .allowed = other};
     c.constraints.restriction_count = 1;
     c.constraints.restrictions = &pin;
-    result = solve(&c, 77, 20);
-    CHECK(result.verdict == MESO_VERDICT_SOLVED);
-    uint32_t changed = meso_constraints_changed(&c.constraints, &result.assignment, &c.variants);
-    CHECK(changed >= 1 && changed < 60);
+    for (MesoEngine engine = MESO_ENGINE_WFC; engine <= MESO_ENGINE_EXACT; engine++) {
+        result = fixture_case_solve(&c, engine, 77, 20);
+        CHECK(result.verdict == MESO_VERDICT_SOLVED);
+        uint32_t changed = meso_constraints_changed(&c.constraints, &result.assignment, &c.variants);
+        CHECK(changed >= 1 && changed < 60);
+    }
     meso_arena_release(&c.arena);
+}
+
+static const MesoEngine engines[3] = {MESO_ENGINE_AUTO, MESO_ENGINE_WFC, MESO_ENGINE_EXACT};
+
+/* Slots whose variant is not the one to keep, when all engines have slot 2 of 8 in a row pinned to t1. */
+static void check_changes(const int32_t (*labels)[4], uint32_t interfaces, uint32_t tiles, uint32_t expected)
+{
+    static const uint32_t place[1] = {2}, keep[8] = {0, 0, 0, 0, 0, 0, 0, MESO_NO_INDEX};
+    static const uint64_t t1[1] = {2};
+    MesoRestriction pin = {.name = "pins[0]", .place_count = 1, .places = place, .allowed = t1};
+    FixtureCase c;
+    fixture_case_begin(&c, labels, interfaces, tiles, 8, 1);
+    c.constraints.keep = keep;
+    for (uint32_t e = 0; e < 3; e++)
+        for (uint64_t seed = 0; seed < 20; seed++) {
+            c.constraints.restriction_count = 0;
+            MesoSolveResult result = fixture_case_solve(&c, engines[e], seed, 5);
+            CHECK(result.verdict == MESO_VERDICT_SOLVED && fixture_uses(&result.assignment, 0) >= 7);
+            CHECK(meso_constraints_changed(&c.constraints, &result.assignment, &c.variants) == 0);
+            c.constraints.restriction_count = 1;
+            c.constraints.restrictions = &pin;
+            result = fixture_case_solve(&c, engines[e], seed, 5);
+            CHECK(result.verdict == MESO_VERDICT_SOLVED && result.assignment.tile[2] == 1);
+            CHECK(meso_constraints_changed(&c.constraints, &result.assignment, &c.variants) == expected);
+        }
+    meso_arena_release(&c.arena);
+}
+
+/* Where any tile goes beside any other, the pinned slot alone changes; on the chain the next one has to. */
+static void test_fewest_changes(void)
+{
+    check_changes(loose, 1, 4, 1);
+    check_changes(chain, 2, 3, 2);
 }
 
 /*
@@ -320,8 +257,8 @@ static void test_exhaustion(void)
     static const uint64_t t0[1] = {1};
     for (uint32_t most = 0; most <= 9; most++)
         for (uint32_t least = 0; least <= most; least++) {
-            Case c;
-            begin(&c, pairs, 2, 3, 3, 3);
+            FixtureCase c;
+            fixture_case_begin(&c, pairs, 2, 3, 3, 3);
             c.graph = fixture_grid(&c.arena, 3, 3, true, false, false);
             MesoQuota quota = {.name = "quotas[0]", .variants = t0, .least = least, .most = most};
             c.constraints = (MesoConstraints){.quota_count = 1, .quotas = &quota};
@@ -332,7 +269,7 @@ static void test_exhaustion(void)
             MesoSolveResult result = solve(&c, most, 3);
             CHECK(result.verdict == (possible ? MESO_VERDICT_SOLVED : MESO_VERDICT_UNSOLVABLE));
             CHECK(possible || strstr(result.reason, "quotas[0]") || strstr(result.reason, "every choice"));
-            result = solve_by(&c, MESO_ENGINE_EXACT, most, 1);
+            result = fixture_case_solve(&c, MESO_ENGINE_EXACT, most, 1);
             CHECK(result.verdict == (possible ? MESO_VERDICT_SOLVED : MESO_VERDICT_UNSOLVABLE));
             meso_arena_release(&c.arena);
         }
@@ -341,8 +278,6 @@ static void test_exhaustion(void)
 int main(void)
 {
     test_exhaustion();
-    test_weights();
-    test_shared_weight();
     test_restrictions();
     test_check();
     test_explanation();
@@ -350,5 +285,6 @@ int main(void)
     test_quota_explanation();
     test_quota_gives_up();
     test_keep();
+    test_fewest_changes();
     return 0;
 }

@@ -231,7 +231,8 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
 {
     uint32_t slot_count = propagation->graph->slot_count;
     *exact = (MesoExact){.propagation = propagation,
-                         .arena = arena, .clause = options->clause, .context = options->context};
+                         .constraints = options->constraints, .arena = arena,
+                         .clause = options->clause, .context = options->context};
     MesoStatus status = meso_sat_init(&exact->sat, options->proof, options->context, error);
     if (!status)
         status = meso_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
@@ -300,26 +301,104 @@ static MesoStatus prefer_labels(MesoExact *exact, uint32_t slot, const uint32_t 
     return status;
 }
 
+/* A variant of `bits`, by weight. */
+static uint32_t draw(const MesoExact *exact, uint32_t slot, const uint64_t *bits, MesoRandom *random)
+{
+    return meso_weights_draw(exact->constraints ? &exact->constraints->weights : NULL, slot, bits, NULL,
+                             exact->propagation->domains.states.word_count, random);
+}
+
+/* Leaves of `fitting` the variants that match what neighbours show, `shown` [4 * slots]; false where there is none. */
+static bool keep_fitting(const MesoExact *exact, uint32_t slot, const uint32_t *shown, uint64_t *fitting)
+{
+    const MesoPropagation *propagation = exact->propagation;
+    uint32_t words = propagation->domains.states.word_count;
+    for (uint32_t k = 0; k < 4; k++) {
+        uint32_t twin = propagation->graph->twin[4 * (size_t)slot + k];
+        if (twin == MESO_NO_INDEX || shown[twin] == MESO_NO_INDEX)
+            continue;
+        for (uint32_t w = 0; w < words; w++)
+            for (uint64_t rest = fitting[w]; rest; rest &= rest - 1) {
+                uint32_t variant = 64 * w + (uint32_t)__builtin_ctzll(rest);
+                if (propagation->codes[4 * (size_t)variant + k] != (shown[twin] ^ 1))
+                    meso_bits_clear(fitting, variant);
+            }
+    }
+    return meso_bits_count(fitting, words) > 0;
+}
+
+/* Pattern of the one variant of state hint[slot]; MESO_NO_INDEX where there are others, or it is not possible. */
+static uint32_t hinted_pattern(MesoExact *exact, uint32_t slot, const uint32_t *hint, MesoRandom *random)
+{
+    const MesoDomainTable *domains = &exact->propagation->domains;
+    if (!hint || domains->domains[hint[slot]].size != 1)
+        return MESO_NO_INDEX;
+    return pattern_of_variant(meso_pattern_list(&exact->patterns, slot, NULL),
+                              draw(exact, slot, meso_domain_bits(domains, hint[slot]), random));
+}
+
+/*
+ * A pattern for each slot: the hinted ones, and random ones. Where weights or
+ * variants to keep speak, these come last and fit what is there, as far as that
+ * is possible: what the engine has to change of its phases is changed regardless of them.
+ */
+static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32_t *pattern, MesoRandom *random,
+                                  MesoError *error)
+{
+    const MesoDomainTable *domains = &exact->propagation->domains;
+    const MesoConstraints *constraints = exact->constraints;
+    bool fits = constraints && (constraints->keep || constraints->weights.table_count);
+    uint32_t slots = exact->propagation->graph->slot_count, words = domains->states.word_count;
+    uint32_t *shown = MESO_NEW(exact->arena, uint32_t, fits ? 4 * (size_t)slots : 0, error);
+    uint64_t *fitting = MESO_NEW(exact->arena, uint64_t, words, error);
+    if (!shown || !fitting)
+        return MESO_ERR_MEMORY;
+    if (fits)
+        memset(shown, 0xff, 4 * (size_t)slots * sizeof *shown);
+    for (uint32_t pass = 0; pass < 2; pass++)
+        for (uint32_t s = 0; s < slots; s++) {
+            const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, NULL);
+            const uint64_t *bits = meso_domain_bits(domains, exact->propagation->initial[s]);
+            if (pass == 0)
+                pattern[s] = hinted_pattern(exact, s, hint, random);
+            if (pattern[s] == MESO_NO_INDEX && (pass == 1 || !fits)) {
+                memcpy(fitting, bits, words * sizeof *bits);
+                bool any = fits && keep_fitting(exact, s, shown, fitting);
+                pattern[s] = pattern_of_variant(list, draw(exact, s, any ? fitting : bits, random));
+            }
+            if (fits && pattern[s] != MESO_NO_INDEX)
+                memcpy(shown + 4 * (size_t)s, list->codes + 4 * (size_t)pattern[s], 4 * sizeof *shown);
+        }
+    return MESO_OK;
+}
+
 MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, MesoRandom *random,
                                     MesoError *error)
 {
-    const MesoDomainTable *domains = &exact->propagation->domains;
-    MesoStatus status = MESO_OK;
-    for (uint32_t s = 0; s < exact->propagation->graph->slot_count && !status; s++) {
-        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
-        uint32_t state = hint ? hint[s] : MESO_DOMAIN_EMPTY;
-        if (!list)
-            return MESO_ERR_MEMORY;
-        if (domains->domains[state].size != 1)
-            state = exact->propagation->initial[s];
-        uint32_t rank = meso_random_below(random, domains->domains[state].size);
-        uint32_t pattern = pattern_of_variant(list, meso_domain_variant(domains, state, rank));
-        assert(pattern != MESO_NO_INDEX);
-        status = prefer(exact, exact->slot_first[s], list->count, pattern, error);
+    uint32_t slots = exact->propagation->graph->slot_count;
+    MesoArenaMark mark = meso_arena_mark(exact->arena);
+    uint32_t *pattern = MESO_NEW(exact->arena, uint32_t, slots, error);
+    MesoStatus status = pattern ? choose_patterns(exact, hint, pattern, random, error) : MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < slots && !status; s++) {
+        /* Every list was made when the variables were numbered. */
+        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, NULL);
+        status = prefer(exact, exact->slot_first[s], list->count, pattern[s], error);
         if (!status)
-            status = prefer_labels(exact, s, list->codes + 4 * (size_t)pattern, error);
+            status = prefer_labels(exact, s, list->codes + 4 * (size_t)pattern[s], error);
     }
+    meso_arena_rewind(exact->arena, mark);
     return status;
+}
+
+/* One of the variants of a pattern of `slot`. */
+static uint32_t choose_listed(const MesoExact *exact, uint32_t slot, const uint32_t *variants, uint32_t count,
+                              MesoRandom *random)
+{
+    const MesoConstraints *constraints = exact->constraints;
+    for (uint32_t i = 0; constraints && constraints->keep && i < count; i++)
+        if (variants[i] == constraints->keep[slot])
+            return variants[i];
+    return meso_weights_draw_listed(constraints ? &constraints->weights : NULL, slot, variants, count, random);
 }
 
 MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *random, MesoError *error)
@@ -334,8 +413,8 @@ MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *r
             p++;
         if (p == list->count)
             return meso_fail(error, MESO_ERR_INTERNAL, "the exact engine left slot %u without a tile", s);
-        uint32_t size = list->begin[p + 1] - list->begin[p];
-        variant[s] = list->variants[list->begin[p] + meso_random_below(random, size)];
+        variant[s] = choose_listed(exact, s, list->variants + list->begin[p], list->begin[p + 1] - list->begin[p],
+                                   random);
     }
     return MESO_OK;
 }

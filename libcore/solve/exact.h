@@ -21,6 +21,7 @@ enum { MESO_EXACT_MOST_CHAINS = 1 << 10 };
 typedef struct MesoExact {
     const MesoPropagation *propagation;
     MesoPatternTable patterns;
+    const MesoConstraints *constraints;
     MesoArena *arena;
     MesoSat *sat;
     uint32_t variable_count;
@@ -36,6 +37,7 @@ typedef struct MesoExact {
 typedef struct MesoExactOptions {
     const uint32_t *group;      /* as in MesoPatternTable; for clauses of the caller's own */
     bool chains;                /* with variables for the chains, where there are any */
+    const MesoConstraints *constraints;     /* whose weights and variants to keep guide the choices; NULL: none */
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the proof; may be NULL */
     void (*clause)(void *context, const int32_t *literals, uint32_t count); /* told each clause; may be NULL */
     void *context;
@@ -69,15 +71,18 @@ MesoStatus meso_exact_add(MesoExact *exact, int32_t *literals, uint32_t count, M
 
 /*
  * Chooses what decisions try first: where `hint` [slot_count], which may be
- * NULL, gives a state of one variant, this; elsewhere a random variant of the
- * initial ones. So solutions are varied, and follow `random`. O(slots * patterns).
+ * NULL, gives a state of one variant, and that is possible, this; elsewhere a
+ * random variant of the initial ones, by weight, and with weights or variants
+ * to keep one that fits its neighbours', if any does. So solutions are varied,
+ * and follow `random` and the weights. O(slots * patterns).
  */
 MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, MesoRandom *random,
                                     MesoError *error);
 
 /*
  * Writes a variant for each slot to `variant` [slot_count] after the answer
- * MESO_SAT_YES: a random one of the pattern that was found. O(slots * patterns).
+ * MESO_SAT_YES: of the pattern that was found the one to keep, or a random one,
+ * by weight. O(slots * patterns).
  */
 MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *random,
                               MesoError *error);

@@ -300,8 +300,8 @@ static MesoStatus decide_exactly(Search *search, uint64_t conflicts, uint64_t cu
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
     MesoRandom random;
-    MesoExactOptions options = {.chains = cubes > 0, .proof = search->options->proof, .clause = search->options->clause,
-                                .context = search->options->proof_context};
+    MesoExactOptions options = {.chains = cubes > 0, .constraints = constraints, .proof = search->options->proof,
+                                .clause = search->options->clause, .context = search->options->proof_context};
     bool complete = true;
     meso_random_init(&random, search->options->seed, UINT64_MAX);
     if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))

@@ -23,6 +23,10 @@ meso-solve --strands loops vase.tiles.json vase.obj -o no.slots || echo "rule: $
 meso-solve --seed 9 --keep vase.slots vase.tiles.json vase.obj -o kept.slots
 for slots in vase kept; do meso-info $slots.slots | grep -A1 '"tiles": {' >$slots.txt; done
 cmp vase.txt kept.txt
+constraints '"pins": [{"slot": 200, "tile": "double"}]' patch.json
+for engine in auto exact; do
+    meso-solve --engine $engine --constraints patch.json --keep vase.slots vase.tiles.json vase.obj -o patched.slots
+done
 meso-solve -q --constraints sound.json --keep vase.slots vase.tiles.json vase.obj -o a.slots
 cp a.slots b.slots
 meso-solve -q --constraints sound.json --keep vase.slots vase.tiles.json vase.obj -o a.slots
