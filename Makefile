@@ -2,6 +2,8 @@
 #
 #   all               the tools, to build/bin (release) or build/CONFIG/bin
 #   check             every test: units, folder pages, man pages, command lines
+#   check-exhaustive  the solver against brute force on all gluings of up to $(CHECK_SLOTS) slots, for
+#                     $(CHECK_SECONDS) seconds at most: a line for each number of slots and core
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, and every combination of the data's
@@ -15,6 +17,8 @@ config ?= release
 PREFIX ?= /usr/local
 DATA   ?= ../shared/data/mesogen
 FUZZ_SECONDS ?= 60
+CHECK_SLOTS ?= 6
+CHECK_SECONDS ?= 3600
 BUILD  ?= build
 WERROR ?= $(if $(CI),-Werror)
 
@@ -116,6 +120,8 @@ check-unit: tests
 	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%)
 check-cli: all tests
 	@scripts/run-tests $(OUT) $(BIN) man cli
+check-exhaustive: $(OUT)/test/libcore/solve/small_graphs_test
+	@n=$$(nproc) && seq 0 $$((n - 1)) | xargs -P $$n -I PART nice $< $(CHECK_SLOTS) $(CHECK_SECONDS) PART $$n
 check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
@@ -133,7 +139,7 @@ install: all
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all tests generators check check-unit check-cli check-reference bench bench-solve demo fuzz-run \
-        fuzzers benches references install clean
+.PHONY: all tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve demo \
+        fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
