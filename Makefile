@@ -108,7 +108,11 @@ $(GENERATORS:%=$(OUT)/scripts/%): $(OUT)/scripts/%: $(OUT)/obj/scripts/%.c.o $(O
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
-generators: $(GENERATORS:%=$(OUT)/scripts/%)
+$(OUT)/scripts/check_drat: $(OUT)/obj/scripts/check_drat.c.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^
+
+generators: $(GENERATORS:%=$(OUT)/scripts/%) $(OUT)/scripts/check_drat
 tests: $(TESTS:%=$(OUT)/test/%) generators
 fuzzers: $(FUZZERS:%=$(OUT)/fuzz/%)
 benches: $(BENCHES:%=$(OUT)/test/%)

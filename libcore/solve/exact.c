@@ -195,6 +195,8 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
     *exact = (MesoExact){.propagation = propagation,
                          .arena = arena, .clause = options->clause, .context = options->context};
     MesoStatus status = meso_sat_init(&exact->sat, options->proof, options->context, error);
+    if (!status && options->proof && options->grows)
+        status = meso_sat_expect_clauses(exact->sat, error);
     if (!status)
         status = meso_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
     if (status)
