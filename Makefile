@@ -6,8 +6,8 @@
 #                     $(CHECK_SECONDS) seconds at most: a line for each number of slots and core
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   bench             rates of every stage, beside the prototype's
-#   bench-solve       the solver alone: pairs, growth, many seeds, and every combination of the data's
-#                     surfaces and tile sets
+#   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
+#                     combination of the data's surfaces and tile sets
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
