@@ -2,10 +2,12 @@
 #
 #   all               the tools, to build/bin (release) or build/CONFIG/bin
 #   check             every test: units, folder pages, man pages, command lines
+#   check-exhaustive  the solver against brute force on all gluings of up to $(CHECK_SLOTS) slots, for
+#                     $(CHECK_SECONDS) seconds at most: a line for each number of slots and core
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   bench             rates of every stage, beside the prototype's
-#   bench-solve       the solver alone: pairs, growth, many seeds, and every combination of the data's
-#                     surfaces and tile sets
+#   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
+#                     combination of the data's surfaces and tile sets
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -15,6 +17,8 @@ config ?= release
 PREFIX ?= /usr/local
 DATA   ?= ../shared/data/mesogen
 FUZZ_SECONDS ?= 60
+CHECK_SLOTS ?= 6
+CHECK_SECONDS ?= 3600
 BUILD  ?= build
 WERROR ?= $(if $(CI),-Werror)
 
@@ -104,7 +108,11 @@ $(GENERATORS:%=$(OUT)/scripts/%): $(OUT)/scripts/%: $(OUT)/obj/scripts/%.c.o $(O
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
-generators: $(GENERATORS:%=$(OUT)/scripts/%)
+$(OUT)/scripts/check_drat: $(OUT)/obj/scripts/check_drat.c.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^
+
+generators: $(GENERATORS:%=$(OUT)/scripts/%) $(OUT)/scripts/check_drat
 tests: $(TESTS:%=$(OUT)/test/%) generators
 fuzzers: $(FUZZERS:%=$(OUT)/fuzz/%)
 benches: $(BENCHES:%=$(OUT)/test/%)
@@ -116,6 +124,8 @@ check-unit: tests
 	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%)
 check-cli: all tests
 	@scripts/run-tests $(OUT) $(BIN) man cli
+check-exhaustive: $(OUT)/test/libcore/solve/small_graphs_test
+	@n=$$(nproc) && seq 0 $$((n - 1)) | xargs -P $$n -I PART nice $< $(CHECK_SLOTS) $(CHECK_SECONDS) PART $$n
 check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
@@ -133,7 +143,7 @@ install: all
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all tests generators check check-unit check-cli check-reference bench bench-solve demo fuzz-run \
-        fuzzers benches references install clean
+.PHONY: all tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve demo \
+        fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

@@ -4,6 +4,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "formats/report_file.h"
+
 /* Bytes of a formula's first line, whose numbers are known last. */
 enum { HEADER_SIZE = 64 };
 
@@ -58,21 +60,46 @@ static void make_header(char header[HEADER_SIZE + 1], const MesoEngineRun *run)
     header[HEADER_SIZE] = 0;
 }
 
-static MesoStatus open_proof(MesoEngineRun *run, MesoTool *tool, const char *path)
+static void open_files(MesoEngineRun *run)
 {
     char header[HEADER_SIZE + 1];
+    run->clause_count = 0;
+    run->variable_count = run->used = 0;
+    run->status = meso_output_open(&run->proof, run->proof_path, run->error);
+    if (!run->status)
+        run->status = meso_output_open(&run->formula, run->formula_path, run->error);
+    make_header(header, run);
+    if (!run->status)
+        run->status = meso_output_write(run->formula, header, HEADER_SIZE, run->error);
+}
+
+static void discard_files(MesoEngineRun *run)
+{
+    meso_output_discard(run->proof);
+    meso_output_discard(run->formula);
+    run->proof = run->formula = NULL;
+}
+
+/* The engine may be asked twice, the second time about what probing has left: the files are about that alone. */
+static void begin_formula(void *context)
+{
+    MesoEngineRun *run = context;
+    if (run->status || run->clause_count == 0)
+        return;
+    discard_files(run);
+    open_files(run);
+}
+
+static MesoStatus open_proof(MesoEngineRun *run, MesoTool *tool, const char *path)
+{
     if (!*path || strcmp(path, "-") == 0)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--proof writes two files and needs a name");
-    char *formula = meso_arena_print(&tool->arena, &tool->error, "%s.cnf", path);
-    if (!formula)
+    run->proof_path = path;
+    run->formula_path = meso_arena_print(&tool->arena, &tool->error, "%s.cnf", path);
+    if (!run->formula_path)
         return MESO_ERR_MEMORY;
-    MesoStatus status = meso_output_open(&run->proof, path, &tool->error);
-    if (!status)
-        status = meso_output_open(&run->formula, formula, &tool->error);
-    if (status)
-        return status;
-    make_header(header, run);
-    return meso_output_write(run->formula, header, HEADER_SIZE, &tool->error);
+    open_files(run);
+    return run->status;
 }
 
 void meso_engine_choose(const MesoEngineArguments *arguments, MesoSolveOptions *options)
@@ -99,6 +126,7 @@ MesoStatus meso_engine_start(MesoEngineRun *run, MesoTool *tool, const MesoEngin
         return MESO_OK;
     options->proof = write_proof;
     options->clause = write_clause;
+    options->formula = begin_formula;
     options->proof_context = run;
     return open_proof(run, tool, arguments->proof);
 }
@@ -123,13 +151,14 @@ static MesoStatus commit_proof(MesoEngineRun *run, MesoTool *tool)
 
 MesoStatus meso_engine_finish(MesoEngineRun *run, MesoTool *tool, const MesoSolveResult *result)
 {
-    bool proved = result && result->verdict == MESO_VERDICT_UNSOLVABLE;
-    if (proved && run->proof && result->decider == MESO_DECIDER_EXACT)
+    bool asked = result && run->proof_path;
+    if (asked && result->verdict == MESO_VERDICT_UNSOLVABLE && result->decider == MESO_DECIDER_EXACT)
         commit_proof(run, tool);
-    else if (proved && run->proof)
-        meso_tool_say(tool, "the exact engine was not needed: no proof is written");
-    meso_output_discard(run->proof);
-    meso_output_discard(run->formula);
-    run->proof = run->formula = NULL;
+    else if (asked && result->verdict == MESO_VERDICT_UNSOLVABLE)
+        meso_tool_say(tool, "proved by %s, not by the exact engine: no proof is written",
+                      meso_decider_name(result->decider));
+    else if (asked && result->verdict == MESO_VERDICT_GAVE_UP)
+        meso_tool_say(tool, "nothing is proved: no proof is written");
+    discard_files(run);
     return run->status;
 }

@@ -32,6 +32,7 @@ void meso_engine_choose(const MesoEngineArguments *arguments, MesoSolveOptions *
 typedef struct MesoEngineRun {
     double deadline;            /* of the monotonic clock */
     MesoOutput *proof, *formula;    /* NULL: none asked for */
+    const char *proof_path, *formula_path;
     MesoError *error;           /* of the tool */
     MesoStatus status;          /* of writing proof and formula */
     uint64_t clause_count;

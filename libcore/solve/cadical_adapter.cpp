@@ -100,6 +100,17 @@ extern "C" MesoStatus meso_sat_init(MesoSat **result,
     }
 }
 
+extern "C" MesoStatus meso_sat_expect_clauses(MesoSat *sat, MesoError *error)
+{
+    try {
+        for (const char *name : {"elim", "block", "cover", "condition", "decompose"})
+            sat->solver.set(name, 0);
+        return MESO_OK;
+    } catch (...) {
+        return fail(error);
+    }
+}
+
 extern "C" void meso_sat_release(MesoSat *sat)
 {
     try {

@@ -27,6 +27,13 @@ typedef enum MesoSatAnswer { MESO_SAT_UNKNOWN, MESO_SAT_YES, MESO_SAT_NO } MesoS
 MesoStatus meso_sat_init(MesoSat **sat, bool (*proof)(void *context, const char *data, size_t size),
                          void *context, MesoError *error);
 
+/*
+ * To be called before the first clause where clauses will be added after a question, and there is a
+ * proof. CaDiCaL takes back what eliminates variables when clauses with them come, but does
+ * not say so in the proof; here nothing is eliminated.
+ */
+MesoStatus meso_sat_expect_clauses(MesoSat *sat, MesoError *error);
+
 /* NULL is allowed. */
 void meso_sat_release(MesoSat *sat);
 

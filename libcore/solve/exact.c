@@ -234,6 +234,8 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
                          .constraints = options->constraints, .arena = arena,
                          .clause = options->clause, .context = options->context};
     MesoStatus status = meso_sat_init(&exact->sat, options->proof, options->context, error);
+    if (!status && options->proof && options->grows)
+        status = meso_sat_expect_clauses(exact->sat, error);
     if (!status)
         status = meso_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
     if (status)
@@ -385,6 +387,10 @@ MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, Meso
         status = prefer(exact, exact->slot_first[s], list->count, pattern[s], error);
         if (!status)
             status = prefer_labels(exact, s, list->codes + 4 * (size_t)pattern[s], error);
+    }
+    for (uint32_t c = 0; c < exact->chain_count && !status; c++) {
+        int32_t bit = (int32_t)(exact->chain_first + c);
+        status = meso_sat_phase(exact->sat, meso_random_below(random, 2) ? bit : -bit, error);
     }
     meso_arena_rewind(exact->arena, mark);
     return status;

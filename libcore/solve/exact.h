@@ -41,6 +41,7 @@ typedef struct MesoExactOptions {
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the proof; may be NULL */
     void (*clause)(void *context, const int32_t *literals, uint32_t count); /* told each clause; may be NULL */
     void *context;
+    bool grows;                 /* clauses will be added after the first question */
 } MesoExactOptions;
 
 /*

@@ -1,104 +1,9 @@
-/* Exact engine and all of the ladder on every small case: verdicts, and that every assignment is reached. */
+/* Exact engine: that every assignment is reached, by the other engines too; clauses of callers, determinism. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "libcore/solve/brute_force.h"
 #include "libcore/solve/exact.h"
-
-/* The `number`-th tile over one interface: bit k says that side k shows a', not a. */
-static void tile_labels(uint32_t number, int32_t labels[4])
-{
-    for (uint32_t k = 0; k < 4; k++)
-        labels[k] = (number >> k) & 1 ? -1 : 1;
-}
-
-/* All sets of one to three of the 16 tiles, each with no transforms, with rotations, with all. */
-enum { TILE_SETS = (16 + 16 * 15 / 2 + 16 * 15 * 14 / 6) * 3 };
-
-static MesoTileSet small_set(MesoArena *arena, uint32_t number)
-{
-    int32_t labels[3][4];
-    uint32_t permissions = number % 3, left = number / 3, mask = 1;
-    while (__builtin_popcount(mask) > 3 || left > 0) {
-        left -= __builtin_popcount(mask) <= 3;
-        mask++;
-    }
-    uint32_t count = 0;
-    for (; mask; mask &= mask - 1)
-        tile_labels((uint32_t)__builtin_ctz(mask), labels[count++]);
-    return fixture_set(arena, 1, count, (const int32_t (*)[4])labels, permissions >= 1, permissions == 2,
-                       false);
-}
-
-static void check_case(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph, uint64_t seed)
-{
-    MesoArenaMark mark = meso_arena_mark(arena);
-    MesoVerdict expected = brute_force(arena, set, graph, 1, false).count ? MESO_VERDICT_SOLVED
-                                                                           : MESO_VERDICT_UNSOLVABLE;
-    CHECK(fixture_solve_by(MESO_ENGINE_EXACT, arena, set, graph, seed, 1).verdict == expected);
-    CHECK(fixture_solve_by(MESO_ENGINE_AUTO, arena, set, graph, seed, 1).verdict == expected);
-    meso_arena_rewind(arena, mark);
-}
-
-static uint32_t glued_cases;
-
-/* Every way to glue the sides from `side` on, with one another or not at all; each with a few tile sets. */
-static void check_gluings(MesoArena *arena, MesoSlotGraph *graph, uint32_t side)
-{
-    while (side < 4 * graph->slot_count && graph->twin[side] != MESO_NO_INDEX)
-        side++;
-    if (side == 4 * graph->slot_count) {
-        for (uint32_t i = 0; i < 4; i++) {
-            MesoArenaMark mark = meso_arena_mark(arena);
-            MesoTileSet set = small_set(arena, (glued_cases++ * 389) % TILE_SETS);
-            check_case(arena, &set, graph, glued_cases);
-            meso_arena_rewind(arena, mark);
-        }
-        return;
-    }
-    check_gluings(arena, graph, side + 1);
-    for (uint32_t other = side + 1; other < 4 * graph->slot_count; other++) {
-        if (graph->twin[other] != MESO_NO_INDEX)
-            continue;
-        graph->twin[side] = other;
-        graph->twin[other] = side;
-        check_gluings(arena, graph, side + 1);
-        graph->twin[side] = graph->twin[other] = MESO_NO_INDEX;
-    }
-}
-
-/* One and two slots glued in all ways: two faces that share up to four edges, and faces glued to themselves. */
-static void test_gluings(void)
-{
-    MesoArena arena;
-    meso_arena_init(&arena);
-    for (uint32_t count = 1; count <= 2; count++) {
-        MesoSlotGraph graph = fixture_graph(&arena, count);
-        check_gluings(&arena, &graph, 0);
-    }
-    CHECK(glued_cases == 4 * (10 + 764));
-    meso_arena_release(&arena);
-}
-
-/* All small sets on a strip, a sheet, a ring, a Moebius band and a torus of up to six slots. */
-static void test_grids(void)
-{
-    MesoArena arena;
-    meso_arena_init(&arena);
-    MesoSlotGraph graphs[] = {
-        fixture_grid(&arena, 3, 1, true, false, false), fixture_grid(&arena, 3, 2, false, false, false),
-        fixture_grid(&arena, 3, 2, true, false, true),  fixture_grid(&arena, 3, 2, true, true, false),
-        fixture_grid(&arena, 5, 1, true, true, false),
-    };
-    for (uint32_t i = 0; i < TILE_SETS; i++) {
-        MesoArenaMark mark = meso_arena_mark(&arena);
-        MesoTileSet set = small_set(&arena, i);
-        for (uint32_t g = 0; g < sizeof graphs / sizeof *graphs; g++)
-            check_case(&arena, &set, &graphs[g], i);
-        meso_arena_rewind(&arena, mark);
-    }
-    meso_arena_release(&arena);
-}
 
 static int compare_numbers(const void *a, const void *b)
 {
@@ -106,7 +11,7 @@ static int compare_numbers(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* Over many seeds the engine finds every assignment that there is. */
+/* Over many seeds the engine finds every assignment that there is; the search alone may give up now and then. */
 static void check_reach(MesoEngine engine, const MesoTileSet *set, const MesoSlotGraph *graph, uint64_t least)
 {
     MesoArena arena;
@@ -120,28 +25,42 @@ static void check_reach(MesoEngine engine, const MesoTileSet *set, const MesoSlo
         CHECK(seed < 1000 * force.count);
         MesoArenaMark mark = meso_arena_mark(&arena);
         MesoSolveResult result = fixture_solve_by(engine, &arena, set, graph, seed, 10);
-        CHECK(result.verdict == MESO_VERDICT_SOLVED);
-        uint64_t number = brute_force_find(&force, &result.assignment);
-        const uint64_t *found = bsearch(&number, force.numbers, force.count, sizeof number, compare_numbers);
-        CHECK(found);
-        unmet -= met[found - force.numbers]++ == 0;
+        CHECK(result.verdict == MESO_VERDICT_SOLVED ||
+              (engine == MESO_ENGINE_WFC && result.verdict == MESO_VERDICT_GAVE_UP));
+        if (result.verdict == MESO_VERDICT_SOLVED) {
+            uint64_t number = brute_force_find(&force, &result.assignment);
+            const uint64_t *found = bsearch(&number, force.numbers, force.count, sizeof number, compare_numbers);
+            CHECK(found);
+            unmet -= met[found - force.numbers]++ == 0;
+        }
         meso_arena_rewind(&arena, mark);
     }
     meso_arena_release(&arena);
 }
 
+/* A face glued to itself, two faces that share two edges, a Moebius band, a torus, a sheet. */
 static void test_reach(void)
 {
     static const int32_t corner[1][4] = {{1, 1, -1, -1}}, mixed[2][4] = {{1, 2, -1, -2}, {1, 2, 2, -1}};
     MesoArena arena;
     meso_arena_init(&arena);
+    MesoSlotGraph self = fixture_graph(&arena, 1), pair = fixture_graph(&arena, 2);
+    fixture_glue(&self, 0, 0, 0, 2);
+    fixture_glue(&pair, 0, 0, 1, 2);
+    fixture_glue(&pair, 0, 1, 1, 1);
     MesoTileSet sets[] = {fixture_set(&arena, 1, 1, corner, true, true, true),
-                          fixture_set(&arena, 2, 2, mixed, true, true, false)};
-    MesoSlotGraph graphs[] = {fixture_grid(&arena, 2, 2, true, true, false),
-                              fixture_grid(&arena, 2, 1, true, false, true)};
-    for (uint32_t i = 0; i < 4; i++)
-        for (MesoEngine engine = MESO_ENGINE_AUTO; engine <= MESO_ENGINE_EXACT; engine++)
-            check_reach(engine, &sets[i / 2], &graphs[i % 2], 2);
+                          fixture_set(&arena, 2, 2, mixed, true, true, false),
+                          fixture_set(&arena, 1, 1, corner, true, true, false),
+                          fixture_set(&arena, 2, 2, mixed, true, false, false)};
+    MesoSlotGraph graphs[] = {self, pair, fixture_grid(&arena, 2, 1, true, false, true),
+                              fixture_grid(&arena, 3, 1, true, true, true),
+                              fixture_grid(&arena, 2, 2, true, true, false),
+                              fixture_grid(&arena, 3, 2, false, false, false)};
+    /* With the variants of the first two, a sheet of six has thousands of assignments. */
+    for (uint32_t s = 0; s < 4; s++)
+        for (uint32_t g = s < 2 ? 0 : 5; g < (s < 2 ? 5 : 6); g++)
+            for (MesoEngine engine = MESO_ENGINE_AUTO; engine <= MESO_ENGINE_EXACT; engine++)
+                check_reach(engine, &sets[s], &graphs[g], 2);
     meso_arena_release(&arena);
 }
 
@@ -200,8 +119,6 @@ static void test_determinism(void)
 
 int main(void)
 {
-    test_gluings();
-    test_grids();
     test_reach();
     test_own_clauses();
     test_determinism();

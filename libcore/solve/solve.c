@@ -301,9 +301,12 @@ static MesoStatus decide_exactly(Search *search, uint64_t conflicts, uint64_t cu
     MesoExact exact;
     MesoRandom random;
     MesoExactOptions options = {.chains = cubes > 0, .constraints = constraints, .proof = search->options->proof,
-                                .clause = search->options->clause, .context = search->options->proof_context};
+                                .clause = search->options->clause, .context = search->options->proof_context,
+                                .grows = constraints && meso_strand_rule_given(&constraints->strands)};
     bool complete = true;
     meso_random_init(&random, search->options->seed, UINT64_MAX);
+    if (search->options->formula)
+        search->options->formula(search->options->proof_context);
     if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);

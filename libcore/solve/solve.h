@@ -80,6 +80,7 @@ typedef struct MesoSolveOptions {
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof
                                        (DRAT), in pieces; false: cannot; may be NULL */
     void (*clause)(void *context, const int32_t *literals, uint32_t count); /* gets its clauses; may be NULL */
+    void (*formula)(void *context); /* told that a formula begins: what came before is void; may be NULL */
     void *proof_context;
     bool (*stop)(void *context);    /* asked now and then: true ends the work; may be NULL */
     void *stop_context;
