@@ -18,7 +18,7 @@ PREFIX ?= /usr/local
 DATA   ?= ../shared/data/mesogen
 FUZZ_SECONDS ?= 60
 CHECK_SLOTS ?= 6
-CHECK_SECONDS ?= 3600
+CHECK_SECONDS ?= 7200
 BUILD  ?= build
 WERROR ?= $(if $(CI),-Werror)
 
