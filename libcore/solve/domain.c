@@ -81,21 +81,29 @@ static bool grow_domains(MesoDomainTable *table, MesoError *error)
     return true;
 }
 
+/* Variants that show `code` on side `side`. */
+static const uint64_t *variants_showing(const MesoDomainTable *table, uint32_t side, uint32_t code)
+{
+    return table->showing + ((size_t)side * table->label_count + code) * table->states.word_count;
+}
+
 /* What the neighbours may show is the opposite of what a state shows: the code's lowest bit turned. */
 static bool describe_state(MesoDomainTable *table, uint32_t state, MesoError *error)
 {
     MesoDomain *domain = &table->domains[state];
     const uint64_t *bits = meso_domain_bits(table, state);
-    uint32_t set_words = table->sets.word_count;
+    uint32_t set_words = table->sets.word_count, words = table->states.word_count;
 
     memset(table->scratch_sets, 0, 4 * (size_t)set_words * sizeof *table->scratch_sets);
-    domain->size = 0;
-    for (uint32_t w = 0; w < table->states.word_count; w++)
-        for (uint64_t rest = bits[w]; rest; rest &= rest - 1) {
-            const uint32_t *codes = table->codes + 4 * (size_t)(64 * w + (uint32_t)__builtin_ctzll(rest));
-            domain->size++;
-            for (uint32_t k = 0; k < 4; k++)
-                meso_bits_set(table->scratch_sets + (size_t)k * set_words, codes[k] ^ 1);
+    domain->size = meso_bits_count(bits, words);
+    for (uint32_t k = 0; k < 4; k++)
+        for (uint32_t code = 0; code < table->label_count; code++) {
+            const uint64_t *showing = variants_showing(table, k, code);
+            uint64_t shown = 0;
+            for (uint32_t w = 0; w < words; w++)
+                shown |= bits[w] & showing[w];
+            if (shown)
+                meso_bits_set(table->scratch_sets + (size_t)k * set_words, code ^ 1);
         }
     for (uint32_t k = 0; k < 4; k++) {
         domain->allow[k] = meso_interner_add(&table->sets, &table->arena,
@@ -131,13 +139,22 @@ MesoStatus meso_domain_table_init(MesoDomainTable *table, uint32_t variant_count
                                   uint32_t step_count, MesoError *error)
 {
     assert(variant_count > 0 && step_count > 0 && (step_count & (step_count - 1)) == 0);
-    *table = (MesoDomainTable){.codes = codes, .variant_count = variant_count};
+    *table = (MesoDomainTable){.codes = codes, .variant_count = variant_count, .label_count = label_count};
+    meso_arena_init(&table->fixed);
+    size_t words = meso_bits_words(variant_count);
+    table->showing = MESO_NEW(&table->fixed, uint64_t, 4 * label_count * words, error);
+    if (!table->showing)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < variant_count; v++)
+        for (uint32_t k = 0; k < 4; k++)
+            meso_bits_set(table->showing + ((size_t)k * label_count + codes[4 * (size_t)v + k]) * words, v);
     return init_growing(table, meso_bits_words(label_count), step_count, error);
 }
 
 void meso_domain_table_release(MesoDomainTable *table)
 {
     meso_arena_release(&table->arena);
+    meso_arena_release(&table->fixed);
 }
 
 uint32_t meso_domain_intern(MesoDomainTable *table, const uint64_t *bits, MesoError *error)
@@ -185,14 +202,14 @@ uint32_t meso_domain_narrow(MesoDomainTable *table, uint32_t state, uint32_t sid
 {
     const uint64_t *bits = meso_domain_bits(table, state);
     const uint64_t *labels = meso_domain_labels(table, set);
-    for (uint32_t w = 0; w < table->states.word_count; w++) {
-        uint64_t kept = bits[w];
-        for (uint64_t rest = kept; rest; rest &= rest - 1) {
-            uint32_t variant = 64 * w + (uint32_t)__builtin_ctzll(rest);
-            if (!meso_bits_test(labels, table->codes[4 * (size_t)variant + side]))
-                kept &= ~(rest & (~rest + 1));
-        }
-        table->scratch_state[w] = kept;
+    uint32_t words = table->states.word_count;
+    memset(table->scratch_state, 0, words * sizeof *table->scratch_state);
+    for (uint32_t code = 0; code < table->label_count; code++) {
+        if (!meso_bits_test(labels, code))
+            continue;
+        const uint64_t *showing = variants_showing(table, side, code);
+        for (uint32_t w = 0; w < words; w++)
+            table->scratch_state[w] |= bits[w] & showing[w];
     }
     uint32_t next = meso_domain_intern(table, table->scratch_state, error);
     if (next == MESO_NO_INDEX)

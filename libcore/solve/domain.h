@@ -45,9 +45,11 @@ typedef struct MesoDomainStep {
 } MesoDomainStep;
 
 typedef struct MesoDomainTable {
-    MesoArena arena;            /* all below; a collection moves to a new one */
+    MesoArena arena;            /* all from `states` on; a collection moves to a new one */
+    MesoArena fixed;            /* of what is above it */
     const uint32_t *codes;      /* [4 * variant_count] label codes of the variants */
-    uint32_t variant_count;
+    uint32_t variant_count, label_count;
+    uint64_t *showing;          /* [4 * label_count * words of a state] variants by side and code */
     MesoInterner states, sets;
     uint32_t domain_capacity;
     MesoDomain *domains;        /* [domain_capacity] of each state */
@@ -89,8 +91,8 @@ uint32_t meso_domain_variant(const MesoDomainTable *table, uint32_t state, uint3
 
 /*
  * The part of `state` that shows a label of `set` on side `side`; fills the
- * step cache. MESO_NO_INDEX when memory is out. O(size of the state) for a new
- * step; use meso_domain_step().
+ * step cache. MESO_NO_INDEX when memory is out. O(labels * words of the state) for a
+ * new step; use meso_domain_step().
  */
 uint32_t meso_domain_narrow(MesoDomainTable *table, uint32_t state, uint32_t side, uint32_t set,
                             MesoError *error);
