@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Conflicts under one cube before another bit is assumed, and where no bit is left. */
-enum { CUBE_CONFLICTS = 1000, FULL_CUBE_CONFLICTS = 20000 };
+/* Conflicts under a cube where no bit is left to be assumed. */
+enum { FULL_CUBE_CONFLICTS = 20000 };
 
 /* Conflicts after which the end must be in sight: at most so many times more. */
 enum { FIRST_LOOK = 12000, MOST_TIMES = 20 };
@@ -29,6 +29,7 @@ typedef struct Conquest {
     uint32_t core_size;
     uint64_t *score;            /* [chains] */
     bool *assumed;              /* [chains] */
+    uint32_t cube_conflicts;
     uint64_t conflict_limit, conflict_start;
     bool (*stop)(void *context);
     void *context;
@@ -52,7 +53,7 @@ static uint64_t conflicts_left(const Conquest *conquest)
 
 static MesoStatus ask(Conquest *conquest, MesoSatAnswer *answer, MesoError *error)
 {
-    uint64_t limit = conquest->level_count == conquest->exact->chain_count ? FULL_CUBE_CONFLICTS : CUBE_CONFLICTS;
+    uint64_t limit = conquest->level_count == conquest->exact->chain_count ? FULL_CUBE_CONFLICTS : conquest->cube_conflicts;
     uint64_t left = conflicts_left(conquest);
     return meso_sat_solve(conquest->exact->sat, answer, conquest->assumptions, conquest->level_count,
                           (uint32_t)(limit < left ? limit : left), conquest->stop, conquest->context, error);
@@ -211,13 +212,13 @@ static MesoStatus conquer(Conquest *conquest, MesoSatAnswer *answer, MesoError *
 }
 
 MesoStatus meso_exact_conquer(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                              uint64_t conflict_limit, bool (*stop)(void *context), void *context,
+                              uint32_t cube_conflicts, uint64_t conflict_limit, bool (*stop)(void *context), void *context,
                               MesoError *error)
 {
     *answer = MESO_SAT_UNKNOWN;
     if (exact->chain_count == 0 || exact->chain_count > MESO_EXACT_MOST_CHAINS)
         return MESO_OK;
-    Conquest conquest = {.exact = exact, .random = random, .conflict_limit = conflict_limit, .stop = stop,
+    Conquest conquest = {.exact = exact, .random = random, .cube_conflicts = cube_conflicts, .conflict_limit = conflict_limit, .stop = stop,
                          .context = context, .conflict_start = meso_sat_conflicts(exact->sat)};
     MesoArenaMark mark = meso_arena_mark(exact->arena);
     MesoStatus status = allocate(&conquest, error);

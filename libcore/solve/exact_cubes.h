@@ -12,14 +12,18 @@
 
 #include "libcore/solve/exact.h"
 
+/* Fewer, and there are more cubes; between 20 and 1000 the whole takes about as many conflicts. */
+enum { MESO_EXACT_CUBE_CONFLICTS = 1000 };
+
 /*
  * Answers, or MESO_SAT_UNKNOWN after about `conflict_limit` conflicts, or where
  * `stop` says so, or where the part of the cubes that is refuted grows too slowly; at
- * once where there are no chains. `random` chooses which way a
+ * once where there are no chains. `cube_conflicts` are those before another bit is
+ * assumed, MESO_EXACT_CUBE_CONFLICTS where nothing speaks for others. `random` chooses which way a
  * bit is assumed first. MESO_ERR_MEMORY, or what CaDiCaL fails with.
  */
 MesoStatus meso_exact_conquer(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                              uint64_t conflict_limit, bool (*stop)(void *context), void *context,
+                              uint32_t cube_conflicts, uint64_t conflict_limit, bool (*stop)(void *context), void *context,
                               MesoError *error);
 
 #endif

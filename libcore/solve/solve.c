@@ -232,7 +232,8 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *h
                                 options->stop, options->stop_context, error);
     if (status || *answer != MESO_SAT_UNKNOWN || cubes == 0 || told_to_stop(search))
         return status;
-    return meso_exact_conquer(exact, answer, random, cubes, options->stop, options->stop_context, error);
+    return meso_exact_conquer(exact, answer, random, MESO_EXACT_CUBE_CONFLICTS, cubes, options->stop,
+                              options->stop_context, error);
 }
 
 /* Tells the answer; a solution goes to `variant`, unless it breaks the rule on strands: then there are `*cuts`. */
