@@ -53,7 +53,8 @@ static uint64_t conflicts_left(const Conquest *conquest)
 
 static MesoStatus ask(Conquest *conquest, MesoSatAnswer *answer, MesoError *error)
 {
-    uint64_t limit = conquest->level_count == conquest->exact->chain_count ? FULL_CUBE_CONFLICTS : conquest->cube_conflicts;
+    bool full = conquest->level_count == conquest->exact->chain_count;
+    uint64_t limit = full ? FULL_CUBE_CONFLICTS : conquest->cube_conflicts;
     uint64_t left = conflicts_left(conquest);
     return meso_sat_solve(conquest->exact->sat, answer, conquest->assumptions, conquest->level_count,
                           (uint32_t)(limit < left ? limit : left), conquest->stop, conquest->context, error);
@@ -218,8 +219,8 @@ MesoStatus meso_exact_conquer(MesoExact *exact, MesoSatAnswer *answer, MesoRando
     *answer = MESO_SAT_UNKNOWN;
     if (exact->chain_count == 0 || exact->chain_count > MESO_EXACT_MOST_CHAINS)
         return MESO_OK;
-    Conquest conquest = {.exact = exact, .random = random, .cube_conflicts = cube_conflicts, .conflict_limit = conflict_limit, .stop = stop,
-                         .context = context, .conflict_start = meso_sat_conflicts(exact->sat)};
+    Conquest conquest = {.exact = exact, .random = random, .cube_conflicts = cube_conflicts,
+                         .conflict_limit = conflict_limit, .stop = stop, .context = context, .conflict_start = meso_sat_conflicts(exact->sat)};
     MesoArenaMark mark = meso_arena_mark(exact->arena);
     MesoStatus status = allocate(&conquest, error);
     if (!status)
