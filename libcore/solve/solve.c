@@ -364,7 +364,7 @@ static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error
     status = probe(search, error);
     if (status || result->decider != MESO_DECIDER_CONFLICTS)
         return status;
-    return decide_exactly(search, left, 0, error);
+    return result->conflicts < conflicts ? decide_exactly(search, conflicts - result->conflicts, 0, error) : MESO_OK;
 }
 
 /* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
