@@ -1,3 +1,4 @@
+#define _DEFAULT_SOURCE     /* madvise() */
 #include "libcore/base/arena.h"
 
 #include <assert.h>
@@ -6,8 +7,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
+
+/* Pages of large blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. */
+enum { LARGE_PAGE = 1 << 21 };
 
 struct MesoArenaBlock {
     MesoArenaBlock *previous;
@@ -22,6 +27,17 @@ static size_t round_up(size_t size)
     return (size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
 }
 
+/* Of the large pages that lie wholly inside; where the system has none, nothing changes. */
+static void ask_for_large_pages(void *data, size_t size)
+{
+    uintptr_t begin = ((uintptr_t)data + LARGE_PAGE - 1) & ~(uintptr_t)(LARGE_PAGE - 1);
+    uintptr_t end = ((uintptr_t)data + size) & ~(uintptr_t)(LARGE_PAGE - 1);
+#ifdef MADV_HUGEPAGE
+    if (begin < end)
+        madvise((void *)begin, end - begin, MADV_HUGEPAGE);
+#endif
+}
+
 /* calloc gives fresh zero pages for large blocks without touching them. */
 static MesoArenaBlock *new_block(size_t size)
 {
@@ -31,6 +47,7 @@ static MesoArenaBlock *new_block(size_t size)
     MesoArenaBlock *block = calloc(1, header + size + ALIGNMENT);
     if (!block)
         return NULL;
+    ask_for_large_pages(block, header + size);
     block->data = (unsigned char *)round_up((uintptr_t)block + header);
     block->size = size;
     return block;

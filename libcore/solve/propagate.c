@@ -125,7 +125,8 @@ static uint32_t pop(MesoPropagation *propagation)
     uint32_t slot = propagation->list[propagation->list_head++];
     if (propagation->list_head == propagation->graph->slot_count)
         propagation->list_head = 0;
-    propagation->list_count--;
+    if (--propagation->list_count == 0)
+        propagation->list_head = 0;
     return slot;
 }
 
@@ -225,11 +226,20 @@ static void clear_list(MesoPropagation *propagation)
         propagation->pending[pop(propagation)] &= (uint8_t)~ALL_SIDES;
 }
 
+/* A change of a slot's state needs more of it than the state: on a large surface each is a miss, so at once. */
+static inline void fetch_slot(const MesoPropagation *propagation, uint32_t slot)
+{
+    __builtin_prefetch(&propagation->pending[slot], 1);
+    __builtin_prefetch(&propagation->queue.position[slot], 1);
+    __builtin_prefetch(&propagation->graph->twin[4 * (size_t)slot]);
+}
+
 /* Tells the neighbour across half-edge `half_edge` which labels it may still show there. */
 static MesoStatus tell_neighbour(MesoPropagation *propagation, uint32_t half_edge, uint32_t set,
                                  MesoError *error)
 {
     uint32_t slot = half_edge / 4;
+    fetch_slot(propagation, slot);
     uint32_t state = propagation->state[slot];
     uint32_t next = meso_domain_step(&propagation->domains, state, half_edge % 4, set, error);
     if (next == state)
@@ -258,6 +268,9 @@ static MesoStatus run(MesoPropagation *propagation, MesoError *error)
         propagation->pending[slot] &= (uint8_t)~ALL_SIDES;
         if (propagation->state[slot] == MESO_DOMAIN_EMPTY)
             continue;
+        for (uint32_t k = 0; k < 4; k++)
+            if (twin[k] != MESO_NO_INDEX)
+                __builtin_prefetch(&propagation->state[twin[k] / 4], 1);
         for (; sides; sides &= sides - 1) {
             uint32_t k = (uint32_t)__builtin_ctz(sides);
             if (twin[k] == MESO_NO_INDEX)
@@ -332,6 +345,12 @@ static void count_for_quotas(MesoPropagation *propagation)
                           meso_domain_bits(&propagation->domains, propagation->state[s]));
 }
 
+static uint32_t state_size(const void *context, uint32_t slot)
+{
+    const MesoPropagation *propagation = context;
+    return propagation->domains.domains[propagation->state[slot]].size;
+}
+
 /* The fixed point before any choice, and the queue of the slots that have one. */
 static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
 {
@@ -342,11 +361,7 @@ static MesoStatus run_initial(MesoPropagation *propagation, MesoError *error)
     if (run(propagation, error) || run_initial_quotas(propagation, error))
         return MESO_ERR_MEMORY;
 
-    for (uint32_t s = 0; s < slot_count; s++) {
-        uint32_t size = propagation->domains.domains[propagation->state[s]].size;
-        if (size > 1 && meso_bucket_queue_insert(&propagation->queue, s, size, error))
-            return MESO_ERR_MEMORY;
-    }
+    meso_bucket_queue_stock(&propagation->queue, state_size, propagation);
     memcpy(propagation->initial, propagation->state, slot_count * sizeof *propagation->initial);
     propagation->searching = true;
     return MESO_OK;
@@ -572,21 +587,24 @@ void meso_propagation_settle(MesoPropagation *propagation)
         propagation->initial[slot] = propagation->state[slot];
         propagation->pending[slot] &= (uint8_t)~TOUCHED;
     }
+    meso_bucket_queue_stock(&propagation->queue, state_size, propagation);
 }
 
-MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error)
+void meso_propagation_restart(MesoPropagation *propagation)
 {
+    const MesoDomain *domains = propagation->domains.domains;
     while (propagation->touched_count) {
         uint32_t slot = propagation->touched[--propagation->touched_count];
+        uint32_t before = propagation->state[slot], next = propagation->initial[slot];
         propagation->pending[slot] &= (uint8_t)~(TOUCHED | ON_TRAIL);
-        if (propagation->state[slot] != propagation->initial[slot] &&
-            move_to_state(propagation, slot, propagation->initial[slot], error))
-            return MESO_ERR_MEMORY;
+        tell_quotas(propagation, slot, next);
+        propagation->state[slot] = next;
+        meso_bucket_queue_restock(&propagation->queue, slot, domains[before].size, domains[next].size);
     }
+    meso_bucket_queue_refill(&propagation->queue);
     propagation->trail_count = 0;
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);
-    return MESO_OK;
 }
 
 const uint64_t *meso_propagation_allowed(const MesoPropagation *propagation, uint32_t slot,

@@ -119,12 +119,12 @@ void meso_propagation_forget(MesoPropagation *propagation);
 
 /*
  * Takes the present states, which must be consistent, for the initial ones: what
- * was excluded so far was proved to be impossible. Not where tracing. O(slots touched).
+ * was excluded so far was proved to be impossible. Not where tracing. O(slots).
  */
 void meso_propagation_settle(MesoPropagation *propagation);
 
-/* Back to the initial fixed point. O(slots touched). MESO_ERR_MEMORY alone. */
-MesoStatus meso_propagation_restart(MesoPropagation *propagation, MesoError *error);
+/* Back to the initial fixed point. O(slots touched). */
+void meso_propagation_restart(MesoPropagation *propagation);
 
 /* Labels that the neighbour across side `side` of `slot` lets it show there. */
 const uint64_t *meso_propagation_allowed(const MesoPropagation *propagation, uint32_t slot,

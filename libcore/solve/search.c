@@ -166,8 +166,7 @@ MesoStatus meso_search_probe(MesoSearch *search, uint64_t work_limit, MesoSearch
     uint64_t work = 0, excluded = 1;
     bool impossible = false;
     *outcome = MESO_SEARCH_STUCK;
-    if (meso_propagation_restart(propagation, error))
-        return MESO_ERR_MEMORY;
+    meso_propagation_restart(propagation);
     while (excluded > 0 && work < work_limit) {
         excluded = 0;
         for (uint32_t s = 0; s < propagation->graph->slot_count && work < work_limit; s++) {

@@ -170,9 +170,8 @@ static MesoStatus search_for(Search *search, MesoError *error)
     MesoStatus status = MESO_OK;
     while (!status && outcome == MESO_SEARCH_STUCK && result->attempts < options->max_attempts) {
         meso_random_init(&wfc.random, options->seed, ++result->attempts);
-        status = meso_propagation_restart(&search->propagation, error);
-        if (!status)
-            status = meso_search_attempt(&wfc, &outcome, error);
+        meso_propagation_restart(&search->propagation);
+        status = meso_search_attempt(&wfc, &outcome, error);
     }
     result->observations = wfc.observations;
     result->repairs = wfc.repairs;
@@ -463,9 +462,8 @@ static MesoStatus search_guided(Search *search, MesoError *error)
            result->attempts < search->options->max_attempts) {
         MesoRandom random;
         meso_random_init(&random, search->options->seed, ++result->attempts);
-        status = meso_propagation_restart(&search->propagation, error);
-        if (!status)
-            status = meso_guided_attempt(guided, &random, &solved, error);
+        meso_propagation_restart(&search->propagation);
+        status = meso_guided_attempt(guided, &random, &solved, error);
         /* Where a quota or strands ended the attempt, there is no dead slot to tell of. */
         if (!status && !solved && search->propagation.dead_slot != MESO_NO_INDEX)
             status = record_dead_end(search, search->propagation.dead_slot, result->attempts, error);

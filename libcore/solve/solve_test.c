@@ -52,7 +52,7 @@ static void compare_probing(MesoArena *arena, const MesoTileSet *set, const Meso
         CHECK(outcome == MESO_SEARCH_STUCK || (outcome == MESO_SEARCH_IMPOSSIBLE && !tiling));
         probing_proofs += outcome == MESO_SEARCH_IMPOSSIBLE;
         for (uint32_t i = 0; outcome == MESO_SEARCH_STUCK && tiling && i < 20; i++) {
-            CHECK(meso_propagation_restart(&propagation, NULL) == MESO_OK);
+            meso_propagation_restart(&propagation);
             CHECK(meso_search_attempt(&search, &outcome, NULL) == MESO_OK);
         }
         CHECK(!tiling || outcome == MESO_SEARCH_DONE);
@@ -263,8 +263,8 @@ static void test_collection(void)
         CHECK(meso_propagation_assign(&never, slot, variant, NULL) == MESO_OK);
         CHECK(often.dead_slot == never.dead_slot && often.queue.count == never.queue.count);
         if (never.dead_slot != MESO_NO_INDEX) {
-            CHECK(meso_propagation_restart(&often, NULL) == MESO_OK);
-            CHECK(meso_propagation_restart(&never, NULL) == MESO_OK);
+            meso_propagation_restart(&often);
+            meso_propagation_restart(&never);
         }
     }
     meso_propagation_release(&often);
