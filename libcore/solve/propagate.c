@@ -13,8 +13,8 @@ enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
 
 /* Entries of the first trail. */
 enum { LEAST_TRAIL = 1024 };
-/* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball at hand. */
-enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64 };
+/* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball or the conflict at hand. */
+enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64, IN_CONFLICT = 128 };
 
 void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)
 {
@@ -202,8 +202,8 @@ static MesoStatus move_to_state(MesoPropagation *propagation, uint32_t slot, uin
     return after > 1 ? meso_bucket_queue_insert(&propagation->queue, slot, after, error) : MESO_OK;
 }
 
-/* Gives `slot` the smaller state `next`, which is not empty. */
-static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_t next,
+/* Gives `slot` the smaller state `next`, which is not empty, on the news of slot `cause`, or MESO_NO_INDEX. */
+static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_t next, uint32_t cause,
                             MesoError *error)
 {
     const MesoDomain *domains = propagation->domains.domains;
@@ -213,6 +213,8 @@ static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_
         propagation->state[slot] = next;
         return MESO_OK;
     }
+    if (propagation->journal)
+        meso_journal_change(propagation->journal, slot, propagation->state[slot], cause);
     if (note_change(propagation, slot, error) ||
         (propagation->tracing && record_history(propagation, slot, error)))
         return MESO_ERR_MEMORY;
@@ -234,8 +236,8 @@ static inline void fetch_slot(const MesoPropagation *propagation, uint32_t slot)
     __builtin_prefetch(&propagation->graph->twin[4 * (size_t)slot]);
 }
 
-/* Tells the neighbour across half-edge `half_edge` which labels it may still show there. */
-static MesoStatus tell_neighbour(MesoPropagation *propagation, uint32_t half_edge, uint32_t set,
+/* Tells the neighbour of `teller` across half-edge `half_edge` which labels it may still show there. */
+static MesoStatus tell_neighbour(MesoPropagation *propagation, uint32_t teller, uint32_t half_edge, uint32_t set,
                                  MesoError *error)
 {
     uint32_t slot = half_edge / 4;
@@ -247,9 +249,10 @@ static MesoStatus tell_neighbour(MesoPropagation *propagation, uint32_t half_edg
     if (next == MESO_NO_INDEX)
         return MESO_ERR_MEMORY;
     if (next != MESO_DOMAIN_EMPTY)
-        return set_state(propagation, slot, next, error);
+        return set_state(propagation, slot, next, teller, error);
 
     propagation->dead_slot = slot;
+    propagation->dead_teller = teller;
     if (!propagation->searching) {
         propagation->state[slot] = MESO_DOMAIN_EMPTY;
         propagation->initial_dead_count++;
@@ -277,7 +280,7 @@ static MesoStatus run(MesoPropagation *propagation, MesoError *error)
                 continue;
             /* Read anew: where the slot is glued to itself, or a table has moved. */
             uint32_t set = propagation->domains.domains[propagation->state[slot]].allow[k];
-            if (tell_neighbour(propagation, twin[k], set, error))
+            if (tell_neighbour(propagation, slot, twin[k], set, error))
                 return MESO_ERR_MEMORY;
             if (propagation->dead_slot != MESO_NO_INDEX && propagation->searching) {
                 clear_list(propagation);
@@ -299,7 +302,7 @@ static MesoStatus apply_quota(MesoPropagation *propagation, uint32_t quota, Meso
         if (!meso_quota_narrow(&propagation->quotas, quota, call, bits))
             continue;
         uint32_t next = meso_domain_intern(&propagation->domains, propagation->quotas.scratch, error);
-        if (next == MESO_NO_INDEX || set_state(propagation, s, next, error))
+        if (next == MESO_NO_INDEX || set_state(propagation, s, next, MESO_NO_INDEX, error))
             return MESO_ERR_MEMORY;
     }
     return MESO_OK;
@@ -446,6 +449,8 @@ static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
         return MESO_ERR_MEMORY;
     plan_collection(propagation);
     meso_propagation_forget(propagation);
+    if (propagation->journal)
+        meso_journal_clear(propagation->journal, true);
     return MESO_OK;
 }
 
@@ -478,8 +483,10 @@ MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, 
 {
     if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
+    if (propagation->journal)
+        meso_journal_begin(propagation->journal, variant, true);
     uint32_t next = meso_domain_single(&propagation->domains, variant, error);
-    if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
+    if (next == MESO_NO_INDEX || set_state(propagation, slot, next, MESO_NO_INDEX, error))
         return MESO_ERR_MEMORY;
     return run_with_quotas(propagation, error);
 }
@@ -489,15 +496,19 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
 {
     if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
+    if (propagation->journal)
+        meso_journal_begin(propagation->journal, variant, false);
     uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
     assert(next != MESO_DOMAIN_EMPTY);
-    if (next == MESO_NO_INDEX || set_state(propagation, slot, next, error))
+    if (next == MESO_NO_INDEX || set_state(propagation, slot, next, MESO_NO_INDEX, error))
         return MESO_ERR_MEMORY;
     return run_with_quotas(propagation, error);
 }
 
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 {
+    if (propagation->journal)
+        meso_journal_pop(propagation->journal);
     while (propagation->trail_count) {
         MesoTrailEntry entry = propagation->trail[--propagation->trail_count];
         propagation->pending[entry.slot] &= (uint8_t)~ON_TRAIL;
@@ -505,6 +516,31 @@ MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
             return MESO_ERR_MEMORY;
     }
     return MESO_OK;
+}
+
+MesoStatus meso_propagation_jump(MesoPropagation *propagation, uint32_t step, MesoError *error)
+{
+    MesoJournal *journal = propagation->journal;
+    clear_trail(propagation);
+    while (journal->step_count > step) {
+        uint32_t first = journal->steps[journal->step_count - 1].first;
+        while (journal->change_count > first) {
+            MesoChange change = journal->changes[--journal->change_count];
+            if (move_to_state(propagation, change.slot, change.before, error))
+                return MESO_ERR_MEMORY;
+        }
+        meso_journal_pop(journal);
+    }
+    return MESO_OK;
+}
+
+void meso_propagation_explain(const MesoPropagation *propagation, MesoConflict *conflict)
+{
+    uint32_t dead = propagation->dead_slot;
+    assert(dead != MESO_NO_INDEX);
+    bool changed = propagation->state[dead] != propagation->initial[dead];
+    meso_journal_explain(propagation->journal, changed ? dead : MESO_NO_INDEX, propagation->dead_teller,
+                         propagation->initial, propagation->pending, IN_CONFLICT, conflict);
 }
 
 MesoStatus meso_propagation_try(MesoPropagation *propagation, uint32_t slot, uint32_t variant, bool *dead,
@@ -564,6 +600,8 @@ MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, 
 {
     if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
+    if (propagation->journal)
+        meso_journal_clear(propagation->journal, true);
     assert(propagation->list_count == 0);
     collect_ball(propagation, slot, radius);
     *reopened = propagation->list_count;
@@ -605,6 +643,8 @@ void meso_propagation_restart(MesoPropagation *propagation)
     propagation->trail_count = 0;
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);
+    if (propagation->journal)
+        meso_journal_clear(propagation->journal, false);
 }
 
 const uint64_t *meso_propagation_allowed(const MesoPropagation *propagation, uint32_t slot,

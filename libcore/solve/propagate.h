@@ -9,6 +9,7 @@
 #include "libcore/solve/bucket_queue.h"
 #include "libcore/solve/constraints.h"
 #include "libcore/solve/domain.h"
+#include "libcore/solve/journal.h"
 #include "libcore/solve/quota.h"
 #include "libcore/surface/slot_graph.h"
 
@@ -33,6 +34,7 @@ typedef struct MesoPropagation {
     uint32_t touched_count;
     uint32_t list_head, list_count;
     uint32_t dead_slot;         /* met by the last call, or MESO_NO_INDEX */
+    uint32_t dead_teller;       /* its neighbour whose news left it nothing */
     uint32_t initial_dead_count;    /* slots that hold the empty state from the start */
     uint32_t collect_at;        /* number of states that calls for a collection */
     bool searching;             /* the initial fixed point is reached */
@@ -45,6 +47,7 @@ typedef struct MesoPropagation {
     bool tracing;               /* keep a history, for meso_propagation_rewind() */
     MesoTrailEntry *history;    /* every change since the last restart, or the last collection */
     size_t history_count, history_capacity;
+    MesoJournal *journal;       /* of the steps, where the search keeps one; or NULL */
     uint32_t generation;        /* of the history: marks of an earlier one are void */
 } MesoPropagation;
 
@@ -82,6 +85,15 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
 
 /* Takes the last step back, and what followed from it. O(slots that it changed). */
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
+
+/*
+ * Takes back the steps in the journal from steps[step] on. Where a step was left at a dead
+ * slot, in the place of meso_propagation_undo(). O(changes). MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_propagation_jump(MesoPropagation *propagation, uint32_t step, MesoError *error);
+
+/* The decisions that the dead slot at hand hangs on. With a journal alone. */
+void meso_propagation_explain(const MesoPropagation *propagation, MesoConflict *conflict);
 
 /*
  * Makes the step meso_propagation_assign() and takes it back, not where tracing: whether it meets a

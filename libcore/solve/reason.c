@@ -174,8 +174,8 @@ static const char *budget_text(MesoArena *arena, const MesoSolveResult *result, 
         return meso_arena_print(arena, error, "the search made its %llu observations",
                                 (unsigned long long)result->observations);
     case MESO_BUDGET_CONFLICTS:
-        return meso_arena_print(arena, error, "the exact engine met its %llu conflicts",
-                                (unsigned long long)result->conflict_limit);
+        return meso_arena_print(arena, error, "the exact engine met its %llu conflict%s",
+                                (unsigned long long)result->conflict_limit, result->conflict_limit == 1 ? "" : "s");
     case MESO_BUDGET_CUTS:
         return "the exact engine found no more than assignments that break the rule on strands, as many as it may";
     case MESO_BUDGET_COUNTED:

@@ -9,6 +9,15 @@ enum { TICK_INTERVAL = 4096, PROBE_TICK_INTERVAL = 16 };    /* observations; slo
 /* Radius of the first ball, and after how many repairs without progress it grows by one. */
 enum { FIRST_RADIUS = 2, PATIENCE = 3, MOST_RADIUS = 24 };
 
+/*
+ * Jumps back, without progress, before a repair: in the first attempt, and in later ones four times those of the
+ * one before. Few do where solutions are many; it takes a thousand to get through where they are rare.
+ */
+enum { FIRST_PATIENCE = 1, MOST_PATIENCE = 1024 };
+
+/* Jumps of an attempt: so many times its slots, and a few more. */
+enum { JUMP_FACTOR = 8, JUMP_LEAST = 2000 };
+
 /* Slots that an attempt may reopen: so many times their number, and a few more. */
 enum { REOPEN_FACTOR = 8, REOPEN_LEAST = 2000 };
 
@@ -16,6 +25,9 @@ typedef struct Attempt {
     uint64_t reopened;
     uint32_t fewest_open;       /* slots with a choice left, at the best moment so far */
     uint32_t failures;          /* repairs since then */
+    uint32_t jumps;             /* since then, or since a repair */
+    uint32_t patience;          /* that many at most */
+    uint64_t jumps_left;        /* in the attempt */
     bool at_root;               /* nothing was chosen yet; what was taken away was refuted */
     bool dead_end_told;
 } Attempt;
@@ -42,6 +54,7 @@ static MesoStatus repair(MesoSearch *search, Attempt *attempt, uint32_t slot, bo
         attempt->reopened += count;
         search->repairs++;
         if (propagation->dead_slot == MESO_NO_INDEX) {
+            attempt->jumps = 0;
             *repaired = true;
             return MESO_OK;
         }
@@ -51,32 +64,91 @@ static MesoStatus repair(MesoSearch *search, Attempt *attempt, uint32_t slot, bo
     return MESO_OK;
 }
 
+/* `variant` of `slot` leads to a dead end: takes the step back, and the variant away, and says why. */
+static MesoStatus exclude(MesoSearch *search, uint32_t slot, uint32_t variant, const MesoConflict *conflict,
+                          MesoError *error)
+{
+    MesoPropagation *propagation = search->propagation;
+    if (meso_propagation_exclude(propagation, slot, variant, error))
+        return MESO_ERR_MEMORY;
+    /* The first of the decisions is the one that was taken back. */
+    if (conflict->count)
+        meso_journal_conclude(propagation->journal, conflict->decisions + 1, conflict->count - 1, conflict->whole);
+    return MESO_OK;
+}
+
+/*
+ * After a dead end from an exclusion: back to the latest decision that it hangs on, and on with the
+ * exclusion of that, as long as this leads to a dead end too. The states are consistent after it.
+ */
+static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutcome *outcome, bool *jumped,
+                            MesoError *error)
+{
+    MesoPropagation *propagation = search->propagation;
+    MesoJournal *journal = propagation->journal;
+    MesoConflict conflict;
+    while (propagation->dead_slot != MESO_NO_INDEX) {
+        meso_propagation_explain(propagation, &conflict);
+        if (conflict.count == 0 && conflict.whole) {
+            search->impossible_slot = propagation->dead_slot;
+            *outcome = MESO_SEARCH_IMPOSSIBLE;
+            return MESO_OK;
+        }
+        if (conflict.count == 0 || attempt->jumps == attempt->patience || attempt->jumps_left == 0)
+            return meso_propagation_undo(propagation, error);
+        uint32_t step = meso_journal_find(journal, conflict.decisions[0]);
+        uint32_t slot = journal->changes[journal->steps[step].first].slot, variant = journal->steps[step].variant;
+        attempt->jumps++;
+        attempt->jumps_left--;
+        search->jumps++;
+        if (meso_propagation_jump(propagation, step, error) || exclude(search, slot, variant, &conflict, error))
+            return MESO_ERR_MEMORY;
+    }
+    *jumped = true;
+    return MESO_OK;
+}
+
+/* A journal costs a little: it begins with the first dead end. */
+static MesoStatus begin_journal(MesoPropagation *propagation, MesoError *error)
+{
+    propagation->journal = MESO_NEW(propagation->arena, MesoJournal, 1, error);
+    if (!propagation->journal)
+        return MESO_ERR_MEMORY;
+    meso_journal_clear(propagation->journal, true);
+    return MESO_OK;
+}
+
 /* After a dead end from `variant` at `slot`; sets `outcome` where the attempt is over. */
 static MesoStatus retreat(MesoSearch *search, Attempt *attempt, uint32_t slot, uint32_t variant,
                           MesoSearchOutcome *outcome, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
     uint32_t dead_slot = propagation->dead_slot;
+    MesoConflict conflict;
     if (search->dead_end) {
         MesoStatus status = search->dead_end(search->context, dead_slot, !attempt->dead_end_told, error);
         if (status)
             return status;
     }
     attempt->dead_end_told = true;
-    if (meso_propagation_undo(propagation, error) ||
-        meso_propagation_exclude(propagation, slot, variant, error))
+    if (!propagation->journal && begin_journal(propagation, error))
+        return MESO_ERR_MEMORY;
+    meso_propagation_explain(propagation, &conflict);
+    if (meso_propagation_undo(propagation, error) || exclude(search, slot, variant, &conflict, error))
         return MESO_ERR_MEMORY;
     if (propagation->dead_slot == MESO_NO_INDEX)
         return MESO_OK;
     if (attempt->at_root) {
         search->impossible_slot = slot;
+        search->impossible_at_once = true;
         *outcome = MESO_SEARCH_IMPOSSIBLE;
         return MESO_OK;
     }
-    if (meso_propagation_undo(propagation, error))
-        return MESO_ERR_MEMORY;
-    bool repaired = false;
-    MesoStatus status = repair(search, attempt, dead_slot, &repaired, error);
+    bool jumped = false, repaired = false;
+    MesoStatus status = jump_back(search, attempt, outcome, &jumped, error);
+    if (status || jumped || *outcome == MESO_SEARCH_IMPOSSIBLE)
+        return status;
+    status = repair(search, attempt, dead_slot, &repaired, error);
     if (!repaired)
         *outcome = MESO_SEARCH_STUCK;
     return status;
@@ -92,7 +164,10 @@ static bool may_go_on(const MesoSearch *search)
 MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
-    Attempt attempt = {.fewest_open = propagation->queue.count, .at_root = true};
+    Attempt attempt = {.fewest_open = propagation->queue.count, .at_root = true, .patience = FIRST_PATIENCE,
+                       .jumps_left = (uint64_t)JUMP_FACTOR * propagation->graph->slot_count + JUMP_LEAST};
+    for (uint32_t i = 0; i < search->attempts_before && attempt.patience < MOST_PATIENCE; i++)
+        attempt.patience *= 4;
     *outcome = MESO_SEARCH_DONE;
     while (propagation->queue.count && *outcome == MESO_SEARCH_DONE) {
         uint32_t slot, variant;
@@ -111,7 +186,7 @@ MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, M
         attempt.at_root = false;
         if (propagation->queue.count < attempt.fewest_open) {
             attempt.fewest_open = propagation->queue.count;
-            attempt.failures = 0;
+            attempt.failures = attempt.jumps = 0;
             if (propagation->queue.count < search->fewest_open)
                 search->fewest_open = propagation->queue.count;
         }
@@ -166,6 +241,7 @@ MesoStatus meso_search_probe(MesoSearch *search, uint64_t work_limit, MesoSearch
     uint64_t work = 0, excluded = 1;
     bool impossible = false;
     *outcome = MESO_SEARCH_STUCK;
+    propagation->journal = NULL;
     meso_propagation_restart(propagation);
     while (excluded > 0 && work < work_limit) {
         excluded = 0;

@@ -1,9 +1,10 @@
 /*
  * Search: observes slots until all have one variant (Algorithm 1 of MesoGen). A
- * dead end is repaired in three steps, each where the one before does not help:
- * the variant that led to it is taken away from its slot; a ball of slots around
- * the dead one is reopened, growing while the search does not get further; the
- * attempt ends.
+ * dead end is repaired in four steps, each where the one before does not help:
+ * the variant that led to it is taken away from its slot; the search jumps back to the
+ * latest decision that the dead end hangs on (conflict-directed backjumping), again and
+ * again; a ball of slots around the dead one is reopened, growing while the search does not
+ * get further; the attempt ends.
  */
 #ifndef MESO_SEARCH_H
 #define MESO_SEARCH_H
@@ -13,8 +14,7 @@
 typedef enum MesoSearchOutcome {
     MESO_SEARCH_DONE,           /* every slot has one variant */
     MESO_SEARCH_STUCK,          /* the attempt's effort is spent */
-    MESO_SEARCH_IMPOSSIBLE,     /* proved: each variant of a slot fails before any other choice, but for
-                                   variants of other slots that do */
+    MESO_SEARCH_IMPOSSIBLE,     /* proved: there is a dead end that hangs on no decision */
     MESO_SEARCH_STOPPED         /* out of observations, or told to stop */
 } MesoSearchOutcome;
 
@@ -22,10 +22,14 @@ typedef struct MesoSearch {
     MesoPropagation *propagation;
     const MesoConstraints *constraints;     /* of which the weights guide the choice; NULL: none */
     MesoRandom random;
+    uint32_t attempts_before;   /* more of them, more patience */
     uint64_t observations;      /* made, over all attempts */
     uint64_t max_observations;
+    uint64_t jumps;             /* back to decisions that a dead end hangs on, over all attempts */
     uint64_t repairs;           /* balls reopened, over all attempts */
-    uint32_t impossible_slot;
+    uint32_t impossible_slot;   /* a dead end that hangs on no decision */
+    bool impossible_at_once;    /* each variant of the slot leads to one before any other choice, but for variants
+                                   of other slots that do */
     uint32_t fewest_open;       /* lowered to the slots with a choice left at the best moment */
     bool (*tick)(void *context);    /* called now and then; false stops the search; may be NULL */
     MesoStatus (*dead_end)(void *context, uint32_t slot, bool first, MesoError *error); /* each that is met; the
@@ -36,7 +40,8 @@ typedef struct MesoSearch {
 /*
  * One attempt from the states as they are: the initial ones, for a proof of
  * MESO_SEARCH_IMPOSSIBLE to hold. Takes `random` further. MESO_ERR_MEMORY, or what
- * `dead_end` returns. At most eight times as many slots are reopened as there are.
+ * `dead_end` returns. At most eight times as many slots are reopened as there are, and as many jumps
+ * made.
  */
 MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error);
 

@@ -18,7 +18,10 @@ static const uint64_t parity_work = (uint64_t)1 << 32;
 /* Changes of states that probing may make: half a minute or less. */
 static const uint64_t probe_work = (uint64_t)1 << 27;
 
-/* Conflicts that the exact engine has before probing: about a second. */
+/* Attempts of the search before provers and the exact engine have a first go. */
+enum { FIRST_ATTEMPTS = 4 };
+
+/* Conflicts that the exact engine has before further attempts, and again before probing: about a second. */
 enum { FIRST_CONFLICTS = 3000 };
 
 /* Conflicts that the exact engine has with random phases, which vary the solutions, before it follows its own. */
@@ -41,6 +44,7 @@ typedef struct Search {
     MesoArena hot_arena;            /* of `hot_spots`, which are there from the first dead end on */
     MesoHotSpots hot_spots;
     MesoPropagation propagation;
+    MesoSearch wfc;                 /* the search without */
     MesoGuidedSearch guided;        /* where constraints call for it */
     uint32_t conflict_slot;         /* near which a proof of unsolvability begins, or MESO_NO_INDEX */
 } Search;
@@ -157,40 +161,56 @@ static MesoStatus accept_states(Search *search, MesoError *error)
     return accept(search, variant, MESO_DECIDER_SEARCH, error);
 }
 
-/* The search's rung: attempts from sub-seeds. */
-static MesoStatus search_for(Search *search, MesoError *error)
+static void prepare_search(Search *search)
+{
+    const MesoSolveOptions *options = search->options;
+    search->wfc = (MesoSearch){.propagation = &search->propagation, .constraints = options->constraints,
+                               .tick = tick, .dead_end = note_dead_end, .context = search,
+                               .fewest_open = search->propagation.queue.count,
+                               .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
+}
+
+/* A dead end that hangs on no choice. */
+static MesoStatus say_impossible(Search *search, MesoError *error)
+{
+    MesoSolveResult *result = search->result;
+    result->verdict = MESO_VERDICT_UNSOLVABLE;
+    result->decider = MESO_DECIDER_SEARCH;
+    search->conflict_slot = search->wfc.impossible_slot;
+    result->reason = meso_arena_print(search->arena, error, search->wfc.impossible_at_once
+                                          ? "each tile that fits slot %u leaves another slot without any"
+                                          : "whatever is chosen around slot %u, it leaves a slot without any tile",
+                                      search->conflict_slot);
+    return result->reason ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* The search's rung: attempts from sub-seeds, up to `last` in all. */
+static MesoStatus search_for(Search *search, uint32_t last, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     const MesoSolveOptions *options = search->options;
-    MesoSearch wfc = {.propagation = &search->propagation, .constraints = options->constraints,
-                      .tick = tick, .dead_end = note_dead_end, .context = search,
-                      .fewest_open = search->propagation.queue.count,
-                      .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
+    MesoSearch *wfc = &search->wfc;
     MesoSearchOutcome outcome = MESO_SEARCH_STUCK;
     MesoStatus status = MESO_OK;
-    while (!status && outcome == MESO_SEARCH_STUCK && result->attempts < options->max_attempts) {
-        meso_random_init(&wfc.random, options->seed, ++result->attempts);
+    while (!status && outcome == MESO_SEARCH_STUCK && result->attempts < last) {
+        wfc->attempts_before = result->attempts++;
+        meso_random_init(&wfc->random, options->seed, result->attempts);
         meso_propagation_restart(&search->propagation);
-        status = meso_search_attempt(&wfc, &outcome, error);
+        status = meso_search_attempt(wfc, &outcome, error);
     }
-    result->observations = wfc.observations;
-    result->repairs = wfc.repairs;
-    result->decided_most = search->graph->slot_count - wfc.fewest_open;
+    result->observations = wfc->observations;
+    result->jumps = wfc->jumps;
+    result->repairs = wfc->repairs;
+    result->decided_most = search->graph->slot_count - wfc->fewest_open;
     if (status)
         return status;
     tick(search);
     if (outcome == MESO_SEARCH_DONE)
         return accept_states(search, error);
-    if (outcome == MESO_SEARCH_IMPOSSIBLE) {
-        result->verdict = MESO_VERDICT_UNSOLVABLE;
-        result->decider = MESO_DECIDER_SEARCH;
-        search->conflict_slot = wfc.impossible_slot;
-        result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leaves another "
-                                          "slot without any", wfc.impossible_slot);
-        return result->reason ? MESO_OK : MESO_ERR_MEMORY;
-    }
-    if (outcome == MESO_SEARCH_STOPPED)
-        result->budget = MESO_BUDGET_OBSERVATIONS;
+    if (outcome == MESO_SEARCH_IMPOSSIBLE)
+        return say_impossible(search, error);
+    result->decider = MESO_DECIDER_ATTEMPTS;
+    result->budget = outcome == MESO_SEARCH_STOPPED ? MESO_BUDGET_OBSERVATIONS : MESO_BUDGET_ATTEMPTS;
     if (told_to_stop(search))
         stop(search);
     return MESO_OK;
@@ -295,12 +315,13 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
     return MESO_OK;
 }
 
-static MesoStatus decide_exactly(Search *search, uint64_t conflicts, uint64_t cubes, MesoError *error)
+/* With chains or without, by `conflicts` at most, and `cubes` beyond them. */
+static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts, uint64_t cubes, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
     MesoExact exact;
     MesoRandom random;
-    MesoExactOptions options = {.chains = cubes > 0, .constraints = constraints, .proof = search->options->proof,
+    MesoExactOptions options = {.chains = chains, .constraints = constraints, .proof = search->options->proof,
                                 .clause = search->options->clause, .context = search->options->proof_context,
                                 .grows = constraints && meso_strand_rule_given(&constraints->strands)};
     bool complete = true;
@@ -345,6 +366,16 @@ static MesoStatus probe(Search *search, MesoError *error)
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
+/* Of the conflicts that the exact engine may meet, `most` or what is left. */
+static uint64_t conflicts_left(Search *search, uint64_t most)
+{
+    MesoSolveResult *result = search->result;
+    if (result->conflict_limit == 0)
+        result->conflict_limit = search->options->max_conflicts ? search->options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    uint64_t left = result->conflict_limit > result->conflicts ? result->conflict_limit - result->conflicts : 0;
+    return left < most ? left : most;
+}
+
 /*
  * The exact engine, for a while, and by cubes; then, where it did not do, probing, and the engine
  * anew on what that leaves, without chains: where there are many solutions, but few are near, they
@@ -353,17 +384,18 @@ static MesoStatus probe(Search *search, MesoError *error)
 static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    uint64_t conflicts = search->options->max_conflicts ? search->options->max_conflicts : MESO_SOLVE_CONFLICTS;
-    result->conflict_limit = conflicts;
-    uint64_t first = conflicts < FIRST_CONFLICTS || guided ? conflicts : FIRST_CONFLICTS;
-    uint64_t left = conflicts - first, cubes = left < CUBE_CONFLICTS ? left : CUBE_CONFLICTS;
-    MesoStatus status = decide_exactly(search, first, cubes, error);
+    if (guided)
+        return decide_exactly(search, false, conflicts_left(search, UINT64_MAX), 0, error);
+    uint64_t first = conflicts_left(search, FIRST_CONFLICTS);
+    uint64_t left = conflicts_left(search, UINT64_MAX) - first;
+    MesoStatus status = decide_exactly(search, true, first, left < CUBE_CONFLICTS ? left : CUBE_CONFLICTS, error);
     if (status || result->decider != MESO_DECIDER_CONFLICTS || left == 0)
         return status;
     status = probe(search, error);
     if (status || result->decider != MESO_DECIDER_CONFLICTS)
         return status;
-    return result->conflicts < conflicts ? decide_exactly(search, conflicts - result->conflicts, 0, error) : MESO_OK;
+    left = conflicts_left(search, UINT64_MAX);
+    return left ? decide_exactly(search, false, left, 0, error) : MESO_OK;
 }
 
 /* Counting, then parity: cheap where they prove something, and hopeless for the exact engine. */
@@ -482,23 +514,57 @@ static MesoStatus search_guided(Search *search, MesoError *error)
     return solved ? accept_states(search, error) : say_exhausted(search, error);
 }
 
-/* The ladder: each rung leaves the verdict "gave up", or a better one. */
-static MesoStatus climb(Search *search, bool guided, MesoError *error)
+/* Whether there is a rung left to climb. */
+static bool undecided(const Search *search)
+{
+    return search->result->verdict == MESO_VERDICT_GAVE_UP && search->result->decider != MESO_DECIDER_STOP;
+}
+
+/*
+ * The ladder without quotas and the like: each rung leaves the verdict "gave up", or a better one. A few attempts of
+ * the search; what is cheap and may prove that there is nothing to be found; the other attempts, which
+ * have more patience; the exact engine at length.
+ */
+static MesoStatus climb(Search *search, MesoError *error)
+{
+    uint32_t attempts = search->options->max_attempts;
+    MesoEngine engine = search->options->engine;
+    bool searching = engine != MESO_ENGINE_EXACT, proving = engine != MESO_ENGINE_WFC;
+    uint32_t first_attempts = proving && attempts > FIRST_ATTEMPTS ? FIRST_ATTEMPTS : attempts;
+    MesoStatus status = MESO_OK;
+    prepare_search(search);
+    if (searching)
+        status = search_for(search, first_attempts, error);
+    if (!proving)
+        return status;
+    if (!status && undecided(search))
+        status = decide_by_numbers(search, error);
+    bool more = searching && first_attempts < attempts && search->result->budget == MESO_BUDGET_ATTEMPTS;
+    if (!status && undecided(search) && more)
+        status = decide_exactly(search, true, conflicts_left(search, FIRST_CONFLICTS), 0, error);
+    if (!status && undecided(search) && more)
+        status = search_for(search, attempts, error);
+    return !status && undecided(search) ? decide_at_length(search, false, error) : status;
+}
+
+/* The same with them. */
+static MesoStatus climb_guided(Search *search, MesoError *error)
+{
+    MesoEngine engine = search->options->engine;
+    MesoStatus status = engine != MESO_ENGINE_EXACT ? search_guided(search, error) : MESO_OK;
+    if (engine == MESO_ENGINE_WFC)
+        return status;
+    if (!status && undecided(search))
+        status = decide_by_numbers(search, error);
+    return !status && undecided(search) ? decide_at_length(search, true, error) : status;
+}
+
+static MesoStatus begin_to_climb(Search *search, bool guided, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    MesoEngine engine = search->options->engine;
-    MesoStatus status = MESO_OK;
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
-    if (engine != MESO_ENGINE_EXACT)
-        status = guided ? search_guided(search, error) : search_for(search, error);
-    if (status || engine == MESO_ENGINE_WFC || result->decider == MESO_DECIDER_STOP)
-        return status;
-    if (result->verdict == MESO_VERDICT_GAVE_UP)
-        status = decide_by_numbers(search, error);
-    if (!status && result->verdict == MESO_VERDICT_GAVE_UP)
-        status = decide_at_length(search, guided, error);
-    return status;
+    return guided ? climb_guided(search, error) : climb(search, error);
 }
 
 static MesoStatus run(Search *search, MesoError *error)
@@ -509,7 +575,7 @@ static MesoStatus run(Search *search, MesoError *error)
                      search->propagation.broken_quota != MESO_NO_INDEX;
     MesoStatus status = !disproved && guided ? prepare_guided(search, &disproved, error) : MESO_OK;
     if (!status)
-        status = disproved ? say_disproved(search, error) : climb(search, guided, error);
+        status = disproved ? say_disproved(search, error) : begin_to_climb(search, guided, error);
     if (!status)
         status = tell_hot_spots(search, error);
     if (!status && search->options->explain && search->result->verdict == MESO_VERDICT_UNSOLVABLE)

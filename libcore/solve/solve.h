@@ -98,6 +98,7 @@ typedef struct MesoSolveResult {
     const char *reason;         /* in words, for the user: what proves it, or stood in the way; or "" */
     uint32_t attempts;          /* begun */
     uint64_t observations;      /* over all attempts */
+    uint64_t jumps;             /* over all attempts: back to decisions that a dead end hangs on */
     uint64_t repairs;           /* over all attempts: balls of slots reopened around a dead end */
     uint64_t backtracks;        /* choices taken back: only quotas, rules on strands and what is to be
                                    kept call for it */
