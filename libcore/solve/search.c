@@ -6,28 +6,50 @@
 
 enum { TICK_INTERVAL = 4096, PROBE_TICK_INTERVAL = 16 };    /* observations; slots */
 
-/* Radius of the first ball, and after how many repairs without progress it grows by one. */
-enum { FIRST_RADIUS = 2, PATIENCE = 3, MOST_RADIUS = 24 };
+/*
+ * Radii of balls: from the first on, each after so many repairs without progress; then the first again. Large balls
+ * help where structures are long, small ones where tiles are many and few fit: attempts take turns.
+ */
+enum { FIRST_RADIUS = 2, REPAIRS_AT_RADIUS = 3, LARGE_RADIUS = 24, SMALL_RADIUS = 10 };
 
 /*
- * Jumps back, without progress, before a repair: in the first attempt, and in later ones four times those of the
- * one before. Few do where solutions are many; it takes a thousand to get through where they are rare.
+ * What an attempt may do: the first one little, for where solutions are many it is enough and where there are
+ * none it is lost; later ones more and more.
  */
-enum { FIRST_PATIENCE = 1, MOST_PATIENCE = 1024 };
+typedef struct Effort {
+    uint32_t jumps;             /* back, without progress, before a repair */
+    uint32_t repairs;           /* without progress */
+    uint32_t radius;            /* of balls, at most, but where a smaller one is dead at once */
+    uint64_t slots;             /* that are reopened, and as many jumps, in all */
+} Effort;
 
-/* Jumps of an attempt: so many times its slots, and a few more. */
-enum { JUMP_FACTOR = 8, JUMP_LEAST = 2000 };
+enum { FIRST_JUMPS = 1, MOST_JUMPS = 64, FIRST_REPAIRS = 69, MOST_REPAIRS = 8192 };
+enum { FIRST_FACTOR = 8, MOST_FACTOR = 256, LEAST_SLOTS = 2000 };
 
-/* Slots that an attempt may reopen: so many times their number, and a few more. */
-enum { REOPEN_FACTOR = 8, REOPEN_LEAST = 2000 };
+static uint32_t grown(uint32_t first, uint32_t most, uint32_t times, uint32_t bits)
+{
+    while (times-- > 0 && first < most)
+        first <<= bits;
+    return first < most ? first : most;
+}
+
+/* For a surface of `slot_count` slots, after `before` attempts. */
+static Effort effort_for(uint32_t slot_count, uint32_t before)
+{
+    return (Effort){
+        .jumps = grown(FIRST_JUMPS, MOST_JUMPS, before, 2),
+        .repairs = grown(FIRST_REPAIRS, MOST_REPAIRS, before, 2),
+        .radius = before % 2 ? SMALL_RADIUS : LARGE_RADIUS,
+        .slots = (uint64_t)grown(FIRST_FACTOR, MOST_FACTOR, before, 1) * slot_count + LEAST_SLOTS,
+    };
+}
 
 typedef struct Attempt {
-    uint64_t reopened;
+    Effort effort;
+    uint64_t reopened, jumped;  /* slots; times */
     uint32_t fewest_open;       /* slots with a choice left, at the best moment so far */
-    uint32_t failures;          /* repairs since then */
+    uint32_t repairs;           /* since then */
     uint32_t jumps;             /* since then, or since a repair */
-    uint32_t patience;          /* that many at most */
-    uint64_t jumps_left;        /* in the attempt */
     bool at_root;               /* nothing was chosen yet; what was taken away was refuted */
     bool dead_end_told;
 } Attempt;
@@ -45,9 +67,11 @@ static MesoStatus observe(MesoSearch *search, uint32_t *slot, uint32_t *variant,
 static MesoStatus repair(MesoSearch *search, Attempt *attempt, uint32_t slot, bool *repaired, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
-    uint64_t limit = (uint64_t)REOPEN_FACTOR * propagation->graph->slot_count + REOPEN_LEAST;
-    uint32_t radius = FIRST_RADIUS + attempt->failures++ / PATIENCE;
-    for (; radius <= MOST_RADIUS && attempt->reopened < limit; radius++) {
+    uint32_t radii = attempt->effort.radius - FIRST_RADIUS + 1;
+    uint32_t radius = FIRST_RADIUS + attempt->repairs / REPAIRS_AT_RADIUS % radii;
+    if (attempt->repairs++ == attempt->effort.repairs)
+        return MESO_OK;
+    for (; attempt->reopened < attempt->effort.slots; radius++) {
         uint32_t count;
         if (meso_propagation_reopen(propagation, slot, radius, &count, error))
             return MESO_ERR_MEMORY;
@@ -94,12 +118,13 @@ static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutc
             *outcome = MESO_SEARCH_IMPOSSIBLE;
             return MESO_OK;
         }
-        if (conflict.count == 0 || attempt->jumps == attempt->patience || attempt->jumps_left == 0)
+        if (conflict.count == 0 || attempt->jumps == attempt->effort.jumps ||
+            attempt->jumped == attempt->effort.slots)
             return meso_propagation_undo(propagation, error);
         uint32_t step = meso_journal_find(journal, conflict.decisions[0]);
         uint32_t slot = journal->changes[journal->steps[step].first].slot, variant = journal->steps[step].variant;
         attempt->jumps++;
-        attempt->jumps_left--;
+        attempt->jumped++;
         search->jumps++;
         if (meso_propagation_jump(propagation, step, error) || exclude(search, slot, variant, &conflict, error))
             return MESO_ERR_MEMORY;
@@ -164,10 +189,8 @@ static bool may_go_on(const MesoSearch *search)
 MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
-    Attempt attempt = {.fewest_open = propagation->queue.count, .at_root = true, .patience = FIRST_PATIENCE,
-                       .jumps_left = (uint64_t)JUMP_FACTOR * propagation->graph->slot_count + JUMP_LEAST};
-    for (uint32_t i = 0; i < search->attempts_before && attempt.patience < MOST_PATIENCE; i++)
-        attempt.patience *= 4;
+    Attempt attempt = {.fewest_open = propagation->queue.count, .at_root = true,
+                       .effort = effort_for(propagation->graph->slot_count, search->attempts_before)};
     *outcome = MESO_SEARCH_DONE;
     while (propagation->queue.count && *outcome == MESO_SEARCH_DONE) {
         uint32_t slot, variant;
@@ -186,7 +209,7 @@ MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, M
         attempt.at_root = false;
         if (propagation->queue.count < attempt.fewest_open) {
             attempt.fewest_open = propagation->queue.count;
-            attempt.failures = attempt.jumps = 0;
+            attempt.repairs = attempt.jumps = 0;
             if (propagation->queue.count < search->fewest_open)
                 search->fewest_open = propagation->queue.count;
         }

@@ -315,7 +315,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
     return MESO_OK;
 }
 
-/* With chains or without, by `conflicts` at most, and `cubes` beyond them. */
+/* With chains or without, by `conflicts` at most, and by cubes with `cubes` beyond them. */
 static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts, uint64_t cubes, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
