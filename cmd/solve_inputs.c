@@ -64,10 +64,11 @@ MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVar
                                : meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
     double duration = milliseconds() - start;
     if (!status && tool->verbose)
-        meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations and %llu repairs in %u attempt%s, "
-                      "decided by %s", graph->slot_count, variants->count, duration,
-                      (unsigned long long)result->observations, (unsigned long long)result->repairs,
-                      result->attempts, result->attempts == 1 ? "" : "s", meso_decider_name(result->decider));
+        meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations, %llu jumps and %llu repairs in %u "
+                      "attempt%s, decided by %s", graph->slot_count, variants->count, duration,
+                      (unsigned long long)result->observations, (unsigned long long)result->jumps,
+                      (unsigned long long)result->repairs, result->attempts, result->attempts == 1 ? "" : "s",
+                      meso_decider_name(result->decider));
     return status;
 }
 

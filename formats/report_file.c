@@ -189,6 +189,7 @@ MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const
         failed |= json_object_set_new(object, "hot_spots", write_hot_spots(result));
     failed |= json_object_set_new(object, "attempts", json_integer(result->attempts));
     failed |= json_object_set_new(object, "observations", json_integer((json_int_t)result->observations));
+    failed |= json_object_set_new(object, "jumps", json_integer((json_int_t)result->jumps));
     failed |= json_object_set_new(object, "repairs", json_integer((json_int_t)result->repairs));
     failed |= json_object_set_new(object, "slots", json_integer(graph->slot_count));
     failed |= json_object_set_new(object, "variants", json_integer(variants->count));

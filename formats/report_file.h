@@ -11,7 +11,7 @@
  *      "budget": "attempts", "observations", "conflicts", "cuts", "counted" or "time", "decided_at_best": slots,
  *      "conflicts": that the exact engine met                      where the solver gave up
  *      "hot_spots": [{"slot", "dead_ends"}, ...]: the slots with most dead ends, where there are any, unless solved
- *      "attempts", "observations", "repairs", "slots", "variants": numbers,
+ *      "attempts", "observations", "jumps", "repairs", "slots", "variants": numbers,
  *      "tiles": {name: slots that hold it, ...}                    where solved
  *      "constraints": {"backtracks": choices taken back, "violations": {name: times, ...},
  *          "kept", "changed": slots, where an assignment was to be kept}   where there are any

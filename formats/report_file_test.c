@@ -49,7 +49,7 @@ static void test_text(void)
 {
     static const char *const expected =
         "{\"format\":\"meso-report\",\"version\":1,\"tool\":\"meso-solve\",\"verdict\":\"unsolvable\","
-        "\"decided_by\":\"propagation\",\"attempts\":0,\"observations\":0,\"repairs\":0,\"slots\":3,\"variants\":2,\"dead_end_total\":1,"
+        "\"decided_by\":\"propagation\",\"attempts\":0,\"observations\":0,\"jumps\":0,\"repairs\":0,\"slots\":3,\"variants\":2,\"dead_end_total\":1,"
         "\"dead_ends\":[{\"slot\":1,\"attempt\":0,\"initial\":true,\"sides\":["
         "{\"border\":false,\"labels\":[\"a'\"]},"
         "{\"border\":true,\"labels\":[\"a\",\"a'\",\"b\",\"b'\",\"c\",\"c'\"]},"
