@@ -329,6 +329,12 @@ static bool keep_fitting(const MesoExact *exact, uint32_t slot, const uint32_t *
     return meso_bits_count(fitting, words) > 0;
 }
 
+static void show_pattern(MesoExact *exact, uint32_t slot, uint32_t pattern, uint32_t *shown)
+{
+    const MesoPatternList *list = meso_pattern_list(&exact->patterns, slot, NULL);
+    memcpy(shown + 4 * (size_t)slot, list->codes + 4 * (size_t)pattern, 4 * sizeof *shown);
+}
+
 /* Pattern of the one variant of state hint[slot]; MESO_NO_INDEX where there are others, or it is not possible. */
 static uint32_t hinted_pattern(MesoExact *exact, uint32_t slot, const uint32_t *hint, MesoRandom *random)
 {
@@ -340,37 +346,38 @@ static uint32_t hinted_pattern(MesoExact *exact, uint32_t slot, const uint32_t *
 }
 
 /*
- * A pattern for each slot: the hinted ones, and random ones. Where weights or
- * variants to keep speak, these come last and fit what is there, as far as that
- * is possible: what the engine has to change of its phases is changed regardless of them.
+ * A pattern for each slot: the hinted ones; then, slot by slot in a random order, random ones that fit
+ * what is there, as far as that is possible. So every assignment may come out, and what the engine has to change of
+ * its phases, regardless of what they say, is little.
  */
 static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32_t *pattern, MesoRandom *random,
                                   MesoError *error)
 {
-    const MesoDomainTable *domains = &exact->propagation->domains;
-    const MesoConstraints *constraints = exact->constraints;
-    bool fits = constraints && (constraints->keep || constraints->weights.table_count);
-    uint32_t slots = exact->propagation->graph->slot_count, words = domains->states.word_count;
-    uint32_t *shown = MESO_NEW(exact->arena, uint32_t, fits ? 4 * (size_t)slots : 0, error);
+    const MesoPropagation *propagation = exact->propagation;
+    uint32_t slots = propagation->graph->slot_count, words = propagation->domains.states.word_count, count = 0;
+    uint32_t *shown = MESO_NEW(exact->arena, uint32_t, 4 * (size_t)slots, error);
+    uint32_t *order = MESO_NEW(exact->arena, uint32_t, slots, error);
     uint64_t *fitting = MESO_NEW(exact->arena, uint64_t, words, error);
-    if (!shown || !fitting)
+    if (!shown || !order || !fitting)
         return MESO_ERR_MEMORY;
-    if (fits)
-        memset(shown, 0xff, 4 * (size_t)slots * sizeof *shown);
-    for (uint32_t pass = 0; pass < 2; pass++)
-        for (uint32_t s = 0; s < slots; s++) {
-            const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, NULL);
-            const uint64_t *bits = meso_domain_bits(domains, exact->propagation->initial[s]);
-            if (pass == 0)
-                pattern[s] = hinted_pattern(exact, s, hint, random);
-            if (pattern[s] == MESO_NO_INDEX && (pass == 1 || !fits)) {
-                memcpy(fitting, bits, words * sizeof *bits);
-                bool any = fits && keep_fitting(exact, s, shown, fitting);
-                pattern[s] = pattern_of_variant(list, draw(exact, s, any ? fitting : bits, random));
-            }
-            if (fits && pattern[s] != MESO_NO_INDEX)
-                memcpy(shown + 4 * (size_t)s, list->codes + 4 * (size_t)pattern[s], 4 * sizeof *shown);
-        }
+    memset(shown, 0xff, 4 * (size_t)slots * sizeof *shown);
+    for (uint32_t s = 0; s < slots; s++) {
+        pattern[s] = hinted_pattern(exact, s, hint, random);
+        if (pattern[s] == MESO_NO_INDEX)
+            order[count++] = s;
+        else
+            show_pattern(exact, s, pattern[s], shown);
+    }
+    for (; count > 0; count--) {
+        uint32_t i = meso_random_below(random, count), s = order[i];
+        const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->initial[s]);
+        order[i] = order[count - 1];
+        memcpy(fitting, bits, words * sizeof *bits);
+        if (!keep_fitting(exact, s, shown, fitting))
+            memcpy(fitting, bits, words * sizeof *bits);
+        pattern[s] = pattern_of_variant(meso_pattern_list(&exact->patterns, s, NULL), draw(exact, s, fitting, random));
+        show_pattern(exact, s, pattern[s], shown);
+    }
     return MESO_OK;
 }
 

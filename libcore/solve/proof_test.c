@@ -1,7 +1,8 @@
 /* Proofs of the exact engine, checked by other code; and that what was tampered with is refused. */
 #include "libcore/base/random.h"
 #include "libcore/solve/drat_checker.h"
-#include "libcore/solve/exact.h"
+#include "libcore/solve/exact_cubes.h"
+#include "libcore/solve/random_case.h"
 #include "libcore/solve/small_graphs.h"
 #include "libcore/solve/small_sets.h"
 
@@ -168,6 +169,53 @@ static MesoTileSet aperiodic_set(MesoArena *arena)
     return fixture_set(arena, 9, 11, (const int32_t (*)[4])labels, false, false, false);
 }
 
+/* A crossing, and a turn of both strands to the right: chains everywhere, and an odd corner to get around. */
+static const int32_t weave[2][4] = {{1, 2, -1, -2}, {-2, 1, -1, 2}};
+
+/* With hardly a conflict for each cube, so that all of the proof comes from putting cubes together. */
+static MesoSatAnswer conquer(Proof *proof, MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph, uint64_t seed)
+{
+    MesoVariantSet variants;
+    MesoPropagation propagation;
+    MesoExact exact;
+    MesoRandom random;
+    MesoSatAnswer answer = MESO_SAT_UNKNOWN;
+    const MesoExactOptions options = {.chains = true, .proof = take_proof, .clause = take_clause, .context = proof};
+    clear(proof);
+    meso_random_init(&random, seed, 0);
+    CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, arena, set, &variants, graph, NULL, NULL) == MESO_OK);
+    if (propagation.initial_dead_count == 0) {
+        CHECK(meso_exact_init(&exact, arena, &propagation, &options, NULL) == MESO_OK);
+        CHECK(meso_exact_conquer(&exact, &answer, &random, 1, 1000000, NULL, NULL, NULL) == MESO_OK);
+        meso_exact_release(&exact);
+    }
+    meso_propagation_release(&propagation);
+    return answer;
+}
+
+static void test_cubes(void)
+{
+    Proof proof = {0};
+    MesoRandom random;
+    uint32_t refuted = 0, by_lines = 0;
+    meso_random_init(&random, 11, 0);
+    for (uint64_t i = 0; i < 2400; i++) {
+        MesoArena arena;
+        meso_arena_init(&arena);
+        MesoTileSet set = i % 2 ? fixture_set(&arena, 2, 2, weave, true, true, true) : random_set(&arena, &random);
+        MesoSlotGraph graph = i % 3 ? random_graph(&arena, &random) : fixture_grid(&arena, 3, 3, true, true, i % 2);
+        if (conquer(&proof, &arena, &set, &graph, i) == MESO_SAT_NO) {
+            check_proof(&proof);
+            refuted++;
+            by_lines += strstr(proof.lines.data, "\n0\n") || !strncmp(proof.lines.data, "0\n", 2);
+        }
+        meso_arena_release(&arena);
+    }
+    CHECK(refuted > 30 && by_lines == refuted);
+    release(&proof);
+}
+
 /* Every tampering is one that the checker sees, or one that leaves a proof; here are many of the first kind. */
 static void check_tampered(const Proof *proof)
 {
@@ -296,6 +344,7 @@ int main(void)
 {
     test_checker();
     test_small_graphs();
+    test_cubes();
     test_aperiodic();
     test_growing_formula();
     test_strands();
