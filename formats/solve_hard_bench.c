@@ -12,19 +12,18 @@
  *   turning   the same, and tiles may turn
  *
  * None has a tile that tiles the plane by itself. Most draws are easy. The numbers of the
- * draws below are those of the first that three attempts of the search alone, or two seconds of it, did not
- * decide; with 40 tiles of the kinds wang, signed and turning it decided all of the
+ * draws below are those of the first that three attempts of an earlier search, which did not jump back, or two
+ * seconds of it, left open; with 40 tiles of the kinds wang, signed and turning it decided all of the
  * first 1000 in milliseconds, and the first five stand for them.
  */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "formats/report_file.h"
+#include "formats/solve_totals.h"
 #include "libcore/base/random.h"
 #include "libcore/solve/solve_fixture.h"
 
-enum { WIDTH = 60, ATTEMPTS = 20, MOST_TILES = 40, DRAWS = 5 };
+enum { WIDTH = 60, MOST_TILES = 40, DRAWS = 5 };
 
 typedef enum Kind { WANG, SIGNED, FIXED, TURNING } Kind;
 
@@ -37,25 +36,6 @@ static const uint32_t draws[4][2][DRAWS] = {
     [FIXED] = {{14, 25, 88, 90, 125}, {3, 7, 14, 23, 24}},
     [TURNING] = {{0, 1, 2, 3, 5}, {0, 1, 2, 3, 4}},
 };
-
-typedef struct Totals {
-    uint32_t verdicts[3];
-    uint32_t deciders[MESO_DECIDER_STOP + 1];
-    double slowest, sum;
-} Totals;
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static bool past(void *context)
-{
-    const double *deadline = context;
-    return seconds() > *deadline;
-}
 
 static void draw_tile(Kind kind, MesoRandom *random, int32_t labels[4])
 {
@@ -97,7 +77,7 @@ static MesoTileSet draw_set(MesoArena *arena, Kind kind, uint32_t tile_count, ui
 }
 
 static void solve(Kind kind, uint32_t tile_count, uint32_t draw, const MesoSlotGraph *graph, double limit,
-                  Totals *totals)
+                  SolveTotals *totals)
 {
     MesoArena arena;
     MesoVariantSet variants;
@@ -106,15 +86,8 @@ static void solve(Kind kind, uint32_t tile_count, uint32_t draw, const MesoSlotG
     meso_arena_init(&arena);
     MesoTileSet set = draw_set(&arena, kind, tile_count, draw);
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
-    double start = seconds(), deadline = start + limit;
-    const MesoSolveOptions options = {.max_attempts = ATTEMPTS, .max_dead_ends = ATTEMPTS,
-                                      .stop = past, .stop_context = &deadline};
-    CHECK(meso_solve(&result, &arena, &set, &variants, graph, &options, &error) == MESO_OK);
-    double time = seconds() - start;
-    totals->verdicts[result.verdict]++;
-    totals->deciders[result.decider]++;
-    totals->sum += time;
-    totals->slowest = time > totals->slowest ? time : totals->slowest;
+    double time;
+    CHECK(solve_timed(&result, &arena, &set, &variants, graph, limit, &time, totals, &error) == MESO_OK);
     printf("hard %-7s %u tiles, draw %3u: %-10s by %-11s %2u attempts %9.2f ms  %s\n", kind_names[kind], tile_count,
            draw, meso_verdict_name(result.verdict), meso_decider_name(result.decider), result.attempts, 1e3 * time,
            result.reason);
@@ -122,24 +95,12 @@ static void solve(Kind kind, uint32_t tile_count, uint32_t draw, const MesoSlotG
     meso_arena_release(&arena);
 }
 
-static void print_totals(const Totals *totals)
-{
-    printf("hard sets: ");
-    for (MesoVerdict v = MESO_VERDICT_SOLVED; v <= MESO_VERDICT_GAVE_UP; v++)
-        printf("%s %u, ", meso_verdict_name(v), totals->verdicts[v]);
-    printf("by");
-    for (MesoDecider d = MESO_DECIDER_PROPAGATION; d <= MESO_DECIDER_STOP; d++)
-        if (totals->deciders[d])
-            printf(" %s %u,", meso_decider_name(d), totals->deciders[d]);
-    printf(" %.1f s in all, the slowest %.1f s\n", totals->sum, totals->slowest);
-}
-
 int main(int argc, char **argv)
 {
     uint32_t count = argc > 1 ? (uint32_t)atoi(argv[1]) : DRAWS;
     double limit = argc > 2 ? atof(argv[2]) : 60;
     MesoArena arena;
-    Totals totals = {0};
+    SolveTotals totals = {0};
     CHECK(count <= DRAWS);
     meso_arena_init(&arena);
     MesoSlotGraph graph = fixture_grid(&arena, WIDTH, WIDTH, true, true, false);
@@ -147,7 +108,7 @@ int main(int argc, char **argv)
         for (uint32_t more = 0; more < 2; more++)
             for (uint32_t i = 0; i < count; i++)
                 solve(kind, more ? 40 : 24, draws[kind][more][i], &graph, limit, &totals);
-    print_totals(&totals);
+    solve_print_totals(&totals, "hard sets");
     meso_arena_release(&arena);
     return 0;
 }

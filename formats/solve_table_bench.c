@@ -11,32 +11,12 @@
 #include <glob.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
-#include "formats/report_file.h"
+#include "formats/solve_totals.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
 
-enum { ATTEMPTS = 20, SECONDS = 60 };
-
-typedef struct Totals {
-    uint32_t verdicts[3];
-    uint32_t deciders[MESO_DECIDER_STOP + 1];
-    double slowest, sum;
-} Totals;
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static bool past(void *context)
-{
-    const double *deadline = context;
-    return seconds() > *deadline;
-}
+enum { SECONDS = 60 };
 
 /* The file name of `path` without folder and extension. */
 static const char *base_name(MesoArena *arena, const char *path)
@@ -73,7 +53,7 @@ static MesoStatus read_tiles(const char *path, MesoArena *arena, MesoTileSet *se
     return status ? status : meso_variant_set_build(variants, arena, set, error);
 }
 
-static void solve(const char *surface, const MesoSlotGraph *graph, const char *tiles_path, Totals *totals)
+static void solve(const char *surface, const MesoSlotGraph *graph, const char *tiles_path, SolveTotals *totals)
 {
     MesoArena arena;
     MesoTileSet set;
@@ -83,19 +63,12 @@ static void solve(const char *surface, const MesoSlotGraph *graph, const char *t
     meso_arena_init(&arena);
     const char *tiles = base_name(&arena, tiles_path);
     MesoStatus status = read_tiles(tiles_path, &arena, &set, &variants, &error);
-    double start = seconds(), deadline = start + SECONDS;
-    const MesoSolveOptions options = {.max_attempts = ATTEMPTS, .max_dead_ends = ATTEMPTS,
-                                      .stop = past, .stop_context = &deadline};
+    double time = 0;
     if (!status)
-        status = meso_solve(&result, &arena, &set, &variants, graph, &options, &error);
-    double time = seconds() - start;
+        status = solve_timed(&result, &arena, &set, &variants, graph, SECONDS, &time, totals, &error);
     if (status) {
         printf("%-14s %-14s %s\n", surface, tiles, error.message);
     } else {
-        totals->verdicts[result.verdict]++;
-        totals->deciders[result.decider]++;
-        totals->sum += time;
-        totals->slowest = time > totals->slowest ? time : totals->slowest;
         printf("%-14s %-14s %6u slots %3u variants: %-10s by %-11s %2u attempts %9.2f ms  %s\n", surface, tiles,
                graph->slot_count, variants.count, meso_verdict_name(result.verdict),
                meso_decider_name(result.decider), result.attempts, 1e3 * time, result.reason);
@@ -104,7 +77,7 @@ static void solve(const char *surface, const MesoSlotGraph *graph, const char *t
     meso_arena_release(&arena);
 }
 
-static void solve_all(const char *path, const glob_t *tiles, const char *wanted, Totals *totals)
+static void solve_all(const char *path, const glob_t *tiles, const char *wanted, SolveTotals *totals)
 {
     MesoArena arena;
     MesoSlotGraph graph;
@@ -123,21 +96,11 @@ static void solve_all(const char *path, const glob_t *tiles, const char *wanted,
     meso_arena_release(&arena);
 }
 
-static void print_totals(const Totals *totals)
-{
-    for (MesoVerdict v = MESO_VERDICT_SOLVED; v <= MESO_VERDICT_GAVE_UP; v++)
-        printf("%s %u, ", meso_verdict_name(v), totals->verdicts[v]);
-    printf("by");
-    for (MesoDecider d = MESO_DECIDER_PROPAGATION; d <= MESO_DECIDER_STOP; d++)
-        printf(" %s %u,", meso_decider_name(d), totals->deciders[d]);
-    printf(" %.1f s in all, the slowest %.1f s\n", totals->sum, totals->slowest);
-}
-
 int main(int argc, char **argv)
 {
     glob_t surfaces = {0}, tiles = {0};
     MesoArena arena;
-    Totals totals = {0};
+    SolveTotals totals = {0};
     meso_arena_init(&arena);
     if (argc < 2) {
         printf("solve_table_bench: no folder with surfaces, tilesets and table2 given\n");
@@ -149,7 +112,7 @@ int main(int argc, char **argv)
     for (size_t s = 0; s < surfaces.gl_pathc; s++)
         if (argc < 3 || !*argv[2] || strcmp(base_name(&arena, surfaces.gl_pathv[s]), argv[2]) == 0)
             solve_all(surfaces.gl_pathv[s], &tiles, argc > 3 ? argv[3] : "", &totals);
-    print_totals(&totals);
+    solve_print_totals(&totals, "table");
     globfree(&surfaces);
     globfree(&tiles);
     meso_arena_release(&arena);

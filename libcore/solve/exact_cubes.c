@@ -213,14 +213,15 @@ static MesoStatus conquer(Conquest *conquest, MesoSatAnswer *answer, MesoError *
 }
 
 MesoStatus meso_exact_conquer(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                              uint32_t cube_conflicts, uint64_t conflict_limit, bool (*stop)(void *context), void *context,
-                              MesoError *error)
+                              uint32_t cube_conflicts, uint64_t conflict_limit, bool (*stop)(void *context),
+                              void *context, MesoError *error)
 {
     *answer = MESO_SAT_UNKNOWN;
     if (exact->chain_count == 0 || exact->chain_count > MESO_EXACT_MOST_CHAINS)
         return MESO_OK;
     Conquest conquest = {.exact = exact, .random = random, .cube_conflicts = cube_conflicts,
-                         .conflict_limit = conflict_limit, .stop = stop, .context = context, .conflict_start = meso_sat_conflicts(exact->sat)};
+                         .conflict_limit = conflict_limit, .conflict_start = meso_sat_conflicts(exact->sat),
+                         .stop = stop, .context = context};
     MesoArenaMark mark = meso_arena_mark(exact->arena);
     MesoStatus status = allocate(&conquest, error);
     if (!status)

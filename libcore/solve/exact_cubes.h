@@ -23,7 +23,7 @@ enum { MESO_EXACT_CUBE_CONFLICTS = 1000 };
  * bit is assumed first. MESO_ERR_MEMORY, or what CaDiCaL fails with.
  */
 MesoStatus meso_exact_conquer(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random,
-                              uint32_t cube_conflicts, uint64_t conflict_limit, bool (*stop)(void *context), void *context,
-                              MesoError *error);
+                              uint32_t cube_conflicts, uint64_t conflict_limit, bool (*stop)(void *context),
+                              void *context, MesoError *error);
 
 #endif

@@ -69,9 +69,9 @@ void meso_journal_conclude(MesoJournal *journal, const uint64_t *decisions, uint
 
 /*
  * The decisions without which slot `dead` would have a variant left: those that its changes, and the
- * changes they follow from, lead back to. `teller` is the neighbour whose news left it none, and
- * `dead` MESO_NO_INDEX where it has not changed; slots had the states initial[slot] before all decisions. `bit` is a mask of marks[slot] that is free for use, and 0 before
- * and after. O(changes from the first of these decisions on).
+ * changes they follow from, lead back to. `teller` is the neighbour whose news left it none; `dead` is
+ * MESO_NO_INDEX where it has not changed. Slots had the states initial[slot] before all decisions. `bit` is a mask
+ * of marks[slot] that is free for use, and 0 before and after. O(changes from the first of these decisions on).
  */
 void meso_journal_explain(const MesoJournal *journal, uint32_t dead, uint32_t teller, const uint32_t *initial,
                           uint8_t *marks, uint8_t bit, MesoConflict *conflict);

@@ -53,7 +53,8 @@ static bool can_hold(const BruteForce *force, const MesoJournal *journal, const 
     return false;
 }
 
-static void check_conflict(const MesoPropagation *propagation, const BruteForce *force, MesoConflict *conflict, Tally *tally)
+static void check_conflict(const MesoPropagation *propagation, const BruteForce *force, MesoConflict *conflict,
+                           Tally *tally)
 {
     meso_propagation_explain(propagation, conflict);
     for (uint32_t s = 0; s < propagation->graph->slot_count; s++)

@@ -173,7 +173,8 @@ static MesoTileSet aperiodic_set(MesoArena *arena)
 static const int32_t weave[2][4] = {{1, 2, -1, -2}, {-2, 1, -1, 2}};
 
 /* With hardly a conflict for each cube, so that all of the proof comes from putting cubes together. */
-static MesoSatAnswer conquer(Proof *proof, MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph, uint64_t seed)
+static MesoSatAnswer conquer(Proof *proof, MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph,
+                             uint64_t seed)
 {
     MesoVariantSet variants;
     MesoPropagation propagation;

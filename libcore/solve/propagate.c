@@ -13,7 +13,8 @@ enum { LEAST_STEPS = 1 << 10, MOST_STEPS = 1 << 17 };
 
 /* Entries of the first trail. */
 enum { LEAST_TRAIL = 1024 };
-/* In `pending`: the sides, and marks of slots that are in `touched`, on the trail, in the ball or the conflict at hand. */
+
+/* In `pending`: the sides, and marks of slots in `touched`, on the trail, in the ball or the conflict at hand. */
 enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64, IN_CONFLICT = 128 };
 
 void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)

@@ -201,7 +201,8 @@ const char *meso_gave_up_text(MesoArena *arena, const MesoSolveResult *result, c
                                 graph->slot_count);
     if (text && result->hot_spot_count > 0)
         text = meso_arena_print(arena, error, "%s; %u of %llu dead ends were at slot %u", text,
-                                result->hot_spots[0].dead_ends, (unsigned long long)result->dead_ends_met, result->hot_spots[0].slot);
+                                result->hot_spots[0].dead_ends, (unsigned long long)result->dead_ends_met,
+                                result->hot_spots[0].slot);
     return text ? meso_violations_text(arena, text, result, options->constraints, error) : NULL;
 }
 
