@@ -80,7 +80,7 @@ static void discard_files(MesoEngineRun *run)
     run->proof = run->formula = NULL;
 }
 
-/* The engine may be asked twice, the second time about what probing has left: the files are about that alone. */
+/* The engine may be asked several times, the last time about what probing has left: the files are about that alone. */
 static void begin_formula(void *context)
 {
     MesoEngineRun *run = context;

@@ -30,11 +30,14 @@ static size_t round_up(size_t size)
 /* Of the large pages that lie wholly inside; where the system has none, nothing changes. */
 static void ask_for_large_pages(void *data, size_t size)
 {
+#ifdef MADV_HUGEPAGE
     uintptr_t begin = ((uintptr_t)data + LARGE_PAGE - 1) & ~(uintptr_t)(LARGE_PAGE - 1);
     uintptr_t end = ((uintptr_t)data + size) & ~(uintptr_t)(LARGE_PAGE - 1);
-#ifdef MADV_HUGEPAGE
     if (begin < end)
         madvise((void *)begin, end - begin, MADV_HUGEPAGE);
+#else
+    (void)data;
+    (void)size;
 #endif
 }
 

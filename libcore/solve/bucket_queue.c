@@ -36,8 +36,6 @@ MesoStatus meso_bucket_queue_init(MesoBucketQueue *queue, MesoArena *arena, uint
                                   uint32_t largest_size, MesoError *error)
 {
     *queue = (MesoBucketQueue){.arena = arena, .bucket_count = largest_size + 1, .slot_count = slot_count};
-    queue->lowest = queue->bucket_count;
-
     queue->piece_bits = LEAST_PIECE_BITS;
     while (slot_count >> queue->piece_bits > MOST_PIECES)
         queue->piece_bits++;
@@ -117,7 +115,7 @@ void meso_bucket_queue_remove(MesoBucketQueue *queue, uint32_t slot, uint32_t si
 {
     uint32_t position = queue->position[slot];
     queue->count--;
-    queue->position[slot] = 0;
+    queue->position[slot] = 0;      /* any, for it is not in the stock now */
     if (position == MESO_NO_INDEX)
         return;
 

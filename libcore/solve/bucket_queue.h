@@ -14,8 +14,8 @@
 #include "libcore/base/random.h"
 
 /*
- * A bucket is an array in pieces, so that all buckets together hold no more than the slots,
- * however these spread over them while the search runs.
+ * A bucket is an array in pieces, so that all buckets together hold no more than the slots, and a piece
+ * for each size, however the slots spread over them while the search runs.
  */
 typedef struct MesoBucket {
     uint32_t count;

@@ -346,14 +346,17 @@ static uint32_t hinted_pattern(MesoExact *exact, uint32_t slot, const uint32_t *
 }
 
 /*
- * A pattern for each slot: the hinted ones; then, slot by slot in a random order, random ones that fit
- * what is there, as far as that is possible. So every assignment may come out, and what the engine has to change of
- * its phases, regardless of what they say, is little.
+ * A pattern for each slot: the hinted ones, and random ones. Without hints, or where weights or variants to keep
+ * speak, these come last, slot by slot, and fit what is there, as far as that is possible: so every assignment may come
+ * out, and what the engine has to change of its phases, regardless of what they say, is little. The order is random, but
+ * where wishes are to be met: along the surface more of them are.
  */
 static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32_t *pattern, MesoRandom *random,
                                   MesoError *error)
 {
     const MesoPropagation *propagation = exact->propagation;
+    const MesoConstraints *constraints = exact->constraints;
+    bool wishes = constraints && (constraints->keep || constraints->weights.table_count), fits = wishes || !hint;
     uint32_t slots = propagation->graph->slot_count, words = propagation->domains.states.word_count, count = 0;
     uint32_t *shown = MESO_NEW(exact->arena, uint32_t, 4 * (size_t)slots, error);
     uint32_t *order = MESO_NEW(exact->arena, uint32_t, slots, error);
@@ -362,20 +365,23 @@ static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32
         return MESO_ERR_MEMORY;
     memset(shown, 0xff, 4 * (size_t)slots * sizeof *shown);
     for (uint32_t s = 0; s < slots; s++) {
+        const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->initial[s]);
         pattern[s] = hinted_pattern(exact, s, hint, random);
+        if (pattern[s] == MESO_NO_INDEX && !fits)
+            pattern[s] = pattern_of_variant(meso_pattern_list(&exact->patterns, s, NULL), draw(exact, s, bits, random));
         if (pattern[s] == MESO_NO_INDEX)
             order[count++] = s;
         else
             show_pattern(exact, s, pattern[s], shown);
     }
-    for (; count > 0; count--) {
-        uint32_t i = meso_random_below(random, count), s = order[i];
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t other = wishes ? i : i + meso_random_below(random, count - i), s = order[other];
         const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->initial[s]);
-        order[i] = order[count - 1];
+        order[other] = order[i];
         memcpy(fitting, bits, words * sizeof *bits);
-        if (!keep_fitting(exact, s, shown, fitting))
-            memcpy(fitting, bits, words * sizeof *bits);
-        pattern[s] = pattern_of_variant(meso_pattern_list(&exact->patterns, s, NULL), draw(exact, s, fitting, random));
+        bool any = keep_fitting(exact, s, shown, fitting);
+        pattern[s] = pattern_of_variant(meso_pattern_list(&exact->patterns, s, NULL),
+                                        draw(exact, s, any ? fitting : bits, random));
         show_pattern(exact, s, pattern[s], shown);
     }
     return MESO_OK;

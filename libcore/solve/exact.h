@@ -73,8 +73,9 @@ MesoStatus meso_exact_add(MesoExact *exact, int32_t *literals, uint32_t count, M
 /*
  * Chooses what decisions try first: where `hint` [slot_count], which may be
  * NULL, gives a state of one variant, and that is possible, this; elsewhere a
- * random variant of the initial ones, by weight, one that fits its neighbours' if any does.
- * So every solution may be found, and they follow `random` and the weights. O(slots * variants).
+ * random variant of the initial ones, by weight, and without a hint, or with weights or variants to keep, one that fits
+ * its neighbours' if any does. So without a hint every solution may be found, and they follow `random` and the
+ * weights. O(slots * variants).
  */
 MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, MesoRandom *random,
                                     MesoError *error);

@@ -88,11 +88,12 @@ MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 
 /*
  * Takes back the steps in the journal from steps[step] on. Where a step was left at a dead
- * slot, in the place of meso_propagation_undo(). O(changes). MESO_ERR_MEMORY alone.
+ * slot, in the place of meso_propagation_undo(). Not with quotas, nor where tracing.
+ * O(changes). MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_propagation_jump(MesoPropagation *propagation, uint32_t step, MesoError *error);
 
-/* The decisions that the dead slot at hand hangs on. With a journal alone. */
+/* The decisions that the dead slot at hand hangs on. With a journal, and without quotas. */
 void meso_propagation_explain(const MesoPropagation *propagation, MesoConflict *conflict);
 
 /*

@@ -1,5 +1,6 @@
 #include "libcore/solve/search.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "libcore/solve/choice.h"
@@ -54,6 +55,11 @@ typedef struct Attempt {
     bool dead_end_told;
 } Attempt;
 
+static bool is_told_to_stop(const MesoSearch *search)
+{
+    return search->tick && !search->tick(search->context);
+}
+
 static MesoStatus observe(MesoSearch *search, uint32_t *slot, uint32_t *variant, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
@@ -84,11 +90,13 @@ static MesoStatus repair(MesoSearch *search, Attempt *attempt, uint32_t slot, bo
         }
         if (meso_propagation_undo(propagation, error))
             return MESO_ERR_MEMORY;
+        if (count > TICK_INTERVAL && is_told_to_stop(search))
+            break;
     }
     return MESO_OK;
 }
 
-/* `variant` of `slot` leads to a dead end: takes the step back, and the variant away, and says why. */
+/* Takes `variant`, which led to a dead end, away from `slot`, and notes why; the step that gave it is taken back. */
 static MesoStatus exclude(MesoSearch *search, uint32_t slot, uint32_t variant, const MesoConflict *conflict,
                           MesoError *error)
 {
@@ -133,9 +141,10 @@ static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutc
     return MESO_OK;
 }
 
-/* A journal costs a little: it begins with the first dead end. */
+/* A journal costs a little: it begins with the first dead end. It knows nothing of causes beyond the neighbours. */
 static MesoStatus begin_journal(MesoPropagation *propagation, MesoError *error)
 {
+    assert(propagation->quotas.count == 0 && !propagation->tracing && !propagation->decided);
     propagation->journal = MESO_NEW(propagation->arena, MesoJournal, 1, error);
     if (!propagation->journal)
         return MESO_ERR_MEMORY;
@@ -173,9 +182,10 @@ static MesoStatus retreat(MesoSearch *search, Attempt *attempt, uint32_t slot, u
     MesoStatus status = jump_back(search, attempt, outcome, &jumped, error);
     if (status || jumped || *outcome == MESO_SEARCH_IMPOSSIBLE)
         return status;
+    /* Where the trouble came up, whatever the jumps led to. */
     status = repair(search, attempt, dead_slot, &repaired, error);
     if (!repaired)
-        *outcome = MESO_SEARCH_STUCK;
+        *outcome = is_told_to_stop(search) ? MESO_SEARCH_STOPPED : MESO_SEARCH_STUCK;
     return status;
 }
 
@@ -183,7 +193,7 @@ static bool may_go_on(const MesoSearch *search)
 {
     if (search->observations >= search->max_observations)
         return false;
-    return search->observations % TICK_INTERVAL != 0 || !search->tick || search->tick(search->context);
+    return search->observations % TICK_INTERVAL != 0 || !is_told_to_stop(search);
 }
 
 MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error)
@@ -264,7 +274,7 @@ MesoStatus meso_search_probe(MesoSearch *search, uint64_t work_limit, MesoSearch
     uint64_t work = 0, excluded = 1;
     bool impossible = false;
     *outcome = MESO_SEARCH_STUCK;
-    propagation->journal = NULL;
+    propagation->journal = NULL;    /* steps that are taken back at once need none */
     meso_propagation_restart(propagation);
     while (excluded > 0 && work < work_limit) {
         excluded = 0;

@@ -28,20 +28,20 @@ typedef struct MesoSearch {
     uint64_t jumps;             /* back to decisions that a dead end hangs on, over all attempts */
     uint64_t repairs;           /* balls reopened, over all attempts */
     uint32_t impossible_slot;   /* a dead end that hangs on no decision */
-    bool impossible_at_once;    /* each variant of the slot leads to one before any other choice, but for variants
-                                   of other slots that do */
+    bool impossible_at_once;    /* each variant of the slot leads to a dead end before any other choice, given what
+                                   was refuted like this before */
     uint32_t fewest_open;       /* lowered to the slots with a choice left at the best moment */
     bool (*tick)(void *context);    /* called now and then; false stops the search; may be NULL */
-    MesoStatus (*dead_end)(void *context, uint32_t slot, bool first, MesoError *error); /* each that is met; the
-                                   first of an attempt; may be NULL */
+    MesoStatus (*dead_end)(void *context, uint32_t slot, bool first, MesoError *error); /* each that an
+                                   observation leads to; the first of an attempt; may be NULL */
     void *context;
 } MesoSearch;
 
 /*
  * One attempt from the states as they are: the initial ones, for a proof of
  * MESO_SEARCH_IMPOSSIBLE to hold. Takes `random` further. MESO_ERR_MEMORY, or what
- * `dead_end` returns. At most eight times as many slots are reopened as there are, and as many jumps
- * made.
+ * `dead_end` returns. `attempts_before` says how much effort is made: that many times the
+ * slots, from 8 to 256, and a few more, are reopened at most, and as many jumps made.
  */
 MesoStatus meso_search_attempt(MesoSearch *search, MesoSearchOutcome *outcome, MesoError *error);
 

@@ -44,8 +44,8 @@ typedef struct Search {
     MesoArena hot_arena;            /* of `hot_spots`, which are there from the first dead end on */
     MesoHotSpots hot_spots;
     MesoPropagation propagation;
-    MesoSearch wfc;                 /* the search without */
-    MesoGuidedSearch guided;        /* where constraints call for it */
+    MesoSearch wfc;                 /* the search where no constraint calls for guidance */
+    MesoGuidedSearch guided;        /* where one does */
     uint32_t conflict_slot;         /* near which a proof of unsolvability begins, or MESO_NO_INDEX */
 } Search;
 
@@ -161,6 +161,7 @@ static MesoStatus accept_states(Search *search, MesoError *error)
     return accept(search, variant, MESO_DECIDER_SEARCH, error);
 }
 
+/* Before the first attempt. */
 static void prepare_search(Search *search)
 {
     const MesoSolveOptions *options = search->options;
@@ -282,7 +283,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
                                  uint64_t cubes, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
-    const uint32_t *hint = search->propagation.state;
+    const uint32_t *hint = search->result->attempts ? search->propagation.state : NULL;
     uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
     uint32_t *like_last = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
     if (!variant || !like_last)
@@ -324,6 +325,7 @@ static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts
     MesoExactOptions options = {.chains = chains, .constraints = constraints, .proof = search->options->proof,
                                 .clause = search->options->clause, .context = search->options->proof_context,
                                 .grows = constraints && meso_strand_rule_given(&constraints->strands)};
+    MesoArenaMark mark = meso_arena_mark(&search->scratch);
     bool complete = true;
     meso_random_init(&random, search->options->seed, UINT64_MAX);
     if (search->options->formula)
@@ -341,6 +343,7 @@ static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts
     else
         search->result->budget = MESO_BUDGET_COUNTED;
     meso_exact_release(&exact);
+    meso_arena_rewind(&search->scratch, mark);
     return status;
 }
 
@@ -366,12 +369,17 @@ static MesoStatus probe(Search *search, MesoError *error)
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* Of the conflicts that the exact engine may meet, `most` or what is left. */
-static uint64_t conflicts_left(Search *search, uint64_t most)
+/* Lets the exact engine have its conflicts. */
+static void allow_conflicts(Search *search)
 {
-    MesoSolveResult *result = search->result;
-    if (result->conflict_limit == 0)
-        result->conflict_limit = search->options->max_conflicts ? search->options->max_conflicts : MESO_SOLVE_CONFLICTS;
+    uint64_t most = search->options->max_conflicts;
+    search->result->conflict_limit = most ? most : MESO_SOLVE_CONFLICTS;
+}
+
+/* Of these, `most` or what is left. */
+static uint64_t conflicts_left(const Search *search, uint64_t most)
+{
+    const MesoSolveResult *result = search->result;
     uint64_t left = result->conflict_limit > result->conflicts ? result->conflict_limit - result->conflicts : 0;
     return left < most ? left : most;
 }
@@ -384,6 +392,11 @@ static uint64_t conflicts_left(Search *search, uint64_t most)
 static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error)
 {
     MesoSolveResult *result = search->result;
+    allow_conflicts(search);
+    result->decider = MESO_DECIDER_CONFLICTS;
+    result->budget = MESO_BUDGET_CONFLICTS;
+    if (conflicts_left(search, 1) == 0)
+        return MESO_OK;
     if (guided)
         return decide_exactly(search, false, conflicts_left(search, UINT64_MAX), 0, error);
     uint64_t first = conflicts_left(search, FIRST_CONFLICTS);
@@ -540,14 +553,16 @@ static MesoStatus climb(Search *search, MesoError *error)
     if (!status && undecided(search))
         status = decide_by_numbers(search, error);
     bool more = searching && first_attempts < attempts && search->result->budget == MESO_BUDGET_ATTEMPTS;
-    if (!status && undecided(search) && more)
+    if (!status && undecided(search) && more) {
+        allow_conflicts(search);
         status = decide_exactly(search, true, conflicts_left(search, FIRST_CONFLICTS), 0, error);
+    }
     if (!status && undecided(search) && more)
         status = search_for(search, attempts, error);
     return !status && undecided(search) ? decide_at_length(search, false, error) : status;
 }
 
-/* The same with them. */
+/* The ladder with them: the search for their sake has its own ways back. */
 static MesoStatus climb_guided(Search *search, MesoError *error)
 {
     MesoEngine engine = search->options->engine;
