@@ -90,7 +90,7 @@ static double peak_bytes(void)
 static void bench(MesoArena *arena, const char *shape, const MesoTileSet *set, const MesoVariantSet *variants,
                   const MesoSlotGraph *graph)
 {
-    uint32_t runs = graph->slot_count < 300000 ? 5 : 2;
+    uint32_t runs = graph->slot_count < 300000 ? 2 + 1000000 / graph->slot_count : 2;
     const MesoSolveOptions options = {.max_attempts = 20, .max_dead_ends = 20};
     MesoSolveResult result;
     MesoError error;

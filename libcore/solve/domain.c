@@ -18,14 +18,22 @@ static uint64_t hash_words(const uint64_t *words, uint32_t count)
     return hash ^ (hash >> 32);
 }
 
+/* A few words: memcmp() would take longer to begin. */
+static bool same_words(const uint64_t *a, const uint64_t *b, uint32_t count)
+{
+    for (uint32_t w = 0; w < count; w++)
+        if (a[w] != b[w])
+            return false;
+    return true;
+}
+
 /* Place of `bits` in the index: of its number, or the free one where it belongs. */
 static uint32_t *interner_place(const MesoInterner *interner, const uint64_t *bits)
 {
-    size_t size = interner->word_count * sizeof *bits;
     uint32_t i = (uint32_t)hash_words(bits, interner->word_count);
     for (;; i++) {
         uint32_t *place = &interner->index[i & interner->index_mask];
-        if (*place == 0 || memcmp(meso_interner_bits(interner, *place - 1), bits, size) == 0)
+        if (*place == 0 || same_words(meso_interner_bits(interner, *place - 1), bits, interner->word_count))
             return place;
     }
 }
@@ -55,17 +63,18 @@ static bool interner_grow(MesoInterner *interner, MesoArena *arena, MesoError *e
 uint32_t meso_interner_add(MesoInterner *interner, MesoArena *arena, const uint64_t *bits,
                            MesoError *error)
 {
-    if (interner->capacity) {
-        uint32_t *place = interner_place(interner, bits);
-        if (*place)
-            return *place - 1;
+    uint32_t *place = interner->capacity ? interner_place(interner, bits) : NULL;
+    if (place && *place)
+        return *place - 1;
+    if (interner->count == interner->capacity) {
+        if (!interner_grow(interner, arena, error))
+            return MESO_NO_INDEX;
+        place = interner_place(interner, bits);
     }
-    if (interner->count == interner->capacity && !interner_grow(interner, arena, error))
-        return MESO_NO_INDEX;
     uint32_t number = interner->count++;
     memcpy(interner->bits + (size_t)number * interner->word_count, bits,
            interner->word_count * sizeof *bits);
-    *interner_place(interner, bits) = number + 1;
+    *place = number + 1;
     return number;
 }
 

@@ -11,7 +11,7 @@ enum { TICK_INTERVAL = 4096, PROBE_TICK_INTERVAL = 16 };    /* observations; slo
  * Radii of balls: from the first on, each after so many repairs without progress; then the first again. Large balls
  * help where structures are long, small ones where tiles are many and few fit: attempts take turns.
  */
-enum { FIRST_RADIUS = 2, REPAIRS_AT_RADIUS = 3, LARGE_RADIUS = 24, SMALL_RADIUS = 10 };
+enum { FIRST_RADIUS = 2, REPAIRS_AT_RADIUS = 3, LARGE_RADIUS = 24, SMALL_RADIUS = 8 };
 
 /*
  * What an attempt may do: the first one little, for where solutions are many it is enough and where there are
@@ -167,7 +167,10 @@ static MesoStatus retreat(MesoSearch *search, Attempt *attempt, uint32_t slot, u
     attempt->dead_end_told = true;
     if (!propagation->journal && begin_journal(propagation, error))
         return MESO_ERR_MEMORY;
-    meso_propagation_explain(propagation, &conflict);
+    /* The first attempt jumps so little that it does not pay to know why. */
+    conflict.count = 0;
+    if (attempt->effort.jumps > FIRST_JUMPS)
+        meso_propagation_explain(propagation, &conflict);
     if (meso_propagation_undo(propagation, error) || exclude(search, slot, variant, &conflict, error))
         return MESO_ERR_MEMORY;
     if (propagation->dead_slot == MESO_NO_INDEX)
