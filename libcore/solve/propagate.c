@@ -410,7 +410,7 @@ MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
 {
     *propagation = (MesoPropagation){.graph = graph, .set = set, .arena = arena};
     uint32_t step_count = LEAST_STEPS;
-    while (step_count < MOST_STEPS && step_count < 4 * (uint64_t)graph->slot_count)
+    while (step_count < MOST_STEPS && step_count < 2 * (uint64_t)graph->slot_count)
         step_count *= 2;
 
     if (allocate(propagation, arena, variants, constraints, error) ||
