@@ -32,8 +32,9 @@ typedef struct MesoBucketQueue {
     uint32_t *position;         /* [slot_count] in its bucket, or MESO_NO_INDEX in the stock */
     uint32_t *stock;            /* [slot_count] */
     uint32_t *pieces;           /* [pieces << piece_bits] */
-    uint32_t *free_pieces;      /* stack, above the pieces that were never used */
-    uint32_t free_count, unused_piece;
+    uint32_t *free_pieces;      /* [free_count] stack of pieces that were given back */
+    uint32_t free_count;
+    uint32_t unused_piece;      /* from it on, pieces were never in use */
     uint32_t lowest;            /* no bucket below has a slot */
     uint32_t count;             /* slots in all buckets and the stock */
 } MesoBucketQueue;

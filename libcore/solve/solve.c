@@ -18,8 +18,8 @@ static const uint64_t parity_work = (uint64_t)1 << 32;
 /* Changes of states that probing may make: half a minute or less. */
 static const uint64_t probe_work = (uint64_t)1 << 27;
 
-/* Attempts of the search before provers and the exact engine have a first go. */
-enum { FIRST_ATTEMPTS = 4 };
+/* Attempts of the search before provers and the exact engine have a first go; the latter up to so many slots. */
+enum { FIRST_ATTEMPTS = 4, FIRST_GO_SLOTS = 1 << 16 };
 
 /* Conflicts that the exact engine has before further attempts, and again before probing: about a second. */
 enum { FIRST_CONFLICTS = 3000 };
@@ -553,7 +553,8 @@ static MesoStatus climb(Search *search, MesoError *error)
     if (!status && undecided(search))
         status = decide_by_numbers(search, error);
     bool more = searching && first_attempts < attempts && search->result->budget == MESO_BUDGET_ATTEMPTS;
-    if (!status && undecided(search) && more) {
+    /* On a large surface the formula alone takes longer, and more memory, than the attempts. */
+    if (!status && undecided(search) && more && search->graph->slot_count <= FIRST_GO_SLOTS) {
         allow_conflicts(search);
         status = decide_exactly(search, true, conflicts_left(search, FIRST_CONFLICTS), 0, error);
     }
