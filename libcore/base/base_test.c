@@ -79,6 +79,7 @@ static void test_bits(void)
     CHECK(meso_bits_count(bits, 3) == 2 && meso_bits_first(bits, 3) == 63);
     meso_bits_clear(bits, 63);
     CHECK(meso_bits_first(bits, 3) == 130);
+    CHECK(meso_bits_rank(bits, 130) == 0 && meso_bits_rank(bits, 131) == 1 && meso_bits_rank(bits, 191) == 1);
 }
 
 static void add_range(void *context, uint64_t begin, uint64_t end)

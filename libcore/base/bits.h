@@ -33,6 +33,13 @@ static inline uint32_t meso_bits_count(const uint64_t *bits, uint32_t word_count
     return count;
 }
 
+/* Elements below `i`. */
+static inline uint32_t meso_bits_rank(const uint64_t *bits, uint32_t i)
+{
+    uint64_t below = bits[i / 64] & (((uint64_t)1 << (i % 64)) - 1);
+    return meso_bits_count(bits, i / 64) + (uint32_t)__builtin_popcountll(below);
+}
+
 /* First element, or `64 * word_count` if there is none. */
 static inline uint32_t meso_bits_first(const uint64_t *bits, uint32_t word_count)
 {

@@ -3,9 +3,6 @@
 #include <assert.h>
 #include <string.h>
 
-/* Values of one pair of sides of which all sums are tried; of more, each value alone. */
-enum { MOST_SUMMED = 4 };
-
 /* What patterns of a list carry between sides `from` and `to`. */
 typedef struct Pair {
     uint32_t from, to;
@@ -93,14 +90,6 @@ static MesoStatus find_pairs(Finder *finder, const MesoPatternList *list, PairLi
     return MESO_OK;
 }
 
-/* Labels that the far side of an edge may show. */
-static const uint64_t *edge_labels(const Finder *finder, uint32_t edge)
-{
-    const MesoPropagation *propagation = finder->table->propagation;
-    const MesoDomain *domain = &propagation->domains.domains[propagation->initial[edge / 4]];
-    return meso_domain_labels(&propagation->domains, domain->allow[edge % 4]);
-}
-
 /* Ranks at the edge of side `side` of `slot` of the codes there whose value is in `values`. */
 static uint64_t edge_ranks(const Finder *finder, uint32_t slot, uint32_t side, const uint32_t *code_value,
                            uint64_t values, uint32_t *edge)
@@ -109,7 +98,7 @@ static uint64_t edge_ranks(const Finder *finder, uint32_t slot, uint32_t side, c
     uint64_t ranks = 0;
     uint32_t rank = 0;
     *edge = half_edge < twin ? half_edge : twin;
-    const uint64_t *labels = edge_labels(finder, *edge);
+    const uint64_t *labels = meso_propagation_labels(finder->table->propagation, *edge);
     for (uint32_t far_code = 0; far_code < finder->label_count; far_code++) {
         if (!meso_bits_test(labels, far_code))
             continue;
@@ -123,7 +112,7 @@ static uint64_t edge_ranks(const Finder *finder, uint32_t slot, uint32_t side, c
 
 static uint64_t all_ranks(const Finder *finder, uint32_t edge)
 {
-    uint32_t count = meso_bits_count(edge_labels(finder, edge), finder->table->propagation->domains.sets.word_count);
+    uint32_t count = meso_propagation_label_count(finder->table->propagation, edge);
     return count >= 64 ? UINT64_MAX : ((uint64_t)1 << count) - 1;
 }
 
@@ -228,7 +217,7 @@ static MesoStatus join_values(Finder *finder, uint32_t slot, const Pair *pair, u
 static MesoStatus join_pair(Finder *finder, uint32_t slot, const Pair *pair, MesoError *error)
 {
     MesoStatus status = MESO_OK;
-    if (pair->value_count > MOST_SUMMED) {
+    if (pair->value_count > MESO_CARRY_SUMMED) {
         for (uint32_t v = 0; v < pair->value_count && v < 64 && !status; v++)
             status = join_values(finder, slot, pair, (uint64_t)1 << v, error);
         return status;

@@ -12,6 +12,9 @@
 
 #include "libcore/solve/pattern.h"
 
+/* Values of one pair of sides of which all sums are tried; of more, each value alone. */
+enum { MESO_CARRY_SUMMED = 4 };
+
 /* One edge of a chain: the chain's bit tells whether the edge's label is one of a set. */
 typedef struct MesoCarryLink {
     uint32_t edge;              /* its lower half-edge (slot_graph.h) */
@@ -22,7 +25,7 @@ typedef struct MesoCarryLink {
 
 typedef struct MesoCarry {
     uint32_t link_count, chain_count;
-    MesoCarryLink *links;       /* [link_count] by edge */
+    MesoCarryLink *links;       /* [link_count] in no order */
 } MesoCarry;
 
 /*

@@ -3,7 +3,6 @@
 #include <assert.h>
 #include <string.h>
 
-#include "libcore/solve/carry.h"
 
 static const uint32_t variable_limit = 1u << 30;
 
@@ -25,20 +24,6 @@ static uint32_t choice_variables(uint32_t count)
     return count < 3 ? count - 1 : count;
 }
 
-/* Labels that the far side of `half_edge` may show. */
-static const uint64_t *far_labels(const MesoPropagation *propagation, uint32_t half_edge)
-{
-    uint32_t state = propagation->initial[half_edge / 4];
-    return meso_domain_labels(&propagation->domains,
-                              propagation->domains.domains[state].allow[half_edge % 4]);
-}
-
-static uint32_t label_rank(const uint64_t *labels, uint32_t code)
-{
-    uint64_t below = labels[code / 64] & (((uint64_t)1 << (code % 64)) - 1);
-    return meso_bits_count(labels, code / 64) + (uint32_t)__builtin_popcountll(below);
-}
-
 int32_t meso_exact_label_literal(const MesoExact *exact, uint32_t slot, uint32_t side, uint32_t code)
 {
     uint32_t half_edge = 4 * slot + side;
@@ -47,11 +32,11 @@ int32_t meso_exact_label_literal(const MesoExact *exact, uint32_t slot, uint32_t
     /* The edge is known by its lower half-edge and by what the far side shows. */
     uint32_t lower = half_edge < twin ? half_edge : twin;
     uint32_t far_code = half_edge < twin ? code ^ 1 : code;
-    const uint64_t *labels = far_labels(exact->propagation, lower);
+    const uint64_t *labels = meso_propagation_labels(exact->propagation, lower);
     if (!meso_bits_test(labels, far_code))
         return -MESO_EXACT_TRUE;
     uint32_t count = meso_bits_count(labels, exact->propagation->domains.sets.word_count);
-    return choice_literal(exact->edge_first[lower], count, label_rank(labels, far_code));
+    return choice_literal(exact->edge_first[lower], count, meso_bits_rank(labels, far_code));
 }
 
 int32_t meso_exact_new_variable(MesoExact *exact)
@@ -107,8 +92,7 @@ static MesoStatus number_variables(MesoExact *exact, MesoError *error)
             if (twin == MESO_NO_INDEX || twin < h)
                 continue;
             exact->edge_first[h] = (uint32_t)next;
-            next += choice_variables(meso_bits_count(far_labels(propagation, h),
-                                                     propagation->domains.sets.word_count));
+            next += choice_variables(meso_propagation_label_count(propagation, h));
         }
         if (next > variable_limit)
             return meso_fail(error, MESO_ERR_LIMIT, "too many slots and tiles for the exact engine");
@@ -182,8 +166,7 @@ static MesoStatus add_clauses(MesoExact *exact, MesoError *error)
             uint32_t h = 4 * s + k, twin = propagation->graph->twin[h];
             if (twin == MESO_NO_INDEX || twin < h)
                 continue;
-            uint32_t count = meso_bits_count(far_labels(propagation, h),
-                                             propagation->domains.sets.word_count);
+            uint32_t count = meso_propagation_label_count(propagation, h);
             status = add_one_of(exact, exact->edge_first[h], count, true, literals, error);
         }
     }
@@ -193,8 +176,7 @@ static MesoStatus add_clauses(MesoExact *exact, MesoError *error)
 /* The chain's bit is equivalent to a set of labels on each of its edges. */
 static MesoStatus add_link(MesoExact *exact, const MesoCarryLink *link, MesoError *error)
 {
-    uint32_t count = meso_bits_count(far_labels(exact->propagation, link->edge),
-                                     exact->propagation->domains.sets.word_count);
+    uint32_t count = meso_propagation_label_count(exact->propagation, link->edge);
     int32_t bit = (int32_t)(exact->chain_first + link->chain);
     MesoStatus status = MESO_OK;
     for (uint32_t r = 0; r < count && !status; r++) {
@@ -207,21 +189,21 @@ static MesoStatus add_link(MesoExact *exact, const MesoCarryLink *link, MesoErro
 
 static MesoStatus add_chains(MesoExact *exact, MesoError *error)
 {
-    MesoCarry carry;
-    MesoStatus status = meso_carry_find(&carry, exact->arena, &exact->patterns, error);
+    MesoCarry *carry = &exact->carry;
+    MesoStatus status = meso_carry_find(carry, exact->arena, &exact->patterns, error);
     if (status)
         return status;
     exact->chain_first = exact->variable_count + 1;
-    exact->chain_count = carry.chain_count;
-    exact->variable_count += carry.chain_count;
-    exact->chain_length = MESO_NEW(exact->arena, uint32_t, carry.chain_count, error);
+    exact->chain_count = carry->chain_count;
+    exact->variable_count += carry->chain_count;
+    exact->chain_length = MESO_NEW(exact->arena, uint32_t, carry->chain_count, error);
     if (!exact->chain_length)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < carry.link_count && !status; i++) {
-        exact->chain_length[carry.links[i].chain]++;
-        status = add_link(exact, &carry.links[i], error);
+    for (uint32_t i = 0; i < carry->link_count && !status; i++) {
+        exact->chain_length[carry->links[i].chain]++;
+        status = add_link(exact, &carry->links[i], error);
     }
-    for (uint32_t c = 0; c < carry.chain_count && !status; c++)
+    for (uint32_t c = 0; c < carry->chain_count && !status; c++)
         status = meso_sat_freeze(exact->sat, (int32_t)(exact->chain_first + c), error);
     return status;
 }
@@ -296,9 +278,9 @@ static MesoStatus prefer_labels(MesoExact *exact, uint32_t slot, const uint32_t 
         uint32_t h = 4 * slot + k, twin = propagation->graph->twin[h];
         if (twin == MESO_NO_INDEX || twin < h)
             continue;
-        const uint64_t *labels = far_labels(propagation, h);
+        const uint64_t *labels = meso_propagation_labels(propagation, h);
         uint32_t count = meso_bits_count(labels, propagation->domains.sets.word_count);
-        status = prefer(exact, exact->edge_first[h], count, label_rank(labels, codes[k] ^ 1), error);
+        status = prefer(exact, exact->edge_first[h], count, meso_bits_rank(labels, codes[k] ^ 1), error);
     }
     return status;
 }

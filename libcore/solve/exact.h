@@ -10,6 +10,7 @@
 #define MESO_EXACT_H
 
 #include "libcore/solve/cadical_adapter.h"
+#include "libcore/solve/carry.h"
 #include "libcore/solve/pattern.h"
 
 /* Literal of what always holds; its negation never does. Not to be given to CaDiCaL. */
@@ -28,6 +29,7 @@ typedef struct MesoExact {
     uint64_t clause_count;
     uint32_t *edge_first;       /* [4 * slot_count] first label variable, at the edge's lower half-edge; 0: none */
     uint32_t *slot_first;       /* [slot_count] first pattern variable; 0: the slot has one pattern */
+    MesoCarry carry;
     uint32_t chain_first, chain_count;  /* variables of the chains (carry.h) */
     uint32_t *chain_length;     /* [chain_count] edges */
     void (*clause)(void *context, const int32_t *literals, uint32_t count);

@@ -158,18 +158,6 @@ static MesoStatus order_slots(Sweep *sweep, MesoError *error)
     return MESO_OK;
 }
 
-static const uint64_t *edge_labels(const Sweep *sweep, uint32_t lower)
-{
-    const MesoPropagation *propagation = sweep->table->propagation;
-    const MesoDomain *domain = &propagation->domains.domains[propagation->initial[lower / 4]];
-    return meso_domain_labels(&propagation->domains, domain->allow[lower % 4]);
-}
-
-static uint32_t edge_label_count(const Sweep *sweep, uint32_t lower)
-{
-    return meso_bits_count(edge_labels(sweep, lower), sweep->table->propagation->domains.sets.word_count);
-}
-
 /* Half-edge that stands for the edge of side `side` of `slot`; MESO_NO_INDEX where there is nothing unknown. */
 static uint32_t unknown_edge(const Sweep *sweep, uint32_t slot, uint32_t side)
 {
@@ -178,7 +166,7 @@ static uint32_t unknown_edge(const Sweep *sweep, uint32_t slot, uint32_t side)
     if (twin == MESO_NO_INDEX)
         return MESO_NO_INDEX;
     uint32_t lower = half_edge < twin ? half_edge : twin;
-    return edge_label_count(sweep, lower) < 2 ? MESO_NO_INDEX : lower;
+    return meso_propagation_label_count(sweep->table->propagation, lower) < 2 ? MESO_NO_INDEX : lower;
 }
 
 /* Most edges with unknowns on the front at a time, and most labels of one. */
@@ -195,7 +183,7 @@ static MesoStatus measure_front(Sweep *sweep, MesoError *error)
             uint32_t edge = unknown_edge(sweep, sweep->order[i], k);
             if (edge == MESO_NO_INDEX)
                 continue;
-            uint32_t count = edge_label_count(sweep, edge);
+            uint32_t count = meso_propagation_label_count(sweep->table->propagation, edge);
             sweep->block_size = count > sweep->block_size ? count : sweep->block_size;
             open += sweep->block[edge] == 0;
             closing += sweep->block[edge] == 1;
@@ -267,9 +255,7 @@ static uint32_t unknown_column(const Sweep *sweep, uint32_t slot, uint32_t side,
     if (edge == MESO_NO_INDEX)
         return 0;
     uint32_t far_code = edge == 4 * slot + side ? code ^ 1 : code;
-    const uint64_t *labels = edge_labels(sweep, edge);
-    uint64_t below = labels[far_code / 64] & (((uint64_t)1 << (far_code % 64)) - 1);
-    uint32_t rank = meso_bits_count(labels, far_code / 64) + (uint32_t)__builtin_popcountll(below);
+    uint32_t rank = meso_bits_rank(meso_propagation_labels(sweep->table->propagation, edge), far_code);
     return 1 + sweep->block[edge] * sweep->block_size + rank;
 }
 
@@ -312,7 +298,7 @@ static void add_equation(Sweep *sweep, const Relations *relations, const uint64_
 static void close_edge(Sweep *sweep, uint32_t edge)
 {
     uint32_t block = sweep->block[edge];
-    for (uint32_t i = 0; i < edge_label_count(sweep, edge); i++) {
+    for (uint32_t i = 0; i < meso_propagation_label_count(sweep->table->propagation, edge); i++) {
         uint32_t column = 1 + block * sweep->block_size + i;
         uint32_t row = sweep->pivot_row[column];
         if (row == MESO_NO_INDEX) {

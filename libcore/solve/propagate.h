@@ -143,4 +143,16 @@ void meso_propagation_restart(MesoPropagation *propagation);
 const uint64_t *meso_propagation_allowed(const MesoPropagation *propagation, uint32_t slot,
                                          uint32_t side);
 
+/* Labels that the far side of `half_edge` may show, as far as the initial state of its own slot says. */
+static inline const uint64_t *meso_propagation_labels(const MesoPropagation *propagation, uint32_t half_edge)
+{
+    const MesoDomain *domain = &propagation->domains.domains[propagation->initial[half_edge / 4]];
+    return meso_domain_labels(&propagation->domains, domain->allow[half_edge % 4]);
+}
+
+static inline uint32_t meso_propagation_label_count(const MesoPropagation *propagation, uint32_t half_edge)
+{
+    return meso_bits_count(meso_propagation_labels(propagation, half_edge), propagation->domains.sets.word_count);
+}
+
 #endif

@@ -3,6 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/solve/chain_search.h"
 #include "libcore/solve/counting.h"
 #include "libcore/solve/exact_control.h"
 #include "libcore/solve/exact_cubes.h"
@@ -29,6 +30,9 @@ enum { PHASED_CONFLICTS = 1000 };
 
 /* Conflicts that it then has by cubes (exact_cubes.h), where that gets on. */
 enum { CUBE_CONFLICTS = 200000 };
+
+/* Looks at an edge of the chain search that comes then: some fifteen seconds. */
+static const uint64_t chain_work = (uint64_t)1 << 31;
 
 /* Solutions of the exact engine that a rule on strands may cut off: fewer on a large surface. */
 enum { LEAST_CUT_ROUNDS = 20, MOST_CUT_ROUNDS = 2000, CUT_SLOTS = 1 << 20 };
@@ -252,8 +256,11 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *h
                                 options->stop, options->stop_context, error);
     if (status || *answer != MESO_SAT_UNKNOWN || cubes == 0 || told_to_stop(search))
         return status;
-    return meso_exact_conquer(exact, answer, random, MESO_EXACT_CUBE_CONFLICTS, cubes, options->stop,
-                              options->stop_context, error);
+    status = meso_exact_conquer(exact, answer, random, MESO_EXACT_CUBE_CONFLICTS, cubes, options->stop,
+                                options->stop_context, error);
+    if (status || *answer != MESO_SAT_UNKNOWN || told_to_stop(search))
+        return status;
+    return meso_exact_search_chains(exact, answer, random, chain_work, options->stop, options->stop_context, error);
 }
 
 /* Tells the answer; a solution goes to `variant`, unless it breaks the rule on strands: then there are `*cuts`. */
