@@ -328,12 +328,13 @@ static void test_places(void)
 
 #define EVEN_STRIP "\"regions\": [{\"where\": {\"group\": \"strip\"}, \"tiles\": [\"even\"]}]"
 
-/* Whether `reason` says `expected`, before the colon of its proof, or names the same constraints with slots. */
+/* Whether `reason` says `expected`, before its proof or the slots, or names the same constraints with slots. */
 static bool blames(const char *reason, const char *expected)
 {
     char with[256];
     size_t size = strlen(expected);
-    if (strncmp(reason, expected, size) == 0 && (!reason[size] || reason[size] == ':'))
+    if (strncmp(reason, expected, size) == 0 &&
+        (!reason[size] || reason[size] == ':' || strncmp(reason + size, " on ", 4) == 0))
         return true;
     int names = (int)(strstr(expected, " cannot hold") - expected);
     size = (size_t)snprintf(with, sizeof with, ", with %.*s", names, expected);

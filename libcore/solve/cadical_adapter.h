@@ -15,6 +15,9 @@
 extern "C" {
 #endif
 
+/* Literal of what always holds; its negation never does. For callers that drop it: CaDiCaL does not know it. */
+#define MESO_LITERAL_TRUE INT32_MAX
+
 typedef struct MesoSat MesoSat;
 
 typedef enum MesoSatAnswer { MESO_SAT_UNKNOWN, MESO_SAT_YES, MESO_SAT_NO } MesoSatAnswer;

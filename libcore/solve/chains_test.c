@@ -55,14 +55,11 @@ static void test_strips(void)
 /* The bit of a link's chain under the assignment `variant`. */
 static bool link_bit(const Case *c, const MesoCarryLink *link, const uint32_t *variant)
 {
-    const MesoPropagation *propagation = &c->propagation;
-    uint32_t state = propagation->initial[link->edge / 4], twin = c->graph.twin[link->edge], rank = 0;
-    const uint64_t *labels = meso_domain_labels(&propagation->domains, propagation->domains.domains[state].allow[link->edge % 4]);
-    uint32_t code = propagation->codes[4 * (size_t)variant[twin / 4] + twin % 4];
+    uint32_t twin = c->graph.twin[link->edge];
+    const uint64_t *labels = meso_propagation_labels(&c->propagation, link->edge);
+    uint32_t code = c->propagation.codes[4 * (size_t)variant[twin / 4] + twin % 4];
     CHECK(meso_bits_test(labels, code));
-    for (uint32_t i = 0; i < code; i++)
-        rank += meso_bits_test(labels, i);
-    return (bool)(link->ranks >> rank & 1) != link->negated;
+    return (bool)(link->ranks >> meso_bits_rank(labels, code) & 1) != link->negated;
 }
 
 static uint32_t chains_met, rings_met;
@@ -121,7 +118,7 @@ static void check_all_bits(MesoArena *arena, MesoChainRings *rings, const bool *
 
 static uint32_t found, not_found;
 
-/* The search finds one of the assignments; none where there is none, or, where there is more than rings, now and then. */
+/* The search finds an assignment; none where there is none, or, where there is more than rings, now and then. */
 static void check_search(MesoArena *arena, const Case *c, const BruteForce *force, uint64_t seed, bool only_rings)
 {
     MesoExact exact;
@@ -207,7 +204,8 @@ static void test_brute_force(void)
         check_case(&arena, random_set(&arena, &random), fixture_grid(&arena, 2 + i % 2, 2, i & 2, i & 4, i & 8), i,
                    false);
         check_case(&arena, fixture_set(&arena, 2, 2, weave, true, true, true), random_graph(&arena, &random), i, false);
-        check_case(&arena, fixture_set(&arena, 2, 4, turns, true, false, false), random_graph(&arena, &random), i, true);
+        check_case(&arena, fixture_set(&arena, 2, 4, turns, true, false, false), random_graph(&arena, &random), i,
+                   true);
         check_case(&arena, fixture_set(&arena, 2, 4, turns, true, false, false),
                    fixture_grid(&arena, 2 + i % 2, 2, i & 2, i & 4, i & 8), i, true);
         meso_arena_rewind(&arena, mark);

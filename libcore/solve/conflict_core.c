@@ -97,12 +97,16 @@ static uint32_t keep_failed(const Finder *finder, uint32_t *items, uint32_t coun
 
 /* --- a first core --- */
 
-static uint32_t collect_restrictions(const Finder *finder, uint32_t *items)
+/* Quotas, then restrictions; `*restrictions` gets where these begin. */
+static uint32_t collect_constraints(const Finder *finder, uint32_t *items, uint32_t *restrictions)
 {
     const MesoConstraints *constraints = finder->problem->constraints;
     uint32_t count = 0;
+    *restrictions = constraints ? constraints->quota_count : 0;
+    for (uint32_t q = 0; q < *restrictions; q++)
+        items[count++] = meso_core_constraint_item(finder->problem, constraints->restriction_count + q);
     for (uint32_t r = 0; constraints && r < constraints->restriction_count; r++)
-        items[count++] = meso_core_restriction_item(finder->problem, r);
+        items[count++] = meso_core_constraint_item(finder->problem, r);
     return count;
 }
 
@@ -122,18 +126,22 @@ static uint32_t collect_rules_and_slots(const Finder *finder, uint32_t ball, uin
     return count;
 }
 
-/* Restrictions join only where there is no conflict without. */
+/* Restrictions join only where there is no conflict without, and quotas where there is none with these. */
 static MesoStatus ask_ball(Finder *finder, uint32_t ball, Items *items, MesoSatAnswer *answer, MesoError *error)
 {
-    uint32_t restrictions = collect_restrictions(finder, items->numbers);
-    uint32_t rest = collect_rules_and_slots(finder, ball, items->numbers + restrictions);
-    MesoStatus status = ask(finder, items->numbers + restrictions, rest, BALL_CONFLICTS, answer, error);
-    items->count = restrictions + rest;
-    if (!status && *answer == MESO_SAT_NO) {
-        memmove(items->numbers, items->numbers + restrictions, rest * sizeof *items->numbers);
-        items->count = rest;
-    } else if (!status && restrictions > 0)
-        status = ask(finder, items->numbers, items->count, BALL_CONFLICTS, answer, error);
+    uint32_t restrictions, rest = collect_constraints(finder, items->numbers, &restrictions);
+    uint32_t all = rest + collect_rules_and_slots(finder, ball, items->numbers + rest);
+    uint32_t begin[3] = {rest, restrictions, 0};
+    MesoStatus status = MESO_OK;
+    *answer = MESO_SAT_UNKNOWN;
+    for (uint32_t i = 0; i < 3 && !status && *answer != MESO_SAT_NO; i++) {
+        if (i > 0 && begin[i] == begin[i - 1])
+            continue;
+        items->count = all - begin[i];
+        status = ask(finder, items->numbers + begin[i], items->count, BALL_CONFLICTS, answer, error);
+        if (!status && *answer == MESO_SAT_NO)
+            memmove(items->numbers, items->numbers + begin[i], items->count * sizeof *items->numbers);
+    }
     return status;
 }
 
@@ -214,7 +222,7 @@ static MesoStatus shrink(Finder *finder, Items *items, uint32_t *slots, MesoErro
     return status;
 }
 
-/* Another order of the slots; restrictions and rules stay in front. */
+/* Another order of the slots; constraints and rules stay in front. */
 static void shuffle(const Finder *finder, Items *items, MesoRandom *random)
 {
     uint32_t front = 0;
@@ -266,7 +274,14 @@ bool meso_conflict_core_admits(const MesoConflictCore *core, const MesoCoreProbl
             return false;
     }
     for (uint32_t i = 0; i < core->constraint_count; i++) {
-        const MesoRestriction *restriction = &problem->constraints->restrictions[core->constraints[i]];
+        const MesoConstraints *constraints = problem->constraints;
+        if (core->constraints[i] >= constraints->restriction_count) {
+            const MesoQuota *quota = &constraints->quotas[core->constraints[i] - constraints->restriction_count];
+            if (quota->most == 0 && meso_bits_test(quota->variants, variant))
+                return false;
+            continue;
+        }
+        const MesoRestriction *restriction = &constraints->restrictions[core->constraints[i]];
         for (uint32_t p = 0; p < restriction->place_count; p++) {
             uint32_t place = restriction->places[p];
             if ((restriction->sided ? place / 4 : place) == slot &&
@@ -306,7 +321,7 @@ static void sort_ascending(uint32_t *numbers, uint32_t count)
 static MesoStatus tell(const Finder *finder, Items *items, MesoConflictCore *core, MesoArena *arena, MesoError *error)
 {
     const MesoCoreProblem *problem = finder->problem;
-    uint32_t rules = meso_core_rule_item(problem, 0, false), restrictions = meso_core_restriction_item(problem, 0);
+    uint32_t rules = meso_core_rule_item(problem, 0, false), constraints = meso_core_constraint_item(problem, 0);
     core->slots = MESO_NEW(arena, uint32_t, items->count, error);
     core->rules = MESO_NEW(arena, MesoCoreRule, items->count, error);
     core->constraints = MESO_NEW(arena, uint32_t, items->count, error);
@@ -317,10 +332,10 @@ static MesoStatus tell(const Finder *finder, Items *items, MesoConflictCore *cor
         uint32_t item = items->numbers[i];
         if (item < rules)
             core->slots[core->slot_count++] = item;
-        else if (item < restrictions)
+        else if (item < constraints)
             core->rules[core->rule_count++] = (MesoCoreRule){(item - rules) / 2, (item - rules) % 2};
         else
-            core->constraints[core->constraint_count++] = item - restrictions;
+            core->constraints[core->constraint_count++] = item - constraints;
     }
     core->found = true;
     core->minimal = items->minimal;
@@ -359,7 +374,8 @@ static MesoStatus prepare(Finder *finder, uint32_t near, uint32_t slots, Items *
     if (order_slots(finder, near, slots, error))
         return MESO_ERR_MEMORY;
     finder->item_limit = finder->order_count + 2 * problem->set->interface_count +
-                         (problem->constraints ? problem->constraints->restriction_count : 0);
+                         (problem->constraints
+                              ? problem->constraints->restriction_count + problem->constraints->quota_count : 0);
     finder->trial = MESO_NEW(finder->arena, uint32_t, finder->item_limit, error);
     finder->assumptions = MESO_NEW(finder->arena, int32_t, finder->item_limit, error);
     items->numbers = MESO_NEW(finder->arena, uint32_t, finder->item_limit, error);

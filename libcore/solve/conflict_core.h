@@ -1,6 +1,6 @@
 /*
- * Conflict cores: a least set of slots, border rules and restrictions found that
- * cannot hold together, whatever the rest of the surface does. From the
+ * Conflict cores: a least set of slots, border rules, restrictions and quotas found
+ * that cannot hold together, whatever the rest of the surface does. From the
  * assumptions of core_formula.h that fail, on balls of slots that grow until one
  * contradicts itself; then items are left out one by one, as long as what is left
  * still does (deletion, as in Marques-Silva, "Minimal unsatisfiability: models,
@@ -20,7 +20,7 @@ typedef struct MesoConflictCore {
     bool found;
     bool minimal;               /* without any one of these there is no conflict among the rest */
     uint32_t slot_count, rule_count, constraint_count, tile_count;
-    uint32_t *slots;            /* [slot_count] ascending; none: the whole surface has a part */
+    uint32_t *slots;            /* [slot_count] ascending; none: it is not said which have a part */
     MesoCoreRule *rules;        /* [rule_count] by interface */
     uint32_t *constraints;      /* [constraint_count] by number, ascending */
     uint32_t *tiles;            /* [tile_count] that the rules and constraints allow on one of the slots */
@@ -37,7 +37,7 @@ typedef struct MesoCoreLimits {
  * MESO_NO_INDEX and the surface is within the limits. `core->found` is false where
  * there is none within reach, or none found that is either minimal or small: that
  * says nothing. Restrictions are left out of it where there is a conflict without
- * them in the same ball. Quotas and the rule on strands are not looked at. The
+ * them in the same ball, and quotas too. The rule on strands is not looked at. The
  * arrays of `core` go to `arena`. The result depends on the arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
 MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, const MesoCoreProblem *problem,

@@ -6,10 +6,10 @@
 #include "libcore/solve/brute_force.h"
 #include "libcore/solve/random_case.h"
 
-/* What of a problem is looked at: slots, border rules, restrictions, as bits. */
+/* What of a problem is looked at: slots, border rules, restrictions, quotas, as bits. */
 typedef struct Part {
     const MesoCoreProblem *problem;
-    uint32_t slots, exempt, only, restrictions;
+    uint32_t slots, exempt, only, restrictions, quotas;
     uint32_t chosen[BRUTE_FORCE_SLOTS];
 } Part;
 
@@ -46,13 +46,30 @@ static bool fits(const Part *part, uint32_t slot)
     return restrictions_hold(part, slot);
 }
 
+/* Slots that are not in the part may count for a quota or not. */
+static bool quotas_hold(const Part *part)
+{
+    const MesoConstraints *constraints = part->problem->constraints;
+    uint32_t others = part->problem->graph->slot_count - (uint32_t)__builtin_popcount(part->slots);
+    bool hold = true;
+    for (uint32_t q = 0; constraints && q < constraints->quota_count; q++) {
+        const MesoQuota *quota = &constraints->quotas[q];
+        uint32_t held = 0;
+        for (uint32_t s = 0; s < part->problem->graph->slot_count; s++)
+            held += (part->slots >> s) & 1 && meso_bits_test(quota->variants, part->chosen[s]);
+        if ((part->quotas >> q) & 1)
+            hold &= held <= quota->most && held + others >= quota->least;
+    }
+    return hold;
+}
+
 /* Whether the slots of the part, from `slot` on, can have tiles; sides towards other slots are free. */
 static bool can_hold(Part *part, uint32_t slot)
 {
     while (slot < part->problem->graph->slot_count && !((part->slots >> slot) & 1))
         slot++;
     if (slot == part->problem->graph->slot_count)
-        return true;
+        return quotas_hold(part);
     for (uint32_t v = 0; v < part->problem->variants->count; v++) {
         part->chosen[slot] = v;
         if (fits(part, slot) && can_hold(part, slot + 1))
@@ -68,14 +85,18 @@ static Part part_of(const MesoCoreProblem *problem, const MesoConflictCore *core
         part.slots |= 1u << core->slots[i];
     for (uint32_t i = 0; i < core->rule_count; i++)
         *(core->rules[i].only ? &part.only : &part.exempt) |= 1u << core->rules[i].interface;
-    for (uint32_t i = 0; i < core->constraint_count; i++)
-        part.restrictions |= 1u << core->constraints[i];
+    uint32_t restrictions = problem->constraints ? problem->constraints->restriction_count : 0;
+    for (uint32_t i = 0; i < core->constraint_count; i++) {
+        bool quota = core->constraints[i] >= restrictions;
+        *(quota ? &part.quotas : &part.restrictions) |= 1u << (core->constraints[i] - (quota ? restrictions : 0));
+    }
     return part;
 }
 
 static Part whole(const MesoCoreProblem *problem)
 {
-    Part part = {.problem = problem, .slots = (1u << problem->graph->slot_count) - 1, .restrictions = UINT32_MAX};
+    Part part = {.problem = problem, .slots = (1u << problem->graph->slot_count) - 1, .restrictions = UINT32_MAX,
+                 .quotas = UINT32_MAX};
     for (uint32_t i = 0; i < problem->set->interface_count; i++) {
         part.exempt |= (uint32_t)problem->set->interfaces[i].border_exempt << i;
         part.only |= (uint32_t)problem->set->interfaces[i].border_only << i;
@@ -98,7 +119,7 @@ static void check_needed(Part *part, uint32_t *bits)
 static void check_core(const MesoCoreProblem *problem, const MesoConflictCore *core)
 {
     Part part = part_of(problem, core), all = whole(problem);
-    CHECK(core->slot_count > 0 && (uint32_t)__builtin_popcount(part.slots) == core->slot_count);
+    CHECK((core->slot_count > 0 || part.quotas) && (uint32_t)__builtin_popcount(part.slots) == core->slot_count);
     CHECK((part.exempt & ~all.exempt) == 0 && (part.only & ~all.only) == 0);
     CHECK(!can_hold(&part, 0));
     CHECK(core->minimal);       /* so small cases are within every limit */
@@ -106,6 +127,7 @@ static void check_core(const MesoCoreProblem *problem, const MesoConflictCore *c
     check_needed(&part, &part.exempt);
     check_needed(&part, &part.only);
     check_needed(&part, &part.restrictions);
+    check_needed(&part, &part.quotas);
 }
 
 /* A core is found around `near` in every case without an assignment, and in no other. Returns whether it was. */
@@ -125,6 +147,25 @@ static bool check_case(MesoArena *arena, const MesoCoreProblem *problem, uint32_
     if (core.found)
         check_core(problem, &core);
     return true;
+}
+
+/* Up to two quotas of random variants. */
+static void add_random_quotas(MesoConstraints *constraints, MesoArena *arena, MesoRandom *random, uint32_t slots,
+                              uint32_t variants)
+{
+    MesoQuota *quotas = MESO_NEW(arena, MesoQuota, 2, NULL);
+    CHECK(quotas);
+    constraints->quotas = quotas;
+    constraints->quota_count = meso_random_below(random, 3);
+    for (uint32_t q = 0; q < constraints->quota_count; q++) {
+        uint64_t *counted = MESO_NEW(arena, uint64_t, 1, NULL);
+        CHECK(counted);
+        for (uint32_t v = 0; v < variants; v++)
+            if (meso_random_below(random, 2))
+                meso_bits_set(counted, v);
+        uint32_t least = meso_random_below(random, slots + 2);
+        quotas[q] = (MesoQuota){"quotas", counted, least, least + meso_random_below(random, slots)};
+    }
 }
 
 /* Up to three restrictions at random places. */
@@ -154,7 +195,7 @@ static void test_brute_force(void)
 {
     MesoArena arena;
     MesoRandom random;
-    uint32_t found = 0, restricted = 0;
+    uint32_t found = 0, restricted = 0, counted = 0;
     meso_arena_init(&arena);
     meso_random_init(&random, 3, 0);
     for (uint32_t i = 0; i < 1500; i++) {
@@ -172,11 +213,15 @@ static void test_brute_force(void)
         problem.constraints = &constraints;
         bool with = check_case(&arena, &problem, near);
         CHECK(with || !without);
+        add_random_quotas(&constraints, &arena, &random, graph.slot_count, variants.count);
+        bool with_quotas = check_case(&arena, &problem, near);
+        CHECK(with_quotas || !with);
         found += without;
         restricted += with && !without;
+        counted += with_quotas && !with;
         meso_arena_rewind(&arena, mark);
     }
-    CHECK(found > 300 && restricted > 100);
+    CHECK(found > 300 && restricted > 100 && counted > 100);
     meso_arena_release(&arena);
 }
 
@@ -245,6 +290,35 @@ static void test_pins(void)
     meso_arena_release(&arena);
 }
 
+/* Two pins that use up a quota of one, far from each other; a third pin and another quota have no part in it. */
+static void test_quota(void)
+{
+    static const int32_t labels[2][4] = {{1, 1, -1, -1}, {1, 1, -1, -1}};
+    static const uint32_t places[3] = {3, 400, 700};
+    static const uint64_t t0[1] = {1}, t1[1] = {2};
+    MesoArena arena;
+    MesoVariantSet variants;
+    meso_arena_init(&arena);
+    MesoTileSet set = fixture_set(&arena, 1, 2, labels, false, false, false);
+    MesoSlotGraph graph = fixture_grid(&arena, 1000, 1, false, false, false);
+    CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
+    const MesoRestriction pins[3] = {{"pins[0]", false, 1, places, t1}, {"pins[1]", false, 1, places + 1, t0},
+                                     {"pins[2]", false, 1, places + 2, t1}};
+    const MesoQuota quotas[2] = {{"quotas[0]", t1, 0, 1}, {"quotas[1]", t0, 2, 1000}};
+    MesoConstraints constraints = {.restriction_count = 3, .restrictions = pins, .quota_count = 2, .quotas = quotas};
+    const MesoCoreProblem problem = {&set, &variants, &graph, &constraints};
+    MesoConflictCore core = find(&arena, &problem, MESO_NO_INDEX);
+    CHECK(core.found && core.minimal && core.slot_count == 2 && core.slots[0] == 3 && core.slots[1] == 700);
+    CHECK(core.constraint_count == 3 && core.constraints[0] == 0);
+    CHECK(core.constraints[1] == 2 && core.constraints[2] == 3);
+    /* More than there are slots: no slot has a part in that. */
+    const MesoQuota large = {"quotas[0]", t1, 1001, 1001};
+    constraints = (MesoConstraints){.quota_count = 1, .quotas = &large};
+    core = find(&arena, &problem, MESO_NO_INDEX);
+    CHECK(core.found && core.minimal && core.slot_count == 0 && core.constraint_count == 1 && core.constraints[0] == 0);
+    meso_arena_release(&arena);
+}
+
 /* A ring of an odd number of slots that must alternate is a conflict as a whole; no ball short of it is. */
 static void test_ring(void)
 {
@@ -270,6 +344,7 @@ int main(void)
     test_brute_force();
     test_border_rule();
     test_pins();
+    test_quota();
     test_ring();
     return 0;
 }

@@ -5,15 +5,16 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/solve/solve.h"
+#include "libcore/solve/sorting_network.h"
 
-/* Restrictions of one slot by which its variants are sorted; where there are more, each variant stands alone. */
+/* Constraints of one slot by which its variants are sorted; where there are more, each variant stands alone. */
 enum { MOST_TOLD_APART = 64 };
 
 /* What a variant shows that matters at a slot. */
 typedef struct Pattern {
     uint32_t sides[4];          /* inner: label code; border or towards a slot left out: interface with a
                                    border rule that it breaks there, plus 1; 0: none */
-    uint64_t allowed;           /* by the slot's restrictions */
+    uint64_t allowed;           /* by the slot's restrictions; counted by the quotas */
     uint32_t variant;           /* the smallest that shows this */
 } Pattern;
 
@@ -33,6 +34,8 @@ typedef struct Builder {
                                    0: the half-edge is upper, or not inner */
     uint32_t *place_begin;      /* [slots + 1] into `places` */
     Place *places;              /* that restrictions have in the slots */
+    uint32_t quota_count;
+    int32_t *counted_first;     /* [quota_count] first variable of whether a slot counts; 0: the part cannot break it */
     Pattern *patterns;          /* [variants] of the slot at hand */
     int32_t *literals;          /* [variants + 4] */
     int32_t variable_count;
@@ -50,7 +53,7 @@ static MesoStatus add_two(Builder *builder, int32_t a, int32_t b, MesoError *err
     return add(builder, literals, 2, error);
 }
 
-/* Item literals come first: the formula's slots by rank, then rules and restrictions as items are numbered. */
+/* Item literals come first: the formula's slots by rank, then rules and constraints as items are numbered. */
 int32_t meso_core_formula_literal(const MesoCoreFormula *formula, uint32_t item)
 {
     uint32_t slots = formula->problem->graph->slot_count;
@@ -192,7 +195,7 @@ static Pattern pattern_of(const Builder *builder, uint32_t rank, uint32_t varian
         else
             pattern.sides[k] = against_rule(builder, code / 2, twin == MESO_NO_INDEX) ? code / 2 + 1 : 0;
     }
-    if (end - begin > MOST_TOLD_APART)
+    if (end - begin + builder->quota_count > MOST_TOLD_APART)
         return pattern;
     pattern.allowed = 0;
     for (uint32_t i = begin; i < end; i++) {
@@ -200,6 +203,9 @@ static Pattern pattern_of(const Builder *builder, uint32_t rank, uint32_t varian
         if (meso_core_allows(problem, &problem->constraints->restrictions[place->restriction], place->place, variant))
             pattern.allowed |= (uint64_t)1 << (i - begin);
     }
+    for (uint32_t q = 0; q < builder->quota_count; q++)
+        if (builder->counted_first[q] && meso_bits_test(problem->constraints->quotas[q].variants, variant))
+            pattern.allowed |= (uint64_t)1 << (end - begin + q);
     return pattern;
 }
 
@@ -228,7 +234,7 @@ static int32_t label_literal(const Builder *builder, uint32_t rank, uint32_t sid
     return first + (int32_t)builder->code_rank[code ^ 1];
 }
 
-/* What pattern `literal` at the slot implies: its labels, and that no item that it breaks is assumed. */
+/* What pattern `literal` at the slot implies: labels, that no item that it breaks is assumed, what it counts for. */
 static MesoStatus add_pattern(Builder *builder, uint32_t rank, const Pattern *pattern, int32_t literal,
                               MesoError *error)
 {
@@ -247,8 +253,14 @@ static MesoStatus add_pattern(Builder *builder, uint32_t rank, const Pattern *pa
         const MesoRestriction *restriction = &problem->constraints->restrictions[place->restriction];
         if (meso_core_allows(problem, restriction, place->place, pattern->variant))
             continue;
-        uint32_t item = meso_core_restriction_item(problem, place->restriction);
+        uint32_t item = meso_core_constraint_item(problem, place->restriction);
         status = add_two(builder, -literal, -meso_core_formula_literal(builder->formula, item), error);
+    }
+    for (uint32_t q = 0; q < builder->quota_count && !status; q++) {
+        int32_t counted = builder->counted_first[q] + (int32_t)rank;
+        bool counts = meso_bits_test(problem->constraints->quotas[q].variants, pattern->variant);
+        if (builder->counted_first[q])
+            status = add_two(builder, -literal, counts ? counted : -counted, error);
     }
     return status;
 }
@@ -307,16 +319,74 @@ static MesoStatus add_edge(Builder *builder, int32_t first, MesoError *error)
     return status;
 }
 
+/* What the slots of the part have to hold of a quota at least, if all others hold what they can. */
+static uint32_t least_inside(const Builder *builder, const MesoQuota *quota)
+{
+    uint32_t outside = builder->problem->graph->slot_count - builder->formula->slot_count;
+    return quota->least > outside ? quota->least - outside : 0;
+}
+
+/* Variables of whether a slot counts for a quota. */
+static MesoStatus number_counts(Builder *builder, MesoError *error)
+{
+    const MesoConstraints *constraints = builder->problem->constraints;
+    uint32_t slots = builder->formula->slot_count;
+    builder->quota_count = constraints ? constraints->quota_count : 0;
+    builder->counted_first = MESO_NEW(builder->arena, int32_t, builder->quota_count, error);
+    if (!builder->counted_first)
+        return MESO_ERR_MEMORY;
+    for (uint32_t q = 0; q < builder->quota_count; q++) {
+        const MesoQuota *quota = &constraints->quotas[q];
+        if (quota->most >= slots && least_inside(builder, quota) == 0)
+            continue;
+        builder->counted_first[q] = builder->variable_count + 1;
+        builder->variable_count += (int32_t)slots;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus add_sorting(void *context, int32_t *literals, uint32_t count, MesoError *error)
+{
+    return add(context, literals, count, error);
+}
+
+static int32_t new_variable(void *context)
+{
+    Builder *builder = context;
+    return ++builder->variable_count;
+}
+
+static MesoStatus add_quota(Builder *builder, uint32_t number, MesoError *error)
+{
+    const MesoClauses clauses = {add_sorting, new_variable, builder};
+    const MesoConstraints *constraints = builder->problem->constraints;
+    const MesoQuota *quota = &constraints->quotas[number];
+    uint32_t slots = builder->formula->slot_count, least = least_inside(builder, quota);
+    uint32_t item = meso_core_constraint_item(builder->problem, constraints->restriction_count + number);
+    int32_t broken = -meso_core_formula_literal(builder->formula, item);
+    if (least > slots)
+        return add(builder, &broken, 1, error);
+    int32_t *items = MESO_NEW(builder->arena, int32_t, 2 * (size_t)slots, error);
+    if (!items)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < slots; i++)
+        items[i] = builder->counted_first[number] + (int32_t)i;
+    MesoStatus status = meso_sort_literals(&clauses, items, slots, error);
+    if (!status && least > 0)
+        status = add_two(builder, broken, items[least - 1], error);
+    return status || quota->most >= slots ? status : add_two(builder, broken, -items[quota->most], error);
+}
+
 static MesoStatus build(Builder *builder, MesoError *error)
 {
     const MesoCoreFormula *formula = builder->formula;
     const MesoConstraints *constraints = builder->problem->constraints;
     builder->variable_count = (int32_t)(formula->slot_count + 2 * builder->problem->set->interface_count +
-                                        (constraints ? constraints->restriction_count : 0));
+                                        (constraints ? constraints->restriction_count + constraints->quota_count : 0));
     builder->patterns = MESO_NEW(builder->arena, Pattern, builder->problem->variants->count, error);
     builder->literals = MESO_NEW(builder->arena, int32_t, builder->problem->variants->count + (size_t)4, error);
     if (!builder->patterns || !builder->literals || rank_codes(builder, error) || number_edges(builder, error) ||
-        collect_places(builder, error))
+        collect_places(builder, error) || number_counts(builder, error))
         return MESO_ERR_MEMORY;
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < 4 * formula->slot_count && !status; i++)
@@ -324,6 +394,9 @@ static MesoStatus build(Builder *builder, MesoError *error)
             status = add_edge(builder, builder->edge_first[i], error);
     for (uint32_t i = 0; i < formula->slot_count && !status; i++)
         status = add_slot(builder, i, error);
+    for (uint32_t q = 0; q < builder->quota_count && !status; q++)
+        if (builder->counted_first[q])
+            status = add_quota(builder, q, error);
     return status;
 }
 

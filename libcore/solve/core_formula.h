@@ -1,9 +1,10 @@
 /*
  * A part of a tiling problem as a propositional formula in which every demand
  * can be left out. Items are the demands: that a slot has one of its tiles,
- * that an interface keeps to its border rule, that a restriction holds. Each has
- * a literal to assume; without it the item has no clauses that matter. That
+ * that an interface keeps to its border rule, that a restriction or a quota holds.
+ * Each has a literal to assume; without it the item has no clauses that matter. That
  * sides match across an edge is no item: it asks nothing of a slot without a tile.
+ * To a quota such a slot, as well as one outside the part, may count or not.
  *
  * The domains are not propagated: what follows from what is left to the solver,
  * so that the assumptions that fail are all that a contradiction needs. Compare
@@ -19,18 +20,18 @@ typedef struct MesoCoreProblem {
     const MesoTileSet *set;
     const MesoVariantSet *variants;
     const MesoSlotGraph *graph;
-    const MesoConstraints *constraints;     /* of which the restrictions count; NULL: none */
+    const MesoConstraints *constraints;     /* of which restrictions and quotas matter; NULL: none */
 } MesoCoreProblem;
 
-/* Items by number: all slots of the graph, two border rules for each interface, the restrictions. */
+/* Items by number: all slots of the graph, two border rules for each interface, restrictions and then quotas. */
 static inline uint32_t meso_core_rule_item(const MesoCoreProblem *problem, uint32_t interface, bool only)
 {
     return problem->graph->slot_count + 2 * interface + only;
 }
 
-static inline uint32_t meso_core_restriction_item(const MesoCoreProblem *problem, uint32_t restriction)
+static inline uint32_t meso_core_constraint_item(const MesoCoreProblem *problem, uint32_t constraint)
 {
-    return problem->graph->slot_count + 2 * problem->set->interface_count + restriction;
+    return problem->graph->slot_count + 2 * problem->set->interface_count + constraint;
 }
 
 typedef struct MesoCoreFormula {
@@ -49,7 +50,8 @@ typedef struct MesoCoreFormula {
  * rank  [slots of the graph] all MESO_NO_INDEX; so again after the release
  *
  * What `problem` and `slots` point to must outlive it. meso_core_formula_release()
- * is due in any case. O(slots * variants + places). MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
+ * is due in any case. O(slots * variants + places), and
+ * O(slots * log^2(slots)) for each quota that the part alone can break. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
 MesoStatus meso_core_formula_init(MesoCoreFormula *formula, const MesoCoreProblem *problem,
                                   const uint32_t *slots, uint32_t slot_count, uint32_t *rank,

@@ -13,7 +13,7 @@ static const uint32_t variable_limit = 1u << 30;
 static int32_t choice_literal(uint32_t first, uint32_t count, uint32_t rank)
 {
     if (count == 1)
-        return MESO_EXACT_TRUE;
+        return MESO_LITERAL_TRUE;
     if (count == 2)
         return rank == 0 ? (int32_t)first : -(int32_t)first;
     return (int32_t)(first + rank);
@@ -34,7 +34,7 @@ int32_t meso_exact_label_literal(const MesoExact *exact, uint32_t slot, uint32_t
     uint32_t far_code = half_edge < twin ? code ^ 1 : code;
     const uint64_t *labels = meso_propagation_labels(exact->propagation, lower);
     if (!meso_bits_test(labels, far_code))
-        return -MESO_EXACT_TRUE;
+        return -MESO_LITERAL_TRUE;
     uint32_t count = meso_bits_count(labels, exact->propagation->domains.sets.word_count);
     return choice_literal(exact->edge_first[lower], count, meso_bits_rank(labels, far_code));
 }
@@ -48,9 +48,9 @@ MesoStatus meso_exact_add(MesoExact *exact, int32_t *literals, uint32_t count, M
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (literals[i] == MESO_EXACT_TRUE)
+        if (literals[i] == MESO_LITERAL_TRUE)
             return MESO_OK;
-        if (literals[i] != -MESO_EXACT_TRUE)
+        if (literals[i] != -MESO_LITERAL_TRUE)
             literals[kept++] = literals[i];
     }
     exact->clause_count++;
@@ -253,7 +253,7 @@ int32_t meso_exact_literal(MesoExact *exact, uint32_t slot, uint32_t variant)
     assert(list);
     uint32_t pattern = pattern_of_variant(list, variant);
     if (pattern == MESO_NO_INDEX)
-        return -MESO_EXACT_TRUE;
+        return -MESO_LITERAL_TRUE;
     return choice_literal(exact->slot_first[slot], list->count, pattern);
 }
 
@@ -330,8 +330,8 @@ static uint32_t hinted_pattern(MesoExact *exact, uint32_t slot, const uint32_t *
 /*
  * A pattern for each slot: the hinted ones, and random ones. Without hints, or where weights or variants to keep
  * speak, these come last, slot by slot, and fit what is there, as far as that is possible: so every assignment may come
- * out, and what the engine has to change of its phases, regardless of what they say, is little. The order is random, but
- * where wishes are to be met: along the surface more of them are.
+ * out, and what the engine has to change of its phases, regardless of what they say, is little. The order is
+ * random, but where wishes are to be met: along the surface more of them are.
  */
 static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32_t *pattern, MesoRandom *random,
                                   MesoError *error)

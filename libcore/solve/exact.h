@@ -13,9 +13,6 @@
 #include "libcore/solve/carry.h"
 #include "libcore/solve/pattern.h"
 
-/* Literal of what always holds; its negation never does. Not to be given to CaDiCaL. */
-#define MESO_EXACT_TRUE INT32_MAX
-
 /* More chains than this are as if there were none for exact_cubes.h. */
 enum { MESO_EXACT_MOST_CHAINS = 1 << 10 };
 
@@ -59,7 +56,7 @@ void meso_exact_release(MesoExact *exact);
 
 /*
  * Literal that holds where `slot` holds `variant` or one of the same pattern;
- * -MESO_EXACT_TRUE where it cannot. With this, and new variables from
+ * -MESO_LITERAL_TRUE where it cannot. With this, and new variables from
  * meso_exact_new_variable(), callers add what else must hold. O(patterns).
  */
 int32_t meso_exact_literal(MesoExact *exact, uint32_t slot, uint32_t variant);
@@ -69,7 +66,7 @@ int32_t meso_exact_label_literal(const MesoExact *exact, uint32_t slot, uint32_t
 
 int32_t meso_exact_new_variable(MesoExact *exact);
 
-/* Adds a clause; literals may be MESO_EXACT_TRUE and its negation, and are dropped from `literals` then. */
+/* Adds a clause; literals may be MESO_LITERAL_TRUE and its negation, and are dropped from `literals` then. */
 MesoStatus meso_exact_add(MesoExact *exact, int32_t *literals, uint32_t count, MesoError *error);
 
 /*

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "libcore/solve/sorting_network.h"
+
 enum { MOST_COUNTED = 1 << 14, MOST_CUTS = 1 << 12 };
 
 MesoStatus meso_exact_groups(const uint32_t **group, MesoArena *arena, const MesoConstraints *constraints,
@@ -36,16 +38,10 @@ static MesoStatus add_two(MesoExact *exact, int32_t a, int32_t b, MesoError *err
     return meso_exact_add(exact, literals, 2, error);
 }
 
-static MesoStatus add_three(MesoExact *exact, int32_t a, int32_t b, int32_t c, MesoError *error)
-{
-    int32_t literals[3] = {a, b, c};
-    return meso_exact_add(exact, literals, 3, error);
-}
-
 /* Literals of variables are what the formula leaves open. */
 static bool is_open(int32_t literal)
 {
-    return literal != MESO_EXACT_TRUE && literal != -MESO_EXACT_TRUE;
+    return literal != MESO_LITERAL_TRUE && literal != -MESO_LITERAL_TRUE;
 }
 
 /*
@@ -71,7 +67,7 @@ static MesoStatus membership_literal(MesoExact *exact, uint32_t slot, const uint
         if (!known)
             literals[count++] = own;
     }
-    *literal = count == 0 ? -MESO_EXACT_TRUE : outside == 0 ? MESO_EXACT_TRUE : literals[0];
+    *literal = count == 0 ? -MESO_LITERAL_TRUE : outside == 0 ? MESO_LITERAL_TRUE : literals[0];
     if (count <= 1 || outside == 0)
         return MESO_OK;
     *literal = meso_exact_new_variable(exact);
@@ -82,57 +78,24 @@ static MesoStatus membership_literal(MesoExact *exact, uint32_t slot, const uint
     return status ? status : meso_exact_add(exact, literals, count, error);
 }
 
-/* Makes *high the larger and *low the smaller of both. */
-static MesoStatus compare(MesoExact *exact, int32_t *high, int32_t *low, MesoError *error)
+static MesoStatus add_to_exact(void *context, int32_t *literals, uint32_t count, MesoError *error)
 {
-    int32_t a = *high, b = *low;
-    if (a == MESO_EXACT_TRUE || b == -MESO_EXACT_TRUE)
-        return MESO_OK;
-    if (b == MESO_EXACT_TRUE || a == -MESO_EXACT_TRUE) {
-        *high = b;
-        *low = a;
-        return MESO_OK;
-    }
-    int32_t most = meso_exact_new_variable(exact), least = meso_exact_new_variable(exact);
-    *high = most;
-    *low = least;
-    MesoStatus status = add_two(exact, -a, most, error);
-    if (!status)
-        status = add_two(exact, -b, most, error);
-    if (!status)
-        status = add_three(exact, -most, a, b, error);
-    if (!status)
-        status = add_three(exact, -a, -b, least, error);
-    if (!status)
-        status = add_two(exact, -least, a, error);
-    return status ? status : add_two(exact, -least, b, error);
+    return meso_exact_add(context, literals, count, error);
 }
 
-/* Batcher's odd-even merge sort of a power of two of literals: true ones first. */
-static MesoStatus sort(MesoExact *exact, int32_t *items, uint32_t size, MesoError *error)
+static int32_t new_in_exact(void *context)
 {
-    MesoStatus status = MESO_OK;
-    for (uint32_t p = 1; p < size; p *= 2)
-        for (uint32_t k = p; k >= 1; k /= 2)
-            for (uint32_t j = k % p; j + k < size; j += 2 * k)
-                for (uint32_t i = 0; i < k && i + j + k < size && !status; i++)
-                    if ((i + j) / (2 * p) == (i + j + k) / (2 * p))
-                        status = compare(exact, &items[i + j], &items[i + j + k], error);
-    return status;
+    return meso_exact_new_variable(context);
 }
 
 /* Of the open `items` [count], room for twice as many, at least and at most so many must hold. */
 static MesoStatus bound(MesoExact *exact, int32_t *items, uint32_t count, uint32_t least, uint32_t most,
                         MesoError *error)
 {
-    uint32_t size = 1;
-    while (size < count)
-        size *= 2;
-    for (uint32_t i = count; i < size; i++)
-        items[i] = -MESO_EXACT_TRUE;
-    MesoStatus status = sort(exact, items, size, error);
-    int32_t enough = least > 0 ? items[least - 1] : MESO_EXACT_TRUE;
-    int32_t not_too_many = most < count ? -items[most] : MESO_EXACT_TRUE;
+    const MesoClauses clauses = {add_to_exact, new_in_exact, exact};
+    MesoStatus status = meso_sort_literals(&clauses, items, count, error);
+    int32_t enough = least > 0 ? items[least - 1] : MESO_LITERAL_TRUE;
+    int32_t not_too_many = most < count ? -items[most] : MESO_LITERAL_TRUE;
     if (!status)
         status = meso_exact_add(exact, &enough, 1, error);
     return status ? status : meso_exact_add(exact, &not_too_many, 1, error);
@@ -147,7 +110,7 @@ static MesoStatus add_quota(MesoExact *exact, const MesoQuota *quota, int32_t *l
         MesoStatus status = membership_literal(exact, s, quota->variants, literals, &literal, error);
         if (status)
             return status;
-        held += literal == MESO_EXACT_TRUE;
+        held += literal == MESO_LITERAL_TRUE;
         if (is_open(literal) && count == MOST_COUNTED) {
             *complete = false;
             return MESO_OK;

@@ -205,7 +205,8 @@ static MesoStatus conquer(Conquest *conquest, MesoSatAnswer *answer, MesoError *
                 return status;
             continue;
         }
-        if (conflicts_left(conquest) == 0 || hopeless(conquest) || conquest->level_count == conquest->exact->chain_count ||
+        if (conflicts_left(conquest) == 0 || hopeless(conquest) ||
+            conquest->level_count == conquest->exact->chain_count ||
             (conquest->stop && conquest->stop(conquest->context)))
             return MESO_OK;
         assume_another(conquest);

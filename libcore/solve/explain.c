@@ -243,9 +243,10 @@ MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTil
 {
     const MesoCoreProblem problem = {set, variants, graph, options->constraints};
     bool initial = result->decider == MESO_DECIDER_PROPAGATION, done = false;
+    bool quotas = options->constraints && options->constraints->quota_count > 0;
     MesoStatus status = MESO_OK;
     /* Where propagation left no slot dead, it disproved a quota or the rule on strands. */
-    if (!initial || near != MESO_NO_INDEX)
+    if (!initial || near != MESO_NO_INDEX || quotas)
         status = explain_by_core(result, arena, &problem, near, &done, error);
     if (status || done)
         return status;

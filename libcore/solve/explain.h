@@ -7,8 +7,8 @@
 /*
  * Finds what a proved result needs, and puts it into `core` and, in words, into
  * `reason`: a conflict core (conflict_core.h) around `near`, the slot with most
- * dead ends, or anywhere; where there is none within reach, or quotas or the rule
- * on strands have a part in it, constraints alone; else nothing changes. A proof
+ * dead ends, or anywhere; where there is none within reach, or the rule on strands
+ * has a part in it, constraints alone; else nothing changes. A proof
  * by numbers keeps its reason unless there is a core of at most half the surface.
  *
  * near  slot near which the proof begins, or MESO_NO_INDEX

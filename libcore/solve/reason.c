@@ -23,30 +23,57 @@ static const char *append(MesoArena *arena, const char *text, const char *item, 
                             item);
 }
 
+/* "slot 3", "slots 3 and 4", "all 6 slots" */
 static const char *slots_text(MesoArena *arena, const MesoConflictCore *core, uint32_t all, MesoError *error)
 {
-    if (core->slot_count == 1)
-        return meso_arena_print(arena, error, "no tile fits slot %u", core->slots[0]);
-    if (core->slot_count == all)
-        return meso_arena_print(arena, error, "no tiles fit together on all %u slots", all);
-    const char *text = "no tiles fit together on slots ";
-    for (uint32_t i = 0; i < core->slot_count && i <= MOST_NAMED; i++)
-        text = append(arena, text, meso_arena_print(arena, error, "%u", core->slots[i]), i, core->slot_count, error);
+    const char *text = core->slot_count == 1 ? "slot " : "slots ";
+    if (core->slot_count == all && all > 1)
+        return meso_arena_print(arena, error, "all %u slots", all);
+    for (uint32_t i = 0; i < core->slot_count && i <= MOST_NAMED; i++) {
+        const char *item = meso_arena_print(arena, error, "%u", core->slots[i]);
+        text = i == 0 && item ? meso_arena_print(arena, error, "%s%s", text, item)
+                              : append(arena, text, item, i, core->slot_count, error);
+    }
     return text;
 }
 
-static const char *constraints_text(MesoArena *arena, const char *text, const MesoCoreProblem *problem,
-                                    const MesoConflictCore *core, MesoError *error)
+static const char *names_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+                              MesoError *error)
 {
-    if (core->constraint_count == 0)
-        return text && problem->constraints && problem->constraints->restriction_count
-                   ? meso_arena_print(arena, error, "%s, whatever the constraints", text)
-                   : text;
     const char *names = "";
     for (uint32_t i = 0; i < core->constraint_count && i <= MOST_NAMED; i++)
         names = append(arena, names, meso_constraint_name(problem->constraints, core->constraints[i]), i,
                        core->constraint_count, error);
+    return names;
+}
+
+/* "no tiles fit together on slots 3 and 4, with pins[0]" */
+static const char *misfit_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+                               MesoError *error)
+{
+    const MesoConstraints *constraints = problem->constraints;
+    const char *slots = slots_text(arena, core, problem->graph->slot_count, error);
+    const char *beginning = core->slot_count == 1 ? "no tile fits" : "no tiles fit together on";
+    const char *text = slots ? meso_arena_print(arena, error, "%s %s", beginning, slots) : NULL;
+    if (core->constraint_count == 0)
+        return text && constraints && constraints->restriction_count + constraints->quota_count
+                   ? meso_arena_print(arena, error, "%s, whatever the constraints", text)
+                   : text;
+    const char *names = names_text(arena, problem, core, error);
     return text && names ? meso_arena_print(arena, error, "%s, with %s", text, names) : NULL;
+}
+
+/* "pins[0] and quotas[1] 'knots' cannot hold together on slots 3 and 700"; no slots: there are too few. */
+static const char *quotas_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+                               MesoError *error)
+{
+    const char *names = names_text(arena, problem, core, error);
+    const char *together = core->constraint_count > 1 ? " together" : "";
+    if (names && core->slot_count == 0)
+        return meso_arena_print(arena, error, "%s cannot hold%s on a surface of %u slots", names, together,
+                                problem->graph->slot_count);
+    const char *slots = slots_text(arena, core, problem->graph->slot_count, error);
+    return names && slots ? meso_arena_print(arena, error, "%s cannot hold%s on %s", names, together, slots) : NULL;
 }
 
 /* The interfaces with one of the two border rules: "interfaces 'a' and 'b' must not lie on a border"; or "". */
@@ -154,8 +181,10 @@ static const char *tiles_text(MesoArena *arena, const char *text, const MesoCore
 const char *meso_core_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
                            MesoError *error)
 {
-    const char *text = slots_text(arena, core, problem->graph->slot_count, error);
-    text = constraints_text(arena, text, problem, core, error);
+    /* Constraints ascend, quotas come last. */
+    bool quotas = core->constraint_count > 0 &&
+                  core->constraints[core->constraint_count - 1] >= problem->constraints->restriction_count;
+    const char *text = quotas ? quotas_text(arena, problem, core, error) : misfit_text(arena, problem, core, error);
     text = rules_text(arena, text, problem, core, error);
     text = tiles_text(arena, text, problem, core, error);
     if (!text || (core->minimal && core->slot_count + core->constraint_count + core->rule_count <= 2))

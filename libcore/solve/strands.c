@@ -44,7 +44,8 @@ static MesoStatus number_joints(StrandMap *map, MesoArena *arena, MesoError *err
             map->base[at] = (uint32_t)count;
             count += section_count(map, slot, side);
             if (count >= MESO_NO_INDEX)
-                return meso_fail(error, MESO_ERR_LIMIT, "too many cross-sections for strands: over %u", MESO_NO_INDEX - 1);
+                return meso_fail(error, MESO_ERR_LIMIT, "too many cross-sections for strands: over %u",
+                                 MESO_NO_INDEX - 1);
         }
     map->joint_count = (uint32_t)count;
     return meso_strand_forest_init(&map->forest, arena, map->joint_count, error);
