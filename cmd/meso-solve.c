@@ -116,6 +116,7 @@ static MesoStatus say_limit(Arguments *a, const MesoSolveResult *result)
         [MESO_BUDGET_CONFLICTS] = "--conflicts",
         [MESO_BUDGET_CUTS] = "--attempts",
         [MESO_BUDGET_COUNTED] = "--attempts",
+        [MESO_BUDGET_FORMULA] = "--attempts",
         [MESO_BUDGET_TIME] = "--budget",
     };
     return meso_fail(&a->tool.error, MESO_ERR_LIMIT, "gave up: %s; try %s, --seed or meso-suggest", result->reason,

@@ -31,6 +31,7 @@ static const char *const budget_names[] = {
     [MESO_BUDGET_CONFLICTS] = "conflicts",
     [MESO_BUDGET_CUTS] = "cuts",
     [MESO_BUDGET_COUNTED] = "counted",
+    [MESO_BUDGET_FORMULA] = "formula",
     [MESO_BUDGET_TIME] = "time",
 };
 

@@ -8,7 +8,8 @@
  *      "reason": why, in words, where it is not plain that a slot is left without a tile
  *      "core": {"minimal": true or false, "slots": [numbers], "tiles": [names], "border_rules": [interfaces],
  *          "constraints": [names]}      where unsolvable, and a set that cannot hold together was found
- *      "budget": "attempts", "observations", "conflicts", "cuts", "counted" or "time", "decided_at_best": slots,
+ *      "budget": "attempts", "observations", "conflicts", "cuts", "counted", "formula" or "time",
+ *      "decided_at_best": slots,
  *      "conflicts": that the exact engine met                      where the solver gave up
  *      "hot_spots": [{"slot", "dead_ends"}, ...]: the slots with most dead ends, where there are any, unless solved
  *      "attempts", "observations", "jumps", "repairs", "slots", "variants": numbers,

@@ -138,6 +138,32 @@ static void test_quotas(void)
     meso_arena_release(&c.arena);
 }
 
+/* Every tile over three labels on a torus of 193600 slots: more variables than the exact engine takes. */
+static void test_formula_too_large(void)
+{
+    static const uint64_t t0[2] = {1, 0};
+    int32_t labels[81][4];
+    MesoArena arena;
+    MesoVariantSet variants;
+    MesoSolveResult result;
+    for (uint32_t i = 0; i < 81; i++) {
+        const int32_t tile[4] = {1 + (int32_t)(i % 3), 1 + (int32_t)(i / 3 % 3), -1 - (int32_t)(i / 9 % 3),
+                                 -1 - (int32_t)(i / 27)};
+        memcpy(labels[i], tile, sizeof tile);
+    }
+    meso_arena_init(&arena);
+    MesoTileSet set = fixture_set(&arena, 3, 81, (const int32_t (*)[4])labels, false, false, false);
+    MesoSlotGraph graph = fixture_grid(&arena, 440, 440, true, true, false);
+    CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
+    const MesoQuota quota = {"quotas[0]", t0, 1, 193600};
+    const MesoConstraints constraints = {.quota_count = 1, .quotas = &quota};
+    const MesoSolveOptions options = {.engine = MESO_ENGINE_EXACT, .max_attempts = 1, .constraints = &constraints};
+    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, NULL) == MESO_OK);
+    CHECK(result.verdict == MESO_VERDICT_GAVE_UP && result.budget == MESO_BUDGET_FORMULA);
+    CHECK(strcmp(result.reason, "so many slots with so many tiles are beyond the exact engine") == 0);
+    meso_arena_release(&arena);
+}
+
 /* On a chain, at most one t1 starts a b and at most none t2 ends it: both quotas and a pin speak. */
 static void test_quota_explanation(void)
 {
@@ -282,6 +308,7 @@ int main(void)
     test_check();
     test_explanation();
     test_quotas();
+    test_formula_too_large();
     test_quota_explanation();
     test_quota_gives_up();
     test_keep();

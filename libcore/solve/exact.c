@@ -4,7 +4,8 @@
 #include <string.h>
 
 
-static const uint32_t variable_limit = 1u << 30;
+/* With the clauses some 600 B each: 10 GB. */
+static const uint32_t variable_limit = 1u << 24;
 
 /*
  * One of `count` choices whose variables begin at `first`: none is needed for

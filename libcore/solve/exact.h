@@ -46,7 +46,7 @@ typedef struct MesoExactOptions {
 /*
  * Builds the formula for the initial states of `propagation`, none of which may be
  * empty. What it points to must outlive it; arrays live in `arena`.
- * MESO_ERR_MEMORY or MESO_ERR_LIMIT (over 2^30 variables);
+ * MESO_ERR_MEMORY or MESO_ERR_LIMIT (over 2^24 variables, some 10 GB);
  * meso_exact_release() is due in any case. O(slots * patterns).
  */
 MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropagation *propagation,

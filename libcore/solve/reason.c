@@ -193,6 +193,17 @@ const char *meso_core_text(MesoArena *arena, const MesoCoreProblem *problem, con
                             core->minimal ? "each of these is needed" : "perhaps not all of these are needed");
 }
 
+const char *meso_broken_quota_text(MesoArena *arena, const MesoQuotaTrack *track, uint32_t quota, MesoError *error)
+{
+    const MesoQuota *rule = &track->quotas[quota];
+    MesoQuotaCount count = track->counts[quota];
+    if (count.inside > rule->most)
+        return meso_arena_print(arena, error, "at most %u slots may hold what %s counts, and %u can hold nothing else",
+                                rule->most, rule->name, count.inside);
+    return meso_arena_print(arena, error, "at least %u slots are to hold what %s counts, and %u can", rule->least,
+                            rule->name, count.possible);
+}
+
 static const char *budget_text(MesoArena *arena, const MesoSolveResult *result, MesoError *error)
 {
     switch (result->budget) {
@@ -209,6 +220,8 @@ static const char *budget_text(MesoArena *arena, const MesoSolveResult *result, 
         return "the exact engine found no more than assignments that break the rule on strands, as many as it may";
     case MESO_BUDGET_COUNTED:
         return "a quota that so many slots may count for is beyond the exact engine";
+    case MESO_BUDGET_FORMULA:
+        return "so many slots with so many tiles are beyond the exact engine";
     case MESO_BUDGET_TIME:
         break;
     }

@@ -2,6 +2,7 @@
 #ifndef MESO_REASON_H
 #define MESO_REASON_H
 
+#include "libcore/solve/quota.h"
 #include "libcore/solve/solve.h"
 
 /*
@@ -11,6 +12,9 @@
  */
 const char *meso_core_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
                            MesoError *error);
+
+/* Why the quota that the initial propagation broke is out of reach, in numbers. In `arena`; NULL: out of memory. */
+const char *meso_broken_quota_text(MesoArena *arena, const MesoQuotaTrack *track, uint32_t quota, MesoError *error);
 
 /*
  * A result that gave up: the budget that ended it, how far it came, where it

@@ -50,6 +50,9 @@ typedef struct Search {
     MesoPropagation propagation;
     MesoSearch wfc;                 /* the search where no constraint calls for guidance */
     MesoGuidedSearch guided;        /* where one does */
+    uint32_t *best_variant;         /* [slot_count] where the best attempt ended; MESO_NO_INDEX: undecided. NULL: none
+                                       failed yet */
+    uint32_t best_open;             /* slots that it left undecided */
     uint32_t conflict_slot;         /* near which a proof of unsolvability begins, or MESO_NO_INDEX */
 } Search;
 
@@ -165,6 +168,25 @@ static MesoStatus accept_states(Search *search, MesoError *error)
     return accept(search, variant, MESO_DECIDER_SEARCH, error);
 }
 
+/* Keeps where an attempt that failed ended, if none came farther. */
+static MesoStatus keep_best(Search *search, MesoError *error)
+{
+    const MesoPropagation *propagation = &search->propagation;
+    uint32_t count = search->graph->slot_count;
+    if (search->best_variant && propagation->queue.count >= search->best_open)
+        return MESO_OK;
+    if (!search->best_variant)
+        search->best_variant = MESO_NEW(&search->scratch, uint32_t, count, error);
+    if (!search->best_variant)
+        return MESO_ERR_MEMORY;
+    search->best_open = propagation->queue.count;
+    for (uint32_t s = 0; s < count; s++)
+        search->best_variant[s] = propagation->domains.domains[propagation->state[s]].size == 1
+                                      ? meso_domain_variant(&propagation->domains, propagation->state[s], 0)
+                                      : MESO_NO_INDEX;
+    return MESO_OK;
+}
+
 /* Before the first attempt. */
 static void prepare_search(Search *search)
 {
@@ -202,6 +224,8 @@ static MesoStatus search_for(Search *search, uint32_t last, MesoError *error)
         meso_random_init(&wfc->random, options->seed, result->attempts);
         meso_propagation_restart(&search->propagation);
         status = meso_search_attempt(wfc, &outcome, error);
+        if (!status && outcome != MESO_SEARCH_DONE)
+            status = keep_best(search, error);
     }
     result->observations = wfc->observations;
     result->jumps = wfc->jumps;
@@ -221,12 +245,12 @@ static MesoStatus search_for(Search *search, uint32_t last, MesoError *error)
     return MESO_OK;
 }
 
-/* The states of one variant each where variant[slot_count] says one, and those of the search elsewhere. */
+/* The states of one variant each where variant[slot_count] says one, and the initial ones elsewhere. */
 static MesoStatus fill_single_states(Search *search, const uint32_t *variant, uint32_t *states, MesoError *error)
 {
     for (uint32_t s = 0; s < search->graph->slot_count; s++) {
         states[s] = variant[s] == MESO_NO_INDEX
-                        ? search->propagation.state[s]
+                        ? search->propagation.initial[s]
                         : meso_domain_single(&search->propagation.domains, variant[s], error);
         if (states[s] == MESO_NO_INDEX)
             return MESO_ERR_MEMORY;
@@ -290,13 +314,13 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
                                  uint64_t cubes, MesoError *error)
 {
     const MesoConstraints *constraints = search->options->constraints;
-    const uint32_t *hint = search->result->attempts ? search->propagation.state : NULL;
+    const uint32_t *hint = NULL, *like = constraints && constraints->keep ? constraints->keep : search->best_variant;
     uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
     uint32_t *like_last = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
     if (!variant || !like_last)
         return MESO_ERR_MEMORY;
-    if (constraints && constraints->keep) {
-        if (fill_single_states(search, constraints->keep, like_last, error))
+    if (like) {
+        if (fill_single_states(search, like, like_last, error))
             return MESO_ERR_MEMORY;
         hint = like_last;
     }
@@ -340,6 +364,13 @@ static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts
     if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);
+    if (status == MESO_ERR_LIMIT) {
+        meso_exact_release(&exact);
+        meso_arena_rewind(&search->scratch, mark);
+        search->result->decider = MESO_DECIDER_CONFLICTS;
+        search->result->budget = MESO_BUDGET_FORMULA;
+        return MESO_OK;
+    }
     if (!status && constraints)
         status = meso_exact_add_quotas(&exact, constraints, &complete, error);
     /* Where a quota is too large to be counted, what the engine finds need not keep to it. */
@@ -450,7 +481,11 @@ static MesoStatus say_disproved(Search *search, MesoError *error)
 {
     search->result->verdict = MESO_VERDICT_UNSOLVABLE;
     search->result->decider = MESO_DECIDER_PROPAGATION;
-    return record_initial_dead_ends(search, error);
+    uint32_t quota = search->propagation.broken_quota;
+    if (search->propagation.initial_dead_count || quota == MESO_NO_INDEX)
+        return record_initial_dead_ends(search, error);
+    search->result->reason = meso_broken_quota_text(search->arena, &search->propagation.quotas, quota, error);
+    return search->result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static MesoStatus say_exhausted(Search *search, MesoError *error)
@@ -516,6 +551,8 @@ static MesoStatus search_guided(Search *search, MesoError *error)
         meso_random_init(&random, search->options->seed, ++result->attempts);
         meso_propagation_restart(&search->propagation);
         status = meso_guided_attempt(guided, &random, &solved, error);
+        if (!status && !solved)
+            status = keep_best(search, error);
         /* Where a quota or strands ended the attempt, there is no dead slot to tell of. */
         if (!status && !solved && search->propagation.dead_slot != MESO_NO_INDEX)
             status = record_dead_end(search, search->propagation.dead_slot, result->attempts, error);

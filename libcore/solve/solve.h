@@ -47,6 +47,7 @@ typedef enum MesoBudget {
     MESO_BUDGET_CONFLICTS,      /* of the exact engine */
     MESO_BUDGET_CUTS,           /* solutions of the exact engine that a rule on strands cut off */
     MESO_BUDGET_COUNTED,        /* slots that a quota counts: too many for the exact engine */
+    MESO_BUDGET_FORMULA,        /* variables of the exact engine: there would be too many */
     MESO_BUDGET_TIME            /* `stop` said so */
 } MesoBudget;
 
