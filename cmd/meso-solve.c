@@ -123,6 +123,13 @@ static MesoStatus say_limit(Arguments *a, const MesoSolveResult *result)
                      more[result->budget]);
 }
 
+static void say_changes(Arguments *a, const Problem *p)
+{
+    uint32_t changed = meso_constraints_changed(p->constraints, &p->result.assignment, &p->variants);
+    meso_tool_say(&a->tool, "%u of the slots to keep changed%s", changed,
+                  changed > 0 && p->result.changes_fewest ? ", no assignment changes fewer" : "");
+}
+
 static MesoStatus say_verdict(Arguments *a, const Problem *p)
 {
     const MesoSolveResult *result = &p->result;
@@ -132,8 +139,7 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
                       p->surface.graph.slot_count == 1 ? "" : "s", result->attempts,
                       result->attempts == 1 ? "" : "s");
         if (a->control.keep)
-            meso_tool_say(&a->tool, "%u of the slots to keep changed",
-                          meso_constraints_changed(p->constraints, &result->assignment, &p->variants));
+            say_changes(a, p);
         return MESO_OK;
     case MESO_VERDICT_UNSOLVABLE:
         if (*result->reason && result->decider == MESO_DECIDER_PROPAGATION && result->dead_end_total > 1)

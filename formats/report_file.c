@@ -241,6 +241,7 @@ static json_t *write_constraints(const MesoSolveResult *result, const MesoVarian
         uint32_t changed = meso_constraints_changed(constraints, &result->assignment, variants);
         failed |= json_object_set_new(object, "kept", json_integer(wanted - changed));
         failed |= json_object_set_new(object, "changed", json_integer(slots - wanted + changed));
+        failed |= json_object_set_new(object, "fewest", json_boolean(result->changes_fewest));
     }
     if (!failed)
         return object;

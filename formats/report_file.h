@@ -15,7 +15,8 @@
  *      "attempts", "observations", "jumps", "repairs", "slots", "variants": numbers,
  *      "tiles": {name: slots that hold it, ...}                    where solved
  *      "constraints": {"backtracks": choices taken back, "violations": {name: times, ...},
- *          "kept", "changed": slots, where an assignment was to be kept}   where there are any
+ *          "kept", "changed": slots, where an assignment was to be kept, and
+ *          "fewest": true where it is proved that no assignment changes fewer}     where there are any
  *      "strands": {"count", "loops", "cyclic", "sweeps", "shortest", "longest": numbers,
  *          "lengths": [strands of 1 sweep, of 2 and 3, of 4 to 7, ...]}    where solved
  *      "dead_end_total": met, "dead_ends": the ones that were kept

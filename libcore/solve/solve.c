@@ -9,6 +9,7 @@
 #include "libcore/solve/exact_cubes.h"
 #include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
+#include "libcore/solve/keep.h"
 #include "libcore/solve/parity.h"
 #include "libcore/solve/reason.h"
 #include "libcore/solve/search.h"
@@ -30,6 +31,9 @@ enum { PHASED_CONFLICTS = 1000 };
 
 /* Conflicts that it then has by cubes (exact_cubes.h), where that gets on. */
 enum { CUBE_CONFLICTS = 200000 };
+
+/* Conflicts that it has to change fewer of the variants to keep: some seconds. */
+enum { KEEP_CONFLICTS = 20000 };
 
 /* Looks at an edge of the chain search that comes then: some fifteen seconds. */
 static const uint64_t chain_work = (uint64_t)1 << 31;
@@ -619,12 +623,40 @@ static MesoStatus climb_guided(Search *search, MesoError *error)
     return !status && undecided(search) ? decide_at_length(search, true, error) : status;
 }
 
+/* The assignment that was found, with as few changes as the exact engine finds. */
+static MesoStatus keep_more(Search *search, MesoError *error)
+{
+    const MesoSolveOptions *options = search->options;
+    MesoSolveResult *result = search->result;
+    const MesoAssignment *found = &result->assignment;
+    uint64_t conflicts;
+    allow_conflicts(search);
+    const MesoKeepOptions keep = {.seed = options->seed, .max_conflicts = conflicts_left(search, KEEP_CONFLICTS),
+                                  .stop = options->stop, .stop_context = options->stop_context};
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, found->slot_count, error);
+    if (!variant)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < found->slot_count; s++)
+        variant[s] = meso_variant_find(search->variants, search->set, found->tile[s], found->transform[s]);
+    MesoStatus status = meso_keep_more(variant, &result->changes_fewest, &conflicts, &search->propagation,
+                                       search->variants, options->constraints, &keep, error);
+    if (status)
+        return status;
+    result->conflicts += conflicts;
+    return accept(search, variant, result->decider, error);
+}
+
 static MesoStatus begin_to_climb(Search *search, bool guided, MesoError *error)
 {
     MesoSolveResult *result = search->result;
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
-    return guided ? climb_guided(search, error) : climb(search, error);
+    MesoStatus status = guided ? climb_guided(search, error) : climb(search, error);
+    const MesoConstraints *constraints = search->options->constraints;
+    if (status || result->verdict != MESO_VERDICT_SOLVED || !constraints || !constraints->keep)
+        return status;
+    result->changes_fewest = meso_constraints_changed(constraints, &result->assignment, search->variants) == 0;
+    return result->changes_fewest || search->options->engine == MESO_ENGINE_WFC ? MESO_OK : keep_more(search, error);
 }
 
 static MesoStatus run(Search *search, MesoError *error)

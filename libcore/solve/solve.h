@@ -106,6 +106,7 @@ typedef struct MesoSolveResult {
     uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; or NULL */
     MesoAssignment assignment;  /* where solved */
     MesoConflictCore core;      /* where unsolvable, and one was asked for and found */
+    bool changes_fewest;        /* solved, with variants to keep: no assignment changes fewer, as is proved */
     MesoBudget budget;          /* where gave up */
     uint32_t decided_most;      /* slots with a single variant at the search's best moment between two choices */
     uint64_t conflicts;         /* that the exact engine met */
