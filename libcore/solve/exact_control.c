@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "libcore/solve/sorting_network.h"
-
 enum { MOST_COUNTED = 1 << 14, MOST_CUTS = 1 << 12 };
 
 MesoStatus meso_exact_groups(const uint32_t **group, MesoArena *arena, const MesoConstraints *constraints,
@@ -88,11 +86,16 @@ static int32_t new_in_exact(void *context)
     return meso_exact_new_variable(context);
 }
 
+MesoClauses meso_exact_clauses(MesoExact *exact)
+{
+    return (MesoClauses){add_to_exact, new_in_exact, exact};
+}
+
 /* Of the open `items` [count], room for twice as many, at least and at most so many must hold. */
 static MesoStatus bound(MesoExact *exact, int32_t *items, uint32_t count, uint32_t least, uint32_t most,
                         MesoError *error)
 {
-    const MesoClauses clauses = {add_to_exact, new_in_exact, exact};
+    const MesoClauses clauses = meso_exact_clauses(exact);
     MesoStatus status = meso_sort_literals(&clauses, items, count, error);
     int32_t enough = least > 0 ? items[least - 1] : MESO_LITERAL_TRUE;
     int32_t not_too_many = most < count ? -items[most] : MESO_LITERAL_TRUE;

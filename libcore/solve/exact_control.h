@@ -1,14 +1,14 @@
 /*
  * Quotas and rules on strands for the exact engine. Quotas are counted by a
- * sorting network over the slots that may hold one of their variants (Eén and
- * Sörensson, "Translating pseudo-Boolean constraints into SAT", 2006); rules on
- * strands are left out at first, and each assignment that breaks one is cut off
+ * sorting network (sorting_network.h) over the slots that may hold one of their
+ * variants; rules on strands are left out at first, and each assignment that breaks one is cut off
  * with all others that have the same strand.
  */
 #ifndef MESO_EXACT_CONTROL_H
 #define MESO_EXACT_CONTROL_H
 
 #include "libcore/solve/exact.h"
+#include "libcore/solve/sorting_network.h"
 
 /*
  * Groups of variants for MesoExactOptions that tell apart what the constraints
@@ -16,6 +16,9 @@
  */
 MesoStatus meso_exact_groups(const uint32_t **group, MesoArena *arena, const MesoConstraints *constraints,
                              uint32_t variant_count, MesoError *error);
+
+/* The formula, for meso_sort_literals(). */
+MesoClauses meso_exact_clauses(MesoExact *exact);
 
 /*
  * Adds the quotas. `*complete` becomes false where one is left out, because over

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "libcore/solve/exact_control.h"
-#include "libcore/solve/sorting_network.h"
 
 /* Conflicts of one question, and assignments that a rule on strands may cut off in all. */
 enum { QUESTION_CONFLICTS = 1000, MOST_CUT_ROUNDS = 200 };
@@ -69,16 +68,6 @@ static uint32_t count_changed(const Keeper *keeper)
     return count;
 }
 
-static MesoStatus add_clause(void *context, int32_t *literals, uint32_t count, MesoError *error)
-{
-    return meso_exact_add(context, literals, count, error);
-}
-
-static int32_t new_variable(void *context)
-{
-    return meso_exact_new_variable(context);
-}
-
 /* Holds what is not open, and counts the changes of what is. */
 static MesoStatus add_changes(Keeper *keeper, MesoError *error)
 {
@@ -97,7 +86,7 @@ static MesoStatus add_changes(Keeper *keeper, MesoError *error)
         if (!keeper->is_open[s])
             status = meso_exact_add(&keeper->exact, &literal, 1, error);
     }
-    const MesoClauses clauses = {add_clause, new_variable, &keeper->exact};
+    const MesoClauses clauses = meso_exact_clauses(&keeper->exact);
     return status ? status : meso_sort_literals(&clauses, keeper->changed, count, error);
 }
 
