@@ -2,7 +2,7 @@
  * Hard random tile sets of 24 and 40 tiles over four labels on a torus of 60 x 60, one line
  * each: verdict, what decided it, milliseconds; then how many of each.
  *
- *     solve_hard_bench [COUNT [SECONDS]]      sets of each kind (5, the most), limit of each (60)
+ *     solve_hard_bench [COUNT [SECONDS [SEED]]]       sets of each kind (5, the most), limit of each (60)
  *
  * "Four labels" in four ways, each with different tiles whose sides are drawn at random:
  *
@@ -100,7 +100,7 @@ int main(int argc, char **argv)
     uint32_t count = argc > 1 ? (uint32_t)atoi(argv[1]) : DRAWS;
     double limit = argc > 2 ? atof(argv[2]) : 60;
     MesoArena arena;
-    SolveTotals totals = {0};
+    SolveTotals totals = {.seed = argc > 3 ? strtoull(argv[3], NULL, 10) : 0};
     CHECK(count <= DRAWS);
     meso_arena_init(&arena);
     MesoSlotGraph graph = fixture_grid(&arena, WIDTH, WIDTH, true, true, false);

@@ -3,13 +3,14 @@
  * (FOLDER/tilesets/ *.json, FOLDER/table2/ *.json) of a folder, one line each: verdict,
  * what decided it, milliseconds; then how many of each.
  *
- *     solve_table_bench FOLDER [SURFACE [TILES]]
+ *     solve_table_bench FOLDER [SURFACE [TILES [SEED]]]
  *
  * SURFACE and TILES, file names without what follows the dot, choose some of
  * them; "" stands for all.
  */
 #include <glob.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "formats/solve_totals.h"
@@ -100,7 +101,7 @@ int main(int argc, char **argv)
 {
     glob_t surfaces = {0}, tiles = {0};
     MesoArena arena;
-    SolveTotals totals = {0};
+    SolveTotals totals = {.seed = argc > 4 ? strtoull(argv[4], NULL, 10) : 0};
     meso_arena_init(&arena);
     if (argc < 2) {
         printf("solve_table_bench: no folder with surfaces, tilesets and table2 given\n");

@@ -8,6 +8,7 @@
 #include "formats/report_file.h"
 
 typedef struct SolveTotals {
+    uint64_t seed;              /* of all solves */
     uint32_t verdicts[3];
     uint32_t deciders[MESO_DECIDER_STOP + 1];
     double slowest, sum;        /* seconds */
@@ -32,8 +33,8 @@ static inline MesoStatus solve_timed(MesoSolveResult *result, MesoArena *arena, 
                                      double *time, SolveTotals *totals, MesoError *error)
 {
     double start = solve_clock(), deadline = start + limit;
-    const MesoSolveOptions options = {.max_attempts = 20, .max_dead_ends = 20, .stop = solve_past,
-                                      .stop_context = &deadline};
+    const MesoSolveOptions options = {.seed = totals->seed, .max_attempts = 20, .max_dead_ends = 20,
+                                      .stop = solve_past, .stop_context = &deadline};
     MesoStatus status = meso_solve(result, arena, set, variants, graph, &options, error);
     *time = solve_clock() - start;
     if (status)
