@@ -418,7 +418,7 @@ MesoRingCount meso_chain_rings_count(MesoChainRings *rings, const bool *values)
         for (uint32_t i = 0; i < slot->chain_count; i++)
             setting |= (uint32_t)values[slot->chain[i]] << i;
         rings->setting[s] = setting;
-        count.contradictions += slot->dead >> setting & 1;
+        count.contradictions += (uint32_t)(slot->dead >> setting & 1);
     }
     for (uint32_t e = 0; e < rings->edge_count; e++) {
         const MesoRingEdge *edge = &rings->edges[e];
