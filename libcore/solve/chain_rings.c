@@ -5,7 +5,7 @@
 /* Bits of one side that wires may run from; others are left out. */
 enum { MOST_SIDE_BITS = 6 };
 
-/* Together some 100 MB, most of it while rings are built. */
+/* Together some 300 MB with the joints, most of it while rings are built. */
 enum { MOST_SETTINGS = 1 << 17, MOST_CASES = 1 << 22 };
 
 /* What one side shows under a setting: ranks of labels as in MesoCarryLink, and the wires that tell of them. */
@@ -225,8 +225,8 @@ static bool join_sides(Setting *setting, const Pattern *patterns, uint32_t count
                 a |= pieces[i][0];
                 b |= pieces[i][1];
             }
-        fits = merge_wires(setting, get_wire(setting, &setting->sides[from], a),
-                           get_wire(setting, &setting->sides[to], b));
+        uint32_t wire = get_wire(setting, &setting->sides[from], a);
+        fits = merge_wires(setting, wire, get_wire(setting, &setting->sides[to], b));
     }
     return fits;
 }

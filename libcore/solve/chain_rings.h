@@ -51,7 +51,7 @@ typedef struct MesoRingCount {
 /*
  * Prepares the wires of all settings for `table`'s initial states and their chains.
  * Arrays live in `arena`. MESO_ERR_MEMORY alone. O(slots * patterns), and O(slots)
- * memory, up to some 100 MB, where two chains meet at most slots.
+ * memory, up to some 300 MB, where two chains meet at most slots.
  */
 MesoStatus meso_chain_rings_build(MesoChainRings *rings, MesoArena *arena, MesoPatternTable *table,
                                   const MesoCarry *carry, MesoError *error);

@@ -16,7 +16,7 @@ typedef struct Walk {
     MesoRandom *random;
     bool *values;               /* [chain_count] */
     MesoRingCount count;        /* under these */
-    uint64_t work_left;
+    uint64_t work_left, conflicts_left;
     bool (*stop)(void *context);
     void *context;
 } Walk;
@@ -45,7 +45,7 @@ static MesoRingCount look(Walk *walk)
 
 static bool may_go_on(const Walk *walk)
 {
-    return walk->work_left > 0 && !(walk->stop && walk->stop(walk->context));
+    return walk->work_left > 0 && walk->conflicts_left > 0 && !(walk->stop && walk->stop(walk->context));
 }
 
 static void step(Walk *walk)
@@ -60,14 +60,18 @@ static void step(Walk *walk)
 }
 
 /* Whether the engine finds a tiling under the bits at hand. */
-static MesoStatus ask(MesoExact *exact, const Walk *walk, int32_t *assumptions, MesoSatAnswer *answer, MesoError *error)
+static MesoStatus ask(MesoExact *exact, Walk *walk, int32_t *assumptions, MesoSatAnswer *answer, MesoError *error)
 {
     for (uint32_t c = 0; c < exact->chain_count; c++) {
         int32_t bit = (int32_t)(exact->chain_first + c);
         assumptions[c] = walk->values[c] ? bit : -bit;
     }
-    MesoStatus status = meso_sat_solve(exact->sat, answer, assumptions, exact->chain_count, QUESTION_CONFLICTS,
-                                       walk->stop, walk->context, error);
+    uint64_t before = meso_sat_conflicts(exact->sat);
+    uint32_t limit = walk->conflicts_left < QUESTION_CONFLICTS ? (uint32_t)walk->conflicts_left : QUESTION_CONFLICTS;
+    MesoStatus status = meso_sat_solve(exact->sat, answer, assumptions, exact->chain_count, limit, walk->stop,
+                                       walk->context, error);
+    uint64_t used = meso_sat_conflicts(exact->sat) - before;
+    walk->conflicts_left -= used < walk->conflicts_left ? used : walk->conflicts_left;
     if (*answer == MESO_SAT_NO)
         *answer = MESO_SAT_UNKNOWN;
     return status;
@@ -97,9 +101,9 @@ static MesoStatus search(MesoExact *exact, Walk *walk, MesoSatAnswer *answer, Me
 }
 
 MesoStatus meso_exact_search_chains(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random, uint64_t work,
-                                    bool (*stop)(void *context), void *context, MesoError *error)
+                                    uint64_t conflict_limit, bool (*stop)(void *context), void *context, MesoError *error)
 {
-    Walk walk = {.random = random, .work_left = work, .stop = stop, .context = context};
+    Walk walk = {.random = random, .work_left = work, .conflicts_left = conflict_limit, .stop = stop, .context = context};
     *answer = MESO_SAT_UNKNOWN;
     if (exact->chain_count == 0 || exact->chain_count > MESO_EXACT_MOST_CHAINS)
         return MESO_OK;

@@ -132,7 +132,7 @@ static void check_search(MesoArena *arena, const Case *c, const BruteForce *forc
     const MesoExactOptions options = {.chains = true};
     meso_random_init(&random, seed, 2);
     CHECK(meso_exact_init(&exact, arena, &c->propagation, &options, NULL) == MESO_OK);
-    CHECK(meso_exact_search_chains(&exact, &answer, &random, 100000, NULL, NULL, NULL) == MESO_OK);
+    CHECK(meso_exact_search_chains(&exact, &answer, &random, 100000, 20000, NULL, NULL, NULL) == MESO_OK);
     CHECK(answer != MESO_SAT_NO && (answer != MESO_SAT_YES || force->count > 0));
     CHECK(exact.chain_count || answer == MESO_SAT_UNKNOWN);
     CHECK(!only_rings || exact.chain_count == 0 || (answer == MESO_SAT_YES) == (force->count > 0));

@@ -10,6 +10,9 @@
 /* Constraints of one slot by which its variants are sorted; where there are more, each variant stands alone. */
 enum { MOST_TOLD_APART = 64 };
 
+/* Comparators of all quotas together; the first that would be over it is left out, and so are all after it. */
+enum { MOST_COMPARATORS = 1 << 18 };
+
 /* What a variant shows that matters at a slot. */
 typedef struct Pattern {
     uint32_t sides[4];          /* inner: label code; border or towards a slot left out: interface with a
@@ -335,10 +338,14 @@ static MesoStatus number_counts(Builder *builder, MesoError *error)
     builder->counted_first = MESO_NEW(builder->arena, int32_t, builder->quota_count, error);
     if (!builder->counted_first)
         return MESO_ERR_MEMORY;
+    uint64_t comparators = 0;
     for (uint32_t q = 0; q < builder->quota_count; q++) {
         const MesoQuota *quota = &constraints->quotas[q];
         if (quota->most >= slots && least_inside(builder, quota) == 0)
             continue;
+        comparators += meso_sort_comparators(slots);
+        if (comparators > MOST_COMPARATORS)
+            break;
         builder->counted_first[q] = builder->variable_count + 1;
         builder->variable_count += (int32_t)slots;
     }

@@ -51,7 +51,8 @@ typedef struct MesoCoreFormula {
  *
  * What `problem` and `slots` point to must outlive it. meso_core_formula_release()
  * is due in any case. O(slots * variants + places), and
- * O(slots * log^2(slots)) for each quota that the part alone can break. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
+ * O(slots * log^2(slots)) for each quota that the part alone can break. Quotas are
+ * left out where that adds up to much: as if they were never assumed. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
 MesoStatus meso_core_formula_init(MesoCoreFormula *formula, const MesoCoreProblem *problem,
                                   const uint32_t *slots, uint32_t slot_count, uint32_t *rank,

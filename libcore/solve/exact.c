@@ -3,10 +3,6 @@
 #include <assert.h>
 #include <string.h>
 
-
-/* With the clauses some 600 B each: 10 GB. */
-static const uint32_t variable_limit = 1u << 24;
-
 /*
  * One of `count` choices whose variables begin at `first`: none is needed for
  * one choice, one for two.
@@ -95,7 +91,7 @@ static MesoStatus number_variables(MesoExact *exact, MesoError *error)
             exact->edge_first[h] = (uint32_t)next;
             next += choice_variables(meso_propagation_label_count(propagation, h));
         }
-        if (next > variable_limit)
+        if (next > MESO_EXACT_MOST_VARIABLES)
             return meso_fail(error, MESO_ERR_LIMIT, "too many slots and tiles for the exact engine");
     }
     exact->variable_count = (uint32_t)(next - 1);

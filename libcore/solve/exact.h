@@ -13,6 +13,9 @@
 #include "libcore/solve/carry.h"
 #include "libcore/solve/pattern.h"
 
+/* Variables with their clauses take some 600 B each: 10 GB. */
+enum { MESO_EXACT_MOST_VARIABLES = 1 << 24 };
+
 /* More chains than this are as if there were none for exact_cubes.h. */
 enum { MESO_EXACT_MOST_CHAINS = 1 << 10 };
 

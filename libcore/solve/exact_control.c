@@ -127,6 +127,10 @@ static MesoStatus add_quota(MesoExact *exact, const MesoQuota *quota, int32_t *l
     uint32_t most = quota->most - held;
     if (least == 0 && most >= count)
         return MESO_OK;
+    if (exact->variable_count + 2 * meso_sort_comparators(count) > MESO_EXACT_MOST_VARIABLES) {
+        *complete = false;
+        return MESO_OK;
+    }
     return bound(exact, items, count, least, most, error);
 }
 

@@ -22,8 +22,8 @@ MesoClauses meso_exact_clauses(MesoExact *exact);
 
 /*
  * Adds the quotas. `*complete` becomes false where one is left out, because over
- * 16384 slots may hold one of its variants or not: an assignment may break it
- * then. O(slots * log^2(slots)) for each quota.
+ * 16384 slots may hold one of its variants or not, or there would be too many
+ * variables: an assignment may break it then. O(slots * log^2(slots)) for each quota.
  */
 MesoStatus meso_exact_add_quotas(MesoExact *exact, const MesoConstraints *constraints, bool *complete,
                                  MesoError *error);

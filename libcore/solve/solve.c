@@ -39,7 +39,7 @@ enum { KEEP_CONFLICTS = 20000 };
 static const uint64_t chain_work = (uint64_t)1 << 31;
 
 /* Solutions of the exact engine that a rule on strands may cut off: fewer on a large surface. */
-enum { LEAST_CUT_ROUNDS = 20, MOST_CUT_ROUNDS = 2000, CUT_SLOTS = 1 << 20 };
+enum { LEAST_CUT_ROUNDS = 20, MOST_CUT_ROUNDS = 50000, CUT_SLOTS = 1 << 20 };
 
 typedef struct Search {
     const MesoTileSet *set;
@@ -284,11 +284,14 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *h
                                 options->stop, options->stop_context, error);
     if (status || *answer != MESO_SAT_UNKNOWN || cubes == 0 || told_to_stop(search))
         return status;
+    uint64_t before = meso_sat_conflicts(exact->sat);
     status = meso_exact_conquer(exact, answer, random, MESO_EXACT_CUBE_CONFLICTS, cubes, options->stop,
                                 options->stop_context, error);
     if (status || *answer != MESO_SAT_UNKNOWN || told_to_stop(search))
         return status;
-    return meso_exact_search_chains(exact, answer, random, chain_work, options->stop, options->stop_context, error);
+    uint64_t used = meso_sat_conflicts(exact->sat) - before;
+    return meso_exact_search_chains(exact, answer, random, chain_work, used < cubes ? cubes - used : 0, options->stop,
+                                    options->stop_context, error);
 }
 
 /* Tells the answer; a solution goes to `variant`, unless it breaks the rule on strands: then there are `*cuts`. */

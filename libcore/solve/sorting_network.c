@@ -51,6 +51,14 @@ static MesoStatus sort_power(const MesoClauses *clauses, int32_t *items, uint32_
     return status;
 }
 
+uint64_t meso_sort_comparators(uint32_t count)
+{
+    uint64_t size = 1, log = 0;
+    for (; size < count; size *= 2)
+        log++;
+    return size * log * (log + 1) / 4;
+}
+
 MesoStatus meso_sort_literals(const MesoClauses *clauses, int32_t *items, uint32_t count, MesoError *error)
 {
     uint32_t size = 1;

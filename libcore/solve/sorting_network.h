@@ -8,6 +8,9 @@
 
 #include "libcore/solve/cadical_adapter.h"
 
+/* Comparators of a network for `count` literals: each has two new variables, and six clauses of 14 literals in all. */
+uint64_t meso_sort_comparators(uint32_t count);
+
 /* Where clauses go, and variables come from. */
 typedef struct MesoClauses {
     MesoStatus (*add)(void *context, int32_t *literals, uint32_t count, MesoError *error);

@@ -191,6 +191,7 @@ typedef struct CutBuilder {
     const MesoStrandRule *rule;
     uint32_t *cut_of;           /* [joints] cut of the strand with this root, plus 1; 0: none */
     uint32_t count, most;
+    bool lasting;               /* more sweeps mend nothing: a cycle, too many of them */
 } CutBuilder;
 
 static void number_offenders(CutBuilder *builder)
@@ -207,7 +208,6 @@ static void number_offenders(CutBuilder *builder)
  */
 static MesoStatus break_into_pieces(StrandMap *map, const MesoStrandRule *rule, MesoArena *arena, MesoError *error)
 {
-    const MesoStrandRule growing = {.acyclic = rule->acyclic, .max_length = rule->max_length};
     if (meso_strand_forest_init(&map->forest, arena, map->joint_count, error))
         return MESO_ERR_MEMORY;
     for (uint32_t slot = 0; slot < map->graph->slot_count; slot++) {
@@ -217,8 +217,8 @@ static MesoStatus break_into_pieces(StrandMap *map, const MesoStrandRule *rule, 
             uint32_t a = joint(map, slot, sweep->from_side, sweep->from_section);
             uint32_t b = joint(map, slot, sweep->to_side, sweep->to_section);
             const MesoStrandNode *nodes = map->forest.nodes;
-            if (!offence(&growing, &nodes[meso_strand_root(&map->forest, a)]) &&
-                !offence(&growing, &nodes[meso_strand_root(&map->forest, b)]))
+            if (!offence(rule, &nodes[meso_strand_root(&map->forest, a)]) &&
+                !offence(rule, &nodes[meso_strand_root(&map->forest, b)]))
                 meso_strand_link(&map->forest, a, b);
         }
     }
@@ -250,22 +250,51 @@ static void number_unconnected(CutBuilder *builder, const uint32_t *component, S
     }
 }
 
-/* Lists the slots of each cut: counts where `slots` is NULL, `fill` [count] being where each cut goes on. */
+/* The cut of the strand at a joint, plus 1; 0: none. */
+static uint32_t cut_at(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t section)
+{
+    return builder->cut_of[meso_strand_root(&builder->map->forest, joint(builder->map, slot, side, section))];
+}
+
+/* Whether the cut at this joint of `slot` was met at one of those before it. */
+static bool met_before(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t section)
+{
+    uint32_t cut = cut_at(builder, slot, side, section);
+    for (uint32_t k = 0; k <= side; k++)
+        for (uint32_t i = 0; i < (k < side ? section_count(builder->map, slot, k) : section); i++)
+            if (cut_at(builder, slot, k, i) == cut)
+                return true;
+    return false;
+}
+
+/* Whether the slot has a sweep of a strand in the cut. */
+static bool has_sweep_in(const CutBuilder *builder, uint32_t slot, uint32_t cut)
+{
+    for (uint32_t i = 0; i < sweep_count(builder->map, slot); i++)
+        if (builder->cut_of[strand_at(builder->map, slot, i)] == cut)
+            return true;
+    return false;
+}
+
+/*
+ * Lists the slots of each cut: counts where `slots` is NULL, `fill` [count] being where each cut goes on.
+ * Those are all slots that a joint of the strand belongs to: where a sweep ends at a slot that goes on with none,
+ * another tile there may change the strand as well. Of lasting offences those with a sweep do.
+ */
 static void go_through_cuts(const CutBuilder *builder, uint32_t *fill, uint32_t *slots)
 {
     const StrandMap *map = builder->map;
     for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
-        for (uint32_t i = 0; i < sweep_count(map, slot); i++) {
-            uint32_t cut = builder->cut_of[strand_at(map, slot, i)];
-            bool told = cut == 0;
-            for (uint32_t j = 0; j < i && !told; j++)
-                told = builder->cut_of[strand_at(map, slot, j)] == cut;
-            if (told)
-                continue;
-            if (slots)
-                slots[fill[cut - 1]] = slot;
-            fill[cut - 1]++;
-        }
+        for (uint32_t side = 0; side < 4; side++)
+            for (uint32_t i = 0; i < section_count(map, slot, side); i++) {
+                uint32_t cut = cut_at(builder, slot, side, i);
+                if (cut == 0 || met_before(builder, slot, side, i) ||
+                    (builder->lasting && !has_sweep_in(builder, slot, cut)))
+                    continue;
+                if (slots)
+                    slots[fill[cut - 1]] = slot;
+                fill[cut - 1]++;
+            }
 }
 
 static MesoStatus list_cuts(const CutBuilder *builder, MesoStrandCuts *cuts, MesoArena *arena, uint32_t *fill,
@@ -305,10 +334,15 @@ MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoS
     if (!status && (rule->acyclic || rule->max_length)) {
         StrandMap pieces = map;
         builder.map = &pieces;
-        status = break_into_pieces(&pieces, rule, &scratch, error);
+        /* A piece may close to a ring where its strand has a branch: that breaks no rule. */
+        const MesoStrandRule growing = {.acyclic = rule->acyclic, .max_length = rule->max_length};
+        builder.rule = &growing;
+        status = break_into_pieces(&pieces, &growing, &scratch, error);
         if (!status)
             number_offenders(&builder);
-        map.forest = builder.count ? pieces.forest : map.forest;
+        builder.lasting = builder.count > 0;
+        map.forest = builder.lasting ? pieces.forest : map.forest;
+        builder.rule = rule;
     }
     builder.map = &map;
     if (!status) {

@@ -202,6 +202,95 @@ static void test_brute_force(void)
     meso_arena_release(&arena);
 }
 
+typedef struct Sheet {
+    MesoTileSet set;
+    MesoSlotGraph graph;
+    MesoVariantSet variants;
+    uint32_t tile[4];
+    MesoTransform transform[4];
+    MesoAssignment assignment;
+} Sheet;
+
+/* The assignment with this number on four slots. */
+static void read_sheet(Sheet *sheet, uint32_t number, uint32_t *variant)
+{
+    for (uint32_t s = 0; s < 4; s++, number /= sheet->variants.count) {
+        variant[s] = number % sheet->variants.count;
+        sheet->tile[s] = sheet->variants.tile[variant[s]];
+        sheet->transform[s] = sheet->variants.transform[variant[s]];
+    }
+    sheet->assignment = (MesoAssignment){4, sheet->tile, sheet->transform};
+}
+
+/* Whether the assignment matches, and keeps to the rule. */
+static bool keeps(Sheet *sheet, const MesoStrandRule *rule, uint32_t number)
+{
+    uint32_t variant[4];
+    const MesoConstraints constraints = {.strands = *rule};
+    read_sheet(sheet, number, variant);
+    return meso_assignment_check(&sheet->assignment, &sheet->set, &sheet->graph, NULL) == MESO_OK &&
+           meso_constraints_check(&constraints, &sheet->assignment, &sheet->set, &sheet->variants, &sheet->graph,
+                                  NULL) == MESO_OK;
+}
+
+/* No assignment that keeps to the rule has all that a cut forbids to stand together. */
+static uint32_t check_cuts(MesoArena *arena, Sheet *sheet, const MesoStrandRule *rule, const bool *good, uint32_t number)
+{
+    uint32_t variant[4], other[4], all = 1;
+    MesoStrandCuts cuts;
+    read_sheet(sheet, number, variant);
+    CHECK(meso_strands_cuts(&cuts, arena, rule, &sheet->assignment, &sheet->set, &sheet->graph, 100, NULL) == MESO_OK);
+    CHECK(cuts.count > 0);
+    for (uint32_t s = 0; s < 4; s++)
+        all *= sheet->variants.count;
+    for (uint32_t n = 0; n < all; n++) {
+        if (!good[n])
+            continue;
+        read_sheet(sheet, n, other);
+        for (uint32_t c = 0; c < cuts.count; c++) {
+            bool same = true;
+            for (uint32_t i = cuts.begin[c]; i < cuts.begin[c + 1]; i++)
+                same &= variant[cuts.slots[i]] == other[cuts.slots[i]];
+            CHECK(!same);
+        }
+    }
+    return cuts.count;
+}
+
+static void test_cuts(void)
+{
+    static const MesoStrandRule rules[6] = {{.connected = true}, {.no_loops = true}, {.acyclic = true},
+                                            {.max_length = 3}, {.no_loops = true, .max_length = 5},
+                                            {.connected = true, .no_loops = true}};
+    MesoArena arena;
+    MesoRandom random;
+    uint32_t cut_count = 0;
+    meso_arena_init(&arena);
+    meso_random_init(&random, 9, 0);
+    for (uint32_t i = 0; i < 6 * 8; i++) {
+        MesoArenaMark mark = meso_arena_mark(&arena);
+        Sheet sheet = {.set = truchet(&arena, 3 + i % 2, i & 4)};
+        sheet.graph = i & 2 ? fixture_grid(&arena, 4, 1, i & 4, i & 1, false)
+                            : fixture_grid(&arena, 2, 2, i & 4, i & 1, false);
+        CHECK(meso_variant_set_build(&sheet.variants, &arena, &sheet.set, NULL) == MESO_OK);
+        uint32_t all = sheet.variants.count * sheet.variants.count * sheet.variants.count * sheet.variants.count;
+        bool *good = MESO_NEW(&arena, bool, all, NULL);
+        CHECK(good);
+        for (uint32_t n = 0; n < all; n++)
+            good[n] = keeps(&sheet, &rules[i / 8], n);
+        for (uint32_t tries = 0; tries < 150; tries++) {
+            uint32_t n = meso_random_below(&random, all), variant[4];
+            read_sheet(&sheet, n, variant);
+            bool matches = meso_assignment_check(&sheet.assignment, &sheet.set, &sheet.graph, NULL) == MESO_OK;
+            if (matches && !good[n])
+                cut_count += check_cuts(&arena, &sheet, &rules[i / 8], good, n);
+        }
+        meso_arena_rewind(&arena, mark);
+    }
+    CHECK(cut_count > 500);
+    meso_arena_release(&arena);
+}
+
 /* What is added and taken back in the opposite order leaves nothing behind. */
 static void test_undo(void)
 {
@@ -245,6 +334,7 @@ int main(void)
     test_search();
     test_explanation();
     test_brute_force();
+    test_cuts();
     test_undo();
     return 0;
 }
