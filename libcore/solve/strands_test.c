@@ -257,6 +257,31 @@ static uint32_t check_cuts(MesoArena *arena, Sheet *sheet, const MesoStrandRule 
     return cuts.count;
 }
 
+/* With variants to keep, the exact engine changes the fewest that the rule allows, where it says so. */
+static uint32_t check_keep(MesoArena *arena, Sheet *sheet, const MesoStrandRule *rule, const bool *good, uint32_t all,
+                           uint32_t number)
+{
+    uint32_t keep[4], variant[4], fewest = MESO_NO_INDEX;
+    MesoSolveResult result;
+    read_sheet(sheet, number, keep);
+    for (uint32_t n = 0; n < all; n++) {
+        uint32_t changed = 0;
+        read_sheet(sheet, n, variant);
+        for (uint32_t s = 0; s < 4; s++)
+            changed += variant[s] != keep[s];
+        fewest = good[n] && changed < fewest ? changed : fewest;
+    }
+    const MesoConstraints constraints = {.strands = *rule, .keep = keep};
+    const MesoSolveOptions options = {.seed = number, .max_attempts = 5, .constraints = &constraints};
+    CHECK(meso_solve(&result, arena, &sheet->set, &sheet->variants, &sheet->graph, &options, NULL) == MESO_OK);
+    CHECK(result.verdict == (fewest == MESO_NO_INDEX ? MESO_VERDICT_UNSOLVABLE : MESO_VERDICT_SOLVED));
+    if (result.verdict != MESO_VERDICT_SOLVED)
+        return 0;
+    uint32_t changed = meso_constraints_changed(&constraints, &result.assignment, &sheet->variants);
+    CHECK(changed >= fewest && (!result.changes_fewest || changed == fewest));
+    return result.changes_fewest && fewest > 0;
+}
+
 static void test_cuts(void)
 {
     static const MesoStrandRule rules[6] = {{.connected = true}, {.no_loops = true}, {.acyclic = true},
@@ -264,7 +289,7 @@ static void test_cuts(void)
                                             {.connected = true, .no_loops = true}};
     MesoArena arena;
     MesoRandom random;
-    uint32_t cut_count = 0;
+    uint32_t cut_count = 0, fewest_count = 0;
     meso_arena_init(&arena);
     meso_random_init(&random, 9, 0);
     for (uint32_t i = 0; i < 6 * 8; i++) {
@@ -284,10 +309,12 @@ static void test_cuts(void)
             bool matches = meso_assignment_check(&sheet.assignment, &sheet.set, &sheet.graph, NULL) == MESO_OK;
             if (matches && !good[n])
                 cut_count += check_cuts(&arena, &sheet, &rules[i / 8], good, n);
+            if (matches && !good[n] && tries < 15)
+                fewest_count += check_keep(&arena, &sheet, &rules[i / 8], good, all, n);
         }
         meso_arena_rewind(&arena, mark);
     }
-    CHECK(cut_count > 500);
+    CHECK(cut_count > 500 && fewest_count > 100);
     meso_arena_release(&arena);
 }
 
