@@ -55,15 +55,15 @@ LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
 LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -lOSMesa -lEGL \
             -lOpenEXRCore-3_1 -lpng -lz -ljansson -lxxhash -lcadical -lm
 
-SOURCES := $(wildcard libcore/*/*.c libcore/*/*.cpp formats/*.c formats/*.cpp)
+SOURCES := $(sort $(shell find libcore formats -name '*.c' -o -name '*.cpp'))
 SHARED  := $(filter-out cmd/meso-%,$(wildcard cmd/*.c))
 APART   := %_test.c %_bench.c %_fuzz.c %_reference.c
 TOOLS   := $(patsubst cmd/%.c,%,$(wildcard cmd/meso-*.c))
-TESTS   := $(patsubst %.c,%,$(wildcard libcore/*/*_test.c formats/*_test.c cmd/*_test.c))
-BENCHES := $(patsubst %.c,%,$(wildcard libcore/*/*_bench.c formats/*_bench.c))
-FUZZERS := $(patsubst %.c,%,$(wildcard libcore/*/*_fuzz.c formats/*_fuzz.c))
+TESTS   := $(patsubst %.c,%,$(filter %_test.c,$(SOURCES)) $(wildcard cmd/*_test.c))
+BENCHES := $(patsubst %.c,%,$(filter %_bench.c,$(SOURCES)))
+FUZZERS := $(patsubst %.c,%,$(filter %_fuzz.c,$(SOURCES)))
 GENERATORS := make_vase make_teapot
-REFERENCES := $(patsubst %.c,%,$(wildcard libcore/*/*_reference.c formats/*_reference.c))
+REFERENCES := $(patsubst %.c,%,$(filter %_reference.c,$(SOURCES)))
 SHADERS := $(wildcard shaders/*.glsl)
 
 LIB_OBJECTS := $(patsubst %,$(OUT)/obj/%.o,$(filter-out $(APART),$(SOURCES) $(SHARED))) $(OUT)/obj/shaders.o
