@@ -1,6 +1,6 @@
 /* A structure's geometry in GL buffers, and the calls that draw it. */
-#ifndef MESO_SCENE_H
-#define MESO_SCENE_H
+#ifndef MESO_DRAW_SCENE_H
+#define MESO_DRAW_SCENE_H
 
 #include "libcore/render/gl_functions.h"
 #include "libcore/render/projection.h"
