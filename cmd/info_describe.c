@@ -126,7 +126,7 @@ static json_t *label_text(const MesoTileSet *set, int32_t label)
 {
     return label == 0 ? json_null()
                       : json_sprintf("%s%s", set->interfaces[meso_label_interface(label)].name,
-                                     label < 0 ? "'" : "");
+                                     meso_label_mark(label));
 }
 
 static json_t *interface_json(const MesoTileSet *set, uint32_t i)

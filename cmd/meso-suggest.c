@@ -49,7 +49,7 @@ static const char *print_sides(const MesoTileSet *set, const int32_t labels[4], 
     const char *name[4], *mark[4];
     for (uint32_t k = 0; k < 4; k++) {
         name[k] = set->interfaces[meso_label_interface(labels[k])].name;
-        mark[k] = labels[k] < 0 ? "'" : "";
+        mark[k] = meso_label_mark(labels[k]);
     }
     return meso_arena_print(arena, error, "%s%s %s%s %s%s %s%s", name[0], mark[0], name[1], mark[1],
                             name[2], mark[2], name[3], mark[3]);
@@ -74,7 +74,7 @@ static MesoStatus tell_suggestion(MesoTool *tool, const MesoTileSet *set, const 
     for (uint32_t k = 0; k < 4; k++) {
         int32_t label = suggestion->labels[k];
         failed |= json_array_append_new(labels, json_sprintf(
-            "%s%s", set->interfaces[meso_label_interface(label)].name, label < 0 ? "'" : ""));
+            "%s%s", set->interfaces[meso_label_interface(label)].name, meso_label_mark(label)));
     }
     failed |= json_array_append_new(list, json_pack(
         "{sssosIsIsI}", "name", name, "sides", labels, "votes", (json_int_t)suggestion->votes,

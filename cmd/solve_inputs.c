@@ -6,6 +6,7 @@
 #include "formats/json_text.h"
 #include "formats/report_file.h"
 #include "formats/tiles_file.h"
+#include "libcore/solve/explain.h"
 
 MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
                                 uint64_t hash[2])
@@ -39,6 +40,8 @@ static MesoStatus solve_by_engine(MesoTool *tool, const MesoTileSet *set, const 
     MesoStatus status = meso_engine_start(run, tool, engine, options);
     if (!status)
         status = meso_solve(result, &tool->arena, set, variants, graph, options, &tool->error);
+    if (!status)
+        status = meso_explain(result, &tool->arena, set, variants, graph, options, &tool->error);
     MesoStatus written = meso_engine_finish(run, tool, status ? NULL : result);
     return status ? status : written;
 }
@@ -54,7 +57,6 @@ MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVar
         .max_attempts = max_attempts,
         .max_dead_ends = MESO_REPORT_DEAD_ENDS,
         .constraints = constraints,
-        .explain = engine != NULL,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };

@@ -104,7 +104,7 @@ static const char *side_names(const MesoTileSet *set, const MesoTile *tile, Meso
         names[side] = label == 0 ? "-"
                                  : meso_arena_print(arena, error, "%s%s",
                                                     set->interfaces[meso_label_interface(label)].name,
-                                                    label < 0 ? "'" : "");
+                                                    meso_label_mark(label));
         if (!names[side])
             return NULL;
     }

@@ -17,7 +17,7 @@ void meso_constraint_names_release(MesoConstraintNames *names);
 /* Number of the tile `name`; MESO_NO_INDEX, told at `field`, where there is none, or it is to be ignored. */
 uint32_t meso_constraint_tile(const MesoConstraintNames *names, const MesoJsonField *field, const char *name);
 
-/* Code (solve.h) of the label at `field`, "a" or "a'"; MESO_NO_INDEX, told, where there is none. */
+/* Code (label.h) of the label at `field`, "a" or "a'"; MESO_NO_INDEX, told, where there is none. */
 uint32_t meso_constraint_label(const MesoConstraintNames *names, const MesoJsonField *field);
 
 #endif

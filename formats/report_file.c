@@ -69,7 +69,7 @@ static json_t *write_labels(const uint64_t *labels, const MesoTileSet *set)
     for (uint32_t code = 0; code < 2 * set->interface_count && !failed; code++)
         if (meso_bits_test(labels, code))
             failed |= json_array_append_new(array, json_sprintf("%s%s", set->interfaces[code / 2].name,
-                                                                code % 2 ? "'" : ""));
+                                                                meso_code_mark(code)));
     if (!failed)
         return array;
     json_decref(array);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/solve/explain.h"
 #include "libcore/solve/solve_fixture.h"
 
 static char *text_of(const json_t *json)
@@ -146,6 +147,7 @@ static char *solve_to_text(MesoArena *arena, const MesoTileSet *set, const MesoS
     json_t *content = json_object();
     CHECK(meso_variant_set_build(&variants, arena, set, &error) == MESO_OK);
     CHECK(meso_solve(&result, arena, set, &variants, graph, options, &error) == MESO_OK);
+    CHECK(meso_explain(&result, arena, set, &variants, graph, options, &error) == MESO_OK);
     CHECK(meso_report_fill(content, &result, set, &variants, graph, options->constraints, &error) == MESO_OK);
     json_t *json = meso_report_to_json(content, &provenance);
     CHECK(json);
@@ -168,7 +170,7 @@ static void test_core(void)
     MesoTileSet set = fixture_set(&arena, 3, 2, labels, false, false, false);
     set.interfaces[2].border_only = true;
     MesoSlotGraph graph = fixture_grid(&arena, 3, 1, false, false, false);
-    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 5, .explain = true};
+    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 5};
     char *text = solve_to_text(&arena, &set, &graph, &options);
     CHECK(strstr(text, "\"reason\":\"no tile fits slot 1, where interface 'c' may lie on a border only\""));
     CHECK(strstr(text, "\"core\":{\"minimal\":true,\"slots\":[1],\"tiles\":[],\"border_rules\":[\"c\"],"

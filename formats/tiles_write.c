@@ -134,7 +134,7 @@ static json_t *write_side(const MesoTileSet *set, int32_t label)
     if (label == 0)
         return json_null();
     const char *name = set->interfaces[meso_label_interface(label)].name;
-    return json_sprintf("%s%s", name, label < 0 ? "'" : "");
+    return json_sprintf("%s%s", name, meso_label_mark(label));
 }
 
 static json_t *write_sweep(Writer *writer, const MesoSweep *sweep)

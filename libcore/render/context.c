@@ -8,15 +8,6 @@
 
 #include "libcore/render/context_makers.h"
 
-bool meso_gl_is_software(const char *renderer)
-{
-    static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "SWR", "Software"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strstr(renderer, names[i]))
-            return true;
-    return false;
-}
-
 /* Mesa segfaults on a driver name that it does not know, and keeps a shader
  * cache in the user's home unless told not to. */
 static void prepare_environment(uint32_t thread_count)

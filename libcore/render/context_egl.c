@@ -7,6 +7,7 @@
 #include <GL/glcorearb.h>
 
 #include "libcore/render/context_makers.h"
+#include "libcore/render/renderer_name.h"
 
 enum { MAX_DEVICES = 32 };
 

@@ -11,7 +11,4 @@ MesoStatus meso_gl_osmesa_init(MesoGlContext *context, MesoError *error);
 /* The first GPU that EGL finds; where there is none, a software driver unless `gpu_only`. */
 MesoStatus meso_gl_egl_init(MesoGlContext *context, bool gpu_only, MesoError *error);
 
-/* True for the GL_RENDERER of a driver that draws on the CPU. */
-bool meso_gl_is_software(const char *renderer);
-
 #endif

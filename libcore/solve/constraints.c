@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "libcore/solve/domain.h"
-#include "libcore/solve/solve.h"
 
 const char *meso_constraint_name(const MesoConstraints *constraints, uint32_t number)
 {
@@ -93,7 +92,7 @@ static MesoStatus check_place(const MesoRestriction *restriction, uint32_t place
             return MESO_OK;
         return meso_fail(error, MESO_ERR_INPUT, "%s does not hold: slot %u, side %u shows '%s%s'",
                          restriction->name, slot, place % 4,
-                         set->interfaces[meso_label_interface(label)].name, label < 0 ? "'" : "");
+                         set->interfaces[meso_label_interface(label)].name, meso_label_mark(label));
     }
     uint32_t variant = meso_variant_find(variants, set, assignment->tile[slot], assignment->transform[slot]);
     if (variant != MESO_NO_INDEX && meso_bits_test(restriction->allowed, variant))

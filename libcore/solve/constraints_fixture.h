@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "libcore/solve/explain.h"
 #include "libcore/solve/solve_fixture.h"
 
 typedef struct FixtureCase {
@@ -42,8 +43,9 @@ static inline MesoSolveResult fixture_case_solve(FixtureCase *c, MesoEngine engi
     MesoSolveResult result;
     MesoError error;
     MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = attempts, .max_dead_ends = 10,
-                                .constraints = &c->constraints, .explain = true};
+                                .constraints = &c->constraints};
     CHECK(meso_solve(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
+    CHECK(meso_explain(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
     if (result.verdict == MESO_VERDICT_SOLVED)
         CHECK(meso_constraints_check(&c->constraints, &result.assignment, &c->set, &c->variants, &c->graph,
                                      &error) == MESO_OK);

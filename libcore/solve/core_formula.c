@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "libcore/base/arena.h"
-#include "libcore/solve/solve.h"
 #include "libcore/solve/sorting_network.h"
 
 /* Constraints of one slot by which its variants are sorted; where there are more, each variant stands alone. */

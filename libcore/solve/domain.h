@@ -65,7 +65,7 @@ enum { MESO_DOMAIN_EMPTY = 0 };
 /*
  * Prepares a table with the empty state in it.
  *
- * codes       [4 * variant_count] label code (see solve.h) of side k of variant
+ * codes       [4 * variant_count] label code (label.h) of side k of variant
  *             v at 4 v + k, each below `label_count`; must outlive the table
  * step_count  entries of the step cache: a power of two
  *

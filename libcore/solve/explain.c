@@ -239,9 +239,12 @@ static MesoStatus explain_by_constraints(MesoSolveResult *result, MesoArena *are
 
 MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
                         const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoSolveOptions *options, uint32_t near, MesoError *error)
+                        const MesoSolveOptions *options, MesoError *error)
 {
+    if (result->verdict != MESO_VERDICT_UNSOLVABLE)
+        return MESO_OK;
     const MesoCoreProblem problem = {set, variants, graph, options->constraints};
+    uint32_t near = result->conflict_slot;
     bool initial = result->decider == MESO_DECIDER_PROPAGATION, done = false;
     bool quotas = options->constraints && options->constraints->quota_count > 0;
     MesoStatus status = MESO_OK;

@@ -5,20 +5,21 @@
 #include "libcore/solve/solve.h"
 
 /*
- * Finds what a proved result needs, and puts it into `core` and, in words, into
- * `reason`: a conflict core (conflict_core.h) around `near`, the slot with most
+ * Finds what a proof of meso_solve() needs, and puts it into `core` and, in words, into
+ * `reason`: a conflict core (conflict_core.h) around `conflict_slot`, the slot with most
  * dead ends, or anywhere; where there is none within reach, or the rule on strands
  * has a part in it, constraints alone; else nothing changes. A proof
  * by numbers keeps its reason unless there is a core of at most half the surface.
+ * Results that are not unsolvable stay as they are.
  *
- * near  slot near which the proof begins, or MESO_NO_INDEX
+ * options  those that `result` was solved with
  *
  * A second or two, or tries of whole solves under constraints; the result depends
  * on the arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
 MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
                         const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoSolveOptions *options, uint32_t near, MesoError *error);
+                        const MesoSolveOptions *options, MesoError *error);
 
 /*
  * Finds a set of constraints that is disproved, and none of which can be left

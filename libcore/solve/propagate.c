@@ -3,7 +3,6 @@
 #include <assert.h>
 #include <string.h>
 
-#include "libcore/solve/solve.h"
 
 /* Between collections the table may grow by this many states, or by the slots' quarter. */
 enum { COLLECT_STATES = 1 << 16 };

@@ -7,7 +7,6 @@
 #include "libcore/solve/counting.h"
 #include "libcore/solve/exact_control.h"
 #include "libcore/solve/exact_cubes.h"
-#include "libcore/solve/explain.h"
 #include "libcore/solve/guided.h"
 #include "libcore/solve/keep.h"
 #include "libcore/solve/parity.h"
@@ -57,7 +56,6 @@ typedef struct Search {
     uint32_t *best_variant;         /* [slot_count] where the best attempt ended; MESO_NO_INDEX: undecided. NULL: none
                                        failed yet */
     uint32_t best_open;             /* slots that it left undecided */
-    uint32_t conflict_slot;         /* near which a proof of unsolvability begins, or MESO_NO_INDEX */
 } Search;
 
 /* RecordNeighbors: what a tile for `slot` would have to show. */
@@ -94,7 +92,7 @@ static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
 {
     for (uint32_t s = search->graph->slot_count; s-- > 0;)
         if (search->propagation.state[s] == MESO_DOMAIN_EMPTY)
-            search->conflict_slot = s;
+            search->result->conflict_slot = s;
     for (uint32_t s = 0; s < search->graph->slot_count; s++)
         if (search->propagation.state[s] == MESO_DOMAIN_EMPTY && record_dead_end(search, s, 0, error))
             return MESO_ERR_MEMORY;
@@ -207,11 +205,11 @@ static MesoStatus say_impossible(Search *search, MesoError *error)
     MesoSolveResult *result = search->result;
     result->verdict = MESO_VERDICT_UNSOLVABLE;
     result->decider = MESO_DECIDER_SEARCH;
-    search->conflict_slot = search->wfc.impossible_slot;
+    result->conflict_slot = search->wfc.impossible_slot;
     result->reason = meso_arena_print(search->arena, error, search->wfc.impossible_at_once
                                           ? "each tile that fits slot %u leaves another slot without any"
                                           : "whatever is chosen around slot %u, it leaves a slot without any tile",
-                                      search->conflict_slot);
+                                      result->conflict_slot);
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
@@ -407,7 +405,7 @@ static MesoStatus probe(Search *search, MesoError *error)
         return MESO_OK;
     result->verdict = MESO_VERDICT_UNSOLVABLE;
     result->decider = MESO_DECIDER_PROBING;
-    search->conflict_slot = probing.impossible_slot;
+    result->conflict_slot = probing.impossible_slot;
     result->reason = meso_arena_print(search->arena, error, "each tile that fits slot %u leads to a slot without any, "
                                       "once what leads there at once is ruled out everywhere",
                                       probing.impossible_slot);
@@ -673,9 +671,6 @@ static MesoStatus run(Search *search, MesoError *error)
         status = disproved ? say_disproved(search, error) : begin_to_climb(search, guided, error);
     if (!status)
         status = tell_hot_spots(search, error);
-    if (!status && search->options->explain && search->result->verdict == MESO_VERDICT_UNSOLVABLE)
-        status = meso_explain(search->result, search->arena, search->set, search->variants, search->graph,
-                              search->options, search->conflict_slot, error);
     if (!status && search->result->verdict == MESO_VERDICT_GAVE_UP)
         status = say_gave_up(search, error);
     return status;
@@ -698,12 +693,13 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                       const MesoSolveOptions *options, MesoError *error)
 {
     assert(options->max_attempts >= 1);
-    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = ""};
+    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = "",
+                                .conflict_slot = MESO_NO_INDEX};
     if (variants->count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 
     Search search = {.set = set, .variants = variants, .graph = graph,
-                     .options = options, .result = result, .arena = arena, .conflict_slot = MESO_NO_INDEX};
+                     .options = options, .result = result, .arena = arena};
     meso_arena_init(&search.scratch);
     meso_arena_init(&search.hot_arena);
     MesoStatus status = meso_propagation_init(&search.propagation, &search.scratch, set, variants,

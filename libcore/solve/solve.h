@@ -61,12 +61,6 @@ typedef struct MesoDeadEnd {
                                    and where the neighbour is dead or the slot itself */
 } MesoDeadEnd;
 
-/* Label codes in bit sets: 2 * interface for +, 2 * interface + 1 for -. */
-static inline uint32_t meso_label_code(int32_t label)
-{
-    return 2 * meso_label_interface(label) + (label < 0);
-}
-
 typedef struct MesoSolveOptions {
     uint64_t seed;
     MesoEngine engine;
@@ -75,7 +69,6 @@ typedef struct MesoSolveOptions {
     uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
     const MesoConstraints *constraints;     /* NULL: none */
-    bool explain;               /* look for what a proof needs: `core`, and a better reason; a second or two */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof
@@ -105,7 +98,8 @@ typedef struct MesoSolveResult {
                                    kept call for it */
     uint64_t *violations;       /* [meso_constraint_count()] times that the search met one; or NULL */
     MesoAssignment assignment;  /* where solved */
-    MesoConflictCore core;      /* where unsolvable, and one was asked for and found */
+    uint32_t conflict_slot;     /* where unsolvable: near which the proof begins, or MESO_NO_INDEX */
+    MesoConflictCore core;      /* where meso_explain() was asked, and found one */
     bool changes_fewest;        /* solved, with variants to keep: no assignment changes fewer, as is proved */
     MesoBudget budget;          /* where gave up */
     uint32_t decided_most;      /* slots with a single variant at the search's best moment between two choices */

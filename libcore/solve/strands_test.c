@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "libcore/solve/explain.h"
 #include "libcore/solve/solve_fixture.h"
 #include "libcore/solve/strand_search.h"
 
@@ -149,10 +150,11 @@ static void test_explanation(void)
     static const uint64_t straight[1] = {2};
     MesoRestriction region = {.name = "regions[0] 'row'", .place_count = 3, .places = row, .allowed = straight};
     MesoConstraints constraints = {.strands = {.no_loops = true}, .restriction_count = 1, .restrictions = &region};
-    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10, .constraints = &constraints, .explain = true};
+    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10, .constraints = &constraints};
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
     CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
+    CHECK(meso_explain(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
     CHECK(strcmp(result.reason, "regions[0] 'row' and the rule on strands cannot hold together") == 0);
     meso_arena_release(&arena);
 }

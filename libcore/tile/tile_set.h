@@ -8,6 +8,7 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
+#include "libcore/tile/label.h"
 
 /*
  * Sides of a tile. 0 +X, 1 +Y, 2 -X, 3 -Y; corner i is where side i starts:
@@ -76,8 +77,7 @@ typedef struct MesoInnerMesh {
 typedef struct MesoTile {
     const char *name;       /* unique */
     uint32_t side_count;    /* 4 or 6 */
-    /* +(interface + 1), negative if flipped, 0 for none (sides 4 and 5 only);
-     * sides from side_count on are 0. */
+    /* See label.h; 0 on sides 4 and 5 only. Sides from side_count on are 0. */
     int32_t labels[MESO_SIDE_COUNT];
     uint32_t sweep_begin, sweep_count;
     uint32_t inner_begin, inner_count;
@@ -96,12 +96,6 @@ typedef struct MesoTileSet {
     MesoInnerMesh *inners;
     bool default_rotation, default_flip_x, default_flip_y;  /* for tiles to come */
 } MesoTileSet;
-
-/* Interface of a label, which must not be 0. */
-static inline uint32_t meso_label_interface(int32_t label)
-{
-    return (uint32_t)(label < 0 ? -label : label) - 1;
-}
 
 /* One call for each problem; `severity` is "error" or "warning". */
 typedef void MesoProblemReport(void *context, const char *severity, const char *where,
