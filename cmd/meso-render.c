@@ -2,13 +2,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "cmd/camera_options.h"
 #include "cmd/tool.h"
 #include "formats/image_file.h"
 #include "formats/json_text.h"
 #include "formats/model_file.h"
+#include "libcore/base/clock.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
@@ -119,13 +119,6 @@ static void report_image(MesoTool *tool, const MesoImage *image, const MesoStruc
         meso_tool_say(tool, "warning: nothing of the model is on the image");
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void say_times(const MesoTool *tool, const double *at)
 {
     if (tool->verbose)
@@ -164,17 +157,17 @@ static MesoStatus render(RenderArguments *a, const MesoModel *model, double star
     double at[5] = {start};
 
     MesoStatus status = meso_structure_build(&structure, &tool->arena, model, tool->threads, error);
-    at[1] = seconds_now();
+    at[1] = meso_seconds();
     if (!status)
         status = meso_gl_context_init(&context, a->context, tool->threads, error);
     if (status)
         return status;
-    at[2] = seconds_now();
+    at[2] = meso_seconds();
     status = draw(a, &image, &context, &structure, error);
-    at[3] = seconds_now();
+    at[3] = meso_seconds();
     if (!status)
         status = write_images(a, &image, model, error);
-    at[4] = seconds_now();
+    at[4] = meso_seconds();
     if (!status) {
         report_image(tool, &image, &structure, context.renderer);
         say_times(tool, at);
@@ -188,7 +181,7 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
     MesoTool *tool = &a->tool;
     MesoInput input;
     MesoModel model;
-    double start = seconds_now();
+    double start = meso_seconds();
     MesoStatus status = choose_product(a, error);
     if (!status)
         status = parse_background(a, error);

@@ -2,24 +2,17 @@
 
 #include <inttypes.h>
 #include <string.h>
-#include <time.h>
 
 #include "formats/report_file.h"
+#include "libcore/base/clock.h"
 
 /* Bytes of a formula's first line, whose numbers are known last. */
 enum { HEADER_SIZE = 64 };
 
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static bool past_deadline(void *context)
 {
     const MesoEngineRun *run = context;
-    return run->status || seconds() > run->deadline;
+    return run->status || meso_seconds() > run->deadline;
 }
 
 static bool write_proof(void *context, const char *data, size_t size)
@@ -116,7 +109,7 @@ MesoStatus meso_engine_start(MesoEngineRun *run, MesoTool *tool, const MesoEngin
 {
     memset(run, 0, offsetof(MesoEngineRun, buffer));
     run->error = &tool->error;
-    run->deadline = seconds() + (double)arguments->budget;
+    run->deadline = meso_seconds() + (double)arguments->budget;
     meso_engine_choose(arguments, options);
     if (arguments->budget > 0) {
         options->stop = past_deadline;

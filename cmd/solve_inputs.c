@@ -1,11 +1,11 @@
 #include "cmd/solve_inputs.h"
 
 #include <string.h>
-#include <time.h>
 
 #include "formats/json_text.h"
 #include "formats/report_file.h"
 #include "formats/tiles_file.h"
+#include "libcore/base/clock.h"
 #include "libcore/solve/explain.h"
 
 MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *set,
@@ -21,13 +21,6 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
     status = meso_tiles_read(set, &tool->arena, &input, &tool->error);
     meso_input_close(&input);
     return status;
-}
-
-static double milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
 }
 
 static MesoStatus solve_by_engine(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
@@ -61,10 +54,10 @@ MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVar
         .progress_context = tool,
     };
     meso_tool_progress_begin(tool, "solving", "slots");
-    double start = milliseconds();
+    double start = 1e3 * meso_seconds();
     MesoStatus status = engine ? solve_by_engine(tool, set, variants, graph, engine, &options, result)
                                : meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
-    double duration = milliseconds() - start;
+    double duration = 1e3 * meso_seconds() - start;
     if (!status && tool->verbose)
         meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations, %llu jumps and %llu repairs in %u "
                       "attempt%s, decided by %s", graph->slot_count, variants->count, duration,

@@ -7,12 +7,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "cmd/progress.h"
 #include "formats/json_text.h"
 #include "formats/output.h"
+#include "libcore/base/clock.h"
 
 /* They change no byte of a product, and so have no place in its provenance. */
 static const char *const not_recorded[] = {"threads", "progress", "quiet", "verbose", "json", NULL};
@@ -47,13 +47,6 @@ static void hold_standard_descriptors(void)
     for (int file = 0; file < 3; file++)
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
             (void)!open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY);
-}
-
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* "1 operand given, 3 needed" */
@@ -164,7 +157,7 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
         tool->status = meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory");
         return false;
     }
-    tool->started = seconds_now();
+    tool->started = meso_seconds();
 
     tool->status = parse(tool, options, argc, argv);
     meso_progress_init(tool->progress, tool->progress_mode, tool->quiet);
@@ -209,7 +202,7 @@ static json_t *make_report(const MesoTool *tool)
     failed |= json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance));
     failed |= json_object_update(root, tool->report);
     if (tool->verbose)
-        failed |= json_object_set_new(root, "seconds", json_real(seconds_now() - tool->started));
+        failed |= json_object_set_new(root, "seconds", json_real(meso_seconds() - tool->started));
     if (failed) {
         json_decref(root);
         return NULL;

@@ -6,22 +6,15 @@
  *     mesh_file_bench [FOLDER] [THREADS]
  */
 #include <sys/stat.h>
-#include <time.h>
 
 #include "formats/mesh_file.h"
 #include "formats/mesh_scene.h"
+#include "libcore/base/clock.h"
 
 enum { ROUNDS = 4, COPY_BYTES = 8 << 20 };
 
 typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
                              MesoOutput *output, MesoError *error);
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /*
  * The time until all bytes are written. The first round is kept and gives the
@@ -36,12 +29,12 @@ static double write_once(WriteMesh *write, const MeshScene *scene, uint32_t thre
     MesoMeshWriteOptions options = {.thread_count = threads, .speed = 7};
     struct stat file;
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    double start = seconds();
+    double start = meso_seconds();
     if (write(&scene->tessellation, &options, output, &error) != MESO_OK) {
         fprintf(stderr, "%s\n", error.message);
         exit(1);
     }
-    double time = seconds() - start;
+    double time = meso_seconds() - start;
     if (*bytes > 0) {
         meso_output_discard(output);
         return time;
@@ -82,13 +75,13 @@ static double copy_and_write_once(uint8_t *from, uint8_t *to, uint64_t total, co
     double writing = 0;
     *copying = 0;
     for (uint64_t done = 0; done < total; done += COPY_BYTES) {
-        double start = seconds();
+        double start = meso_seconds();
         memcpy(to, from, COPY_BYTES);
         from[done / COPY_BYTES % COPY_BYTES] ^= to[0];
-        *copying += seconds() - start;
-        start = seconds();
+        *copying += meso_seconds() - start;
+        start = meso_seconds();
         CHECK(meso_output_write(output, to, COPY_BYTES, &error) == MESO_OK);
-        writing += seconds() - start;
+        writing += meso_seconds() - start;
     }
     meso_output_discard(output);
     return writing;

@@ -5,10 +5,10 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "formats/model_file.h"
 #include "libcore/base/check.h"
+#include "libcore/base/clock.h"
 #include "libcore/render/render.h"
 
 enum { FIELD = 128, SIDES = 16, REPEATS = 3 };
@@ -20,13 +20,6 @@ typedef struct Field {
     MesoSweepKind kind;
     MesoStructure structure;
 } Field;
-
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* Threads that go over and under, on a square of side 2. */
 static void make_field(Field *field, MesoArena *arena)
@@ -69,9 +62,9 @@ static void measure(const char *name, MesoGlContext *context, const MesoStructur
         MesoImage image;
         MesoError error;
         meso_arena_init(&arena);
-        double start = seconds_now();
+        double start = meso_seconds();
         CHECK(meso_render(&image, &arena, context, structure, &options, &error) == MESO_OK);
-        best = fmin(best, seconds_now() - start);
+        best = fmin(best, meso_seconds() - start);
         meso_arena_release(&arena);
     }
     printf("render %s, %u sweeps, 1280x720: %.0f ms (%s)\n", name, structure->instance_count,

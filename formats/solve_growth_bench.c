@@ -12,10 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include "formats/report_file.h"
 #include "formats/surface_file.h"
+#include "libcore/base/clock.h"
 #include "libcore/solve/solve_fixture.h"
 
 /* A wicker: courses (a) one way, posts (b) the other, both of which may end in c; each in several looks. */
@@ -73,13 +73,6 @@ static MesoSlotGraph read_surface(MesoArena *arena, const char *path, uint32_t s
     return graph;
 }
 
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static double peak_bytes(void)
 {
     struct rusage usage;
@@ -97,9 +90,9 @@ static void bench(MesoArena *arena, const char *shape, const MesoTileSet *set, c
     double best = INFINITY, before = peak_bytes(), slots = graph->slot_count;
     for (uint32_t r = 0; r < runs; r++) {
         MesoArenaMark mark = meso_arena_mark(arena);
-        double start = seconds();
+        double start = meso_seconds();
         CHECK(meso_solve(&result, arena, set, variants, graph, &options, &error) == MESO_OK);
-        double time = seconds() - start;
+        double time = meso_seconds() - start;
         best = time < best ? time : best;
         meso_arena_rewind(arena, mark);
     }

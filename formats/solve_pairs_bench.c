@@ -6,11 +6,11 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "formats/report_file.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
+#include "libcore/base/clock.h"
 
 enum { RUNS = 5, ATTEMPTS = 20 };
 
@@ -27,13 +27,6 @@ static const struct Pair {
     {"tshirt", "z1_color", 0, 489},          {"tshirt", "limitation1", 6, 555},
     {"jewel", "jewel", 0, 0.3},
 };
-
-static double milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
 
 static MesoStatus read_pair(const char *folder, const struct Pair *pair, MesoArena *arena,
                             MesoTileSet *set, MesoVariantSet *variants, MesoSlotGraph *graph,
@@ -67,9 +60,9 @@ static MesoStatus time_pair(MesoArena *arena, const MesoTileSet *set, const Meso
     const MesoSolveOptions options = {.max_attempts = ATTEMPTS, .max_dead_ends = ATTEMPTS};
     *best = INFINITY;
     for (int run = 0; run < RUNS; run++) {
-        double start = milliseconds();
+        double start = 1e3 * meso_seconds();
         MesoStatus status = meso_solve(result, arena, set, variants, graph, &options, error);
-        double time = milliseconds() - start;
+        double time = 1e3 * meso_seconds() - start;
         if (status)
             return status;
         *best = time < *best ? time : *best;

@@ -3,9 +3,9 @@
 #define MESO_SOLVE_TOTALS_H
 
 #include <stdio.h>
-#include <time.h>
 
 #include "formats/report_file.h"
+#include "libcore/base/clock.h"
 
 typedef struct SolveTotals {
     uint64_t seed;              /* of all solves */
@@ -14,17 +14,10 @@ typedef struct SolveTotals {
     double slowest, sum;        /* seconds */
 } SolveTotals;
 
-static inline double solve_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static inline bool solve_past(void *context)
 {
     const double *deadline = context;
-    return solve_clock() > *deadline;
+    return meso_seconds() > *deadline;
 }
 
 /* meso_solve() with 20 attempts, for `limit` seconds at most; `time` gets those it took. */
@@ -32,11 +25,11 @@ static inline MesoStatus solve_timed(MesoSolveResult *result, MesoArena *arena, 
                                      const MesoVariantSet *variants, const MesoSlotGraph *graph, double limit,
                                      double *time, SolveTotals *totals, MesoError *error)
 {
-    double start = solve_clock(), deadline = start + limit;
+    double start = meso_seconds(), deadline = start + limit;
     const MesoSolveOptions options = {.seed = totals->seed, .max_attempts = 20, .max_dead_ends = 20,
                                       .stop = solve_past, .stop_context = &deadline};
     MesoStatus status = meso_solve(result, arena, set, variants, graph, &options, error);
-    *time = solve_clock() - start;
+    *time = meso_seconds() - start;
     if (status)
         return status;
     totals->verdicts[result->verdict]++;

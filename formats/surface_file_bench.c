@@ -1,19 +1,12 @@
 /* Rate of reading an OBJ of 250000 quads with a normal a vertex. */
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "formats/surface_file.h"
 #include "libcore/base/check.h"
+#include "libcore/base/clock.h"
 
 enum { SIDE = 500, ROW = SIDE + 1, ROUNDS = 5, LINE = 64 };
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static size_t make_grid(char *out)
 {
@@ -42,9 +35,9 @@ int main(void)
     for (int i = 0; i < ROUNDS; i++) {
         MesoQuadMesh mesh;
         MesoArenaMark mark = meso_arena_mark(&arena);
-        double start = seconds();
+        double start = meso_seconds();
         CHECK(meso_surface_read(&mesh, &arena, &input, &error) == MESO_OK);
-        double took = seconds() - start;
+        double took = meso_seconds() - start;
         best = took < best ? took : best;
         CHECK(mesh.face_count == SIDE * SIDE && mesh.normal_count == ROW * ROW);
         meso_arena_rewind(&arena, mark);

@@ -6,7 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define MESO_NO_INDEX UINT32_MAX
+#include "libcore/base/index.h"
+
 #define MESO_PI 3.14159265358979323846
 
 typedef struct MesoVec2 {

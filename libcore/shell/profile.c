@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/disjoint_sets.h"
+#include "libcore/base/grow.h"
+
 /* A ring's corner is sharp where it turns by more than 50 degrees: discs of 8 points stay round. */
 static const float CREASE_COSINE = 0.6428f;
 
@@ -146,13 +149,6 @@ static bool nth_pair(const Builder *b, uint32_t from, uint32_t to, uint32_t n, u
     return pair[0] != MESO_NO_INDEX || pair[1] != MESO_NO_INDEX;
 }
 
-static uint32_t find_root(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /* Joins the contours that sweeps pair, and gives every class the count of its largest. */
 static MesoStatus make_rings(Builder *b, MesoError *error)
 {
@@ -162,21 +158,20 @@ static MesoStatus make_rings(Builder *b, MesoError *error)
     b->rings = MESO_NEW(b->scratch, Ring, count, error);
     if (!parent || !most || !b->rings)
         return MESO_ERR_MEMORY;
-    for (uint32_t c = 0; c < count; c++)
-        parent[c] = c;
+    meso_sets_init(parent, count);
     for (uint32_t s = 0; s < b->set->sweep_count; s++) {
         uint32_t pair[2];
         const MesoSweep *sweep = &b->set->sweeps[s];
         for (uint32_t n = 0; nth_pair(b, sweep->from_section, sweep->to_section, n, pair); n++)
             if (pair[0] != MESO_NO_INDEX && pair[1] != MESO_NO_INDEX)
-                parent[find_root(parent, pair[0])] = find_root(parent, pair[1]);
+                meso_sets_join(parent, pair[0], pair[1]);
     }
     for (uint32_t c = 0; c < count; c++) {
-        uint32_t root = find_root(parent, c), own = b->contours->contours[c].point_count;
+        uint32_t root = meso_sets_root(parent, c), own = b->contours->contours[c].point_count;
         most[root] = most[root] > own ? most[root] : own;
     }
     for (uint32_t c = 0; c < count; c++) {
-        MesoStatus status = make_ring(b, c, most[find_root(parent, c)], error);
+        MesoStatus status = make_ring(b, c, most[meso_sets_root(parent, c)], error);
         if (status)
             return status;
     }
@@ -262,24 +257,10 @@ static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t 
                              (float)k / (float)count, joins};
 }
 
-/* Doubles `array` when it is full; the old one stays in the arena until it goes. */
-static void *grown(MesoArena *arena, void *array, uint32_t count, uint32_t *capacity, size_t size,
-                   MesoError *error)
-{
-    if (count < *capacity)
-        return array;
-    uint32_t larger = *capacity ? 2 * *capacity : 64;
-    void *copy = meso_arena_alloc(arena, larger, size, error);
-    if (copy && count)
-        memcpy(copy, array, count * size);
-    *capacity = larger;
-    return copy;
-}
-
 static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoError *error)
 {
     MesoProfileSet *out = b->out;
-    out->columns = grown(b->scratch, out->columns, out->column_count, &b->column_capacity, sizeof column, error);
+    out->columns = MESO_GROW(b->scratch, out->columns, out->column_count, b->column_capacity, 64, error);
     if (!out->columns)
         return MESO_ERR_MEMORY;
     out->columns[out->column_count++] = column;
@@ -309,7 +290,7 @@ static MesoStatus push_kind(Builder *b, MesoSweepKind kind, Walk start, Walk end
             return status;
     }
     kind.column_count = out->column_count - kind.column_begin;
-    out->kinds = grown(b->scratch, out->kinds, out->kind_count, &b->kind_capacity, sizeof kind, error);
+    out->kinds = MESO_GROW(b->scratch, out->kinds, out->kind_count, b->kind_capacity, 64, error);
     if (!out->kinds)
         return MESO_ERR_MEMORY;
     out->kinds[out->kind_count++] = kind;

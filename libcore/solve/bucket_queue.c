@@ -1,9 +1,11 @@
 #include "libcore/solve/bucket_queue.h"
 
 #include <assert.h>
+#include <stdbool.h>
 #include <string.h>
 
-#include "libcore/base/vec.h"
+#include "libcore/base/grow.h"
+#include "libcore/base/index.h"
 
 /* Pieces are large where there are many slots: the directories of them all fit into a core's caches. */
 enum { LEAST_PIECE_BITS = 4, MOST_PIECES = 4096 };
@@ -17,19 +19,6 @@ static uint32_t *entry(const MesoBucketQueue *queue, const MesoBucket *bucket, u
 static bool ends_piece(const MesoBucketQueue *queue, const MesoBucket *bucket)
 {
     return (bucket->count & ((1u << queue->piece_bits) - 1)) == 0;
-}
-
-static MesoStatus grow_directory(MesoBucketQueue *queue, MesoBucket *bucket, MesoError *error)
-{
-    uint32_t capacity = bucket->directory_capacity ? 2 * bucket->directory_capacity : 16;
-    uint32_t *directory = MESO_NEW(queue->arena, uint32_t, capacity, error);
-    if (!directory)
-        return MESO_ERR_MEMORY;
-    if (bucket->directory_capacity)
-        memcpy(directory, bucket->directory, bucket->directory_capacity * sizeof *directory);
-    bucket->directory = directory;
-    bucket->directory_capacity = capacity;
-    return MESO_OK;
 }
 
 MesoStatus meso_bucket_queue_init(MesoBucketQueue *queue, MesoArena *arena, uint32_t slot_count,
@@ -98,7 +87,8 @@ MesoStatus meso_bucket_queue_insert(MesoBucketQueue *queue, uint32_t slot, uint3
     MesoBucket *bucket = &queue->buckets[size];
     if (ends_piece(queue, bucket)) {
         uint32_t piece = bucket->count >> queue->piece_bits;
-        if (piece == bucket->directory_capacity && grow_directory(queue, bucket, error))
+        bucket->directory = MESO_GROW(queue->arena, bucket->directory, piece, bucket->directory_capacity, 16, error);
+        if (!bucket->directory)
             return MESO_ERR_MEMORY;
         bucket->directory[piece] =
             queue->free_count ? queue->free_pieces[--queue->free_count] : queue->unused_piece++;

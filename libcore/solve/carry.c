@@ -3,6 +3,9 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/base/disjoint_sets.h"
+#include "libcore/base/grow.h"
+
 /* What patterns of a list carry between sides `from` and `to`. */
 typedef struct Pair {
     uint32_t from, to;
@@ -36,13 +39,6 @@ typedef struct Finder {
     uint32_t index_mask;
 } Finder;
 
-static uint32_t find_root(const uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i)
-        i = parent[i];
-    return i;
-}
-
 /*
  * The labels of the two sides, joined where a pattern shows both: each connected
  * piece is one value that the slot carries.
@@ -56,17 +52,15 @@ static MesoStatus find_values(Finder *finder, const MesoPatternList *list, Pair 
         return MESO_ERR_MEMORY;
     pair->to_value = pair->from_value + count;
     memset(pair->from_value, 0xff, 2 * (size_t)count * sizeof *parent);
-    for (uint32_t i = 0; i < 2 * count; i++)
-        parent[i] = i;
+    meso_sets_init(parent, 2 * count);
     for (uint32_t p = 0; p < list->count; p++) {
         const uint32_t *codes = list->codes + 4 * (size_t)p;
-        uint32_t a = find_root(parent, codes[pair->from]), b = find_root(parent, count + codes[pair->to]);
-        parent[b > a ? b : a] = b > a ? a : b;
+        meso_sets_join(parent, codes[pair->from], count + codes[pair->to]);
     }
     /* Roots are codes of `from`, so that a value has its number before it is asked for. */
     for (uint32_t p = 0; p < list->count; p++) {
         const uint32_t *codes = list->codes + 4 * (size_t)p;
-        uint32_t root = find_root(parent, codes[pair->from]);
+        uint32_t root = meso_sets_root(parent, codes[pair->from]);
         if (pair->from_value[root] == MESO_NO_INDEX)
             pair->from_value[root] = pair->value_count++;
         pair->from_value[codes[pair->from]] = pair->to_value[codes[pair->to]] = pair->from_value[root];
@@ -129,12 +123,10 @@ static uint32_t *index_place(const Finder *finder, uint32_t edge, uint64_t ranks
 static MesoStatus grow(Finder *finder, MesoError *error)
 {
     uint32_t capacity = finder->bit_capacity ? 2 * finder->bit_capacity : 1024;
-    Bit *bits = MESO_NEW(finder->arena, Bit, capacity, error);
+    Bit *bits = meso_arena_enlarge(finder->arena, finder->bits, finder->bit_count, capacity, sizeof *bits, error);
     uint32_t *index = MESO_NEW(finder->arena, uint32_t, 2 * (size_t)capacity, error);
     if (!bits || !index)
         return MESO_ERR_MEMORY;
-    if (finder->bit_count)
-        memcpy(bits, finder->bits, finder->bit_count * sizeof *bits);
     finder->bits = bits;
     finder->bit_capacity = capacity;
     finder->index = index;

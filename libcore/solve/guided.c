@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "libcore/base/grow.h"
+
 /* Choices that an attempt may take back: so many, and a part of the slots. */
 enum { LEAST_BACKTRACKS = 1000, BACKTRACK_PART = 4 };
 
@@ -65,16 +67,10 @@ static bool in_conflict(MesoGuidedSearch *search)
 
 static MesoStatus push_choice(MesoGuidedSearch *search, uint32_t slot, uint32_t variant, MesoError *error)
 {
-    if (search->choice_count == search->choice_capacity) {
-        uint32_t capacity = search->choice_capacity ? 2 * search->choice_capacity : 256;
-        MesoGuidedChoice *choices = MESO_NEW(search->arena, MesoGuidedChoice, capacity, error);
-        if (!choices)
-            return MESO_ERR_MEMORY;
-        if (search->choice_count)
-            memcpy(choices, search->choices, search->choice_count * sizeof *choices);
-        search->choices = choices;
-        search->choice_capacity = capacity;
-    }
+    search->choices = MESO_GROW(search->arena, search->choices, search->choice_count, search->choice_capacity, 256,
+                                error);
+    if (!search->choices)
+        return MESO_ERR_MEMORY;
     MesoGuidedChoice *choice = &search->choices[search->choice_count++];
     *choice = (MesoGuidedChoice){.strand_mark = search->strands.trail_count, .slot = slot, .variant = variant};
     return meso_propagation_mark(search->propagation, &choice->mark, error);

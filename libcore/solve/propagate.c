@@ -3,6 +3,8 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/base/grow.h"
+
 
 /* Between collections the table may grow by this many states, or by the slots' quarter. */
 enum { COLLECT_STATES = 1 << 16 };
@@ -145,16 +147,10 @@ static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoE
     if (!(*marks & TOUCHED))
         propagation->touched[propagation->touched_count++] = slot;
     if (!(*marks & ON_TRAIL)) {
-        if (propagation->trail_count == propagation->trail_capacity) {
-            uint32_t capacity = propagation->trail_capacity ? 2 * propagation->trail_capacity : LEAST_TRAIL;
-            MesoTrailEntry *trail = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
-            if (!trail)
-                return MESO_ERR_MEMORY;
-            if (propagation->trail_count)
-                memcpy(trail, propagation->trail, propagation->trail_count * sizeof *trail);
-            propagation->trail = trail;
-            propagation->trail_capacity = capacity;
-        }
+        propagation->trail = MESO_GROW(propagation->arena, propagation->trail, propagation->trail_count,
+                                       propagation->trail_capacity, LEAST_TRAIL, error);
+        if (!propagation->trail)
+            return MESO_ERR_MEMORY;
         propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
     }
     *marks |= TOUCHED | ON_TRAIL;
@@ -163,16 +159,10 @@ static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoE
 
 static MesoStatus record_history(MesoPropagation *propagation, uint32_t slot, MesoError *error)
 {
-    if (propagation->history_count == propagation->history_capacity) {
-        size_t capacity = propagation->history_capacity ? 2 * propagation->history_capacity : LEAST_TRAIL;
-        MesoTrailEntry *history = MESO_NEW(propagation->arena, MesoTrailEntry, capacity, error);
-        if (!history)
-            return MESO_ERR_MEMORY;
-        if (propagation->history_count)
-            memcpy(history, propagation->history, propagation->history_count * sizeof *history);
-        propagation->history = history;
-        propagation->history_capacity = capacity;
-    }
+    propagation->history = MESO_GROW(propagation->arena, propagation->history, propagation->history_count,
+                                     propagation->history_capacity, LEAST_TRAIL, error);
+    if (!propagation->history)
+        return MESO_ERR_MEMORY;
     propagation->history[propagation->history_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
     return MESO_OK;
 }

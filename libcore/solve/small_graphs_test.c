@@ -8,8 +8,8 @@
  * of which it takes each PARTS-th, and ends after SECONDS; see all_cases().
  */
 #include <string.h>
-#include <time.h>
 
+#include "libcore/base/clock.h"
 #include "libcore/solve/brute_force.h"
 #include "libcore/solve/small_graphs.h"
 #include "libcore/solve/small_sets.h"
@@ -29,13 +29,6 @@ typedef struct Cases {
     uint64_t disagreements;
     uint32_t unlike[SMALL_SETS_ONE], unlike_count;
 } Cases;
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void print_case(const MesoTileSet *set, const MesoSlotGraph *graph, MesoVerdict expected)
 {
@@ -87,7 +80,7 @@ static void try_graph(void *context, const uint32_t *twin, uint32_t symmetries)
         involutions *= 4 * i;
     CHECK(involutions % symmetries == 0);
     cases->involutions += involutions / symmetries;
-    if (cases->graphs++ % cases->part_count != cases->part || (cases->deadline && seconds() > cases->deadline))
+    if (cases->graphs++ % cases->part_count != cases->part || (cases->deadline && meso_seconds() > cases->deadline))
         return;
     cases->taken++;
     bool all = cases->sets_one == MESO_NO_INDEX;
@@ -216,7 +209,7 @@ static void print_cases(const Cases *cases, double since)
            (unsigned long long)cases->taken, (unsigned long long)cases->tried,
            (unsigned long long)cases->verdicts[MESO_VERDICT_SOLVED],
            (unsigned long long)cases->verdicts[MESO_VERDICT_UNSOLVABLE],
-           (unsigned long long)cases->disagreements, seconds() - since);
+           (unsigned long long)cases->disagreements, meso_seconds() - since);
     for (uint32_t i = 0; i < 2; i++) {
         printf("%s", i ? "; exact" : " auto");
         for (MesoDecider d = MESO_DECIDER_PROPAGATION; d <= MESO_DECIDER_STOP; d++)
@@ -237,10 +230,10 @@ static int all_cases(uint32_t slots, double time, uint32_t part, uint32_t part_c
     static const uint32_t sets[SMALL_SLOTS][2] = {{MESO_NO_INDEX, 100}, {MESO_NO_INDEX, 100}, {MESO_NO_INDEX, 100},
                                                   {MESO_NO_INDEX, 100}, {24, 6}, {1, 1}};
     uint64_t disagreements = 0;
-    double since = seconds();
+    double since = meso_seconds();
     CHECK(slots >= 1 && slots <= SMALL_SLOTS && part < part_count);
     for (uint32_t count = 1; count <= slots; count++) {
-        double begin = seconds();
+        double begin = meso_seconds();
         start(&cases);
         cases.deadline = since + time;
         cases.part = part;

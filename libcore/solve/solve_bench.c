@@ -1,8 +1,8 @@
 /* Nanoseconds a slot to solve square tori and grids, best of several runs. */
 #include <stdio.h>
 #include <sys/resource.h>
-#include <time.h>
 
+#include "libcore/base/clock.h"
 #include "libcore/solve/solve_fixture.h"
 
 /* A wicker: courses (a) one way, posts (b) the other, both of which may end in c; each in two looks. */
@@ -19,13 +19,6 @@ static MesoTileSet wicker(MesoArena *arena)
     return set;
 }
 
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void bench(uint32_t width, bool torus, uint32_t runs)
 {
     MesoArena arena;
@@ -37,9 +30,9 @@ static void bench(uint32_t width, bool torus, uint32_t runs)
     uint64_t observations = 0;
     for (uint32_t r = 0; r < runs; r++) {
         MesoArenaMark mark = meso_arena_mark(&arena);
-        double start = seconds();
+        double start = meso_seconds();
         MesoSolveResult result = fixture_solve(&arena, &set, &graph, 0, 20);
-        double time = seconds() - start;
+        double time = meso_seconds() - start;
         best = time < best ? time : best;
         attempts = result.verdict == MESO_VERDICT_SOLVED ? result.attempts : 0;
         observations = result.observations;

@@ -1,18 +1,11 @@
 /* Rate of the slot graph on a grid of a million faces. */
 #include <stdio.h>
-#include <time.h>
 
 #include "libcore/base/check.h"
+#include "libcore/base/clock.h"
 #include "libcore/surface/slot_graph.h"
 
 enum { SIDE = 1000, ROUNDS = 7 };
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void make_grid(MesoQuadMesh *mesh, MesoArena *arena)
 {
@@ -45,9 +38,9 @@ int main(void)
     make_grid(&mesh, &arena);
     for (int i = 0; i < ROUNDS; i++) {
         MesoArenaMark mark = meso_arena_mark(&arena);
-        double start = seconds();
+        double start = meso_seconds();
         CHECK(meso_slot_graph_build(&graph, &arena, &mesh, &error) == MESO_OK);
-        double took = seconds() - start;
+        double took = meso_seconds() - start;
         best = took < best ? took : best;
         meso_arena_rewind(&arena, mark);
     }
