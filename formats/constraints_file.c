@@ -349,11 +349,12 @@ static void read_root(Parser *parser, const json_t *json, MesoConstraints *const
     parser->weights = (MesoWeightReader){.reader = parser->reader, .names = &parser->names,
                                          .variants = scope->variants, .groups = scope->groups,
                                          .slot_count = scope->graph->slot_count};
-    parser->reader->status = meso_constraint_names_init(&parser->names, scope->set, parser->reader->error);
+    parser->names.set = scope->set;
+    parser->reader->status = meso_tile_names_init(&parser->names.by_name, parser->reader->arena, scope->set,
+                                                  parser->reader->error);
     if (!parser->reader->status)
         read_all(parser, &root, constraints);
     constraints->weights = meso_weight_reader_finish(&parser->weights);
-    meso_constraint_names_release(&parser->names);
 }
 
 MesoStatus meso_constraints_read(MesoConstraints *constraints, MesoArena *arena, const MesoInput *input,

@@ -6,6 +6,7 @@
 #include "formats/json_field.h"
 #include "formats/json_text.h"
 #include "libcore/base/bits.h"
+#include "libcore/tile/tile_names.h"
 
 static const char *const verdict_names[] = {
     [MESO_VERDICT_SOLVED] = "solved",
@@ -285,52 +286,11 @@ json_t *meso_report_to_json(const json_t *content, const MesoProvenance *provena
 
 /* --- reading --- */
 
-typedef struct NamedInterface {
-    const char *name;
-    uint32_t number;
-} NamedInterface;
-
 typedef struct Binder {
-    uint32_t interface_count, label_words;
-    NamedInterface *interfaces;     /* [interface_count] in the order of their names */
+    MesoTileNames names;
+    uint32_t label_words;
     uint64_t *labels;               /* [4 * label_words] of the next dead end */
 } Binder;
-
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(((const NamedInterface *)a)->name, ((const NamedInterface *)b)->name);
-}
-
-static MesoStatus binder_init(Binder *binder, MesoArena *arena, const MesoTileSet *set, MesoError *error)
-{
-    *binder = (Binder){.interface_count = set->interface_count,
-                       .label_words = meso_bits_words(2 * set->interface_count)};
-    binder->interfaces = MESO_NEW(arena, NamedInterface, set->interface_count, error);
-    if (!binder->interfaces)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < set->interface_count; i++)
-        binder->interfaces[i] = (NamedInterface){set->interfaces[i].name, i};
-    qsort(binder->interfaces, binder->interface_count, sizeof *binder->interfaces, compare_names);
-    return MESO_OK;
-}
-
-/* Interface whose name is the first `length` bytes of `text`, or MESO_NO_INDEX. */
-static uint32_t find_interface(const Binder *binder, const char *text, size_t length)
-{
-    uint32_t low = 0, high = binder->interface_count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        const char *name = binder->interfaces[middle].name;
-        int order = strncmp(name, text, length);
-        if (order == 0 && name[length] == '\0')
-            return binder->interfaces[middle].number;
-        if (order < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return MESO_NO_INDEX;
-}
 
 static void read_label(const Binder *binder, const MesoJsonField *field, uint64_t *labels)
 {
@@ -340,13 +300,11 @@ static void read_label(const Binder *binder, const MesoJsonField *field, uint64_
     }
     const char *text = json_string_value(field->value);
     size_t length = json_string_length(field->value);
-    bool flipped = length > 0 && text[length - 1] == '\'';
-    uint32_t interface = strlen(text) == length ? find_interface(binder, text, length - flipped)
-                                                : MESO_NO_INDEX;
-    if (interface == MESO_NO_INDEX)
+    int32_t label = meso_label_find(&binder->names.interfaces, text, length);
+    if (!label)
         meso_json_wrong(field, "unknown interface '%.80s'; the tile set has no such one", text);
     else
-        meso_bits_set(labels, 2 * interface + flipped);
+        meso_bits_set(labels, meso_label_code(label));
 }
 
 static void read_side(const Binder *binder, const MesoJsonField *field, MesoDeadEnd *end, uint32_t side)
@@ -394,8 +352,8 @@ static MesoStatus read_dead_ends(MesoReport *report, MesoJsonReader *reader, con
     MesoJsonField ends = meso_json_key(root, "dead_ends");
     meso_json_require(&ends);
     uint32_t count = meso_json_count(&ends, 0, UINT32_MAX);
-    Binder binder;
-    if (reader->status || binder_init(&binder, reader->arena, set, reader->error))
+    Binder binder = {.label_words = meso_bits_words(2 * set->interface_count)};
+    if (reader->status || meso_tile_names_init(&binder.names, reader->arena, set, reader->error))
         return reader->status ? reader->status : MESO_ERR_MEMORY;
     uint64_t words = 4 * (uint64_t)binder.label_words * count;
     if (words > label_words_limit)
