@@ -5,6 +5,7 @@
 #include "formats/json_text.h"
 #include "formats/tiles_file.h"
 #include "libcore/tile/contour.h"
+#include "libcore/tile/tile_set_check.h"
 
 /* Sampling step of the drawings, in edge lengths: coarse is enough to see whether any area is left. */
 static const float AREA_STEP = 0.01f;

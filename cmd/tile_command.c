@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "formats/output.h"
+#include "libcore/tile/tile_set_check.h"
 
 bool meso_tile_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,
                      int argc, char **argv)

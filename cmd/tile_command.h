@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "cmd/tool.h"
-#include "libcore/tile/tile_set.h"
+#include "libcore/tile/tile_set_check.h"
 
 /* Each runs one command like a program of its own, argv[0] being the command, and returns the exit
  * code. */

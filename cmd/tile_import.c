@@ -5,6 +5,7 @@
 #include "formats/json_text.h"
 #include "formats/output.h"
 #include "formats/tiles_file.h"
+#include "libcore/tile/tile_set_check.h"
 
 static const MesoToolInfo info = {
     .name = "meso-tile import",

@@ -6,6 +6,7 @@
 #include "formats/json_text.h"
 #include "formats/tiles_file.h"
 #include "libcore/surface/slot_graph.h"
+#include "libcore/tile/tile_set_check.h"
 
 enum { MAJOR = 1, MINOR = 0 };
 

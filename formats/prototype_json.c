@@ -6,6 +6,7 @@
 
 #include "formats/tiles_file.h"
 #include "formats/tiles_room.h"
+#include "libcore/tile/tile_set_check.h"
 
 enum { DISC, UNION, DIFFERENCE, BOX, NODE_TYPES, DEEPEST_SHAPE = 256 };
 

@@ -3,7 +3,7 @@
 #define MESO_PROTOTYPE_JSON_H
 
 #include "formats/json_field.h"
-#include "libcore/tile/tile_set.h"
+#include "libcore/tile/tile_set_check.h"
 
 /* True if `root` looks like one: it has "tileTypes" and "edgeTypes". */
 bool meso_prototype_recognise(const json_t *root);

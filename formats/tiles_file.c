@@ -8,6 +8,7 @@
 #include "formats/json_text.h"
 #include "formats/prototype_json.h"
 #include "formats/tiles_room.h"
+#include "libcore/tile/tile_set_check.h"
 
 /* What a tile set of ours is read with. The maps go from names to numbers. */
 typedef struct Parser {

@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 #include "formats/input.h"
-#include "libcore/tile/tile_set.h"
+#include "libcore/tile/tile_set_check.h"
 
 enum { MESO_TILES_VERSION = 1, MESO_TILES_ITEMS = 1 << 20 };  /* the most items of a list */
 

@@ -7,6 +7,7 @@
 #include "formats/tiles_file.h"
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
+#include "libcore/tile/tile_set_check.h"
 
 /* Everything that the format has. */
 static const char everything[] =

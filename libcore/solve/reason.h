@@ -3,7 +3,7 @@
 #define MESO_REASON_H
 
 #include "libcore/solve/quota.h"
-#include "libcore/solve/solve.h"
+#include "libcore/solve/solve_result.h"
 
 /*
  * A core that was found: "no tiles fit together on slots 3 and 4, with pins[0],

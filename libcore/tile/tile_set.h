@@ -1,7 +1,7 @@
 /*
  * Tile set: interfaces with their cross-sections, and tiles with their sweeps
  * (MesoGen, section 3.2). Plain arrays; built by the readers in formats/,
- * checked by meso_tile_set_check(), then only read.
+ * checked by meso_tile_set_check() (tile_set_check.h), then only read.
  */
 #ifndef MESO_TILE_SET_H
 #define MESO_TILE_SET_H
@@ -96,21 +96,5 @@ typedef struct MesoTileSet {
     MesoInnerMesh *inners;
     bool default_rotation, default_flip_x, default_flip_y;  /* for tiles to come */
 } MesoTileSet;
-
-/* One call for each problem; `severity` is "error" or "warning". */
-typedef void MesoProblemReport(void *context, const char *severity, const char *where,
-                               const char *message);
-
-/*
- * Looks for everything that is wrong with a tile set and calls `report` for
- * each problem: labels and indices out of range, names that are missing or
- * appear twice, values that are not finite or out of range, sweeps that leave
- * from a side that does not show their section, sets without a tile (errors);
- * interfaces that no tile uses or that nothing can match, drawings without
- * area, tiles that can never have a neighbour (warnings). Returns the number of
- * errors; a set with none may be given to every other function. `report` may
- * be NULL. O(size of the set).
- */
-uint32_t meso_tile_set_check(const MesoTileSet *set, MesoProblemReport *report, void *context);
 
 #endif

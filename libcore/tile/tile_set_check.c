@@ -1,4 +1,4 @@
-#include "libcore/tile/tile_set.h"
+#include "libcore/tile/tile_set_check.h"
 
 #include <stdarg.h>
 #include <stdio.h>

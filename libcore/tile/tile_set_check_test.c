@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "libcore/base/check.h"
-#include "libcore/tile/tile_set.h"
+#include "libcore/tile/tile_set_check.h"
 
 /*
  * Interface "a" with a disc and a disc plus box less disc; "edge", empty, for
