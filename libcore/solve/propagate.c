@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
-
+#include "libcore/solve/initial_states.h"
 
 /* Between collections the table may grow by this many states, or by the slots' quarter. */
 enum { COLLECT_STATES = 1 << 16 };
@@ -18,118 +18,11 @@ enum { LEAST_TRAIL = 1024 };
 /* In `pending`: the sides, and marks of slots in `touched`, on the trail, in the ball or the conflict at hand. */
 enum { ALL_SIDES = 15, TOUCHED = 16, ON_TRAIL = 32, IN_BALL = 64, IN_CONFLICT = 128 };
 
-void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels)
-{
-    for (uint32_t i = 0; i < set->interface_count; i++) {
-        const MesoInterface *interface = &set->interfaces[i];
-        if (border ? interface->border_exempt : interface->border_only)
-            continue;
-        meso_bits_set(labels, 2 * i);
-        meso_bits_set(labels, 2 * i + 1);
-    }
-}
-
-static bool side_allows(const MesoPropagation *propagation, const uint64_t *const *rules,
-                        uint32_t slot, uint32_t side, const uint32_t *codes)
-{
-    uint32_t twin = propagation->graph->twin[4 * (size_t)slot + side];
-    if (!meso_bits_test(rules[twin == MESO_NO_INDEX], codes[side]))
-        return false;
-    /* A side that is glued to a side of its own slot: no choice of another variant can help. */
-    return twin == MESO_NO_INDEX || twin / 4 != slot || codes[twin % 4] == (codes[side] ^ 1);
-}
-
-/* State of the variants that fit `slot` whatever its neighbours hold. */
-static uint32_t slot_constraint(MesoPropagation *propagation, const uint64_t *const *rules,
-                                uint32_t slot, const uint64_t *mask, uint64_t *bits, MesoError *error)
-{
-    uint32_t count = propagation->domains.variant_count;
-    memset(bits, 0, meso_bits_words(count) * sizeof *bits);
-    for (uint32_t v = 0; v < count; v++) {
-        bool fits = !mask || meso_bits_test(mask, v);
-        for (uint32_t k = 0; fits && k < 4; k++)
-            fits = side_allows(propagation, rules, slot, k, propagation->codes + 4 * (size_t)v);
-        if (fits)
-            meso_bits_set(bits, v);
-    }
-    return meso_domain_intern(&propagation->domains, bits, error);
-}
-
-/* Algorithm 2 before its Collapse. Slots alike in borders and masks, and not glued to themselves, share a state. */
-static MesoStatus constrain_by_masks(MesoPropagation *propagation, MesoArena *arena,
-                                     const MesoSlotMasks *masks, MesoError *error)
-{
-    uint32_t label_words = propagation->domains.sets.word_count;
-    uint32_t state_words = propagation->domains.states.word_count;
-    uint64_t *inner = MESO_NEW(arena, uint64_t, label_words, error);
-    uint64_t *border = MESO_NEW(arena, uint64_t, label_words, error);
-    uint64_t *bits = MESO_NEW(arena, uint64_t, state_words, error);
-    uint32_t *by_border = MESO_NEW(arena, uint32_t, 16 * (size_t)masks->mask_count, error);
-    if (!inner || !border || !bits || !by_border)
-        return MESO_ERR_MEMORY;
-    meso_border_labels(propagation->set, false, inner);
-    meso_border_labels(propagation->set, true, border);
-    const uint64_t *const rules[2] = {inner, border};
-
-    memset(by_border, 0xff, 16 * (size_t)masks->mask_count * sizeof *by_border);
-    for (uint32_t s = 0; s < propagation->graph->slot_count; s++) {
-        const uint32_t *twin = propagation->graph->twin + 4 * (size_t)s;
-        uint32_t mask = masks->slot_mask ? masks->slot_mask[s] : 0;
-        uint32_t borders = 0, unused = MESO_NO_INDEX;
-        uint32_t *known = NULL;
-        bool glued = false;
-        for (uint32_t k = 0; k < 4; k++) {
-            borders |= (uint32_t)(twin[k] == MESO_NO_INDEX) << k;
-            glued |= twin[k] != MESO_NO_INDEX && twin[k] / 4 == s;
-        }
-        known = glued ? &unused : &by_border[16 * (size_t)mask + borders];
-        if (*known == MESO_NO_INDEX)
-            *known = slot_constraint(propagation, rules, s,
-                                     masks->masks ? masks->masks + (size_t)mask * state_words : NULL,
-                                     bits, error);
-        if (*known == MESO_NO_INDEX)
-            return MESO_ERR_MEMORY;
-        propagation->state[s] = *known;
-        propagation->initial_dead_count += *known == MESO_DOMAIN_EMPTY;
-    }
-    return MESO_OK;
-}
-
-static MesoStatus constrain_slots(MesoPropagation *propagation, MesoArena *arena,
-                                  const MesoVariantSet *variants,
-                                  const MesoConstraints *constraints, MesoError *error)
-{
-    MesoSlotMasks masks = {.mask_count = 1};
-    MesoArena scratch;
-    MesoStatus status = MESO_OK;
-    meso_arena_init(&scratch);
-    if (constraints && constraints->restriction_count)
-        status = meso_slot_masks_build(&masks, &scratch, constraints, variants,
-                                       propagation->graph->slot_count, error);
-    if (!status)
-        status = constrain_by_masks(propagation, arena, &masks, error);
-    meso_arena_release(&scratch);
-    return status;
-}
-
 static void push(MesoPropagation *propagation, uint32_t slot, uint8_t sides)
 {
-    if (sides && !(propagation->pending[slot] & ALL_SIDES)) {
-        uint32_t end = propagation->list_head + propagation->list_count++;
-        uint32_t size = propagation->graph->slot_count;
-        propagation->list[end < size ? end : end - size] = slot;
-    }
+    if (sides && !(propagation->pending[slot] & ALL_SIDES))
+        meso_work_list_push(&propagation->list, slot);
     propagation->pending[slot] |= sides & ALL_SIDES;
-}
-
-static uint32_t pop(MesoPropagation *propagation)
-{
-    uint32_t slot = propagation->list[propagation->list_head++];
-    if (propagation->list_head == propagation->graph->slot_count)
-        propagation->list_head = 0;
-    if (--propagation->list_count == 0)
-        propagation->list_head = 0;
-    return slot;
 }
 
 /* Sides on which `next` lets the neighbours show less than `state` did. */
@@ -141,29 +34,24 @@ static uint8_t changed_sides(const MesoDomain *state, const MesoDomain *next)
     return (uint8_t)sides;
 }
 
+/* Notes the state of `slot`, which is about to change. */
+static MesoStatus note_on(MesoTrail *trail, const MesoPropagation *propagation, uint32_t slot, MesoError *error)
+{
+    trail->entries = MESO_GROW(propagation->arena, trail->entries, trail->count, trail->room, LEAST_TRAIL, error);
+    if (!trail->entries)
+        return MESO_ERR_MEMORY;
+    trail->entries[trail->count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    return MESO_OK;
+}
+
 static MesoStatus note_change(MesoPropagation *propagation, uint32_t slot, MesoError *error)
 {
     uint8_t *marks = &propagation->pending[slot];
     if (!(*marks & TOUCHED))
         propagation->touched[propagation->touched_count++] = slot;
-    if (!(*marks & ON_TRAIL)) {
-        propagation->trail = MESO_GROW(propagation->arena, propagation->trail, propagation->trail_count,
-                                       propagation->trail_capacity, LEAST_TRAIL, error);
-        if (!propagation->trail)
-            return MESO_ERR_MEMORY;
-        propagation->trail[propagation->trail_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
-    }
-    *marks |= TOUCHED | ON_TRAIL;
-    return MESO_OK;
-}
-
-static MesoStatus record_history(MesoPropagation *propagation, uint32_t slot, MesoError *error)
-{
-    propagation->history = MESO_GROW(propagation->arena, propagation->history, propagation->history_count,
-                                     propagation->history_capacity, LEAST_TRAIL, error);
-    if (!propagation->history)
+    if (!(*marks & ON_TRAIL) && note_on(&propagation->trail, propagation, slot, error))
         return MESO_ERR_MEMORY;
-    propagation->history[propagation->history_count++] = (MesoTrailEntry){slot, propagation->state[slot]};
+    *marks |= TOUCHED | ON_TRAIL;
     return MESO_OK;
 }
 
@@ -206,7 +94,7 @@ static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_
     if (propagation->journal)
         meso_journal_change(propagation->journal, slot, propagation->state[slot], cause);
     if (note_change(propagation, slot, error) ||
-        (propagation->tracing && record_history(propagation, slot, error)))
+        (propagation->tracing && note_on(&propagation->history, propagation, slot, error)))
         return MESO_ERR_MEMORY;
     return move_to_state(propagation, slot, next, error);
 }
@@ -214,8 +102,8 @@ static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_
 /* Forgets what is still to be told. */
 static void clear_list(MesoPropagation *propagation)
 {
-    while (propagation->list_count)
-        propagation->pending[pop(propagation)] &= (uint8_t)~ALL_SIDES;
+    while (propagation->list.count)
+        propagation->pending[meso_work_list_pop(&propagation->list)] &= (uint8_t)~ALL_SIDES;
 }
 
 /* A change of a slot's state needs more of it than the state: on a large surface each is a miss, so at once. */
@@ -254,8 +142,8 @@ static MesoStatus tell_neighbour(MesoPropagation *propagation, uint32_t teller, 
 static MesoStatus run(MesoPropagation *propagation, MesoError *error)
 {
     propagation->dead_slot = MESO_NO_INDEX;
-    while (propagation->list_count) {
-        uint32_t slot = pop(propagation);
+    while (propagation->list.count) {
+        uint32_t slot = meso_work_list_pop(&propagation->list);
         uint32_t sides = propagation->pending[slot] & ALL_SIDES;
         const uint32_t *twin = propagation->graph->twin + 4 * (size_t)slot;
         propagation->pending[slot] &= (uint8_t)~ALL_SIDES;
@@ -370,12 +258,12 @@ static MesoStatus allocate(MesoPropagation *propagation, MesoArena *arena,
     propagation->initial = MESO_NEW(arena, uint32_t, slot_count, error);
     propagation->touched = MESO_NEW(arena, uint32_t, slot_count, error);
     propagation->pending = MESO_NEW(arena, uint8_t, slot_count, error);
-    propagation->list = MESO_NEW(arena, uint32_t, slot_count, error);
+    propagation->list = (MesoWorkList){MESO_NEW(arena, uint32_t, slot_count, error), slot_count, 0, 0};
     if (constraints && meso_strand_rule_given(&constraints->strands) &&
         !(propagation->decided = MESO_NEW(arena, uint32_t, slot_count, error)))
         return MESO_ERR_MEMORY;
     if (!propagation->codes || !propagation->state || !propagation->initial ||
-        !propagation->touched || !propagation->pending || !propagation->list)
+        !propagation->touched || !propagation->pending || !propagation->list.slots)
         return MESO_ERR_MEMORY;
     for (size_t i = 0; i < 4 * (size_t)variants->count; i++)
         propagation->codes[i] = meso_label_code(variants->labels[i]);
@@ -383,6 +271,18 @@ static MesoStatus allocate(MesoPropagation *propagation, MesoArena *arena,
                               meso_bits_words(variants->count), error))
         return MESO_ERR_MEMORY;
     return meso_bucket_queue_init(&propagation->queue, arena, slot_count, variants->count, error);
+}
+
+static MesoStatus find_initial_states(MesoPropagation *propagation, const MesoVariantSet *variants,
+                                      const MesoConstraints *constraints, MesoError *error)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    MesoStatus status = meso_initial_states(propagation->state, &propagation->initial_dead_count,
+                                            &propagation->domains, &scratch, propagation->set, variants,
+                                            propagation->graph, constraints, error);
+    meso_arena_release(&scratch);
+    return status;
 }
 
 static void plan_collection(MesoPropagation *propagation)
@@ -405,7 +305,7 @@ MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
     if (allocate(propagation, arena, variants, constraints, error) ||
         meso_domain_table_init(&propagation->domains, variants->count, propagation->codes,
                                2 * set->interface_count, step_count, error) ||
-        constrain_slots(propagation, arena, variants, constraints, error) || run_initial(propagation, error))
+        find_initial_states(propagation, variants, constraints, error) || run_initial(propagation, error))
         return MESO_ERR_MEMORY;
     plan_collection(propagation);
     return MESO_OK;
@@ -418,14 +318,14 @@ void meso_propagation_release(MesoPropagation *propagation)
 
 void meso_propagation_forget(MesoPropagation *propagation)
 {
-    propagation->history_count = 0;
+    propagation->history.count = 0;
     propagation->generation++;
 }
 
 static void clear_trail(MesoPropagation *propagation)
 {
-    while (propagation->trail_count)
-        propagation->pending[propagation->trail[--propagation->trail_count].slot] &= (uint8_t)~ON_TRAIL;
+    while (propagation->trail.count)
+        propagation->pending[propagation->trail.entries[--propagation->trail.count].slot] &= (uint8_t)~ON_TRAIL;
 }
 
 /* Room for new states, and an empty trail. */
@@ -447,7 +347,7 @@ static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
 MesoStatus meso_propagation_mark(MesoPropagation *propagation, MesoPropagationMark *mark, MesoError *error)
 {
     MesoStatus status = begin_step(propagation, error);
-    *mark = (MesoPropagationMark){propagation->history_count, propagation->decided_count,
+    *mark = (MesoPropagationMark){propagation->history.count, propagation->decided_count,
                                   propagation->generation};
     return status;
 }
@@ -459,8 +359,8 @@ MesoStatus meso_propagation_rewind(MesoPropagation *propagation, MesoPropagation
     if (!*done)
         return MESO_OK;
     clear_trail(propagation);
-    while (propagation->history_count > mark.history_count) {
-        MesoTrailEntry entry = propagation->history[--propagation->history_count];
+    while (propagation->history.count > mark.history_count) {
+        MesoTrailEntry entry = propagation->history.entries[--propagation->history.count];
         if (move_to_state(propagation, entry.slot, entry.state, error))
             return MESO_ERR_MEMORY;
     }
@@ -499,8 +399,8 @@ MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 {
     if (propagation->journal)
         meso_journal_pop(propagation->journal);
-    while (propagation->trail_count) {
-        MesoTrailEntry entry = propagation->trail[--propagation->trail_count];
+    while (propagation->trail.count) {
+        MesoTrailEntry entry = propagation->trail.entries[--propagation->trail.count];
         propagation->pending[entry.slot] &= (uint8_t)~ON_TRAIL;
         if (move_to_state(propagation, entry.slot, entry.state, error))
             return MESO_ERR_MEMORY;
@@ -539,7 +439,7 @@ MesoStatus meso_propagation_try(MesoPropagation *propagation, uint32_t slot, uin
     propagation->queue_rests = true;
     MesoStatus status = meso_propagation_assign(propagation, slot, variant, error);
     *dead = propagation->dead_slot != MESO_NO_INDEX;
-    *changes = propagation->trail_count;
+    *changes = (uint32_t)propagation->trail.count;
     if (!status)
         status = meso_propagation_undo(propagation, error);
     propagation->queue_rests = false;
@@ -551,38 +451,38 @@ static void collect_ball(MesoPropagation *propagation, uint32_t slot, uint32_t r
 {
     const uint32_t *twins = propagation->graph->twin;
     uint32_t begin = 0, end = 1;
-    propagation->list[0] = slot;
+    propagation->list.slots[0] = slot;
     propagation->pending[slot] |= IN_BALL;
     for (; radius > 0 && begin < end; radius--) {
         uint32_t ring_end = end;
         for (; begin < ring_end; begin++)
             for (uint32_t k = 0; k < 4; k++) {
-                uint32_t twin = twins[4 * (size_t)propagation->list[begin] + k];
+                uint32_t twin = twins[4 * (size_t)propagation->list.slots[begin] + k];
                 if (twin == MESO_NO_INDEX || propagation->pending[twin / 4] & IN_BALL)
                     continue;
                 propagation->pending[twin / 4] |= IN_BALL;
-                propagation->list[end++] = twin / 4;
+                propagation->list.slots[end++] = twin / 4;
             }
     }
-    propagation->list_head = 0;
-    propagation->list_count = end;
+    propagation->list.head = 0;
+    propagation->list.count = end;
 }
 
 /* The slots on the list have all to tell, and to hear from those around them that are not on it. */
 static void push_ball(MesoPropagation *propagation)
 {
     const uint32_t *twins = propagation->graph->twin;
-    uint32_t count = propagation->list_count;
+    uint32_t count = propagation->list.count;
     for (uint32_t i = 0; i < count; i++)
-        propagation->pending[propagation->list[i]] |= ALL_SIDES;
+        propagation->pending[propagation->list.slots[i]] |= ALL_SIDES;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < 4; k++) {
-            uint32_t twin = twins[4 * (size_t)propagation->list[i] + k];
+            uint32_t twin = twins[4 * (size_t)propagation->list.slots[i] + k];
             if (twin != MESO_NO_INDEX && !(propagation->pending[twin / 4] & IN_BALL))
                 push(propagation, twin / 4, (uint8_t)(1u << (twin % 4)));
         }
     for (uint32_t i = 0; i < count; i++)
-        propagation->pending[propagation->list[i]] &= (uint8_t)~IN_BALL;
+        propagation->pending[propagation->list.slots[i]] &= (uint8_t)~IN_BALL;
 }
 
 MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, uint32_t radius,
@@ -592,11 +492,11 @@ MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, 
         return MESO_ERR_MEMORY;
     if (propagation->journal)
         meso_journal_clear(propagation->journal, true);
-    assert(propagation->list_count == 0);
+    assert(propagation->list.count == 0);
     collect_ball(propagation, slot, radius);
-    *reopened = propagation->list_count;
+    *reopened = propagation->list.count;
     for (uint32_t i = 0; i < *reopened; i++) {
-        uint32_t inner = propagation->list[i];
+        uint32_t inner = propagation->list.slots[i];
         if (propagation->state[inner] == propagation->initial[inner])
             continue;
         if (note_change(propagation, inner, error) ||
@@ -630,7 +530,7 @@ void meso_propagation_restart(MesoPropagation *propagation)
         meso_bucket_queue_restock(&propagation->queue, slot, domains[before].size, domains[next].size);
     }
     meso_bucket_queue_refill(&propagation->queue);
-    propagation->trail_count = 0;
+    propagation->trail.count = 0;
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);
     if (propagation->journal)

@@ -11,48 +11,58 @@
 #include "libcore/solve/domain.h"
 #include "libcore/solve/journal.h"
 #include "libcore/solve/quota.h"
+#include "libcore/solve/work_list.h"
 #include "libcore/surface/slot_graph.h"
 
 typedef struct MesoTrailEntry {
     uint32_t slot, state;       /* that it had before */
 } MesoTrailEntry;
 
+typedef struct MesoTrail {
+    MesoTrailEntry *entries;    /* [room] */
+    size_t count, room;
+} MesoTrail;
+
 typedef struct MesoPropagation {
     const MesoSlotGraph *graph;
     const MesoTileSet *set;
+    MesoArena *arena;           /* of trail and history, which grow */
+
+    /* What slots hold. */
     MesoDomainTable domains;
-    MesoBucketQueue queue;      /* slots with a choice left */
     uint32_t *codes;            /* [4 * variant_count] label codes */
     uint32_t *state;            /* [slot_count] */
     uint32_t *initial;          /* [slot_count] the fixed point before any choice */
-    uint32_t *touched;          /* [slot_count] slots whose state is not the initial one */
-    uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got, and marks */
-    uint32_t *list;             /* [slot_count] ring of the slots with pending sides */
-    MesoArena *arena;           /* of trail and history, which grow */
-    MesoTrailEntry *trail;      /* [trail_capacity] what the last step changed, each slot once */
-    uint32_t trail_count, trail_capacity;
-    uint32_t touched_count;
-    uint32_t list_head, list_count;
-    uint32_t dead_slot;         /* met by the last call, or MESO_NO_INDEX */
-    uint32_t dead_teller;       /* its neighbour whose news left it nothing */
     uint32_t initial_dead_count;    /* slots that hold the empty state from the start */
     uint32_t collect_at;        /* number of states that calls for a collection */
+    MesoBucketQueue queue;      /* slots with a choice left */
     bool searching;             /* the initial fixed point is reached */
     bool queue_rests;           /* while a step is made that is taken back at once */
+
+    /* What is to be told. */
+    MesoWorkList list;          /* slots with pending sides */
+    uint8_t *pending;           /* [slot_count] sides whose news the neighbour has not got, and marks */
+
+    /* What the last call met. */
+    uint32_t dead_slot;         /* or MESO_NO_INDEX */
+    uint32_t dead_teller;       /* its neighbour whose news left it nothing */
+    uint32_t broken_quota;      /* or MESO_NO_INDEX */
+
+    /* What may have to be taken back. */
+    MesoTrail trail;            /* what the last step changed, each slot once */
+    uint32_t *touched;          /* [slot_count] slots whose state is not the initial one */
+    uint32_t touched_count;
+    bool tracing;               /* keep a history, for meso_propagation_rewind() */
+    MesoTrail history;          /* every change since the last restart, or the last collection */
+    uint32_t generation;        /* of the history: marks of an earlier one are void */
+    MesoJournal *journal;       /* of the steps, where the search keeps one; or NULL */
+
+    /* What constraints ask for. */
     MesoQuotaTrack quotas;      /* none without constraints */
-    uint32_t broken_quota;      /* met by the last call, or MESO_NO_INDEX */
     uint32_t *decided;          /* [slot_count] slots that came to a single variant since the initial
                                    fixed point, in order; NULL where no rule on strands asks for it */
     uint32_t decided_count;
-    bool tracing;               /* keep a history, for meso_propagation_rewind() */
-    MesoTrailEntry *history;    /* every change since the last restart, or the last collection */
-    size_t history_count, history_capacity;
-    MesoJournal *journal;       /* of the steps, where the search keeps one; or NULL */
-    uint32_t generation;        /* of the history: marks of an earlier one are void */
 } MesoPropagation;
-
-/* Label codes that border rules allow on a side; `labels` [label words]. */
-void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels);
 
 /*
  * Gives every slot the variants that border rules and `constraints` (NULL: none)

@@ -11,6 +11,7 @@
 #include "libcore/solve/keep.h"
 #include "libcore/solve/parity.h"
 #include "libcore/solve/reason.h"
+#include "libcore/solve/initial_states.h"
 #include "libcore/solve/search.h"
 
 /* Word operations of the parity prover: a second or two. */

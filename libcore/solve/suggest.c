@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/solve/initial_states.h"
 #include "libcore/solve/propagate.h"
 
 /*
