@@ -56,25 +56,38 @@ static MesoStatus read_point(const ObjScan *obj, const char *what, MesoVec3 *poi
     return MESO_OK;
 }
 
+typedef struct ObjIndex {
+    MesoWord word;
+    int64_t value;
+} ObjIndex;
+
 /* Index from 1, or from -1 downwards for the last one so far, to an index from 0. */
-static MesoStatus resolve(const ObjScan *obj, int64_t given, uint32_t so_far, const char *what,
+static MesoStatus resolve(const ObjScan *obj, ObjIndex as_written, uint32_t so_far, const char *what,
                           uint32_t *index, MesoError *error)
 {
+    int64_t given = as_written.value;
     if (given == 0)
         return meso_mesh_text_fail(obj->text, error, "%s index is 0; indices start at 1", what);
     if (given < -(int64_t)so_far)
-        return meso_mesh_text_fail(obj->text, error, "%s index %lld goes back beyond the first of %u",
-                                   what, (long long)given, so_far);
+        return meso_mesh_text_fail(obj->text, error, "%s index %.*s goes back beyond the first of %u",
+                                   what, MESO_WORD_ARGUMENTS(as_written.word), so_far);
     if (given >= UINT32_MAX)
-        return meso_mesh_text_fail(obj->text, error, "%s index %lld is too large", what, (long long)given);
+        return meso_mesh_text_fail(obj->text, error, "%s index %.*s is too large", what,
+                                   MESO_WORD_ARGUMENTS(as_written.word));
     *index = (uint32_t)(given < 0 ? so_far + given : given - 1);
     return MESO_OK;
 }
 
 typedef struct ObjCorner {
-    int64_t vertex, texture, normal;
+    ObjIndex vertex, texture, normal;
     bool has_texture, has_normal;
 } ObjCorner;
+
+static bool read_index(ObjIndex *index, char *begin, const char *end)
+{
+    index->word = (MesoWord){begin, (size_t)(end - begin)};
+    return meso_word_integer(index->word, &index->value);
+}
 
 /* Splits "v", "v/vt", "v//vn" or "v/vt/vn"; false where it is none of them. */
 static bool split_corner(MesoWord word, ObjCorner *corner)
@@ -82,20 +95,20 @@ static bool split_corner(MesoWord word, ObjCorner *corner)
     *corner = (ObjCorner){0};
     char *end = word.text + word.size;
     char *slash = memchr(word.text, '/', word.size);
-    if (!meso_word_integer((MesoWord){word.text, (size_t)((slash ? slash : end) - word.text)}, &corner->vertex))
+    if (!read_index(&corner->vertex, word.text, slash ? slash : end))
         return false;
     if (!slash)
         return true;
 
     char *second = memchr(slash + 1, '/', (size_t)(end - slash - 1));
-    MesoWord middle = {slash + 1, (size_t)((second ? second : end) - slash - 1)};
-    corner->has_texture = middle.size > 0;
-    if (corner->has_texture && !meso_word_integer(middle, &corner->texture))
+    const char *middle = second ? second : end;
+    corner->has_texture = middle > slash + 1;
+    if (corner->has_texture && !read_index(&corner->texture, slash + 1, middle))
         return false;
     if (!second || second + 1 == end)
         return true;
     corner->has_normal = true;
-    return meso_word_integer((MesoWord){second + 1, (size_t)(end - second - 1)}, &corner->normal);
+    return read_index(&corner->normal, second + 1, end);
 }
 
 /* Unlike vertices and normals, coordinates that nobody asks for need not be there. */
@@ -122,7 +135,7 @@ static MesoStatus read_corner(const ObjScan *obj, MesoWord word, MesoError *erro
         status = keep_texture(obj, &corner, error);
     if (status)
         return status;
-    obj->scan->relative |= corner.vertex < 0;
+    obj->scan->relative |= corner.vertex.value < 0;
     char *slash = memchr(word.text, '/', word.size);
     if (slash)
         blank(slash, word.text + word.size);

@@ -91,7 +91,9 @@ static void test_refused(void)
     check_message(SQUARE "f\n", "t.obj:5: face 1 has 0 sides; a face has at least 3");
     check_message(SQUARE "f 1 2 3 5\n", "t.obj:5: face 1 uses vertex 5 of 4");
     check_message(SQUARE "f 1 2 3 4294967296\n", "t.obj:5: vertex index 4294967296 is too large");
-    check_message(SQUARE "f 1 2 3 99999999999999999999\n", "t.obj:5: vertex index 1000000000000000 is too large");
+    check_message(SQUARE "f 1 2 3 99999999999999999999\n", "t.obj:5: vertex index 99999999999999999999 is too large");
+    check_message(SQUARE "f 1 2 3 -99999999999999999999/1\n",
+                  "t.obj:5: vertex index -99999999999999999999 goes back beyond the first of 4");
     check_message(SQUARE "f 1 2 3 0\n", "t.obj:5: vertex index is 0; indices start at 1");
     check_message(SQUARE "f 1 2 3 2\n", "t.obj:5: face 1 uses vertex 2 twice");
     check_message(SQUARE "f 1 2 3 x\n", "t.obj:5: face corner 'x' is not v, v/vt, v//vn or v/vt/vn");

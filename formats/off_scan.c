@@ -107,15 +107,15 @@ static MesoStatus read_vertex(Off *off, MesoError *error)
 /* The number of corners, their vertices, and perhaps a colour, which is blanked out. */
 static MesoStatus read_face(Off *off, MesoError *error)
 {
-    MesoWord word = {0};
+    MesoWord word = {0}, number = {0};
     int64_t count, vertex;
-    meso_mesh_text_word(&off->text, &word);
-    if (!meso_word_integer(word, &count) || count < 0)
-        return meso_mesh_text_fail(&off->text, error, "face has '%.*s' corners", MESO_WORD_ARGUMENTS(word));
+    meso_mesh_text_word(&off->text, &number);
+    if (!meso_word_integer(number, &count) || count < 0)
+        return meso_mesh_text_fail(&off->text, error, "face has '%.*s' corners", MESO_WORD_ARGUMENTS(number));
     for (int64_t i = 0; i < count; i++) {
         if (!meso_mesh_text_word(&off->text, &word))
-            return meso_mesh_text_fail(&off->text, error, "face has %lld corners instead of %lld", (long long)i,
-                                       (long long)count);
+            return meso_mesh_text_fail(&off->text, error, "face has %lld corners instead of %.*s", (long long)i,
+                                       MESO_WORD_ARGUMENTS(number));
         if (!meso_word_integer(word, &vertex) || vertex < 0 || vertex >= UINT32_MAX)
             return meso_mesh_text_fail(&off->text, error, "face corner '%.*s' is not the index of a vertex",
                                        MESO_WORD_ARGUMENTS(word));

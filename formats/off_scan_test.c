@@ -68,6 +68,8 @@ static void test_refused(void)
     check_message("OFF\n4 1 0\n0 0 -inf\n", "t.off:3: coordinate '-inf' is not a finite number");
     check_message("OFF\n4 1 0\n" VERTICES "x 0 1 2 3\n", "t.off:7: face has 'x' corners");
     check_message("OFF\n4 1 0\n" VERTICES "4 0 1 2\n", "t.off:7: face has 3 corners instead of 4");
+    check_message("OFF\n4 1 0\n" VERTICES "99999999999999999999 0 1 2 3\n",
+                  "t.off:7: face has 4 corners instead of 99999999999999999999");
     check_message("OFF\n4 1 0\n" VERTICES "4 0 1 2 4\n", "t.off:7: face 1 uses vertex 5 of 4");
     check_message("OFF\n4 1 0\n" VERTICES "4 0 1 2 -1\n", "t.off:7: face corner '-1' is not the index of a vertex");
     check_message("OFF\n4 1 0\n" VERTICES "4 0 1 2 1\n", "t.off:7: face 1 uses vertex 2 twice");

@@ -94,7 +94,8 @@ static MesoStatus read_element(Ply *ply, MesoError *error)
         return meso_mesh_text_fail(&ply->text, error, "count '%.*s' of the element is not a number of items",
                                    MESO_WORD_ARGUMENTS(number));
     if (count >= UINT32_MAX - 1)
-        return meso_mesh_text_fail(&ply->text, error, "count %lld of the element is too large", (long long)count);
+        return meso_mesh_text_fail(&ply->text, error, "count %.*s of the element is too large",
+                                   MESO_WORD_ARGUMENTS(number));
     if (ply->element_count == MAX_ELEMENTS)
         return meso_mesh_text_fail(&ply->text, error, "more than %d kinds of elements", MAX_ELEMENTS);
 

@@ -166,6 +166,8 @@ static void test_header(void)
     check_message(ASCII VERTEX VERTEX, "t.ply:7: element 'vertex' comes twice");
     check_message(ASCII "element vertex -1\n", "t.ply:3: count '-1' of the element is not a number of items");
     check_message(ASCII "element vertex 4294967295\n", "t.ply:3: count 4294967295 of the element is too large");
+    check_message(ASCII "element vertex 99999999999999999999\n",
+                  "t.ply:3: count 99999999999999999999 of the element is too large");
     check_message(ASCII "element a 4000000000\n" VERTEX FACE "end_header\n", "t.ply: element 'a' has no properties");
     check_message(ASCII "property float x\n", "t.ply:3: property before the first element");
     check_message(ASCII VERTEX "property float x\n", "t.ply:7: property 'x' comes twice");
