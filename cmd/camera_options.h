@@ -17,9 +17,9 @@ typedef struct MesoCameraOptions {
     {MESO_OPTION_GROUP, 0, "Camera", 0, 0, 0, 0, 0, 0, 0},                                    \
     {MESO_OPTION_SIZE, 0, "size", "WxH", "pixels of the image (default 1280x720)",            \
      (c).size, 0, 1, 16384, 0},                                                               \
-    {MESO_OPTION_POINT, 0, "eye", "X,Y,Z", "where the camera is (default: so that the object fits)", \
+    {MESO_OPTION_POINT | MESO_OPTION_OVERRIDES, 0, "eye", "X,Y,Z", "where the camera is (default: so that the object fits)", \
      &(c).camera.eye, &(c).eye_given, 0, 0, 0},                                               \
-    {MESO_OPTION_POINT, 0, "target", "X,Y,Z", "the point in the middle of the image (default: of the object)", \
+    {MESO_OPTION_POINT | MESO_OPTION_OVERRIDES, 0, "target", "X,Y,Z", "the point in the middle of the image (default: of the object)", \
      &(c).camera.target, &(c).target_given, 0, 0, 0},                                         \
     {MESO_OPTION_POINT, 0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", \
      &(c).camera.up, 0, 0, 0, 0},                                                             \

@@ -114,10 +114,9 @@ static MesoStatus print(MesoTool *tool, const json_t *facts, MesoError *error)
 static MesoStatus inform(MesoTool *tool, MesoError *error)
 {
     MesoInput input;
-    MesoStatus status = meso_input_open(&input, tool->operands[0], error);
+    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "file");
     if (status != MESO_OK)
         return status;
-    meso_provenance_add(&tool->provenance, "file", &input);
     json_t *facts = json_object();
     if (put_file(facts, &input) != 0)
         status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");

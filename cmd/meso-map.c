@@ -90,6 +90,21 @@ static MesoStatus check_options(const MapArguments *a, const OutputKind *kind, M
     return MESO_OK;
 }
 
+static const MesoMapOptions DEFAULTS = {.tangent_scale = 1, .section_step = 0.02f, .divisions = 12};
+
+/* Without a model, whose options they override, defaults that are spelled out say nothing. */
+static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
+{
+    if (a->tool.operand_count != 3)
+        return MESO_OK;
+    a->given.offset &= a->options.offset != DEFAULTS.offset;
+    a->given.tangent_scale &= a->options.tangent_scale != DEFAULTS.tangent_scale;
+    a->given.section_step &= a->options.section_step != DEFAULTS.section_step;
+    a->given.divisions &= a->options.divisions != DEFAULTS.divisions;
+    a->tool.provenance.command_line = meso_tool_command(&a->tool, NULL, &a->tool.arena, error);
+    return a->tool.provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 /* ---- inner meshes ---- */
 
 static const char *join_path(MesoArena *arena, const char *folder, int length, const char *file,
@@ -144,10 +159,9 @@ static MesoStatus read_inner(MapArguments *a, const MesoTileSet *set, uint32_t i
     if (tool->provenance.input_count == MESO_PROVENANCE_INPUTS)
         return meso_fail(error, MESO_ERR_LIMIT, "too many meshes in tiles: at most %d different files",
                          MESO_PROVENANCE_INPUTS - 3);
-    MesoStatus status = meso_input_open(&input, path, error);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "mesh");
     if (status != MESO_OK)
         return status;
-    meso_provenance_add(&tool->provenance, "mesh", &input);
     status = meso_triangle_mesh_read(mesh, &tool->arena, &input, error);
     meso_input_close(&input);
     return status;
@@ -182,15 +196,6 @@ static MesoStatus read_inners(MapArguments *a, MesoModel *model, MesoError *erro
 typedef struct Inputs {
     MesoInput tiles, surface, slots;
 } Inputs;
-
-static MesoStatus open_input(MesoTool *tool, MesoInput *input, uint32_t operand, const char *role,
-                             MesoError *error)
-{
-    MesoStatus status = meso_input_open(input, tool->operands[operand], error);
-    if (status == MESO_OK)
-        meso_provenance_add(&tool->provenance, role, input);
-    return status;
-}
 
 static void warn_of_other_inputs(const MesoTool *tool, const MesoSlotsFile *slots, const Inputs *inputs)
 {
@@ -229,15 +234,15 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
 {
     MesoTool *tool = &a->tool;
     MesoSlotsFile slots;
-    MesoStatus status = open_input(tool, &inputs->tiles, 0, "tiles", error);
+    MesoStatus status = meso_tool_open_input(tool, &inputs->tiles, tool->operands[0], "tiles");
     if (status == MESO_OK)
         status = meso_tiles_read(&model->tile_set, &tool->arena, &inputs->tiles, error);
     if (status == MESO_OK)
-        status = open_input(tool, &inputs->surface, 1, "surface", error);
+        status = meso_tool_open_input(tool, &inputs->surface, tool->operands[1], "surface");
     if (status == MESO_OK)
         status = meso_surface_read(&model->surface, &tool->arena, &inputs->surface, error);
     if (status == MESO_OK)
-        status = open_input(tool, &inputs->slots, 2, "slots", error);
+        status = meso_tool_open_input(tool, &inputs->slots, tool->operands[2], "slots");
     if (status == MESO_OK)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
     if (status == MESO_OK)
@@ -272,7 +277,7 @@ static MesoStatus read_model(MapArguments *a, Inputs *inputs, MesoModel *model, 
 {
     MesoStatus status;
     if (a->tool.operand_count == 1) {
-        status = open_input(&a->tool, &inputs->tiles, 0, "model", error);
+        status = meso_tool_open_input(&a->tool, &inputs->tiles, a->tool.operands[0], "model");
         if (status == MESO_OK)
             status = meso_model_read(model, NULL, &a->tool.arena, &inputs->tiles, error);
         model->options = merge_options(a, model->options);
@@ -352,6 +357,8 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     if (status == MESO_OK)
         status = check_options(a, kind, error);
     if (status == MESO_OK)
+        status = forget_defaults(a, error);
+    if (status == MESO_OK)
         status = read_model(a, inputs, &model, error);
     if (status == MESO_OK)
         status = meso_structure_build(&structure, &tool->arena, &model, tool->threads, error);
@@ -366,25 +373,25 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 
 int main(int argc, char **argv)
 {
-    MapArguments a = {.speed = 7};
+    MapArguments a = {.options = DEFAULTS, .position_bits = 14, .normal_bits = 10, .speed = 7};
     Inputs inputs = {0};
     const MesoOption options[] = {
-        {MESO_OPTION_CHOICE, 0, "to", "KIND", "kind of the product (default: the extension of the output)",
-         &a.kind, 0, 0, 0, "meso|ply|obj|glb|drc"},
+        {MESO_OPTION_CHOICE | MESO_OPTION_OUTWARD, 0, "to", "KIND",
+         "kind of the product (default: the extension of the output)", &a.kind, 0, 0, 0, "meso|ply|obj|glb|drc"},
         {MESO_OPTION_GROUP, 0, "Mapping, lengths in scene units", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_NUMBER, 0, "thickness", "T", "twice the height of the shell (default: the mean edge length)",
+        {MESO_OPTION_NUMBER | MESO_OPTION_OVERRIDES, 0, "thickness", "T", "twice the height of the shell (default: the mean edge length)",
          &a.options.thickness, &a.given.thickness, 1e-12, 1e12, 0},
-        {MESO_OPTION_NUMBER, 0, "offset", "O", "of the shell's bottom along the normals (default 0)",
+        {MESO_OPTION_NUMBER | MESO_OPTION_OVERRIDES, 0, "offset", "O", "of the shell's bottom along the normals (default 0)",
          &a.options.offset, &a.given.offset, -1e12, 1e12, 0},
-        {MESO_OPTION_NUMBER, 0, "section-scale", "S", "of the drawings, 1 edge length in them (default: the mean edge length)",
+        {MESO_OPTION_NUMBER | MESO_OPTION_OVERRIDES, 0, "section-scale", "S", "of the drawings, 1 edge length in them (default: the mean edge length)",
          &a.options.section_scale, &a.given.section_scale, 1e-12, 1e12, 0},
-        {MESO_OPTION_NUMBER, 0, "tangent-scale", "M", "factor on the handles of trajectories (default 1)",
+        {MESO_OPTION_NUMBER | MESO_OPTION_OVERRIDES, 0, "tangent-scale", "M", "factor on the handles of trajectories (default 1)",
          &a.options.tangent_scale, &a.given.tangent_scale, 1e-6, 1e3, 0},
-        {MESO_OPTION_COUNT, 0, "divisions", "N", "vertices along a sweep (default 12)",
+        {MESO_OPTION_COUNT | MESO_OPTION_OVERRIDES, 0, "divisions", "N", "vertices along a sweep (default 12)",
          &a.options.divisions, &a.given.divisions, 2, 4096, 0},
-        {MESO_OPTION_NUMBER, 0, "section-step", "X", "sampling step of drawings in edge lengths (default 0.02)",
+        {MESO_OPTION_NUMBER | MESO_OPTION_OVERRIDES, 0, "section-step", "X", "sampling step of drawings in edge lengths (default 0.02)",
          &a.options.section_step, &a.given.section_step, 1e-4, 1, 0},
-        {MESO_OPTION_TEXT, 0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
+        {MESO_OPTION_FOLDER | MESO_OPTION_OUTWARD, 0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
          &a.mesh_path, 0, 0, 0, 0},
         {MESO_OPTION_GROUP, 0, "Draco (.drc, .glb)", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "position-bits", "N", "precision of positions (default 14)",

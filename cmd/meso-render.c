@@ -65,8 +65,6 @@ static MesoStatus choose_product(RenderArguments *a, MesoError *error)
     const char *dot = strrchr(output, '.');
     if (!kind)
         kind = dot ? dot + 1 : "";
-    if (a->png && strcmp(a->png, output) == 0)
-        return meso_fail(error, MESO_ERR_USAGE, "-o and --png cannot both be '%s'", output);
     a->exr_product = strcmp(kind, "exr") == 0;
     if (a->exr_product || strcmp(kind, "png") == 0)
         return MESO_OK;
@@ -186,10 +184,9 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
     if (!status)
         status = parse_background(a, error);
     if (!status)
-        status = meso_input_open(&input, tool->operands[0], error);
+        status = meso_tool_open_input(tool, &input, tool->operands[0], "model");
     if (status)
         return status;
-    meso_provenance_add(&tool->provenance, "model", &input);
     status = meso_model_read(&model, NULL, &tool->arena, &input, error);
     if (!status)
         status = render(a, &model, start, error);
@@ -201,9 +198,9 @@ int main(int argc, char **argv)
 {
     RenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa"};
     const MesoOption options[] = {
-        {MESO_OPTION_CHOICE, 0, "to", "KIND", "kind of the product (default: the extension of the output)",
-         &a.to, 0, 0, 0, "exr|png"},
-        {MESO_OPTION_TEXT, 0, "png", "FILE", "write the colour as PNG there too", &a.png, 0, 0, 0, 0},
+        {MESO_OPTION_CHOICE | MESO_OPTION_OUTWARD, 0, "to", "KIND",
+         "kind of the product (default: the extension of the output)", &a.to, 0, 0, 0, "exr|png"},
+        {MESO_OPTION_OUTPUT, 0, "png", "FILE", "write the colour as PNG there too", &a.png, 0, 0, 0, 0},
         MESO_CAMERA_OPTIONS(a.camera),
         {MESO_OPTION_GROUP, 0, "Picture", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_CHOICE, 0, "samples", "N", "samples of the colour a pixel, 1 or 4 (default 4)",

@@ -10,13 +10,11 @@ typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
     bool attempts_given;
-    const char *report, *orient;
+    const char *report;
+    MesoOrientArguments orient;
     MesoControlArguments control;
     MesoEngineArguments engine;
     MesoSeedOptions seeds;
-    const MesoOption *options;  /* the table, and what it parsed */
-    int argc;
-    char **argv;
 } Arguments;
 
 typedef struct Problem {
@@ -51,7 +49,7 @@ static MesoStatus check_arguments(Arguments *a)
     MesoTool *tool = &a->tool;
     MesoStatus status = meso_seed_options_check(&a->seeds, tool, a->attempts_given, &tool->error);
     if (!status)
-        status = meso_orient_check(a->orient, &tool->error);
+        status = meso_orient_check(&a->orient, &tool->error);
     if (status)
         return status;
     if (a->seeds.seeds && (a->engine.proof || a->engine.budget > 0))
@@ -62,6 +60,12 @@ static MesoStatus check_arguments(Arguments *a)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--report is of one seed; --seeds writes a line each");
     if (a->seeds.seeds)
         return MESO_OK;
+    if (a->engine.proof) {
+        const char *formula = meso_arena_print(&tool->arena, &tool->error, "%s.cnf", a->engine.proof);
+        status = formula ? meso_tool_add_output(tool, "--proof", formula) : MESO_ERR_MEMORY;
+    }
+    if (status)
+        return status;
     if (!tool->output)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "no place for the assignment; use -o OUT.slots");
     int streams = is_standard_output(tool->output) + is_standard_output(a->report) +
@@ -76,7 +80,7 @@ static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
-        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], a->orient, a->control.constraints != NULL,
+        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], &a->orient, a->control.constraints != NULL,
                                         &p->surface);
     if (!status)
         status = meso_variant_set_build(&p->variants, &a->tool.arena, &p->set, &a->tool.error);
@@ -179,7 +183,7 @@ static MesoStatus solve_seeds(Arguments *a, const Problem *p)
     MesoSeedProblem problem = {
         .set = &p->set, .variants = &p->variants, .surface = &p->surface, .tiles_hash = p->tiles_hash,
         .solve = {.max_attempts = a->attempts, .constraints = p->constraints},
-        .others = a->control.strands ? a->control.strands : "", .options = a->options, .argc = a->argc, .argv = a->argv,
+        .others = a->control.strands ? a->control.strands : "",
     };
     meso_engine_choose(&a->engine, &problem.solve);
     return meso_solve_seeds(&a->tool, &a->seeds, &problem);
@@ -209,13 +213,13 @@ static MesoStatus run(Arguments *a)
 
 int main(int argc, char **argv)
 {
-    Arguments a = {.attempts = 20};
+    Arguments a = {.attempts = 20, .orient = MESO_ORIENT_DEFAULTS, .engine = MESO_ENGINE_DEFAULTS};
     const MesoOption options[] = {
         {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "attempts", "N", "attempts of the search (default 20)",
          &a.attempts, &a.attempts_given, 1, 1e9, 0},
         MESO_ORIENT_OPTION(a.orient),
-        {MESO_OPTION_TEXT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
+        {MESO_OPTION_OUTPUT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
         MESO_ENGINE_OPTIONS(a.engine),
         MESO_CONTROL_OPTIONS(a.control),
@@ -223,9 +227,6 @@ int main(int argc, char **argv)
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };
-    a.options = options;
-    a.argc = argc;
-    a.argv = argv;
     if (meso_tool_start(&a.tool, &info, options, argc, argv))
         a.tool.status = run(&a);
     return meso_tool_finish(&a.tool);

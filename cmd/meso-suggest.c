@@ -11,7 +11,8 @@ typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts, until_solved;
     bool until_given;
-    const char *surface, *orient;
+    const char *surface;
+    MesoOrientArguments orient;
 } Arguments;
 
 static const MesoToolInfo info = {
@@ -34,12 +35,12 @@ static MesoStatus check_arguments(Arguments *a)
         return meso_fail(error, MESO_ERR_USAGE, "neither a report nor --surface is given");
     if (a->until_given && !a->surface)
         return meso_fail(error, MESO_ERR_USAGE, "--until-solved needs --surface");
-    if (a->orient && !a->surface)
+    if (a->orient.given && !a->surface)
         return meso_fail(error, MESO_ERR_USAGE, "--orient needs --surface; a report is of slots as they were oriented");
     if (!a->tool.output && a->tool.json && (*a->tool.json == 0 || strcmp(a->tool.json, "-") == 0))
         return meso_fail(error, MESO_ERR_USAGE, "the tile set and the JSON report cannot both go to "
                          "standard output; use -o FILE or --json=FILE");
-    return meso_orient_check(a->orient, error);
+    return meso_orient_check(&a->orient, error);
 }
 
 /* "a b' a c" */
@@ -98,10 +99,9 @@ static MesoStatus extend_by_report(MesoTool *tool, MesoTileSet *set, const char 
 {
     MesoInput input;
     MesoReport report;
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "report");
     if (status)
         return status;
-    meso_provenance_add(&tool->provenance, "report", &input);
     status = meso_report_read(&report, &tool->arena, &input, set, &tool->error);
     meso_input_close(&input);
     if (status)
@@ -118,7 +118,7 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
     MesoSolveSurface surface;
     MesoVariantSet variants;
     MesoSolveResult result;
-    MesoStatus status = meso_tool_read_surface(tool, a->surface, a->orient, false, &surface);
+    MesoStatus status = meso_tool_read_surface(tool, a->surface, &a->orient, false, &surface);
     for (uint32_t added = 0; !status; added++) {
         if (added == 1 && !a->until_given)
             return MESO_OK;
@@ -177,10 +177,10 @@ static MesoStatus run(Arguments *a)
 
 int main(int argc, char **argv)
 {
-    Arguments a = {.attempts = 20};
+    Arguments a = {.attempts = 20, .orient = MESO_ORIENT_DEFAULTS};
     const MesoOption options[] = {
         {MESO_OPTION_GROUP, 0, "Suggesting", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_TEXT, 0, "surface", "FILE", "solve this surface for dead ends, without a report",
+        {MESO_OPTION_INPUT, 0, "surface", "FILE", "solve this surface for dead ends, without a report",
          &a.surface, 0, 0, 0, 0},
         MESO_ORIENT_OPTION(a.orient),
         {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts of each solve (default 20)",

@@ -28,15 +28,10 @@ typedef struct Cursor {
     bool operands_only;     /* after -- */
 } Cursor;
 
-static bool is_last(const MesoOption *option)
-{
-    return option->kind == MESO_OPTION_GROUP && !option->name;
-}
-
 static const MesoOption *find_name(const MesoOption *options, const char *name, size_t length)
 {
-    for (; !is_last(options); options++)
-        if (options->kind != MESO_OPTION_GROUP && options->name &&
+    for (; !meso_option_is_last(options); options++)
+        if (meso_option_kind(options) != MESO_OPTION_GROUP && options->name &&
             strlen(options->name) == length && memcmp(options->name, name, length) == 0)
             return options;
     return NULL;
@@ -44,8 +39,8 @@ static const MesoOption *find_name(const MesoOption *options, const char *name, 
 
 static const MesoOption *find_letter(const MesoOption *options, char letter)
 {
-    for (; !is_last(options); options++)
-        if (options->kind != MESO_OPTION_GROUP && options->letter == letter)
+    for (; !meso_option_is_last(options); options++)
+        if (meso_option_kind(options) != MESO_OPTION_GROUP && options->letter == letter)
             return options;
     return NULL;
 }
@@ -54,8 +49,8 @@ static const MesoOption *find_letter(const MesoOption *options, char letter)
  * characters at the end; for the hint only. */
 static const MesoOption *find_similar(const MesoOption *options, const char *name, size_t length)
 {
-    for (; length > 2 && !is_last(options); options++) {
-        if (options->kind == MESO_OPTION_GROUP || !options->name)
+    for (; length > 2 && !meso_option_is_last(options); options++) {
+        if (meso_option_kind(options) == MESO_OPTION_GROUP || !options->name)
             continue;
         size_t own = strlen(options->name), same = 0;
         while (same < own && same < length && options->name[same] == name[same])
@@ -79,7 +74,7 @@ static ItemKind unknown_name(const Cursor *cursor, const char *name, size_t leng
 
 static bool takes_value(const MesoOption *option)
 {
-    return option->kind != MESO_OPTION_FLAG && option->kind != MESO_OPTION_TEXT_OPT;
+    return meso_option_kind(option) != MESO_OPTION_FLAG && meso_option_kind(option) != MESO_OPTION_OUTPUT_OPT;
 }
 
 static ItemKind take_next_as_value(Cursor *cursor, Item *item, MesoError *error)
@@ -103,7 +98,7 @@ static ItemKind read_name(Cursor *cursor, const char *name, Item *item, MesoErro
     item->option = find_name(cursor->options, name, length);
     if (!item->option)
         return unknown_name(cursor, name, length, error);
-    if (equals && item->option->kind == MESO_OPTION_FLAG) {
+    if (equals && meso_option_kind(item->option) == MESO_OPTION_FLAG) {
         meso_fail(error, MESO_ERR_USAGE, "option '--%s' takes no value", item->option->name);
         return ITEM_BAD;
     }
@@ -292,7 +287,7 @@ static MesoStatus set_point(const MesoOption *option, const char *text, MesoErro
 
 static MesoStatus set_value(const MesoOption *option, const char *text, MesoError *error)
 {
-    switch (option->kind) {
+    switch (meso_option_kind(option)) {
     case MESO_OPTION_FLAG:
         *(bool *)option->value = true;
         return MESO_OK;
@@ -303,7 +298,11 @@ static MesoStatus set_value(const MesoOption *option, const char *text, MesoErro
     case MESO_OPTION_NUMBER:
         return set_number(option, text, error);
     case MESO_OPTION_TEXT:
-    case MESO_OPTION_TEXT_OPT:
+    case MESO_OPTION_INPUT:
+    case MESO_OPTION_FOLDER:
+    case MESO_OPTION_OUTPUT:
+    case MESO_OPTION_OUTPUT_OPT:
+    case MESO_OPTION_PATTERN:
         *(const char **)option->value = text ? text : "";
         return MESO_OK;
     case MESO_OPTION_CHOICE:
@@ -339,8 +338,7 @@ MesoStatus meso_options_parse(const MesoOption *options, int argc, char **argv,
     return first.status == MESO_OK ? MESO_OK : meso_fail(error, first.status, "%s", first.message);
 }
 
-/* Quotes for a POSIX shell where that is needed. */
-static char *quote(MesoArena *arena, const char *text, MesoError *error)
+char *meso_options_quote(MesoArena *arena, const char *text, MesoError *error)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "_@%+=:,./-";
@@ -363,17 +361,15 @@ static char *quote(MesoArena *arena, const char *text, MesoError *error)
     return quoted;
 }
 
-static bool is_left_out(const MesoOption *option, const char *const *left_out)
+char *meso_options_append(const char *line, const char *name, const char *value, MesoArena *arena, MesoError *error)
 {
-    for (; *left_out; left_out++)
-        if (strcmp(option->name, *left_out) == 0)
-            return true;
-    return false;
+    const char *quoted = meso_options_quote(arena, value, error);
+    return quoted ? meso_arena_print(arena, error, "%s --%s %s", line, name, quoted) : NULL;
 }
 
 static char *append_item(char *line, const Item *item, MesoArena *arena, MesoError *error)
 {
-    char *value = item->text ? quote(arena, item->text, error) : NULL;
+    char *value = item->text ? meso_options_quote(arena, item->text, error) : NULL;
     if (item->text && !value)
         return NULL;
     if (item->kind == ITEM_OPERAND)
@@ -385,16 +381,20 @@ static char *append_item(char *line, const Item *item, MesoArena *arena, MesoErr
                             !value ? "" : item->attached ? "=" : " ", value ? value : "");
 }
 
-char *meso_options_command_line(const MesoOption *options, int argc, char **argv,
-                                const char *const *left_out, MesoArena *arena, MesoError *error)
+char *meso_options_command_typed(const MesoOption *options, const char *program, int argc, char **argv,
+                                 const MesoOptionChange *changes, MesoArena *arena, MesoError *error)
 {
     Cursor cursor = {.options = options, .argc = argc, .next = 1, .argv = argv};
     Item item;
-    const char *slash = strrchr(argv[0], '/');
-    char *line = quote(arena, slash ? slash + 1 : argv[0], error);
+    char *line = meso_arena_copy_text(arena, program, error);
     bool dashes = false;
+    for (const MesoOptionChange *change = changes; line && change && change->name; change++)
+        if (change->value)
+            line = meso_options_append(line, change->name, change->value, arena, error);
     while (line && next_item(&cursor, &item, NULL) != ITEM_END) {
-        if (item.kind == ITEM_BAD || (item.option && is_left_out(item.option, left_out)))
+        if (item.kind == ITEM_BAD)
+            continue;
+        if (item.option && (item.option->kind & MESO_OPTION_SILENT || meso_option_change(changes, item.option)))
             continue;
         if (cursor.operands_only && !dashes) {
             line = meso_arena_print(arena, error, "%s --", line);
@@ -429,19 +429,19 @@ static void print_wrapped(const char *text, int column)
 
 void meso_options_print(const MesoOption *options)
 {
-    for (; !is_last(options); options++) {
-        if (options->kind == MESO_OPTION_GROUP) {
+    for (; !meso_option_is_last(options); options++) {
+        if (meso_option_kind(options) == MESO_OPTION_GROUP) {
             printf("\n%s:\n", options->name);
             continue;
         }
         char left[80];
-        const char *argument = options->kind == MESO_OPTION_CHOICE && !options->argument
+        const char *argument = meso_option_kind(options) == MESO_OPTION_CHOICE && !options->argument
                                    ? options->choices : options->argument;
         int length = options->letter ? snprintf(left, sizeof left, "  -%c, ", options->letter)
                                      : snprintf(left, sizeof left, "      ");
         length += snprintf(left + length, sizeof left - (size_t)length,
-                           options->kind == MESO_OPTION_FLAG       ? "--%s"
-                           : options->kind == MESO_OPTION_TEXT_OPT ? "--%s[=%s]"
+                           meso_option_kind(options) == MESO_OPTION_FLAG       ? "--%s"
+                           : meso_option_kind(options) == MESO_OPTION_OUTPUT_OPT ? "--%s[=%s]"
                                                                    : "--%s %s",
                            options->name, argument);
         if (length > HELP_COLUMN - 2)

@@ -1,5 +1,5 @@
 /* The option table: every kind, every mistake, recorded command lines. */
-#include "cmd/options.h"
+#include "cmd/command_line.h"
 
 #include <string.h>
 
@@ -10,7 +10,8 @@ typedef struct Values {
     uint32_t count, plain, size[2];
     uint64_t seed;
     float number, free_number;
-    const char *text, *optional, *choice;
+    const char *text, *optional, *choice, *input, *output, *pattern, *folder;
+    bool eye_given;
     MesoVec3 point;
 } Values;
 
@@ -18,18 +19,22 @@ static Values v;
 
 static const MesoOption options[] = {
     {MESO_OPTION_GROUP, 0, "Things", 0, 0, 0, 0, 0, 0, 0},
-    {MESO_OPTION_FLAG, 'f', "flag", 0, "a flag", &v.flag, &v.given, 0, 0, 0},
+    {MESO_OPTION_FLAG | MESO_OPTION_SILENT, 'f', "flag", 0, "a flag", &v.flag, &v.given, 0, 0, 0},
     {MESO_OPTION_FLAG, 'g', "other", 0, "another", &v.other, 0, 0, 0, 0},
     {MESO_OPTION_COUNT, 'c', "count", "N", "a count", &v.count, 0, 2, 4096, 0},
-    {MESO_OPTION_COUNT, 0, "plain", "N", "a count without limits", &v.plain, 0, 0, 0, 0},
+    {MESO_OPTION_COUNT | MESO_OPTION_SILENT, 0, "plain", "N", "a count without limits", &v.plain, 0, 0, 0, 0},
     {MESO_OPTION_SEED, 's', "seed", "N", "a seed", &v.seed, 0, 0, 0, 0},
     {MESO_OPTION_NUMBER, 'n', "number", "X", "a number", &v.number, 0, 1e-4, 1, 0},
     {MESO_OPTION_NUMBER, 0, "free", "X", "any number", &v.free_number, 0, 0, 0, 0},
     {MESO_OPTION_TEXT, 't', "text", "TEXT", "a text", &v.text, 0, 0, 0, 0},
-    {MESO_OPTION_TEXT_OPT, 'j', "json", "FILE", "perhaps a text", &v.optional, 0, 0, 0, 0},
+    {MESO_OPTION_OUTPUT_OPT | MESO_OPTION_SILENT, 'j', "json", "FILE", "perhaps a text", &v.optional, 0, 0, 0, 0},
     {MESO_OPTION_CHOICE, 0, "choice", "HOW", "one of them", &v.choice, 0, 0, 0, "auto|none|json"},
     {MESO_OPTION_SIZE, 0, "size", "WxH", "a size", &v.size, 0, 1, 16384, 0},
-    {MESO_OPTION_POINT, 'p', "point", "X,Y,Z", "a point", &v.point, 0, 0, 0, 0},
+    {MESO_OPTION_POINT | MESO_OPTION_OVERRIDES, 'p', "point", "X,Y,Z", "a point", &v.point, &v.eye_given, 0, 0, 0},
+    {MESO_OPTION_INPUT, 0, "input", "FILE", "is read", &v.input, 0, 0, 0, 0},
+    {MESO_OPTION_FOLDER, 0, "folder", "DIR", "is looked in", &v.folder, 0, 0, 0, 0},
+    {MESO_OPTION_OUTPUT, 'o', "output", "FILE", "is written", &v.output, 0, 0, 0, 0},
+    {MESO_OPTION_PATTERN, 0, "each", "PATTERN", "are written", &v.pattern, 0, 0, 0, 0},
     {0}};
 
 static const char *operands[16];
@@ -135,9 +140,8 @@ static void test_bad(void)
     CHECK(strcmp(error.message, "unknown option '--no-such'") == 0);
 }
 
-static void test_command_line(void)
+static void test_typed(void)
 {
-    static const char *const left_out[] = {"flag", "plain", "json", NULL};
     char *arguments[] = {(char[]){"./bin/x"}, (char[]){"-fgc9"}, (char[]){"--plain"}, (char[]){"7"},
                          (char[]){"--json=a"}, (char[]){"a b"}, (char[]){"--text=it's"},
                          (char[]){"--seed"}, (char[]){"5"}, (char[]){"-t"}, (char[]){""},
@@ -145,17 +149,54 @@ static void test_command_line(void)
     MesoArena arena;
     MesoError error;
     meso_arena_init(&arena);
-    const char *line = meso_options_command_line(options, 14, arguments, left_out, &arena, &error);
+    const char *line = meso_options_command_typed(options, "x", 14, arguments, NULL, &arena, &error);
     CHECK(strcmp(line, "x -g -c 9 'a b' --text='it'\\''s' --seed 5 -t '' -- -f '$HOME'") == 0);
-    CHECK(strcmp(meso_options_command_line(options, 2, arguments, left_out, &arena, &error),
-                 "x -g -c 9") == 0);
+    CHECK(strcmp(meso_options_command_typed(options, "x", 2, arguments, NULL, &arena, &error), "x -g -c 9") == 0);
+    const MesoOptionChange changes[] = {{"seed", "7"}, {"text", NULL}, {NULL, NULL}};
+    line = meso_options_command_typed(options, "x", 14, arguments, changes, &arena, &error);
+    CHECK(strcmp(line, "x --seed 7 -g -c 9 'a b' -- -f '$HOME'") == 0);
     meso_arena_release(&arena);
+}
+
+/* The command by names of `line`. */
+static void expect_names(const char *line, const MesoOptionChange *changes, const char *expected)
+{
+    MesoArena arena;
+    MesoError error;
+    meso_arena_init(&arena);
+    v = (Values){0};
+    const char **defaults = meso_options_values(options, &arena, &error);
+    CHECK(defaults && parse(line, &error) == MESO_OK);
+    const char *names = meso_options_command_names(options, "x", defaults, operands, operand_count, changes, &arena,
+                                                   &error);
+    if (!names || strcmp(names, expected) != 0)
+        fprintf(stderr, "%s: %s\n", line, names ? names : "none");
+    CHECK(names && strcmp(names, expected) == 0);
+    meso_arena_release(&arena);
+}
+
+static void test_names(void)
+{
+    /* What was left out, spelled otherwise, or in another order, is the same. */
+    expect_names("bin/x a/b.obj", NULL, "x b.obj");
+    expect_names("x --seed 0 -f --json=r -o a/out --each e%d ../b.obj --plain 3", NULL, "x b.obj");
+    expect_names("x -s 7 -n 0.50 /b.obj --count 3", NULL, "x --count 3 --seed 7 --number 0.5 b.obj");
+    expect_names("x --number=5e-1 -c3 --seed=3 b.obj -s07", NULL, "x --count 3 --seed 7 --number 0.5 b.obj");
+    expect_names("x -g --text a/b --choice none --size 4x5 --input c/d --folder e/f/ - ", NULL,
+                 "x --other --text a/b --choice none --size 4x5 --input d --folder f -");
+    /* A default that overrides is said, where it is given. */
+    expect_names("x -p 0,0,0 a", NULL, "x --point 0,0,0 a");
+    expect_names("x -p 1,2e-1,-3 -- -a", NULL, "x --point 1,0.2,-3 -- -a");
+    const MesoOptionChange changes[] = {{"seed", "9"}, {"count", NULL}, {"output", "z"}, {NULL, NULL}};
+    expect_names("x --seed 7 -c 3 a", changes, "x --seed 9 a");
+    expect_names("x a", changes, "x --seed 9 a");
 }
 
 int main(void)
 {
     test_good();
     test_bad();
-    test_command_line();
+    test_typed();
+    test_names();
     return 0;
 }

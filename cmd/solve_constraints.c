@@ -9,10 +9,9 @@ static MesoStatus read_file(MesoTool *tool, const char *path, const MesoConstrai
                             MesoConstraints *constraints)
 {
     MesoInput input;
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "constraints");
     if (status)
         return status;
-    meso_provenance_add(&tool->provenance, "constraints", &input);
     status = meso_constraints_read(constraints, &tool->arena, &input, scope, &tool->error);
     meso_input_close(&input);
     return status;
@@ -50,10 +49,9 @@ static MesoStatus read_keep(MesoTool *tool, const char *path, const MesoTileSet 
 {
     MesoInput input;
     MesoSlotsFile slots;
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "keep");
     if (status)
         return status;
-    meso_provenance_add(&tool->provenance, "keep", &input);
     status = meso_slots_read(&slots, &tool->arena, &input, &tool->error);
     meso_input_close(&input);
     if (status)

@@ -12,11 +12,11 @@ typedef struct MesoControlArguments {
 } MesoControlArguments;
 
 #define MESO_CONTROL_OPTIONS(control)                                                             \
-    {MESO_OPTION_TEXT, 0, "constraints", "FILE", "pins, regions, weights, border rules and quotas (JSON)", \
+    {MESO_OPTION_INPUT, 0, "constraints", "FILE", "pins, regions, weights, border rules and quotas (JSON)", \
      &(control).constraints, 0, 0, 0, 0},                                                         \
     {MESO_OPTION_TEXT, 0, "strands", "RULES", "connected, acyclic, no-loops, max-length=N, or several", \
      &(control).strands, 0, 0, 0, 0},                                                             \
-    {MESO_OPTION_TEXT, 0, "keep", "OLD.slots", "change as few slots of this assignment as possible", \
+    {MESO_OPTION_INPUT, 0, "keep", "OLD.slots", "change as few slots of this assignment as possible", \
      &(control).keep, 0, 0, 0, 0}
 
 /*

@@ -98,10 +98,10 @@ static MesoStatus open_proof(MesoEngineRun *run, MesoTool *tool, const char *pat
 void meso_engine_choose(const MesoEngineArguments *arguments, MesoSolveOptions *options)
 {
     options->engine = MESO_ENGINE_AUTO;
-    if (arguments->engine && strcmp(arguments->engine, "auto") != 0)
+    if (strcmp(arguments->engine, "auto") != 0)
         options->engine = strcmp(arguments->engine, "wfc") == 0 ? MESO_ENGINE_WFC : MESO_ENGINE_EXACT;
     options->max_observations = arguments->observations;
-    options->max_conflicts = arguments->conflicts;
+    options->max_conflicts = arguments->conflicts == MESO_SOLVE_CONFLICTS ? 0 : arguments->conflicts;
 }
 
 MesoStatus meso_engine_start(MesoEngineRun *run, MesoTool *tool, const MesoEngineArguments *arguments,

@@ -7,11 +7,14 @@
 #include "libcore/solve/solve.h"
 
 typedef struct MesoEngineArguments {
-    const char *engine;         /* auto, wfc, exact, or NULL */
-    uint32_t observations, conflicts;   /* 0: not given */
+    const char *engine;         /* auto, wfc, exact */
+    uint32_t observations;      /* 0: not given */
+    uint32_t conflicts;
     float budget;               /* seconds; 0: not given */
     const char *proof;          /* file, or NULL */
 } MesoEngineArguments;
+
+#define MESO_ENGINE_DEFAULTS {"auto", 0, MESO_SOLVE_CONFLICTS, 0, NULL}
 
 #define MESO_ENGINE_OPTIONS(arguments)                                                            \
     {MESO_OPTION_CHOICE, 0, "engine", "NAME", "auto, wfc (search alone) or exact (no search)",    \
@@ -22,7 +25,7 @@ typedef struct MesoEngineArguments {
      &(arguments).conflicts, 0, 1, 4294967295.0, 0},                                              \
     {MESO_OPTION_NUMBER, 0, "budget", "SECONDS", "time before giving up (default: no limit)",     \
      &(arguments).budget, 0, 0.001, 1e9, 0},                                                      \
-    {MESO_OPTION_TEXT, 0, "proof", "FILE", "write the exact engine's proof (DRAT), and its formula to FILE.cnf", \
+    {MESO_OPTION_OUTPUT, 0, "proof", "FILE", "write the exact engine's proof (DRAT), and its formula to FILE.cnf", \
      &(arguments).proof, 0, 0, 0, 0}
 
 /* Sets engine and budgets but that of time, which is no part of what a result depends on. */

@@ -12,10 +12,9 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
                                 uint64_t hash[2])
 {
     MesoInput input;
-    MesoStatus status = meso_input_open(&input, path, &tool->error);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "tiles");
     if (status)
         return status;
-    meso_provenance_add(&tool->provenance, "tiles", &input);
     if (hash)
         memcpy(hash, input.hash, sizeof input.hash);
     status = meso_tiles_read(set, &tool->arena, &input, &tool->error);

@@ -10,10 +10,10 @@
 #include <threads.h>
 #include <unistd.h>
 
+#include "cmd/solve_each.h"
 #include "formats/line_file.h"
 #include "formats/output.h"
 #include "formats/seed_lines.h"
-#include "formats/slots_file.h"
 #include "libcore/solve/seed_sweep.h"
 
 /* Lines are kept until the end, a few hundred bytes each. */
@@ -102,20 +102,6 @@ static MesoStatus parse_best(const Metric **metric, const char **file, const cha
     return meso_fail(error, MESO_ERR_USAGE, "--best: '%s' is not attempts, balance or loops, with or without =FILE", text);
 }
 
-/* One %d, any number of %%, and no other %. */
-static bool is_pattern(const char *text)
-{
-    int seeds = 0;
-    for (; *text; text++)
-        if (*text == '%') {
-            text++;
-            seeds += *text == 'd';
-            if (*text != 'd' && *text != '%')
-                return false;
-        }
-    return seeds == 1;
-}
-
 static MesoStatus check_companions(const MesoSeedOptions *o, const MesoTool *tool, MesoError *error)
 {
     const char *alone = o->each ? "--each" : o->resume ? "--resume" : o->best ? "--best" : NULL;
@@ -142,7 +128,7 @@ MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *too
     if (!status && range.attempts && attempts_given)
         return meso_fail(error, MESO_ERR_USAGE, "--attempts and the x%u of --seeds are both given; one is needed",
                          range.attempts);
-    if (!status && o->each && !is_pattern(o->each))
+    if (!status && o->each && !meso_each_is_pattern(o->each))
         return meso_fail(error, MESO_ERR_USAGE, "--each: '%s' must have one %%d, for the seed; %%%% stands for %%", o->each);
     return status || !o->best ? status : parse_best(&metric, &file, o->best, error);
 }
@@ -154,6 +140,7 @@ typedef struct Seeds {
     const MesoSeedOptions *options;
     const MesoSeedProblem *problem;
     SeedRange range;
+    MesoSeedEach each;
     MesoSolveOptions solve;
     uint64_t hash[2];           /* of the problem */
     uint64_t *todo;             /* [todo_count] seeds to solve */
@@ -165,73 +152,6 @@ typedef struct Seeds {
     uint32_t done, told;        /* lines known; lines that went to standard output */
     MesoLineFile journal, stream;
 } Seeds;
-
-static char *each_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoError *error)
-{
-    char *path = meso_arena_copy_text(arena, "", error);
-    for (const char *next; path && *pattern; pattern = next) {
-        next = pattern + strcspn(pattern, "%");
-        path = meso_arena_print(arena, error, "%s%.*s", path, (int)(next - pattern), pattern);
-        if (!*next)
-            break;
-        if (path && next[1] == 'd')
-            path = meso_arena_print(arena, error, "%s%" PRIu64, path, seed);
-        else if (path)
-            path = meso_arena_print(arena, error, "%s%%", path);
-        next += 2;
-    }
-    return path;
-}
-
-/*
- * The command that solves this seed alone, whatever shard it is of: --seed, the
- * attempts where --seeds gave them, and what else was given.
- */
-static char *single_command(const Seeds *seeds, uint64_t seed, MesoArena *arena, MesoError *error)
-{
-    static const char *const left_out[] = {"seeds", "each", "resume", "best", "seed", "output", "threads",
-                                           "progress", "quiet", "verbose", "json", NULL};
-    const MesoSeedProblem *p = seeds->problem;
-    char *given = meso_options_command_line(p->options, p->argc, p->argv, left_out, arena, error);
-    size_t name = given ? strcspn(given, " ") : 0;
-    char attempts[32] = "";
-    if (seeds->range.attempts)
-        snprintf(attempts, sizeof attempts, " --attempts %u", seeds->range.attempts);
-    return given ? meso_arena_print(arena, error, "%.*s --seed %" PRIu64 "%s%s", (int)name, given, seed, attempts,
-                                    given + name)
-                 : NULL;
-}
-
-static MesoStatus write_slots(const Seeds *seeds, uint64_t seed, const MesoAssignment *assignment, const char *path,
-                              MesoArena *arena, MesoError *error)
-{
-    const MesoSeedProblem *p = seeds->problem;
-    MesoProvenance *provenance = MESO_NEW(arena, MesoProvenance, 1, error);
-    if (!provenance)
-        return MESO_ERR_MEMORY;
-    *provenance = seeds->tool->provenance;
-    provenance->seed = seed;
-    provenance->command_line = single_command(seeds, seed, arena, error);
-    MesoOutput *output = NULL;
-    MesoStatus status = provenance->command_line ? meso_output_open(&output, path, error) : MESO_ERR_MEMORY;
-    if (!status)
-        status = meso_slots_write(assignment, p->set, p->surface->quarters, p->tiles_hash, p->surface->hash,
-                                  provenance, output, error);
-    if (!status)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
-    return status;
-}
-
-static MesoStatus write_each(const Seeds *seeds, uint64_t seed, const MesoAssignment *assignment, MesoError *error)
-{
-    MesoArena arena;
-    meso_arena_init(&arena);
-    const char *path = each_path(seeds->options->each, seed, &arena, error);
-    MesoStatus status = path ? write_slots(seeds, seed, assignment, path, &arena, error) : MESO_ERR_MEMORY;
-    meso_arena_release(&arena);
-    return status;
-}
 
 static MesoStatus fail_differs(const Seeds *seeds, uint64_t seed, MesoError *error)
 {
@@ -276,7 +196,7 @@ static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResu
     meso_arena_init(&arena);
     MesoStatus status = MESO_OK;
     if (seeds->options->each && result->verdict == MESO_VERDICT_SOLVED)
-        status = write_each(seeds, seed, &result->assignment, error);
+        status = meso_each_write(&seeds->each, seed, &result->assignment, error);
     if (!status)
         status = meso_seed_line_make(&line, &arena, seed, seeds->hash, result, p->set, &p->surface->graph, error);
     if (!status) {
@@ -330,11 +250,10 @@ static MesoStatus list_todo(Seeds *seeds, MesoError *error)
         bool complete = line->text != NULL;
         if (complete && seeds->options->each && line->verdict == MESO_VERDICT_SOLVED) {
             MesoArenaMark mark = meso_arena_mark(arena);
-            const char *path = each_path(seeds->options->each, seed, arena, error);
-            if (!path)
-                return MESO_ERR_MEMORY;
-            complete = access(path, F_OK) == 0;
+            MesoStatus status = meso_each_find(&complete, &seeds->each, line, arena, error);
             meso_arena_rewind(arena, mark);
+            if (status)
+                return status;
         }
         if (!complete)
             seeds->todo[seeds->todo_count++] = seed;
@@ -471,7 +390,7 @@ static MesoStatus write_best(const Seeds *seeds, const MesoSeedLine *best, const
         meso_assignment_hash(hash, &result.assignment);
     if (memcmp(hash, best->assignment, sizeof hash) != 0)
         return fail_differs(seeds, best->seed, error);
-    return write_slots(seeds, best->seed, &result.assignment, path, &tool->arena, error);
+    return meso_each_write_to(&seeds->each, best->seed, &result.assignment, path, &tool->arena, error);
 }
 
 static MesoStatus keep_best(const Seeds *seeds, MesoError *error)
@@ -520,11 +439,37 @@ static char *describe_options(const MesoSolveOptions *solve, const char *others,
                             others);
 }
 
+/* FILE.partial goes over a file of its own making alone, which is also what a sweep goes on with. */
+static MesoStatus add_paths(const Seeds *seeds, MesoError *error)
+{
+    MesoTool *tool = seeds->tool;
+    const Metric *metric;
+    const char *file = NULL, *output = tool->output;
+    MesoStatus status = seeds->options->best ? parse_best(&metric, &file, seeds->options->best, error) : MESO_OK;
+    if (!status && file)
+        status = meso_tool_add_output(tool, "--best", file);
+    if (!status && output && strcmp(output, "-") != 0) {
+        const char *partial = meso_arena_print(&tool->arena, error, "%s.partial", output);
+        if (!partial)
+            return MESO_ERR_MEMORY;
+        if (!is_same_file(partial, seeds->options->resume))
+            status = meso_tool_add_output(tool, "-o", partial);
+    }
+    return status || !seeds->each.pattern ? status
+                                          : meso_each_check_paths(&seeds->each, seeds->range.first, seeds->range.count,
+                                                                  error);
+}
+
 static MesoStatus prepare(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
     const MesoSeedProblem *p = seeds->problem;
     MesoStatus status = parse_range(&seeds->range, seeds->options->seeds, error);
+    if (status)
+        return status;
+    seeds->each = (MesoSeedEach){.tool = tool, .problem = p, .pattern = seeds->options->each,
+                                 .attempts = seeds->range.attempts};
+    status = add_paths(seeds, error);
     if (status)
         return status;
     seeds->solve = p->solve;

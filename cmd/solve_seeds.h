@@ -13,14 +13,14 @@ typedef struct MesoSeedOptions {
     {MESO_OPTION_GROUP, 0, "Many seeds", 0, 0, 0, 0, 0, 0, 0},                                \
     {MESO_OPTION_TEXT, 0, "seeds", "A-B[xK]", "solve for the seeds A to B, with K attempts each, and write a JSON line " \
      "each to -o or standard output", &(o).seeds, 0, 0, 0, 0},                                \
-    {MESO_OPTION_TEXT, 0, "each", "PATTERN", "write each assignment too, to PATTERN with the seed for its %d", \
+    {MESO_OPTION_PATTERN, 0, "each", "PATTERN", "write each assignment too, to PATTERN with the seed for its %d", \
      &(o).each, 0, 0, 0, 0},                                                                  \
-    {MESO_OPTION_TEXT, 0, "resume", "FILE", "take the lines that FILE has of these seeds instead of solving them again", \
+    {MESO_OPTION_INPUT | MESO_OPTION_OUTWARD, 0, "resume", "FILE", "take the lines that FILE has of these seeds instead of solving them again", \
      &(o).resume, 0, 0, 0, 0},                                                                \
-    {MESO_OPTION_TEXT, 0, "best", "METRIC[=FILE]", "say which seed is best by attempts, balance or loops, and write its " \
+    {MESO_OPTION_TEXT | MESO_OPTION_OUTWARD, 0, "best", "METRIC[=FILE]", "say which seed is best by attempts, balance or loops, and write its " \
      "assignment to FILE", &(o).best, 0, 0, 0, 0}
 
-/* What is solved for each seed, and how the command that did is written down. */
+/* What is solved for each seed. */
 typedef struct MesoSeedProblem {
     const MesoTileSet *set;
     const MesoVariantSet *variants;
@@ -28,9 +28,6 @@ typedef struct MesoSeedProblem {
     const uint64_t *tiles_hash;     /* [2] */
     MesoSolveOptions solve;         /* but for seed and progress; its attempts unless --seeds says */
     const char *others;             /* whatever else is asked for, in words: part of the problem's hash */
-    const MesoOption *options;      /* of the tool, with its arguments */
-    int argc;
-    char **argv;
 } MesoSeedProblem;
 
 /* Checks the options among each other and with the tool's. MESO_ERR_USAGE. */

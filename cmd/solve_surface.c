@@ -15,14 +15,14 @@ static const char *attribute_of(const char *orient)
     return strncmp(orient, field_prefix, length) == 0 ? orient + length : NULL;
 }
 
-MesoStatus meso_orient_check(const char *orient, MesoError *error)
+MesoStatus meso_orient_check(const MesoOrientArguments *orient, MesoError *error)
 {
-    if (!orient || strcmp(orient, "file") == 0 || strcmp(orient, "comb") == 0 || strcmp(orient, "u,v") == 0)
+    const char *how = orient->how, *attribute = attribute_of(how);
+    if (strcmp(how, "file") == 0 || strcmp(how, "comb") == 0 || strcmp(how, "u,v") == 0)
         return MESO_OK;
-    const char *attribute = attribute_of(orient);
     if (attribute && *attribute)
         return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE, "--orient: '%s' is not file, comb, field=ATTRIBUTE or u,v", orient);
+    return meso_fail(error, MESO_ERR_USAGE, "--orient: '%s' is not file, comb, field=ATTRIBUTE or u,v", how);
 }
 
 typedef struct Orienting {
@@ -110,16 +110,15 @@ static MesoStatus orient(Orienting *o)
     return status;
 }
 
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *how, bool groups,
+MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const MesoOrientArguments *how, bool groups,
                                   MesoSolveSurface *surface)
 {
     MesoInput input;
     MesoError *error = &tool->error;
     *surface = (MesoSolveSurface){0};
-    MesoStatus status = meso_input_open(&input, path, error);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "surface");
     if (status)
         return status;
-    meso_provenance_add(&tool->provenance, "surface", &input);
     memcpy(surface->hash, input.hash, sizeof surface->hash);
     status = groups ? meso_surface_read_groups(&surface->mesh, &surface->groups, &tool->arena, &input, error)
                     : meso_surface_read(&surface->mesh, &tool->arena, &input, error);
@@ -128,8 +127,8 @@ MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *
         if (status == MESO_ERR_INPUT)
             meso_fail_prefix(error, path);
     }
-    if (!status && how) {
-        Orienting o = {.tool = tool, .orient = how, .input = &input, .surface = surface};
+    if (!status && how->given) {
+        Orienting o = {.tool = tool, .orient = how->how, .input = &input, .surface = surface};
         status = orient(&o);
     }
     meso_input_close(&input);

@@ -6,10 +6,17 @@
 #include "formats/surface_groups.h"
 #include "libcore/surface/slot_graph.h"
 
+typedef struct MesoOrientArguments {
+    const char *how;
+    bool given;
+} MesoOrientArguments;
+
+#define MESO_ORIENT_DEFAULTS {"file", false}
+
 #define MESO_ORIENT_OPTION(orient)                                                            \
     {MESO_OPTION_TEXT, 0, "orient", "HOW", "which side of a slot is direction 0: file (the first of its face, " \
      "default), comb (as the neighbours), field=ATTRIBUTE (along a vector attribute of a PLY), u,v (along u)", \
-     &(orient), 0, 0, 0, 0}
+     &(orient).how, &(orient).given, 0, 0, 0}
 
 /* Singular corners that a report lists. */
 enum { MESO_REPORT_SINGULAR = 1000 };
@@ -22,15 +29,15 @@ typedef struct MesoSolveSurface {
     uint64_t hash[2];           /* of the file */
 } MesoSolveSurface;
 
-/* Whether `orient` (NULL: not given) is one of the above. MESO_ERR_USAGE. */
-MesoStatus meso_orient_check(const char *orient, MesoError *error);
+/* Whether it is one of the above. MESO_ERR_USAGE. */
+MesoStatus meso_orient_check(const MesoOrientArguments *orient, MesoError *error);
 
 /*
  * Reads a surface, with its groups where `groups` says, notes it in the
  * provenance, builds its slot graph and orients it. Where `orient` is given, says in one line what remains of disagreement,
  * and puts it in the report as "orientation".
  */
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const char *orient, bool groups,
+MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const MesoOrientArguments *orient, bool groups,
                                   MesoSolveSurface *surface);
 
 #endif

@@ -85,10 +85,9 @@ static MesoStatus look(Findings *findings)
     MesoError *error = &tool->error;
     MesoTileSet set;
     MesoInput input;
-    MesoStatus status = meso_input_open(&input, tool->operands[0], error);
+    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "tiles");
     if (status != MESO_OK)
         return status;
-    meso_provenance_add(&tool->provenance, "tiles", &input);
     status = meso_tiles_survey(&set, &tool->arena, &input, add_finding, findings, error);
     meso_input_close(&input);
     if (status != MESO_OK)  /* of a file that can be read at all, the findings are the answer */

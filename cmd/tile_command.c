@@ -12,13 +12,7 @@ bool meso_tile_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
 {
     bool go = meso_tool_start(tool, info, options, argc, argv);
     tool->provenance.tool = "meso-tile";
-    if (!go)
-        return false;
-    tool->provenance.command_line = meso_arena_print(&tool->arena, &tool->error, "meso-tile %s",
-                                                     tool->provenance.command_line);
-    if (!tool->provenance.command_line)
-        tool->status = MESO_ERR_MEMORY;
-    return tool->status == MESO_OK;
+    return go;
 }
 
 MesoStatus meso_tile_text_init(MesoTileText *text, MesoError *error)

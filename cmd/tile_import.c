@@ -33,10 +33,9 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
     MesoError *error = &tool->error;
     MesoInput input;
     json_t *root = NULL;
-    MesoStatus status = meso_input_open(&input, tool->operands[0], error);
+    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "tiles");
     if (status != MESO_OK)
         return status;
-    meso_provenance_add(&tool->provenance, "tiles", &input);
     status = meso_json_parse(&root, &input, error);
     if (status == MESO_OK)
         status = meso_tiles_import(set, &tool->arena, root, input.path, say_problem, tool, error);

@@ -153,10 +153,9 @@ static MesoStatus list_tiles(const MesoTileSet *set, const uint32_t *variant_cou
 static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
 {
     MesoInput input;
-    MesoStatus status = meso_input_open(&input, tool->operands[0], &tool->error);
+    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "tiles");
     if (status != MESO_OK)
         return status;
-    meso_provenance_add(&tool->provenance, "tiles", &input);
     status = meso_tiles_read(set, &tool->arena, &input, &tool->error);
     meso_input_close(&input);
     return status;

@@ -9,13 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cmd/command_line.h"
 #include "cmd/progress.h"
 #include "formats/json_text.h"
 #include "formats/output.h"
 #include "libcore/base/clock.h"
-
-/* They change no byte of a product, and so have no place in its provenance. */
-static const char *const not_recorded[] = {"threads", "progress", "quiet", "verbose", "json", NULL};
 
 static void die_of_signal(int number)
 {
@@ -62,8 +60,8 @@ static MesoStatus check_operands(const MesoToolInfo *info, uint32_t count, MesoE
                      count < low ? "least" : "most", count < low ? low : high);
 }
 
-/* Two products in one stream would be neither, and in one file only the second. */
-static MesoStatus check_outputs(MesoTool *tool, MesoError *error)
+/* Two products in one stream would be neither. */
+static MesoStatus check_streams(MesoTool *tool, MesoError *error)
 {
     bool report = tool->json && (*tool->json == 0 || strcmp(tool->json, "-") == 0);
     bool product = tool->output ? strcmp(tool->output, "-") == 0 : tool->info->to_standard_output;
@@ -71,34 +69,132 @@ static MesoStatus check_outputs(MesoTool *tool, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE,
                          "the product and the report cannot both go to standard output; use "
                          "--json=FILE");
-    if (tool->json && tool->output && *tool->json && strcmp(tool->json, tool->output) == 0) {
-        tool->json = NULL;
-        return meso_fail(error, MESO_ERR_USAGE, "the product and the report cannot both be '%s'",
-                         tool->output);
-    }
     return MESO_OK;
 }
 
-static MesoStatus parse(MesoTool *tool, const MesoOption *options, int argc, char **argv)
+/* A report must not be written where that is what is refused. */
+static MesoStatus keep_report_off(MesoTool *tool, MesoStatus status)
+{
+    const char *json = !tool->json || *tool->json ? tool->json : "-";
+    for (int i = 0; i < 2; i++)
+        if (status == MESO_ERR_USAGE && json && strcmp(tool->paths.clash[i], json) == 0)
+            tool->json = NULL;
+    return status;
+}
+
+MesoStatus meso_tool_add_output(MesoTool *tool, const char *option, const char *path)
+{
+    return keep_report_off(tool, meso_paths_add_output(&tool->paths, option, path, &tool->arena, &tool->error));
+}
+
+MesoStatus meso_tool_check_output(MesoTool *tool, const char *option, const char *path)
+{
+    return keep_report_off(tool, meso_paths_check_output(&tool->paths, option, path, &tool->error));
+}
+
+static MesoStatus add_input(MesoTool *tool, const char *path)
+{
+    return keep_report_off(tool, meso_paths_add_input(&tool->paths, path, &tool->arena, &tool->error));
+}
+
+MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *path, const char *role)
+{
+    MesoStatus status = add_input(tool, path);
+    if (status == MESO_OK)
+        status = meso_input_open(input, path, &tool->error);
+    if (status != MESO_OK)
+        return status;
+    status = meso_provenance_add(&tool->provenance, role, input, &tool->arena, &tool->error);
+    if (status != MESO_OK)
+        meso_input_close(input);
+    return status;
+}
+
+static MesoStatus add_option_path(MesoTool *tool, const MesoOption *option)
+{
+    MesoOptionKind kind = meso_option_kind(option);
+    bool output = kind == MESO_OPTION_OUTPUT || kind == MESO_OPTION_OUTPUT_OPT;
+    const char *path = output || kind == MESO_OPTION_INPUT ? *(const char *const *)option->value : NULL;
+    if (!path)
+        return MESO_OK;
+    if (!output)
+        return add_input(tool, path);
+    const char *name = option->letter ? meso_arena_print(&tool->arena, &tool->error, "-%c", option->letter)
+                                      : meso_arena_print(&tool->arena, &tool->error, "--%s", option->name);
+    bool stream = kind == MESO_OPTION_OUTPUT_OPT && *path == 0;
+    return name ? meso_tool_add_output(tool, name, stream ? "-" : path) : MESO_ERR_MEMORY;
+}
+
+/* All of them, whatever is wrong with one: the report may have to be kept off. */
+static MesoStatus add_paths(MesoTool *tool, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    MesoError first;
+    for (uint32_t i = 0; i < tool->operand_count; i++)
+        if (add_input(tool, tool->operands[i]) == MESO_ERR_MEMORY)
+            return MESO_ERR_MEMORY;
+    for (const MesoOption *option = tool->options; !meso_option_is_last(option); option++) {
+        MesoStatus added = add_option_path(tool, option);
+        if (added != MESO_OK && status == MESO_OK) {
+            status = added;
+            first = *error;
+        }
+    }
+    if (status != MESO_OK)
+        *error = first;
+    return status;
+}
+
+/* What is asked, but for the paths. */
+static MesoStatus parse_words(MesoTool *tool)
 {
     MesoError *error = &tool->error;
-    tool->operands = MESO_NEW(&tool->arena, const char *, (size_t)argc + 1, error);
-    if (!tool->operands)
-        return MESO_ERR_MEMORY;
-    MesoStatus status = meso_options_parse(options, argc, argv, tool->operands,
+    MesoStatus status = meso_options_parse(tool->options, tool->argc, tool->argv, tool->operands,
                                            &tool->operand_count, error);
     if (tool->help || tool->version)
         return MESO_OK;
     if (status == MESO_OK)
         status = check_operands(tool->info, tool->operand_count, error);
-    if (status == MESO_OK)
-        status = check_outputs(tool, error);
-    if (status != MESO_OK)
-        return status;
+    return status == MESO_OK ? check_streams(tool, error) : status;
+}
+
+char *meso_tool_command(const MesoTool *tool, const MesoOptionChange *changes, MesoArena *arena, MesoError *error)
+{
+    const char *name = tool->info->name;
+    return tool->provenance.detail == MESO_PROVENANCE_FULL
+               ? meso_options_command_typed(tool->options, name, tool->argc, tool->argv, changes, arena, error)
+               : meso_options_command_names(tool->options, name, tool->defaults, tool->operands, tool->operand_count,
+                                            changes, arena, error);
+}
+
+static MesoStatus record(MesoTool *tool)
+{
+    const char *detail = tool->detail ? tool->detail : "names";
+    tool->provenance.detail = strcmp(detail, "full") == 0   ? MESO_PROVENANCE_FULL
+                              : strcmp(detail, "none") == 0 ? MESO_PROVENANCE_NONE
+                                                            : MESO_PROVENANCE_NAMES;
     tool->provenance.seed = tool->seed;
-    tool->provenance.command_line =
-        meso_options_command_line(options, argc, argv, not_recorded, &tool->arena, error);
+    tool->provenance.command_line = meso_tool_command(tool, NULL, &tool->arena, &tool->error);
     return tool->provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus parse(MesoTool *tool)
+{
+    MesoError *error = &tool->error;
+    tool->operands = MESO_NEW(&tool->arena, const char *, (size_t)tool->argc + 1, error);
+    tool->defaults = tool->operands ? meso_options_values(tool->options, &tool->arena, error) : NULL;
+    if (!tool->defaults)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = parse_words(tool);
+    if (tool->help || tool->version)
+        return MESO_OK;
+    MesoError first = *error;
+    MesoStatus paths = add_paths(tool, error);
+    if (status != MESO_OK) {
+        *error = first;
+        return status;
+    }
+    return paths == MESO_OK ? record(tool) : paths;
 }
 
 /* `text` indented by two, line by line. */
@@ -159,7 +255,10 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
     }
     tool->started = meso_seconds();
 
-    tool->status = parse(tool, options, argc, argv);
+    tool->options = options;
+    tool->argc = argc;
+    tool->argv = argv;
+    tool->status = parse(tool);
     meso_progress_init(tool->progress, tool->progress_mode, tool->quiet);
     if (tool->status != MESO_OK)
         return false;

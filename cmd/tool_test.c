@@ -156,20 +156,47 @@ static void test_report(void)
     CHECK(strcmp(out, "{\n  \"format\": \"meso-report\",\n  \"version\": 1,\n  \"tool\": \"meso-try\",\n"
                       "  \"status\": \"ok\",\n  \"exit\": 0,\n  \"provenance\": {\n"
                       "    \"tool\": \"meso-try\",\n    \"version\": \"" MESO_VERSION "\",\n"
-                      "    \"command\": \"meso-try --seed=7 ok\",\n    \"seed\": 7,\n"
+                      "    \"command\": \"meso-try --seed 7 ok\",\n    \"seed\": 7,\n"
                       "    \"inputs\": []\n  },\n  \"what\": \"ok\"\n}\n") == 0);
     CHECK(run_line("meso-try -v --json no", NULL) == 1);
     CHECK(strstr(out, "\"status\": \"no\",\n  \"exit\": 1,\n  \"message\": \"it is not\","));
     CHECK(strstr(out, "\"seconds\": "));
     CHECK(run_line("meso-try --json --nope a\xff\xfe", NULL) == 2 && strstr(out, "\"usage\""));
     CHECK(run_line("meso-try -q --json a\xff\xfe -o x", NULL) == 0);
-    CHECK(strstr(out, "\"command\": \"meso-try 'a?""?' -o x\""));
+    CHECK(strstr(out, "\"command\": \"meso-try 'a?""?'\""));
+    CHECK(run_line("meso-try -q --json ../b/a\xff\xfe --provenance full -o x", NULL) == 0);
+    CHECK(strstr(out, "\"command\": \"meso-try '../b/a?""?' -o x\""));
+    CHECK(run_line("meso-try -q --json --seed=7 --provenance none ok", NULL) == 0);
+    CHECK(strstr(out, "\"provenance\": {\"tool\": \"meso-try\", \"version\": \"" MESO_VERSION "\"},\n"));
     unlink(test_path(&folder, "x"));
     CHECK(run_line("meso-try -q --json=none/report ok", NULL) == 5);
     CHECK(strncmp(err, "meso-try: cannot write 'none/report': ", 38) == 0);
     CHECK(run_line("meso-try -q --json=none/report no", NULL) == 1);
     CHECK(run_line("meso-try -q --progress=json ok", NULL) == 0);
     CHECK(strcmp(err, "{\"progress\":{\"what\":\"trying\",\"done\":1,\"total\":2}}\n") == 0);
+}
+
+static void expect_file(const char *name, const char *text)
+{
+    CHECK(test_file_is(test_path(&folder, name), text, strlen(text)));
+}
+
+/* Neither the product nor the report may be what is read, whatever else is wrong. */
+static void test_paths(void)
+{
+    test_file_write(test_path(&folder, "in"), "input", 5);
+    CHECK(run_line("meso-try in -o ./in", NULL) == 2);
+    CHECK(strcmp(err, "meso-try: -o './in' would write over the input 'in': name another file\n"
+                      "try 'meso-try --help'\n") == 0);
+    CHECK(run_line("meso-try in -o x --json=in", NULL) == 2 && run_line("meso-try --nope in --json=in", NULL) == 2);
+    CHECK(run_line("meso-try in -o x --json=./x", NULL) == 2);
+    CHECK(strstr(err, "-o and --json would both write './x', and one be lost"));
+    CHECK(test_folder_count(&folder) == 1);
+    expect_file("in", "input");
+    /* The report of a refusal that it has no part in. */
+    CHECK(run_line("meso-try in -o in --json=report", NULL) == 2 && test_folder_count(&folder) == 2);
+    unlink(test_path(&folder, "report"));
+    unlink(test_path(&folder, "in"));
 }
 
 static void test_signals(void)
@@ -197,6 +224,7 @@ int main(void)
     test_usage();
     test_run();
     test_report();
+    test_paths();
     test_signals();
     test_folder_remove(&folder);
     return 0;

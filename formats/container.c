@@ -245,6 +245,24 @@ MesoStatus meso_container_read(MesoContainer *container, const MesoInput *input,
     return MESO_OK;
 }
 
+const void *meso_container_peek(const MesoInput *input, const char *name, uint64_t *size)
+{
+    Header header;
+    Entry table[MESO_CONTAINER_CHUNKS];
+    if (read_header(&header, input, NULL) != MESO_OK || read_table(table, &header, input, NULL) != MESO_OK ||
+        check_table(table, &header, input, NULL) != MESO_OK)
+        return NULL;
+    for (uint32_t i = 0; i < header.chunk_count; i++) {
+        const uint8_t *data = input->data + table[i].offset;
+        *size = table[i].size;
+        if (strncmp(table[i].name, name, sizeof table[i].name) != 0)
+            continue;
+        bool whole = table[i].offset <= input->size && *size <= input->size - table[i].offset;
+        return whole && XXH3_64bits(data, *size) == table[i].hash ? data : NULL;
+    }
+    return NULL;
+}
+
 const void *meso_container_find(const MesoContainer *container, const char *name, uint64_t *size)
 {
     for (uint32_t i = 0; i < container->chunk_count; i++)

@@ -55,6 +55,12 @@ const void *meso_container_find(const MesoContainer *container, const char *name
 const void *meso_container_require(const MesoContainer *container, const char *path, const char *name,
                                    uint64_t count, uint64_t element_size, MesoError *error);
 
+/*
+ * Chunk `name` of a container of any kind and version, without looking at the other
+ * chunks; NULL where it is not there whole. O(size of the chunk).
+ */
+const void *meso_container_peek(const MesoInput *input, const char *name, uint64_t *size);
+
 /* True if the bytes begin like a container of any kind. */
 int meso_container_recognise(const MesoInput *input);
 

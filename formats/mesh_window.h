@@ -65,6 +65,13 @@ const char *meso_mesh_tile_names(const MesoTessellation *tessellation, MesoArena
 const char *meso_mesh_material_names(const MesoTessellation *tessellation, MesoArena *arena,
                                      MesoError *error);
 
+/*
+ * The provenance as comment lines that begin with `mark` and "provenance ", or, where readers of
+ * short lines need it in pieces, "provenance+ " from the second on; "" where the options have none.
+ */
+const char *meso_mesh_provenance_lines(const MesoMeshWriteOptions *options, const char *mark, MesoArena *arena,
+                                       MesoError *error);
+
 /* The provenance as one line; "" where the options have none. */
 const char *meso_mesh_provenance(const MesoMeshWriteOptions *options, MesoArena *arena,
                                  MesoError *error);

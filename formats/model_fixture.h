@@ -61,11 +61,10 @@ static inline MesoModel model_fixture(MesoArena *arena)
 
 static inline MesoProvenance model_fixture_provenance(void)
 {
-    MesoProvenance provenance = {.tool = "meso-try", .command_line = "meso-try 'a b'", .seed = 5};
-    MesoInput input;
-    meso_input_wrap(&input, "tiles", "xyz", 3);
-    meso_provenance_add(&provenance, "tiles", &input);
-    return provenance;
+    return (MesoProvenance){
+        .tool = "meso-try", .command_line = "meso-try 'a b'", .seed = 5,
+        .input_count = 1, .inputs = {{.role = "tiles", .hash = {1, 2}, .name = "xyz"}},
+    };
 }
 
 #endif

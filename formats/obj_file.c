@@ -134,12 +134,7 @@ static size_t format_parts(const void *context, const MesoTessellation *t, uint3
 
 static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
-    const char *provenance = meso_mesh_provenance(stream->options, arena, error);
-    if (!provenance)
-        return MESO_ERR_MEMORY;
-    if (!*provenance)
-        return MESO_OK;
-    const char *text = meso_arena_print(arena, error, "# provenance %s\n", provenance);
+    const char *text = meso_mesh_provenance_lines(stream->options, "# ", arena, error);
     if (!text)
         return MESO_ERR_MEMORY;
     stream->offset = strlen(text);

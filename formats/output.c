@@ -139,8 +139,7 @@ static int descriptor_of(const char *path)
     return -1;
 }
 
-/* Where a chain of symbolic links ends; the end need not exist. Owned by the caller; NULL with errno. */
-static char *follow_links(const char *path)
+char *meso_output_target(const char *path)
 {
     char *current = strdup(path);
     for (int links = 0; current; links++) {
@@ -192,7 +191,7 @@ static MesoStatus open_spool(MesoOutput *output, MesoError *error)
 static MesoStatus open_beside(MesoOutput *output, const char *path, const struct stat *existing,
                               MesoError *error)
 {
-    output->target = follow_links(path);
+    output->target = meso_output_target(path);
     if (!output->target)
         return fail(output, strerror(errno), error);
     int folder = folder_length(output->target);

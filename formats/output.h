@@ -16,6 +16,12 @@ typedef struct MesoOutput MesoOutput;
 /* MESO_ERR_OUTPUT where the folder is missing or cannot be written to. */
 MesoStatus meso_output_open(MesoOutput **output, const char *path, MesoError *error);
 
+/*
+ * Where a chain of symbolic links from `path` ends, which need not exist: the file
+ * that would be written. Owned by the caller; NULL with errno.
+ */
+char *meso_output_target(const char *path);
+
 /* Appends. After a failure every later call fails too. */
 MesoStatus meso_output_write(MesoOutput *output, const void *data, size_t size, MesoError *error);
 

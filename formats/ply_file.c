@@ -95,12 +95,12 @@ static MesoStatus put_names(MesoMeshStream *stream, MesoArena *arena, MesoError 
 static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
     const MesoTessellation *t = stream->tessellation;
-    const char *provenance = meso_mesh_provenance(stream->options, arena, error);
+    const char *provenance = meso_mesh_provenance_lines(stream->options, "comment ", arena, error);
     if (!provenance)
         return MESO_ERR_MEMORY;
     MesoStatus status = put(stream, "ply\nformat binary_little_endian 1.0\n", error);
-    if (status == MESO_OK && *provenance)
-        status = put(stream, meso_arena_print(arena, error, "comment provenance %s\n", provenance), error);
+    if (status == MESO_OK)
+        status = put(stream, provenance, error);
     if (status == MESO_OK)
         status = put_names(stream, arena, error);
     if (status != MESO_OK)

@@ -15,6 +15,7 @@ typedef struct Cursor {
 
 static const char exr_magic[] = "\x76\x2f\x31\x01", png_magic[] = "\x89PNG\r\n\x1a\n";
 static const char obj_mark[] = "# provenance ", ply_mark[] = "comment provenance ";
+static const char obj_more[] = "# provenance+ ", ply_more[] = "comment provenance+ ";
 
 static bool begins(const MesoInput *input, const char *text)
 {
@@ -86,8 +87,9 @@ static int put_provenance(json_t *facts, const void *text, size_t size)
     MesoInput input;
     json_t *root;
     meso_input_wrap(&input, "provenance", text, size);
-    if (meso_json_parse(&root, &input, NULL) != MESO_OK)
-        return 0;
+    MesoStatus status = meso_json_parse(&root, &input, NULL);
+    if (status != MESO_OK)
+        return status == MESO_ERR_MEMORY;
     if (json_is_string(json_object_get(root, "tool")))
         return json_object_set_new(facts, "provenance", root);
     json_decref(root);
@@ -256,6 +258,38 @@ static const char *take_line(Cursor *cursor, size_t *length)
     return line;
 }
 
+/* Bytes of the pieces on the lines that follow, each with `mark` before it; copied to `out` unless NULL. */
+static size_t join_pieces(Cursor *cursor, const char *mark, char *out)
+{
+    size_t total = 0, length;
+    for (Cursor next = *cursor;; *cursor = next) {
+        const char *line = next.left ? take_line(&next, &length) : NULL;
+        if (!line || !line_begins(line, length, mark))
+            return total;
+        length -= strlen(mark);
+        if (out)
+            memcpy(out + total, line + strlen(mark), length);
+        total += length;
+    }
+}
+
+/* A provenance that begins on `line`, after its own mark, and may go on in lines with `mark`. */
+static int put_lines(json_t *facts, Cursor *cursor, const char *line, size_t length, const char *mark)
+{
+    Cursor ahead = *cursor;
+    size_t more = join_pieces(&ahead, mark, NULL);
+    if (more == 0)
+        return put_provenance(facts, line, length);
+    char *text = malloc(length + more);
+    if (!text)
+        return 1;
+    memcpy(text, line, length);
+    join_pieces(cursor, mark, text + length);
+    int failed = put_provenance(facts, text, length + more);
+    free(text);
+    return failed;
+}
+
 /* "element vertex 12" gives "vertex": 12, and so on for every element. */
 static int describe_ply(json_t *facts, Cursor *cursor)
 {
@@ -269,7 +303,7 @@ static int describe_ply(json_t *facts, Cursor *cursor)
         char name[64], text[128] = "";
         unsigned long long count;
         if (line_begins(line, length, ply_mark))
-            failed |= put_provenance(facts, line + strlen(ply_mark), length - strlen(ply_mark));
+            failed |= put_lines(facts, cursor, line + strlen(ply_mark), length - strlen(ply_mark), ply_more);
         else if (line_begins(line, length, "element ") && length < sizeof text) {
             memcpy(text, line, length);
             for (char *c = text; *c; c++)
@@ -282,12 +316,19 @@ static int describe_ply(json_t *facts, Cursor *cursor)
     return failed | json_object_set_new(facts, "elements", elements);
 }
 
+static int describe_obj_head(json_t *facts, Cursor *cursor)
+{
+    size_t length;
+    const char *line = take_line(cursor, &length);
+    return put_lines(facts, cursor, line + strlen(obj_mark), length - strlen(obj_mark), obj_more);
+}
+
 static int describe_obj(json_t *facts, Cursor *cursor)
 {
     uint64_t vertices = 0, faces = 0;
     size_t length;
-    const char *line = take_line(cursor, &length);
-    int failed = put_provenance(facts, line + strlen(obj_mark), length - strlen(obj_mark));
+    const char *line;
+    int failed = describe_obj_head(facts, cursor);
     while (cursor->left > 0) {
         line = take_line(cursor, &length);
         vertices += line_begins(line, length, "v ");
@@ -295,6 +336,23 @@ static int describe_obj(json_t *facts, Cursor *cursor)
     }
     failed |= put_count(facts, "vertices", vertices);
     return failed | put_count(facts, "faces", faces);
+}
+
+MesoStatus meso_product_provenance(json_t **found, MesoProductKind kind, const MesoInput *input)
+{
+    Cursor cursor = {input->data, input->size, false};
+    MesoError error = {0};
+    json_t *facts = json_object();
+    MesoStatus status = MESO_OK;
+    if (!facts)
+        status = MESO_ERR_MEMORY;
+    else if (kind == MESO_PRODUCT_OBJ)      /* the rest need not be counted */
+        status = describe_obj_head(facts, &cursor) ? MESO_ERR_MEMORY : MESO_OK;
+    else
+        status = meso_product_describe(facts, kind, input, &error);
+    *found = json_incref(json_object_get(facts, "provenance"));
+    json_decref(facts);
+    return status == MESO_ERR_MEMORY ? status : MESO_OK;
 }
 
 MesoStatus meso_product_describe(json_t *facts, MesoProductKind kind, const MesoInput *input,

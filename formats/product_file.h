@@ -25,6 +25,9 @@ MesoProductKind meso_product_recognise(const MesoInput *input);
 /* "exr", "png", ... */
 const char *meso_product_name(MesoProductKind kind);
 
+/* "provenance" as below, alone; the caller owns it. `*found` is NULL where there is none. MESO_ERR_MEMORY alone. */
+MesoStatus meso_product_provenance(json_t **found, MesoProductKind kind, const MesoInput *input);
+
 /*
  * Sets what the header of a file of this kind says: "width", "height",
  * "channels" of images, "vertices", "faces", "triangles" of meshes, and

@@ -108,6 +108,13 @@ static void test_text(void)
     static const char obj[] = "# provenance " PROVENANCE "\nv 1 2 3\nvn 1 2 3\nv 1 2 3\nf 1 2 3\n";
     expect(BYTES(obj), MESO_PRODUCT_OBJ, 0,
            "{\"vertices\": 2, \"faces\": 1, \"provenance\": " PROVENANCE "}");
+    /* A long one stands on several lines, in pieces. */
+    static const char pieces[] = "ply\nformat ascii 1.0\ncomment provenance {\"tool\":\"meso-map\",\n"
+        "comment provenance+ \"seed\"\ncomment provenance+ :5}\r\nelement vertex 12\nend_header\n";
+    expect(BYTES(pieces), MESO_PRODUCT_PLY, sizeof pieces - 2,
+           "{\"elements\": {\"vertex\": 12}, \"provenance\": " PROVENANCE "}");
+    static const char obj_pieces[] = "# provenance {\"tool\":\"meso-map\"\n# provenance+ ,\"seed\":5}\nv 1 2 3\n";
+    expect(BYTES(obj_pieces), MESO_PRODUCT_OBJ, 0, "{\"vertices\": 1, \"faces\": 0, \"provenance\": " PROVENANCE "}");
     /* A comment that is not ours. */
     static const char other[] = "# provenance unknown\nv 1 2 3\n";
     expect(BYTES(other), MESO_PRODUCT_OBJ, 0, "{\"vertices\": 1, \"faces\": 0}");

@@ -99,7 +99,7 @@ static void test_wrong_lines(void)
 /* Other inputs, another orientation, other options: another problem; the file's order is the same as none. */
 static void test_problems(void)
 {
-    MesoProvenance provenance = {.input_count = 1, .inputs = {{"tiles", {1, 2}}}};
+    MesoProvenance provenance = {.input_count = 1, .inputs = {{.role = "tiles", .hash = {1, 2}}}};
     uint8_t quarters[300] = {0};
     uint64_t plain[2], other[2];
     meso_seed_problem(plain, &provenance, NULL, 300, "attempts=1");

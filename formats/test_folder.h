@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -55,6 +56,12 @@ static inline void test_folder_remove(const TestFolder *folder)
         }
     closedir(list);
     CHECK(rmdir(folder->path) == 0);
+}
+
+static inline void test_file_write(const char *path, const void *data, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    CHECK(file && fwrite(data, 1, size, file) == size && fclose(file) == 0);
 }
 
 /* True if the file holds exactly these bytes. */

@@ -15,7 +15,7 @@ meso-map -q --to ply x.meso -o - | tail -c 100000 >piped
 tail -c 100000 again.ply | cmp - piped
 draco_decoder -i x.drc -o decoded.ply >decoder.log || cat decoder.log
 rm decoder.log decoded.ply
-meso-map -q --json vase.meso -o report.ply | grep -E '"(kind|slots|parts)"'
+meso-map -q --json vase.meso -o report.ply | grep -E '^  "(kind|slots|parts)"'
 
 refuse() {
     status=0

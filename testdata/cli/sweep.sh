@@ -15,8 +15,13 @@ for seed in 1 13 24; do
     cmp 1-$seed.slots 7-$seed.slots
     meso-info 1-$seed.slots | grep -e '"command"' -e '"seed"'
     solve --seed $seed -o alone.slots
-    [ "$(meso-info alone.slots | grep -c "$(meso-info 1-$seed.slots | grep '"tiles": {')")" = 1 ] || echo "another assignment"
+    cmp alone.slots 1-$seed.slots
 done
+solve --seeds 3x2 --conflicts 9 --each more-%d.slots -o more.jsonl
+solve --seed 3 --attempts 2 --conflicts 9 -o - | cmp - more-3.slots
+# As typed, the command is one that works.
+solve --seeds 3 --provenance full --each full-%d.slots -o more.jsonl
+meso-info full-3.slots | grep '"command"'
 
 # Shards in any order, some of them twice, the last line cut off.
 for shard in 17-24 1-9 5-16; do solve --seeds $shard; done >shards.jsonl
@@ -26,6 +31,13 @@ cmp merged.jsonl all.jsonl && echo "merged: the same"
 head -n 20 shards.jsonl >some.jsonl
 solve --seeds 1-24 --resume some.jsonl --each again-%d.slots -o merged.jsonl
 cmp merged.jsonl all.jsonl && cmp again-20.slots 1-20.slots && echo "resumed: the same"
+# What has the name of an assignment and is another, or none, is written again.
+cp again-1.slots again-2.slots
+echo nothing >again-3.slots
+head -c 500 1-4.slots >again-4.slots
+rm again-5.slots
+solve --seeds 1-24 --resume some.jsonl --each again-%d.slots -o merged.jsonl
+for seed in 1 2 3 4 5; do cmp again-$seed.slots 1-$seed.slots; done
 
 # Cut short by a signal: what was solved stays in FILE.partial, and nowhere else.
 mkdir cut
