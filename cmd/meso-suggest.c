@@ -1,4 +1,6 @@
 /* meso-suggest: adds the tile that would have helped at the most dead ends. */
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cmd/solve_inputs.h"
@@ -95,6 +97,25 @@ static MesoStatus extend(MesoTool *tool, MesoTileSet *set, uint32_t dead_end_cou
     return status ? status : tell_suggestion(tool, set, &suggestion);
 }
 
+/*
+ * Dead ends are of the tiles that there were: after any change of the tile set, which may
+ * have mended them or made others, the tile that they ask for is not the one that is missing.
+ */
+static MesoStatus check_report(MesoTool *tool, const MesoReport *report, const char *path)
+{
+    char hash[33];
+    const uint64_t *of = tool->provenance.inputs[0].hash;
+    snprintf(hash, sizeof hash, "%016" PRIx64 "%016" PRIx64, of[0], of[1]);
+    if (!*report->tiles_hash)
+        meso_tool_say(tool, "warning: '%s' does not say which tile set it was made with", path);
+    if (!*report->tiles_hash || strcmp(report->tiles_hash, hash) == 0)
+        return MESO_OK;
+    return meso_fail(&tool->error, MESO_ERR_INPUT, "'%s' was made with another tile set than '%s', or with another "
+                     "version of it: solve again with this one and --report, or give --surface", path,
+                     tool->operands[0]);
+}
+
+/* An interface that the report names and the set lacks is a sign of the same. */
 static MesoStatus extend_by_report(MesoTool *tool, MesoTileSet *set, const char *path)
 {
     MesoInput input;
@@ -104,6 +125,10 @@ static MesoStatus extend_by_report(MesoTool *tool, MesoTileSet *set, const char 
         return status;
     status = meso_report_read(&report, &tool->arena, &input, set, &tool->error);
     meso_input_close(&input);
+    if (!status || (status == MESO_ERR_INPUT && *report.tiles_hash)) {
+        MesoStatus fits = check_report(tool, &report, path);
+        status = fits ? fits : status;
+    }
     if (status)
         return status;
     if (report.verdict == MESO_VERDICT_SOLVED)

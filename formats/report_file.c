@@ -384,6 +384,21 @@ static void read_verdict(MesoReport *report, const MesoJsonField *root)
         meso_json_wrong(&field, "\"%.40s\"; \"solved\", \"unsolvable\" and \"gave-up\" are possible", name);
 }
 
+/* The tile set among the inputs in the provenance, where there is one. */
+static void read_tiles_hash(MesoReport *report, const json_t *root)
+{
+    size_t index;
+    json_t *input;
+    json_array_foreach(json_object_get(json_object_get(root, "provenance"), "inputs"), index, input) {
+        const char *role = json_string_value(json_object_get(input, "role"));
+        const char *hash = json_string_value(json_object_get(input, "xxh3_128"));
+        if (role && hash && strcmp(role, "tiles") == 0 && strlen(hash) < sizeof report->tiles_hash) {
+            strcpy(report->tiles_hash, hash);
+            return;
+        }
+    }
+}
+
 MesoStatus meso_report_read(MesoReport *report, MesoArena *arena, const MesoInput *input,
                             const MesoTileSet *set, MesoError *error)
 {
@@ -395,6 +410,7 @@ MesoStatus meso_report_read(MesoReport *report, MesoArena *arena, const MesoInpu
     if (!status) {
         MesoJsonReader reader = {.path = input->path, .arena = arena, .error = error};
         MesoJsonField root = meso_json_root(&reader, json);
+        read_tiles_hash(report, json);
         read_verdict(report, &root);
         report->attempts = (uint32_t)read_number(&root, "attempts", UINT32_MAX);
         report->observations = read_number(&root, "observations", INT64_MAX);

@@ -24,8 +24,7 @@
  *            "sides": [{"border": true or false, "labels": ["a", "b'", ...]}, x 4]}, ...],
  *      "provenance": {...}}
  *
- * Labels go by name, "a'" for the flipped one, so that a report can be read
- * beside another version of its tile set. Other keys are passed over.
+ * Labels go by name, "a'" for the flipped one. Other keys are passed over.
  */
 #ifndef MESO_REPORT_FILE_H
 #define MESO_REPORT_FILE_H
@@ -46,6 +45,7 @@ typedef struct MesoReport {
     uint64_t dead_end_total;
     uint32_t dead_end_count;
     MesoDeadEnd *dead_ends;     /* labels by the codes of the set that it was read with */
+    char tiles_hash[33];        /* of the tile set's file that it is about, 32 digits; "" where it does not say */
 } MesoReport;
 
 /* "solved", "unsolvable", "gave-up" */
