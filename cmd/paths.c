@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "formats/output.h"
+#include "libcore/base/grow.h"
 
 static bool key_of_file(MesoFileKey *key, const struct stat *file)
 {
@@ -81,16 +82,10 @@ static MesoStatus check(MesoPaths *paths, const MesoPath *added, MesoError *erro
 
 static MesoStatus keep(MesoPaths *paths, MesoPath added, MesoArena *arena, MesoError *error)
 {
-    if (paths->count == paths->room) {
-        uint32_t room = 2 * paths->room + 16;
-        MesoPath *more = MESO_NEW(arena, MesoPath, room, error);
-        if (!more)
-            return MESO_ERR_MEMORY;
-        if (paths->count)
-            memcpy(more, paths->paths, paths->count * sizeof *more);
-        paths->paths = more;
-        paths->room = room;
-    }
+    MesoPath *more = MESO_GROW(arena, paths->paths, paths->count, paths->room, 16, error);
+    if (!more)
+        return MESO_ERR_MEMORY;
+    paths->paths = more;
     paths->paths[paths->count++] = added;
     return MESO_OK;
 }
