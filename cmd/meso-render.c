@@ -9,6 +9,7 @@
 #include "formats/json_text.h"
 #include "formats/model_file.h"
 #include "libcore/base/clock.h"
+#include "libcore/render/apart.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
@@ -125,8 +126,8 @@ static void say_times(const MesoTool *tool, const double *at)
                       1e3 * (at[4] - at[3]));
 }
 
-static MesoStatus draw(RenderArguments *a, MesoImage *image, MesoGlContext *context,
-                       const MesoStructure *structure, MesoError *error)
+static MesoStatus draw(RenderArguments *a, MesoPicture **picture, const MesoStructure *structure,
+                       MesoError *error)
 {
     const MesoRenderOptions options = {
         .width = a->camera.size[0],
@@ -134,7 +135,7 @@ static MesoStatus draw(RenderArguments *a, MesoImage *image, MesoGlContext *cont
         .camera = meso_camera_options_resolve(&a->camera, structure),
         .samples = strcmp(a->samples_text, "1") == 0 ? 1 : 4,
     };
-    return meso_render(image, &a->tool.arena, context, structure, &options, error);
+    return meso_picture_init(picture, &a->tool.arena, a->context, a->tool.threads, structure, &options, error);
 }
 
 static MesoStatus write_images(const RenderArguments *a, const MesoImage *image, const MesoModel *model,
@@ -150,27 +151,24 @@ static MesoStatus render(RenderArguments *a, const MesoModel *model, double star
 {
     MesoTool *tool = &a->tool;
     MesoStructure structure;
-    MesoGlContext context;
-    MesoImage image;
+    MesoPicture *picture;
     double at[5] = {start};
 
     MesoStatus status = meso_structure_build(&structure, &tool->arena, model, tool->threads, error);
     at[1] = meso_seconds();
     if (!status)
-        status = meso_gl_context_init(&context, a->context, tool->threads, error);
+        status = draw(a, &picture, &structure, error);
     if (status)
         return status;
-    at[2] = meso_seconds();
-    status = draw(a, &image, &context, &structure, error);
+    at[2] = picture->context_made;
     at[3] = meso_seconds();
-    if (!status)
-        status = write_images(a, &image, model, error);
+    status = write_images(a, &picture->image, model, error);
     at[4] = meso_seconds();
     if (!status) {
-        report_image(tool, &image, &structure, context.renderer);
+        report_image(tool, &picture->image, &structure, picture->renderer);
         say_times(tool, at);
     }
-    meso_gl_context_release(&context);
+    meso_picture_release(picture);
     return status;
 }
 

@@ -1,3 +1,4 @@
+#define _DEFAULT_SOURCE     /* clearenv() */
 #include "libcore/render/context.h"
 
 #include <stdio.h>
@@ -8,17 +9,23 @@
 
 #include "libcore/render/context_makers.h"
 
-/* Mesa segfaults on a driver name that it does not know, and keeps a shader
- * cache in the user's home unless told not to. */
+/*
+ * Mesa and other drivers read some hundred variables, under names of no one
+ * form, that change pixels, print, or kill them. So only those stay that say where
+ * drivers are installed. No shader cache is kept in the user's home.
+ */
 static void prepare_environment(uint32_t thread_count)
 {
-    static const char *const known[] = {"llvmpipe", "softpipe"};
-    const char *driver = getenv("GALLIUM_DRIVER");
-    bool keep = false;
-    for (size_t i = 0; driver && i < sizeof known / sizeof *known; i++)
-        keep = keep || strcmp(driver, known[i]) == 0;
-    if (!keep)
-        unsetenv("GALLIUM_DRIVER");
+    static const char *const kept[] = {"LIBGL_DRIVERS_PATH", "__EGL_VENDOR_LIBRARY_DIRS",
+                                       "__EGL_VENDOR_LIBRARY_FILENAMES"};
+    enum { KEPT_COUNT = sizeof kept / sizeof *kept };
+    const char *values[KEPT_COUNT];
+    for (size_t i = 0; i < KEPT_COUNT; i++)
+        values[i] = getenv(kept[i]);
+    clearenv();
+    for (size_t i = 0; i < KEPT_COUNT; i++)
+        if (values[i])
+            setenv(kept[i], values[i], 1);
     setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
     if (thread_count) {
         char text[16];

@@ -20,8 +20,9 @@ typedef struct MesoGlContext {
 /*
  * `maker` is "osmesa", "egl" or "auto" (egl where it offers a GPU, else
  * osmesa). The context is current on this thread. `thread_count` bounds the
- * threads of a software driver (0: its own choice); it is passed on through
- * the environment, so that no other thread may read that meanwhile.
+ * threads of a software driver (0: its own choice). The environment of this
+ * process is emptied, but for where drivers are installed, so that it changes
+ * no pixel; no other thread may read it meanwhile.
  * MESO_ERR_USAGE for another maker, MESO_ERR_INTERNAL where none can be made.
  */
 MesoStatus meso_gl_context_init(MesoGlContext *context, const char *maker, uint32_t thread_count,

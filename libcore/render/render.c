@@ -57,21 +57,29 @@ static MesoStatus check_options(const MesoRenderOptions *options, MesoError *err
     return MESO_OK;
 }
 
-static MesoStatus allocate(MesoImage *image, MesoArena *arena, const MesoRenderOptions *options,
-                           MesoError *error)
+/* Bytes a pixel of the arrays, in the order of their places, each a multiple of 64 from the first. */
+enum { COLOR_BYTES = 16, DEPTH_BYTES = 4, NORMAL_BYTES = 12, ALBEDO_BYTES = 12, ID_BYTES = 4 };
+
+static size_t array_bytes(const MesoRenderOptions *options, size_t pixel_bytes)
 {
-    size_t count = (size_t)options->width * options->height;
-    image->width = options->width;
-    image->height = options->height;
-    image->camera = options->camera;
-    image->color = MESO_NEW(arena, float, 4 * count, error);
-    image->depth = MESO_NEW(arena, float, count, error);
-    image->normal = MESO_NEW(arena, float, 3 * count, error);
-    image->albedo = MESO_NEW(arena, float, 3 * count, error);
-    image->slot = MESO_NEW(arena, uint32_t, count, error);
-    image->tile = MESO_NEW(arena, uint32_t, count, error);
-    return image->color && image->depth && image->normal && image->albedo && image->slot && image->tile
-        ? MESO_OK : MESO_ERR_MEMORY;
+    return (pixel_bytes * options->width * options->height + 63) & ~(size_t)63;
+}
+
+void meso_image_place(MesoImage *image, void *memory, const MesoRenderOptions *options)
+{
+    unsigned char *next = memory;
+    *image = (MesoImage){.width = options->width, .height = options->height, .camera = options->camera};
+    image->color = (float *)next;
+    next += array_bytes(options, COLOR_BYTES);
+    image->depth = (float *)next;
+    next += array_bytes(options, DEPTH_BYTES);
+    image->normal = (float *)next;
+    next += array_bytes(options, NORMAL_BYTES);
+    image->albedo = (float *)next;
+    next += array_bytes(options, ALBEDO_BYTES);
+    image->slot = (uint32_t *)next;
+    next += array_bytes(options, ID_BYTES);
+    image->tile = (uint32_t *)next;
 }
 
 static MesoStatus make_programs(Renderer *r, MesoError *error)
@@ -140,14 +148,20 @@ static uint32_t shadow_size(const MesoRenderOptions *options)
     return size;
 }
 
+/* The targets of `options`, whose pixels reach `margin` beyond a window. */
+static MesoTargets plan_targets(const MesoRenderOptions *options, uint32_t *margin)
+{
+    *margin = smaller(options->height / 12 + 2, MAX_OCCLUSION_PIXELS);
+    uint32_t most = WINDOW_SIZE + 2 * *margin;
+    return (MesoTargets){.width = smaller(options->width, most), .height = smaller(options->height, most),
+                         .sample_side = options->samples == 4 ? 2 : 1, .shadow_size = shadow_size(options)};
+}
+
 static MesoStatus make_targets(Renderer *r, MesoError *error)
 {
-    const MesoRenderOptions *options = r->options;
-    r->margin = smaller(options->height / 12 + 2, MAX_OCCLUSION_PIXELS);
-    uint32_t most = WINDOW_SIZE + 2 * r->margin;
-    return meso_targets_init(&r->targets, &r->gl, smaller(options->width, most),
-                             smaller(options->height, most), options->samples == 4 ? 2 : 1,
-                             shadow_size(options), error);
+    MesoTargets plan = plan_targets(r->options, &r->margin);
+    return meso_targets_init(&r->targets, &r->gl, plan.width, plan.height, plan.sample_side,
+                             plan.shadow_size, error);
 }
 
 static void draw_shadow(Renderer *r)
@@ -289,12 +303,16 @@ static void draw_window(Renderer *r, MesoImage *image, MesoWindow inner)
     read_back(r, image, inner, outer);
 }
 
-static void draw_windows(Renderer *r, MesoImage *image)
+static MesoStatus draw_windows(Renderer *r, MesoImage *image, MesoError *error)
 {
-    for (uint32_t y = 0; y < image->height; y += WINDOW_SIZE)
-        for (uint32_t x = 0; x < image->width; x += WINDOW_SIZE)
+    MesoStatus status = MESO_OK;
+    for (uint32_t y = 0; !status && y < image->height; y += WINDOW_SIZE)
+        for (uint32_t x = 0; !status && x < image->width; x += WINDOW_SIZE) {
             draw_window(r, image, (MesoWindow){x, y, smaller(image->width - x, WINDOW_SIZE),
                                                smaller(image->height - y, WINDOW_SIZE)});
+            status = meso_gl_check(&r->gl, "drawing", error);
+        }
+    return status;
 }
 
 static void set_state(const MesoGl *gl)
@@ -337,25 +355,52 @@ static MesoStatus draw(Renderer *r, MesoImage *image, MesoArena *arena,
     set_state(&r->gl);
     measure(r);
     draw_shadow(r);
-    draw_windows(r, image);
-    return meso_gl_check(&r->gl, "drawing", error);
+    status = meso_gl_check(&r->gl, "shadow", error);
+    return status ? status : draw_windows(r, image, error);
+}
+
+MesoStatus meso_render_memory(const MesoRenderOptions *options, size_t *image_bytes, size_t *least_bytes,
+                              MesoError *error)
+{
+    static const size_t arrays[] = {COLOR_BYTES, DEPTH_BYTES, NORMAL_BYTES, ALBEDO_BYTES, ID_BYTES, ID_BYTES};
+    MesoStatus status = check_options(options, error);
+    if (status)
+        return status;
+    uint32_t margin;
+    MesoTargets plan = plan_targets(options, &margin);
+    *least_bytes = meso_targets_bytes(plan.width, plan.height, plan.sample_side, plan.shadow_size);
+    *image_bytes = 0;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        *image_bytes += array_bytes(options, arrays[i]);
+    return MESO_OK;
+}
+
+MesoStatus meso_render_placed(MesoImage *image, MesoArena *arena, MesoGlContext *context,
+                              const MesoStructure *structure, const MesoRenderOptions *options,
+                              MesoError *error)
+{
+    Renderer r = {.options = options};
+    MesoStatus status = meso_view_build(&r.view, &options->camera, error);
+    if (!status)
+        status = meso_gl_load(&r.gl, context, error);
+    if (status)
+        return status;
+    status = draw(&r, image, arena, structure, error);
+    release(&r);
+    return status;
 }
 
 MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *context,
                        const MesoStructure *structure, const MesoRenderOptions *options,
                        MesoError *error)
 {
-    Renderer r = {.options = options};
-    MesoStatus status = check_options(options, error);
-    if (!status)
-        status = meso_view_build(&r.view, &options->camera, error);
-    if (!status)
-        status = meso_gl_load(&r.gl, context, error);
-    if (!status)
-        status = allocate(image, arena, options, error);
+    size_t bytes, least;
+    MesoStatus status = meso_render_memory(options, &bytes, &least, error);
     if (status)
         return status;
-    status = draw(&r, image, arena, structure, error);
-    release(&r);
-    return status;
+    unsigned char *memory = MESO_NEW(arena, unsigned char, bytes, error);
+    if (!memory)
+        return MESO_ERR_MEMORY;
+    meso_image_place(image, memory, options);
+    return meso_render_placed(image, arena, context, structure, options, error);
 }

@@ -2,6 +2,8 @@
 #ifndef MESO_RENDER_H
 #define MESO_RENDER_H
 
+#include <stddef.h>
+
 #include "libcore/render/context.h"
 #include "libcore/shell/structure.h"
 
@@ -49,5 +51,18 @@ typedef struct MesoRenderOptions {
 MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *context,
                        const MesoStructure *structure, const MesoRenderOptions *options,
                        MesoError *error);
+
+/*
+ * The parts of meso_render(), for an image whose memory is not an arena's.
+ * First: checks `options`, and says how many bytes the image takes, and how
+ * many at the least GL takes to draw it. Then the image's arrays get their
+ * places in `memory`, aligned to 64, and are drawn.
+ */
+MesoStatus meso_render_memory(const MesoRenderOptions *options, size_t *image_bytes, size_t *least_bytes,
+                              MesoError *error);
+void meso_image_place(MesoImage *image, void *memory, const MesoRenderOptions *options);
+MesoStatus meso_render_placed(MesoImage *image, MesoArena *arena, MesoGlContext *context,
+                              const MesoStructure *structure, const MesoRenderOptions *options,
+                              MesoError *error);
 
 #endif

@@ -98,6 +98,15 @@ MesoStatus meso_targets_init(MesoTargets *targets, const MesoGl *gl, uint32_t wi
     return status;
 }
 
+size_t meso_targets_bytes(uint32_t width, uint32_t height, uint32_t sample_side, uint32_t shadow_size)
+{
+    /* normal and albedo of 8, depth 4, ids 8, z 4; openness twice 2; color 16 */
+    size_t pixel_bytes = 2 * 8 + 4 + 8 + 4 + 2 * 2 + 16;
+    if (sample_side > 1)
+        pixel_bytes += (size_t)sample_side * sample_side * (16 + 4);
+    return pixel_bytes * width * height + (size_t)4 * shadow_size * shadow_size;
+}
+
 void meso_targets_release(MesoTargets *targets)
 {
     const MesoGl *gl = targets->gl;

@@ -2,6 +2,8 @@
 #ifndef MESO_TARGETS_H
 #define MESO_TARGETS_H
 
+#include <stddef.h>
+
 #include "libcore/render/gl_functions.h"
 
 /* What the surface pass writes, in the order of its outputs. */
@@ -30,6 +32,9 @@ typedef struct MesoTargets {
  */
 MesoStatus meso_targets_init(MesoTargets *targets, const MesoGl *gl, uint32_t width, uint32_t height,
                              uint32_t sample_side, uint32_t shadow_size, MesoError *error);
+
+/* What their textures take. */
+size_t meso_targets_bytes(uint32_t width, uint32_t height, uint32_t sample_side, uint32_t shadow_size);
 void meso_targets_release(MesoTargets *targets);
 
 /* Binds, sets the viewport, and clears: to nothing seen, infinitely far. */

@@ -1,0 +1,26 @@
+/* A picture drawn in a process of its own, for drivers that die where memory is short. */
+#ifndef MESO_APART_H
+#define MESO_APART_H
+
+#include "libcore/render/render.h"
+
+typedef struct MesoPicture {
+    MesoImage image;
+    char renderer[128];         /* GL_RENDERER */
+    double context_made;        /* when drawing began: seconds of the monotonic clock */
+    size_t size;                /* of the whole, which is shared memory */
+} MesoPicture;
+
+/*
+ * meso_render() in a child of this process (isolate.h), with a context that
+ * meso_gl_context_init() makes there: this process opens no GL, and keeps its
+ * environment. `arena` is scratch. What they return; also MESO_ERR_MEMORY
+ * where memory is short before drawing or at the driver's death, and
+ * MESO_ERR_INTERNAL where it dies otherwise.
+ */
+MesoStatus meso_picture_init(MesoPicture **picture, MesoArena *arena, const char *maker,
+                             uint32_t thread_count, const MesoStructure *structure,
+                             const MesoRenderOptions *options, MesoError *error);
+void meso_picture_release(MesoPicture *picture);
+
+#endif
