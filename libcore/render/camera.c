@@ -6,6 +6,8 @@
  */
 #include "libcore/render/projection.h"
 
+#include <float.h>
+
 /* Share of the picture that stays empty at each side. */
 static const float MARGIN = 0.05f;
 
@@ -16,7 +18,7 @@ static const MesoVec3 TOWARDS_EYE = {0.5f, 0.45f, 1.0f};
 typedef struct Frame {
     MesoVec3 right, up, back;
     float tan_x, tan_y;
-    MesoVec3 world_up;
+    MesoVec3 world_up, anchor;                          /* what follows is relative to the anchor */
     float left_most, right_most, low_most, high_most;   /* A and B of both axes */
     float deepest, nearest;
 } Frame;
@@ -32,7 +34,8 @@ static MesoVec3 towards_eye(MesoVec3 up)
     return meso_vec3_mad(side, TOWARDS_EYE.z, z);
 }
 
-static Frame begin_frame(MesoVec3 up, float fov_degrees, float aspect)
+/* `low` and `high`: the box that the object lies in, to be precise where it is far away. */
+static Frame begin_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
 {
     MesoCamera camera = {towards_eye(up), {0, 0, 0}, up, fov_degrees};
     MesoView view;
@@ -44,14 +47,15 @@ static Frame begin_frame(MesoVec3 up, float fov_degrees, float aspect)
     float t = view.tan_half_fov * (1 - 2 * MARGIN);
     float none = -INFINITY;
     return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t, up,
-                   none, none, none, none, INFINITY, none};
+                   meso_box_anchor(low, high), none, none, none, none, INFINITY, none};
 }
 
 static void add_ball(Frame *frame, MesoVec3 center, float radius)
 {
-    float x = meso_vec3_dot(center, frame->right);
-    float y = meso_vec3_dot(center, frame->up);
-    float z = meso_vec3_dot(center, frame->back);
+    MesoVec3 place = meso_vec3_sub(center, frame->anchor);
+    float x = meso_vec3_dot(place, frame->right);
+    float y = meso_vec3_dot(place, frame->up);
+    float z = meso_vec3_dot(place, frame->back);
     if (!isfinite(x + y + z + radius))
         return;
     float pad_x = radius * sqrtf(1 + frame->tan_x * frame->tan_x);
@@ -74,18 +78,21 @@ static MesoCamera end_frame(const Frame *frame, float fov_degrees)
                   0.5f * (frame->high_most + frame->low_most) / frame->tan_y);
         middle = 0.5f * (frame->nearest + frame->deepest);
         /* What is smaller than the rounding of its place has no size to fit. */
-        float least = 1e-5f * (fabsf(x) + fabsf(y) + fabsf(middle));
+        MesoVec3 far = frame->anchor;
+        float least = 1e-5f * (fabsf(x) + fabsf(y) + fabsf(middle))
+                      + FLT_EPSILON * (fabsf(far.x) + fabsf(far.y) + fabsf(far.z));
         if (!(z - frame->nearest > least))
             z = frame->nearest + fmaxf(100 * least, 1e-3f);
     }
     MesoVec3 axis = meso_vec3_mad(meso_vec3_scale(frame->right, x), y, frame->up);
-    return (MesoCamera){meso_vec3_mad(axis, z, frame->back), meso_vec3_mad(axis, middle, frame->back),
+    MesoVec3 eye = meso_vec3_mad(axis, z, frame->back), target = meso_vec3_mad(axis, middle, frame->back);
+    return (MesoCamera){meso_vec3_add(frame->anchor, eye), meso_vec3_add(frame->anchor, target),
                         frame->world_up, fov_degrees};
 }
 
 MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
 {
-    Frame frame = begin_frame(up, fov_degrees, aspect);
+    Frame frame = begin_frame(low, high, up, fov_degrees, aspect);
     for (uint32_t i = 0; i < 8; i++)
         add_ball(&frame, meso_box_corner(low, high, i), 0);
     return end_frame(&frame, fov_degrees);
@@ -138,7 +145,9 @@ static void add_inner(Frame *frame, const MesoStructure *structure, uint32_t slo
 MesoCamera meso_camera_frame_structure(const MesoStructure *structure, MesoVec3 up, float fov_degrees,
                                        float aspect)
 {
-    Frame frame = begin_frame(up, fov_degrees, aspect);
+    MesoVec3 low, high;
+    meso_structure_bounds(structure, &low, &high);
+    Frame frame = begin_frame(low, high, up, fov_degrees, aspect);
     for (uint32_t k = 0; k < structure->kind_count; k++)
         add_kind(&frame, structure, &structure->kinds[k]);
     for (uint32_t i = 0; i < structure->inner_count; i++)

@@ -43,6 +43,47 @@ static void test_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, uint32_t width,
     CHECK(meso_vec3_dot(meso_vec3_sub(camera.eye, camera.target), up) > 0);
 }
 
+/* Far away the camera is as near to the box as at the origin, within the rounding of that place. */
+static void test_far(MesoVec3 place)
+{
+    MesoVec3 low = {-1, -1, -1}, high = {1, 1, 1}, up = {0, 1, 0};
+    MesoVec3 far_low = meso_vec3_add(low, place), far_high = meso_vec3_add(high, place);
+    MesoVec3 anchor = meso_box_anchor(far_low, far_high);
+    MesoCamera near = meso_camera_frame(low, high, up, 30, 1.5f);
+    MesoCamera far = meso_camera_frame(far_low, far_high, up, 30, 1.5f);
+    CHECK(meso_vec3_length(meso_vec3_sub(meso_vec3_sub(far.eye, place), near.eye)) < 0.07f);
+    CHECK(meso_vec3_length(meso_vec3_sub(meso_vec3_sub(far.target, place), near.target)) < 0.07f);
+
+    MesoView view;
+    CHECK(meso_view_build(&view, &far, NULL) == MESO_OK);
+    view.anchor = anchor;
+    MesoMatrix m = meso_view_clip_from_world(&view, 0.1f, 300, 200, (MesoWindow){0, 0, 300, 200});
+    for (uint32_t i = 0; i < 8; i++) {
+        MesoVec3 corner = meso_box_corner(far_low, far_high, i);
+        MesoVec3 to_corner = meso_vec3_sub(corner, far.eye);
+        MesoVec2 p = project(&m, meso_vec3_sub(corner, anchor));
+        float depth = meso_vec3_dot(to_corner, view.forward) * view.tan_half_fov;
+        CHECK(fabsf(p.x - meso_vec3_dot(to_corner, view.right) / (1.5f * depth)) < 1e-5f);
+        CHECK(fabsf(p.y + meso_vec3_dot(to_corner, view.up) / depth) < 1e-5f);
+        CHECK(fabsf(p.x) < 0.95f && fabsf(p.y) < 0.95f);
+    }
+}
+
+static void test_anchor(void)
+{
+    MesoVec3 one = {1, 1, 1}, low = {-6, 0, 1e6f}, far = {1e6f, -1e6f, 3e6f};
+    MesoVec3 a = meso_box_anchor(low, meso_vec3_add(low, one));
+    CHECK(a.x == 0 && a.y == 0 && fabsf(a.z - 1e6f) <= 16);
+    a = meso_box_anchor(far, meso_vec3_add(far, one));
+    MesoVec3 back = meso_vec3_add(a, meso_vec3_sub(far, a));
+    CHECK(back.x == far.x && back.y == far.y && back.z == far.z);
+    const MesoVec3 ends[] = {{INFINITY, 0, 0}, {3e38f, 3e38f, 3e38f}, {1e38f, 0, 0}, {NAN, 0, 0}, {0, 0, 0}};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        a = meso_box_anchor(meso_vec3_scale(ends[i], -1), ends[i]);
+        CHECK(a.x == 0 && a.y == 0 && a.z == 0);
+    }
+}
+
 static void test_degenerate(void)
 {
     MesoView view;
@@ -96,6 +137,9 @@ int main(void)
     test_frame((MesoVec3){10, 0, 5}, (MesoVec3){12, 9, 6}, y, 720, 1280);
     test_frame((MesoVec3){0, 0, 0}, (MesoVec3){1, 1e-3f, 1}, y, 500, 500);
     test_frame((MesoVec3){-3, -2, 0}, (MesoVec3){1, 1, 2}, z, 1280, 720);
+    test_far((MesoVec3){1e6f, 0, 0});
+    test_far((MesoVec3){-3e5f, 1e6f, 5e5f});
+    test_anchor();
     test_degenerate();
     test_windows();
     test_light();

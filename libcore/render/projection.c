@@ -29,10 +29,28 @@ MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *
                          (double)camera->fov_degrees);
 
     view->eye = camera->eye;
+    view->anchor = (MesoVec3){0, 0, 0};
     view->forward = meso_vec3_scale(forward, 1 / distance);
     build_basis(view->forward, camera->up, &view->right, &view->up);
     view->tan_half_fov = tanf(camera->fov_degrees * (float)(3.14159265358979323846 / 360));
     return MESO_OK;
+}
+
+/* The multiple of a power of two, `step`, next to `x`. */
+static float coarse(float x, float step)
+{
+    return step * rintf(x / step);
+}
+
+MesoVec3 meso_box_anchor(MesoVec3 low, MesoVec3 high)
+{
+    int exponent;
+    float size = meso_vec3_length(meso_vec3_sub(high, low));
+    (void)frexpf(size, &exponent);
+    float step = ldexpf(1, exponent + 4);   /* 16 to 32 sizes */
+    MesoVec3 middle = meso_vec3_lerp(low, high, 0.5f);
+    MesoVec3 anchor = {coarse(middle.x, step), coarse(middle.y, step), coarse(middle.z, step)};
+    return isfinite(size) && meso_vec3_finite(anchor) ? anchor : (MesoVec3){0, 0, 0};
 }
 
 static void set_row(MesoMatrix *matrix, uint32_t row, MesoVec3 axis, float offset)
@@ -57,11 +75,12 @@ MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uin
                                meso_vec3_scale(view->forward, offset_x));
     MesoVec3 y = meso_vec3_add(meso_vec3_scale(view->up, focal_y * scale_y),
                                meso_vec3_scale(view->forward, offset_y));
+    MesoVec3 eye = meso_vec3_sub(view->eye, view->anchor);
     MesoMatrix matrix;
-    set_row(&matrix, 0, x, -meso_vec3_dot(x, view->eye));
-    set_row(&matrix, 1, y, -meso_vec3_dot(y, view->eye));
+    set_row(&matrix, 0, x, -meso_vec3_dot(x, eye));
+    set_row(&matrix, 1, y, -meso_vec3_dot(y, eye));
     set_row(&matrix, 2, (MesoVec3){0, 0, 0}, near_depth);
-    set_row(&matrix, 3, view->forward, -meso_vec3_dot(view->forward, view->eye));
+    set_row(&matrix, 3, view->forward, -meso_vec3_dot(view->forward, eye));
     return matrix;
 }
 

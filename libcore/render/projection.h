@@ -14,9 +14,13 @@ typedef struct MesoMatrix {
     float m[16];
 } MesoMatrix;
 
-/* A camera's orthonormal basis; `forward` runs from the eye into the picture. */
+/*
+ * A camera's orthonormal basis; `forward` runs from the eye into the picture.
+ * What is drawn is given relative to `anchor`: single precision is finest there.
+ */
 typedef struct MesoView {
     MesoVec3 eye, right, up, forward;
+    MesoVec3 anchor;        /* in the world, as the eye; 0 unless set */
     float tan_half_fov;     /* of the vertical field of view */
 } MesoView;
 
@@ -32,7 +36,15 @@ typedef struct MesoWindow {
  */
 MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *error);
 
-/* World to clip space of `window` in an image of `width` x `height`; row 0 of GL is the top. */
+/*
+ * Where to anchor what lies in the box, so that differences from there are
+ * exact: on each axis at the world's origin, or, where the box's middle lies
+ * more than eight of its diagonals from that, at a coarse step near the
+ * middle. At the origin for an empty box.
+ */
+MesoVec3 meso_box_anchor(MesoVec3 low, MesoVec3 high);
+
+/* Relative to the anchor, to clip space of `window` in an image of `width` x `height`; row 0 of GL is the top. */
 MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uint32_t width,
                                      uint32_t height, MesoWindow window);
 

@@ -111,9 +111,10 @@ static void measure(Renderer *r)
 {
     const MesoScene *scene = &r->scene;
     float nearest = INFINITY, farthest = 0;
+    MesoVec3 eye = meso_vec3_sub(r->view.eye, r->view.anchor);
     for (uint32_t i = 0; i < 8; i++) {
         MesoVec3 corner = meso_box_corner(scene->low, scene->high, i);
-        float depth = meso_vec3_dot(meso_vec3_sub(corner, r->view.eye), r->view.forward);
+        float depth = meso_vec3_dot(meso_vec3_sub(corner, eye), r->view.forward);
         nearest = fminf(nearest, depth);
         farthest = fmaxf(farthest, depth);
     }
@@ -222,9 +223,9 @@ static void draw_light(const Renderer *r, MesoWindow window)
     const MesoGl *gl = &r->gl;
     const MesoTargets *targets = &r->targets;
     MesoMatrix light = r->light;
+    MesoVec3 eye = meso_vec3_sub(r->view.eye, r->view.anchor);
     for (uint32_t row = 0; row < 4; row++)
-        light.m[12 + row] += light.m[row] * r->view.eye.x + light.m[4 + row] * r->view.eye.y
-                             + light.m[8 + row] * r->view.eye.z;
+        light.m[12 + row] += light.m[row] * eye.x + light.m[4 + row] * eye.y + light.m[8 + row] * eye.z;
 
     set_rays(r, r->shade, window);
     gl->ProgramUniformMatrix4fv(r->shade, LIGHT_FROM_EYE, 1, GL_FALSE, light.m);
@@ -385,6 +386,9 @@ MesoStatus meso_render_placed(MesoImage *image, MesoArena *arena, MesoGlContext 
         status = meso_gl_load(&r.gl, context, error);
     if (status)
         return status;
+    MesoVec3 low, high;
+    meso_structure_bounds(structure, &low, &high);
+    r.view.anchor = meso_box_anchor(low, high);
     status = draw(&r, image, arena, structure, error);
     release(&r);
     return status;

@@ -178,6 +178,35 @@ static void test_windows(MesoArena *arena)
     }
 }
 
+/* A million units away, where floats are a sixteenth apart, the picture of what fits those is the same. */
+static void test_far(MesoArena *arena, const MesoImage *expected)
+{
+    const MesoVec3 place = {1e6f + 8, -1e6f, 5e5f};
+    Bar bar;
+    make_bar(&bar);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 4; k++)
+            bar.instances[i].p[k] = meso_vec3_add(bar.instances[i].p[k], place);
+    MesoRenderOptions options = look(1);
+    options.camera.eye = meso_vec3_add(options.camera.eye, place);
+    options.camera.target = meso_vec3_add(options.camera.target, place);
+    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    size_t other = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+        other += image.slot[i] != expected->slot[i];
+        if (image.slot[i] && image.slot[i] == expected->slot[i])
+            CHECK(fabsf(image.depth[i] - expected->depth[i]) < 1e-3f);
+    }
+    CHECK(other < 10);
+
+    options.camera = meso_camera_frame_structure(&bar.structure, (MesoVec3){0, 1, 0}, 30, 16 / 9.0f);
+    image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    size_t covered = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        covered += image.slot[i] != 0;
+    CHECK(covered > 2000);      /* the bar reaches over most of the width */
+}
+
 static void test_nothing(MesoArena *arena)
 {
     Bar bar;
@@ -250,6 +279,7 @@ int main(void)
     test_makers(&arena, &bar.structure, &four);
     test_detail(&arena);
     test_windows(&arena);
+    test_far(&arena, &one);
     test_nothing(&arena);
     test_refusals(&arena);
     meso_arena_release(&arena);

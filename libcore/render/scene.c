@@ -241,7 +241,7 @@ static uint32_t add_triangles(uint32_t *indices, const MesoMeshFace *face)
     return 6;
 }
 
-static MesoStatus upload_inners(MesoScene *scene, MesoArena *arena, MesoError *error)
+static MesoStatus upload_inners(MesoScene *scene, MesoArena *arena, MesoVec3 anchor, MesoError *error)
 {
     const MesoStructure *structure = scene->structure;
     MesoTessellation mesh;
@@ -272,7 +272,8 @@ static MesoStatus upload_inners(MesoScene *scene, MesoArena *arena, MesoError *e
         MesoMeshPart part = meso_tessellation_part(&mesh, p);
         uint32_t index_begin = index;
         for (; vertex < mesh.vertex_begin[p + 1] - mesh.vertex_begin[begin]; vertex++)
-            vertices[vertex] = (InnerVertex){points[vertex].position, points[vertex].normal, part.slot};
+            vertices[vertex] = (InnerVertex){meso_vec3_sub(points[vertex].position, anchor),
+                                             points[vertex].normal, part.slot};
         for (; face < mesh.face_begin[p + 1] - mesh.face_begin[begin]; face++)
             index += add_triangles(&indices[index], &faces[face]);
         add_inner_draw(scene, &part, index_begin, index);
@@ -283,16 +284,39 @@ static MesoStatus upload_inners(MesoScene *scene, MesoArena *arena, MesoError *e
     return meso_gl_check(scene->gl, "upload of the inner meshes", error);
 }
 
+static bool is_zero(MesoVec3 v)
+{
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+/* The instances relative to `anchor`; NULL where memory is out. */
+static const MesoSweepInstance *place_instances(const MesoStructure *structure, MesoVec3 anchor,
+                                                MesoArena *arena, MesoError *error)
+{
+    if (is_zero(anchor) || structure->instance_count == 0)
+        return structure->instances;
+    MesoSweepInstance *placed = MESO_NEW(arena, MesoSweepInstance, structure->instance_count, error);
+    for (uint32_t i = 0; placed && i < structure->instance_count; i++) {
+        placed[i] = structure->instances[i];
+        for (uint32_t k = 0; k < 4; k++)
+            placed[i].p[k] = meso_vec3_sub(placed[i].p[k], anchor);
+    }
+    return placed;
+}
+
 MesoStatus meso_scene_init(MesoScene *scene, MesoArena *arena, const MesoGl *gl,
                            const MesoStructure *structure, const MesoView *view, uint32_t height,
                            float tolerance_pixels, MesoError *error)
 {
     *scene = (MesoScene){.gl = gl, .structure = structure};
     meso_structure_bounds(structure, &scene->low, &scene->high);
+    scene->low = meso_vec3_sub(scene->low, view->anchor);
+    scene->high = meso_vec3_sub(scene->high, view->anchor);
+    scene->placed = place_instances(structure, view->anchor, arena, error);
     scene->sweeps = MESO_NEW(arena, MesoDrawSweep, structure->kind_count, error);
     scene->inners = MESO_NEW(arena, MesoDrawInner, structure->inner_count, error);
     scene->selected = MESO_NEW(arena, MesoSweepInstance, structure->instance_count, error);
-    if (!scene->sweeps || !scene->inners || !scene->selected)
+    if ((structure->instance_count && !scene->placed) || !scene->sweeps || !scene->inners || !scene->selected)
         return MESO_ERR_MEMORY;
 
     MesoArenaMark mark = meso_arena_mark(arena);
@@ -301,7 +325,7 @@ MesoStatus meso_scene_init(MesoScene *scene, MesoArena *arena, const MesoGl *gl,
     if (!status && plan.index_count && structure->instance_count)
         status = upload_sweeps(scene, arena, &plan, error);
     if (!status && structure->inner_count)
-        status = upload_inners(scene, arena, error);
+        status = upload_inners(scene, arena, view->anchor, error);
     meso_arena_rewind(arena, mark);
     if (status)
         meso_scene_release(scene);
@@ -391,7 +415,7 @@ static bool may_show(const Plane planes[5], const MesoSweepInstance *instance, f
 void meso_scene_select(MesoScene *scene, const MesoMatrix *clip_from_world)
 {
     const MesoStructure *structure = scene->structure;
-    const MesoSweepInstance *shown = structure->instances;
+    const MesoSweepInstance *shown = scene->placed;
     uint32_t count = structure->instance_count;
     if (scene->sweep_count == 0)
         return;
@@ -405,7 +429,7 @@ void meso_scene_select(MesoScene *scene, const MesoMatrix *clip_from_world)
             const MesoSweepKind *kind = &structure->kinds[draw->kind];
             draw->instance_begin = count;
             for (uint32_t i = 0; i < kind->instance_count; i++) {
-                const MesoSweepInstance *instance = &structure->instances[kind->instance_begin + i];
+                const MesoSweepInstance *instance = &scene->placed[kind->instance_begin + i];
                 if (may_show(planes, instance, draw->reach))
                     scene->selected[count++] = *instance;
             }
@@ -443,7 +467,7 @@ static void set_view(const MesoScene *scene, GLuint program, const MesoMatrix *c
     gl->ProgramUniformMatrix4fv(program, CLIP_FROM_WORLD, 1, GL_FALSE, clip_from_world->m);
     if (view)
         gl->ProgramUniform4f(program, DEPTH_AXIS, view->forward.x, view->forward.y, view->forward.z,
-                             -meso_vec3_dot(view->forward, view->eye));
+                             -meso_vec3_dot(view->forward, meso_vec3_sub(view->eye, view->anchor)));
 }
 
 static const void *index_offset(uint32_t index)

@@ -25,7 +25,8 @@ typedef struct MesoScene {
     uint32_t sweep_count, inner_count;
     MesoDrawSweep *sweeps;
     MesoDrawInner *inners;
-    MesoVec3 low, high;                 /* bounds */
+    MesoVec3 low, high;                 /* bounds, relative to the view's anchor as all in GL */
+    const MesoSweepInstance *placed;    /* [instance_count] of the structure, likewise */
     GLuint pattern_vertices, pattern_indices, instances, sweep_array;
     MesoSweepInstance *selected;        /* [instance_count] scratch of meso_scene_select() */
     GLuint inner_vertices, inner_indices, inner_array;
