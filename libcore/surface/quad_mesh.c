@@ -132,7 +132,7 @@ static void append_vertex_normals(MesoQuadMesh *mesh, uint32_t begin, uint32_t *
         if (!lacking[v])
             continue;
         mesh->normals[next] = (MesoVec3){0, 0, 1};
-        unit(sums[v], &mesh->normals[next]);
+        mesh->lost_normals += !unit(sums[v], &mesh->normals[next]);
         lacking[v] = next++;
     }
     for (size_t h = 0; h < 4 * (size_t)mesh->face_count; h++)
@@ -152,6 +152,7 @@ static MesoStatus build_normals(MesoQuadMesh *mesh, MesoArena *arena, uint32_t n
         return meso_fail(error, MESO_ERR_INPUT, "mesh has more than %u normals", MESO_NO_INDEX - 1);
 
     mesh->normal_count = normal_count + lacking_count;
+    mesh->given_normals = normal_count;
     for (uint32_t n = 0; n < normal_count; n++) {
         mesh->normals[n] = (MesoVec3){0, 0, 1};
         unit(difference(normals[n], (MesoVec3){0}), &mesh->normals[n]);

@@ -17,6 +17,8 @@
 typedef struct MesoQuadMesh {
     uint32_t vertex_count;
     uint32_t normal_count;
+    uint32_t given_normals;     /* of these, the first ones; the others are vertex normals */
+    uint32_t lost_normals;      /* vertex normals that vanish, and are +Z */
     uint32_t face_count;
     MesoVec3 *positions;        /* [vertex_count] */
     MesoVec3 *normals;          /* [normal_count] unit length */
