@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cmd/surface_judge.h"
 #include "cmd/tool.h"
 #include "formats/mesh_file.h"
 #include "formats/model_file.h"
@@ -32,6 +33,7 @@ typedef struct MapArguments {
     } given;
     const char *kind;           /* --to */
     const char *mesh_path;
+    bool strict;
     uint32_t position_bits, normal_bits, speed;
     bool draco_given[3];        /* of these three */
 } MapArguments;
@@ -87,6 +89,8 @@ static MesoStatus check_options(const MapArguments *a, const OutputKind *kind, M
         return meso_fail(error, MESO_ERR_USAGE, "2 operands: give TILES SURFACE SLOTS, or MODEL alone");
     if (a->mesh_path && a->tool.operand_count == 1)
         return meso_fail(error, MESO_ERR_USAGE, "--mesh-path is for TILES; a model holds its meshes");
+    if (a->strict && a->tool.operand_count == 1)
+        return meso_fail(error, MESO_ERR_USAGE, "--strict is for SURFACE; a model was made of one already");
     return MESO_OK;
 }
 
@@ -207,9 +211,10 @@ static void warn_of_other_inputs(const MesoTool *tool, const MesoSlotsFile *slot
                       surface ? "" : "the surface");
 }
 
-static MesoStatus bind_slots(MesoTool *tool, MesoModel *model, MesoSlotsFile *slots, const Inputs *inputs,
+static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *slots, const Inputs *inputs,
                              MesoError *error)
 {
+    MesoTool *tool = &a->tool;
     MesoSlotGraph graph;
     if (slots->assignment.slot_count != model->surface.face_count)
         return meso_fail(error, MESO_ERR_INPUT,
@@ -227,7 +232,9 @@ static MesoStatus bind_slots(MesoTool *tool, MesoModel *model, MesoSlotsFile *sl
     if (meso_assignment_check(&model->assignment, &model->tile_set, &graph, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
     warn_of_other_inputs(tool, slots, inputs);
-    return MESO_OK;
+    const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = &graph,
+                                    .strict = a->strict};
+    return meso_tool_judge_surface(tool, &judge);
 }
 
 static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, MesoError *error)
@@ -246,7 +253,7 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     if (status == MESO_OK)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
     if (status == MESO_OK)
-        status = bind_slots(tool, model, &slots, inputs, error);
+        status = bind_slots(a, model, &slots, inputs, error);
     if (status == MESO_OK)
         status = read_inners(a, model, error);
     model->options = a->options;
@@ -393,6 +400,7 @@ int main(int argc, char **argv)
          &a.options.section_step, &a.given.section_step, 1e-4, 1, 0},
         {MESO_OPTION_FOLDER | MESO_OPTION_OUTWARD, 0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
          &a.mesh_path, 0, 0, 0, 0},
+        MESO_STRICT_OPTION(a.strict),
         {MESO_OPTION_GROUP, 0, "Draco (.drc, .glb)", 0, 0, 0, 0, 0, 0, 0},
         {MESO_OPTION_COUNT, 0, "position-bits", "N", "precision of positions (default 14)",
          &a.position_bits, &a.draco_given[0], 4, 24, 0},

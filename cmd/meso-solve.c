@@ -9,7 +9,7 @@
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
-    bool attempts_given;
+    bool attempts_given, strict;
     const char *report;
     MesoOrientArguments orient;
     MesoControlArguments control;
@@ -78,10 +78,11 @@ static MesoStatus check_arguments(Arguments *a)
 
 static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
+    const MesoSurfaceWish wish = {.path = a->tool.operands[1], .orient = a->orient, .set = &p->set,
+                                  .groups = a->control.constraints != NULL, .strict = a->strict};
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
-        status = meso_tool_read_surface(&a->tool, a->tool.operands[1], &a->orient, a->control.constraints != NULL,
-                                        &p->surface);
+        status = meso_tool_read_surface(&a->tool, &wish, &p->surface);
     if (!status)
         status = meso_variant_set_build(&p->variants, &a->tool.arena, &p->set, &a->tool.error);
     if (!status)
@@ -219,6 +220,7 @@ int main(int argc, char **argv)
         {MESO_OPTION_COUNT, 0, "attempts", "N", "attempts of the search (default 20)",
          &a.attempts, &a.attempts_given, 1, 1e9, 0},
         MESO_ORIENT_OPTION(a.orient),
+        MESO_STRICT_OPTION(a.strict),
         {MESO_OPTION_OUTPUT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
          &a.report, 0, 0, 0, 0},
         MESO_ENGINE_OPTIONS(a.engine),

@@ -12,7 +12,7 @@
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts, until_solved;
-    bool until_given;
+    bool until_given, strict;
     const char *surface;
     MesoOrientArguments orient;
 } Arguments;
@@ -37,6 +37,8 @@ static MesoStatus check_arguments(Arguments *a)
         return meso_fail(error, MESO_ERR_USAGE, "neither a report nor --surface is given");
     if (a->until_given && !a->surface)
         return meso_fail(error, MESO_ERR_USAGE, "--until-solved needs --surface");
+    if (a->strict && !a->surface)
+        return meso_fail(error, MESO_ERR_USAGE, "--strict is about a surface; it needs --surface");
     if (a->orient.given && !a->surface)
         return meso_fail(error, MESO_ERR_USAGE, "--orient needs --surface; a report is of slots as they were oriented");
     if (!a->tool.output && a->tool.json && (*a->tool.json == 0 || strcmp(a->tool.json, "-") == 0))
@@ -143,7 +145,8 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
     MesoSolveSurface surface;
     MesoVariantSet variants;
     MesoSolveResult result;
-    MesoStatus status = meso_tool_read_surface(tool, a->surface, &a->orient, false, &surface);
+    const MesoSurfaceWish wish = {.path = a->surface, .orient = a->orient, .set = set, .strict = a->strict};
+    MesoStatus status = meso_tool_read_surface(tool, &wish, &surface);
     for (uint32_t added = 0; !status; added++) {
         if (added == 1 && !a->until_given)
             return MESO_OK;
@@ -208,6 +211,7 @@ int main(int argc, char **argv)
         {MESO_OPTION_INPUT, 0, "surface", "FILE", "solve this surface for dead ends, without a report",
          &a.surface, 0, 0, 0, 0},
         MESO_ORIENT_OPTION(a.orient),
+        MESO_STRICT_OPTION(a.strict),
         {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts of each solve (default 20)",
          &a.attempts, 0, 1, 1e9, 0},
         {MESO_OPTION_COUNT, 0, "until-solved", "N", "add up to N tiles, until the surface is solved",

@@ -110,25 +110,33 @@ static MesoStatus orient(Orienting *o)
     return status;
 }
 
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const MesoOrientArguments *how, bool groups,
-                                  MesoSolveSurface *surface)
+static MesoStatus judge(MesoTool *tool, const MesoSurfaceWish *wish, const MesoSolveSurface *surface)
+{
+    MesoSurfaceJudge judge = {.path = wish->path, .mesh = &surface->mesh, .graph = &surface->graph,
+                              .set = wish->set, .strict = wish->strict};
+    return meso_tool_judge_surface(tool, &judge);
+}
+
+MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, MesoSolveSurface *surface)
 {
     MesoInput input;
     MesoError *error = &tool->error;
     *surface = (MesoSolveSurface){0};
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "surface");
+    MesoStatus status = meso_tool_open_input(tool, &input, wish->path, "surface");
     if (status)
         return status;
     memcpy(surface->hash, input.hash, sizeof surface->hash);
-    status = groups ? meso_surface_read_groups(&surface->mesh, &surface->groups, &tool->arena, &input, error)
-                    : meso_surface_read(&surface->mesh, &tool->arena, &input, error);
+    status = wish->groups ? meso_surface_read_groups(&surface->mesh, &surface->groups, &tool->arena, &input, error)
+                          : meso_surface_read(&surface->mesh, &tool->arena, &input, error);
     if (!status) {
         status = meso_slot_graph_build(&surface->graph, &tool->arena, &surface->mesh, error);
         if (status == MESO_ERR_INPUT)
-            meso_fail_prefix(error, path);
+            meso_fail_prefix(error, wish->path);
     }
-    if (!status && how->given) {
-        Orienting o = {.tool = tool, .orient = how->how, .input = &input, .surface = surface};
+    if (!status)
+        status = judge(tool, wish, surface);
+    if (!status && wish->orient.given) {
+        Orienting o = {.tool = tool, .orient = wish->orient.how, .input = &input, .surface = surface};
         status = orient(&o);
     }
     meso_input_close(&input);

@@ -2,6 +2,7 @@
 #ifndef MESO_SOLVE_SURFACE_H
 #define MESO_SOLVE_SURFACE_H
 
+#include "cmd/surface_judge.h"
 #include "cmd/tool.h"
 #include "formats/surface_groups.h"
 #include "libcore/surface/slot_graph.h"
@@ -32,12 +33,19 @@ typedef struct MesoSolveSurface {
 /* Whether it is one of the above. MESO_ERR_USAGE. */
 MesoStatus meso_orient_check(const MesoOrientArguments *orient, MesoError *error);
 
+typedef struct MesoSurfaceWish {
+    const char *path;
+    MesoOrientArguments orient;
+    const MesoTileSet *set;     /* that will be grown on it */
+    bool groups;                /* wanted too */
+    bool strict;                /* see surface_judge.h */
+} MesoSurfaceWish;
+
 /*
- * Reads a surface, with its groups where `groups` says, notes it in the
- * provenance, builds its slot graph and orients it. Where `orient` is given, says in one line what remains of disagreement,
+ * Reads a surface, notes it in the provenance, builds its slot graph, judges
+ * it and orients it. Where `orient` is given, says in one line what remains of disagreement,
  * and puts it in the report as "orientation".
  */
-MesoStatus meso_tool_read_surface(MesoTool *tool, const char *path, const MesoOrientArguments *orient, bool groups,
-                                  MesoSolveSurface *surface);
+MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, MesoSolveSurface *surface);
 
 #endif

@@ -78,6 +78,29 @@ MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t 
     return MESO_OK;
 }
 
+/* Neither the point nor the flip has a say in whether there is a wall. */
+static bool has_walls(const MesoShell *shell, uint32_t slot)
+{
+    MesoPort port;
+    bool all = true;
+    for (uint32_t side = 0; side < 4 && all; side++)
+        all = meso_shell_wall_port(shell, slot, side, (MesoVec2){0, 0}, false, &port, NULL) == MESO_OK;
+    return all;
+}
+
+uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint32_t room)
+{
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < shell->mesh->face_count; slot++) {
+        if (has_walls(shell, slot))
+            continue;
+        if (count < room)
+            slots[count] = slot;
+        count++;
+    }
+    return count;
+}
+
 MesoVec3 meso_shell_point(const MesoShell *shell, uint32_t slot, float x, float y, float h)
 {
     MesoVec3 p[4];

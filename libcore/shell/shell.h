@@ -40,6 +40,12 @@ MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t 
                                 MesoVec2 center, bool flipped, MesoPort *port, MesoError *error);
 
 /*
+ * Counts the slots with a side where meso_shell_wall_port() fails whatever is
+ * drawn there, and writes the first `room` of them, ascending, to `slots`. O(slots).
+ */
+uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint32_t room);
+
+/*
  * Port on the top or bottom (MESO_SIDE_TOP, MESO_SIDE_BOTTOM) of `slot` for a
  * tile under `transform`, whose label there is `flipped`. Drawings are seen from
  * outside the shell: on the top, x and y are the tile's; on the bottom x runs

@@ -120,7 +120,6 @@ typedef struct Winding {
     uint8_t *colour;        /* [slot_count] */
     uint32_t *queue;        /* [slot_count] */
     bool one_sided;         /* the piece at hand */
-    uint32_t clash[2];
 } Winding;
 
 /* Fills the piece of `start`; the queue holds its slots. Returns their number. */
@@ -139,9 +138,8 @@ static uint32_t colour_piece(Winding *w, uint32_t start)
             if (w->colour[twin / 4] == 2) {
                 w->colour[twin / 4] = wanted;
                 w->queue[count++] = twin / 4;
-            } else if (w->colour[twin / 4] != wanted && !w->one_sided) {
+            } else if (w->colour[twin / 4] != wanted) {
                 w->one_sided = true;
-                name_pair(w->clash, h, twin);
             }
         }
     return count;
@@ -159,14 +157,17 @@ static bool is_blurred(const MesoQuadMesh *mesh, uint32_t half_edge, uint32_t tw
 
 static void count_one_sided(MesoSurfaceFlaws *flaws, const Winding *w, uint32_t slot_count)
 {
-    if (flaws->one_sided_pieces++ == 0)
-        memcpy(flaws->one_sided_faces, w->clash, sizeof w->clash);
+    uint32_t first = MESO_NO_INDEX;
     for (uint32_t i = 0; i < slot_count; i++)
         for (uint32_t h = 4 * w->queue[i]; h < 4 * w->queue[i] + 4; h++) {
             uint32_t twin = w->graph->twin[h];
-            if (twin != MESO_NO_INDEX && h < twin && is_reversed(w->mesh, h, twin))
-                flaws->blurred_edges += is_blurred(w->mesh, h, twin);
+            if (twin == MESO_NO_INDEX || h > twin || !is_reversed(w->mesh, h, twin))
+                continue;
+            flaws->blurred_edges += is_blurred(w->mesh, h, twin);
+            first = h < first ? h : first;
         }
+    if (flaws->one_sided_pieces++ == 0)
+        name_pair(flaws->one_sided_faces, first, w->graph->twin[first]);
 }
 
 static MesoStatus find_windings(MesoSurfaceFlaws *flaws, MesoArena *scratch, const MesoQuadMesh *mesh,

@@ -16,7 +16,7 @@ typedef struct MesoSurfaceFlaws {
     uint32_t reversed_edges;    /* edges whose two faces are wound against each other */
     uint32_t reversed_faces[2];
     uint32_t one_sided_pieces;  /* those that no winding of their faces sets right, like a Moebius band */
-    uint32_t one_sided_faces[2];
+    uint32_t one_sided_faces[2];    /* at the first reversed edge of the first of them */
     uint32_t blurred_edges;     /* reversed edges of these whose normals are sums over faces of both windings */
     uint32_t flat_faces;        /* faces without area */
     uint32_t flat_face;
