@@ -1,5 +1,6 @@
 #include "formats/prototype_json.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -95,7 +96,8 @@ static bool reserve(Importer *importer, const json_t *root)
     const MesoTilesRoom room = {
         .interfaces = json_array_size(interfaces),
         .sections = meso_tiles_count_items(interfaces, "shapes"),
-        .csg = meso_tiles_count_nodes(interfaces, "shapes", "csg", count_nodes),
+        .csg = meso_tiles_count_nodes(interfaces, "shapes", "csg", count_nodes) +
+               meso_tiles_count_items(interfaces, "shapes"),    /* a disc for each that has no tree */
         .tiles = json_array_size(tiles),
         .sweeps = meso_tiles_count_items(tiles, "innerPaths"),
         .inners = meso_tiles_count_items(tiles, "innerGeometry"),
@@ -113,9 +115,20 @@ static MesoVec2 read_pair(const MesoJsonField *field, const char *key)
     return (MesoVec2){values[0], values[1]};
 }
 
+/* Older files give a disc's "radius"; the prototype itself reads it as the size along both axes, and so wrote such files anew. */
+static MesoVec2 read_size(const MesoJsonField *field, bool disc)
+{
+    MesoJsonField radius = meso_json_key(field, "radius");
+    if (!disc || !radius.value || json_object_get(field->value, "size"))
+        return read_pair(field, "size");
+    float size = meso_json_float(&radius, 0);
+    return (MesoVec2){size, size};
+}
+
 static uint32_t read_shape(Importer *importer, const MesoJsonField *field, uint32_t depth)
 {
     static const char *const leaf_keys[] = {"node-type", "center", "size", "angle", NULL};
+    static const char *const disc_keys[] = {"node-type", "center", "size", "angle", "radius", NULL};
     static const char *const pair_keys[] = {"node-type", "lhs", "rhs", NULL};
     static const MesoCsgKind kinds[NODE_TYPES] = {
         [DISC] = MESO_CSG_DISC,
@@ -141,9 +154,9 @@ static uint32_t read_shape(Importer *importer, const MesoJsonField *field, uint3
         node.right = read_shape(importer, &right, depth + 1);
     } else {
         MesoJsonField angle = meso_json_key(field, "angle");
-        expect_keys(importer, field, leaf_keys);
+        expect_keys(importer, field, type == DISC ? disc_keys : leaf_keys);
         node.center = read_pair(field, "center");
-        node.size = read_pair(field, "size");
+        node.size = read_size(field, type == DISC);
         node.angle = meso_json_float(&angle, 0);
     }
     if (!meso_json_good(field))
@@ -182,18 +195,43 @@ static MesoMaterial read_material(Importer *importer, const MesoJsonField *field
     return material;
 }
 
+/*
+ * The oldest files are of flat tiles: a shape is the part of the side from
+ * "start" to "end", in [0,1]. It becomes a disc as wide, in mid-height.
+ */
+static uint32_t read_interval(Importer *importer, const MesoJsonField *field)
+{
+    MesoJsonField start = meso_json_key(field, "start"), end = meso_json_key(field, "end");
+    meso_json_require(&start);
+    meso_json_require(&end);
+    float from = meso_json_float(&start, 0), to = meso_json_float(&end, 0), width = fabsf(to - from);
+    MesoTileSet *set = importer->set;
+    if (!meso_json_good(field) || set->csg_count >= importer->csg_capacity)
+        return 0;
+    set->csg[set->csg_count] = (MesoCsgNode){.kind = MESO_CSG_DISC, .center = {from + 0.5f * (to - from), 0.5f},
+                                             .size = {width, width}};
+    return set->csg_count++;
+}
+
+static bool is_interval(const json_t *shape)
+{
+    return !json_object_get(shape, "csg") && (json_object_get(shape, "start") || json_object_get(shape, "end"));
+}
+
 static void read_section(Importer *importer, const MesoJsonField *field, const MesoInterface *interface,
                          uint32_t number)
 {
     static const char *const keys[] = {"csg", "color", "roughness", "metallic", NULL};
+    static const char *const flat_keys[] = {"start", "end", "color", "roughness", "metallic", NULL};
     MesoTileSet *set = importer->set;
-    expect_keys(importer, field, keys);
+    bool flat = is_interval(field->value);
+    expect_keys(importer, field, flat ? flat_keys : keys);
     MesoJsonField csg = meso_json_key(field, "csg");
     MesoSection *section = &set->sections[set->section_count++];
     section->name = make_name(importer, "", number);
     section->interface = set->interface_count;
     section->material = read_material(importer, field, interface->color);
-    section->csg_root = read_shape(importer, &csg, 1);
+    section->csg_root = flat ? read_interval(importer, field) : read_shape(importer, &csg, 1);
 }
 
 static void read_interface(Importer *importer, const MesoJsonField *field)
@@ -332,6 +370,25 @@ static void read_sides(Importer *importer, const MesoJsonField *edges, MesoTile 
     }
 }
 
+/* A tile of the editor that is not finished: the solver could place it nowhere. */
+static bool has_bare_wall(const MesoTile *tile)
+{
+    for (uint32_t side = 0; side < 4; side++)
+        if (tile->labels[side] == 0)
+            return true;
+    return false;
+}
+
+/* Takes the last tile off the set again. */
+static void leave_out(Importer *importer, const MesoJsonField *edges)
+{
+    MesoTileSet *set = importer->set;
+    const MesoTile *tile = &set->tiles[--set->tile_count];
+    set->sweep_count = tile->sweep_begin;
+    set->inner_count = tile->inner_begin;
+    warn(importer, edges, "a wall shows no edge type; the unfinished tile is left out");
+}
+
 static void read_tile(Importer *importer, const MesoJsonField *field)
 {
     static const char *const keys[] = {"edges", "innerPaths", "innerGeometry", "transformPermission",
@@ -344,7 +401,7 @@ static void read_tile(Importer *importer, const MesoJsonField *field)
     MesoJsonField permission = meso_json_key(field, "transformPermission");
     MesoTile *tile = &set->tiles[set->tile_count++];
     *tile = (MesoTile){
-        .name = make_name(importer, "t", set->tile_count),
+        .name = make_name(importer, "t", (uint32_t)field->index + 1),
         .sweep_begin = set->sweep_count,
         .sweep_count = meso_json_count(&sweeps, 0, MESO_TILES_ITEMS),
         .inner_begin = set->inner_count,
@@ -361,6 +418,8 @@ static void read_tile(Importer *importer, const MesoJsonField *field)
         MesoJsonField inner = meso_json_item(&inners, i);
         read_inner(importer, &inner);
     }
+    if (meso_json_good(field) && has_bare_wall(tile))
+        leave_out(importer, &edges);
 }
 
 void meso_prototype_parse(MesoTileSet *set, MesoJsonReader *reader, const json_t *root_value,

@@ -450,6 +450,50 @@ static void test_prototype_warnings(const char *text)
     }
 }
 
+/* Older layouts: a radius for a size, parts of sides for drawings, no permissions, a tile that is not finished. */
+static void test_prototype_of_old(void)
+{
+    static const char text[] =
+        "{\"tileTypes\": ["
+        "{\"innerPaths\": [{\"shapeFrom\": 0, \"shapeTo\": 0, \"tileEdgeFrom\": 0, \"tileEdgeTo\": 0}], \"edges\": ["
+        "{\"tileEdgeIndex\": 0}, {\"tileEdgeIndex\": -1}, {\"tileEdgeIndex\": -1}, {\"tileEdgeIndex\": -1}]},"
+        "{\"innerPaths\": [{\"shapeFrom\": 1, \"shapeTo\": 0, \"tileEdgeFrom\": 0, \"tileEdgeTo\": 1}], \"edges\": ["
+        "{\"tileEdgeIndex\": 0}, {\"tileEdgeIndex\": 1}, {\"tileEdgeIndex\": 0}, {\"tileEdgeIndex\": 1}]}],"
+        "\"edgeTypes\": ["
+        "{\"shapes\": [{\"csg\": {\"center\": [0.25, 0.5], \"radius\": 0.125, \"node-type\": 0}},"
+        "{\"csg\": {\"node-type\": 1, \"lhs\": {\"center\": [0.5, 0.5], \"radius\": 0.25, \"node-type\": 0},"
+        "\"rhs\": {\"center\": [0.5, 0.5], \"size\": [0.5, 0.125], \"angle\": 0.5, \"node-type\": 0}}}], \"isExplicit\": true},"
+        "{\"shapes\": [{\"start\": 0.25, \"end\": 0.375}, {\"start\": 1, \"end\": 0.5}], \"isExplicit\": true}]}";
+    static const Case refused[] = {
+        {"0.375}", "\"x\"}", "x.json: edgeTypes[1].shapes[0].end: a number is needed here, not a string"},
+        {", \"end\": 0.5", "", "x.json: edgeTypes[1].shapes[1].end: missing"},
+        {"\"start\": 0.25, \"end\": 0.375", "", "x.json: edgeTypes[1].shapes[0].csg: missing"},
+        {"\"radius\": 0.125", "\"diameter\": 0.125", "x.json: edgeTypes[0].shapes[0].csg.size: missing"},
+        {"\"radius\": 0.125, \"node-type\": 0", "\"radius\": 0.125, \"node-type\": 3",
+         "x.json: edgeTypes[0].shapes[0].csg.size: missing"},
+    };
+    char heard[1000] = "";
+    MesoArena arena;
+    MesoTileSet set;
+    MesoError error;
+    meso_arena_init(&arena);
+    json_t *root = json_loads(text, 0, NULL);
+    CHECK(meso_tiles_import(&set, &arena, root, "x.json", hear, heard, &error) == MESO_OK);
+    json_decref(root);
+    CHECK(strcmp(heard, "warning: tileTypes[0].edges: a wall shows no edge type; the unfinished tile is left out\n") == 0);
+    CHECK(meso_tile_set_check(&set, NULL, NULL) == 0);
+    CHECK(set.tile_count == 1 && strcmp(set.tiles[0].name, "t2") == 0 && !set.tiles[0].rotation);
+    CHECK(set.sweep_count == 1 && set.tiles[0].sweep_begin == 0 && set.sweeps[0].to_side == 1);
+    CHECK(set.section_count == 4 && set.csg_count == 6);
+    CHECK(is_leaf(set.csg[0], MESO_CSG_DISC, 0.25f, 0.125f) && set.csg[0].size.y == 0.125f && set.csg[0].angle == 0);
+    CHECK(is_leaf(set.csg[2], MESO_CSG_DISC, 0.5f, 0.5f) && set.csg[2].size.y == 0.125f);
+    CHECK(is_leaf(set.csg[4], MESO_CSG_DISC, 0.3125f, 0.125f) && set.csg[4].size.y == 0.125f);
+    CHECK(is_leaf(set.csg[5], MESO_CSG_DISC, 0.75f, 0.5f) && set.csg[5].center.y == 0.5f);
+    check_round_trip(&set);
+    check_cases(text, refused, sizeof refused / sizeof *refused);
+    meso_arena_release(&arena);
+}
+
 /* More interfaces than letters, and numbers in their names' place. */
 static void test_prototype_names(void)
 {
@@ -511,6 +555,7 @@ int main(void)
     test_prototype(prototype);
     test_prototype_refused(prototype);
     test_prototype_warnings(prototype);
+    test_prototype_of_old();
     test_prototype_names();
     free(prototype);
     test_survey();
