@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "cmd/mesh_path.h"
 #include "cmd/surface_judge.h"
 #include "cmd/tool.h"
 #include "formats/mesh_file.h"
@@ -111,15 +111,6 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
 
 /* ---- inner meshes ---- */
 
-static const char *join_path(MesoArena *arena, const char *folder, int length, const char *file,
-                             MesoError *error)
-{
-    if (file[0] == '/' || length == 0)
-        return meso_arena_copy_text(arena, file, error);
-    bool slash = folder[length - 1] == '/';
-    return meso_arena_print(arena, error, "%.*s%s%s", length, folder, slash ? "" : "/", file);
-}
-
 static const char *tile_of_inner(const MesoTileSet *set, uint32_t inner)
 {
     for (uint32_t t = 0; t < set->tile_count; t++)
@@ -131,24 +122,21 @@ static const char *tile_of_inner(const MesoTileSet *set, uint32_t inner)
 /* Beside the tile set first, then in --mesh-path; NULL with `error` filled where it is in neither. */
 static const char *find_inner(MapArguments *a, const MesoTileSet *set, uint32_t inner, MesoError *error)
 {
-    const char *file = set->inners[inner].file, *tiles = a->tool.operands[0];
-    const char *slash = strrchr(tiles, '/');
-    int length = slash ? (int)(slash - tiles + 1) : 0;
-    const char *beside = join_path(&a->tool.arena, tiles, length, file, error);
-    if (!beside || access(beside, F_OK) == 0)
+    bool found = false;
+    MesoArena *arena = &a->tool.arena;
+    const char *file = set->inners[inner].file, *tiles = a->tool.operands[0], *elsewhere = NULL;
+    const char *beside = meso_mesh_path(tiles, meso_folder_length(tiles), file, &found, arena, error);
+    if (!beside || found)
         return beside;
-    if (!a->mesh_path) {
-        meso_fail(error, MESO_ERR_INPUT,
-                  "tile '%s': its mesh '%s' is not there: looked for '%s'; give its folder with --mesh-path",
-                  tile_of_inner(set, inner), file, beside);
-        return NULL;
+    if (a->mesh_path) {
+        elsewhere = meso_mesh_path(a->mesh_path, (int)strlen(a->mesh_path), file, &found, arena, error);
+        if (!elsewhere || found)
+            return elsewhere;
     }
-    const char *elsewhere = join_path(&a->tool.arena, a->mesh_path, (int)strlen(a->mesh_path), file, error);
-    if (!elsewhere || access(elsewhere, F_OK) == 0)
-        return elsewhere;
     meso_fail(error, MESO_ERR_INPUT,
-              "tile '%s': its mesh '%s' is not there: looked for '%s' and '%s'; give its folder with --mesh-path",
-              tile_of_inner(set, inner), file, beside, elsewhere);
+              "tile '%s': its mesh '%s' is not there: looked for '%s'%s%s%s; give its folder with --mesh-path",
+              tile_of_inner(set, inner), file, beside, elsewhere ? " and '" : "", elsewhere ? elsewhere : "",
+              elsewhere ? "'" : "");
     return NULL;
 }
 

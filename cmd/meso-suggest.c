@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cmd/mesh_path.h"
 #include "cmd/solve_inputs.h"
 #include "cmd/solve_surface.h"
 #include "formats/report_file.h"
@@ -200,6 +201,8 @@ static MesoStatus run(Arguments *a)
         status = meso_tool_read_tiles(tool, tool->operands[0], &set, NULL);
     if (!status)
         status = a->surface ? extend_by_surface(a, &set) : extend_by_report(tool, &set, tool->operands[1]);
+    if (!status && tool->output)
+        status = meso_mesh_paths_move(&set, tool->operands[0], tool->output, &tool->arena, &tool->error);
     return status ? status : write_set(tool, &set);
 }
 

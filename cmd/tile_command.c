@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "cmd/mesh_path.h"
 #include "formats/output.h"
 #include "libcore/tile/tile_set_check.h"
 
@@ -46,8 +46,6 @@ MesoStatus meso_tile_text_finish(MesoTileText *text, const char *path, MesoStatu
 MesoStatus meso_tile_find_meshes(const MesoTileSet *set, const char *path, MesoArena *arena,
                                  MesoProblemReport *report, void *context, MesoError *error)
 {
-    const char *slash = strrchr(path, '/');
-    int folder_length = slash ? (int)(slash - path) + 1 : 0;
     for (uint32_t t = 0; t < set->tile_count; t++) {
         const MesoTile *tile = &set->tiles[t];
         for (uint32_t i = 0; i < tile->inner_count; i++) {
@@ -55,13 +53,13 @@ MesoStatus meso_tile_find_meshes(const MesoTileSet *set, const char *path, MesoA
             if (!*file)
                 continue;
             MesoArenaMark mark = meso_arena_mark(arena);
-            char *mesh = meso_arena_print(arena, error, "%.*s%s", *file == '/' ? 0 : folder_length,
-                                          path, file);
+            bool found = false;
+            const char *mesh = meso_mesh_path(path, meso_folder_length(path), file, &found, arena, error);
             char *place = meso_arena_print(arena, error, "tiles[%u] '%s', inner mesh %u", t, tile->name, i);
             char *message = mesh ? meso_arena_print(arena, error, "no file '%s'", mesh) : NULL;
             if (!mesh || !place || !message)
                 return MESO_ERR_MEMORY;
-            if (access(mesh, R_OK) != 0)
+            if (!found)
                 report(context, "warning", place, message);
             meso_arena_rewind(arena, mark);
         }

@@ -1,6 +1,7 @@
 /* meso-tile import: any tile set that we can read, as .tiles.json. */
 #include <string.h>
 
+#include "cmd/mesh_path.h"
 #include "cmd/tile_command.h"
 #include "formats/json_text.h"
 #include "formats/output.h"
@@ -78,6 +79,8 @@ static MesoStatus run(MesoTool *tool)
         status = read_set(tool, &set);
     if (status == MESO_OK)
         status = meso_tile_report_counts(tool, &set, NULL);
+    if (status == MESO_OK && tool->output)
+        status = meso_mesh_paths_move(&set, tool->operands[0], tool->output, &tool->arena, &tool->error);
     if (status == MESO_OK)
         status = write_set(tool, &set, &tool->error);
     if (status == MESO_OK && tool->output && strcmp(tool->output, "-") != 0)
