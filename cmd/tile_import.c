@@ -3,6 +3,7 @@
 
 #include "cmd/mesh_path.h"
 #include "cmd/tile_command.h"
+#include "formats/json_field.h"
 #include "formats/json_text.h"
 #include "formats/output.h"
 #include "formats/tiles_file.h"
@@ -29,7 +30,19 @@ static void say_error(void *context, const char *severity, const char *where, co
         say_problem(context, severity, where, message);
 }
 
-static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
+/* Notes on the whole set, of ours; those on parts of it have no place in what was read. */
+static int keep_notes(json_t *notes, const json_t *root)
+{
+    const char *key;
+    json_t *value;
+    int failed = 0;
+    json_object_foreach((json_t *)root, key, value)
+        if (meso_json_is_note(key))
+            failed |= json_object_set(notes, key, value);
+    return failed;
+}
+
+static MesoStatus read_set(MesoTool *tool, MesoTileSet *set, json_t *notes)
 {
     MesoError *error = &tool->error;
     MesoInput input;
@@ -40,6 +53,8 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
     status = meso_json_parse(&root, &input, error);
     if (status == MESO_OK)
         status = meso_tiles_import(set, &tool->arena, root, input.path, say_problem, tool, error);
+    if (status == MESO_OK && keep_notes(notes, root) != 0)
+        status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     json_decref(root);
     meso_input_close(&input);
     if (status != MESO_OK)
@@ -52,11 +67,12 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
     return MESO_OK;
 }
 
-static MesoStatus write_set(const MesoTool *tool, const MesoTileSet *set, MesoError *error)
+static MesoStatus write_set(const MesoTool *tool, const MesoTileSet *set, json_t *notes, MesoError *error)
 {
     MesoOutput *output = NULL;
     json_t *root = meso_tiles_to_json(set);
-    if (!root || json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance)) != 0) {
+    if (!root || json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance)) != 0 ||
+        json_object_update(root, notes) != 0) {
         json_decref(root);
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     }
@@ -71,18 +87,18 @@ static MesoStatus write_set(const MesoTool *tool, const MesoTileSet *set, MesoEr
     return status;
 }
 
-static MesoStatus run(MesoTool *tool)
+static MesoStatus run(MesoTool *tool, json_t *notes)
 {
     MesoTileSet set;
     MesoStatus status = meso_tile_refuse_clash(tool);
     if (status == MESO_OK)
-        status = read_set(tool, &set);
+        status = read_set(tool, &set, notes);
     if (status == MESO_OK)
         status = meso_tile_report_counts(tool, &set, NULL);
     if (status == MESO_OK && tool->output)
         status = meso_mesh_paths_move(&set, tool->operands[0], tool->output, &tool->arena, &tool->error);
     if (status == MESO_OK)
-        status = write_set(tool, &set, &tool->error);
+        status = write_set(tool, &set, notes, &tool->error);
     if (status == MESO_OK && tool->output && strcmp(tool->output, "-") != 0)
         status = meso_tile_find_meshes(&set, tool->output, &tool->arena, say_problem, tool, &tool->error);
     if (status != MESO_OK)
@@ -97,7 +113,9 @@ int meso_tile_import(int argc, char **argv)
 {
     MesoTool tool = {0};
     MesoOption options[] = {MESO_TOOL_OPTIONS(tool), {0}};
+    json_t *notes = json_object();
     if (meso_tile_start(&tool, &info, options, argc, argv))
-        tool.status = run(&tool);
+        tool.status = run(&tool, notes);
+    json_decref(notes);
     return meso_tool_finish(&tool);
 }

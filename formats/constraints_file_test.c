@@ -291,6 +291,18 @@ static void test_strands(Case *c)
         CHECK(meso_strand_rule_parse(&rule, wrong[i], &c->error) == MESO_ERR_USAGE);
 }
 
+/* Notes in every object that has keys of its own. */
+static void test_notes(Case *c)
+{
+    CHECK(read(c, "\"$schema\": \"meso-constraints.schema.json\", \"comment\": [\"why\"], \"extras\": {\"a\": 1}, "
+                  "\"pins\": [{\"slot\": 1, \"tile\": \"plain\", \"comment\": \"here\"}], "
+                  "\"regions\": [{\"where\": {\"slots\": [0], \"extras\": 1}, \"tiles\": [\"plain\"], \"comment\": 0}], "
+                  "\"quotas\": [{\"tile\": \"knob\", \"most\": 1, \"comment\": null}], "
+                  "\"strands\": {\"no_loops\": true, \"$schema\": 1}") == MESO_OK);
+    CHECK(c->constraints.restriction_count == 2 && c->constraints.quota_count == 1 && c->constraints.strands.no_loops);
+    expect(c, "\"strands\": {\"Comment\": 1}", "unknown key \"Comment\"");
+}
+
 static void test_files(Case *c)
 {
     CHECK(read_text(c, "{\"format\": \"meso-tiles\", \"version\": 1}") == MESO_ERR_INPUT);
@@ -318,6 +330,7 @@ int main(void)
     test_borders(&c);
     test_quotas(&c);
     test_strands(&c);
+    test_notes(&c);
     test_files(&c);
     meso_arena_release(&c.arena);
     test_ply();

@@ -116,6 +116,11 @@ static void list_keys(const char *const *keys, char *text, size_t size)
     }
 }
 
+bool meso_json_is_note(const char *key)
+{
+    return strcmp(key, "$schema") == 0 || strcmp(key, "comment") == 0 || strcmp(key, "extras") == 0;
+}
+
 bool meso_json_object(const MesoJsonField *field, const char *const *keys)
 {
     meso_json_require(field);
@@ -127,7 +132,7 @@ bool meso_json_object(const MesoJsonField *field, const char *const *keys)
         uint32_t k = 0;
         while (keys && keys[k] && strcmp(keys[k], key) != 0)
             k++;
-        if (keys && !keys[k]) {
+        if (keys && !keys[k] && !meso_json_is_note(key)) {
             char known[200];
             list_keys(keys, known, sizeof known);
             meso_json_wrong(field, "unknown key \"%.40s\"; there are %s", key, known);

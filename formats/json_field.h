@@ -51,8 +51,11 @@ static inline bool meso_json_good(const MesoJsonField *field)
     return field->reader->status == MESO_OK;
 }
 
+/* "$schema", "comment", "extras": may stand in every object, hold anything, and mean nothing to us. */
+bool meso_json_is_note(const char *key);
+
 /*
- * True if it is an object; `keys` (NULL: any) lists the ones that it may have, ended by NULL.
+ * True if it is an object; `keys` (NULL: any) lists the ones that it may have beside notes, ended by NULL.
  * Others are wrong, but an object with them is read on where `report` is set.
  */
 bool meso_json_object(const MesoJsonField *field, const char *const *keys);

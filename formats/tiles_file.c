@@ -42,6 +42,8 @@ static uint64_t count_below(const json_t *shape, uint32_t nesting)
     if (nesting > MESO_CSG_NESTING)
         return 0;
     json_object_foreach((json_t *)shape, key, value) {
+        if (meso_json_is_note(key))
+            continue;
         size_t operands = json_array_size(value);
         count += operands > 0 ? operands - 1 : 1;
         for (size_t i = 0; i < operands; i++)
@@ -100,11 +102,22 @@ static MesoCsgNode read_leaf(const MesoJsonField *field, MesoCsgKind kind)
     };
 }
 
+/* Keys but for notes. */
+static size_t count_keys(const json_t *object)
+{
+    const char *key;
+    json_t *value;
+    size_t count = 0;
+    json_object_foreach((json_t *)object, key, value)
+        count += !meso_json_is_note(key);
+    return count;
+}
+
 static uint32_t read_shape(Parser *parser, const MesoJsonField *field, uint32_t nesting)
 {
     if (!meso_json_object(field, shape_names))
         return 0;
-    if (json_object_size(field->value) != 1) {
+    if (count_keys(field->value) != 1) {
         meso_json_wrong(field, "exactly one of \"disc\", \"box\", \"union\", \"difference\" is needed");
         return 0;
     }

@@ -282,6 +282,31 @@ static void test_refused(void)
     check_refused("{\"format\": \"meso-tiles\", \"version\": 1}", "x.json: interfaces: missing");
 }
 
+/* Notes may stand in every object; a set with them is the set without. */
+static void test_notes(void)
+{
+    static const char *const notes[] = {"\"comment\": \"x\", ", "\"extras\": [[1, {\"disc\": [2, 3, 4]}], {}], ",
+                                        "\"$schema\": \"meso-tiles.schema.json\", "};
+    MesoArena arena;
+    meso_arena_init(&arena);
+    char *text = malloc(20 * sizeof everything), *end = text;
+    CHECK(text);
+    unsigned count = 0;
+    for (const char *c = everything; *c; c++) {
+        *end++ = *c;
+        if (*c == '{')
+            end += sprintf(end, "%s", notes[count++ % 3]);
+    }
+    *end = 0;
+    MesoTileSet set = parse(&arena, everything), noted = parse(&arena, text);
+    json_t *a = meso_tiles_to_json(&set), *b = meso_tiles_to_json(&noted);
+    CHECK(count > 20 && json_equal(a, b));
+    json_decref(a);
+    json_decref(b);
+    free(text);
+    meso_arena_release(&arena);
+}
+
 /* No prefix of a file is a file. */
 static void test_truncated(void)
 {
@@ -549,6 +574,7 @@ int main(void)
     test_round_trip();
     test_digits();
     test_refused();
+    test_notes();
     test_truncated();
     test_nesting();
     char *prototype = read_testdata("prototype-basket.json");
