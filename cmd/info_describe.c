@@ -61,7 +61,11 @@ static int put_hash(json_t *object, const char *key, const uint64_t hash[2])
 /* `text` has been checked by its reader. */
 static int put_provenance(json_t *facts, const char *text)
 {
-    return json_object_set_new(facts, "provenance", json_loads(text, 0, NULL));
+    MesoInput input;
+    json_t *root;
+    meso_input_wrap(&input, "provenance", text, strlen(text));
+    meso_json_parse(&root, &input, NULL);
+    return json_object_set_new(facts, "provenance", root);
 }
 
 /* How many slots hold each tile and each transform. `names` [tile_count]. */

@@ -8,6 +8,7 @@
 #include "cmd/info_describe.h"
 #include "cmd/tool.h"
 #include "formats/container.h"
+#include "formats/file_kind.h"
 #include "formats/json_text.h"
 #include "formats/product_file.h"
 
@@ -55,22 +56,6 @@ static MesoStatus describe_product(json_t *facts, MesoProductKind kind, MesoAren
     return MESO_OK;
 }
 
-static bool begins_json(const MesoInput *input)
-{
-    size_t i = 0;
-    while (i < input->size && isspace(input->data[i]))
-        i++;
-    return i < input->size && (input->data[i] == '{' || input->data[i] == '[');
-}
-
-static bool begins_off(const MesoInput *input)
-{
-    for (size_t i = 0; i + 3 <= input->size && i < 5; i++)
-        if (memcmp(input->data + i, "OFF", 3) == 0)
-            return true;
-    return false;
-}
-
 static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
     MesoProductKind product = meso_product_recognise(input);
@@ -78,9 +63,11 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
         return describe_container(facts, arena, input, error);
     if (product != MESO_PRODUCT_NONE)
         return describe_product(facts, product, arena, input, error);
-    if (begins_json(input))
+    MesoFileKind kind = meso_file_kind(input);
+    if (kind & MESO_FILES_OF_JSON)
         return meso_info_json(facts, arena, input, error);
-    if (has_extension(input->path, ".obj") || has_extension(input->path, ".off") || begins_off(input))
+    if (has_extension(input->path, ".obj") || has_extension(input->path, ".off") ||
+        kind & (MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF))
         return meso_info_mesh(facts, arena, input, error);
     return meso_fail(error, MESO_ERR_INPUT,
                      "%s: no kind of file that is known here: .slots, .meso, .tiles.json or a "

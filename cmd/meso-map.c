@@ -1,8 +1,10 @@
 /* meso-map: grows the geometry of an assignment, and writes it as a model or as a mesh. */
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
+#include "cmd/input_kind.h"
 #include "cmd/mesh_path.h"
 #include "cmd/surface_judge.h"
 #include "cmd/tool.h"
@@ -56,7 +58,7 @@ enum { OUTPUT_KIND_COUNT = sizeof OUTPUT_KINDS / sizeof *OUTPUT_KINDS };
 static const OutputKind *find_kind(const char *name)
 {
     for (uint32_t i = 0; i < OUTPUT_KIND_COUNT; i++)
-        if (strcmp(OUTPUT_KINDS[i].name, name) == 0)
+        if (strcasecmp(OUTPUT_KINDS[i].name, name) == 0)
             return &OUTPUT_KINDS[i];
     return NULL;
 }
@@ -229,15 +231,15 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
 {
     MesoTool *tool = &a->tool;
     MesoSlotsFile slots;
-    MesoStatus status = meso_tool_open_input(tool, &inputs->tiles, tool->operands[0], "tiles");
+    MesoStatus status = meso_tool_open_place(tool, &inputs->tiles, tool->operands[0], &MESO_PLACE_TILES);
     if (status == MESO_OK)
         status = meso_tiles_read(&model->tile_set, &tool->arena, &inputs->tiles, error);
     if (status == MESO_OK)
-        status = meso_tool_open_input(tool, &inputs->surface, tool->operands[1], "surface");
+        status = meso_tool_open_place(tool, &inputs->surface, tool->operands[1], &MESO_PLACE_SURFACE);
     if (status == MESO_OK)
         status = meso_surface_read(&model->surface, &tool->arena, &inputs->surface, error);
     if (status == MESO_OK)
-        status = meso_tool_open_input(tool, &inputs->slots, tool->operands[2], "slots");
+        status = meso_tool_open_place(tool, &inputs->slots, tool->operands[2], &MESO_PLACE_SLOTS);
     if (status == MESO_OK)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
     if (status == MESO_OK)
@@ -272,7 +274,7 @@ static MesoStatus read_model(MapArguments *a, Inputs *inputs, MesoModel *model, 
 {
     MesoStatus status;
     if (a->tool.operand_count == 1) {
-        status = meso_tool_open_input(&a->tool, &inputs->tiles, a->tool.operands[0], "model");
+        status = meso_tool_open_place(&a->tool, &inputs->tiles, a->tool.operands[0], &MESO_PLACE_MODEL);
         if (status == MESO_OK)
             status = meso_model_read(model, NULL, &a->tool.arena, &inputs->tiles, error);
         model->options = merge_options(a, model->options);

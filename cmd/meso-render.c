@@ -2,8 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cmd/camera_options.h"
+#include "cmd/input_kind.h"
 #include "cmd/tool.h"
 #include "formats/image_file.h"
 #include "formats/json_text.h"
@@ -66,8 +68,8 @@ static MesoStatus choose_product(RenderArguments *a, MesoError *error)
     const char *dot = strrchr(output, '.');
     if (!kind)
         kind = dot ? dot + 1 : "";
-    a->exr_product = strcmp(kind, "exr") == 0;
-    if (a->exr_product || strcmp(kind, "png") == 0)
+    a->exr_product = strcasecmp(kind, "exr") == 0;
+    if (a->exr_product || strcasecmp(kind, "png") == 0)
         return MESO_OK;
     return meso_fail(error, MESO_ERR_USAGE,
                      "no kind of image is known by the name '%s': end it in .exr or .png, or give --to",
@@ -182,7 +184,7 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
     if (!status)
         status = parse_background(a, error);
     if (!status)
-        status = meso_tool_open_input(tool, &input, tool->operands[0], "model");
+        status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_MODEL);
     if (status)
         return status;
     status = meso_model_read(&model, NULL, &tool->arena, &input, error);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "cmd/mesh_path.h"
 #include "cmd/solve_inputs.h"
 #include "cmd/solve_surface.h"
@@ -123,7 +124,7 @@ static MesoStatus extend_by_report(MesoTool *tool, MesoTileSet *set, const char 
 {
     MesoInput input;
     MesoReport report;
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "report");
+    MesoStatus status = meso_tool_open_place(tool, &input, path, &MESO_PLACE_REPORT);
     if (status)
         return status;
     status = meso_report_read(&report, &tool->arena, &input, set, &tool->error);

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "formats/constraints_file.h"
 #include "formats/slots_file.h"
 
@@ -9,7 +10,7 @@ static MesoStatus read_file(MesoTool *tool, const char *path, const MesoConstrai
                             MesoConstraints *constraints)
 {
     MesoInput input;
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "constraints");
+    MesoStatus status = meso_tool_open_place(tool, &input, path, &MESO_PLACE_CONSTRAINTS);
     if (status)
         return status;
     status = meso_constraints_read(constraints, &tool->arena, &input, scope, &tool->error);
@@ -49,7 +50,7 @@ static MesoStatus read_keep(MesoTool *tool, const char *path, const MesoTileSet 
 {
     MesoInput input;
     MesoSlotsFile slots;
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "keep");
+    MesoStatus status = meso_tool_open_place(tool, &input, path, &MESO_PLACE_KEEP);
     if (status)
         return status;
     status = meso_slots_read(&slots, &tool->arena, &input, &tool->error);

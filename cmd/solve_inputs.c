@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "formats/json_text.h"
 #include "formats/report_file.h"
 #include "formats/tiles_file.h"
@@ -12,7 +13,7 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
                                 uint64_t hash[2])
 {
     MesoInput input;
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "tiles");
+    MesoStatus status = meso_tool_open_place(tool, &input, path, &MESO_PLACE_TILES);
     if (status)
         return status;
     if (hash)

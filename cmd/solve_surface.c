@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "formats/surface_field.h"
 #include "formats/surface_file.h"
 #include "libcore/surface/orientation.h"
@@ -122,7 +123,7 @@ MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, M
     MesoInput input;
     MesoError *error = &tool->error;
     *surface = (MesoSolveSurface){0};
-    MesoStatus status = meso_tool_open_input(tool, &input, wish->path, "surface");
+    MesoStatus status = meso_tool_open_place(tool, &input, wish->path, &MESO_PLACE_SURFACE);
     if (status)
         return status;
     memcpy(surface->hash, input.hash, sizeof surface->hash);

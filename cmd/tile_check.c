@@ -1,6 +1,7 @@
 /* meso-tile check: every problem of a tile set. */
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "cmd/tile_command.h"
 #include "formats/json_text.h"
 #include "formats/tiles_file.h"
@@ -85,7 +86,7 @@ static MesoStatus look(Findings *findings)
     MesoError *error = &tool->error;
     MesoTileSet set;
     MesoInput input;
-    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "tiles");
+    MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILE_FILE);
     if (status != MESO_OK)
         return status;
     status = meso_tiles_survey(&set, &tool->arena, &input, add_finding, findings, error);

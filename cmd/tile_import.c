@@ -1,6 +1,7 @@
 /* meso-tile import: any tile set that we can read, as .tiles.json. */
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "cmd/mesh_path.h"
 #include "cmd/tile_command.h"
 #include "formats/json_field.h"
@@ -47,7 +48,7 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set, json_t *notes)
     MesoError *error = &tool->error;
     MesoInput input;
     json_t *root = NULL;
-    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "tiles");
+    MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILE_FILE);
     if (status != MESO_OK)
         return status;
     status = meso_json_parse(&root, &input, error);

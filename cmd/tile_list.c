@@ -1,6 +1,7 @@
 /* meso-tile list: interfaces and tiles as a table. */
 #include <string.h>
 
+#include "cmd/input_kind.h"
 #include "cmd/tile_command.h"
 #include "formats/tiles_file.h"
 #include "libcore/tile/variant.h"
@@ -153,7 +154,7 @@ static MesoStatus list_tiles(const MesoTileSet *set, const uint32_t *variant_cou
 static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
 {
     MesoInput input;
-    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "tiles");
+    MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILE_FILE);
     if (status != MESO_OK)
         return status;
     status = meso_tiles_read(set, &tool->arena, &input, &tool->error);

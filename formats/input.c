@@ -139,6 +139,11 @@ void meso_input_wrap(MesoInput *input, const char *path, const void *data, size_
     hash_bytes(input);
 }
 
+size_t meso_input_mark(const MesoInput *input)
+{
+    return input->size >= 3 && memcmp(input->data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
 void meso_input_close(MesoInput *input)
 {
     if (input->mapping_size)

@@ -26,6 +26,9 @@ MesoStatus meso_input_open(MesoInput *input, const char *path, MesoError *error)
 /* Wraps bytes that the caller owns; for tests, chunks and fuzzers. */
 void meso_input_wrap(MesoInput *input, const char *path, const void *data, size_t size);
 
+/* Length of the UTF-8 byte order mark that the text begins with; 0 for none. */
+size_t meso_input_mark(const MesoInput *input);
+
 void meso_input_close(MesoInput *input);
 
 #endif

@@ -46,7 +46,8 @@ MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *err
         return MESO_ERR_INPUT;
 
     json_error_t where;
-    *root = json_loadb((const char *)input->data, input->size, JSON_REJECT_DUPLICATES, &where);
+    size_t mark = meso_input_mark(input);
+    *root = json_loadb((const char *)input->data + mark, input->size - mark, JSON_REJECT_DUPLICATES, &where);
     if (*root)
         return MESO_OK;
     if (json_error_code(&where) == json_error_out_of_memory)

@@ -9,7 +9,7 @@
 
 /*
  * Parses `input`; the caller owns the result. MESO_ERR_INPUT with file, line
- * and column; duplicate keys and more than 512 levels are refused.
+ * and column; duplicate keys and more than 512 levels are refused. A byte order mark is passed over.
  */
 MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *error);
 

@@ -47,6 +47,23 @@ static void test_errors(void)
     }
 }
 
+/* A byte order mark is no part of the text, and none within it is passed over. */
+static void test_mark(void)
+{
+    MesoInput input;
+    MesoError error;
+    json_t *root;
+    static const char marked[] = "\xef\xbb\xbf{\"a\": 1}", twice[] = "\xef\xbb\xbf\xef\xbb\xbf{}";
+    meso_input_wrap(&input, "x.json", marked, sizeof marked - 1);
+    CHECK(meso_json_parse(&root, &input, &error) == MESO_OK);
+    CHECK(json_integer_value(json_object_get(root, "a")) == 1);
+    json_decref(root);
+    meso_input_wrap(&input, "x.json", twice, sizeof twice - 1);
+    CHECK(meso_json_parse(&root, &input, &error) == MESO_ERR_INPUT);
+    meso_input_wrap(&input, "x.json", marked, 3);
+    CHECK(meso_json_parse(&root, &input, &error) == MESO_ERR_INPUT);
+}
+
 static void test_depth(void)
 {
     char text[2 * 600 + 16];
@@ -181,6 +198,7 @@ int main(void)
 {
     TestFolder folder = test_folder_make();
     test_errors();
+    test_mark();
     test_depth();
     test_layout(&folder);
     test_numbers_come_back(&folder);

@@ -6,14 +6,62 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool has_newline(const char *begin, const char *end)
+{
+    return memchr(begin, '\n', (size_t)(end - begin)) != NULL;
+}
+
+/* Old line ends, a carriage return alone, become new ones, up to and with that of the line `last` (NULL: of all). */
+static char *renew_line_ends(char *begin, char *end, const char *last)
+{
+    size_t length = last ? strlen(last) : 0;
+    for (char *at = begin, *line = begin; at < end; at++) {
+        if (*at != '\r')
+            continue;
+        *at = '\n';
+        if (last && (size_t)(at - line) == length && memcmp(line, last, length) == 0)
+            return at + 1;
+        line = at + 1;
+    }
+    return end;
+}
+
+static bool is_ascii_header(const char *begin, const char *end)
+{
+    static const char ascii[] = "format ascii";
+    for (const char *line = begin; line && (size_t)(end - line) >= sizeof ascii; line = memchr(line, '\n', (size_t)(end - line))) {
+        line += *line == '\n';
+        if ((size_t)(end - line) >= sizeof ascii && memcmp(line, ascii, sizeof ascii - 1) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* The header of a PLY, whose format has no comment sign, is text whatever bytes come after it. */
+static void mend_line_ends(MesoMeshText *text)
+{
+    char *begin = text->bytes, *end = begin + text->size, *header_end = begin;
+    if (!text->comment) {
+        if (text->size < 5 || memcmp(begin, "ply\r", 4) != 0 || begin[4] == '\n')
+            return;
+        header_end = renew_line_ends(begin, end, "end_header");
+        if (!is_ascii_header(begin, header_end))
+            return;
+    }
+    if (!has_newline(header_end, end))
+        renew_line_ends(header_end, end, NULL);
+}
+
 MesoStatus meso_mesh_text_init(MesoMeshText *text, MesoArena *arena, const MesoInput *input,
                                char comment, MesoError *error)
 {
-    *text = (MesoMeshText){.path = input->path, .comment = comment, .size = input->size, .next_line = 1};
+    size_t mark = meso_input_mark(input);
+    *text = (MesoMeshText){.path = input->path, .comment = comment, .size = input->size - mark, .next_line = 1};
     text->bytes = MESO_NEW(arena, char, input->size + 1, error);
     if (!text->bytes)
         return MESO_ERR_MEMORY;
-    memcpy(text->bytes, input->data, input->size);
+    memcpy(text->bytes, input->data + mark, text->size);
+    mend_line_ends(text);
     text->at = text->end = text->next = text->bytes;
     return MESO_OK;
 }

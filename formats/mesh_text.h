@@ -28,6 +28,10 @@ typedef struct MesoWord {
     size_t size;
 } MesoWord;
 
+/*
+ * Copies the text without its byte order mark. Where lines end in carriage returns alone, these become
+ * newlines; in a binary PLY those of the header. `comment` is 0 for PLY.
+ */
 MesoStatus meso_mesh_text_init(MesoMeshText *text, MesoArena *arena, const MesoInput *input,
                                char comment, MesoError *error);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "formats/file_kind.h"
 #include "formats/gltf_read_adapter.h"
 #include "formats/mesh_scan.h"
 #include "formats/mesh_triangles.h"
@@ -35,33 +36,18 @@ static FileKind kind_by_name(const char *path)
     return KIND_UNKNOWN;
 }
 
-static bool begins_with(const MesoInput *input, size_t at, const char *text)
-{
-    size_t length = strlen(text);
-    return input->size - at >= length && memcmp(input->data + at, text, length) == 0;
-}
-
-/* For names without a known extension, such as standard input. */
+/* For names without a known extension, such as standard input. Comments alone may go on as OBJ. */
 static FileKind kind_by_content(const MesoInput *input)
 {
-    static const char *const off[] = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
-    static const char *const obj[] = {"#", "v ", "vn ", "vt ", "o ", "g ", "s ", "mtllib ", "usemtl "};
-    size_t at = 0;
-    if (begins_with(input, 0, "glTF"))
-        return KIND_GLB;
-    if (begins_with(input, 0, "ply\n") || begins_with(input, 0, "ply\r"))
-        return KIND_PLY;
-    for (size_t i = 0; i < sizeof off / sizeof *off; i++)
-        if (begins_with(input, 0, off[i]))
-            return KIND_OFF;
-    while (at < input->size && isspace(input->data[at]))
-        at++;
-    if (begins_with(input, at, "{"))
-        return KIND_GLB;
-    for (size_t i = 0; i < sizeof obj / sizeof *obj; i++)
-        if (begins_with(input, at, obj[i]))
-            return KIND_OBJ;
-    return KIND_UNKNOWN;
+    size_t mark = meso_input_mark(input);
+    switch (meso_file_kind(input)) {
+    case MESO_FILE_OBJ: return KIND_OBJ;
+    case MESO_FILE_PLY: return KIND_PLY;
+    case MESO_FILE_OFF: return KIND_OFF;
+    case MESO_FILE_GLB:
+    case MESO_FILE_GLTF: return KIND_GLB;
+    default: return mark < input->size && input->data[mark] == '#' ? KIND_OBJ : KIND_UNKNOWN;
+    }
 }
 
 /* Compares what OpenMesh reads with a scan, element by element. */

@@ -50,6 +50,69 @@ static void test_kinds(void)
     check_message("a", "\n\n", "a: not a mesh; OBJ, PLY and OFF are read");
 }
 
+/* `text` with a byte order mark, or with line ends as they once were; in a buffer of its own. */
+static const char *marked(const char *text)
+{
+    static char bytes[1010];
+    snprintf(bytes, sizeof bytes, "\xef\xbb\xbf%s", text);
+    return bytes;
+}
+
+static char *returned(const char *text)
+{
+    static char bytes[1000];
+    snprintf(bytes, sizeof bytes, "%s", text);
+    for (char *c = bytes; *c; c++)
+        *c = *c == '\n' ? '\r' : *c;
+    return bytes;
+}
+
+static void check_square(const char *path, const char *text)
+{
+    const MesoVec3 corners[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    if (read(path, text))
+        fprintf(stderr, "%s: %s\n", path, error.message);
+    CHECK(read(path, text) == MESO_OK);
+    CHECK(mesh.vertex_count == 4 && mesh.face_count == 1 && memcmp(mesh.positions, corners, sizeof corners) == 0);
+}
+
+static void test_marks_and_returns(void)
+{
+    static const char *const names[][3] = {{"a.obj", "-", OBJ}, {"a.off", "-", OFF}, {"a.ply", "-", PLY}};
+    for (int kind = 0; kind < 3; kind++)
+        for (int name = 0; name < 2; name++) {
+            check_square(names[kind][name], names[kind][2]);
+            check_square(names[kind][name], marked(names[kind][2]));
+            check_square(names[kind][name], returned(names[kind][2]));
+            check_square(names[kind][name], marked(returned(names[kind][2])));
+        }
+    check_square("a.obj", "# one line\r\nv 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 3 4\r\n");
+    check_message("a.obj", "v 0 0 0\rv 1 x 0\r", "a.obj:2: coordinate 'x' is not a finite number");
+}
+
+/* Bytes behind the header that look like line ends, 0x0a0d0d0a among them, stay. */
+static void test_binary_ply_returns(void)
+{
+    char bytes[1200], *at = bytes;
+    const float floats[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    const uint32_t face[4] = {0, 1, 2, 3}, mark = 0x0a0d0d0a;
+    float odd;
+    memcpy(&odd, &mark, sizeof odd);
+    at += sprintf(at, "%s", returned("ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+                                     "property float y\nproperty float z\nelement face 1\n"
+                                     "property list uchar int vertex_indices\nend_header\n"));
+    memcpy(at, floats, sizeof floats);
+    memcpy(at + 8, &odd, sizeof odd);
+    at += sizeof floats;
+    *at++ = 4;
+    memcpy(at, face, sizeof face);
+    at += sizeof face;
+    MesoInput input;
+    meso_input_wrap(&input, "a.ply", bytes, (size_t)(at - bytes));
+    CHECK(meso_surface_read(&mesh, &arena, &input, &error) == MESO_OK);
+    CHECK(mesh.face_count == 1 && mesh.positions[0].z == odd && mesh.positions[1].x == 1);
+}
+
 #define REFUSAL ": glTF holds triangles, which cannot be used yet: a macrosurface needs quads; export OBJ, PLY or OFF"
 
 /* Header, length, then a JSON chunk of 28 bytes. */
@@ -153,6 +216,8 @@ int main(void)
 {
     meso_arena_init(&arena);
     test_kinds();
+    test_marks_and_returns();
+    test_binary_ply_returns();
     test_gltf();
     test_deep_gltf();
     test_split();
