@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/file_kind.h"
 #include "formats/product_file.h"
 #include "formats/provenance.h"
 
@@ -29,6 +30,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     MesoError error;
     meso_input_wrap(&input, "fuzz", data, size);
     MesoProductKind kind = meso_product_recognise(&input);
+    if (!meso_file_kind_phrase(meso_file_kind(&input)))
+        abort();
     json_t *facts = json_object();
     MesoStatus status = meso_product_describe(facts, kind, &input, &error);
     if (status != MESO_OK && status != MESO_ERR_INPUT)
