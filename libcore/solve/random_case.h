@@ -37,4 +37,60 @@ static inline MesoTileSet random_set(MesoArena *arena, MesoRandom *random)
     return set;
 }
 
+/* An end of a sweep: one of the cross-sections that the tile shows, which must be one at least. */
+static inline void random_sweep_end(const MesoTileSet *set, const MesoTile *tile, MesoRandom *random, uint32_t *side,
+                                    uint32_t *section)
+{
+    const MesoInterface *interface;
+    do {
+        *side = meso_random_below(random, tile->side_count);
+        interface = tile->labels[*side] ? &set->interfaces[meso_label_interface(tile->labels[*side])] : NULL;
+    } while (!interface || interface->section_count == 0);
+    *section = interface->section_begin + meso_random_below(random, interface->section_count);
+}
+
+static inline MesoSweep random_sweep(const MesoTileSet *set, const MesoTile *tile, MesoRandom *random)
+{
+    MesoSweep sweep = {.half_turn = meso_random_below(random, 4) == 0};
+    random_sweep_end(set, tile, random, &sweep.from_side, &sweep.from_section);
+    bool back = meso_random_below(random, 3) == 0;
+    do
+        random_sweep_end(set, tile, random, &sweep.to_side, &sweep.to_section);
+    while (back && sweep.to_side != sweep.from_side);
+    return sweep;
+}
+
+/*
+ * A random set with up to two cross-sections an interface, with tops and bottoms, and with up to four sweeps a tile: from
+ * any cross-section to any, on the same side and the same one too, and several to one.
+ */
+static inline MesoTileSet random_strand_set(MesoArena *arena, MesoRandom *random)
+{
+    MesoTileSet set = random_set(arena, random);
+    set.sections = MESO_NEW(arena, MesoSection, 2 * (size_t)set.interface_count, NULL);
+    set.sweeps = MESO_NEW(arena, MesoSweep, 4 * (size_t)set.tile_count, NULL);
+    CHECK(set.sections && set.sweeps);
+    for (uint32_t i = 0; i < set.interface_count; i++) {
+        set.interfaces[i].section_begin = set.section_count;
+        set.interfaces[i].section_count = meso_random_below(random, 3);
+        for (uint32_t c = 0; c < set.interfaces[i].section_count; c++)
+            set.sections[set.section_count++] = (MesoSection){.name = c ? "y" : "x", .interface = i};
+    }
+    for (uint32_t t = 0; t < set.tile_count; t++) {
+        MesoTile *tile = &set.tiles[t];
+        uint32_t shown = 0;
+        tile->side_count = meso_random_below(random, 4) ? 4 : 6;
+        for (uint32_t k = 0; k < tile->side_count; k++) {
+            if (k >= 4)
+                tile->labels[k] = (int32_t)meso_random_below(random, set.interface_count + 1);
+            shown += tile->labels[k] ? set.interfaces[meso_label_interface(tile->labels[k])].section_count : 0;
+        }
+        tile->sweep_begin = set.sweep_count;
+        tile->sweep_count = shown ? meso_random_below(random, 5) : 0;
+        for (uint32_t i = 0; i < tile->sweep_count; i++)
+            set.sweeps[set.sweep_count++] = random_sweep(&set, tile, random);
+    }
+    return set;
+}
+
 #endif

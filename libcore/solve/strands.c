@@ -185,7 +185,7 @@ typedef struct StrandPair {
     uint32_t root[2];
 } StrandPair;
 
-/* Cuts under construction. Each strand may belong to one. */
+/* Cuts of one kind under construction. Each strand may belong to one. */
 typedef struct CutBuilder {
     const StrandMap *map;
     const MesoStrandRule *rule;
@@ -250,18 +250,19 @@ static void number_unconnected(CutBuilder *builder, const uint32_t *component, S
     }
 }
 
-/* The cut of the strand at a joint, plus 1; 0: none. */
-static uint32_t cut_at(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t section)
+/* The cut of the strand at the joint of a slot's side and the section at this place of its interface; 0: none. */
+static uint32_t cut_at(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t place)
 {
-    return builder->cut_of[meso_strand_root(&builder->map->forest, joint(builder->map, slot, side, section))];
+    uint32_t at = builder->map->base[6 * (size_t)slot + side] + place;
+    return builder->cut_of[meso_strand_root(&builder->map->forest, at)];
 }
 
 /* Whether the cut at this joint of `slot` was met at one of those before it. */
-static bool met_before(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t section)
+static bool met_before(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t place)
 {
-    uint32_t cut = cut_at(builder, slot, side, section);
+    uint32_t cut = cut_at(builder, slot, side, place);
     for (uint32_t k = 0; k <= side; k++)
-        for (uint32_t i = 0; i < (k < side ? section_count(builder->map, slot, k) : section); i++)
+        for (uint32_t i = 0; i < (k < side ? section_count(builder->map, slot, k) : place); i++)
             if (cut_at(builder, slot, k, i) == cut)
                 return true;
     return false;
@@ -285,7 +286,7 @@ static void go_through_cuts(const CutBuilder *builder, uint32_t *fill, uint32_t 
 {
     const StrandMap *map = builder->map;
     for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
-        for (uint32_t side = 0; side < 4; side++)
+        for (uint32_t side = 0; side < 6; side++)
             for (uint32_t i = 0; i < section_count(map, slot, side); i++) {
                 uint32_t cut = cut_at(builder, slot, side, i);
                 if (cut == 0 || met_before(builder, slot, side, i) ||
@@ -297,23 +298,82 @@ static void go_through_cuts(const CutBuilder *builder, uint32_t *fill, uint32_t 
             }
 }
 
-static MesoStatus list_cuts(const CutBuilder *builder, MesoStrandCuts *cuts, MesoArena *arena, uint32_t *fill,
-                            MesoError *error)
+/* Appends the builder's cuts to `cuts`, whose `begin` has room for them; `slots` is made anew in `arena`. */
+static MesoStatus append_cuts(const CutBuilder *builder, MesoStrandCuts *cuts, MesoArena *arena, MesoError *error)
 {
-    cuts->begin = MESO_NEW(arena, uint32_t, builder->count + (size_t)1, error);
-    if (!cuts->begin)
+    uint32_t *fill = MESO_NEW(arena, uint32_t, builder->count, error);
+    uint32_t *begin = cuts->begin + cuts->count, *before = cuts->slots;
+    if (!fill)
         return MESO_ERR_MEMORY;
     go_through_cuts(builder, fill, NULL);
     for (uint32_t c = 0; c < builder->count; c++) {
-        cuts->begin[c + 1] = cuts->begin[c] + fill[c];
-        fill[c] = cuts->begin[c];
+        begin[c + 1] = begin[c] + fill[c];
+        fill[c] = begin[c];
     }
-    cuts->slots = MESO_NEW(arena, uint32_t, cuts->begin[builder->count], error);
+    cuts->slots = MESO_NEW(arena, uint32_t, begin[builder->count], error);
     if (!cuts->slots)
         return MESO_ERR_MEMORY;
+    if (begin[0])
+        memcpy(cuts->slots, before, begin[0] * sizeof *before);
     go_through_cuts(builder, fill, cuts->slots);
-    cuts->count = builder->count;
+    cuts->count += builder->count;
     return MESO_OK;
+}
+
+static MesoStatus begin_cuts(CutBuilder *builder, const StrandMap *map, const MesoStrandRule *rule,
+                             const MesoStrandCuts *cuts, uint32_t most, MesoArena *arena, MesoError *error)
+{
+    *builder = (CutBuilder){.map = map, .rule = rule, .most = most - cuts->count};
+    builder->cut_of = MESO_NEW(arena, uint32_t, map->joint_count, error);
+    return builder->cut_of ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus cut_what_lasts(MesoStrandCuts *cuts, const StrandMap *map, const MesoStrandRule *rule, uint32_t most,
+                                 MesoArena *arena, MesoError *error)
+{
+    /* A piece may close to a ring where its strand has a branch: that breaks no rule. */
+    const MesoStrandRule lasting = {.acyclic = rule->acyclic, .max_length = rule->max_length};
+    StrandMap pieces = *map;
+    CutBuilder builder;
+    if (!meso_strand_rule_given(&lasting))
+        return MESO_OK;
+    if (begin_cuts(&builder, &pieces, &lasting, cuts, most, arena, error) ||
+        break_into_pieces(&pieces, &lasting, arena, error))
+        return MESO_ERR_MEMORY;
+    builder.lasting = true;
+    number_offenders(&builder);
+    return append_cuts(&builder, cuts, arena, error);
+}
+
+static MesoStatus cut_rings(MesoStrandCuts *cuts, const StrandMap *map, const MesoStrandRule *rule, uint32_t most,
+                            MesoArena *arena, MesoError *error)
+{
+    const MesoStrandRule closing = {.no_loops = true};
+    CutBuilder builder;
+    /* A ring has a cycle: that is cut already where none may be. */
+    if (!rule->no_loops || rule->acyclic)
+        return MESO_OK;
+    if (begin_cuts(&builder, map, &closing, cuts, most, arena, error))
+        return MESO_ERR_MEMORY;
+    number_offenders(&builder);
+    return append_cuts(&builder, cuts, arena, error);
+}
+
+static MesoStatus cut_unconnected(MesoStrandCuts *cuts, const StrandMap *map, const MesoStrandRule *rule, uint32_t most,
+                                  MesoArena *arena, MesoError *error)
+{
+    uint32_t slots = map->graph->slot_count;
+    CutBuilder builder;
+    if (!rule->connected)
+        return MESO_OK;
+    uint32_t *component = MESO_NEW(arena, uint32_t, slots, error);
+    StrandPair *shortest = MESO_NEW(arena, StrandPair, slots, error);
+    if (!component || !shortest || begin_cuts(&builder, map, rule, cuts, most, arena, error))
+        return MESO_ERR_MEMORY;
+    memset(shortest, 0xff, slots * sizeof *shortest);
+    meso_slot_graph_components(map->graph, component);
+    number_unconnected(&builder, component, shortest);
+    return append_cuts(&builder, cuts, arena, error);
 }
 
 MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoStrandRule *rule,
@@ -325,36 +385,21 @@ MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoS
     *cuts = (MesoStrandCuts){0};
     meso_arena_init(&scratch);
     MesoStatus status = build(&map, &scratch, assignment, set, graph, error);
-    CutBuilder builder = {.map = &map, .rule = rule, .most = most};
-    builder.cut_of = MESO_NEW(&scratch, uint32_t, map.joint_count, error);
-    uint32_t *component = MESO_NEW(&scratch, uint32_t, graph->slot_count, error);
-    StrandPair *shortest = MESO_NEW(&scratch, StrandPair, graph->slot_count, error);
-    if (!status && (!builder.cut_of || !component || !shortest))
+    cuts->begin = MESO_NEW(arena, uint32_t, most + (size_t)1, error);
+    if (!cuts->begin)
         status = MESO_ERR_MEMORY;
-    if (!status && (rule->acyclic || rule->max_length)) {
-        StrandMap pieces = map;
-        builder.map = &pieces;
-        /* A piece may close to a ring where its strand has a branch: that breaks no rule. */
-        const MesoStrandRule growing = {.acyclic = rule->acyclic, .max_length = rule->max_length};
-        builder.rule = &growing;
-        status = break_into_pieces(&pieces, &growing, &scratch, error);
-        if (!status)
-            number_offenders(&builder);
-        builder.lasting = builder.count > 0;
-        map.forest = builder.lasting ? pieces.forest : map.forest;
-        builder.rule = rule;
-    }
-    builder.map = &map;
-    if (!status) {
-        memset(shortest, 0xff, graph->slot_count * sizeof *shortest);
-        meso_slot_graph_components(graph, component);
-        if (builder.count == 0)
-            number_offenders(&builder);
-        if (builder.count == 0 && rule->connected)
-            number_unconnected(&builder, component, shortest);
-        uint32_t *fill = MESO_NEW(&scratch, uint32_t, builder.count, error);
-        status = fill ? list_cuts(&builder, cuts, arena, fill, error) : MESO_ERR_MEMORY;
-    }
+    if (!status)
+        status = cut_what_lasts(cuts, &map, rule, most, &scratch, error);
+    if (!status)
+        status = cut_rings(cuts, &map, rule, most, &scratch, error);
+    if (!status)
+        status = cut_unconnected(cuts, &map, rule, most, &scratch, error);
+    uint32_t *slots = status ? NULL : MESO_NEW(arena, uint32_t, cuts->begin[cuts->count], error);
+    if (!status && !slots)
+        status = MESO_ERR_MEMORY;
+    if (!status && cuts->count)
+        memcpy(slots, cuts->slots, cuts->begin[cuts->count] * sizeof *slots);
+    cuts->slots = slots;
     meso_arena_release(&scratch);
     return status;
 }

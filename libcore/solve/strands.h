@@ -56,12 +56,11 @@ typedef struct MesoStrandCuts {
 } MesoStrandCuts;
 
 /*
- * What breaks `rule` in a checked assignment: for each strand that does, the
- * slots that it runs through, or those of pieces of it that have a cycle or
- * are too long already; where strands should be connected, those of two
- * strands on each piece of the surface. Not all kinds at once. At most `most` sets. None exactly where
- * meso_strands_check() is content. O(sweeps * log(sweeps)). Errors as
- * meso_strands_count().
+ * What breaks `rule` in a checked assignment: the slots of pieces of strands
+ * that have a cycle or are too long already; those that each ring runs through;
+ * where strands should be connected, those of two strands on each piece of the
+ * surface. At most `most` sets. None exactly where meso_strands_check() is
+ * content. O(sweeps * log(sweeps)). Errors as meso_strands_count().
  */
 MesoStatus meso_strands_cuts(MesoStrandCuts *cuts, MesoArena *arena, const MesoStrandRule *rule,
                              const MesoAssignment *assignment, const MesoTileSet *set,
