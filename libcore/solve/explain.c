@@ -5,6 +5,7 @@
 
 #include "libcore/solve/propagate.h"
 #include "libcore/solve/reason.h"
+#include "libcore/solve/strand_places.h"
 #include "libcore/solve/strand_search.h"
 
 /* Slots that all tries together may go through; a few seconds. */
@@ -52,8 +53,8 @@ static MesoConstraints select_constraints(Explainer *explainer, const uint32_t *
 static MesoStatus try_propagation(Explainer *explainer, const MesoConstraints *some, MesoArena *scratch, bool *no)
 {
     MesoPropagation propagation;
-    MesoStatus status = meso_propagation_init(&propagation, scratch, explainer->set, explainer->variants,
-                                              explainer->graph, some, explainer->error);
+    MesoStatus status = meso_strand_places_init(&propagation, scratch, explainer->set, explainer->variants,
+                                                explainer->graph, some, explainer->error);
     *no = !status && (propagation.initial_dead_count || propagation.broken_quota != MESO_NO_INDEX);
     if (!status && !*no)
         status = meso_strand_search_disproves(no, scratch, &propagation, explainer->variants, some,

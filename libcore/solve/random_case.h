@@ -61,8 +61,8 @@ static inline MesoSweep random_sweep(const MesoTileSet *set, const MesoTile *til
 }
 
 /*
- * A random set with up to two cross-sections an interface, with tops and bottoms, and with up to four sweeps a tile: from
- * any cross-section to any, on the same side and the same one too, and several to one.
+ * A random set with up to two cross-sections an interface, with tops and bottoms, and with up to four sweeps a tile:
+ * from any cross-section to any, on the same side and the same one too, and several to one.
  */
 static inline MesoTileSet random_strand_set(MesoArena *arena, MesoRandom *random)
 {

@@ -13,6 +13,7 @@
 #include "libcore/solve/reason.h"
 #include "libcore/solve/initial_states.h"
 #include "libcore/solve/search.h"
+#include "libcore/solve/strand_places.h"
 
 /* Word operations of the parity prover: a second or two. */
 static const uint64_t parity_work = (uint64_t)1 << 32;
@@ -703,8 +704,8 @@ MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileS
                      .options = options, .result = result, .arena = arena};
     meso_arena_init(&search.scratch);
     meso_arena_init(&search.hot_arena);
-    MesoStatus status = meso_propagation_init(&search.propagation, &search.scratch, set, variants,
-                                              graph, options->constraints, error);
+    MesoStatus status = meso_strand_places_init(&search.propagation, &search.scratch, set, variants,
+                                                graph, options->constraints, error);
     if (!status)
         status = allocate_dead_ends(&search, error);
     if (!status)

@@ -285,7 +285,7 @@ static void check_engines(const Case *c, MesoArena *arena, uint64_t seed, bool p
 
 int main(int argc, char **argv)
 {
-    uint32_t cases = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1000;
+    uint32_t cases = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 500;
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     MesoArena arena;
     MesoRandom random;
