@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,23 +14,55 @@
 #include "cmd/progress.h"
 #include "formats/json_text.h"
 #include "formats/output.h"
+#include "formats/temporary.h"
 #include "libcore/base/clock.h"
+
+static const char *tool_name;      /* for the handler below */
 
 static void die_of_signal(int number)
 {
-    meso_output_discard_all();
+    meso_temporary_remove_all();
     signal(number, SIG_DFL);
     raise(number);
 }
 
-/* What the caller chose to ignore (nohup) stays ignored. Crashes of libraries, and of an input
- * that is cut while it is mapped, leave no temporary file either. Writes to a closed
- * pipe and past the size limit become errors that are reported. */
+/* Appends what fits of `text`, on one line. */
+static size_t add_text(char *line, size_t size, size_t used, const char *text)
+{
+    for (; *text && used < size; text++)
+        line[used++] = (unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text;
+    return used;
+}
+
+/* An input that is cut while it is mapped is a bad input; its pages are gone in whatever code reads them. */
+static void die_of_bus_error(int number, siginfo_t *about, void *context)
+{
+    (void)context;
+    const char *path = meso_input_mapped_at(about->si_addr);
+    if (!path) {
+        die_of_signal(number);
+        return;
+    }
+    char line[PATH_MAX + 128];
+    const char *const parts[] = {tool_name, ": '", path, "' became shorter while it was read"};
+    size_t used = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        used = add_text(line, sizeof line - 1, used, parts[i]);
+    line[used++] = '\n';
+    meso_temporary_remove_all();
+    (void)!write(STDERR_FILENO, line, used);
+    _exit(MESO_ERR_INPUT);
+}
+
+/* What the caller chose to ignore (nohup) stays ignored. Crashes of libraries leave no temporary
+ * file either. Writes to a closed pipe and past the size limit become errors that are reported. */
 static void install_handlers(void)
 {
     static const int deadly[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGSEGV, SIGBUS, SIGABRT};
     for (size_t i = 0; i < sizeof deadly / sizeof *deadly; i++) {
         struct sigaction old, action = {.sa_handler = die_of_signal};
+        if (deadly[i] == SIGBUS)
+            action = (struct sigaction){.sa_sigaction = die_of_bus_error, .sa_flags = SA_SIGINFO};
         sigfillset(&action.sa_mask);
         if (sigaction(deadly[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
             sigaction(deadly[i], &action, NULL);
@@ -236,6 +269,7 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
 {
     static char *no_arguments[2];
     hold_standard_descriptors();
+    tool_name = info->name;
     install_handlers();
     if (argc < 1) {
         no_arguments[0] = (char *)(uintptr_t)info->name;

@@ -18,7 +18,19 @@ static const MesoToolInfo info = {
     .operands_high = 2,
 };
 
-/* Operand "ok", "no", "write" (to -o), or "sleep" (with an output open). */
+/* Reads a file of two pages after it was cut to one. */
+static MesoStatus read_cut(MesoError *error)
+{
+    MesoInput input;
+    MesoStatus status = meso_input_open(&input, "cut", error);
+    if (status != MESO_OK)
+        return status;
+    CHECK(truncate("cut", 4096) == 0);
+    volatile uint8_t last = input.data[input.size - 1];
+    return meso_fail(error, MESO_ERR_INTERNAL, "read %u", last);
+}
+
+/* Operand "ok", "no", "write" (to -o), "cut", or "sleep" (both with an output open). */
 static MesoStatus run(MesoTool *tool, MesoError *error)
 {
     const char *what = tool->operands[0];
@@ -35,6 +47,8 @@ static MesoStatus run(MesoTool *tool, MesoError *error)
     if (status != MESO_OK)
         return status;
     status = meso_output_write(output, "product\n", 8, error);
+    if (strcmp(what, "cut") == 0)
+        return read_cut(error);
     if (strcmp(what, "sleep") == 0) {
         (void)!write(STDERR_FILENO, "ready", 5);
         sleep(20);
@@ -217,6 +231,20 @@ static void test_signals(void)
     }
 }
 
+static void test_cut_input(void)
+{
+    static const char pages[8192];
+    MesoOutput *output;
+    MesoError error;
+    CHECK(meso_output_open(&output, test_path(&folder, "cut"), &error) == MESO_OK);
+    CHECK(meso_output_write(output, pages, sizeof pages, &error) == MESO_OK);
+    CHECK(meso_output_commit(output, &error) == MESO_OK);
+    CHECK(run_line("meso-try -q cut -o product", NULL) == 4 && *out == 0);
+    CHECK(strcmp(err, "meso-try: 'cut' became shorter while it was read\n") == 0);
+    CHECK(test_folder_count(&folder) == 1);     /* the input */
+    unlink(test_path(&folder, "cut"));
+}
+
 int main(void)
 {
     folder = test_folder_make();
@@ -226,6 +254,7 @@ int main(void)
     test_report();
     test_paths();
     test_signals();
+    test_cut_input();
     test_folder_remove(&folder);
     return 0;
 }

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,49 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-enum { PAGE = 4096, FIRST_READ = 1 << 16 };
+enum { PAGE = 4096, FIRST_READ = 1 << 16, MAPPING_COUNT = 64 };
+
+/* What the handler of SIGBUS looks at: an entry with a path is complete. More files than it holds
+ * are read as well, but not named when they are cut. */
+static struct {
+    atomic_bool taken;
+    _Atomic(const char *) path;
+    const uint8_t *data;
+    size_t size;
+} mappings[MAPPING_COUNT];
+
+static void remember_mapping(const MesoInput *input)
+{
+    for (int i = 0; i < MAPPING_COUNT; i++) {
+        bool expected = false;
+        if (!atomic_compare_exchange_strong(&mappings[i].taken, &expected, true))
+            continue;
+        mappings[i].data = input->data;
+        mappings[i].size = input->mapping_size;
+        atomic_store(&mappings[i].path, input->path);
+        return;
+    }
+}
+
+static void forget_mapping(const MesoInput *input)
+{
+    for (int i = 0; i < MAPPING_COUNT; i++)
+        if (atomic_load(&mappings[i].path) && mappings[i].data == input->data) {
+            atomic_store(&mappings[i].path, NULL);
+            atomic_store(&mappings[i].taken, false);
+            return;
+        }
+}
+
+const char *meso_input_mapped_at(const void *address)
+{
+    for (int i = 0; i < MAPPING_COUNT; i++) {
+        const char *path = atomic_load(&mappings[i].path);
+        if (path && (uintptr_t)address - (uintptr_t)mappings[i].data < mappings[i].size)
+            return path;
+    }
+    return NULL;
+}
 
 static void hash_bytes(MesoInput *input)
 {
@@ -23,7 +66,8 @@ static MesoStatus fail_errno(MesoError *error, const char *what, const char *pat
 {
     char reason[128] = "unknown error";
     strerror_r(number, reason, sizeof reason);
-    return meso_fail(error, MESO_ERR_INPUT, "%s '%s': %s", what, path, reason);
+    MesoStatus status = number == ENOMEM ? MESO_ERR_MEMORY : MESO_ERR_INPUT;
+    return meso_fail(error, status, "%s '%s': %s", what, path, reason);
 }
 
 static MesoStatus open_file(int *file, const char *path, MesoError *error)
@@ -93,6 +137,7 @@ static MesoStatus map_file(MesoInput *input, int file, size_t size, const char *
     posix_madvise(mapping, size, POSIX_MADV_WILLNEED);
     *input = (MesoInput){.path = path, .data = mapping, .size = size,
                          .mapping = mapping, .mapping_size = size};
+    remember_mapping(input);
     return MESO_OK;
 }
 
@@ -146,9 +191,11 @@ size_t meso_input_mark(const MesoInput *input)
 
 void meso_input_close(MesoInput *input)
 {
-    if (input->mapping_size)
+    if (input->mapping_size) {
+        forget_mapping(input);
         munmap(input->mapping, input->mapping_size);
-    else
+    } else {
         free(input->mapping);
+    }
     *input = (MesoInput){.path = input->path, .data = (const uint8_t *)""};
 }

@@ -19,7 +19,8 @@ typedef struct MesoInput {
 /*
  * Maps `path` ("-": reads standard input). MESO_ERR_INPUT for what is missing,
  * unreadable, empty, or not a regular file or pipe, each by its own message.
- * A file that others change while we read is not guarded against.
+ * Bytes that others write into the file while we read are not guarded against; where they cut it,
+ * reading what is gone raises SIGBUS: meso_input_mapped_at() tells its handler which file it was.
  */
 MesoStatus meso_input_open(MesoInput *input, const char *path, MesoError *error);
 
@@ -30,5 +31,8 @@ void meso_input_wrap(MesoInput *input, const char *path, const void *data, size_
 size_t meso_input_mark(const MesoInput *input);
 
 void meso_input_close(MesoInput *input);
+
+/* Path of the open input whose mapping holds `address`, or NULL. Async-signal-safe. */
+const char *meso_input_mapped_at(const void *address);
 
 #endif

@@ -40,10 +40,13 @@ static void test_file(void)
     CHECK(meso_input_open(&input, path, &error) == MESO_OK);
     CHECK(input.size == sizeof bytes && memcmp(input.data, bytes, sizeof bytes) == 0);
     CHECK((uintptr_t)input.data % 4096 == 0 && input.path == path);
+    CHECK(meso_input_mapped_at(input.data) == path && meso_input_mapped_at(input.data + 4999) == path);
+    CHECK(!meso_input_mapped_at(input.data + sizeof bytes) && !meso_input_mapped_at(bytes));
     meso_input_wrap(&wrapped, "x", bytes, sizeof bytes);
     CHECK(wrapped.hash[0] == input.hash[0] && wrapped.hash[1] == input.hash[1]);
+    const uint8_t *gone = input.data;
     meso_input_close(&input);
-    CHECK(input.data && input.size == 0);
+    CHECK(input.data && input.size == 0 && !meso_input_mapped_at(gone));
     meso_input_close(&wrapped);
 }
 

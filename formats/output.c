@@ -1,5 +1,7 @@
 #include "formats/output.h"
 
+#include "formats/temporary.h"
+
 #include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -13,11 +15,11 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { BUFFER_SIZE = 1 << 20, TEMPORARY_COUNT = 64, ANY_FREE = -1 };
+enum { BUFFER_SIZE = 1 << 20 };
 
 struct MesoOutput {
     int file;                   /* what is written to: the temporary, or the spool */
-    int entry;                  /* in `temporaries`; ANY_FREE for a spool, which has no name */
+    MesoTemporary temporary;    /* the name of `file`; none for a spool */
     char *shown;                /* in messages: 'name', or standard output */
     char *target;               /* rename goes here; NULL for a copy */
     char *copy_path;            /* opened on commit; NULL: `copy_file` */
@@ -27,38 +29,6 @@ struct MesoOutput {
     uint64_t end;               /* size of the file */
     MesoError failure;          /* status MESO_OK while all is well */
 };
-
-/* Names that a signal handler may have to remove: only an entry that is ARMED
- * is read, and its name does not change while it is. */
-enum { ENTRY_FREE, ENTRY_TAKEN, ENTRY_ARMED };
-
-static struct {
-    atomic_int state;
-    char name[PATH_MAX];
-} temporaries[TEMPORARY_COUNT];
-
-static int take_entry(void)
-{
-    for (int i = 0; i < TEMPORARY_COUNT; i++) {
-        int expected = ENTRY_FREE;
-        if (atomic_compare_exchange_strong(&temporaries[i].state, &expected, ENTRY_TAKEN))
-            return i;
-    }
-    return ANY_FREE;
-}
-
-static void free_entry(int entry)
-{
-    if (entry >= 0)
-        atomic_store(&temporaries[entry].state, ENTRY_FREE);
-}
-
-void meso_output_discard_all(void)
-{
-    for (int i = 0; i < TEMPORARY_COUNT; i++)
-        if (atomic_load(&temporaries[i].state) == ENTRY_ARMED)
-            unlink(temporaries[i].name);
-}
 
 /* What failed once fails for good: the file has a hole where the bytes should be. */
 static MesoStatus refuse_after_failure(const MesoOutput *output, MesoError *error)
@@ -79,44 +49,6 @@ static int folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? (int)(slash - path + 1) : 0;
-}
-
-/*
- * Creates a hidden file in the folder that begins `near`. The name is armed
- * before the file exists, so that no signal finds the file without its name;
- * process, counter and clock together keep it from being someone else's.
- */
-static int create_temporary(const char *near, int length, int *entry)
-{
-    static atomic_uint counter;
-    *entry = take_entry();
-    if (*entry == ANY_FREE) {
-        errno = EMFILE;
-        return -1;
-    }
-    char *name = temporaries[*entry].name;
-    for (int attempt = 0; attempt < 100; attempt++) {
-        struct timespec now;
-        clock_gettime(CLOCK_REALTIME, &now);
-        int size = snprintf(name, PATH_MAX, "%.*s.meso-%ld-%u-%lx.tmp", length, near, (long)getpid(),
-                            atomic_fetch_add(&counter, 1), (unsigned long)now.tv_nsec);
-        if (size >= PATH_MAX) {
-            errno = ENAMETOOLONG;
-            break;
-        }
-        atomic_store(&temporaries[*entry].state, ENTRY_ARMED);
-        int file = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0)
-            return file;
-        atomic_store(&temporaries[*entry].state, ENTRY_TAKEN);
-        if (errno != EEXIST)
-            break;
-    }
-    int reason = errno;
-    free_entry(*entry);
-    *entry = ANY_FREE;
-    errno = reason;
-    return -1;
 }
 
 /* The descriptor that names like /dev/stdout and /dev/fd/3 stand for; -1 for any other name. */
@@ -176,15 +108,13 @@ static MesoStatus open_spool(MesoOutput *output, MesoError *error)
     int length = snprintf(near, sizeof near, "%s/", folder);
     errno = ENAMETOOLONG;
     if (length < PATH_MAX)
-        output->file = create_temporary(near, length, &output->entry);
+        output->file = meso_temporary_create(&output->temporary, near, length);
     if (output->file < 0) {
         char why[PATH_MAX + 64];
         snprintf(why, sizeof why, "no temporary file in '%s': %s", folder, strerror(errno));
         return fail(output, why, error);
     }
-    unlink(temporaries[output->entry].name);
-    free_entry(output->entry);
-    output->entry = ANY_FREE;
+    meso_temporary_remove(&output->temporary);
     return MESO_OK;
 }
 
@@ -202,7 +132,7 @@ static MesoStatus open_beside(MesoOutput *output, const char *path, const struct
     if (existing && access(output->target, W_OK) != 0)
         return fail(output, strerror(errno), error);
 
-    output->file = create_temporary(output->target, folder, &output->entry);
+    output->file = meso_temporary_create(&output->temporary, output->target, folder);
     if (output->file < 0) {
         char why[PATH_MAX + 64];
         snprintf(why, sizeof why, "folder '%.*s': %s", folder ? folder : 1,
@@ -234,12 +164,11 @@ static MesoStatus open_target(MesoOutput *output, const char *path, MesoError *e
     return open_spool(output, error);
 }
 
-/* Frees everything but leaves the temporary file where it is. */
 static void release(MesoOutput *output)
 {
+    meso_temporary_remove(&output->temporary);
     if (output->file >= 0)
         close(output->file);
-    free_entry(output->entry);
     free(output->shown);
     free(output->target);
     free(output->copy_path);
@@ -254,7 +183,7 @@ MesoStatus meso_output_open(MesoOutput **result, const char *path, MesoError *er
     if (!output)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     output->file = output->copy_file = -1;
-    output->entry = ANY_FREE;
+    output->temporary = MESO_NO_TEMPORARY;
     output->buffer = malloc(BUFFER_SIZE);
     size_t size = strlen(path) + 32;
     output->shown = malloc(size);
@@ -340,10 +269,8 @@ static MesoStatus commit_rename(MesoOutput *output, MesoError *error)
         return fail(output, strerror(errno), error);
     int closed = close(output->file);
     output->file = -1;
-    if (closed != 0 || rename(temporaries[output->entry].name, output->target) != 0)
+    if (closed != 0 || !meso_temporary_rename(&output->temporary, output->target))
         return fail(output, strerror(errno), error);
-    free_entry(output->entry);
-    output->entry = ANY_FREE;
 
     /* So that the name survives a crash too; not every file system can. */
     int length = folder_length(output->target);
@@ -408,9 +335,6 @@ MesoStatus meso_output_commit(MesoOutput *output, MesoError *error)
 
 void meso_output_discard(MesoOutput *output)
 {
-    if (!output)
-        return;
-    if (output->entry >= 0)
-        unlink(temporaries[output->entry].name);
-    release(output);
+    if (output)
+        release(output);
 }

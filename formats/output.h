@@ -35,7 +35,4 @@ MesoStatus meso_output_commit(MesoOutput *output, MesoError *error);
 /* Removes what was written. Frees `output`; NULL is allowed. */
 void meso_output_discard(MesoOutput *output);
 
-/* Removes all temporary files; callable from a signal handler. */
-void meso_output_discard_all(void);
-
 #endif

@@ -15,3 +15,21 @@ for signal in TERM INT; do
     echo "$signal: status $status"
     ls -A out
 done
+
+# Threads that create and rename a file for every seed: told to die at any moment, they leave none half made.
+mkdir each
+for wait in 00 01 02 03 05 08 11 15 19 23; do
+    meso-solve -q --threads 4 --seeds 1-400 --each each/%d.slots "$fixtures/vase.tiles.json" "$fixtures/vase.obj" \
+        -o each/lines.jsonl &
+    process=$!
+    tries=0
+    until [ -e each/1.slots ] || [ $tries -gt 600 ]; do
+        sleep 0.01
+        tries=$((tries + 1))
+    done
+    sleep 0.$wait
+    kill -s TERM $process
+    wait $process 2>/dev/null || true
+    find each -name '.*' -type f
+    rm -f each/* each/.meso*
+done
