@@ -112,7 +112,12 @@ $(OUT)/scripts/check_drat: $(OUT)/obj/scripts/check_drat.c.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^
 
-generators: $(GENERATORS:%=$(OUT)/scripts/%) $(OUT)/scripts/check_drat
+# Without sanitizers, which have allocations of their own.
+$(OUT)/scripts/fail_malloc.so: scripts/fail_malloc.c
+	@mkdir -p $(@D)
+	$(CC) -I. -D_POSIX_C_SOURCE=200809L -std=c17 -O2 $(WARN) -fPIC -shared -o $@ $<
+
+generators: $(GENERATORS:%=$(OUT)/scripts/%) $(OUT)/scripts/check_drat $(OUT)/scripts/fail_malloc.so
 tests: $(TESTS:%=$(OUT)/test/%) generators
 fuzzers: $(FUZZERS:%=$(OUT)/fuzz/%)
 benches: $(BENCHES:%=$(OUT)/test/%)

@@ -297,7 +297,7 @@ MesoStatus meso_info_mesh(json_t *facts, MesoArena *arena, const MesoInput *inpu
         int failed = json_object_set_new(facts, "kind", json_string("surface"));
         return failed ? memory_if(failed, error) : put_surface(facts, arena, &quads, error);
     }
-    if (meso_triangle_mesh_read(&triangles, arena, input, NULL) != MESO_OK)
+    if (status == MESO_ERR_MEMORY || meso_triangle_mesh_read(&triangles, arena, input, NULL) != MESO_OK)
         return status;
     int failed = json_object_set_new(facts, "kind", json_string("mesh"));
     failed |= json_object_set_new(facts, "surface", json_false());

@@ -94,7 +94,10 @@ static MesoStatus look(Findings *findings)
     if (status != MESO_OK)  /* of a file that can be read at all, the findings are the answer */
         return status == MESO_ERR_INPUT && findings->errors ? MESO_OK : status;
     status = meso_tile_report_counts(tool, &set, NULL);
-    if (status != MESO_OK || meso_tile_set_check(&set, add_finding, findings) > 0)
+    uint32_t error_count = 0;
+    if (status == MESO_OK)
+        status = meso_tile_set_check(&error_count, &set, add_finding, findings, error);
+    if (status != MESO_OK || error_count > 0)
         return status;
     status = find_empty_drawings(&set, findings);
     if (status == MESO_OK)

@@ -27,7 +27,10 @@ MesoStatus meso_tile_text_finish(MesoTileText *text, const char *path, MesoStatu
 {
     if (!text->stream)
         return status;
-    if (fclose(text->stream) != 0 && status == MESO_OK)
+    /* A stream in memory that cannot grow says so on the way; its close may not, and leave no bytes. */
+    bool whole = fflush(text->stream) == 0 && !ferror(text->stream);
+    whole &= fclose(text->stream) == 0;
+    if ((!whole || !text->bytes) && status == MESO_OK)
         status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     MesoOutput *output = NULL;
     if (status == MESO_OK)

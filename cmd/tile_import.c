@@ -61,7 +61,10 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set, json_t *notes)
     if (status != MESO_OK)
         return status;
 
-    uint32_t errors = meso_tile_set_check(set, say_error, tool);
+    uint32_t errors;
+    status = meso_tile_set_check(&errors, set, say_error, tool, error);
+    if (status != MESO_OK)
+        return status;
     if (errors > 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: %u error%s; nothing was written",
                          tool->operands[0], errors, errors == 1 ? "" : "s");

@@ -13,11 +13,12 @@
 #include "cmd/command_line.h"
 #include "cmd/progress.h"
 #include "formats/json_text.h"
+#include "formats/memory_watch.h"
 #include "formats/output.h"
 #include "formats/temporary.h"
 #include "libcore/base/clock.h"
 
-static const char *tool_name;      /* for the handler below */
+static const char *tool_name;      /* for those who die on the spot */
 
 static void die_of_signal(int number)
 {
@@ -34,24 +35,33 @@ static size_t add_text(char *line, size_t size, size_t used, const char *text)
     return used;
 }
 
-/* An input that is cut while it is mapped is a bad input; its pages are gone in whatever code reads them. */
-static void die_of_bus_error(int number, siginfo_t *about, void *context)
+/* Ends the process with the line of error "tool: begin name end" and nothing but what a signal handler may do. */
+static void die(MesoStatus status, const char *begin, const char *name, const char *end)
 {
-    (void)context;
-    const char *path = meso_input_mapped_at(about->si_addr);
-    if (!path) {
-        die_of_signal(number);
-        return;
-    }
     char line[PATH_MAX + 128];
-    const char *const parts[] = {tool_name, ": '", path, "' became shorter while it was read"};
+    const char *const parts[] = {tool_name, ": ", begin, name, end};
     size_t used = 0;
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         used = add_text(line, sizeof line - 1, used, parts[i]);
     line[used++] = '\n';
     meso_temporary_remove_all();
     (void)!write(STDERR_FILENO, line, used);
-    _exit(MESO_ERR_INPUT);
+    _exit(status);
+}
+
+static void die_of_memory(void)
+{
+    die(MESO_ERR_MEMORY, "out of memory in a library", "", "");
+}
+
+/* An input that is cut while it is mapped is a bad input; its pages are gone in whatever code reads them. */
+static void die_of_bus_error(int number, siginfo_t *about, void *context)
+{
+    (void)context;
+    const char *path = meso_input_mapped_at(about->si_addr);
+    if (path)
+        die(MESO_ERR_INPUT, "'", path, "' became shorter while it was read");
+    die_of_signal(number);
 }
 
 /* What the caller chose to ignore (nohup) stays ignored. Crashes of libraries leave no temporary
@@ -270,6 +280,7 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
     static char *no_arguments[2];
     hold_standard_descriptors();
     tool_name = info->name;
+    meso_memory_watch(die_of_memory);
     install_handlers();
     if (argc < 1) {
         no_arguments[0] = (char *)(uintptr_t)info->name;

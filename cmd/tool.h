@@ -88,8 +88,9 @@ typedef struct MesoTool {
 
 /*
  * Parses, refuses outputs that are inputs or written twice, installs the signal handlers (SIGTERM, SIGINT, SIGHUP, SIGQUIT,
- * SIGXCPU and crashes: remove temporary files, then die of the signal), ignores SIGPIPE. `tool` must be
- * zeroed, except for option values that are not the default here. Returns
+ * SIGXCPU and crashes: remove temporary files, then die of the signal; an input that is cut while
+ * it is read: exit code 4), ignores SIGPIPE, and ends the tool with code 33 where a library finds
+ * no memory. `tool` must be zeroed, except for option values that are not the default here. Returns
  * false where there is nothing left to run: --help, --version, or wrong usage.
  */
 bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,

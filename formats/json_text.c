@@ -8,22 +8,34 @@
 
 enum { DEEPEST = 512, LINE_WIDTH = 100 };
 
-/* Jansson allows 2048 levels; so deep a file is an attack on whoever walks it
- * by recursion. Brackets inside strings do not count. */
-static MesoStatus check_depth(const MesoInput *input, MesoError *error)
+/* Bytes to parse; messages count lines from `first_line`. */
+typedef struct Text {
+    const char *path, *data;
+    size_t size, first_line;
+} Text;
+
+/*
+ * Jansson allows 2048 levels; so deep a file is an attack on whoever walks it
+ * by recursion. Brackets inside strings do not count. It also passes over a zero
+ * byte behind a number, where whoever takes the bytes as a string finds their end.
+ */
+static MesoStatus check_text(const Text *text, MesoError *error)
 {
     uint32_t depth = 0;
-    size_t line = 1, column = 0;
+    size_t line = text->first_line, column = 0;
     bool quoted = false;
 
-    for (size_t i = 0; i < input->size; i++) {
-        uint8_t byte = input->data[i];
+    for (size_t i = 0; i < text->size; i++) {
+        uint8_t byte = (uint8_t)text->data[i];
         column += (byte & 0xc0) != 0x80;    /* characters, as Jansson counts */
+        if (byte == 0)
+            return meso_fail(error, MESO_ERR_INPUT, "%s:%zu:%zu: a zero byte, which is not text", text->path, line,
+                             column);
         if (byte == '\n') {
             line++;
             column = 0;
         } else if (quoted) {
-            if (byte == '\\' && i + 1 < input->size && input->data[i + 1] != '\n') {
+            if (byte == '\\' && i + 1 < text->size && text->data[i + 1] != '\n' && text->data[i + 1] != 0) {
                 i++;
                 column++;
             } else if (byte == '"')
@@ -32,28 +44,41 @@ static MesoStatus check_depth(const MesoInput *input, MesoError *error)
             quoted = true;
         else if ((byte == '[' || byte == '{') && ++depth > DEEPEST)
             return meso_fail(error, MESO_ERR_INPUT, "%s:%zu:%zu: more than %d levels of nesting",
-                             input->path, line, column, DEEPEST);
+                             text->path, line, column, DEEPEST);
         else if ((byte == ']' || byte == '}') && depth > 0)
             depth--;
     }
     return MESO_OK;
 }
 
-MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *error)
+static MesoStatus parse(json_t **root, const Text *text, MesoError *error)
 {
     *root = NULL;
-    if (check_depth(input, error) != MESO_OK)
-        return MESO_ERR_INPUT;
+    MesoStatus status = check_text(text, error);
+    if (status != MESO_OK)
+        return status;
 
     json_error_t where;
-    size_t mark = meso_input_mark(input);
-    *root = json_loadb((const char *)input->data + mark, input->size - mark, JSON_REJECT_DUPLICATES, &where);
+    *root = json_loadb(text->data, text->size, JSON_REJECT_DUPLICATES, &where);
     if (*root)
         return MESO_OK;
     if (json_error_code(&where) == json_error_out_of_memory)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for the JSON of '%s'", input->path);
-    return meso_fail(error, MESO_ERR_INPUT, "%s:%d:%d: %s", input->path,
-                     where.line > 0 ? where.line : 1, where.column > 0 ? where.column : 1, where.text);
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for the JSON of '%s'", text->path);
+    size_t line = text->first_line + (where.line > 1 ? (size_t)where.line - 1 : 0);
+    return meso_fail(error, MESO_ERR_INPUT, "%s:%zu:%d: %s", text->path, line, where.column > 0 ? where.column : 1,
+                     where.text);
+}
+
+MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *error)
+{
+    size_t mark = meso_input_mark(input);
+    return parse(root, &(Text){input->path, (const char *)input->data + mark, input->size - mark, 1}, error);
+}
+
+MesoStatus meso_json_parse_line(json_t **root, const char *path, uint64_t number, const char *text, size_t size,
+                                MesoError *error)
+{
+    return parse(root, &(Text){path, text, size, number}, error);
 }
 
 json_t *meso_json_string(const char *text)

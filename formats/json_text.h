@@ -9,9 +9,14 @@
 
 /*
  * Parses `input`; the caller owns the result. MESO_ERR_INPUT with file, line
- * and column; duplicate keys and more than 512 levels are refused. A byte order mark is passed over.
+ * and column; duplicate keys, more than 512 levels and bytes that are not text are refused. A byte order mark
+ * is passed over.
  */
 MesoStatus meso_json_parse(json_t **root, const MesoInput *input, MesoError *error);
+
+/* The same for line `number` of a file of lines: `size` bytes at `text`. */
+MesoStatus meso_json_parse_line(json_t **root, const char *path, uint64_t number, const char *text, size_t size,
+                                MesoError *error);
 
 /* String value of `text`; what is not UTF-8 (file names, cut messages) keeps its ASCII and gets
  * '?' for the rest. NULL when memory is out. */

@@ -40,6 +40,11 @@ static void test_errors(void)
     json_t *root;
     meso_input_wrap(&input, "file", "[1]\0", 4);
     CHECK(meso_json_parse(&root, &input, &error) == MESO_ERR_INPUT);
+    meso_input_wrap(&input, "file", "[1,\n 2\0]", 8);     /* which Jansson takes */
+    CHECK(meso_json_parse(&root, &input, &error) == MESO_ERR_INPUT && !root);
+    CHECK(strcmp(error.message, "file:2:3: a zero byte, which is not text") == 0);
+    CHECK(meso_json_parse_line(&root, "file", 7, "[1, x]", 6, &error) == MESO_ERR_INPUT && !root);
+    CHECK(strncmp(error.message, "file:7:5: ", 10) == 0);
     const char whole[] = "{\"a\": [1, 2.5, \"x\\ty\", true, null]}";
     for (size_t size = 0; size + 1 < sizeof whole - 1; size++) {
         meso_input_wrap(&input, "file", whole, size);

@@ -1,5 +1,6 @@
 #include "formats/model_file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,42 +119,28 @@ typedef struct Reading {
     const char *path;
 } Reading;
 
+/* `text` is named after its chunk. */
 static MesoStatus read_text(const Reading *in, const char *name, MesoInput *text, MesoError *error)
 {
     uint64_t size;
     if (!meso_container_require(&in->file, in->path, name, 0, 0, error))
         return MESO_ERR_INPUT;
+    const char *shown = meso_arena_print(in->arena, error, "chunk '%s'", name);
+    if (!shown)
+        return MESO_ERR_MEMORY;
     const void *data = meso_container_find(&in->file, name, &size);
-    meso_input_wrap(text, "chunk 'tiles'", data, size);
+    meso_input_wrap(text, shown, data, size);
     return MESO_OK;
-}
-
-static void first_error(void *context, const char *severity, const char *where, const char *message)
-{
-    MesoError *error = context;
-    if (error->status == MESO_OK && strcmp(severity, "error") == 0)
-        meso_fail(error, MESO_ERR_INPUT, "%s: %s", where, message);
 }
 
 static MesoStatus read_tiles(const Reading *in, MesoError *error)
 {
     MesoInput text;
-    json_t *root = NULL;
     MesoStatus status = read_text(in, "tiles", &text, error);
     if (status != MESO_OK)
         return status;
-    status = meso_json_parse(&root, &text, error);
-    if (status == MESO_OK)
-        status = meso_tiles_from_json(&in->model->tile_set, in->arena, root, text.path, error);
-    json_decref(root);
-    if (status != MESO_OK) {
-        meso_fail_prefix(error, in->path);
-        return status;
-    }
-    MesoError problem = {0};
-    if (meso_tile_set_check(&in->model->tile_set, first_error, &problem) > 0)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: chunk 'tiles': %s", in->path, problem.message);
-    return MESO_OK;
+    status = meso_tiles_read(&in->model->tile_set, in->arena, &text, error);
+    return status == MESO_OK ? MESO_OK : meso_fail_prefix(error, in->path);
 }
 
 /* Zero is a value that stands for a default; a model has none of these left. */
@@ -280,10 +267,18 @@ static MesoStatus find_inners(const Reading *in, const uint32_t *counts, InnerAr
 static MesoStatus check_inner(const Reading *in, uint32_t inner, const MesoTriangleMesh *mesh,
                               MesoError *error)
 {
-    for (uint32_t v = 0; v < mesh->vertex_count; v++)
-        if (!meso_vec3_finite(mesh->positions[v]) || !meso_vec3_finite(mesh->normals[v]))
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        MesoVec3 p = mesh->positions[v];
+        if (!meso_vec3_finite(p) || !meso_vec3_finite(mesh->normals[v]))
             return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: vertex %u is not finite",
                              in->path, inner, v);
+        if (fmaxf(fmaxf(fabsf(p.x), fabsf(p.y)), fabsf(p.z)) > MESO_COORDINATE_LIMIT)
+            return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: vertex %u lies beyond the largest coordinate, %g",
+                             in->path, inner, v, (double)MESO_COORDINATE_LIMIT);
+        if (!(fabsf(meso_vec3_length(mesh->normals[v]) - 1) < 1e-3f))
+            return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: normal %u is not of unit length", in->path, inner,
+                             v);
+    }
     for (uint64_t t = 0; t < 3 * (uint64_t)mesh->triangle_count; t++)
         if (mesh->triangles[t] >= mesh->vertex_count)
             return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: no vertex %u; it has %u",

@@ -159,7 +159,8 @@ static void test_surface(void)
 
 static void test_tiles_and_inner(void)
 {
-    const float points[9] = {[4] = NAN};
+    const float points[9] = {[4] = NAN}, far[9] = {[8] = -3e38f};
+    const float no_normal[9] = {1, 0, 0, NAN}, long_normal[9] = {1, 0, 0, 0, 1, 0, 0, 0, 7};
     const uint32_t triangle[3] = {0, 3, 1}, counts[2] = {3, 2}, huge[2] = {UINT32_MAX, UINT32_MAX};
     expect("tiles", "{", 1, "file: chunk 'tiles':1:1: string or '}' expected near end of file");
     expect("tiles", "{\"format\": \"meso-tiles\", \"version\": 2}", 38,
@@ -168,7 +169,9 @@ static void test_tiles_and_inner(void)
     expect("inner", counts, 8, "file: chunk 'innertri' has 12 bytes, not 2 times 12");
     expect("inner", huge, 8, "file: chunk 'innerpos' has 36 bytes, not 4294967295 times 12");
     expect("innerpos", points, 36, "file: inner mesh 0: vertex 1 is not finite");
-    expect("innernrm", points, 36, "file: inner mesh 0: vertex 1 is not finite");
+    expect("innernrm", no_normal, 36, "file: inner mesh 0: vertex 1 is not finite");
+    expect("innerpos", far, 36, "file: inner mesh 0: vertex 2 lies beyond the largest coordinate, 1e+18");
+    expect("innernrm", long_normal, 36, "file: inner mesh 0: normal 2 is not of unit length");
     expect("innertri", triangle, 12, "file: inner mesh 0: no vertex 3; it has 3");
 }
 

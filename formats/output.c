@@ -1,7 +1,5 @@
 #include "formats/output.h"
 
-#include "formats/temporary.h"
-
 #include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -14,6 +12,8 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "formats/temporary.h"
 
 enum { BUFFER_SIZE = 1 << 20 };
 
@@ -41,6 +41,14 @@ static MesoStatus refuse_after_failure(const MesoOutput *output, MesoError *erro
 static MesoStatus fail(MesoOutput *output, const char *why, MesoError *error)
 {
     meso_fail(&output->failure, MESO_ERR_OUTPUT, "cannot write %s: %s", output->shown, why);
+    return refuse_after_failure(output, error);
+}
+
+static MesoStatus fail_errno(MesoOutput *output, int number, MesoError *error)
+{
+    fail(output, strerror(number), error);
+    if (number == ENOMEM)
+        output->failure.status = MESO_ERR_MEMORY;
     return refuse_after_failure(output, error);
 }
 
@@ -123,14 +131,14 @@ static MesoStatus open_beside(MesoOutput *output, const char *path, const struct
 {
     output->target = meso_output_target(path);
     if (!output->target)
-        return fail(output, strerror(errno), error);
+        return fail_errno(output, errno, error);
     int folder = folder_length(output->target);
     if (output->target[folder] == 0)
         return fail(output, "the name is that of a folder", error);
     if (strlen(output->target + folder) > NAME_MAX)
-        return fail(output, strerror(ENAMETOOLONG), error);
+        return fail_errno(output, ENAMETOOLONG, error);
     if (existing && access(output->target, W_OK) != 0)
-        return fail(output, strerror(errno), error);
+        return fail_errno(output, errno, error);
 
     output->file = meso_temporary_create(&output->temporary, output->target, folder);
     if (output->file < 0) {
@@ -222,7 +230,7 @@ static MesoStatus flush(MesoOutput *output, MesoError *error)
 {
     uint64_t begin = output->end - output->buffered;
     if (!write_fully(output->file, output->buffer, output->buffered, begin))
-        return fail(output, strerror(errno), error);
+        return fail_errno(output, errno, error);
     output->buffered = 0;
     return MESO_OK;
 }
@@ -237,7 +245,7 @@ MesoStatus meso_output_write(MesoOutput *output, const void *data, size_t size, 
 
     if (size >= BUFFER_SIZE) {
         if (!write_fully(output->file, data, size, output->end))
-            return fail(output, strerror(errno), error);
+            return fail_errno(output, errno, error);
     } else if (size > 0) {
         memcpy(output->buffer + output->buffered, data, size);
         output->buffered += size;
@@ -255,9 +263,9 @@ MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void 
     if (status != MESO_OK)
         return status;
     if (offset > INT64_MAX - size)
-        return fail(output, strerror(EFBIG), error);
+        return fail_errno(output, EFBIG, error);
     if (!write_fully(output->file, data, size, offset))
-        return fail(output, strerror(errno), error);
+        return fail_errno(output, errno, error);
     if (offset + size > output->end)
         output->end = offset + size;
     return MESO_OK;
@@ -266,11 +274,11 @@ MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void 
 static MesoStatus commit_rename(MesoOutput *output, MesoError *error)
 {
     if (fsync(output->file) != 0 && errno != EINVAL && errno != ENOTSUP)
-        return fail(output, strerror(errno), error);
+        return fail_errno(output, errno, error);
     int closed = close(output->file);
     output->file = -1;
     if (closed != 0 || !meso_temporary_rename(&output->temporary, output->target))
-        return fail(output, strerror(errno), error);
+        return fail_errno(output, errno, error);
 
     /* So that the name survives a crash too; not every file system can. */
     int length = folder_length(output->target);
@@ -319,7 +327,7 @@ static MesoStatus commit_copy(MesoOutput *output, MesoError *error)
         reason = errno;
         good = false;
     }
-    return good ? MESO_OK : fail(output, strerror(reason), error);
+    return good ? MESO_OK : fail_errno(output, reason, error);
 }
 
 MesoStatus meso_output_commit(MesoOutput *output, MesoError *error)

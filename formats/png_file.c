@@ -65,6 +65,22 @@ static void flush_stream(png_structp png)
     (void)png;
 }
 
+/* libpng would say it in words alone. */
+static png_voidp allocate(png_structp png, png_alloc_size_t size)
+{
+    void *memory = malloc(size);
+    Stream *stream = png_get_mem_ptr(png);
+    if (!memory && !stream->status)
+        stream->status = meso_fail(stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
+    return memory;
+}
+
+static void release(png_structp png, png_voidp memory)
+{
+    (void)png;
+    free(memory);
+}
+
 static void on_error(png_structp png, png_const_charp message)
 {
     Stream *stream = png_get_error_ptr(png);
@@ -118,7 +134,8 @@ static MesoStatus write_or_fail(png_structp png, png_infop info, Stream *stream,
 static MesoStatus write_png(Stream *stream, const MesoImage *image, const float *background,
                             char *provenance, uint8_t *row)
 {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, stream, on_error, on_warning);
+    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, on_error, on_warning, stream, allocate,
+                                                release);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     MesoStatus status;
     if (info) {

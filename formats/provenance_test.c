@@ -29,6 +29,9 @@ static void test_text(void)
     CHECK(copy != text && strcmp(copy, text) == 0);
     CHECK(meso_provenance_copy(&copy, text, strlen(text) - 1, "file", &arena, &error) == MESO_ERR_INPUT);
     CHECK(strncmp(error.message, "file: chunk 'prov':1:", 21) == 0);
+    CHECK(meso_provenance_copy(&copy, "{\"a\": 1\0}", 9, "file", &arena, &error) == MESO_ERR_INPUT);
+    CHECK(strcmp(error.message, "file: chunk 'prov':1:8: a zero byte, which is not text") == 0);
+    CHECK(meso_provenance_copy(&copy, "{\"\xff\": 1}", 8, "file", &arena, &error) == MESO_ERR_INPUT);
     CHECK(meso_provenance_copy(&copy, "[]", 2, "file", &arena, &error) == MESO_ERR_INPUT);
     CHECK(strcmp(error.message, "file: chunk 'prov': is not an object") == 0);
     CHECK(meso_provenance_copy(&copy, "", 0, "file", &arena, &error) == MESO_ERR_INPUT);

@@ -274,9 +274,7 @@ json_t *meso_report_to_json(const json_t *content, const MesoProvenance *provena
     failed |= json_object_set_new(root, "version", json_integer(MESO_REPORT_VERSION));
     failed |= json_object_set_new(root, "tool", json_string(provenance->tool));
     /* Jansson takes no const here, and changes but the count of references. */
-    json_t *copy = json_copy((json_t *)(uintptr_t)content);
-    failed |= json_object_update(root, copy);
-    json_decref(copy);
+    failed |= json_object_update(root, (json_t *)(uintptr_t)content);
     failed |= json_object_set_new(root, "provenance", meso_provenance_json(provenance));
     if (!failed)
         return root;

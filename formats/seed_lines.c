@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "formats/json_field.h"
+#include "formats/json_text.h"
 #include "formats/report_file.h"
 
 /* ---- hashes ---- */
@@ -166,15 +167,16 @@ static void read_fields(MesoSeedLine *line, const MesoJsonField *root, const uin
         meso_json_wrong(&of, "the line is of another problem: of other inputs or options");
 }
 
-/* `place` names file and line. */
-static MesoStatus read_line(MesoSeedLine *line, MesoArena *arena, const char *text, size_t size, const char *place,
-                            const uint64_t problem[2], MesoError *error)
+static MesoStatus read_line(MesoSeedLine *line, MesoArena *arena, const char *text, size_t size, const char *path,
+                            uint64_t number, const uint64_t problem[2], MesoError *error)
 {
-    json_error_t why;
+    json_t *json;
+    char place[400];
     *line = (MesoSeedLine){0};
-    json_t *json = json_loadb(text, size, JSON_REJECT_DUPLICATES, &why);
-    if (!json)
-        return meso_fail(error, MESO_ERR_INPUT, "%s:%d: %s", place, why.column, why.text);
+    snprintf(place, sizeof place, "%.360s:%" PRIu64, path, number);
+    MesoStatus status = meso_json_parse_line(&json, path, number, text, size, error);
+    if (status)
+        return status;
     MesoJsonReader reader = {.path = place, .arena = arena, .error = error};
     MesoJsonField root = meso_json_root(&reader, json);
     read_fields(line, &root, problem);
@@ -239,11 +241,10 @@ MesoStatus meso_seed_lines_read(MesoSeedLine **lines, uint32_t *count, MesoArena
         size_t size = (size_t)(stop - text);
         while (size && text[size - 1] == '\r')
             size--;
-        char place[400];
-        snprintf(place, sizeof place, "%.360s:%" PRIu64, input->path, ++number);
+        number++;
         if (is_blank(text, size))
             continue;
-        MesoStatus status = read_line(&(*lines)[(*count)++], arena, text, size, place, problem, error);
+        MesoStatus status = read_line(&(*lines)[(*count)++], arena, text, size, input->path, number, problem, error);
         if (status)
             return status;
     }

@@ -80,6 +80,19 @@ static void test_shards(void)
                    LINE_7 "\n", "file: seed 7 has two lines that differ");
 }
 
+/* As text would end there, nothing but its bytes tells it from the line without. */
+static void test_zero_byte(void)
+{
+    static const char lines[] = LINE_9 "\n{\"seed\":7\0,\"verdict\":\"gave-up\",\"attempts\":1,\"observations\":3," PROBLEM "\n";
+    MesoInput input;
+    MesoError error;
+    MesoSeedLine *read_back;
+    uint32_t count;
+    meso_input_wrap(&input, "file", lines, sizeof lines - 1);
+    CHECK(meso_seed_lines_read(&read_back, &count, &arena, &input, problem, &error) == MESO_ERR_INPUT);
+    CHECK(strcmp(error.message, "file:2:10: a zero byte, which is not text") == 0);
+}
+
 static void test_wrong_lines(void)
 {
     expect_failure("[]\n", "file:1: an object is needed");
@@ -120,6 +133,7 @@ int main(void)
     meso_arena_init(&arena);
     test_round_trip();
     test_shards();
+    test_zero_byte();
     test_wrong_lines();
     test_problems();
     meso_arena_release(&arena);

@@ -496,6 +496,8 @@ MesoStatus meso_tiles_read(MesoTileSet *set, MesoArena *arena, const MesoInput *
     MesoStatus status = meso_tiles_parse(set, arena, input, error);
     if (status != MESO_OK)
         return status;
+    uint32_t error_count;
     FirstError first = {.path = input->path, .error = error};
-    return meso_tile_set_check(set, keep_first, &first) == 0 ? MESO_OK : MESO_ERR_INPUT;
+    status = meso_tile_set_check(&error_count, set, keep_first, &first, error);
+    return status == MESO_OK && error_count > 0 ? MESO_ERR_INPUT : status;
 }

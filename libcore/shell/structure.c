@@ -1,5 +1,6 @@
 #include "libcore/shell/structure.h"
 
+#include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
@@ -158,6 +159,36 @@ static MesoStatus make_instances(Builder *b, uint32_t thread_count, MesoError *e
     return make_instance(b, meso_structure_kind(b->structure, (uint32_t)failed), (uint32_t)failed, error);
 }
 
+static bool is_near(float x)
+{
+    return fabsf(x) <= MESO_INNER_LIMIT;    /* and a number */
+}
+
+static MesoStatus check_inner(const MesoModel *model, const MesoTile *tile, uint32_t inner, MesoError *error)
+{
+    const MesoInnerMesh *place = &model->tile_set.inners[inner];
+    const MesoTriangleMesh *mesh = &model->inner_meshes[inner];
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        MesoVec3 q = meso_inner_point(place, mesh->positions[v]);
+        if (!is_near(q.x) || !is_near(q.y) || !is_near(q.z))
+            return meso_fail(error, MESO_ERR_INPUT, "tile '%s': vertex %u of its mesh '%s' lies more than %g tiles away",
+                             tile->name, v + 1, place->file, (double)MESO_INNER_LIMIT);
+    }
+    return MESO_OK;
+}
+
+/* Of tiles that some slot holds. */
+static MesoStatus check_inners(const Builder *b, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    MesoStatus status = MESO_OK;
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        for (uint32_t k = 0; k < set->tiles[t].inner_count && !status; k++)
+            if (b->bucket_begin[2 * t] < b->bucket_begin[2 * t + 2])
+                status = check_inner(b->model, &set->tiles[t], set->tiles[t].inner_begin + k, error);
+    return status;
+}
+
 static MesoStatus list_inners(Builder *b, MesoArena *arena, MesoError *error)
 {
     const MesoTileSet *set = &b->model->tile_set;
@@ -196,6 +227,8 @@ static MesoStatus build(Builder *b, MesoArena *arena, MesoArena *scratch, uint32
         status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours, options->divisions, error);
     if (!status)
         status = fill_buckets(b, scratch, error);
+    if (!status)
+        status = check_inners(b, error);
     if (status)
         return status;
 

@@ -59,6 +59,10 @@ typedef struct MesoSweepInstance {
     uint32_t slot;
 } MesoSweepInstance;
 
+/* Coordinates of inner meshes in their tile, in tiles: those of the shell, which follow the product of
+ * three of them, stay finite. */
+#define MESO_INNER_LIMIT 1e6f
+
 /* A tile's inner mesh in a slot. */
 typedef struct MesoInnerInstance {
     uint32_t inner;     /* into tile_set.inners and inner_meshes */
@@ -81,7 +85,8 @@ typedef struct MesoStructure {
  * the same floats: their frames come from the edge alone and their rings from
  * the interface alone. O(slots * sweeps a tile).
  * MESO_ERR_INPUT where a face of the shell has no direction (a slot whose
- * corners coincide), naming the slot.
+ * corners coincide), naming the slot, and where a tile's inner mesh reaches
+ * beyond MESO_INNER_LIMIT, naming tile and mesh.
  */
 MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
                                 const MesoModel *model, uint32_t thread_count, MesoError *error);
@@ -93,6 +98,14 @@ MesoStatus meso_structure_build(MesoStructure *structure, MesoArena *arena,
 MesoStatus meso_structure_build_over(MesoStructure *structure, MesoArena *arena,
                                      const MesoModel *model, const MesoContourSet *contours,
                                      uint32_t thread_count, MesoError *error);
+
+/* Where the tile has a point of its inner mesh. */
+static inline MesoVec3 meso_inner_point(const MesoInnerMesh *inner, MesoVec3 p)
+{
+    const float *m = inner->transform;
+    return (MesoVec3){m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+                      m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+}
 
 /* Kind of an instance. O(log kinds). */
 uint32_t meso_structure_kind(const MesoStructure *structure, uint32_t instance);

@@ -362,6 +362,36 @@ static void test_volumes(MesoArena *arena)
     CHECK(meso_tessellation_part(&t, inner).material == 4);
 }
 
+/* Inner meshes reach as far as the product of three of their coordinates is a float, on the largest surface. */
+static void test_far_inner(MesoArena *arena)
+{
+    Scene s = {0};
+    uint32_t tile[1] = {0};
+    MesoTransform transform[1] = {0};
+    MesoVec3 flat[4] = {{1e18f, -1e18f, 1e18f}, {1e18f, 1e18f, 1e18f}, {-1e18f, 1e18f, 1e18f}, {-1e18f, -1e18f, 1e18f}};
+    MesoVec3 up = {0, 0, 1};
+    uint32_t corners[4] = {0, 1, 2, 3}, normals[4] = {0, 0, 0, 0};
+    MesoStructure structure;
+    MesoError error;
+    make_tile_set(&s);
+    make_grid(&s, arena, 1, tile, transform);
+    CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, &error) == MESO_OK);
+    s.inners[0] = (MesoInnerMesh){"x", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0}, GREY};
+    s.inner_positions[1] = (MesoVec3){MESO_INNER_LIMIT, MESO_INNER_LIMIT, MESO_INNER_LIMIT};
+    structure = expand(&s.model, arena);
+    MesoTessellation t;
+    MesoMeshFace *faces;
+    const MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
+    for (uint64_t i = t.vertex_begin[structure.instance_count]; i < t.vertex_begin[t.part_count]; i++)
+        CHECK(meso_vec3_finite(v[i].position) && meso_vec3_finite(v[i].normal));
+
+    s.inners[0].transform[3] = -1;
+    CHECK(meso_structure_build(&structure, arena, &s.model, 1, &error) == MESO_ERR_INPUT);
+    CHECK(strstr(error.message, "vertex 2 of its mesh 'x' lies more than 1e+06 tiles away"));
+    s.inner_positions[1] = (MesoVec3){3e38f, 3e38f, 3e38f};
+    CHECK(meso_structure_build(&structure, arena, &s.model, 1, &error) == MESO_ERR_INPUT);
+}
+
 /* Ranges and threads do not change a byte. */
 static void test_ranges(MesoArena *arena)
 {
@@ -449,6 +479,7 @@ int main(void)
     test_mirror(&arena);
     test_winding(&arena);
     test_volumes(&arena);
+    test_far_inner(&arena);
     test_ranges(&arena);
     test_lids(&arena);
     test_scales(&arena);

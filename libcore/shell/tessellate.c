@@ -190,9 +190,7 @@ static void sweep_faces(const MesoStructure *s, const MesoSweepKind *kind, uint3
 /* Position of a vertex of an inner mesh in the unit cube of the slot; a tile is half as high as wide. */
 static MesoVec3 to_slot_cube(const MesoInnerMesh *inner, MesoTransform transform, MesoVec3 p)
 {
-    const float *m = inner->transform;
-    MesoVec3 q = {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
-                  m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+    MesoVec3 q = meso_inner_point(inner, p);
     MesoVec2 at = meso_transform_point(transform, (MesoVec2){q.x, q.y});
     return (MesoVec3){at.x, at.y, 2 * q.z};
 }

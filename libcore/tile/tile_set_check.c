@@ -470,44 +470,50 @@ static void doubt_tiles(Check *check, const uint8_t *shown)
     }
 }
 
-uint32_t meso_tile_set_check(const MesoTileSet *set, MesoProblemReport *report, void *context)
+static void check_all(Check *check, Named *named, NodeFacts *facts, uint8_t *shown)
+{
+    const MesoTileSet *set = check->set;
+    uint32_t usable = 0;
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        usable += !set->tiles[t].ignored;
+    look_at(check, "tile set");
+    if (usable == 0)
+        wrong(check, "there is no tile%s", set->tile_count ? " that is not ignored" : "");
+
+    check_names(check, named);
+    check_interfaces(check);
+    if (check_nodes(check, facts))
+        check_sections(check, facts);
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        check_tile(check, t);
+    if (check->errors == 0) {
+        collect_shown(set, shown);
+        doubt_interfaces(check, shown);
+        doubt_tiles(check, shown);
+    }
+}
+
+MesoStatus meso_tile_set_check(uint32_t *error_count, const MesoTileSet *set, MesoProblemReport *report, void *context,
+                               MesoError *error)
 {
     Check check = {.set = set, .report = report, .context = context};
-    if (!check_extents(&check))
-        return check.errors;
+    bool in_order = check_extents(&check);
+    *error_count = check.errors;
+    if (!in_order)
+        return MESO_OK;
 
     MesoArena arena;
     meso_arena_init(&arena);
     uint32_t most_names = set->interface_count > set->tile_count ? set->interface_count : set->tile_count;
     if (set->section_count > most_names)
         most_names = set->section_count;
-    Named *named = MESO_NEW(&arena, Named, most_names, NULL);
-    NodeFacts *facts = MESO_NEW(&arena, NodeFacts, set->csg_count, NULL);
-    uint8_t *shown = MESO_NEW(&arena, uint8_t, set->interface_count, NULL);
-    look_at(&check, "tile set");
-    if (!named || !facts || !shown) {
-        wrong(&check, "out of memory");
-        meso_arena_release(&arena);
-        return check.errors;
-    }
-
-    uint32_t usable = 0;
-    for (uint32_t t = 0; t < set->tile_count; t++)
-        usable += !set->tiles[t].ignored;
-    if (usable == 0)
-        wrong(&check, "there is no tile%s", set->tile_count ? " that is not ignored" : "");
-
-    check_names(&check, named);
-    check_interfaces(&check);
-    if (check_nodes(&check, facts))
-        check_sections(&check, facts);
-    for (uint32_t t = 0; t < set->tile_count; t++)
-        check_tile(&check, t);
-    if (check.errors == 0) {
-        collect_shown(set, shown);
-        doubt_interfaces(&check, shown);
-        doubt_tiles(&check, shown);
-    }
+    Named *named = MESO_NEW(&arena, Named, most_names, error);
+    NodeFacts *facts = MESO_NEW(&arena, NodeFacts, set->csg_count, error);
+    uint8_t *shown = MESO_NEW(&arena, uint8_t, set->interface_count, error);
+    bool room = named && facts && shown;
+    if (room)
+        check_all(&check, named, facts, shown);
     meso_arena_release(&arena);
-    return check.errors;
+    *error_count = check.errors;
+    return room ? MESO_OK : MESO_ERR_MEMORY;
 }

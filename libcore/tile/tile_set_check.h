@@ -14,10 +14,11 @@ typedef void MesoProblemReport(void *context, const char *severity, const char *
  * appear twice, values that are not finite or out of range, sweeps that leave
  * from a side that does not show their section, sets without a tile (errors);
  * interfaces that no tile uses or that nothing can match, drawings without
- * area, tiles that can never have a neighbour (warnings). Returns the number of
- * errors; a set with none may be given to every other function. `report` may
- * be NULL. O(size of the set).
+ * area, tiles that can never have a neighbour (warnings). A set without errors,
+ * whose number `error_count` gets, may be given to every other function. `report`
+ * may be NULL. O(size of the set). MESO_ERR_MEMORY alone: a wrong set is no failure of the look at it.
  */
-uint32_t meso_tile_set_check(const MesoTileSet *set, MesoProblemReport *report, void *context);
+MesoStatus meso_tile_set_check(uint32_t *error_count, const MesoTileSet *set, MesoProblemReport *report, void *context,
+                               MesoError *error);
 
 #endif

@@ -69,9 +69,9 @@ static void hear(void *context, const char *severity, const char *where, const c
 static Heard check_set(const MesoTileSet *set)
 {
     Heard heard = {.errors = 0};
-    uint32_t errors = meso_tile_set_check(set, hear, &heard);
-    CHECK(errors == heard.errors);
-    CHECK(meso_tile_set_check(set, NULL, NULL) == errors);
+    uint32_t errors, again;
+    CHECK(meso_tile_set_check(&errors, set, hear, &heard, NULL) == MESO_OK && errors == heard.errors);
+    CHECK(meso_tile_set_check(&again, set, NULL, NULL, NULL) == MESO_OK && again == errors);
     return heard;
 }
 

@@ -1,0 +1,82 @@
+# One allocation fails, or all from one on: a tool ends with 33, or with the right product, and leaves nothing broken.
+# The n-th is tried for every n in steps that make $most runs of each command line.
+most=30
+grep -q __asan_init "$(command -v meso-info)" && exit 0     # its allocations are its own
+cp "$testdata/cli/quad.tiles.json" "$fixtures/basket.json" .
+cat >cube.obj <<END
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+END
+meso-solve -q quad.tiles.json cube.obj -o cube.slots
+meso-map -q quad.tiles.json cube.obj cube.slots -o cube.meso
+meso-map -q cube.meso -o cube.glb
+
+# What ended with status $1, of "$2..." with allocation $fail failing, must be as it should.
+judge() {
+    status=$1
+    shift
+    if [ "$status" = 0 ]; then
+        diff -r right out >differences && return
+        echo "status 0, but other bytes: FAIL_MALLOC=$fail $*"
+    elif [ "$status" = 33 ]; then
+        rm -f out/*.partial out/stdout
+        for file in out/* out/.[!.]*; do
+            [ ! -e "$file" ] || cmp -s "$file" "right/${file#out/}" || echo "left $file: FAIL_MALLOC=$fail $*"
+        done
+    else
+        echo "status $status: FAIL_MALLOC=$fail $*"
+        cat err
+    fi
+}
+
+try() {
+    fail=$1 status=0
+    shift
+    rm -rf out
+    mkdir out
+    FAIL_MALLOC=$fail LD_PRELOAD=$generators/fail_malloc.so "$@" >out/stdout 2>err || status=$?
+    judge $status "$@"
+}
+
+each() {
+    rm -rf out right
+    mkdir out
+    FAIL_MALLOC_COUNT=count LD_PRELOAD=$generators/fail_malloc.so "$@" >out/stdout || echo "$*: fails"
+    mv out right
+    count=$(cat count)
+    [ "$count" -gt 100 ] || echo "$*: only $count allocations counted"
+    step=$((count / most + 1))
+    n=1
+    while [ $n -le "$count" ]; do
+        try $n "$@"
+        n=$((n + step))
+    done
+    try $((count / 3))+ "$@"
+    try $((2 * count / 3))+ "$@"
+}
+
+each meso-tile list quad.tiles.json
+each meso-tile check quad.tiles.json
+each meso-tile import -q basket.json -o out/basket.tiles.json
+each meso-solve -q --threads 1 --report out/why.json quad.tiles.json cube.obj -o out/cube.slots
+each meso-solve -q --threads 1 --engine exact quad.tiles.json cube.obj -o out/cube.slots
+each meso-solve -q --threads 1 --seeds 1-3 --each out/%d.slots quad.tiles.json cube.obj -o out/lines.jsonl
+each meso-map -q --threads 1 quad.tiles.json cube.obj cube.slots -o out/cube.meso
+for kind in ply obj glb drc; do
+    each meso-map -q --threads 1 cube.meso -o out/cube.$kind
+done
+for file in quad.tiles.json cube.obj cube.slots cube.meso cube.glb; do
+    each meso-info $file
+done
