@@ -139,8 +139,8 @@ bench-solve: all benches generators
 	@scripts/bench-solve $(OUT) $(BIN) $(DATA)
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
-fuzz-run: fuzzers
-	@scripts/run-fuzzers $(OUT) $(FUZZ_SECONDS) $(FUZZERS)
+fuzz-run: fuzzers all generators
+	@scripts/run-fuzzers $(OUT) $(BIN) $(FUZZ_SECONDS) $(FUZZERS)
 
 install: all
 	@scripts/install-files $(BIN) "$(DESTDIR)$(PREFIX)"

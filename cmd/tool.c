@@ -46,7 +46,7 @@ static void die(MesoStatus status, const char *begin, const char *name, const ch
     line[used++] = '\n';
     meso_temporary_remove_all();
     (void)!write(STDERR_FILENO, line, used);
-    _exit(status);
+    _exit((int)status);
 }
 
 static void die_of_memory(void)

@@ -1,6 +1,7 @@
-/* Reader of models: a good file with chunks replaced; what is read must be a sound model. */
+/* Reader of models: a good file with chunks replaced; what is read must be a sound model, of finite geometry. */
 #include "formats/container_memory.h"
 #include "formats/model_fixture.h"
+#include "libcore/shell/tessellate.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -26,6 +27,23 @@ static void check_sound(const MesoModel *model)
     }
 }
 
+static void check_geometry(const MesoModel *model, MesoArena *arena)
+{
+    enum { MOST_VERTICES = 1 << 16 };
+    MesoStructure structure;
+    MesoTessellation t;
+    MesoError error;
+    if (meso_structure_build(&structure, arena, model, 1, &error) != MESO_OK ||
+        meso_tessellation_init(&t, arena, &structure, &error) != MESO_OK || t.vertex_begin[t.part_count] > MOST_VERTICES)
+        return;
+    uint64_t count = t.vertex_begin[t.part_count];
+    MesoMeshVertex *vertices = MESO_NEW(arena, MesoMeshVertex, count, &error);
+    CHECK(vertices);
+    meso_tessellation_vertices(&t, 0, t.part_count, vertices);
+    for (uint64_t v = 0; v < count; v++)
+        CHECK(meso_vec3_finite(vertices[v].position) && meso_vec3_finite(vertices[v].normal));
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static MesoContainer example;
@@ -44,8 +62,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t *bytes = container_to_memory(&container, &length);
     meso_arena_init(&arena);
     meso_input_wrap(&input, "fuzz", bytes, length);
-    if (meso_model_read(&model, &provenance, &arena, &input, &error) == MESO_OK)
+    if (meso_model_read(&model, &provenance, &arena, &input, &error) == MESO_OK) {
         check_sound(&model);
+        check_geometry(&model, &arena);
+    }
     meso_arena_release(&arena);
     free(bytes);
     return 0;
