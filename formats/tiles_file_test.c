@@ -513,7 +513,8 @@ static void test_prototype_of_old(void)
     CHECK(meso_tiles_import(&set, &arena, root, "x.json", hear, heard, &error) == MESO_OK);
     json_decref(root);
     CHECK(strcmp(heard, "warning: tileTypes[0].edges: a wall shows no edge type; the unfinished tile is left out\n") == 0);
-    CHECK(meso_tile_set_check(&set, NULL, NULL) == 0);
+    uint32_t wrong;
+    CHECK(meso_tile_set_check(&wrong, &set, NULL, NULL, &error) == MESO_OK && wrong == 0);
     CHECK(set.tile_count == 1 && strcmp(set.tiles[0].name, "t2") == 0 && !set.tiles[0].rotation);
     CHECK(set.sweep_count == 1 && set.tiles[0].sweep_begin == 0 && set.sweeps[0].to_side == 1);
     CHECK(set.section_count == 4 && set.csg_count == 6);
