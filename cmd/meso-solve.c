@@ -26,6 +26,11 @@ typedef struct Problem {
     MesoSolveResult result;
 } Problem;
 
+static MesoTilingProblem tiling_of(const Problem *p)
+{
+    return (MesoTilingProblem){&p->set, &p->variants, &p->surface.graph, p->constraints};
+}
+
 static const MesoToolInfo info = {
     .name = "meso-solve",
     .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]\n"
@@ -166,14 +171,12 @@ static MesoStatus say_verdict(Arguments *a, const Problem *p)
 static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, MesoOutput **report)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_tool_solve(tool, &p->set, &p->variants, &p->surface.graph, p->constraints, &a->engine,
-                                        a->attempts, &p->result);
+    const MesoTilingProblem tiling = tiling_of(p);
+    MesoStatus status = meso_tool_solve(tool, &tiling, &a->engine, a->attempts, &p->result);
     if (!status)
-        status = meso_report_fill(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
-                                  p->constraints, &tool->error);
+        status = meso_report_fill(tool->report, &p->result, &tiling, &tool->error);
     if (!status && (a->report || tool->json))
-        status = meso_report_fill_control(tool->report, &p->result, &p->set, &p->variants, &p->surface.graph,
-                                          p->constraints, &tool->error);
+        status = meso_report_fill_control(tool->report, &p->result, &tiling, &tool->error);
     if (!status)
         status = write_outputs(a, p, slots, report);
     return status ? status : say_verdict(a, p);
@@ -181,9 +184,10 @@ static MesoStatus solve_and_write(Arguments *a, Problem *p, MesoOutput **slots, 
 
 static MesoStatus solve_seeds(Arguments *a, const Problem *p)
 {
+    const MesoTilingProblem tiling = tiling_of(p);
     MesoSeedProblem problem = {
-        .set = &p->set, .variants = &p->variants, .surface = &p->surface, .tiles_hash = p->tiles_hash,
-        .solve = {.max_attempts = a->attempts, .constraints = p->constraints},
+        .tiling = &tiling, .surface = &p->surface, .tiles_hash = p->tiles_hash,
+        .solve = {.max_attempts = a->attempts},
         .others = a->control.strands ? a->control.strands : "",
     };
     meso_engine_choose(&a->engine, &problem.solve);

@@ -154,7 +154,9 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
             return MESO_OK;
         status = meso_variant_set_build(&variants, &tool->arena, set, &tool->error);
         if (!status)
-            status = meso_tool_solve(tool, set, &variants, &surface.graph, NULL, NULL, a->attempts, &result);
+            status = meso_tool_solve(tool, &(MesoTilingProblem){set, &variants, &surface.graph, NULL},
+                                     NULL, a->attempts,
+                                     &result);
         if (status)
             return status;
         if (result.verdict == MESO_VERDICT_SOLVED && added == 0)

@@ -76,7 +76,7 @@ MesoStatus meso_each_write_to(const MesoSeedEach *each, uint64_t seed, const Mes
     MesoOutput *output = NULL;
     MesoStatus status = provenance ? meso_output_open(&output, path, error) : MESO_ERR_MEMORY;
     if (!status)
-        status = meso_slots_write(assignment, p->set, p->surface->quarters, p->tiles_hash, p->surface->hash,
+        status = meso_slots_write(assignment, p->tiling->set, p->surface->quarters, p->tiles_hash, p->surface->hash,
                                   provenance, output, error);
     if (!status)
         return meso_output_commit(output, error);

@@ -23,8 +23,7 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
     return status;
 }
 
-static MesoStatus solve_by_engine(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
-                                  const MesoSlotGraph *graph, const MesoEngineArguments *engine,
+static MesoStatus solve_by_engine(MesoTool *tool, const MesoTilingProblem *problem, const MesoEngineArguments *engine,
                                   MesoSolveOptions *options, MesoSolveResult *result)
 {
     MesoEngineRun *run = MESO_NEW(&tool->arena, MesoEngineRun, 1, &tool->error);
@@ -32,35 +31,32 @@ static MesoStatus solve_by_engine(MesoTool *tool, const MesoTileSet *set, const 
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_engine_start(run, tool, engine, options);
     if (!status)
-        status = meso_solve(result, &tool->arena, set, variants, graph, options, &tool->error);
+        status = meso_solve(result, &tool->arena, problem, options, &tool->error);
     if (!status)
-        status = meso_explain(result, &tool->arena, set, variants, graph, options, &tool->error);
+        status = meso_explain(result, &tool->arena, problem, options->seed, &tool->error);
     MesoStatus written = meso_engine_finish(run, tool, status ? NULL : result);
     return status ? status : written;
 }
 
-MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
-                           const MesoSlotGraph *graph, const MesoConstraints *constraints,
-                           const MesoEngineArguments *engine, uint32_t max_attempts,
-                           MesoSolveResult *result)
+MesoStatus meso_tool_solve(MesoTool *tool, const MesoTilingProblem *problem, const MesoEngineArguments *engine,
+                           uint32_t max_attempts, MesoSolveResult *result)
 {
     MesoSolveOptions options = {
         .seed = tool->seed,
         .engine = MESO_ENGINE_WFC,
         .max_attempts = max_attempts,
         .max_dead_ends = MESO_REPORT_DEAD_ENDS,
-        .constraints = constraints,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };
     meso_tool_progress_begin(tool, "solving", "slots");
     double start = 1e3 * meso_seconds();
-    MesoStatus status = engine ? solve_by_engine(tool, set, variants, graph, engine, &options, result)
-                               : meso_solve(result, &tool->arena, set, variants, graph, &options, &tool->error);
+    MesoStatus status = engine ? solve_by_engine(tool, problem, engine, &options, result)
+                               : meso_solve(result, &tool->arena, problem, &options, &tool->error);
     double duration = 1e3 * meso_seconds() - start;
     if (!status && tool->verbose)
         meso_tool_say(tool, "%u slots, %u variants: %.2f ms, %llu observations, %llu jumps and %llu repairs in %u "
-                      "attempt%s, decided by %s", graph->slot_count, variants->count, duration,
+                      "attempt%s, decided by %s", problem->graph->slot_count, problem->variants->count, duration,
                       (unsigned long long)result->observations, (unsigned long long)result->jumps,
                       (unsigned long long)result->repairs, result->attempts, result->attempts == 1 ? "" : "s",
                       meso_decider_name(result->decider));

@@ -14,13 +14,11 @@ MesoStatus meso_tool_read_tiles(MesoTool *tool, const char *path, MesoTileSet *s
                                 uint64_t hash[2]);
 
 /*
- * Solves, with progress, under `constraints` (NULL: none) by `engine` (NULL: the
+ * Solves, with progress, by `engine` (NULL: the
  * search alone); with -v says how long it took.
  */
-MesoStatus meso_tool_solve(MesoTool *tool, const MesoTileSet *set, const MesoVariantSet *variants,
-                           const MesoSlotGraph *graph, const MesoConstraints *constraints,
-                           const MesoEngineArguments *engine, uint32_t max_attempts,
-                           MesoSolveResult *result);
+MesoStatus meso_tool_solve(MesoTool *tool, const MesoTilingProblem *problem, const MesoEngineArguments *engine,
+                           uint32_t max_attempts, MesoSolveResult *result);
 
 /* Writes `value`, or says that memory is out where it is NULL; frees it. Does not commit. */
 MesoStatus meso_tool_write_json(json_t *value, MesoOutput *output, MesoError *error);

@@ -198,7 +198,7 @@ static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResu
     if (seeds->options->each && result->verdict == MESO_VERDICT_SOLVED)
         status = meso_each_write(&seeds->each, seed, &result->assignment, error);
     if (!status)
-        status = meso_seed_line_make(&line, &arena, seed, seeds->hash, result, p->set, &p->surface->graph, error);
+        status = meso_seed_line_make(&line, &arena, seed, seeds->hash, result, p->tiling->set, p->tiling->graph, error);
     if (!status) {
         mtx_lock(&seeds->lock);
         status = add_line(seeds, &line, error);
@@ -317,8 +317,7 @@ static MesoStatus sweep(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
     const MesoSeedSweep all = {
-        .set = seeds->problem->set, .variants = seeds->problem->variants, .graph = &seeds->problem->surface->graph,
-        .options = seeds->solve, .thread_count = tool->threads,
+        .problem = seeds->problem->tiling, .options = seeds->solve, .thread_count = tool->threads,
         .seeds = seeds->todo, .seed_count = seeds->todo_count, .take = take_result, .context = seeds,
     };
     keep_memory();
@@ -382,8 +381,7 @@ static MesoStatus write_best(const Seeds *seeds, const MesoSeedLine *best, const
     MesoSolveResult result;
     uint64_t hash[2] = {0};
     options.seed = best->seed;
-    MesoStatus status = meso_solve(&result, &tool->arena, seeds->problem->set, seeds->problem->variants,
-                                   &seeds->problem->surface->graph, &options, error);
+    MesoStatus status = meso_solve(&result, &tool->arena, seeds->problem->tiling, &options, error);
     if (status)
         return status;
     if (result.verdict == MESO_VERDICT_SOLVED)

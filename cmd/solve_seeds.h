@@ -22,8 +22,7 @@ typedef struct MesoSeedOptions {
 
 /* What is solved for each seed. */
 typedef struct MesoSeedProblem {
-    const MesoTileSet *set;
-    const MesoVariantSet *variants;
+    const MesoTilingProblem *tiling;
     const MesoSolveSurface *surface;
     const uint64_t *tiles_hash;     /* [2] */
     MesoSolveOptions solve;         /* but for seed and progress; its attempts unless --seeds says */

@@ -42,10 +42,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (meso_variant_set_build(&variants, &arena, &set, &error) != MESO_OK)
         abort();
     const MesoConstraintScope scope = {&set, &variants, &graph, &boundary, &groups};
-    const MesoSolveOptions options = {.max_attempts = 2, .max_dead_ends = 2, .constraints = &constraints};
+    const MesoSolveOptions options = {.max_attempts = 2, .max_dead_ends = 2};
     /* A wrong result is an internal error: the solver checks what it found. */
     if (meso_constraints_read(&constraints, &arena, &input, &scope, &error) == MESO_OK &&
-        meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) != MESO_OK)
+        meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                   &options, &error) != MESO_OK)
         abort();
     meso_arena_release(&arena);
     return 0;

@@ -99,15 +99,16 @@ static void begin(Case *c, bool ply)
 static void solve(Case *c, const char *content, MesoEngine engine, uint64_t seed)
 {
     const MesoConstraintScope scope = {&c->set, &c->variants, &c->graph, &c->boundary, &c->groups};
-    const MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = 20, .max_dead_ends = 5,
-                                      .constraints = &c->constraints};
+    const MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = 20, .max_dead_ends = 5};
     const char *text = meso_arena_print(&c->arena, NULL, "{\"format\": \"meso-constraints\", \"version\": 1, %s}",
                                         content);
     MesoInput input;
     meso_input_wrap(&input, "c.json", text, strlen(text));
     if (meso_constraints_read(&c->constraints, &c->arena, &input, &scope, &c->error) ||
-        meso_solve(&c->result, &c->arena, &c->set, &c->variants, &c->graph, &options, &c->error) ||
-        meso_explain(&c->result, &c->arena, &c->set, &c->variants, &c->graph, &options, &c->error)) {
+        meso_solve(&c->result, &c->arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, &c->constraints},
+                   &options, &c->error) ||
+        meso_explain(&c->result, &c->arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, &c->constraints},
+                     options.seed, &c->error)) {
         fprintf(stderr, "%s: %s\n", content, c->error.message);
         CHECK(false);
     }

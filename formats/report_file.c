@@ -175,16 +175,16 @@ static int write_limit(json_t *object, const MesoSolveResult *result)
     return failed;
 }
 
-MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
-                            const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                            const MesoConstraints *constraints, MesoError *error)
+MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTilingProblem *problem,
+                            MesoError *error)
 {
+    const MesoTileSet *set = problem->set;
     int failed = json_object_set_new(object, "verdict", json_string(meso_verdict_name(result->verdict)));
     if (*result->reason)
         failed |= json_object_set_new(object, "reason", meso_json_string(result->reason));
     failed |= json_object_set_new(object, "decided_by", json_string(meso_decider_name(result->decider)));
     if (result->core.found)
-        failed |= json_object_set_new(object, "core", write_core(&result->core, set, constraints));
+        failed |= json_object_set_new(object, "core", write_core(&result->core, set, problem->constraints));
     if (result->verdict == MESO_VERDICT_GAVE_UP)
         failed |= write_limit(object, result);
     if (result->hot_spot_count > 0)
@@ -193,8 +193,8 @@ MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const
     failed |= json_object_set_new(object, "observations", json_integer((json_int_t)result->observations));
     failed |= json_object_set_new(object, "jumps", json_integer((json_int_t)result->jumps));
     failed |= json_object_set_new(object, "repairs", json_integer((json_int_t)result->repairs));
-    failed |= json_object_set_new(object, "slots", json_integer(graph->slot_count));
-    failed |= json_object_set_new(object, "variants", json_integer(variants->count));
+    failed |= json_object_set_new(object, "slots", json_integer(problem->graph->slot_count));
+    failed |= json_object_set_new(object, "variants", json_integer(problem->variants->count));
     if (result->verdict == MESO_VERDICT_SOLVED)
         failed |= json_object_set_new(object, "tiles", meso_report_histogram(&result->assignment, set));
     failed |= json_object_set_new(object, "dead_end_total",
@@ -224,9 +224,9 @@ json_t *meso_report_strands(const MesoStrandStatistics *statistics)
 }
 
 /* Names of constraints are unique: each has its number in its list. */
-static json_t *write_constraints(const MesoSolveResult *result, const MesoVariantSet *variants,
-                                 const MesoConstraints *constraints)
+static json_t *write_constraints(const MesoSolveResult *result, const MesoTilingProblem *problem)
 {
+    const MesoConstraints *constraints = problem->constraints;
     json_t *violations = json_object(), *object = json_object();
     int failed = !violations || !object;
     for (uint32_t i = 0; i < meso_constraint_count(constraints) && result->violations && !failed; i++)
@@ -239,7 +239,7 @@ static json_t *write_constraints(const MesoSolveResult *result, const MesoVarian
         uint32_t wanted = 0, slots = result->assignment.slot_count;
         for (uint32_t s = 0; s < slots; s++)
             wanted += constraints->keep[s] != MESO_NO_INDEX;
-        uint32_t changed = meso_constraints_changed(constraints, &result->assignment, variants);
+        uint32_t changed = meso_constraints_changed(constraints, &result->assignment, problem->variants);
         failed |= json_object_set_new(object, "kept", json_integer(wanted - changed));
         failed |= json_object_set_new(object, "changed", json_integer(slots - wanted + changed));
         failed |= json_object_set_new(object, "fewest", json_boolean(result->changes_fewest));
@@ -250,16 +250,15 @@ static json_t *write_constraints(const MesoSolveResult *result, const MesoVarian
     return NULL;
 }
 
-MesoStatus meso_report_fill_control(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
-                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                                    const MesoConstraints *constraints, MesoError *error)
+MesoStatus meso_report_fill_control(json_t *object, const MesoSolveResult *result, const MesoTilingProblem *problem,
+                                    MesoError *error)
 {
     int failed = 0;
-    if (constraints)
-        failed |= json_object_set_new(object, "constraints", write_constraints(result, variants, constraints));
+    if (problem->constraints)
+        failed |= json_object_set_new(object, "constraints", write_constraints(result, problem));
     if (result->verdict == MESO_VERDICT_SOLVED) {
         MesoStrandStatistics statistics;
-        MesoStatus status = meso_strands_count(&statistics, &result->assignment, set, graph, error);
+        MesoStatus status = meso_strands_count(&statistics, &result->assignment, problem->set, problem->graph, error);
         if (status)
             return status;
         failed |= json_object_set_new(object, "strands", meso_report_strands(&statistics));

@@ -62,20 +62,17 @@ const char *meso_decider_name(MesoDecider decider);
 
 /*
  * Sets in `object` the keys from "verdict" to "dead_ends"; whatever else makes
- * a report is the caller's. `graph`, `variants`, `set` and `constraints`
- * (NULL: none) are what `result` was solved with. MESO_ERR_MEMORY alone.
+ * a report is the caller's. `problem` is what `result` was solved with. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
-                            const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                            const MesoConstraints *constraints, MesoError *error);
+MesoStatus meso_report_fill(json_t *object, const MesoSolveResult *result, const MesoTilingProblem *problem,
+                            MesoError *error);
 
 /*
- * Sets "strands" and, where `constraints` is not NULL, "constraints" in `object`.
+ * Sets "strands" and, where the problem has any, "constraints" in `object`.
  * Arguments as above. MESO_ERR_MEMORY, or MESO_ERR_LIMIT as meso_strands_count().
  */
-MesoStatus meso_report_fill_control(json_t *object, const MesoSolveResult *result, const MesoTileSet *set,
-                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                                    const MesoConstraints *constraints, MesoError *error);
+MesoStatus meso_report_fill_control(json_t *object, const MesoSolveResult *result, const MesoTilingProblem *problem,
+                                    MesoError *error);
 
 /* The value of "strands"; NULL when memory is out. */
 json_t *meso_report_strands(const MesoStrandStatistics *statistics);

@@ -37,7 +37,7 @@ static char *unsolvable_report(MesoArena *arena, MesoTileSet *set, MesoSolveResu
 
     MesoProvenance provenance = {.tool = "meso-solve", .command_line = "meso-solve x"};
     json_t *content = json_object();
-    CHECK(meso_report_fill(content, result, set, &variants, &graph, NULL, &error) == MESO_OK);
+    CHECK(meso_report_fill(content, result, &(MesoTilingProblem){set, &variants, &graph, NULL}, &error) == MESO_OK);
     json_t *json = meso_report_to_json(content, &provenance);
     CHECK(json);
     char *text = text_of(json);
@@ -120,7 +120,7 @@ static void test_solved(void)
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
     MesoProvenance provenance = {.tool = "meso-solve", .command_line = "meso-solve x"};
     json_t *content = json_object();
-    CHECK(meso_report_fill(content, &result, &set, &variants, &graph, NULL, &error) == MESO_OK);
+    CHECK(meso_report_fill(content, &result, &(MesoTilingProblem){&set, &variants, &graph, NULL}, &error) == MESO_OK);
     json_t *tiles = json_object_get(content, "tiles");
     CHECK(json_object_size(tiles) == 2);
     CHECK(json_integer_value(json_object_get(tiles, "t0")) == 12);
@@ -137,7 +137,7 @@ static void test_solved(void)
 
 /* Text of the report of a solve, which reads back. */
 static char *solve_to_text(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph *graph,
-                           const MesoSolveOptions *options)
+                           const MesoConstraints *constraints, const MesoSolveOptions *options)
 {
     MesoError error;
     MesoVariantSet variants;
@@ -146,9 +146,10 @@ static char *solve_to_text(MesoArena *arena, const MesoTileSet *set, const MesoS
     MesoProvenance provenance = {.tool = "meso-solve", .command_line = "meso-solve x"};
     json_t *content = json_object();
     CHECK(meso_variant_set_build(&variants, arena, set, &error) == MESO_OK);
-    CHECK(meso_solve(&result, arena, set, &variants, graph, options, &error) == MESO_OK);
-    CHECK(meso_explain(&result, arena, set, &variants, graph, options, &error) == MESO_OK);
-    CHECK(meso_report_fill(content, &result, set, &variants, graph, options->constraints, &error) == MESO_OK);
+    const MesoTilingProblem problem = {set, &variants, graph, constraints};
+    CHECK(meso_solve(&result, arena, &problem, options, &error) == MESO_OK);
+    CHECK(meso_explain(&result, arena, &problem, options->seed, &error) == MESO_OK);
+    CHECK(meso_report_fill(content, &result, &problem, &error) == MESO_OK);
     json_t *json = meso_report_to_json(content, &provenance);
     CHECK(json);
     char *text = text_of(json);
@@ -171,7 +172,7 @@ static void test_core(void)
     set.interfaces[2].border_only = true;
     MesoSlotGraph graph = fixture_grid(&arena, 3, 1, false, false, false);
     MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 5};
-    char *text = solve_to_text(&arena, &set, &graph, &options);
+    char *text = solve_to_text(&arena, &set, &graph, NULL, &options);
     CHECK(strstr(text, "\"reason\":\"no tile fits slot 1, where interface 'c' may lie on a border only\""));
     CHECK(strstr(text, "\"core\":{\"minimal\":true,\"slots\":[1],\"tiles\":[],\"border_rules\":[\"c\"],"
                        "\"constraints\":[]}"));
@@ -181,8 +182,7 @@ static void test_core(void)
     graph = fixture_grid(&arena, 3, 3, false, false, false);
     const MesoRestriction pin = {.name = "pins[0] 'knob'", .place_count = 1, .places = places, .allowed = t1};
     const MesoConstraints constraints = {.restriction_count = 1, .restrictions = &pin};
-    options.constraints = &constraints;
-    text = solve_to_text(&arena, &set, &graph, &options);
+    text = solve_to_text(&arena, &set, &graph, &constraints, &options);
     CHECK(strstr(text, "\"core\":{\"minimal\":true,\"slots\":[1,4],\"tiles\":[\"t0\",\"t1\"],\"border_rules\":[],"
                        "\"constraints\":[\"pins[0] 'knob'\"]}"));
     CHECK(strstr(text, "no tiles fit together on slots 1 and 4, with pins[0] 'knob': only 't1' fits slot 4; each of "
@@ -221,20 +221,20 @@ static void test_gave_up(void)
     MesoTileSet set = fixture_set(&arena, 2, 2, labels, true, true, false);
     MesoSlotGraph graph = fixture_grid(&arena, 5, 5, true, true, false);
     MesoSolveOptions options = {.engine = MESO_ENGINE_WFC, .max_attempts = 3, .max_dead_ends = 5};
-    char *text = solve_to_text(&arena, &set, &graph, &options);
+    char *text = solve_to_text(&arena, &set, &graph, NULL, &options);
     CHECK(strstr(text, "\"reason\":\"the search made its 3 attempts; at best ") && strstr(text, " dead ends were at slot "));
     CHECK(strstr(text, "\"budget\":\"attempts\",\"decided_at_best\":") && !strstr(text, "\"conflicts\""));
     check_hot_spots(text);
     free(text);
 
     options.max_observations = 2;
-    text = solve_to_text(&arena, &set, &graph, &options);
+    text = solve_to_text(&arena, &set, &graph, NULL, &options);
     CHECK(strstr(text, "the search made its 2 observations; at best ") && strstr(text, "\"budget\":\"observations\""));
     free(text);
 
     options.max_observations = 0;
     options.stop = always;
-    text = solve_to_text(&arena, &set, &graph, &options);
+    text = solve_to_text(&arena, &set, &graph, NULL, &options);
     CHECK(strstr(text, "the time was over; at best ") && strstr(text, "\"budget\":\"time\""));
     free(text);
     meso_arena_release(&arena);
@@ -249,7 +249,7 @@ static void test_conflicts(void)
     MesoTileSet set = fixture_set(&arena, 2, 3, labels, true, true, false);
     MesoSlotGraph graph = fixture_grid(&arena, 30, 30, true, true, false);
     const MesoSolveOptions options = {.engine = MESO_ENGINE_EXACT, .max_attempts = 1, .max_conflicts = 5};
-    char *text = solve_to_text(&arena, &set, &graph, &options);
+    char *text = solve_to_text(&arena, &set, &graph, NULL, &options);
     CHECK(strstr(text, "\"reason\":\"the exact engine met its 5 conflicts\""));
     CHECK(strstr(text, "\"budget\":\"conflicts\"") && strstr(text, "\"conflicts\":"));
     free(text);

@@ -91,7 +91,8 @@ static void bench(MesoArena *arena, const char *shape, const MesoTileSet *set, c
     for (uint32_t r = 0; r < runs; r++) {
         MesoArenaMark mark = meso_arena_mark(arena);
         double start = meso_seconds();
-        CHECK(meso_solve(&result, arena, set, variants, graph, &options, &error) == MESO_OK);
+        CHECK(meso_solve(&result, arena, &(MesoTilingProblem){set, variants, graph, NULL},
+                         &options, &error) == MESO_OK);
         double time = meso_seconds() - start;
         best = time < best ? time : best;
         meso_arena_rewind(arena, mark);

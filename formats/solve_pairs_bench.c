@@ -61,7 +61,8 @@ static MesoStatus time_pair(MesoArena *arena, const MesoTileSet *set, const Meso
     *best = INFINITY;
     for (int run = 0; run < RUNS; run++) {
         double start = 1e3 * meso_seconds();
-        MesoStatus status = meso_solve(result, arena, set, variants, graph, &options, error);
+        MesoStatus status = meso_solve(result, arena, &(MesoTilingProblem){set, variants, graph, NULL},
+                                       &options, error);
         double time = 1e3 * meso_seconds() - start;
         if (status)
             return status;

@@ -28,7 +28,7 @@ static inline MesoStatus solve_timed(MesoSolveResult *result, MesoArena *arena, 
     double start = meso_seconds(), deadline = start + limit;
     const MesoSolveOptions options = {.seed = totals->seed, .max_attempts = 20, .max_dead_ends = 20,
                                       .stop = solve_past, .stop_context = &deadline};
-    MesoStatus status = meso_solve(result, arena, set, variants, graph, &options, error);
+    MesoStatus status = meso_solve(result, arena, &(MesoTilingProblem){set, variants, graph, NULL}, &options, error);
     *time = meso_seconds() - start;
     if (status)
         return status;

@@ -18,7 +18,8 @@ static void begin(Case *c, MesoArena *arena, MesoTileSet set, MesoSlotGraph grap
 {
     *c = (Case){.set = set, .graph = graph};
     CHECK(meso_variant_set_build(&c->variants, arena, &c->set, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&c->propagation, arena, &c->set, &c->variants, &c->graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&c->propagation, arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, NULL},
+                                NULL) == MESO_OK);
 }
 
 /*

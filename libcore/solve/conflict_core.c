@@ -29,7 +29,7 @@ enum { BUILD_WORK = 8, CONFLICT_PART = 8 };
 enum { LEAST_PART = 4 };
 
 typedef struct Finder {
-    const MesoCoreProblem *problem;
+    const MesoTilingProblem *problem;
     MesoArena *arena;
     uint32_t *rank;             /* [slots] for formulas */
     uint32_t *order;            /* [order_count] slots by distance */
@@ -263,7 +263,7 @@ static MesoStatus shrink_in_orders(Finder *finder, Items *items, MesoError *erro
 
 /* --- the result --- */
 
-bool meso_conflict_core_admits(const MesoConflictCore *core, const MesoCoreProblem *problem, uint32_t slot,
+bool meso_conflict_core_admits(const MesoConflictCore *core, const MesoTilingProblem *problem, uint32_t slot,
                                uint32_t variant)
 {
     for (uint32_t i = 0; i < 4 * core->rule_count; i++) {
@@ -292,7 +292,8 @@ bool meso_conflict_core_admits(const MesoConflictCore *core, const MesoCoreProbl
     return true;
 }
 
-static MesoStatus list_tiles(MesoConflictCore *core, MesoArena *arena, const MesoCoreProblem *problem, MesoError *error)
+static MesoStatus list_tiles(MesoConflictCore *core, MesoArena *arena, const MesoTilingProblem *problem,
+                             MesoError *error)
 {
     core->tiles = MESO_NEW(arena, uint32_t, problem->set->tile_count, error);
     if (!core->tiles)
@@ -320,7 +321,7 @@ static void sort_ascending(uint32_t *numbers, uint32_t count)
 
 static MesoStatus tell(const Finder *finder, Items *items, MesoConflictCore *core, MesoArena *arena, MesoError *error)
 {
-    const MesoCoreProblem *problem = finder->problem;
+    const MesoTilingProblem *problem = finder->problem;
     uint32_t rules = meso_core_rule_item(problem, 0, false), constraints = meso_core_constraint_item(problem, 0);
     core->slots = MESO_NEW(arena, uint32_t, items->count, error);
     core->rules = MESO_NEW(arena, MesoCoreRule, items->count, error);
@@ -370,7 +371,7 @@ static MesoStatus order_slots(Finder *finder, uint32_t near, uint32_t most, Meso
 
 static MesoStatus prepare(Finder *finder, uint32_t near, uint32_t slots, Items *items, MesoError *error)
 {
-    const MesoCoreProblem *problem = finder->problem;
+    const MesoTilingProblem *problem = finder->problem;
     if (order_slots(finder, near, slots, error))
         return MESO_ERR_MEMORY;
     finder->item_limit = finder->order_count + 2 * problem->set->interface_count +
@@ -394,7 +395,7 @@ static MesoStatus find_first(Finder *finder, bool grow, Items *items, MesoError 
     return status;
 }
 
-MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, const MesoCoreProblem *problem,
+MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, const MesoTilingProblem *problem,
                                    uint32_t near, const MesoCoreLimits *limits, MesoError *error)
 {
     uint32_t most = limits->slots ? limits->slots : DEFAULT_SLOTS;

@@ -40,11 +40,11 @@ typedef struct MesoCoreLimits {
  * them in the same ball, and quotas too. The rule on strands is not looked at. The
  * arrays of `core` go to `arena`. The result depends on the arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
-MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, const MesoCoreProblem *problem,
+MesoStatus meso_conflict_core_find(MesoConflictCore *core, MesoArena *arena, const MesoTilingProblem *problem,
                                    uint32_t near, const MesoCoreLimits *limits, MesoError *error);
 
 /* Whether rules and constraints of `core` let `variant` stand at `slot`, whatever its neighbours. */
-bool meso_conflict_core_admits(const MesoConflictCore *core, const MesoCoreProblem *problem, uint32_t slot,
+bool meso_conflict_core_admits(const MesoConflictCore *core, const MesoTilingProblem *problem, uint32_t slot,
                                uint32_t variant);
 
 #endif

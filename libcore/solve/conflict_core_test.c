@@ -8,7 +8,7 @@
 
 /* What of a problem is looked at: slots, border rules, restrictions, quotas, as bits. */
 typedef struct Part {
-    const MesoCoreProblem *problem;
+    const MesoTilingProblem *problem;
     uint32_t slots, exempt, only, restrictions, quotas;
     uint32_t chosen[BRUTE_FORCE_SLOTS];
 } Part;
@@ -78,7 +78,7 @@ static bool can_hold(Part *part, uint32_t slot)
     return false;
 }
 
-static Part part_of(const MesoCoreProblem *problem, const MesoConflictCore *core)
+static Part part_of(const MesoTilingProblem *problem, const MesoConflictCore *core)
 {
     Part part = {.problem = problem};
     for (uint32_t i = 0; i < core->slot_count; i++)
@@ -93,7 +93,7 @@ static Part part_of(const MesoCoreProblem *problem, const MesoConflictCore *core
     return part;
 }
 
-static Part whole(const MesoCoreProblem *problem)
+static Part whole(const MesoTilingProblem *problem)
 {
     Part part = {.problem = problem, .slots = (1u << problem->graph->slot_count) - 1, .restrictions = UINT32_MAX,
                  .quotas = UINT32_MAX};
@@ -116,7 +116,7 @@ static void check_needed(Part *part, uint32_t *bits)
     }
 }
 
-static void check_core(const MesoCoreProblem *problem, const MesoConflictCore *core)
+static void check_core(const MesoTilingProblem *problem, const MesoConflictCore *core)
 {
     Part part = part_of(problem, core), all = whole(problem);
     CHECK((core->slot_count > 0 || part.quotas) && (uint32_t)__builtin_popcount(part.slots) == core->slot_count);
@@ -131,7 +131,7 @@ static void check_core(const MesoCoreProblem *problem, const MesoConflictCore *c
 }
 
 /* A core is found around `near` in every case without an assignment, and in no other. Returns whether it was. */
-static bool check_case(MesoArena *arena, const MesoCoreProblem *problem, uint32_t near)
+static bool check_case(MesoArena *arena, const MesoTilingProblem *problem, uint32_t near)
 {
     const MesoCoreLimits limits = {0};
     MesoConflictCore core, again;
@@ -207,7 +207,7 @@ static void test_brute_force(void)
         CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
         MesoConstraints constraints = random_constraints(&arena, &random, &graph, variants.count,
                                                          2 * set.interface_count);
-        MesoCoreProblem problem = {&set, &variants, &graph, NULL};
+        MesoTilingProblem problem = {&set, &variants, &graph, NULL};
         uint32_t near = meso_random_below(&random, graph.slot_count);
         bool without = check_case(&arena, &problem, near);
         problem.constraints = &constraints;
@@ -225,7 +225,7 @@ static void test_brute_force(void)
     meso_arena_release(&arena);
 }
 
-static MesoConflictCore find(MesoArena *arena, const MesoCoreProblem *problem, uint32_t near)
+static MesoConflictCore find(MesoArena *arena, const MesoTilingProblem *problem, uint32_t near)
 {
     const MesoCoreLimits limits = {0};
     MesoConflictCore core;
@@ -248,7 +248,7 @@ static void test_border_rule(void)
     set.interfaces[2].border_only = true;
     MesoSlotGraph graph = fixture_grid(&arena, 3, 1, false, false, false);
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
-    const MesoCoreProblem problem = {&set, &variants, &graph, NULL};
+    const MesoTilingProblem problem = {&set, &variants, &graph, NULL};
     MesoConflictCore core = find(&arena, &problem, 1);
     CHECK(core.found && core.minimal && core.slot_count == 1 && core.slots[0] == 1);
     CHECK(core.rule_count == 1 && core.rules[0].interface == 2 && core.rules[0].only);
@@ -280,7 +280,7 @@ static void test_pins(void)
     const MesoRestriction pins[3] = {{"pins[0]", false, 1, places + 2, t0}, {"pins[1]", false, 1, places, t1},
                                      {"pins[2]", false, 1, places + 1, t0}};
     const MesoConstraints constraints = {.restriction_count = 3, .restrictions = pins};
-    const MesoCoreProblem problem = {&set, &variants, &graph, &constraints};
+    const MesoTilingProblem problem = {&set, &variants, &graph, &constraints};
     for (uint32_t i = 0; i < 2; i++) {
         MesoConflictCore core = find(&arena, &problem, i ? 499 : MESO_NO_INDEX);
         CHECK(core.found && core.minimal && core.slot_count == 2 && core.slots[0] == 500 && core.slots[1] == 501);
@@ -306,7 +306,7 @@ static void test_quota(void)
                                      {"pins[2]", false, 1, places + 2, t1}};
     const MesoQuota quotas[2] = {{"quotas[0]", t1, 0, 1}, {"quotas[1]", t0, 2, 1000}};
     MesoConstraints constraints = {.restriction_count = 3, .restrictions = pins, .quota_count = 2, .quotas = quotas};
-    const MesoCoreProblem problem = {&set, &variants, &graph, &constraints};
+    const MesoTilingProblem problem = {&set, &variants, &graph, &constraints};
     MesoConflictCore core = find(&arena, &problem, MESO_NO_INDEX);
     CHECK(core.found && core.minimal && core.slot_count == 2 && core.slots[0] == 3 && core.slots[1] == 700);
     CHECK(core.constraint_count == 3 && core.constraints[0] == 0);
@@ -330,7 +330,7 @@ static void test_ring(void)
     MesoTileSet set = fixture_set(&arena, 3, 2, labels, false, false, false);
     MesoSlotGraph graph = fixture_grid(&arena, 301, 1, true, false, false);
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
-    const MesoCoreProblem problem = {&set, &variants, &graph, NULL};
+    const MesoTilingProblem problem = {&set, &variants, &graph, NULL};
     MesoConflictCore core = find(&arena, &problem, 17);
     CHECK(core.found && core.minimal && core.slot_count == 301 && core.slots[300] == 300);
     CHECK(core.rule_count == 0 && core.tile_count == 2);

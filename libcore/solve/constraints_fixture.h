@@ -42,10 +42,11 @@ static inline MesoSolveResult fixture_case_solve(FixtureCase *c, MesoEngine engi
 {
     MesoSolveResult result;
     MesoError error;
-    MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = attempts, .max_dead_ends = 10,
-                                .constraints = &c->constraints};
-    CHECK(meso_solve(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
-    CHECK(meso_explain(&result, &c->arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
+    MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = attempts, .max_dead_ends = 10};
+    CHECK(meso_solve(&result, &c->arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, &c->constraints},
+                     &options, &error) == MESO_OK);
+    CHECK(meso_explain(&result, &c->arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, &c->constraints},
+                       options.seed, &error) == MESO_OK);
     if (result.verdict == MESO_VERDICT_SOLVED)
         CHECK(meso_constraints_check(&c->constraints, &result.assignment, &c->set, &c->variants, &c->graph,
                                      &error) == MESO_OK);

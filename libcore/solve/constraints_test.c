@@ -157,8 +157,9 @@ static void test_formula_too_large(void)
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
     const MesoQuota quota = {"quotas[0]", t0, 1, 193600};
     const MesoConstraints constraints = {.quota_count = 1, .quotas = &quota};
-    const MesoSolveOptions options = {.engine = MESO_ENGINE_EXACT, .max_attempts = 1, .constraints = &constraints};
-    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, NULL) == MESO_OK);
+    const MesoSolveOptions options = {.engine = MESO_ENGINE_EXACT, .max_attempts = 1};
+    CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                     &options, NULL) == MESO_OK);
     CHECK(result.verdict == MESO_VERDICT_GAVE_UP && result.budget == MESO_BUDGET_FORMULA);
     CHECK(strcmp(result.reason, "so many slots with so many tiles are beyond the exact engine") == 0);
     meso_arena_release(&arena);

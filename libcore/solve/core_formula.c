@@ -26,7 +26,7 @@ typedef struct Place {
 
 typedef struct Builder {
     MesoCoreFormula *formula;
-    const MesoCoreProblem *problem;
+    const MesoTilingProblem *problem;
     MesoArena *arena;
     uint32_t code_count;        /* label codes that variants show, or whose opposite they do */
     uint32_t *code_rank;        /* [label codes] among these */
@@ -62,7 +62,7 @@ int32_t meso_core_formula_literal(const MesoCoreFormula *formula, uint32_t item)
     return (int32_t)(1 + (item < slots ? formula->rank[item] : formula->slot_count + item - slots));
 }
 
-bool meso_core_allows(const MesoCoreProblem *problem, const MesoRestriction *restriction, uint32_t place,
+bool meso_core_allows(const MesoTilingProblem *problem, const MesoRestriction *restriction, uint32_t place,
                       uint32_t variant)
 {
     uint32_t bit = restriction->sided
@@ -186,7 +186,7 @@ static bool same_pattern(const Pattern *a, const Pattern *b)
 
 static Pattern pattern_of(const Builder *builder, uint32_t rank, uint32_t variant)
 {
-    const MesoCoreProblem *problem = builder->problem;
+    const MesoTilingProblem *problem = builder->problem;
     uint32_t begin = builder->place_begin[rank], end = builder->place_begin[rank + 1];
     Pattern pattern = {.allowed = variant, .variant = variant};
     for (uint32_t k = 0; k < 4; k++) {
@@ -240,7 +240,7 @@ static int32_t label_literal(const Builder *builder, uint32_t rank, uint32_t sid
 static MesoStatus add_pattern(Builder *builder, uint32_t rank, const Pattern *pattern, int32_t literal,
                               MesoError *error)
 {
-    const MesoCoreProblem *problem = builder->problem;
+    const MesoTilingProblem *problem = builder->problem;
     MesoStatus status = MESO_OK;
     for (uint32_t k = 0; k < 4 && !status; k++) {
         uint32_t twin = problem->graph->twin[4 * (size_t)builder->formula->slots[rank] + k];
@@ -406,7 +406,7 @@ static MesoStatus build(Builder *builder, MesoError *error)
     return status;
 }
 
-MesoStatus meso_core_formula_init(MesoCoreFormula *formula, const MesoCoreProblem *problem,
+MesoStatus meso_core_formula_init(MesoCoreFormula *formula, const MesoTilingProblem *problem,
                                   const uint32_t *slots, uint32_t slot_count, uint32_t *rank,
                                   MesoError *error)
 {

@@ -14,28 +14,21 @@
 #define MESO_CORE_FORMULA_H
 
 #include "libcore/solve/cadical_adapter.h"
-#include "libcore/solve/constraints.h"
-
-typedef struct MesoCoreProblem {
-    const MesoTileSet *set;
-    const MesoVariantSet *variants;
-    const MesoSlotGraph *graph;
-    const MesoConstraints *constraints;     /* of which restrictions and quotas matter; NULL: none */
-} MesoCoreProblem;
+#include "libcore/solve/tiling_problem.h"
 
 /* Items by number: all slots of the graph, two border rules for each interface, restrictions and then quotas. */
-static inline uint32_t meso_core_rule_item(const MesoCoreProblem *problem, uint32_t interface, bool only)
+static inline uint32_t meso_core_rule_item(const MesoTilingProblem *problem, uint32_t interface, bool only)
 {
     return problem->graph->slot_count + 2 * interface + only;
 }
 
-static inline uint32_t meso_core_constraint_item(const MesoCoreProblem *problem, uint32_t constraint)
+static inline uint32_t meso_core_constraint_item(const MesoTilingProblem *problem, uint32_t constraint)
 {
     return problem->graph->slot_count + 2 * problem->set->interface_count + constraint;
 }
 
 typedef struct MesoCoreFormula {
-    const MesoCoreProblem *problem;
+    const MesoTilingProblem *problem;
     MesoSat *sat;
     uint32_t slot_count;
     const uint32_t *slots;      /* [slot_count] of the graph */
@@ -54,7 +47,7 @@ typedef struct MesoCoreFormula {
  * O(slots * log^2(slots)) for each quota that the part alone can break. Quotas are
  * left out where that adds up to much: as if they were never assumed. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
-MesoStatus meso_core_formula_init(MesoCoreFormula *formula, const MesoCoreProblem *problem,
+MesoStatus meso_core_formula_init(MesoCoreFormula *formula, const MesoTilingProblem *problem,
                                   const uint32_t *slots, uint32_t slot_count, uint32_t *rank,
                                   MesoError *error);
 
@@ -64,7 +57,7 @@ void meso_core_formula_release(MesoCoreFormula *formula);
 int32_t meso_core_formula_literal(const MesoCoreFormula *formula, uint32_t item);
 
 /* Whether `variant` may stand at `slot` as far as `restriction` goes, which has `place` there: a slot or half-edge. */
-bool meso_core_allows(const MesoCoreProblem *problem, const MesoRestriction *restriction, uint32_t place,
+bool meso_core_allows(const MesoTilingProblem *problem, const MesoRestriction *restriction, uint32_t place,
                       uint32_t variant);
 
 #endif

@@ -21,7 +21,8 @@ static Found prove(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph
     uint32_t slot;
     bool holds;
     CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&propagation, arena, set, &variants, graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, arena, &(MesoTilingProblem){set, &variants, graph, NULL},
+                                NULL) == MESO_OK);
     found.dead = propagation.initial_dead_count > 0;
     if (!found.dead) {
         CHECK(meso_pattern_table_init(&table, arena, &propagation, NULL, NULL) == MESO_OK);

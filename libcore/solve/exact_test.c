@@ -82,7 +82,8 @@ static void test_own_clauses(void)
     MesoTileSet set = fixture_set(&arena, 1, 3, labels, false, false, true);
     MesoSlotGraph graph = fixture_graph(&arena, 1);
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK && variants.count == 3);
-    CHECK(meso_propagation_init(&propagation, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                                NULL) == MESO_OK);
     CHECK(meso_exact_init(&exact, &arena, &propagation, &options, NULL) == MESO_OK);
     while (meso_sat_solve(exact.sat, &answer, NULL, 0, 1000, NULL, NULL, NULL) == MESO_OK &&
            answer == MESO_SAT_YES) {

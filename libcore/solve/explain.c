@@ -20,10 +20,7 @@ enum { DEEP_CONFLICTS = 20000, DEEP_ATTEMPTS = 1 };
 enum { NUMBERS_CORE_SLOTS = 800, NUMBERS_CORE_CONFLICTS = 1000 };
 
 typedef struct Explainer {
-    const MesoTileSet *set;
-    const MesoVariantSet *variants;
-    const MesoSlotGraph *graph;
-    const MesoConstraints *constraints;
+    const MesoTilingProblem *problem;
     MesoRestriction *restrictions;      /* [restriction_count] room for a selection */
     MesoQuota *quotas;                  /* [quota_count] the same */
     uint32_t *selected;                 /* [constraint count] the ones that a try has */
@@ -36,7 +33,7 @@ typedef struct Explainer {
 
 static MesoConstraints select_constraints(Explainer *explainer, const uint32_t *numbers, uint32_t count)
 {
-    const MesoConstraints *all = explainer->constraints;
+    const MesoConstraints *all = explainer->problem->constraints;
     MesoConstraints some = {.restrictions = explainer->restrictions, .quotas = explainer->quotas};
     for (uint32_t i = 0; i < count; i++) {
         uint32_t number = numbers[i];
@@ -50,26 +47,24 @@ static MesoConstraints select_constraints(Explainer *explainer, const uint32_t *
     return some;
 }
 
-static MesoStatus try_propagation(Explainer *explainer, const MesoConstraints *some, MesoArena *scratch, bool *no)
+static MesoStatus try_propagation(Explainer *explainer, const MesoTilingProblem *some, MesoArena *scratch, bool *no)
 {
     MesoPropagation propagation;
-    MesoStatus status = meso_strand_places_init(&propagation, scratch, explainer->set, explainer->variants,
-                                                explainer->graph, some, explainer->error);
+    MesoStatus status = meso_strand_places_init(&propagation, scratch, some, explainer->error);
     *no = !status && (propagation.initial_dead_count || propagation.broken_quota != MESO_NO_INDEX);
     if (!status && !*no)
-        status = meso_strand_search_disproves(no, scratch, &propagation, explainer->variants, some,
+        status = meso_strand_search_disproves(no, scratch, &propagation, some->variants, some->constraints,
                                               explainer->error);
     meso_propagation_release(&propagation);
     return status;
 }
 
-static MesoStatus try_solve(Explainer *explainer, const MesoConstraints *some, MesoArena *scratch, bool *no)
+static MesoStatus try_solve(Explainer *explainer, const MesoTilingProblem *some, MesoArena *scratch, bool *no)
 {
     MesoSolveResult result;
     const MesoSolveOptions options = {.seed = explainer->seed, .max_attempts = DEEP_ATTEMPTS,
-                                      .max_conflicts = DEEP_CONFLICTS, .constraints = some};
-    MesoStatus status = meso_solve(&result, scratch, explainer->set, explainer->variants, explainer->graph,
-                                   &options, explainer->error);
+                                      .max_conflicts = DEEP_CONFLICTS};
+    MesoStatus status = meso_solve(&result, scratch, some, &options, explainer->error);
     *no = !status && result.verdict == MESO_VERDICT_UNSOLVABLE;
     return status;
 }
@@ -80,7 +75,9 @@ static bool disproved(Explainer *explainer, const uint32_t *numbers, uint32_t co
     if (explainer->status || explainer->tries_left == 0)
         return false;
     explainer->tries_left--;
-    MesoConstraints some = select_constraints(explainer, numbers, count);
+    const MesoConstraints selected = select_constraints(explainer, numbers, count);
+    MesoTilingProblem some = *explainer->problem;
+    some.constraints = &selected;
     MesoArena scratch;
     bool no = false;
     meso_arena_init(&scratch);
@@ -128,11 +125,11 @@ static bool touches(const MesoRestriction *restriction, const MesoSlotGraph *gra
 /* The constraints to shrink: those around `slot`, or all. */
 static uint32_t collect(Explainer *explainer, uint32_t *numbers, uint32_t slot)
 {
-    const MesoConstraints *constraints = explainer->constraints;
+    const MesoConstraints *constraints = explainer->problem->constraints;
     uint32_t count = 0, all = meso_constraint_count(constraints);
     if (slot != MESO_NO_INDEX) {
         for (uint32_t r = 0; r < constraints->restriction_count; r++)
-            if (touches(&constraints->restrictions[r], explainer->graph, slot))
+            if (touches(&constraints->restrictions[r], explainer->problem->graph, slot))
                 numbers[count++] = r;
         if (disproved(explainer, numbers, count))
             return count;
@@ -152,14 +149,13 @@ static void sort_ascending(uint32_t *numbers, uint32_t count)
         }
 }
 
-MesoStatus meso_explain_constraints(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
-                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                                    const MesoConstraints *constraints, uint32_t slot, bool deep,
-                                    uint64_t seed, MesoError *error)
+MesoStatus meso_explain_constraints(uint32_t *numbers, uint32_t *count, const MesoTilingProblem *problem,
+                                    uint32_t slot, bool deep, uint64_t seed, MesoError *error)
 {
+    const MesoConstraints *constraints = problem->constraints;
+    const MesoSlotGraph *graph = problem->graph;
     MesoArena arena;
-    Explainer explainer = {.set = set, .variants = variants, .graph = graph, .constraints = constraints,
-                           .deep = deep, .seed = seed, .error = error};
+    Explainer explainer = {.problem = problem, .deep = deep, .seed = seed, .error = error};
     explainer.tries_left = deep ? LEAST_DEEP_TRIES + deep_work_limit / (graph->slot_count + (uint64_t)1)
                                 : LEAST_TRIES + work_limit / (graph->slot_count + (uint64_t)1);
     meso_arena_init(&arena);
@@ -199,7 +195,7 @@ static const char *constraints_text(MesoArena *arena, const MesoConstraints *con
 }
 
 /* Whether a core was found that tells more than the reason that there is: of a proof by numbers, a small one. */
-static MesoStatus explain_by_core(MesoSolveResult *result, MesoArena *arena, const MesoCoreProblem *problem,
+static MesoStatus explain_by_core(MesoSolveResult *result, MesoArena *arena, const MesoTilingProblem *problem,
                                   uint32_t near, bool *done, MesoError *error)
 {
     bool by_numbers = result->decider == MESO_DECIDER_COUNTING || result->decider == MESO_DECIDER_PARITY;
@@ -217,7 +213,7 @@ static MesoStatus explain_by_core(MesoSolveResult *result, MesoArena *arena, con
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static MesoStatus explain_by_constraints(MesoSolveResult *result, MesoArena *arena, const MesoCoreProblem *problem,
+static MesoStatus explain_by_constraints(MesoSolveResult *result, MesoArena *arena, const MesoTilingProblem *problem,
                                          uint32_t near, bool deep, uint64_t seed, MesoError *error)
 {
     const MesoConstraints *constraints = problem->constraints;
@@ -225,8 +221,7 @@ static MesoStatus explain_by_constraints(MesoSolveResult *result, MesoArena *are
     if (!constraints || meso_constraint_count(constraints) == 0)
         return MESO_OK;
     uint32_t *numbers = MESO_NEW(arena, uint32_t, meso_constraint_count(constraints), error);
-    if (!numbers || meso_explain_constraints(numbers, &count, problem->set, problem->variants, problem->graph,
-                                             constraints, deep ? MESO_NO_INDEX : near, deep, seed, error))
+    if (!numbers || meso_explain_constraints(numbers, &count, problem, deep ? MESO_NO_INDEX : near, deep, seed, error))
         return MESO_ERR_MEMORY;
     if (deep && count == 0)
         return MESO_OK;
@@ -238,21 +233,19 @@ static MesoStatus explain_by_constraints(MesoSolveResult *result, MesoArena *are
     return text ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
-                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoSolveOptions *options, MesoError *error)
+MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTilingProblem *problem, uint64_t seed,
+                        MesoError *error)
 {
     if (result->verdict != MESO_VERDICT_UNSOLVABLE)
         return MESO_OK;
-    const MesoCoreProblem problem = {set, variants, graph, options->constraints};
     uint32_t near = result->conflict_slot;
     bool initial = result->decider == MESO_DECIDER_PROPAGATION, done = false;
-    bool quotas = options->constraints && options->constraints->quota_count > 0;
+    bool quotas = problem->constraints && problem->constraints->quota_count > 0;
     MesoStatus status = MESO_OK;
     /* Where propagation left no slot dead, it disproved a quota or the rule on strands. */
     if (!initial || near != MESO_NO_INDEX || quotas)
-        status = explain_by_core(result, arena, &problem, near, &done, error);
+        status = explain_by_core(result, arena, problem, near, &done, error);
     if (status || done)
         return status;
-    return explain_by_constraints(result, arena, &problem, near, !initial, options->seed, error);
+    return explain_by_constraints(result, arena, problem, near, !initial, seed, error);
 }

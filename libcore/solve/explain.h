@@ -12,14 +12,14 @@
  * by numbers keeps its reason unless there is a core of at most half the surface.
  * Results that are not unsolvable stay as they are.
  *
- * options  those that `result` was solved with
+ * problem  that of `result`
+ * seed     of the solves that are tried
  *
  * A second or two, or tries of whole solves under constraints; the result depends
  * on the arguments alone. MESO_ERR_MEMORY or MESO_ERR_INTERNAL.
  */
-MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
-                        const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                        const MesoSolveOptions *options, MesoError *error);
+MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTilingProblem *problem, uint64_t seed,
+                        MesoError *error);
 
 /*
  * Finds a set of constraints that is disproved, and none of which can be left
@@ -37,9 +37,7 @@ MesoStatus meso_explain(MesoSolveResult *result, MesoArena *arena, const MesoTil
  * constraints together again, it has all of them. O(tries * slots), or tries
  * solves. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_explain_constraints(uint32_t *numbers, uint32_t *count, const MesoTileSet *set,
-                                    const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                                    const MesoConstraints *constraints, uint32_t slot, bool deep,
-                                    uint64_t seed, MesoError *error);
+MesoStatus meso_explain_constraints(uint32_t *numbers, uint32_t *count, const MesoTilingProblem *problem,
+                                    uint32_t slot, bool deep, uint64_t seed, MesoError *error);
 
 #endif

@@ -82,25 +82,25 @@ static MesoStatus fill_states(const Builder *b, uint32_t *state, uint32_t *dead_
 }
 
 MesoStatus meso_initial_states(uint32_t *state, uint32_t *dead_count, MesoDomainTable *domains, MesoArena *scratch,
-                               const MesoTileSet *set, const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                               const MesoConstraints *constraints, MesoError *error)
+                               const MesoTilingProblem *problem, MesoError *error)
 {
+    const MesoConstraints *constraints = problem->constraints;
     MesoSlotMasks masks = {.mask_count = 1};
     MesoArenaMark mark = meso_arena_mark(scratch);
     uint32_t label_words = domains->sets.word_count;
     *dead_count = 0;
     if (constraints && constraints->restriction_count &&
-        meso_slot_masks_build(&masks, scratch, constraints, variants, graph->slot_count, error))
+        meso_slot_masks_build(&masks, scratch, constraints, problem->variants, problem->graph->slot_count, error))
         return MESO_ERR_MEMORY;
     uint64_t *inner = MESO_NEW(scratch, uint64_t, label_words, error);
     uint64_t *border = MESO_NEW(scratch, uint64_t, label_words, error);
     uint32_t *by_kind = MESO_NEW(scratch, uint32_t, BORDER_KINDS * (size_t)masks.mask_count, error);
-    Builder b = {.domains = domains, .graph = graph, .rules = {inner, border},
+    Builder b = {.domains = domains, .graph = problem->graph, .rules = {inner, border},
                  .bits = MESO_NEW(scratch, uint64_t, domains->states.word_count, error)};
     if (!inner || !border || !by_kind || !b.bits)
         return MESO_ERR_MEMORY;
-    meso_border_labels(set, false, inner);
-    meso_border_labels(set, true, border);
+    meso_border_labels(problem->set, false, inner);
+    meso_border_labels(problem->set, true, border);
     MesoStatus status = fill_states(&b, state, dead_count, &masks, by_kind, error);
     meso_arena_rewind(scratch, mark);
     return status;

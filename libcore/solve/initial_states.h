@@ -2,14 +2,14 @@
 #ifndef MESO_INITIAL_STATES_H
 #define MESO_INITIAL_STATES_H
 
-#include "libcore/solve/constraints.h"
 #include "libcore/solve/domain.h"
+#include "libcore/solve/tiling_problem.h"
 
 /* Label codes that border rules allow on a side; `labels` [label words], zeroed. */
 void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels);
 
 /*
- * The variants that border rules and `constraints` (NULL: none) allow at each slot, whatever its neighbours hold.
+ * The variants that border rules and constraints allow at each slot, whatever its neighbours hold.
  * Slots alike in borders and constraints share a state.
  *
  * state       [slot_count] result
@@ -18,7 +18,6 @@ void meso_border_labels(const MesoTileSet *set, bool border, uint64_t *labels);
  * MESO_ERR_MEMORY alone. O(slots + kinds of slots * variants).
  */
 MesoStatus meso_initial_states(uint32_t *state, uint32_t *dead_count, MesoDomainTable *domains, MesoArena *scratch,
-                               const MesoTileSet *set, const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                               const MesoConstraints *constraints, MesoError *error);
+                               const MesoTilingProblem *problem, MesoError *error);
 
 #endif

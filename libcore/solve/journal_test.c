@@ -107,7 +107,8 @@ static void test_case(uint64_t seed, MesoJournal *journal, Tally *tally)
     MesoTileSet set = draw_set(&arena, &random);
     BruteForce force = brute_force(&arena, &set, &graph, MOST_ASSIGNMENTS, true);
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&propagation, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                                NULL) == MESO_OK);
     if (force.count < MOST_ASSIGNMENTS && propagation.initial_dead_count == 0) {
         propagation.journal = journal;
         meso_propagation_restart(&propagation);

@@ -87,9 +87,9 @@ static void check_case(MesoArena *arena, Case *c, MesoRandom *random)
     uint32_t fewest = fewest_changes(c, &force);
     for (MesoEngine engine = MESO_ENGINE_AUTO; engine <= MESO_ENGINE_EXACT; engine++) {
         MesoSolveResult result;
-        const MesoSolveOptions options = {.engine = engine, .seed = cases, .max_attempts = 5,
-                                          .constraints = &c->constraints};
-        CHECK(meso_solve(&result, arena, &c->set, &c->variants, &c->graph, &options, NULL) == MESO_OK);
+        const MesoSolveOptions options = {.engine = engine, .seed = cases, .max_attempts = 5};
+        CHECK(meso_solve(&result, arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, &c->constraints},
+                         &options, NULL) == MESO_OK);
         if (engine == MESO_ENGINE_WFC) {
             CHECK(result.verdict != MESO_VERDICT_SOLVED || fewest != MESO_NO_INDEX);
             continue;
@@ -142,7 +142,8 @@ static void test_long_row(void)
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
     const MesoRestriction pin = {"pins[0]", false, 1, place, second};
     const MesoConstraints constraints = {.restriction_count = 1, .restrictions = &pin, .keep = keep};
-    CHECK(meso_propagation_init(&propagation, &arena, &set, &variants, &graph, &constraints, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                                NULL) == MESO_OK);
     for (uint32_t s = 0; s < SLOTS; s++) {
         keep[s] = s < 50 ? 0 : s == 50 ? 2 : 1;
         variant[s] = s < 7 ? 0 : s == 7 ? 2 : 1;

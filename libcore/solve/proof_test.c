@@ -69,12 +69,13 @@ static MesoSolveResult solve(Proof *proof, MesoArena *arena, MesoEngine engine, 
 {
     MesoVariantSet variants;
     MesoSolveResult result;
-    const MesoSolveOptions options = {.engine = engine, .max_attempts = 1, .constraints = constraints,
+    const MesoSolveOptions options = {.engine = engine, .max_attempts = 1,
                                       .proof = take_proof, .clause = take_clause, .formula = begin_formula,
                                       .proof_context = proof};
     clear(proof);
     CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
-    CHECK(meso_solve(&result, arena, set, &variants, graph, &options, NULL) == MESO_OK);
+    CHECK(meso_solve(&result, arena, &(MesoTilingProblem){set, &variants, graph, constraints},
+                     &options, NULL) == MESO_OK);
     return result;
 }
 
@@ -185,7 +186,8 @@ static MesoSatAnswer conquer(Proof *proof, MesoArena *arena, const MesoTileSet *
     clear(proof);
     meso_random_init(&random, seed, 0);
     CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&propagation, arena, set, &variants, graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, arena, &(MesoTilingProblem){set, &variants, graph, NULL},
+                                NULL) == MESO_OK);
     if (propagation.initial_dead_count == 0) {
         CHECK(meso_exact_init(&exact, arena, &propagation, &options, NULL) == MESO_OK);
         CHECK(meso_exact_conquer(&exact, &answer, &random, 1, 1000000, NULL, NULL, NULL) == MESO_OK);
@@ -283,7 +285,8 @@ static void test_growing_formula(void)
     MesoTileSet set = aperiodic_set(&arena);
     MesoSlotGraph graph = fixture_grid(&arena, 13, 13, true, true, false);
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&propagation, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                                NULL) == MESO_OK);
     CHECK(meso_exact_init(&exact, &arena, &propagation, &options, NULL) == MESO_OK);
     while (answer == MESO_SAT_UNKNOWN) {
         CHECK(meso_sat_solve(exact.sat, &answer, NULL, 0, 300, NULL, NULL, NULL) == MESO_OK);

@@ -273,14 +273,12 @@ static MesoStatus allocate(MesoPropagation *propagation, MesoArena *arena,
     return meso_bucket_queue_init(&propagation->queue, arena, slot_count, variants->count, error);
 }
 
-static MesoStatus find_initial_states(MesoPropagation *propagation, const MesoVariantSet *variants,
-                                      const MesoConstraints *constraints, MesoError *error)
+static MesoStatus find_initial_states(MesoPropagation *propagation, const MesoTilingProblem *problem, MesoError *error)
 {
     MesoArena scratch;
     meso_arena_init(&scratch);
     MesoStatus status = meso_initial_states(propagation->state, &propagation->initial_dead_count,
-                                            &propagation->domains, &scratch, propagation->set, variants,
-                                            propagation->graph, constraints, error);
+                                            &propagation->domains, &scratch, problem, error);
     meso_arena_release(&scratch);
     return status;
 }
@@ -293,19 +291,17 @@ static void plan_collection(MesoPropagation *propagation)
 }
 
 MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
-                                 const MesoTileSet *set, const MesoVariantSet *variants,
-                                 const MesoSlotGraph *graph, const MesoConstraints *constraints,
-                                 MesoError *error)
+                                 const MesoTilingProblem *problem, MesoError *error)
 {
-    *propagation = (MesoPropagation){.graph = graph, .set = set, .arena = arena};
+    *propagation = (MesoPropagation){.graph = problem->graph, .set = problem->set, .arena = arena};
     uint32_t step_count = LEAST_STEPS;
-    while (step_count < MOST_STEPS && step_count < 2 * (uint64_t)graph->slot_count)
+    while (step_count < MOST_STEPS && step_count < 2 * (uint64_t)problem->graph->slot_count)
         step_count *= 2;
 
-    if (allocate(propagation, arena, variants, constraints, error) ||
-        meso_domain_table_init(&propagation->domains, variants->count, propagation->codes,
-                               2 * set->interface_count, step_count, error) ||
-        find_initial_states(propagation, variants, constraints, error) || run_initial(propagation, error))
+    if (allocate(propagation, arena, problem->variants, problem->constraints, error) ||
+        meso_domain_table_init(&propagation->domains, problem->variants->count, propagation->codes,
+                               2 * problem->set->interface_count, step_count, error) ||
+        find_initial_states(propagation, problem, error) || run_initial(propagation, error))
         return MESO_ERR_MEMORY;
     plan_collection(propagation);
     return MESO_OK;

@@ -7,12 +7,11 @@
 #define MESO_PROPAGATE_H
 
 #include "libcore/solve/bucket_queue.h"
-#include "libcore/solve/constraints.h"
 #include "libcore/solve/domain.h"
 #include "libcore/solve/journal.h"
 #include "libcore/solve/quota.h"
+#include "libcore/solve/tiling_problem.h"
 #include "libcore/solve/work_list.h"
-#include "libcore/surface/slot_graph.h"
 
 typedef struct MesoTrailEntry {
     uint32_t slot, state;       /* that it had before */
@@ -65,7 +64,7 @@ typedef struct MesoPropagation {
 } MesoPropagation;
 
 /*
- * Gives every slot the variants that border rules and `constraints` (NULL: none)
+ * Gives every slot the variants that border rules and constraints
  * allow there, and propagates to the fixed point. A slot that this empties is
  * proved dead: it counts in `initial_dead_count`, and propagation goes on
  * around it as if it were not there, so that all of them are found. Where there
@@ -74,9 +73,7 @@ typedef struct MesoPropagation {
  * `arena`. MESO_ERR_MEMORY alone; meso_propagation_release() is due in any case. O(slots) for a set at hand.
  */
 MesoStatus meso_propagation_init(MesoPropagation *propagation, MesoArena *arena,
-                                 const MesoTileSet *set, const MesoVariantSet *variants,
-                                 const MesoSlotGraph *graph, const MesoConstraints *constraints,
-                                 MesoError *error);
+                                 const MesoTilingProblem *problem, MesoError *error);
 
 void meso_propagation_release(MesoPropagation *propagation);
 

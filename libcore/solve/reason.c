@@ -37,7 +37,7 @@ static const char *slots_text(MesoArena *arena, const MesoConflictCore *core, ui
     return text;
 }
 
-static const char *names_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+static const char *names_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
                               MesoError *error)
 {
     const char *names = "";
@@ -48,7 +48,7 @@ static const char *names_text(MesoArena *arena, const MesoCoreProblem *problem, 
 }
 
 /* "no tiles fit together on slots 3 and 4, with pins[0]" */
-static const char *misfit_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+static const char *misfit_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
                                MesoError *error)
 {
     const MesoConstraints *constraints = problem->constraints;
@@ -64,7 +64,7 @@ static const char *misfit_text(MesoArena *arena, const MesoCoreProblem *problem,
 }
 
 /* "pins[0] and quotas[1] 'knots' cannot hold together on slots 3 and 700"; no slots: there are too few. */
-static const char *quotas_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+static const char *quotas_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
                                MesoError *error)
 {
     const char *names = names_text(arena, problem, core, error);
@@ -77,7 +77,7 @@ static const char *quotas_text(MesoArena *arena, const MesoCoreProblem *problem,
 }
 
 /* The interfaces with one of the two border rules: "interfaces 'a' and 'b' must not lie on a border"; or "". */
-static const char *rule_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core, bool only,
+static const char *rule_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core, bool only,
                              MesoError *error)
 {
     const char *names = "";
@@ -96,7 +96,7 @@ static const char *rule_text(MesoArena *arena, const MesoCoreProblem *problem, c
                             only ? "may lie on a border only" : "must not lie on a border");
 }
 
-static const char *rules_text(MesoArena *arena, const char *text, const MesoCoreProblem *problem,
+static const char *rules_text(MesoArena *arena, const char *text, const MesoTilingProblem *problem,
                               const MesoConflictCore *core, MesoError *error)
 {
     const char *exempt = rule_text(arena, problem, core, false, error);
@@ -107,7 +107,7 @@ static const char *rules_text(MesoArena *arena, const char *text, const MesoCore
 }
 
 /* The tiles that rules and constraints of the core leave a slot: their number, and the first of them. */
-static uint32_t tiles_at(const MesoCoreProblem *problem, const MesoConflictCore *core, uint32_t slot,
+static uint32_t tiles_at(const MesoTilingProblem *problem, const MesoConflictCore *core, uint32_t slot,
                          uint32_t tiles[MOST_TILES_SAID])
 {
     uint32_t count = 0, last = MESO_NO_INDEX;
@@ -132,7 +132,7 @@ static uint32_t all_tiles(const MesoVariantSet *variants)
 }
 
 /* "only 'knot' and 'bend' fit slots 3 and 5": every slot of the core that is left `tiles` [count]. */
-static const char *choice_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+static const char *choice_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
                                const uint32_t *tiles, uint32_t count, MesoError *error)
 {
     uint32_t own[MOST_TILES_SAID], alike = 0, i = 0;
@@ -157,7 +157,7 @@ static const char *choice_text(MesoArena *arena, const MesoCoreProblem *problem,
 }
 
 /* What the slots with the least choice can hold, where that is little. */
-static const char *tiles_text(MesoArena *arena, const char *text, const MesoCoreProblem *problem,
+static const char *tiles_text(MesoArena *arena, const char *text, const MesoTilingProblem *problem,
                               const MesoConflictCore *core, MesoError *error)
 {
     uint32_t all = all_tiles(problem->variants), tiles[MOST_TILES_SAID], said[MOST_SAID][MOST_TILES_SAID] = {{0}};
@@ -178,7 +178,7 @@ static const char *tiles_text(MesoArena *arena, const char *text, const MesoCore
     return text;
 }
 
-const char *meso_core_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+const char *meso_core_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
                            MesoError *error)
 {
     /* Constraints ascend, quotas come last. */
@@ -234,18 +234,18 @@ static const char *budget_text(MesoArena *arena, const MesoSolveResult *result, 
                             (unsigned long long)result->conflicts, (unsigned long long)result->conflict_limit);
 }
 
-const char *meso_gave_up_text(MesoArena *arena, const MesoSolveResult *result, const MesoSlotGraph *graph,
-                              const MesoSolveOptions *options, MesoError *error)
+const char *meso_gave_up_text(MesoArena *arena, const MesoSolveResult *result, const MesoTilingProblem *problem,
+                              MesoError *error)
 {
     const char *text = budget_text(arena, result, error);
     if (text && result->attempts > 0)
         text = meso_arena_print(arena, error, "%s; at best %u of %u slots were decided", text, result->decided_most,
-                                graph->slot_count);
+                                problem->graph->slot_count);
     if (text && result->hot_spot_count > 0)
         text = meso_arena_print(arena, error, "%s; %u of %llu dead ends were at slot %u", text,
                                 result->hot_spots[0].dead_ends, (unsigned long long)result->dead_ends_met,
                                 result->hot_spots[0].slot);
-    return text ? meso_violations_text(arena, text, result, options->constraints, error) : NULL;
+    return text ? meso_violations_text(arena, text, result, problem->constraints, error) : NULL;
 }
 
 const char *meso_violations_text(MesoArena *arena, const char *text, const MesoSolveResult *result,

@@ -10,7 +10,7 @@
  * where interface 'rim' may lie on a border only: only 'knot' fits slot 3; each of
  * these is needed". In `arena`; NULL: out of memory.
  */
-const char *meso_core_text(MesoArena *arena, const MesoCoreProblem *problem, const MesoConflictCore *core,
+const char *meso_core_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
                            MesoError *error);
 
 /* Why the quota that the initial propagation broke is out of reach, in numbers. In `arena`; NULL: out of memory. */
@@ -20,8 +20,8 @@ const char *meso_broken_quota_text(MesoArena *arena, const MesoQuotaTrack *track
  * A result that gave up: the budget that ended it, how far it came, where it
  * failed most. In `arena`; NULL: out of memory.
  */
-const char *meso_gave_up_text(MesoArena *arena, const MesoSolveResult *result, const MesoSlotGraph *graph,
-                              const MesoSolveOptions *options, MesoError *error);
+const char *meso_gave_up_text(MesoArena *arena, const MesoSolveResult *result, const MesoTilingProblem *problem,
+                              MesoError *error);
 
 /*
  * `text` and, after "; ", the constraint that the search met most often: `text`

@@ -33,7 +33,7 @@ static void solve_range(void *context, uint64_t begin, uint64_t end)
         MesoSolveOptions options = sweep->options;
         options.seed = sweep->seeds[i];
         meso_arena_init(&arena);
-        MesoStatus status = meso_solve(&result, &arena, sweep->set, sweep->variants, sweep->graph, &options, &error);
+        MesoStatus status = meso_solve(&result, &arena, sweep->problem, &options, &error);
         if (!status)
             status = sweep->take(sweep->context, (uint32_t)i, &result, &error);
         if (status)

@@ -5,9 +5,7 @@
 #include "libcore/solve/solve.h"
 
 typedef struct MesoSeedSweep {
-    const MesoTileSet *set;
-    const MesoVariantSet *variants;
-    const MesoSlotGraph *graph;
+    const MesoTilingProblem *problem;
     MesoSolveOptions options;   /* but for the seed; its progress must be NULL */
     uint32_t thread_count;      /* 0: all cores */
     uint32_t seed_count;

@@ -44,11 +44,12 @@ static MesoSeedSweep make_sweep(MesoArena *arena, const uint64_t *seeds)
     static MesoTileSet set;
     static MesoVariantSet variants;
     static MesoSlotGraph graph;
+    static const MesoTilingProblem problem = {&set, &variants, &graph, NULL};
     MesoError error;
     set = fixture_set(arena, 4, 7, labels, true, false, false);
     graph = fixture_grid(arena, 9, 7, false, false, false);
     CHECK(meso_variant_set_build(&variants, arena, &set, &error) == MESO_OK);
-    return (MesoSeedSweep){.set = &set, .variants = &variants, .graph = &graph, .take = take,
+    return (MesoSeedSweep){.problem = &problem, .take = take,
                            .options = {.max_attempts = 2, .max_dead_ends = 5}, .seeds = seeds,
                            .seed_count = SEEDS};
 }
@@ -80,7 +81,7 @@ int main(void)
         MesoSolveResult result;
         MesoSolveOptions options = sweep.options;
         options.seed = seeds[i];
-        CHECK(meso_solve(&result, &arena, sweep.set, sweep.variants, sweep.graph, &options, &error) == MESO_OK);
+        CHECK(meso_solve(&result, &arena, sweep.problem, &options, &error) == MESO_OK);
         CHECK(take(&alone, i, &result, &error) == MESO_OK);
     }
     uint32_t solved = 0;

@@ -43,9 +43,7 @@ static const uint64_t chain_work = (uint64_t)1 << 31;
 enum { LEAST_CUT_ROUNDS = 20, MOST_CUT_ROUNDS = 50000, CUT_SLOTS = 1 << 20 };
 
 typedef struct Search {
-    const MesoTileSet *set;
-    const MesoVariantSet *variants;
-    const MesoSlotGraph *graph;
+    const MesoTilingProblem *problem;
     const MesoSolveOptions *options;
     MesoSolveResult *result;
     MesoArena *arena;               /* of the result */
@@ -77,13 +75,13 @@ static MesoStatus record_dead_end(Search *search, uint32_t slot, uint32_t attemp
         return MESO_ERR_MEMORY;
 
     for (uint32_t k = 0; k < 4; k++) {
-        uint32_t twin = search->graph->twin[4 * (size_t)slot + k];
+        uint32_t twin = search->problem->graph->twin[4 * (size_t)slot + k];
         end->border[k] = twin == MESO_NO_INDEX;
         end->labels[k] = labels + k * words;
         /* A neighbour that is dead, or the slot itself, demands nothing in particular. */
         if (twin == MESO_NO_INDEX || twin / 4 == slot ||
             propagation->state[twin / 4] == MESO_DOMAIN_EMPTY)
-            meso_border_labels(search->set, end->border[k], end->labels[k]);
+            meso_border_labels(search->problem->set, end->border[k], end->labels[k]);
         else
             memcpy(end->labels[k], meso_propagation_allowed(propagation, slot, k), words * sizeof *labels);
     }
@@ -92,10 +90,10 @@ static MesoStatus record_dead_end(Search *search, uint32_t slot, uint32_t attemp
 
 static MesoStatus record_initial_dead_ends(Search *search, MesoError *error)
 {
-    for (uint32_t s = search->graph->slot_count; s-- > 0;)
+    for (uint32_t s = search->problem->graph->slot_count; s-- > 0;)
         if (search->propagation.state[s] == MESO_DOMAIN_EMPTY)
             search->result->conflict_slot = s;
-    for (uint32_t s = 0; s < search->graph->slot_count; s++)
+    for (uint32_t s = 0; s < search->problem->graph->slot_count; s++)
         if (search->propagation.state[s] == MESO_DOMAIN_EMPTY && record_dead_end(search, s, 0, error))
             return MESO_ERR_MEMORY;
     return MESO_OK;
@@ -116,7 +114,7 @@ static void stop(Search *search)
 static bool tick(void *context)
 {
     const Search *search = context;
-    uint32_t total = search->graph->slot_count;
+    uint32_t total = search->problem->graph->slot_count;
     if (search->options->progress)
         search->options->progress(search->options->progress_context,
                                   total - search->propagation.queue.count, total);
@@ -136,7 +134,7 @@ static MesoStatus note_dead_end(void *context, uint32_t slot, bool first, MesoEr
 static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider decider, MesoError *error)
 {
     MesoAssignment *assignment = &search->result->assignment;
-    uint32_t count = search->graph->slot_count;
+    uint32_t count = search->problem->graph->slot_count;
 
     assignment->tile = MESO_NEW(search->arena, uint32_t, count, error);
     assignment->transform = MESO_NEW(search->arena, MesoTransform, count, error);
@@ -144,14 +142,14 @@ static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider de
         return MESO_ERR_MEMORY;
     assignment->slot_count = count;
     for (uint32_t s = 0; s < count; s++) {
-        assignment->tile[s] = search->variants->tile[variant[s]];
-        assignment->transform[s] = search->variants->transform[variant[s]];
+        assignment->tile[s] = search->problem->variants->tile[variant[s]];
+        assignment->transform[s] = search->problem->variants->transform[variant[s]];
     }
     MesoError finding;
-    const MesoConstraints *constraints = search->options->constraints;
-    if (meso_assignment_check(assignment, search->set, search->graph, &finding) ||
-        (constraints && meso_constraints_check(constraints, assignment, search->set, search->variants,
-                                               search->graph, &finding)))
+    const MesoConstraints *constraints = search->problem->constraints;
+    if (meso_assignment_check(assignment, search->problem->set, search->problem->graph, &finding) ||
+        (constraints && meso_constraints_check(constraints, assignment, search->problem->set, search->problem->variants,
+                                               search->problem->graph, &finding)))
         return meso_fail(error, MESO_ERR_INTERNAL, "the solver's assignment is wrong: %s",
                          finding.message);
     search->result->verdict = MESO_VERDICT_SOLVED;
@@ -163,7 +161,7 @@ static MesoStatus accept(Search *search, const uint32_t *variant, MesoDecider de
 static MesoStatus accept_states(Search *search, MesoError *error)
 {
     const MesoPropagation *propagation = &search->propagation;
-    uint32_t count = search->graph->slot_count;
+    uint32_t count = search->problem->graph->slot_count;
     uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, count, error);
     if (!variant)
         return MESO_ERR_MEMORY;
@@ -176,7 +174,7 @@ static MesoStatus accept_states(Search *search, MesoError *error)
 static MesoStatus keep_best(Search *search, MesoError *error)
 {
     const MesoPropagation *propagation = &search->propagation;
-    uint32_t count = search->graph->slot_count;
+    uint32_t count = search->problem->graph->slot_count;
     if (search->best_variant && propagation->queue.count >= search->best_open)
         return MESO_OK;
     if (!search->best_variant)
@@ -195,7 +193,7 @@ static MesoStatus keep_best(Search *search, MesoError *error)
 static void prepare_search(Search *search)
 {
     const MesoSolveOptions *options = search->options;
-    search->wfc = (MesoSearch){.propagation = &search->propagation, .constraints = options->constraints,
+    search->wfc = (MesoSearch){.propagation = &search->propagation, .constraints = search->problem->constraints,
                                .tick = tick, .dead_end = note_dead_end, .context = search,
                                .fewest_open = search->propagation.queue.count,
                                .max_observations = options->max_observations ? options->max_observations : UINT64_MAX};
@@ -234,7 +232,7 @@ static MesoStatus search_for(Search *search, uint32_t last, MesoError *error)
     result->observations = wfc->observations;
     result->jumps = wfc->jumps;
     result->repairs = wfc->repairs;
-    result->decided_most = search->graph->slot_count - wfc->fewest_open;
+    result->decided_most = search->problem->graph->slot_count - wfc->fewest_open;
     if (status)
         return status;
     tick(search);
@@ -252,7 +250,7 @@ static MesoStatus search_for(Search *search, uint32_t last, MesoError *error)
 /* The states of one variant each where variant[slot_count] says one, and the initial ones elsewhere. */
 static MesoStatus fill_single_states(Search *search, const uint32_t *variant, uint32_t *states, MesoError *error)
 {
-    for (uint32_t s = 0; s < search->graph->slot_count; s++) {
+    for (uint32_t s = 0; s < search->problem->graph->slot_count; s++) {
         states[s] = variant[s] == MESO_NO_INDEX
                         ? search->propagation.initial[s]
                         : meso_domain_single(&search->propagation.domains, variant[s], error);
@@ -298,7 +296,7 @@ static MesoStatus ask_engine(Search *search, MesoExact *exact, const uint32_t *h
 static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer answer, uint32_t *variant,
                               uint32_t *cuts, MesoRandom *random, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
+    const MesoConstraints *constraints = search->problem->constraints;
     MesoSolveResult *result = search->result;
     if (answer == MESO_SAT_NO) {
         result->verdict = MESO_VERDICT_UNSOLVABLE;
@@ -312,7 +310,7 @@ static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer an
         return MESO_OK;
     MesoStatus status = meso_exact_extract(exact, variant, random, error);
     if (!status && constraints && meso_strand_rule_given(&constraints->strands))
-        status = meso_exact_cut_strands(exact, &constraints->strands, variant, search->variants, cuts, error);
+        status = meso_exact_cut_strands(exact, &constraints->strands, variant, search->problem->variants, cuts, error);
     return status || *cuts ? status : accept(search, variant, MESO_DECIDER_EXACT, error);
 }
 
@@ -320,10 +318,10 @@ static MesoStatus read_answer(Search *search, MesoExact *exact, MesoSatAnswer an
 static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *random, uint64_t conflicts,
                                  uint64_t cubes, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
+    const MesoConstraints *constraints = search->problem->constraints;
     const uint32_t *hint = NULL, *like = constraints && constraints->keep ? constraints->keep : search->best_variant;
-    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
-    uint32_t *like_last = MESO_NEW(&search->scratch, uint32_t, search->graph->slot_count, error);
+    uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, search->problem->graph->slot_count, error);
+    uint32_t *like_last = MESO_NEW(&search->scratch, uint32_t, search->problem->graph->slot_count, error);
     if (!variant || !like_last)
         return MESO_ERR_MEMORY;
     if (like) {
@@ -331,7 +329,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
             return MESO_ERR_MEMORY;
         hint = like_last;
     }
-    uint32_t rounds = LEAST_CUT_ROUNDS + CUT_SLOTS / search->graph->slot_count;
+    uint32_t rounds = LEAST_CUT_ROUNDS + CUT_SLOTS / search->problem->graph->slot_count;
     rounds = rounds < MOST_CUT_ROUNDS ? rounds : MOST_CUT_ROUNDS;
     for (uint32_t round = 0; round < rounds; round++) {
         MesoSatAnswer answer = MESO_SAT_UNKNOWN;
@@ -357,7 +355,7 @@ static MesoStatus ask_until_kept(Search *search, MesoExact *exact, MesoRandom *r
 /* With chains or without, by `conflicts` at most, and by cubes with `cubes` beyond them. */
 static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts, uint64_t cubes, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
+    const MesoConstraints *constraints = search->problem->constraints;
     MesoExact exact;
     MesoRandom random;
     MesoExactOptions options = {.chains = chains, .constraints = constraints, .proof = search->options->proof,
@@ -368,7 +366,7 @@ static MesoStatus decide_exactly(Search *search, bool chains, uint64_t conflicts
     meso_random_init(&random, search->options->seed, UINT64_MAX);
     if (search->options->formula)
         search->options->formula(search->options->proof_context);
-    if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->variants->count, error))
+    if (constraints && meso_exact_groups(&options.group, &search->scratch, constraints, search->problem->variants->count, error))
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_exact_init(&exact, &search->scratch, &search->propagation, &options, error);
     if (status == MESO_ERR_LIMIT) {
@@ -469,7 +467,7 @@ static MesoStatus decide_by_numbers(Search *search, MesoError *error)
     if (proof.found) {
         result->verdict = MESO_VERDICT_UNSOLVABLE;
         result->decider = MESO_DECIDER_COUNTING;
-        result->reason = meso_counting_explain(&proof, search->arena, search->set, error);
+        result->reason = meso_counting_explain(&proof, search->arena, search->problem->set, error);
         return result->reason ? MESO_OK : MESO_ERR_MEMORY;
     }
     if (meso_parity_prove(&slot, &search->scratch, &table, parity_work, error))
@@ -501,14 +499,14 @@ static MesoStatus say_exhausted(Search *search, MesoError *error)
     result->verdict = MESO_VERDICT_UNSOLVABLE;
     result->decider = MESO_DECIDER_SEARCH;
     result->reason = meso_violations_text(search->arena, "every choice was tried", result,
-                                          search->options->constraints, error);
+                                          search->problem->constraints, error);
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static MesoStatus say_gave_up(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    result->reason = meso_gave_up_text(search->arena, result, search->graph, search->options, error);
+    result->reason = meso_gave_up_text(search->arena, result, search->problem, error);
     return result->reason ? MESO_OK : MESO_ERR_MEMORY;
 }
 
@@ -527,12 +525,12 @@ static MesoStatus tell_hot_spots(Search *search, MesoError *error)
 
 static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
+    const MesoConstraints *constraints = search->problem->constraints;
     uint64_t *violations = MESO_NEW(search->arena, uint64_t, meso_constraint_count(constraints), error);
     if (!violations)
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_guided_init(&search->guided, &search->scratch, &search->propagation,
-                                         search->variants, constraints, violations, disproved, error);
+                                         search->problem->variants, constraints, violations, disproved, error);
     search->result->violations = violations;
     search->guided.tick = tick;
     search->guided.context = search;
@@ -566,7 +564,7 @@ static MesoStatus search_guided(Search *search, MesoError *error)
     }
     result->observations = guided->observations;
     result->backtracks = guided->backtracks;
-    result->decided_most = search->graph->slot_count - guided->fewest_open;
+    result->decided_most = search->problem->graph->slot_count - guided->fewest_open;
     if (status)
         return status;
     if (guided->stopped)
@@ -605,7 +603,7 @@ static MesoStatus climb(Search *search, MesoError *error)
         status = decide_by_numbers(search, error);
     bool more = searching && first_attempts < attempts && search->result->budget == MESO_BUDGET_ATTEMPTS;
     /* On a large surface the formula alone takes longer, and more memory, than the attempts. */
-    if (!status && undecided(search) && more && search->graph->slot_count <= FIRST_GO_SLOTS) {
+    if (!status && undecided(search) && more && search->problem->graph->slot_count <= FIRST_GO_SLOTS) {
         allow_conflicts(search);
         status = decide_exactly(search, true, conflicts_left(search, FIRST_CONFLICTS), 0, error);
     }
@@ -640,9 +638,9 @@ static MesoStatus keep_more(Search *search, MesoError *error)
     if (!variant)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < found->slot_count; s++)
-        variant[s] = meso_variant_find(search->variants, search->set, found->tile[s], found->transform[s]);
+        variant[s] = meso_variant_find(search->problem->variants, search->problem->set, found->tile[s], found->transform[s]);
     MesoStatus status = meso_keep_more(variant, &result->changes_fewest, &conflicts, &search->propagation,
-                                       search->variants, options->constraints, &keep, error);
+                                       search->problem->variants, search->problem->constraints, &keep, error);
     if (status)
         return status;
     result->conflicts += conflicts;
@@ -655,16 +653,16 @@ static MesoStatus begin_to_climb(Search *search, bool guided, MesoError *error)
     result->verdict = MESO_VERDICT_GAVE_UP;
     result->decider = MESO_DECIDER_ATTEMPTS;
     MesoStatus status = guided ? climb_guided(search, error) : climb(search, error);
-    const MesoConstraints *constraints = search->options->constraints;
+    const MesoConstraints *constraints = search->problem->constraints;
     if (status || result->verdict != MESO_VERDICT_SOLVED || !constraints || !constraints->keep)
         return status;
-    result->changes_fewest = meso_constraints_changed(constraints, &result->assignment, search->variants) == 0;
+    result->changes_fewest = meso_constraints_changed(constraints, &result->assignment, search->problem->variants) == 0;
     return result->changes_fewest || search->options->engine == MESO_ENGINE_WFC ? MESO_OK : keep_more(search, error);
 }
 
 static MesoStatus run(Search *search, MesoError *error)
 {
-    const MesoConstraints *constraints = search->options->constraints;
+    const MesoConstraints *constraints = search->problem->constraints;
     bool guided = constraints && meso_constraints_need_guidance(constraints);
     bool disproved = search->propagation.initial_dead_count ||
                      search->propagation.broken_quota != MESO_NO_INDEX;
@@ -690,22 +688,19 @@ static MesoStatus allocate_dead_ends(Search *search, MesoError *error)
     return search->result->dead_ends ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
-                      const MesoVariantSet *variants, const MesoSlotGraph *graph,
+MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTilingProblem *problem,
                       const MesoSolveOptions *options, MesoError *error)
 {
     assert(options->max_attempts >= 1);
-    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * set->interface_count), .reason = "",
+    *result = (MesoSolveResult){.label_word_count = meso_bits_words(2 * problem->set->interface_count), .reason = "",
                                 .conflict_slot = MESO_NO_INDEX};
-    if (variants->count == 0)
+    if (problem->variants->count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no tile to solve with: the set has none, or ignores all");
 
-    Search search = {.set = set, .variants = variants, .graph = graph,
-                     .options = options, .result = result, .arena = arena};
+    Search search = {.problem = problem, .options = options, .result = result, .arena = arena};
     meso_arena_init(&search.scratch);
     meso_arena_init(&search.hot_arena);
-    MesoStatus status = meso_strand_places_init(&search.propagation, &search.scratch, set, variants,
-                                                graph, options->constraints, error);
+    MesoStatus status = meso_strand_places_init(&search.propagation, &search.scratch, problem, error);
     if (!status)
         status = allocate_dead_ends(&search, error);
     if (!status)

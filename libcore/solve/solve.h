@@ -16,8 +16,7 @@
  * meso_constraints_check(). Returns MESO_OK for every verdict; MESO_ERR_MEMORY, or
  * MESO_ERR_INPUT for a set without variants. Memory O(slots * (words of variants + words of labels)).
  */
-MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTileSet *set,
-                      const MesoVariantSet *variants, const MesoSlotGraph *graph,
+MesoStatus meso_solve(MesoSolveResult *result, MesoArena *arena, const MesoTilingProblem *problem,
                       const MesoSolveOptions *options, MesoError *error);
 
 #endif

@@ -96,7 +96,7 @@ static inline MesoSolveResult fixture_solve_by(MesoEngine engine, MesoArena *are
     MesoSolveOptions options = {.engine = engine, .seed = seed, .max_attempts = attempts,
                                 .max_dead_ends = 100};
     CHECK(meso_variant_set_build(&variants, arena, set, &error) == MESO_OK);
-    CHECK(meso_solve(&result, arena, set, &variants, graph, &options, &error) == MESO_OK);
+    CHECK(meso_solve(&result, arena, &(MesoTilingProblem){set, &variants, graph, NULL}, &options, &error) == MESO_OK);
     return result;
 }
 

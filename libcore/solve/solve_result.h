@@ -5,6 +5,7 @@
 #include "libcore/solve/assignment.h"
 #include "libcore/solve/conflict_core.h"
 #include "libcore/solve/hot_spots.h"
+#include "libcore/solve/tiling_problem.h"
 
 typedef enum MesoVerdict {
     MESO_VERDICT_SOLVED,
@@ -62,7 +63,6 @@ typedef struct MesoSolveOptions {
     uint64_t max_observations;  /* of the search, over all attempts; 0: no limit */
     uint64_t max_conflicts;     /* of the exact engine; 0: MESO_SOLVE_CONFLICTS */
     uint32_t max_dead_ends;     /* kept for the report */
-    const MesoConstraints *constraints;     /* NULL: none */
     void (*progress)(void *context, uint64_t done, uint64_t total);     /* slots; may be NULL */
     void *progress_context;
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the exact engine's proof

@@ -44,7 +44,8 @@ static void compare_probing(MesoArena *arena, const MesoTileSet *set, const Meso
     MesoPropagation propagation;
     MesoSearchOutcome outcome;
     CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&propagation, arena, set, &variants, graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&propagation, arena, &(MesoTilingProblem){set, &variants, graph, NULL},
+                                NULL) == MESO_OK);
     if (propagation.initial_dead_count == 0) {
         MesoSearch search = {.propagation = &propagation, .max_observations = UINT64_MAX};
         meso_random_init(&search.random, seed, 1);
@@ -165,7 +166,8 @@ static void test_dead_end_content(void)
     MesoVariantSet variants;
     MesoSolveOptions options = {.max_attempts = 1, .max_dead_ends = 2};
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
-    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, NULL) == MESO_OK);
+    CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                     &options, NULL) == MESO_OK);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
     CHECK(result.dead_end_total == 3 && result.dead_end_count == 2 && result.dead_ends[1].slot == 1);
     CHECK(result.dead_ends[0].labels[0][0] == 0xf);
@@ -229,11 +231,13 @@ static void test_limits(void)
     MesoSolveOptions options = {.max_attempts = 1, .progress = count_call, .progress_context = &calls};
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
     CHECK(variants.count == 32);
-    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+    CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                     &options, &error) == MESO_OK);
     CHECK(result.verdict == MESO_VERDICT_SOLVED && calls >= 2);
 
     variants.count = 0;
-    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_ERR_INPUT);
+    CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                     &options, &error) == MESO_ERR_INPUT);
     meso_arena_release(&arena);
 }
 
@@ -248,8 +252,10 @@ static void test_collection(void)
     CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
 
     MesoPropagation often, never;
-    CHECK(meso_propagation_init(&often, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
-    CHECK(meso_propagation_init(&never, &arena, &set, &variants, &graph, NULL, NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&often, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                                NULL) == MESO_OK);
+    CHECK(meso_propagation_init(&never, &arena, &(MesoTilingProblem){&set, &variants, &graph, NULL},
+                                NULL) == MESO_OK);
     MesoRandom random, same_random;
     meso_random_init(&random, 1, 1);
     same_random = random;

@@ -269,9 +269,9 @@ static void check_engines(const Case *c, MesoArena *arena, uint64_t seed, bool p
     for (MesoEngine engine = MESO_ENGINE_AUTO; engine <= MESO_ENGINE_EXACT; engine++) {
         MesoSolveResult result;
         MesoError error;
-        const MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = 5,
-                                          .constraints = &c->constraints};
-        CHECK(meso_solve(&result, arena, &c->set, &c->variants, &c->graph, &options, &error) == MESO_OK);
+        const MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = 5};
+        CHECK(meso_solve(&result, arena, &(MesoTilingProblem){&c->set, &c->variants, &c->graph, &c->constraints},
+                         &options, &error) == MESO_OK);
         if (result.verdict == MESO_VERDICT_GAVE_UP) {
             CHECK(engine == MESO_ENGINE_WFC);
             tally->undecided++;

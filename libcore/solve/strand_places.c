@@ -289,25 +289,27 @@ static MesoStatus forbid(MesoConstraints *constraints, bool *found, const MesoPr
     return status;
 }
 
-MesoStatus meso_strand_places_init(MesoPropagation *propagation, MesoArena *arena, const MesoTileSet *set,
-                                   const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                                   const MesoConstraints *constraints, MesoError *error)
+MesoStatus meso_strand_places_init(MesoPropagation *propagation, MesoArena *arena,
+                                   const MesoTilingProblem *problem, MesoError *error)
 {
+    const MesoConstraints *constraints = problem->constraints;
     MesoArenaMark mark = meso_arena_mark(arena);
-    MesoStatus status = meso_propagation_init(propagation, arena, set, variants, graph, constraints, error);
+    MesoStatus status = meso_propagation_init(propagation, arena, problem, error);
     if (status || !constraints || !meso_strand_rule_given(&constraints->strands))
         return status;
     MesoConstraints more = *constraints;
+    MesoTilingProblem narrowed = *problem;
+    narrowed.constraints = &more;
     MesoArena kept;
     bool found = true;
     meso_arena_init(&kept);
     while (!status && propagation->initial_dead_count == 0 && propagation->broken_quota == MESO_NO_INDEX) {
-        status = forbid(&more, &found, propagation, variants, &kept, error);
+        status = forbid(&more, &found, propagation, problem->variants, &kept, error);
         if (status || !found)
             break;
         meso_propagation_release(propagation);
         meso_arena_rewind(arena, mark);
-        status = meso_propagation_init(propagation, arena, set, variants, graph, &more, error);
+        status = meso_propagation_init(propagation, arena, &narrowed, error);
     }
     meso_arena_release(&kept);
     return status;

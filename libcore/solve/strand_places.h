@@ -13,11 +13,10 @@
 
 /*
  * As meso_propagation_init(), without the variants above, up to a fixed point of both; the same
- * where `constraints` have no rule on strands. MESO_ERR_MEMORY, or MESO_ERR_LIMIT
+ * where the constraints have no rule on strands. MESO_ERR_MEMORY, or MESO_ERR_LIMIT
  * as meso_strand_search_init(). meso_propagation_release() is due in any case.
  */
-MesoStatus meso_strand_places_init(MesoPropagation *propagation, MesoArena *arena, const MesoTileSet *set,
-                                   const MesoVariantSet *variants, const MesoSlotGraph *graph,
-                                   const MesoConstraints *constraints, MesoError *error);
+MesoStatus meso_strand_places_init(MesoPropagation *propagation, MesoArena *arena,
+                                   const MesoTilingProblem *problem, MesoError *error);
 
 #endif

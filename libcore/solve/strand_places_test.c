@@ -39,7 +39,8 @@ static uint32_t tiles_left(MesoArena *arena, const MesoTileSet *set, const MesoS
     const MesoConstraints constraints = {.strands = rule};
     uint32_t left = 0;
     CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
-    CHECK(meso_strand_places_init(&propagation, arena, set, &variants, graph, &constraints, NULL) == MESO_OK);
+    CHECK(meso_strand_places_init(&propagation, arena, &(MesoTilingProblem){set, &variants, graph, &constraints},
+                                  NULL) == MESO_OK);
     for (uint32_t s = first; s <= last; s++)
         for (uint32_t v = 0; v < variants.count; v++)
             if (meso_bits_test(meso_domain_bits(&propagation.domains, propagation.initial[s]), v))
@@ -73,9 +74,10 @@ static void test_pipes(void)
         MesoVariantSet variants;
         MesoSolveResult result;
         const MesoConstraints constraints = {.strands = no_loops};
-        const MesoSolveOptions options = {.engine = engine, .max_attempts = 1, .constraints = &constraints};
+        const MesoSolveOptions options = {.engine = engine, .max_attempts = 1};
         CHECK(meso_variant_set_build(&variants, &arena, &set, NULL) == MESO_OK);
-        CHECK(meso_solve(&result, &arena, &set, &variants, &sheet, &options, NULL) == MESO_OK);
+        CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &sheet, &constraints},
+                         &options, NULL) == MESO_OK);
         CHECK(result.verdict == MESO_VERDICT_SOLVED && result.backtracks == 0 && result.conflicts == 0);
     }
     /* A plug without a sweep is an end for both. */

@@ -127,9 +127,10 @@ static void test_search(void)
             MesoSolveResult result;
             MesoConstraints constraints = {.strands = rules[r]};
             MesoSolveOptions options = {.seed = seed, .engine = seed % 2 ? MESO_ENGINE_EXACT : MESO_ENGINE_WFC,
-                                        .max_attempts = 50, .max_dead_ends = 10, .constraints = &constraints};
+                                        .max_attempts = 50, .max_dead_ends = 10};
             CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
-            CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+            CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                             &options, &error) == MESO_OK);
             CHECK(result.verdict == MESO_VERDICT_SOLVED);
             CHECK(meso_strands_check(&rules[r], &result.assignment, &set, &graph, &error) == MESO_OK);
         }
@@ -150,11 +151,13 @@ static void test_explanation(void)
     static const uint64_t straight[1] = {2};
     MesoRestriction region = {.name = "regions[0] 'row'", .place_count = 3, .places = row, .allowed = straight};
     MesoConstraints constraints = {.strands = {.no_loops = true}, .restriction_count = 1, .restrictions = &region};
-    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10, .constraints = &constraints};
+    MesoSolveOptions options = {.max_attempts = 5, .max_dead_ends = 10};
     CHECK(meso_variant_set_build(&variants, &arena, &set, &error) == MESO_OK);
-    CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+    CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                     &options, &error) == MESO_OK);
     CHECK(result.verdict == MESO_VERDICT_UNSOLVABLE);
-    CHECK(meso_explain(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+    CHECK(meso_explain(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                       options.seed, &error) == MESO_OK);
     CHECK(strcmp(result.reason, "regions[0] 'row' and the rule on strands cannot hold together") == 0);
     meso_arena_release(&arena);
 }
@@ -196,8 +199,9 @@ static void test_brute_force(void)
         }
         for (MesoEngine engine = MESO_ENGINE_WFC; engine <= MESO_ENGINE_EXACT; engine++) {
             MesoSolveResult result;
-            MesoSolveOptions options = {.seed = bits, .engine = engine, .max_attempts = 50, .constraints = &constraints};
-            CHECK(meso_solve(&result, &arena, &set, &variants, &graph, &options, &error) == MESO_OK);
+            MesoSolveOptions options = {.seed = bits, .engine = engine, .max_attempts = 50};
+            CHECK(meso_solve(&result, &arena, &(MesoTilingProblem){&set, &variants, &graph, &constraints},
+                             &options, &error) == MESO_OK);
             CHECK(result.verdict == (possible ? MESO_VERDICT_SOLVED : MESO_VERDICT_UNSOLVABLE));
         }
     }
@@ -274,8 +278,9 @@ static uint32_t check_keep(MesoArena *arena, Sheet *sheet, const MesoStrandRule 
         fewest = good[n] && changed < fewest ? changed : fewest;
     }
     const MesoConstraints constraints = {.strands = *rule, .keep = keep};
-    const MesoSolveOptions options = {.seed = number, .max_attempts = 5, .constraints = &constraints};
-    CHECK(meso_solve(&result, arena, &sheet->set, &sheet->variants, &sheet->graph, &options, NULL) == MESO_OK);
+    const MesoSolveOptions options = {.seed = number, .max_attempts = 5};
+    CHECK(meso_solve(&result, arena, &(MesoTilingProblem){&sheet->set, &sheet->variants, &sheet->graph, &constraints},
+                     &options, NULL) == MESO_OK);
     CHECK(result.verdict == (fewest == MESO_NO_INDEX ? MESO_VERDICT_UNSOLVABLE : MESO_VERDICT_SOLVED));
     if (result.verdict != MESO_VERDICT_SOLVED)
         return 0;
