@@ -6,7 +6,7 @@
 enum { MOST_STOPS = 1024 };
 
 /* 2 GiB of weights. */
-static const uint64_t weights_limit = (uint64_t)1 << 28;
+static const uint64_t weights_limit = ((uint64_t)2 << 30) / sizeof(MesoWeight);
 
 /* The slots that weights are for; all of them where `places` is NULL. */
 typedef struct Places {
@@ -36,6 +36,25 @@ static void *allocate(MesoWeightReader *weights, uint64_t count, size_t size)
     return array;
 }
 
+/*
+ * Weight in parts of one. A decimal with three places is read as the double that its
+ * quotient of whole numbers is: anything else has more places, or is none.
+ */
+static uint64_t read_weight(MesoWeightReader *weights, const MesoJsonField *field)
+{
+    if (!json_is_real(field->value))
+        return MESO_WEIGHT_PARTS * (uint64_t)meso_json_whole(field, 0, MESO_WEIGHT_LIMIT, 0);
+    double value = json_real_value(field->value), parts = floor(value * MESO_WEIGHT_PARTS + 0.5);
+    if (!(value >= 0 && value <= MESO_WEIGHT_LIMIT))
+        meso_json_wrong(field, "%.15g; it must be from 0 to %d", value, MESO_WEIGHT_LIMIT);
+    else if (parts / MESO_WEIGHT_PARTS != value)
+        meso_json_wrong(field, "%.15g; a weight has at most three decimals", value);
+    if (!meso_json_good(field))
+        return 0;
+    weights->fractions |= (uint64_t)parts % MESO_WEIGHT_PARTS != 0;
+    return (uint64_t)parts;
+}
+
 /* --- ramps --- */
 
 static double read_value(const MesoJsonField *field)
@@ -57,7 +76,7 @@ static MesoWeightStop *read_stops(MesoWeightReader *weights, const MesoJsonField
             break;
         MesoJsonField value = meso_json_item(&item, 0), weight = meso_json_item(&item, 1);
         stops[i].value = read_value(&value);
-        stops[i].weight = (uint32_t)meso_json_whole(&weight, 0, MESO_WEIGHT_LIMIT, 0);
+        stops[i].weight = (double)read_weight(weights, &weight) / MESO_WEIGHT_PARTS;
         if (i > 0 && stops[i].value <= stops[i - 1].value)
             meso_json_wrong(&value, "%g does not lie above %g; stops are listed by ascending value", stops[i].value,
                             stops[i - 1].value);
@@ -99,7 +118,7 @@ static uint32_t add_ramp(MesoWeightReader *weights, MesoWeightRamp ramp)
 static MesoWeight read_ramp(MesoWeightReader *weights, const MesoJsonField *field, Places places)
 {
     static const char *const keys[] = {"property", "stops", NULL};
-    MesoWeight weight = {1, MESO_NO_INDEX};
+    MesoWeight weight = {MESO_WEIGHT_PARTS, MESO_NO_INDEX};
     if (!meso_json_object(field, keys))
         return weight;
     MesoJsonField property = meso_json_key(field, "property"), list = meso_json_key(field, "stops");
@@ -120,13 +139,13 @@ static MesoWeight read_ramp(MesoWeightReader *weights, const MesoJsonField *fiel
 
 static Setting read_setting(MesoWeightReader *weights, const MesoJsonField *field, Places places)
 {
-    Setting setting = {meso_constraint_tile(weights->names, field, field->key), {1, MESO_NO_INDEX}};
+    Setting setting = {meso_constraint_tile(weights->names, field, field->key), {MESO_WEIGHT_PARTS, MESO_NO_INDEX}};
     if (json_is_object(field->value))
         setting.weight = read_ramp(weights, field, places);
     else if (json_is_number(field->value))
-        setting.weight.amount = (uint32_t)meso_json_whole(field, 0, MESO_WEIGHT_LIMIT, 1);
+        setting.weight.amount = read_weight(weights, field);
     else
-        meso_json_wrong(field, "a whole number, or an object with a ramp, is needed here");
+        meso_json_wrong(field, "a number, or an object with a ramp, is needed here");
     return setting;
 }
 
@@ -191,7 +210,7 @@ void meso_weight_reader_begin(MesoWeightReader *weights)
     weights->table_count = 1;
     weights->tables = allocate(weights, 4 * (uint64_t)tiles, sizeof *weights->tables);
     for (uint32_t t = 0; weights->tables && t < tiles; t++)
-        weights->tables[t] = (MesoWeight){1, MESO_NO_INDEX};
+        weights->tables[t] = (MesoWeight){MESO_WEIGHT_PARTS, MESO_NO_INDEX};
 }
 
 void meso_weight_reader_add(MesoWeightReader *weights, const MesoJsonField *field, const uint32_t *places,
@@ -219,11 +238,21 @@ void meso_weight_reader_add(MesoWeightReader *weights, const MesoJsonField *fiel
         apply(weights, 0, settings, setting_count);
 }
 
+/* Whole numbers are drawn by as they are: the same draws for every file of whole numbers. */
+static void count_in_ones(MesoWeightReader *weights)
+{
+    size_t count = (size_t)weights->table_count * weights->names->set->tile_count;
+    for (size_t i = 0; i < count; i++)
+        weights->tables[i].amount /= MESO_WEIGHT_PARTS;
+}
+
 MesoWeights meso_weight_reader_finish(MesoWeightReader *weights)
 {
     MesoJsonReader *reader = weights->reader;
     if (!weights->given || reader->status)
         return (MesoWeights){0};
+    if (!weights->fractions)
+        count_in_ones(weights);
     MesoWeights result = {.table_count = weights->table_count, .variant_count = weights->variants->count,
                           .slot_table = weights->slot_table, .ramps = weights->ramps};
     result.tables = meso_weights_of_variants(reader->arena, weights->variants, weights->names->set->tile_count,

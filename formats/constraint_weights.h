@@ -13,8 +13,10 @@ typedef struct MesoWeightReader {
     const MesoSurfaceGroups *groups;
     uint32_t slot_count;
     bool given;                     /* there were weights */
+    bool fractions;                 /* one of them is no whole number */
     uint32_t table_count, table_room;
-    MesoWeight *tables;             /* [table_count * tile_count] the first is of all slots outside of regions */
+    MesoWeight *tables;             /* [table_count * tile_count] in MESO_WEIGHT_PARTS of one; the first is of all
+                                     * slots outside of regions */
     uint32_t *slot_table;           /* [slot_count] NULL until a region has weights */
     uint32_t ramp_count, ramp_room;
     MesoWeightRamp *ramps;
@@ -33,7 +35,7 @@ void meso_weight_reader_begin(MesoWeightReader *weights);
 void meso_weight_reader_add(MesoWeightReader *weights, const MesoJsonField *field, const uint32_t *places,
                             uint32_t count);
 
-/* What was read; no tables where there were no weights. */
+/* What was read; no tables where there were no weights. Whole numbers where all are, else parts of one. */
 MesoWeights meso_weight_reader_finish(MesoWeightReader *weights);
 
 #endif

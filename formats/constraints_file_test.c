@@ -183,8 +183,22 @@ static void test_weights(Case *c)
               weight(c, s, 1) == 840);
     expect(c, "\"weights\": {\"knob\": -1}", "weights.knob: -1; it must be from 0 to 1000000");
     expect(c, "\"weights\": {\"nob\": 1}", "unknown tile 'nob'");
-    expect(c, "\"weights\": {\"knob\": 0.5}", "a whole number is needed");
-    expect(c, "\"weights\": {\"knob\": \"much\"}", "weights.knob: a whole number, or an object with a ramp, is needed");
+    expect(c, "\"weights\": {\"knob\": 1e6, \"plain\": 1000000.5}", "weights.plain: 1000000.5; it must be from 0 to 1000000");
+    expect(c, "\"weights\": {\"knob\": -0.001}", "weights.knob: -0.001; it must be from 0 to 1000000");
+    expect(c, "\"weights\": {\"knob\": 0.0001}", "weights.knob: 0.0001; a weight has at most three decimals");
+    expect(c, "\"weights\": {\"knob\": 999999.9995}", "weights.knob: 999999.9995; a weight has at most three decimals");
+    expect(c, "\"weights\": {\"knob\": \"much\"}", "weights.knob: a number, or an object with a ramp, is needed");
+}
+
+/* One weight with decimals, and all count in thousandths; whole numbers stay what they are, however written. */
+static void test_decimals(Case *c)
+{
+    CHECK(read(c, "\"weights\": {\"knob\": 4.0, \"even\": 1e6}") == MESO_OK);
+    CHECK(weight(c, 0, 0) == 840 && weight(c, 0, 1) == 840 && weight(c, 0, 5) == 840000000);
+    CHECK(read(c, "\"weights\": {\"knob\": 0.004, \"even\": 999999.999}") == MESO_OK);
+    CHECK(weight(c, 0, 0) == 840000 && weight(c, 0, 1) == 840 && weight(c, 0, 5) == 839999999160);
+    CHECK(read(c, "\"weights\": {\"knob\": 3, \"even\": {\"property\": \"red\", \"stops\": [[0.5, 0.25], [1, 2]]}}") == MESO_OK);
+    CHECK(weight(c, 0, 1) == 630000 && weight(c, 0, 5) == 1680000 && weight(c, 1, 5) == 210000);
 }
 
 /* Vertex colours: red is 1, 0.5, 1, 0.5 in the slots, blue what is left of 1. */
@@ -215,7 +229,8 @@ static void test_wrong_ramps(Case *c)
     expect(c, RAMP("heat", "[[0, 1], [1, 2]]"), "weights.even.property: the surface has no property 'heat'");
     expect(c, RAMP("red", "[[0, 1], [1, 1000001]]"), "weights.even.stops[1][1]: 1000001; it must be from 0 to 1000000");
     expect(c, RAMP("red", "[[0, -1], [1, 1]]"), "weights.even.stops[0][1]: -1; it must be from 0 to 1000000");
-    expect(c, RAMP("red", "[[0, 0.5], [1, 1]]"), "weights.even.stops[0][1]: a whole number is needed");
+    expect(c, RAMP("red", "[[0, 0.0005], [1, 1]]"), "weights.even.stops[0][1]: 0.0005; a weight has at most three decimals");
+    expect(c, RAMP("red", "[[0, \"some\"], [1, 1]]"), "weights.even.stops[0][1]: a whole number is needed");
     expect(c, RAMP("red", "[[0, 1], [0, 2]]"), "weights.even.stops[1][0]: 0 does not lie above 0; stops are listed by");
     expect(c, RAMP("red", "[[0, 1], [2, 2], [1, 3]]"), "weights.even.stops[2][0]: 1 does not lie above 2");
     expect(c, RAMP("red", "[[0, 1]]"), "weights.even.stops: 1 items; from 2 to 1024 are possible");
@@ -325,6 +340,7 @@ int main(void)
     test_pins(&c);
     test_places(&c);
     test_weights(&c);
+    test_decimals(&c);
     test_ramps(&c);
     test_wrong_ramps(&c);
     test_borders(&c);

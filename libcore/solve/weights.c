@@ -17,7 +17,7 @@ MesoWeight *meso_weights_of_variants(MesoArena *arena, const MesoVariantSet *var
     for (uint32_t t = 0; t < table_count; t++)
         for (uint32_t v = 0; v < variants->count; v++) {
             MesoWeight weight = tile_weights[(size_t)t * tile_count + variants->tile[v]];
-            assert(weight.amount <= (weight.ramp == MESO_NO_INDEX ? MESO_WEIGHT_LIMIT : 1));
+            assert(weight.amount <= MESO_WEIGHT_PARTS * (uint64_t)(weight.ramp == MESO_NO_INDEX ? MESO_WEIGHT_LIMIT : 1));
             weight.amount *= MESO_WEIGHT_SCALE / shares[variants->tile[v]];
             tables[(size_t)t * variants->count + v] = weight;
         }
@@ -43,7 +43,7 @@ static double ramp_weight(const MesoWeightRamp *ramp, uint32_t slot)
     }
     /* Of halves, whose difference is finite. */
     double part = (value / 2 - stops[low].value / 2) / (stops[high].value / 2 - stops[low].value / 2);
-    return stops[low].weight + part * ((double)stops[high].weight - stops[low].weight);
+    return stops[low].weight + part * (stops[high].weight - stops[low].weight);
 }
 
 uint64_t meso_weight_at(const MesoWeights *weights, uint32_t slot, uint32_t variant)
@@ -52,7 +52,7 @@ uint64_t meso_weight_at(const MesoWeights *weights, uint32_t slot, uint32_t vari
     MesoWeight weight = weights->tables[table * weights->variant_count + variant];
     if (weight.ramp == MESO_NO_INDEX)
         return weight.amount;
-    return (uint64_t)floor(weight.amount * ramp_weight(&weights->ramps[weight.ramp], slot) + 0.5);
+    return (uint64_t)floor((double)weight.amount * ramp_weight(&weights->ramps[weight.ramp], slot) + 0.5);
 }
 
 /* Uniform in [0, bound) for bounds beyond 32 bits: draws again above the last whole multiple. */

@@ -14,12 +14,14 @@
  * A tile's weight, up to MESO_WEIGHT_LIMIT, is shared equally by its variants,
  * so that weights compare tiles however many ways each may be turned.
  * MESO_WEIGHT_SCALE can be divided by every number of variants, 1 to 8.
+ * Draws take whole numbers: weights with fractions are counted in parts of
+ * one, MESO_WEIGHT_PARTS of them, all weights of a problem alike.
  */
-enum { MESO_WEIGHT_LIMIT = 1000000, MESO_WEIGHT_SCALE = 840 };
+enum { MESO_WEIGHT_LIMIT = 1000000, MESO_WEIGHT_SCALE = 840, MESO_WEIGHT_PARTS = 1000 };
 
 typedef struct MesoWeightStop {
     double value;               /* finite */
-    uint32_t weight;            /* at most MESO_WEIGHT_LIMIT */
+    double weight;              /* 0 to MESO_WEIGHT_LIMIT */
 } MesoWeightStop;
 
 /*
@@ -34,7 +36,7 @@ typedef struct MesoWeightRamp {
 
 /* `amount`, or `amount` times the weight of a ramp. */
 typedef struct MesoWeight {
-    uint32_t amount;
+    uint64_t amount;
     uint32_t ramp;              /* MESO_NO_INDEX: none */
 } MesoWeight;
 
@@ -48,15 +50,16 @@ typedef struct MesoWeights {
 } MesoWeights;
 
 /*
- * Tables of variants from tables of tile weights, [table_count * tile_count], whose
- * amounts are at most MESO_WEIGHT_LIMIT, and 1 with a ramp. NULL: out of memory.
+ * Tables of variants from tables of tile weights, [table_count * tile_count], whose amounts are at
+ * most MESO_WEIGHT_LIMIT, and 1 with a ramp; both times MESO_WEIGHT_PARTS where they count parts.
+ * NULL: out of memory.
  */
 MesoWeight *meso_weights_of_variants(MesoArena *arena, const MesoVariantSet *variants,
                                      uint32_t tile_count, uint32_t table_count,
                                      const MesoWeight *tile_weights, MesoError *error);
 
 /*
- * What `variant` weighs at `slot`, in units of a tile's weight 1 over MESO_WEIGHT_SCALE; a ramp's
+ * What `variant` weighs at `slot`, in units of an amount of 1 over MESO_WEIGHT_SCALE; a ramp's
  * weight is rounded to a whole number of them, times the tile's variants. O(log(stops)).
  */
 uint64_t meso_weight_at(const MesoWeights *weights, uint32_t slot, uint32_t variant);
