@@ -34,7 +34,7 @@ static MesoTilingProblem tiling_of(const Problem *p)
 static const MesoToolInfo info = {
     .name = "meso-solve",
     .synopsis = "meso-solve [options] TILES SURFACE -o OUT.slots [--report OUT.json]\n"
-                "meso-solve [options] --seeds A-B TILES SURFACE [-o OUT.jsonl]",
+                "meso-solve [options] --seeds LIST TILES SURFACE [-o OUT.jsonl]",
     .purpose = "Assigns a tile to every quad of SURFACE so that all sides match.",
     .examples = "meso-solve vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"

@@ -47,10 +47,11 @@ static char *single_command(const MesoSeedEach *each, uint64_t seed, const char 
 {
     char number[32], attempts[32];
     snprintf(number, sizeof number, "%" PRIu64, seed);
-    snprintf(attempts, sizeof attempts, "%" PRIu32, each->attempts);
+    uint32_t most = meso_seed_list_find(each->list, seed)->attempts;
+    snprintf(attempts, sizeof attempts, "%" PRIu32, most);
     const MesoOptionChange changes[] = {
         {"seeds", NULL}, {"each", NULL}, {"resume", NULL}, {"best", NULL}, {"seed", number}, {"output", path},
-        {each->attempts ? "attempts" : NULL, attempts}, {NULL, NULL},
+        {most ? "attempts" : NULL, attempts}, {NULL, NULL},
     };
     return meso_tool_command(each->tool, changes, arena, error);
 }
@@ -152,28 +153,39 @@ static MesoStatus refuse_twins(const MesoSeedEach *each, const SeedKey *keys, ui
     return MESO_OK;
 }
 
-MesoStatus meso_each_check_paths(const MesoSeedEach *each, uint64_t first, uint32_t count, MesoError *error)
+static MesoStatus add_keys(const MesoSeedEach *each, const MesoSeedRange *range, SeedKey *keys, uint32_t *used,
+                           MesoError *error)
 {
     MesoTool *tool = each->tool;
     MesoStatus status = MESO_OK;
-    uint32_t used = 0;
-    MesoArenaMark mark = meso_arena_mark(&tool->arena);
-    SeedKey *keys = MESO_NEW(&tool->arena, SeedKey, count, error);
-    if (!keys)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < count && !status; i++) {
+    for (uint32_t i = 0; i < range->count && !status; i++) {
         MesoArenaMark before = meso_arena_mark(&tool->arena);
-        const char *path = each_path(each->pattern, first + i, &tool->arena, error);
+        const char *path = each_path(each->pattern, range->first + i, &tool->arena, error);
         if (!path)
             return MESO_ERR_MEMORY;
-        keys[used].seed = first + i;
-        used += meso_path_key(&keys[used].key, path, true);
+        keys[*used].seed = range->first + i;
+        *used += meso_path_key(&keys[*used].key, path, true);
         status = meso_tool_check_output(tool, "--each", path);
         meso_arena_rewind(&tool->arena, before);
     }
+    return status;
+}
+
+MesoStatus meso_each_check_paths(const MesoSeedEach *each, MesoError *error)
+{
+    MesoArena *arena = &each->tool->arena;
+    const MesoSeedList *list = each->list;
+    MesoStatus status = MESO_OK;
+    uint32_t used = 0;
+    MesoArenaMark mark = meso_arena_mark(arena);
+    SeedKey *keys = MESO_NEW(arena, SeedKey, list->seed_count, error);
+    if (!keys)
+        return MESO_ERR_MEMORY;
+    for (uint32_t r = 0; r < list->range_count && !status; r++)
+        status = add_keys(each, &list->ranges[r], keys, &used, error);
     qsort(keys, used, sizeof *keys, compare_keys);
     if (!status)
         status = refuse_twins(each, keys, used, error);
-    meso_arena_rewind(&tool->arena, mark);
+    meso_arena_rewind(arena, mark);
     return status;
 }

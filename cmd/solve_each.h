@@ -2,6 +2,7 @@
 #ifndef MESO_SOLVE_EACH_H
 #define MESO_SOLVE_EACH_H
 
+#include "cmd/seed_list.h"
 #include "cmd/solve_seeds.h"
 #include "formats/seed_lines.h"
 
@@ -9,14 +10,14 @@ typedef struct MesoSeedEach {
     MesoTool *tool;
     const MesoSeedProblem *problem;
     const char *pattern;        /* of --each; NULL: not given */
-    uint32_t attempts;          /* of --seeds; 0: not given */
+    const MesoSeedList *list;   /* of --seeds */
 } MesoSeedEach;
 
 /* One %d, any number of %%, and no other %. */
 bool meso_each_is_pattern(const char *text);
 
 /* Refuses names that are those of inputs, of other outputs, or of two seeds. MESO_ERR_USAGE. */
-MesoStatus meso_each_check_paths(const MesoSeedEach *each, uint64_t first, uint32_t count, MesoError *error);
+MesoStatus meso_each_check_paths(const MesoSeedEach *each, MesoError *error);
 
 /* Writes the assignment of `seed` to the file of the pattern, or to `path`. Any thread may. */
 MesoStatus meso_each_write(const MesoSeedEach *each, uint64_t seed, const MesoAssignment *assignment, MesoError *error);

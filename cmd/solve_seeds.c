@@ -1,6 +1,5 @@
 #include "cmd/solve_seeds.h"
 
-#include <ctype.h>
 #include <inttypes.h>
 #include <malloc.h>
 #include <stdio.h>
@@ -10,57 +9,14 @@
 #include <threads.h>
 #include <unistd.h>
 
+#include "cmd/seed_list.h"
 #include "cmd/solve_each.h"
 #include "formats/line_file.h"
 #include "formats/output.h"
 #include "formats/seed_lines.h"
 #include "libcore/solve/seed_sweep.h"
 
-/* Lines are kept until the end, a few hundred bytes each. */
-enum { MOST_SEEDS = 10000000 };
-
 /* ---- options ---- */
-
-typedef struct SeedRange {
-    uint64_t first;
-    uint32_t count;
-    uint32_t attempts;          /* 0: not given */
-} SeedRange;
-
-/* Digits at `*text`, which goes past them; false where there are none, or too large a number. */
-static bool take_number(const char **text, uint64_t most, uint64_t *number)
-{
-    *number = 0;
-    if (!isdigit((unsigned char)**text))
-        return false;
-    for (; isdigit((unsigned char)**text); ++*text) {
-        uint64_t digit = (uint64_t)(**text - '0');
-        if (*number > (most - digit) / 10)
-            return false;
-        *number = 10 * *number + digit;
-    }
-    return true;
-}
-
-static MesoStatus parse_range(SeedRange *range, const char *text, MesoError *error)
-{
-    const char *at = text;
-    uint64_t last, attempts = 0;
-    bool good = take_number(&at, MESO_SEED_LIMIT, &range->first);
-    last = range->first;
-    if (good && *at == '-')
-        good = at++ && take_number(&at, MESO_SEED_LIMIT, &last);
-    if (good && *at == 'x')
-        good = at++ && take_number(&at, 1000000000, &attempts) && attempts > 0;
-    if (!good || *at || last < range->first)
-        return meso_fail(error, MESO_ERR_USAGE, "--seeds: '%s' is not A-B or A-BxK, with seeds from A to B and K "
-                         "attempts each, like 1-1000x2", text);
-    if (last - range->first >= MOST_SEEDS)
-        return meso_fail(error, MESO_ERR_USAGE, "--seeds: %s are over %d seeds; do them in parts", text, MOST_SEEDS);
-    range->count = (uint32_t)(last - range->first) + 1;
-    range->attempts = (uint32_t)attempts;
-    return MESO_OK;
-}
 
 /* Less is better; ties go to the next number, then to the smaller seed. */
 typedef struct Metric {
@@ -116,18 +72,28 @@ static MesoStatus check_companions(const MesoSeedOptions *o, const MesoTool *too
     return MESO_OK;
 }
 
+static MesoStatus check_list(const char *text, bool attempts_given, MesoError *error)
+{
+    MesoSeedList list;
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoStatus status = meso_seed_list_parse(&list, &arena, text, error);
+    for (uint32_t i = 0; !status && i < list.range_count; i++)
+        if (list.ranges[i].attempts && attempts_given)
+            status = meso_fail(error, MESO_ERR_USAGE, "--attempts and the x%u of --seeds are both given; one is needed",
+                               list.ranges[i].attempts);
+    meso_arena_release(&arena);
+    return status;
+}
+
 MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *tool, bool attempts_given, MesoError *error)
 {
-    SeedRange range;
     const Metric *metric;
     const char *file;
     MesoStatus status = check_companions(o, tool, error);
     if (status || !o->seeds)
         return status;
-    status = parse_range(&range, o->seeds, error);
-    if (!status && range.attempts && attempts_given)
-        return meso_fail(error, MESO_ERR_USAGE, "--attempts and the x%u of --seeds are both given; one is needed",
-                         range.attempts);
+    status = check_list(o->seeds, attempts_given, error);
     if (!status && o->each && !meso_each_is_pattern(o->each))
         return meso_fail(error, MESO_ERR_USAGE, "--each: '%s' must have one %%d, for the seed; %%%% stands for %%", o->each);
     return status || !o->best ? status : parse_best(&metric, &file, o->best, error);
@@ -139,19 +105,37 @@ typedef struct Seeds {
     MesoTool *tool;
     const MesoSeedOptions *options;
     const MesoSeedProblem *problem;
-    SeedRange range;
+    MesoSeedList list;
     MesoSeedEach each;
-    MesoSolveOptions solve;
-    uint64_t hash[2];           /* of the problem */
+    MesoSolveOptions solve;     /* but for the attempts that the list gives */
+    uint64_t (*hashes)[2];      /* [list.range_count] of the problem, which the attempts are part of */
     uint64_t *todo;             /* [todo_count] seeds to solve */
-    uint32_t todo_count;
+    uint32_t todo_count, todo_begin;    /* of those, in the sweep that runs */
     const char *partial;        /* NULL: none is kept */
 
     mtx_t lock;                 /* of all below, and of the tool's arena */
-    MesoSeedLine *lines;        /* [range.count] by seed; without text where it is not known yet */
+    MesoSeedLine *lines;        /* [list.seed_count] by seed; without text where it is not known yet */
     uint32_t done, told;        /* lines known; lines that went to standard output */
     MesoLineFile journal, stream;
 } Seeds;
+
+static MesoSeedLine *line_of(const Seeds *seeds, uint64_t seed)
+{
+    return &seeds->lines[meso_seed_list_index(&seeds->list, seed)];
+}
+
+static const uint64_t *hash_of(const Seeds *seeds, uint64_t seed)
+{
+    return seeds->hashes[meso_seed_list_find(&seeds->list, seed) - seeds->list.ranges];
+}
+
+static MesoSolveOptions options_of(const Seeds *seeds, const MesoSeedRange *range)
+{
+    MesoSolveOptions options = seeds->solve;
+    if (range->attempts)
+        options.max_attempts = range->attempts;
+    return options;
+}
 
 static MesoStatus fail_differs(const Seeds *seeds, uint64_t seed, MesoError *error)
 {
@@ -164,7 +148,7 @@ static MesoStatus tell_lines(Seeds *seeds, MesoError *error)
 {
     MesoStatus status = MESO_OK;
     bool streams = seeds->stream.path != NULL;
-    for (; !status && streams && seeds->told < seeds->range.count && seeds->lines[seeds->told].text; seeds->told++)
+    for (; !status && streams && seeds->told < seeds->list.seed_count && seeds->lines[seeds->told].text; seeds->told++)
         status = meso_line_file_append(&seeds->stream, seeds->lines[seeds->told].text, error);
     return status;
 }
@@ -172,7 +156,7 @@ static MesoStatus tell_lines(Seeds *seeds, MesoError *error)
 /* Copies the line's text to the tool's arena. */
 static MesoStatus add_line(Seeds *seeds, const MesoSeedLine *made, MesoError *error)
 {
-    MesoSeedLine *line = &seeds->lines[made->seed - seeds->range.first];
+    MesoSeedLine *line = line_of(seeds, made->seed);
     if (line->text)     /* taken over, but its assignment was not there */
         return strcmp(line->text, made->text) == 0 ? MESO_OK : fail_differs(seeds, made->seed, error);
     const char *text = meso_arena_copy_text(&seeds->tool->arena, made->text, error);
@@ -181,7 +165,7 @@ static MesoStatus add_line(Seeds *seeds, const MesoSeedLine *made, MesoError *er
     *line = *made;
     line->text = text;
     MesoStatus status = seeds->partial ? meso_line_file_append(&seeds->journal, text, error) : MESO_OK;
-    meso_tool_progress(seeds->tool, ++seeds->done, seeds->range.count);
+    meso_tool_progress(seeds->tool, ++seeds->done, seeds->list.seed_count);
     return status ? status : tell_lines(seeds, error);
 }
 
@@ -190,7 +174,7 @@ static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResu
 {
     Seeds *seeds = context;
     const MesoSeedProblem *p = seeds->problem;
-    uint64_t seed = seeds->todo[index];
+    uint64_t seed = seeds->todo[seeds->todo_begin + index];
     MesoSeedLine line;
     MesoArena arena;
     meso_arena_init(&arena);
@@ -198,7 +182,8 @@ static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResu
     if (seeds->options->each && result->verdict == MESO_VERDICT_SOLVED)
         status = meso_each_write(&seeds->each, seed, &result->assignment, error);
     if (!status)
-        status = meso_seed_line_make(&line, &arena, seed, seeds->hash, result, p->tiling->set, p->tiling->graph, error);
+        status = meso_seed_line_make(&line, &arena, seed, hash_of(seeds, seed), result, p->tiling->set, p->tiling->graph,
+                                     error);
     if (!status) {
         mtx_lock(&seeds->lock);
         status = add_line(seeds, &line, error);
@@ -216,6 +201,17 @@ static bool is_empty_file(const char *path)
     return stat(path, &file) == 0 && S_ISREG(file.st_mode) && file.st_size == 0;
 }
 
+/* The line may be of this problem with the attempts of another part of the list. */
+static MesoStatus take_line(Seeds *seeds, const MesoSeedLine *line, MesoError *error)
+{
+    if (memcmp(line->problem, hash_of(seeds, line->seed), sizeof line->problem) != 0)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: the line of seed %" PRIu64 " was made with other attempts",
+                         seeds->options->resume, line->seed);
+    *line_of(seeds, line->seed) = *line;
+    seeds->done++;
+    return MESO_OK;
+}
+
 static MesoStatus read_lines(Seeds *seeds, MesoError *error)
 {
     const char *path = seeds->options->resume;
@@ -227,26 +223,22 @@ static MesoStatus read_lines(Seeds *seeds, MesoError *error)
     MesoStatus status = meso_input_open(&input, path, error);
     if (status)
         return status;
-    status = meso_seed_lines_read(&lines, &count, &seeds->tool->arena, &input, seeds->hash, error);
+    status = meso_seed_lines_read(&lines, &count, &seeds->tool->arena, &input, seeds->hashes, seeds->list.range_count,
+                                  error);
     meso_input_close(&input);
     for (uint32_t i = 0; !status && i < count; i++)
-        if (lines[i].seed >= seeds->range.first && lines[i].seed - seeds->range.first < seeds->range.count) {
-            seeds->lines[lines[i].seed - seeds->range.first] = lines[i];
-            seeds->done++;
-        }
+        if (meso_seed_list_find(&seeds->list, lines[i].seed))
+            status = take_line(seeds, &lines[i], error);
     return status;
 }
 
-/* Seeds without a line, or without the assignment that --each asks for. */
-static MesoStatus list_todo(Seeds *seeds, MesoError *error)
+/* Seeds of a range without a line, or without the assignment that --each asks for. */
+static MesoStatus list_range(Seeds *seeds, const MesoSeedRange *range, MesoError *error)
 {
     MesoArena *arena = &seeds->tool->arena;
-    seeds->todo = MESO_NEW(arena, uint64_t, seeds->range.count, error);
-    if (!seeds->todo)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < seeds->range.count; i++) {
-        const MesoSeedLine *line = &seeds->lines[i];
-        uint64_t seed = seeds->range.first + i;
+    for (uint32_t i = 0; i < range->count; i++) {
+        const MesoSeedLine *line = &seeds->lines[range->begin + i];
+        uint64_t seed = range->first + i;
         bool complete = line->text != NULL;
         if (complete && seeds->options->each && line->verdict == MESO_VERDICT_SOLVED) {
             MesoArenaMark mark = meso_arena_mark(arena);
@@ -259,6 +251,15 @@ static MesoStatus list_todo(Seeds *seeds, MesoError *error)
             seeds->todo[seeds->todo_count++] = seed;
     }
     return MESO_OK;
+}
+
+static MesoStatus list_todo(Seeds *seeds, MesoError *error)
+{
+    seeds->todo = MESO_NEW(&seeds->tool->arena, uint64_t, seeds->list.seed_count, error);
+    MesoStatus status = seeds->todo ? MESO_OK : MESO_ERR_MEMORY;
+    for (uint32_t r = 0; !status && r < seeds->list.range_count; r++)
+        status = list_range(seeds, &seeds->list.ranges[r], error);
+    return status;
 }
 
 static bool is_same_file(const char *a, const char *b)
@@ -285,7 +286,7 @@ static MesoStatus open_journal(Seeds *seeds, MesoError *error)
     MesoStatus status = meso_output_open(&output, path, error);
     if (status)
         return status;
-    for (uint32_t i = 0; i < seeds->range.count && !status; i++)
+    for (uint32_t i = 0; i < seeds->list.seed_count && !status; i++)
         if (seeds->lines[i].text) {
             status = meso_output_write(output, seeds->lines[i].text, strlen(seeds->lines[i].text), error);
             if (!status)
@@ -313,19 +314,37 @@ static void keep_memory(void)
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
+/* How many seeds, from `begin` on, have as many attempts each. */
+static uint32_t count_alike(const Seeds *seeds, uint32_t begin)
+{
+    uint32_t end = begin, attempts = meso_seed_list_find(&seeds->list, seeds->todo[begin])->attempts;
+    while (end < seeds->todo_count && meso_seed_list_find(&seeds->list, seeds->todo[end])->attempts == attempts)
+        end++;
+    return end - begin;
+}
+
+static MesoStatus sweep_alike(Seeds *seeds, uint32_t count, MesoError *error)
+{
+    const uint64_t *todo = seeds->todo + seeds->todo_begin;
+    const MesoSeedSweep alike = {
+        .problem = seeds->problem->tiling,
+        .options = options_of(seeds, meso_seed_list_find(&seeds->list, *todo)), .thread_count = seeds->tool->threads,
+        .seeds = todo, .seed_count = count, .take = take_result, .context = seeds,
+    };
+    return meso_seed_sweep(&alike, error);
+}
+
 static MesoStatus sweep(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
-    const MesoSeedSweep all = {
-        .problem = seeds->problem->tiling, .options = seeds->solve, .thread_count = tool->threads,
-        .seeds = seeds->todo, .seed_count = seeds->todo_count, .take = take_result, .context = seeds,
-    };
     keep_memory();
     meso_tool_progress_begin(tool, "solving", "seeds");
-    meso_tool_progress(tool, seeds->done, seeds->range.count);
+    meso_tool_progress(tool, seeds->done, seeds->list.seed_count);
     MesoStatus status = tell_lines(seeds, error);
-    if (!status)
-        status = meso_seed_sweep(&all, error);
+    for (uint32_t count; !status && seeds->todo_begin < seeds->todo_count; seeds->todo_begin += count) {
+        count = count_alike(seeds, seeds->todo_begin);
+        status = sweep_alike(seeds, count, error);
+    }
     if (seeds->partial) {
         MesoError ignored;
         MesoStatus closed = meso_line_file_close(&seeds->journal, status ? &ignored : error);
@@ -341,7 +360,7 @@ static MesoStatus write_lines(const Seeds *seeds, MesoError *error)
     MesoStatus status = meso_output_open(&output, seeds->tool->output, error);
     if (status)
         return status;
-    for (uint32_t i = 0; i < seeds->range.count && !status; i++) {
+    for (uint32_t i = 0; i < seeds->list.seed_count && !status; i++) {
         status = meso_output_write(output, seeds->lines[i].text, strlen(seeds->lines[i].text), error);
         if (!status)
             status = meso_output_write(output, "\n", 1, error);
@@ -360,7 +379,7 @@ static const MesoSeedLine *find_best(const Seeds *seeds, const Metric *metric)
 {
     const MesoSeedLine *best = NULL;
     uint64_t least[2] = {0}, rating[2];
-    for (uint32_t i = 0; i < seeds->range.count; i++) {
+    for (uint32_t i = 0; i < seeds->list.seed_count; i++) {
         const MesoSeedLine *line = &seeds->lines[i];
         if (line->verdict != MESO_VERDICT_SOLVED)
             continue;
@@ -377,7 +396,7 @@ static const MesoSeedLine *find_best(const Seeds *seeds, const Metric *metric)
 static MesoStatus write_best(const Seeds *seeds, const MesoSeedLine *best, const char *path, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
-    MesoSolveOptions options = seeds->solve;
+    MesoSolveOptions options = options_of(seeds, meso_seed_list_find(&seeds->list, best->seed));
     MesoSolveResult result;
     uint64_t hash[2] = {0};
     options.seed = best->seed;
@@ -408,7 +427,7 @@ static MesoStatus keep_best(const Seeds *seeds, MesoError *error)
 
 static MesoStatus tell_verdicts(const Seeds *seeds, MesoError *error)
 {
-    uint32_t counts[MESO_VERDICT_GAVE_UP + 1] = {0}, count = seeds->range.count;
+    uint32_t counts[MESO_VERDICT_GAVE_UP + 1] = {0}, count = seeds->list.seed_count;
     for (uint32_t i = 0; i < count; i++)
         counts[seeds->lines[i].verdict]++;
     uint32_t solved = counts[MESO_VERDICT_SOLVED], unsolvable = counts[MESO_VERDICT_UNSOLVABLE];
@@ -453,33 +472,44 @@ static MesoStatus add_paths(const Seeds *seeds, MesoError *error)
         if (!is_same_file(partial, seeds->options->resume))
             status = meso_tool_add_output(tool, "-o", partial);
     }
-    return status || !seeds->each.pattern ? status
-                                          : meso_each_check_paths(&seeds->each, seeds->range.first, seeds->range.count,
-                                                                  error);
+    return status || !seeds->each.pattern ? status : meso_each_check_paths(&seeds->each, error);
+}
+
+/* Of the problem with the attempts of each range. */
+static MesoStatus hash_problem(Seeds *seeds, MesoError *error)
+{
+    MesoTool *tool = seeds->tool;
+    const MesoSeedProblem *p = seeds->problem;
+    seeds->hashes = meso_arena_alloc(&tool->arena, seeds->list.range_count, sizeof *seeds->hashes, error);
+    if (!seeds->hashes)
+        return MESO_ERR_MEMORY;
+    for (uint32_t r = 0; r < seeds->list.range_count; r++) {
+        const MesoSolveOptions solve = options_of(seeds, &seeds->list.ranges[r]);
+        const char *options = describe_options(&solve, p->others, &tool->arena, error);
+        if (!options)
+            return MESO_ERR_MEMORY;
+        meso_seed_problem(seeds->hashes[r], &tool->provenance, p->surface->quarters, p->surface->graph.slot_count, options);
+    }
+    return MESO_OK;
 }
 
 static MesoStatus prepare(Seeds *seeds, MesoError *error)
 {
     MesoTool *tool = seeds->tool;
     const MesoSeedProblem *p = seeds->problem;
-    MesoStatus status = parse_range(&seeds->range, seeds->options->seeds, error);
+    MesoStatus status = meso_seed_list_parse(&seeds->list, &tool->arena, seeds->options->seeds, error);
     if (status)
         return status;
-    seeds->each = (MesoSeedEach){.tool = tool, .problem = p, .pattern = seeds->options->each,
-                                 .attempts = seeds->range.attempts};
+    seeds->each = (MesoSeedEach){.tool = tool, .problem = p, .pattern = seeds->options->each, .list = &seeds->list};
     status = add_paths(seeds, error);
     if (status)
         return status;
     seeds->solve = p->solve;
     seeds->solve.max_dead_ends = 1;
-    if (seeds->range.attempts)
-        seeds->solve.max_attempts = seeds->range.attempts;
-    const char *options = describe_options(&seeds->solve, p->others, &tool->arena, error);
-    seeds->lines = options ? MESO_NEW(&tool->arena, MesoSeedLine, seeds->range.count, error) : NULL;
-    if (!seeds->lines)
-        return MESO_ERR_MEMORY;
-    meso_seed_problem(seeds->hash, &tool->provenance, p->surface->quarters, p->surface->graph.slot_count, options);
-    status = read_lines(seeds, error);
+    seeds->lines = MESO_NEW(&tool->arena, MesoSeedLine, seeds->list.seed_count, error);
+    status = seeds->lines ? hash_problem(seeds, error) : MESO_ERR_MEMORY;
+    if (!status)
+        status = read_lines(seeds, error);
     return status ? status : list_todo(seeds, error);
 }
 

@@ -11,7 +11,7 @@ typedef struct MesoSeedOptions {
 
 #define MESO_SEED_OPTIONS(o)                                                                  \
     {MESO_OPTION_GROUP, 0, "Many seeds", 0, 0, 0, 0, 0, 0, 0},                                \
-    {MESO_OPTION_TEXT, 0, "seeds", "A-B[xK]", "solve for the seeds A to B, with K attempts each, and write a JSON line " \
+    {MESO_OPTION_TEXT, 0, "seeds", "A-B[xK],...", "solve for the seeds A to B, with K attempts each, and write a JSON line " \
      "each to -o or standard output", &(o).seeds, 0, 0, 0, 0},                                \
     {MESO_OPTION_PATTERN, 0, "each", "PATTERN", "write each assignment too, to PATTERN with the seed for its %d", \
      &(o).each, 0, 0, 0, 0},                                                                  \

@@ -88,7 +88,7 @@ MesoStatus meso_seed_line_make(MesoSeedLine *line, MesoArena *arena, uint64_t se
     if (status)
         return status;
     *line = (MesoSeedLine){.seed = seed, .verdict = result->verdict, .attempts = result->attempts,
-                           .observations = result->observations};
+                           .observations = result->observations, .problem = {problem[0], problem[1]}};
     json_t *object = json_pack("{sIsssssIsIsI}", "seed", (json_int_t)seed, "verdict", meso_verdict_name(line->verdict),
                                "decider", meso_decider_name(result->decider), "attempts", (json_int_t)line->attempts, "observations", (json_int_t)line->observations,
                                "dead_ends", (json_int_t)result->dead_end_total);
@@ -149,10 +149,23 @@ static void read_assignment(MesoSeedLine *line, const MesoJsonField *root)
     }
 }
 
-static void read_fields(MesoSeedLine *line, const MesoJsonField *root, const uint64_t problem[2])
+/* The problems whose lines are taken. */
+typedef struct Problems {
+    const uint64_t (*hashes)[2];
+    uint32_t count;             /* 0: all */
+} Problems;
+
+static bool is_among(const Problems *problems, const uint64_t problem[2])
+{
+    for (uint32_t i = 0; i < problems->count; i++)
+        if (problems->hashes[i][0] == problem[0] && problems->hashes[i][1] == problem[1])
+            return true;
+    return problems->count == 0;
+}
+
+static void read_fields(MesoSeedLine *line, const MesoJsonField *root, const Problems *problems)
 {
     MesoJsonField verdict = meso_json_key(root, "verdict"), of = meso_json_key(root, "problem");
-    uint64_t hash[2] = {0};
     meso_json_object(root, NULL);
     line->seed = read_count(root, "seed", INT64_MAX);
     line->attempts = (uint32_t)read_count(root, "attempts", UINT32_MAX);
@@ -162,13 +175,13 @@ static void read_fields(MesoSeedLine *line, const MesoJsonField *root, const uin
         meso_json_wrong(&verdict, "no verdict that is known");
     if (meso_json_good(root) && line->verdict == MESO_VERDICT_SOLVED)
         read_assignment(line, root);
-    read_hash(hash, &of);
-    if (meso_json_good(root) && (hash[0] != problem[0] || hash[1] != problem[1]))
+    read_hash(line->problem, &of);
+    if (meso_json_good(root) && !is_among(problems, line->problem))
         meso_json_wrong(&of, "the line is of another problem: of other inputs or options");
 }
 
 static MesoStatus read_line(MesoSeedLine *line, MesoArena *arena, const char *text, size_t size, const char *path,
-                            uint64_t number, const uint64_t problem[2], MesoError *error)
+                            uint64_t number, const Problems *problems, MesoError *error)
 {
     json_t *json;
     char place[400];
@@ -179,7 +192,7 @@ static MesoStatus read_line(MesoSeedLine *line, MesoArena *arena, const char *te
         return status;
     MesoJsonReader reader = {.path = place, .arena = arena, .error = error};
     MesoJsonField root = meso_json_root(&reader, json);
-    read_fields(line, &root, problem);
+    read_fields(line, &root, problems);
     json_decref(json);
     if (reader.status)
         return reader.status;
@@ -225,8 +238,9 @@ static bool is_blank(const char *text, size_t size)
 }
 
 MesoStatus meso_seed_lines_read(MesoSeedLine **lines, uint32_t *count, MesoArena *arena, const MesoInput *input,
-                                const uint64_t problem[2], MesoError *error)
+                                const uint64_t (*problems)[2], uint32_t problem_count, MesoError *error)
 {
+    const Problems taken = {problems, problem_count};
     const char *text = (const char *)input->data, *end = text + input->size;
     uint64_t room = 0, number = 0;
     for (const char *c = text; c < end && (c = memchr(c, '\n', (size_t)(end - c))); c++)
@@ -244,7 +258,7 @@ MesoStatus meso_seed_lines_read(MesoSeedLine **lines, uint32_t *count, MesoArena
         number++;
         if (is_blank(text, size))
             continue;
-        MesoStatus status = read_line(&(*lines)[(*count)++], arena, text, size, input->path, number, problem, error);
+        MesoStatus status = read_line(&(*lines)[(*count)++], arena, text, size, input->path, number, &taken, error);
         if (status)
             return status;
     }

@@ -25,6 +25,7 @@ typedef struct MesoSeedLine {
     uint64_t strand_count, loop_count;
     uint64_t tile_squares;      /* sum of the squares of the numbers of slots by tile */
     uint64_t assignment[2];     /* hash, high word first; 0 where not solved */
+    uint64_t problem[2];        /* the same */
     const char *text;           /* the line, without its end */
 } MesoSeedLine;
 
@@ -51,10 +52,10 @@ MesoStatus meso_seed_line_make(MesoSeedLine *line, MesoArena *arena, uint64_t se
  * Reads lines in any order, from any number of shards one after the other, into
  * `arena`, ascending by seed, each seed once. What follows the last line's end was
  * cut off, and is passed over. MESO_ERR_INPUT names the line that is not one, that
- * belongs to another problem than `problem`, or that contradicts an earlier line of the
+ * belongs to none of `problems` [problem_count] (0: any will do), or that contradicts an earlier line of the
  * same seed. O(size + lines * log(lines)).
  */
 MesoStatus meso_seed_lines_read(MesoSeedLine **lines, uint32_t *count, MesoArena *arena, const MesoInput *input,
-                                const uint64_t problem[2], MesoError *error);
+                                const uint64_t (*problems)[2], uint32_t problem_count, MesoError *error);
 
 #endif

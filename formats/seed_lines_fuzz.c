@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     meso_arena_init(&arena);
     meso_input_wrap(&input, "fuzz", data, size);
-    if (meso_seed_lines_read(&lines, &count, &arena, &input, problem, &error) == MESO_OK)
+    if (meso_seed_lines_read(&lines, &count, &arena, &input, &problem, 1, &error) == MESO_OK)
         for (uint32_t i = 0; i < count; i++) {
             MesoSeedLine *again;
             uint32_t one;
@@ -25,7 +25,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             if (!text || (i && lines[i - 1].seed >= lines[i].seed))
                 abort();
             meso_input_wrap(&input, "again", text, strlen(text));
-            if (meso_seed_lines_read(&again, &one, &arena, &input, problem, &error) != MESO_OK || one != 1 ||
+            if (meso_seed_lines_read(&again, &one, &arena, &input, &problem, 1, &error) != MESO_OK || one != 1 ||
                 again->seed != lines[i].seed || again->tile_squares != lines[i].tile_squares)
                 abort();
         }

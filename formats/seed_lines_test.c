@@ -19,9 +19,9 @@ static MesoSeedLine *read(const char *text, uint32_t expected)
     MesoInput input;
     MesoError error;
     meso_input_wrap(&input, "file", text, strlen(text));
-    if (meso_seed_lines_read(&lines, &count, &arena, &input, problem, &error) != MESO_OK)
+    if (meso_seed_lines_read(&lines, &count, &arena, &input, &problem, 1, &error) != MESO_OK)
         fprintf(stderr, "%s\n", error.message);
-    CHECK(meso_seed_lines_read(&lines, &count, &arena, &input, problem, &error) == MESO_OK && count == expected);
+    CHECK(meso_seed_lines_read(&lines, &count, &arena, &input, &problem, 1, &error) == MESO_OK && count == expected);
     return lines;
 }
 
@@ -32,7 +32,7 @@ static void expect_failure(const char *text, const char *message)
     MesoInput input;
     MesoError error;
     meso_input_wrap(&input, "file", text, strlen(text));
-    CHECK(meso_seed_lines_read(&lines, &count, &arena, &input, problem, &error) == MESO_ERR_INPUT);
+    CHECK(meso_seed_lines_read(&lines, &count, &arena, &input, &problem, 1, &error) == MESO_ERR_INPUT);
     if (!strstr(error.message, message))
         fprintf(stderr, "%s\n", error.message);
     CHECK(strstr(error.message, message) != NULL);
@@ -89,7 +89,7 @@ static void test_zero_byte(void)
     MesoSeedLine *read_back;
     uint32_t count;
     meso_input_wrap(&input, "file", lines, sizeof lines - 1);
-    CHECK(meso_seed_lines_read(&read_back, &count, &arena, &input, problem, &error) == MESO_ERR_INPUT);
+    CHECK(meso_seed_lines_read(&read_back, &count, &arena, &input, &problem, 1, &error) == MESO_ERR_INPUT);
     CHECK(strcmp(error.message, "file:2:10: a zero byte, which is not text") == 0);
 }
 

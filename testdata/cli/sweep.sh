@@ -39,6 +39,12 @@ rm again-5.slots
 solve --seeds 1-24 --resume some.jsonl --each again-%d.slots -o merged.jsonl
 for seed in 1 2 3 4 5; do cmp again-$seed.slots 1-$seed.slots; done
 
+# A list, in any order: a part has attempts of its own.
+solve --seeds 20-24x20,1-9,19,10-18 | cmp - all.jsonl && echo "a list: the same"
+solve --seeds 3x1,1-2 -o parts.jsonl
+{ head -n 2 all.jsonl && solve --seeds 3 --attempts 1; } | cmp - parts.jsonl && echo "its parts: the same"
+solve --seeds 3,1-2 --resume parts.jsonl 2>&1 >/dev/null || echo "status $?"
+
 # Cut short by a signal: what was solved stays in FILE.partial, and nowhere else.
 mkdir cut
 env --default-signal=INT meso-solve -q --seeds 1-3000 vase.tiles.json vase.obj -o cut/all.jsonl &
@@ -65,6 +71,7 @@ ls ./*.partial 2>/dev/null
 
 # What does not go together.
 for wrong in '--seeds 9-3' '--seeds 1-' '--seeds 1-3x0' '--seeds 0-9223372036854775808' '--seeds 1-99999999' \
+    '--seeds 1-9,4' '--seeds 1,,2' '--seeds 5,1-2x2 --attempts 2' \
     '--each %d' '--seeds 1-2 --each x' '--seeds 1-2 --seed 3' '--seeds 1-2x2 --attempts 2' '--seeds 1 --best size' \
     '--seeds 1 --report x' '--seeds 1 --json'; do
     # shellcheck disable=SC2086

@@ -1,0 +1,37 @@
+/* Lists of seeds, as --seeds takes them: "1-10,20,30-40x3". */
+#ifndef MESO_SEED_LIST_H
+#define MESO_SEED_LIST_H
+
+#include <stdint.h>
+
+#include "libcore/base/arena.h"
+
+/* Lines are kept until the end, a few hundred bytes each. */
+enum { MESO_MOST_SEEDS = 10000000 };
+
+typedef struct MesoSeedRange {
+    uint64_t first;
+    uint32_t count;
+    uint32_t attempts;          /* 0: not given */
+    uint32_t begin;             /* seeds of the list that are less */
+} MesoSeedRange;
+
+typedef struct MesoSeedList {
+    MesoSeedRange *ranges;      /* [range_count] ascending, without a seed twice */
+    uint32_t range_count;
+    uint32_t seed_count;
+} MesoSeedList;
+
+/*
+ * Parts with commas between, in any order, each A, A-B, AxK or A-BxK: the seeds from A to B, with
+ * K attempts. MESO_ERR_USAGE names the part that is none of these, and a seed that two parts name.
+ */
+MesoStatus meso_seed_list_parse(MesoSeedList *list, MesoArena *arena, const char *text, MesoError *error);
+
+/* Range of the list that `seed` is in, or NULL. O(log(ranges)). */
+const MesoSeedRange *meso_seed_list_find(const MesoSeedList *list, uint64_t seed);
+
+/* Its place among the seeds of the list, ascending. The seed must be in it. */
+uint32_t meso_seed_list_index(const MesoSeedList *list, uint64_t seed);
+
+#endif
