@@ -1,6 +1,7 @@
 # meso: make [config=release|debug|sanitize|coverage|fuzz] TARGET
 #
 #   all               the tools, to build/bin (release) or build/CONFIG/bin
+#   examples          tile sets and surfaces to try, to build/examples
 #   check             every test: units, folder pages, man pages, command lines
 #   check-exhaustive  the solver against brute force on all gluings of up to $(CHECK_SLOTS) slots, for
 #                     $(CHECK_SECONDS) seconds at most: a line for each number of slots and core
@@ -142,13 +143,16 @@ demo: all generators
 fuzz-run: fuzzers all generators
 	@scripts/run-fuzzers $(OUT) $(BIN) $(FUZZ_SECONDS) $(FUZZERS)
 
-install: all
-	@scripts/install-files $(BIN) "$(DESTDIR)$(PREFIX)"
+examples: generators
+	@scripts/make-examples $(OUT) $(BUILD)/examples
+
+install: all generators
+	@scripts/install-files $(OUT) $(BIN) "$(DESTDIR)$(PREFIX)"
 
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve demo \
+.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve demo \
         fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
