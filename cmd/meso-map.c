@@ -341,6 +341,16 @@ static void report_product(MesoTool *tool, const OutputKind *kind, const MesoMod
                       (unsigned long long)t->triangle_count);
 }
 
+/* What the shell refuses lies in the surface. */
+static MesoStatus build(MapArguments *a, const MesoModel *model, MesoStructure *structure, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoStatus status = meso_structure_build(structure, &tool->arena, model, tool->threads, error);
+    if (status == MESO_ERR_INPUT)
+        meso_fail_prefix(error, tool->operands[tool->operand_count == 1 ? 0 : 1]);
+    return status;
+}
+
 static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
     MesoTool *tool = &a->tool;
@@ -358,7 +368,7 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     if (status == MESO_OK)
         status = read_model(a, inputs, &model, error);
     if (status == MESO_OK)
-        status = meso_structure_build(&structure, &tool->arena, &model, tool->threads, error);
+        status = build(a, &model, &structure, error);
     if (status == MESO_OK)
         status = meso_tessellation_init(&tessellation, &tool->arena, &structure, error);
     if (status == MESO_OK)

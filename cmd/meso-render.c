@@ -158,6 +158,8 @@ static MesoStatus render(RenderArguments *a, const MesoModel *model, double star
 
     MesoStatus status = meso_structure_build(&structure, &tool->arena, model, tool->threads, error);
     at[1] = meso_seconds();
+    if (status == MESO_ERR_INPUT)
+        meso_fail_prefix(error, tool->operands[0]);
     if (!status)
         status = draw(a, &picture, &structure, error);
     if (status)

@@ -94,8 +94,8 @@ static MesoStatus tell_orientation(const Orienting *o)
     char without[64] = "";
     if (o->without)
         snprintf(without, sizeof without, ", %u slots without a direction", o->without);
-    meso_tool_say(tool, "orient %s: %u of %u edges disagree, %u singular corner%s%s", o->orient, disagreeing,
-                  graph->edge_count - graph->border_count, singular, singular == 1 ? "" : "s", without);
+    meso_tool_say_of(tool, o->input->path, "orient %s: %u of %u edges disagree, %u singular corner%s%s", o->orient,
+                     disagreeing, graph->edge_count - graph->border_count, singular, singular == 1 ? "" : "s", without);
     return report_orientation(o, disagreeing, singular, vertices);
 }
 

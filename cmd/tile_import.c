@@ -22,7 +22,7 @@ static const MesoToolInfo info = {
 static void say_problem(void *context, const char *severity, const char *where, const char *message)
 {
     const MesoTool *tool = context;
-    meso_tool_say(tool, "%s: %s: %s: %s", tool->operands[0], severity, where, message);
+    meso_tool_say_of(tool, tool->operands[0], "%s: %s: %s", severity, where, message);
 }
 
 static void say_error(void *context, const char *severity, const char *where, const char *message)
@@ -107,9 +107,8 @@ static MesoStatus run(MesoTool *tool, json_t *notes)
         status = meso_tile_find_meshes(&set, tool->output, &tool->arena, say_problem, tool, &tool->error);
     if (status != MESO_OK)
         return status;
-    meso_tool_say(tool, "%s: %u interfaces, %u cross-sections, %u tiles, %u sweeps, %u inner meshes",
-                  tool->operands[0], set.interface_count, set.section_count, set.tile_count,
-                  set.sweep_count, set.inner_count);
+    meso_tool_say_of(tool, tool->operands[0], "%u interfaces, %u cross-sections, %u tiles, %u sweeps, %u inner meshes",
+                     set.interface_count, set.section_count, set.tile_count, set.sweep_count, set.inner_count);
     return MESO_OK;
 }
 

@@ -369,9 +369,40 @@ static MesoStatus write_report(const MesoTool *tool, MesoError *error)
     return status;
 }
 
+/* What the run is about; "" where nothing is named. */
+static const char *subject(const MesoTool *tool)
+{
+    if (tool->output && strcmp(tool->output, "-") != 0)
+        return tool->output;
+    return tool->operand_count ? tool->operands[tool->operand_count - 1] : "";
+}
+
+static bool begins_with_name(const char *message, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(message, name, length) == 0 && message[length] == ':';
+}
+
+/* Whether the job as a whole failed, and the message does not say which. */
+static bool lacks_subject(const MesoTool *tool, const MesoError *error)
+{
+    bool whole = error->status == MESO_ERR_NO || error->status == MESO_ERR_LIMIT ||
+                 error->status == MESO_ERR_INTERNAL || error->status == MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < tool->operand_count && whole; i++)
+        whole = !begins_with_name(error->message, tool->operands[i]);
+    return whole && *subject(tool);
+}
+
+static void print_line(const MesoTool *tool, const char *file, const char *text)
+{
+    MesoError line;     /* for its rule that a message stays on one line */
+    meso_fail(&line, MESO_OK, "%s", file);
+    fprintf(stderr, "%s: %s%s%s\n", tool->info->name, line.message, *file ? ": " : "", text);
+}
+
 static void print_error(const MesoTool *tool, const MesoError *error)
 {
-    fprintf(stderr, "%s: %s\n", tool->info->name, error->message);
+    print_line(tool, lacks_subject(tool, error) ? subject(tool) : "", error->message);
     if (error->status == MESO_ERR_USAGE)
         fprintf(stderr, "try '%s --help'\n", tool->info->name);
 }
@@ -399,19 +430,32 @@ int meso_tool_finish(MesoTool *tool)
     return (int)tool->status;
 }
 
-void meso_tool_say(const MesoTool *tool, const char *format, ...)
+static void say(const MesoTool *tool, const char *file, const char *format, va_list arguments)
 {
     if (tool->quiet)
         return;
-    MesoError line;     /* for its rule that a message stays on one line */
+    MesoError line;
     char text[sizeof line.message];
-    va_list arguments;
-    va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
     meso_fail(&line, MESO_OK, "%s", text);
     meso_progress_hide(tool->progress);
-    fprintf(stderr, "%s: %s\n", tool->info->name, line.message);
+    print_line(tool, file, line.message);
+}
+
+void meso_tool_say(const MesoTool *tool, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(tool, subject(tool), format, arguments);
+    va_end(arguments);
+}
+
+void meso_tool_say_of(const MesoTool *tool, const char *file, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(tool, file, format, arguments);
+    va_end(arguments);
 }
 
 void meso_tool_progress_begin(MesoTool *tool, const char *what, const char *unit)

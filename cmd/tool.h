@@ -97,7 +97,8 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
                      int argc, char **argv);
 
 /*
- * Prints the error as "meso-map: message", writes the report, frees all;
+ * Prints the error as "meso-map: message", and what concerns the job as a whole (no, limit, internal,
+ * memory) as "meso-map: FILE: message", where FILE is what meso_tool_say() names; writes the report, frees all;
  * returns the exit code. The report is an object: "format" "meso-report",
  * "version", "tool", "status" (ok, no, usage, limit, input, output, internal,
  * memory), "exit", "message" where the status is not ok, "provenance", then
@@ -122,8 +123,14 @@ MesoStatus meso_tool_check_output(MesoTool *tool, const char *option, const char
 /* The command as --provenance has it recorded, but for `changes` (NULL: none). NULL when memory is out. */
 char *meso_tool_command(const MesoTool *tool, const MesoOptionChange *changes, MesoArena *arena, MesoError *error);
 
-/* One line to standard error, unless -q. */
+/*
+ * One line to standard error, unless -q: "meso-map: FILE: text", so that the lines of many jobs can be
+ * told apart. FILE is the product's name, or that of the last operand where the product goes to standard
+ * output; meso_tool_say_of() names another one.
+ */
 void meso_tool_say(const MesoTool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void meso_tool_say_of(const MesoTool *tool, const char *file, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /*
  * Progress of long work: a line on a terminal after a second, with rate and

@@ -151,9 +151,11 @@ static void test_usage(void)
 static void test_run(void)
 {
     CHECK(run_line("meso-try ok", NULL) == 0 && *out == 0);
-    CHECK(strcmp(err, "meso-try: trying?ok\n") == 0);
+    CHECK(strcmp(err, "meso-try: ok: trying?ok\n") == 0);
     CHECK(run_line("meso-try -q ok", NULL) == 0 && *out == 0 && *err == 0);
-    CHECK(run_line("meso-try -q no", NULL) == 1 && strcmp(err, "meso-try: it is not\n") == 0);
+    CHECK(run_line("meso-try -q no", NULL) == 1 && strcmp(err, "meso-try: no: it is not\n") == 0);
+    CHECK(run_line("meso-try -q no -o a\nb", NULL) == 1 && strcmp(err, "meso-try: a?b: it is not\n") == 0);
+    CHECK(run_line("meso-try ok other -o -", NULL) == 0 && strcmp(err, "meso-try: other: trying?ok\n") == 0);
     CHECK(run_line("meso-try -q write -o -", NULL) == 0 && strcmp(out, "product\n") == 0);
     CHECK(run_line("meso-try -q write -o -", "/dev/full") == 5);
     CHECK(run_line("meso-try -q write -o -", "") == 5);
