@@ -1,0 +1,66 @@
+# What the tools write is what the installed JSON Schemas say, and other things are not.
+cp "$fixtures"/* .
+schemas=$(dirname "$scripts")/formats
+
+# Reports of every tool and of every status that a run can have.
+report() {
+    number=$((number + 1))
+    "$@" --json=report-$number.json 2>/dev/null >/dev/null
+}
+number=0
+constraints='{"format": "meso-constraints", "version": 1, "pins": [{"name": "first", "slot": 0, "tile": "%s"}], "weights": {"reed loops": 2.5}}'
+printf "$constraints" double >no.json
+printf "$constraints" "reed end" >pin.json
+report meso-solve vase.tiles.json vase.obj -v -o x.slots
+report meso-solve gap.tiles.json vase.obj -o x.slots
+report meso-solve vase.tiles.json vase.obj --constraints no.json -o x.slots
+report meso-solve vase.tiles.json vase.obj --constraints no.json --engine wfc --attempts 1 --observations 1 -o x.slots
+report meso-solve vase.tiles.json vase.obj --engine wfc --observations 3 -o x.slots
+report meso-solve vase.tiles.json vase.obj --keep vase.slots --orient comb -o x.slots
+report meso-solve vase.tiles.json vase.obj --seeds 1-3 --best loops -o x.jsonl
+report meso-solve vase.tiles.json none.obj -o x.slots
+report meso-solve vase.tiles.json vase.obj -o none/x.slots
+report meso-solve --nonsense
+report meso-suggest gap.tiles.json gap.json -o x.tiles.json
+report meso-suggest vase.tiles.json --surface vase.obj -o x.json
+report meso-tile import basket.json -o x.tiles.json
+report meso-tile check vase.tiles.json -o x.txt
+report meso-tile check no.json -o x.txt
+report meso-tile list vase.tiles.json -o x.txt
+report meso-map vase.tiles.json vase.obj vase.slots -o x.meso
+report meso-map vase.meso -o x.drc
+report meso-render --size 40x30 vase.meso -o x.png
+report meso-info vase.slots -o x.json
+meso-solve -q vase.tiles.json vase.obj -o x.slots --report solved.json
+meso-solve -q vase.tiles.json vase.obj -o x.slots --constraints no.json --report unsolvable.json 2>/dev/null
+meso-solve -q --engine wfc --observations 3 --seeds 1-2 vase.tiles.json vase.obj 2>/dev/null >gave-up.jsonl
+meso-solve -q --seeds 1-2 gap.tiles.json vase.obj 2>/dev/null >unsolvable.jsonl
+
+# Broken ones, each in one place.
+sed 's/"solved"/"perhaps"/' solved.json >broken-1.json
+sed 's/"initial": true/"initial": 1/' gap.json >broken-2.json
+sed 's/"status": "ok"/"status": "no"/' report-1.json >broken-3.json
+sed 's/"loops"/"rings"/' x.jsonl >broken.jsonl
+sed 's/2.5/-2.5/' no.json >broken-4.json
+
+sed -n 's/.*"status": "\(.*\)",/\1/p' report-*.json | sort | uniq -c
+
+validate() {
+    schema=$1
+    shift
+    NODE_PATH=$npm/node_modules node "$scripts/validate-json.mjs" "$schemas/meso-$schema.schema.json" "$@" 2>&1
+}
+if [ -d "$npm/node_modules/ajv" ]; then
+    validate report report-*.json solved.json unsolvable.json gap.json
+    validate seeds x.jsonl gave-up.jsonl unsolvable.jsonl
+    validate tiles vase.tiles.json x.tiles.json "$testdata/teapot.tiles.json"
+    validate constraints no.json pin.json
+    validate report broken-[123].json
+    validate seeds broken.jsonl
+    validate constraints broken-4.json
+elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
+    echo "ajv is not installed" >&2
+else
+    grep '^broken' "$testdata/cli/schemas.out"
+fi
+true
