@@ -195,7 +195,7 @@ static void warn_of_other_inputs(const MesoTool *tool, const MesoSlotsFile *slot
 {
     bool tiles = memcmp(slots->tiles_hash, inputs->tiles.hash, sizeof inputs->tiles.hash) == 0;
     bool surface = memcmp(slots->surface_hash, inputs->surface.hash, sizeof inputs->surface.hash) == 0;
-    if (!tiles || !surface)
+    if (!slots->anonymous && (!tiles || !surface))
         meso_tool_say(tool, "warning: '%s' was solved with another version of %s%s%s; it still fits",
                       inputs->slots.path, tiles ? "" : "the tile set", tiles || surface ? "" : " and of ",
                       surface ? "" : "the surface");

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/slots_text.h"
+
 /* Files with an orientation have the newer one. */
 enum { MAJOR = 1, MAJOR_ORIENTED = 2, MINOR = 0 };
 
@@ -183,6 +185,8 @@ MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInp
                            MesoError *error)
 {
     MesoContainer container;
+    if (!meso_container_recognise(input))
+        return meso_slots_text_read(slots, arena, input, error);
     MesoStatus status = meso_container_read(&container, input, "slots", MAJOR_ORIENTED, error);
     if (status != MESO_OK)
         return status;

@@ -21,9 +21,10 @@
 typedef struct MesoSlotsFile {
     MesoAssignment assignment;
     uint64_t tiles_hash[2], surface_hash[2];
+    bool anonymous;                 /* a listing that has no hashes: they are 0 */
     uint32_t tile_count;
     const char **tile_names;        /* [tile_count] */
-    const char *provenance;         /* JSON text */
+    const char *provenance;         /* JSON text; {} of a listing */
     uint8_t *quarters;              /* [slot_count] orientation; NULL: as in the surface's file */
 } MesoSlotsFile;
 
@@ -33,7 +34,8 @@ MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet 
                             const uint64_t surface_hash[2], const MesoProvenance *provenance,
                             MesoOutput *output, MesoError *error);
 
-/* Copies to `arena`. Checks the file alone; meso_assignment_check() checks it against a surface. */
+/* Copies to `arena`; a listing (slots_text.h) is read too. Checks the file alone; meso_assignment_check()
+ * checks it against a surface. */
 MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInput *input,
                            MesoError *error);
 
