@@ -5,9 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/constraints_file.h"
 #include "formats/json_text.h"
 #include "formats/model_file.h"
 #include "formats/prototype_json.h"
+#include "formats/report_file.h"
+#include "formats/seed_lines.h"
 #include "formats/slots_file.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
@@ -113,11 +116,15 @@ MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *inp
     MesoStatus status = meso_slots_read(&slots, arena, input, error);
     if (status != MESO_OK)
         return status;
+    bool listing = !meso_container_recognise(input);
     json_t *inputs = json_object();
     int failed = put_hash(inputs, "tiles", slots.tiles_hash);
     failed |= put_hash(inputs, "surface", slots.surface_hash);
-    failed |= put_provenance(facts, slots.provenance);
-    failed |= json_object_set_new(facts, "inputs", inputs);
+    if (!listing)
+        failed |= put_provenance(facts, slots.provenance);
+    if (!slots.anonymous)
+        failed |= json_object_set(facts, "inputs", inputs);
+    json_decref(inputs);
     failed |= put_count(facts, "slots", slots.assignment.slot_count);
     failed |= slots.quarters && put_orientation(facts, &slots);
     status = memory_if(failed, error);
@@ -320,6 +327,27 @@ static MesoStatus put_report(json_t *facts, json_t *root, const char *path, Meso
     return memory_if(failed, error);
 }
 
+/* What can be said without the tile set and the surface that they are for. */
+static MesoStatus put_constraints(json_t *facts, MesoArena *arena, json_t *root, const char *path, MesoError *error)
+{
+    MesoConstraintOutline outline;
+    MesoStatus status = meso_constraints_outline(&outline, arena, root, path, error);
+    if (status != MESO_OK)
+        return status;
+    json_t *provenance = json_object_get(root, "provenance");
+    int failed = json_object_set_new(facts, "kind", json_string("constraints"));
+    if (provenance)
+        failed |= json_object_set(facts, "provenance", provenance);
+    failed |= put_count(facts, "weights", outline.weight_count);
+    failed |= put_count(facts, "pins", outline.pin_count);
+    failed |= put_count(facts, "regions", outline.region_count);
+    failed |= put_count(facts, "borders", outline.border_count);
+    failed |= put_count(facts, "quotas", outline.quota_count);
+    if (json_object_get(root, "strands"))
+        failed |= json_object_set(facts, "strands", json_object_get(root, "strands"));
+    return memory_if(failed, error);
+}
+
 static MesoStatus put_tiles(json_t *facts, MesoArena *arena, const json_t *root,
                             const MesoInput *input, MesoError *error)
 {
@@ -345,12 +373,59 @@ MesoStatus meso_info_json(json_t *facts, MesoArena *arena, const MesoInput *inpu
     const char *format = json_string_value(json_object_get(root, "format"));
     if (format && strcmp(format, "meso-report") == 0)
         status = put_report(facts, root, input->path, error);
+    else if (format && strcmp(format, "meso-constraints") == 0)
+        status = put_constraints(facts, arena, root, input->path, error);
     else if ((format && strcmp(format, "meso-tiles") == 0) || meso_prototype_recognise(root))
         status = put_tiles(facts, arena, root, input, error);
     else
         status = meso_fail(error, MESO_ERR_INPUT,
-                           "%s: neither a tile set nor a report; the suite knows no other JSON",
+                           "%s: neither a tile set, constraints nor a report; the suite knows no other JSON",
                            input->path);
     json_decref(root);
     return status;
+}
+
+static int compare_hashes(const void *a, const void *b)
+{
+    return memcmp(a, b, 2 * sizeof(uint64_t));
+}
+
+/* How many of the hashes differ; they become sorted. */
+static uint32_t count_different(uint64_t (*hashes)[2], uint32_t count)
+{
+    uint32_t different = count > 0;
+    qsort(hashes, count, sizeof *hashes, compare_hashes);
+    for (uint32_t i = 1; i < count; i++)
+        different += compare_hashes(hashes[i - 1], hashes[i]) != 0;
+    return different;
+}
+
+MesoStatus meso_info_seed_lines(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    MesoSeedLine *lines;
+    uint32_t count, solved = 0, verdicts[MESO_VERDICT_GAVE_UP + 1] = {0};
+    MesoStatus status = meso_seed_lines_read(&lines, &count, arena, input, NULL, 0, error);
+    uint64_t (*hashes)[2] = status ? NULL : meso_arena_alloc(arena, count, 2 * sizeof **hashes, error);
+    uint64_t (*problems)[2] = hashes ? meso_arena_alloc(arena, count, 2 * sizeof **problems, error) : NULL;
+    if (!problems)
+        return status ? status : MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        verdicts[lines[i].verdict]++;
+        memcpy(problems[i], lines[i].problem, sizeof *problems);
+        if (lines[i].verdict == MESO_VERDICT_SOLVED)
+            memcpy(hashes[solved++], lines[i].assignment, sizeof *hashes);
+    }
+    json_t *by_verdict = json_object();
+    int failed = json_object_set_new(facts, "kind", json_string("seeds"));
+    failed |= put_count(facts, "seeds", count);
+    if (count > 0) {
+        failed |= put_count(facts, "first", lines[0].seed);
+        failed |= put_count(facts, "last", lines[count - 1].seed);
+    }
+    for (int v = 0; v <= MESO_VERDICT_GAVE_UP; v++)
+        failed |= put_count(by_verdict, meso_verdict_name((MesoVerdict)v), verdicts[v]);
+    failed |= json_object_set_new(facts, "verdicts", by_verdict);
+    failed |= put_count(facts, "assignments", count_different(hashes, solved));
+    failed |= put_count(facts, "problems", count_different(problems, count));
+    return memory_if(failed, error);
 }

@@ -12,7 +12,9 @@ MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *inp
 MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_info_mesh(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error);
 
-/* A tile set of either kind, or a report. */
+MesoStatus meso_info_seed_lines(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error);
+
+/* A tile set of either kind, constraints, or a report. */
 MesoStatus meso_info_json(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error);
 
 #endif

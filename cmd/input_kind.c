@@ -9,8 +9,10 @@ const MesoInputPlace MESO_PLACE_TILE_FILE = {"FILE", "a tile set", "tiles", TILE
 const MesoInputPlace MESO_PLACE_SURFACE = {
     "SURFACE", "a surface (OBJ, PLY or OFF)", "surface",
     MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF};
-const MesoInputPlace MESO_PLACE_SLOTS = {"SLOTS", "an assignment (.slots)", "slots", MESO_FILE_SLOTS};
-const MesoInputPlace MESO_PLACE_KEEP = {"--keep", "an assignment (.slots)", "keep", MESO_FILE_SLOTS};
+const MesoInputPlace MESO_PLACE_SLOTS = {"SLOTS", "an assignment (.slots)", "slots",
+                                         MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
+const MesoInputPlace MESO_PLACE_KEEP = {"--keep", "an assignment (.slots)", "keep",
+                                        MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
 const MesoInputPlace MESO_PLACE_MODEL = {"MODEL", "a model (.meso)", "model", MESO_FILE_MODEL};
 const MesoInputPlace MESO_PLACE_REPORT = {"REPORT", "a report of meso-solve", "report", MESO_FILE_REPORT | MESO_FILE_JSON};
 const MesoInputPlace MESO_PLACE_CONSTRAINTS = {"--constraints", "a file of constraints", "constraints",

@@ -11,17 +11,25 @@
 #include "formats/file_kind.h"
 #include "formats/json_text.h"
 #include "formats/product_file.h"
+#include "formats/slots_text.h"
 
 static const MesoToolInfo INFO_TOOL = {
     .name = "meso-info",
-    .synopsis = "meso-info [options] FILE",
-    .purpose = "Check any file of the suite and print what it holds as JSON.",
+    .synopsis = "meso-info [options] FILE...\n"
+                "meso-info --slots csv|json SLOTS",
+    .purpose = "Check any files of the suite and print what they hold as JSON.",
     .examples = "meso-info vase.slots\n"
-                "meso-info vase.meso -o vase.json",
+                "meso-info vase.meso -o vase.json\n"
+                "meso-info --slots csv vase.slots -o vase.csv",
     .operands_low = 1,
-    .operands_high = 1,
+    .operands_high = UINT32_MAX,
     .to_standard_output = true,
 };
+
+typedef struct InfoArguments {
+    MesoTool tool;
+    const char *slots;          /* --slots: csv, json, or NULL */
+} InfoArguments;
 
 static bool has_extension(const char *path, const char *extension)
 {
@@ -29,13 +37,20 @@ static bool has_extension(const char *path, const char *extension)
     return length > size && strcasecmp(path + length - size, extension) == 0;
 }
 
+static MesoStatus put_kind(json_t *facts, const char *kind, MesoError *error)
+{
+    return json_object_set_new(facts, "kind", json_string(kind)) == 0 ? MESO_OK
+               : meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+}
+
 /* The kind stands in the container's header, behind the magic. */
 static MesoStatus describe_container(json_t *facts, MesoArena *arena, const MesoInput *input,
                                      MesoError *error)
 {
     bool model = input->size >= 16 && memcmp(input->data + 8, "model\0\0", 8) == 0;
-    if (json_object_set_new(facts, "kind", json_string(model ? "model" : "slots")) != 0)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    MesoStatus status = put_kind(facts, model ? "model" : "slots", error);
+    if (status != MESO_OK)
+        return status;
     return model ? meso_info_model(facts, arena, input, error)
                  : meso_info_slots(facts, arena, input, error);
 }
@@ -51,9 +66,7 @@ static MesoStatus describe_product(json_t *facts, MesoProductKind kind, MesoAren
     const json_t *tool = json_object_get(json_object_get(facts, "provenance"), "tool");
     if (mesh && (!json_is_string(tool) || strcmp(json_string_value(tool), "meso-map") != 0))
         return meso_info_mesh(facts, arena, input, error);
-    if (json_object_set_new(facts, "kind", json_string(meso_product_name(kind))) != 0)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
-    return MESO_OK;
+    return put_kind(facts, meso_product_name(kind), error);
 }
 
 static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
@@ -64,14 +77,21 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
     if (product != MESO_PRODUCT_NONE)
         return describe_product(facts, product, arena, input, error);
     MesoFileKind kind = meso_file_kind(input);
+    if (kind == MESO_FILE_SEED_LINES)
+        return meso_info_seed_lines(facts, arena, input, error);
+    if (kind == MESO_FILE_LISTING || kind == MESO_FILE_CSV || has_extension(input->path, ".csv")) {
+        MesoStatus status = put_kind(facts, "slots", error);
+        return status ? status : meso_info_slots(facts, arena, input, error);
+    }
     if (kind & MESO_FILES_OF_JSON)
         return meso_info_json(facts, arena, input, error);
     if (has_extension(input->path, ".obj") || has_extension(input->path, ".off") ||
         kind & (MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF))
         return meso_info_mesh(facts, arena, input, error);
     return meso_fail(error, MESO_ERR_INPUT,
-                     "%s: no kind of file that is known here: .slots, .meso, .tiles.json or a "
-                     "prototype's tile set, report, .obj, .ply, .off, .glb, .drc, .exr, .png",
+                     "%s: no kind of file that is known here: .slots or a listing of slots, .meso, "
+                     ".tiles.json or a prototype's tile set, constraints, report, .jsonl of seeds, .obj, .ply, "
+                     ".off, .glb, .drc, .exr, .png",
                      input->path);
 }
 
@@ -98,30 +118,143 @@ static MesoStatus print(MesoTool *tool, const json_t *facts, MesoError *error)
     return status;
 }
 
-static MesoStatus inform(MesoTool *tool, MesoError *error)
+/* The report names the first files alone where there are more than a provenance holds. */
+static MesoStatus open_file(MesoTool *tool, MesoInput *input, const char *path)
+{
+    if (tool->provenance.input_count < MESO_PROVENANCE_INPUTS)
+        return meso_tool_open_input(tool, input, path, "file");
+    return meso_input_open(input, path, &tool->error);
+}
+
+static MesoStatus inform(MesoTool *tool, json_t *facts, const char *path, MesoError *error)
 {
     MesoInput input;
-    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[0], "file");
+    MesoStatus status = open_file(tool, &input, path);
     if (status != MESO_OK)
         return status;
-    json_t *facts = json_object();
+    MesoArenaMark mark = meso_arena_mark(&tool->arena);
     if (put_file(facts, &input) != 0)
         status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     if (status == MESO_OK)
         status = describe(facts, &tool->arena, &input, error);
+    meso_arena_rewind(&tool->arena, mark);
+    meso_input_close(&input);
+    return status;
+}
+
+static MesoStatus inform_of_one(MesoTool *tool, MesoError *error)
+{
+    json_t *facts = json_object();
+    MesoStatus status = inform(tool, facts, tool->operands[0], error);
     if (status == MESO_OK)
         status = print(tool, facts, error);
     json_decref(facts);
+    return status;
+}
+
+/* What is known of a file that is no good: its name, and why. */
+static json_t *failed_facts(const char *path, const MesoError *why)
+{
+    json_t *facts = json_object();
+    int failed = json_object_set_new(facts, "file", meso_json_string(path));
+    failed |= json_object_set_new(facts, "kind", json_null());
+    failed |= json_object_set_new(facts, "error", meso_json_string(why->message));
+    if (!failed)
+        return facts;
+    json_decref(facts);
+    return NULL;
+}
+
+/* Appends the facts of one file. Of MESO_ERR_INPUT the next file knows nothing; other errors end the work. */
+static MesoStatus append_facts(MesoTool *tool, json_t *list, const char *path, MesoError *error)
+{
+    json_t *facts = json_object();
+    MesoStatus status = inform(tool, facts, path, error);
+    if (status != MESO_OK) {
+        json_decref(facts);
+        facts = failed_facts(path, error);
+    }
+    if (status == MESO_ERR_INPUT)
+        meso_tool_complain(tool, error);
+    if (json_array_append_new(list, facts) != 0)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    return status;
+}
+
+/* An array, in the order of the operands. */
+static MesoStatus inform_of_several(MesoTool *tool, MesoError *error)
+{
+    json_t *list = json_array();
+    MesoStatus status = list ? MESO_OK : meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    uint32_t bad = 0;
+    for (uint32_t i = 0; i < tool->operand_count && status == MESO_OK; i++) {
+        status = append_facts(tool, list, tool->operands[i], error);
+        if (status == MESO_ERR_INPUT) {
+            bad++;
+            status = MESO_OK;
+        }
+    }
+    if (status == MESO_OK)
+        status = print(tool, list, error);
+    json_decref(list);
+    if (status == MESO_OK && bad > 0)
+        return meso_fail(error, MESO_ERR_INPUT, "%u of %u files are no good", bad, tool->operand_count);
+    return status;
+}
+
+/* ---- listings ---- */
+
+static MesoStatus write_listing(const InfoArguments *a, const MesoSlotsFile *slots, MesoError *error)
+{
+    MesoOutput *output;
+    json_t *root = NULL;
+    bool csv = strcmp(a->slots, "csv") == 0;
+    if (!csv && !(root = meso_slots_to_json(slots)))
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    MesoStatus status = meso_output_open(&output, a->tool.output ? a->tool.output : "-", error);
+    if (status == MESO_OK) {
+        status = csv ? meso_slots_write_csv(slots, output, error) : meso_json_write(root, output, error);
+        if (status == MESO_OK)
+            status = meso_output_commit(output, error);
+        else
+            meso_output_discard(output);
+    }
+    json_decref(root);
+    return status;
+}
+
+static MesoStatus list_slots(InfoArguments *a, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoSlotsFile slots;
+    MesoInput input;
+    if (tool->operand_count > 1)
+        return meso_fail(error, MESO_ERR_USAGE, "--slots lists one file; %u are given", tool->operand_count);
+    MesoStatus status = open_file(tool, &input, tool->operands[0]);
+    if (status != MESO_OK)
+        return status;
+    status = meso_slots_read(&slots, &tool->arena, &input, error);
+    if (status == MESO_OK)
+        status = write_listing(a, &slots, error);
     meso_input_close(&input);
     return status;
 }
 
 int main(int argc, char **argv)
 {
-    static MesoTool tool;
-    const MesoOption options[] = {MESO_TOOL_OPTIONS(tool), {0}};
-    if (!meso_tool_start(&tool, &INFO_TOOL, options, argc, argv))
-        return meso_tool_finish(&tool);
-    tool.status = inform(&tool, &tool.error);
-    return meso_tool_finish(&tool);
+    static InfoArguments a;
+    const MesoOption options[] = {
+        {MESO_OPTION_CHOICE, 0, "slots", "FORMAT", "list which tile each slot of an assignment holds: csv or json",
+         &a.slots, 0, 0, 0, "csv|json"},
+        MESO_TOOL_OPTIONS(a.tool),
+        {0},
+    };
+    MesoTool *tool = &a.tool;
+    if (!meso_tool_start(tool, &INFO_TOOL, options, argc, argv))
+        return meso_tool_finish(tool);
+    if (a.slots)
+        tool->status = list_slots(&a, &tool->error);
+    else
+        tool->status = tool->operand_count == 1 ? inform_of_one(tool, &tool->error) : inform_of_several(tool, &tool->error);
+    return meso_tool_finish(tool);
 }

@@ -407,6 +407,12 @@ static void print_error(const MesoTool *tool, const MesoError *error)
         fprintf(stderr, "try '%s --help'\n", tool->info->name);
 }
 
+void meso_tool_complain(const MesoTool *tool, const MesoError *error)
+{
+    meso_progress_hide(tool->progress);
+    print_error(tool, error);
+}
+
 int meso_tool_finish(MesoTool *tool)
 {
     if (tool->progress)

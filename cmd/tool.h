@@ -132,6 +132,9 @@ void meso_tool_say(const MesoTool *tool, const char *format, ...) __attribute__(
 void meso_tool_say_of(const MesoTool *tool, const char *file, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* The line of an error, -q or not, after which the work goes on. */
+void meso_tool_complain(const MesoTool *tool, const MesoError *error);
+
 /*
  * Progress of long work: a line on a terminal after a second, with rate and
  * time left, or JSON lines. `meso_tool_progress` fits the progress callbacks of

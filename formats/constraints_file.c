@@ -316,11 +316,12 @@ static void read_quotas(Parser *parser, const MesoJsonField *root, MesoConstrain
     constraints->quota_count = count;
 }
 
+static const char *const root_keys[] = {"format", "version", "provenance", "weights", "pins", "regions", "borders",
+                                        "quotas", "strands", NULL};
+
 static void read_all(Parser *parser, const MesoJsonField *root, MesoConstraints *constraints)
 {
-    static const char *const keys[] = {"format", "version", "provenance", "weights", "pins", "regions", "borders",
-                                       "quotas", "strands", NULL};
-    if (!meso_json_object(root, keys))
+    if (!meso_json_object(root, root_keys))
         return;
     uint64_t most = json_array_size(json_object_get(root->value, "pins")) +
                     json_array_size(json_object_get(root->value, "regions")) +
@@ -373,6 +374,34 @@ MesoStatus meso_constraints_read(MesoConstraints *constraints, MesoArena *arena,
     }
     json_decref(json);
     return status;
+}
+
+static uint32_t count_items(const MesoJsonField *root, const char *key)
+{
+    MesoJsonField list = meso_json_key(root, key);
+    return meso_json_count(&list, 0, MESO_CONSTRAINTS_ITEMS);
+}
+
+MesoStatus meso_constraints_outline(MesoConstraintOutline *outline, MesoArena *arena, const json_t *root,
+                                    const char *path, MesoError *error)
+{
+    MesoStatus status = meso_json_check_format(root, path, "meso-constraints", MESO_CONSTRAINTS_VERSION, error);
+    if (status)
+        return status;
+    MesoJsonReader reader = {.path = path, .arena = arena, .error = error};
+    MesoJsonField field = meso_json_root(&reader, root), weights = meso_json_key(&field, "weights");
+    MesoStrandRule rule = {0};
+    meso_json_object(&field, root_keys);
+    if (weights.value)
+        meso_json_object(&weights, NULL);
+    *outline = (MesoConstraintOutline){
+        .weight_count = (uint32_t)json_object_size(weights.value), .pin_count = count_items(&field, "pins"),
+        .region_count = count_items(&field, "regions"), .border_count = count_items(&field, "borders"),
+        .quota_count = count_items(&field, "quotas"),
+    };
+    MesoJsonField strands = meso_json_key(&field, "strands");
+    read_strands(&strands, &rule);
+    return reader.status;
 }
 
 static bool parse_strand_word(MesoStrandRule *rule, const char *word, size_t size)

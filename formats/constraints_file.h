@@ -2,6 +2,8 @@
 #ifndef MESO_CONSTRAINTS_FILE_H
 #define MESO_CONSTRAINTS_FILE_H
 
+#include <jansson.h>
+
 #include "formats/input.h"
 #include "formats/surface_groups.h"
 #include "libcore/solve/constraints.h"
@@ -27,6 +29,19 @@ typedef struct MesoConstraintScope {
  */
 MesoStatus meso_constraints_read(MesoConstraints *constraints, MesoArena *arena, const MesoInput *input,
                                  const MesoConstraintScope *scope, MesoError *error);
+
+/* How many entries a file has of each kind. */
+typedef struct MesoConstraintOutline {
+    uint32_t weight_count;      /* tiles with a weight, of regions not */
+    uint32_t pin_count, region_count, border_count, quota_count;
+} MesoConstraintOutline;
+
+/*
+ * Format, version, keys and lists of `root`, without what names and numbers in them refer to; texts go
+ * to `arena`. MESO_ERR_INPUT names `path` and the place.
+ */
+MesoStatus meso_constraints_outline(MesoConstraintOutline *outline, MesoArena *arena, const json_t *root,
+                                    const char *path, MesoError *error);
 
 /*
  * Rules on strands from text: "connected", "acyclic", "no-loops",

@@ -48,7 +48,7 @@ static MesoFileKind kind_of_format(const MesoInput *input, size_t at)
         const char *name;
         MesoFileKind kind;
     } formats[] = {{"meso-tiles", MESO_FILE_TILES}, {"meso-constraints", MESO_FILE_CONSTRAINTS},
-                   {"meso-report", MESO_FILE_REPORT}};
+                   {"meso-report", MESO_FILE_REPORT}, {"meso-slots", MESO_FILE_LISTING}};
     if (at == input->size || input->data[at] != '"')
         return MESO_FILE_UNKNOWN;
     size_t end = skip_string(input, at);
@@ -146,6 +146,8 @@ static MesoFileKind kind_of_text(const MesoInput *input)
         return MESO_FILE_PLY;
     if (at < input->size && (input->data[at] == '{' || input->data[at] == '['))
         return kind_of_json(input, at);
+    if (begins_at(input, mark, "slot,tile"))
+        return MESO_FILE_CSV;
     at = skip_comments(input, at);
     if (begins_off(input, at))
         return MESO_FILE_OFF;
@@ -187,6 +189,8 @@ const char *meso_file_kind_phrase(MesoFileKind kind)
     case MESO_FILE_DRC: return "a Draco mesh";
     case MESO_FILE_EXR: return "an EXR image";
     case MESO_FILE_PNG: return "a PNG image";
+    case MESO_FILE_LISTING: return "a listing of slots";
+    case MESO_FILE_CSV: return "a listing of slots (CSV)";
     case MESO_FILE_UNKNOWN: break;
     }
     return "of no kind that is known here";

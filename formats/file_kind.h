@@ -22,11 +22,14 @@ typedef enum MesoFileKind {
     MESO_FILE_GLB = 1 << 12,
     MESO_FILE_DRC = 1 << 13,
     MESO_FILE_EXR = 1 << 14,
-    MESO_FILE_PNG = 1 << 15
+    MESO_FILE_PNG = 1 << 15,
+    MESO_FILE_LISTING = 1 << 16,        /* of slots, in JSON */
+    MESO_FILE_CSV = 1 << 17             /* the same, in CSV; with its columns in their usual order */
 } MesoFileKind;
 
 /* All that begin as JSON text. */
-enum { MESO_FILES_OF_JSON = MESO_FILE_SEED_LINES * 2 - 1 + MESO_FILE_GLTF + MESO_FILE_JSON };
+enum { MESO_FILES_OF_JSON = MESO_FILE_SEED_LINES * 2 - 1 + MESO_FILE_GLTF + MESO_FILE_JSON +
+                          MESO_FILE_LISTING };
 
 /*
  * Goes by the first bytes, by the keys of the outermost object of JSON, and by

@@ -37,6 +37,7 @@ static void test_json(void)
     expect("{\"a\": {\"format\": \"meso-tiles\"}, \"b\": \"\\\"}{\\\\\", \"format\": \"meso-report\"}", MESO_FILE_REPORT);
     expect("{\"edgeTypes\": [{\"tileTypes\": 1}], \"tileTypes\": []}", MESO_FILE_PROTOTYPE);
     expect("{\"seed\": 1, \"verdict\": \"solved\"}\n{\"seed\": 2, \"verdict\": \"solved\"}\n", MESO_FILE_SEED_LINES);
+    expect("{\"format\": \"meso-slots\", \"slots\": []}", MESO_FILE_LISTING);
     expect("{\"asset\": {\"version\": \"2.0\"}}", MESO_FILE_GLTF);
     expect("{\"format\": \"other\"}", MESO_FILE_JSON);
     expect("{\"x\": \"format\", \"y\": \"meso-tiles\"}", MESO_FILE_JSON);
@@ -53,6 +54,7 @@ static void test_text(void)
     expect("OFF\n4 1 0\n", MESO_FILE_OFF);
     expect("# made by hand\nCOFF\n", MESO_FILE_OFF);
     expect("ply\rformat", MESO_FILE_PLY);
+    expect("slot,tile,turn,flip\n0,a,0,0\n", MESO_FILE_CSV);
     expect("# a comment alone", MESO_FILE_UNKNOWN);
     expect("version 1\n", MESO_FILE_UNKNOWN);
     expect("", MESO_FILE_UNKNOWN);
@@ -65,7 +67,7 @@ static void test_bytes(void)
     CHECK(kind_of("glTF\2\0\0\0", 8) == MESO_FILE_GLB);
     CHECK(kind_of("DRACO\2\2", 7) == MESO_FILE_DRC);
     CHECK(kind_of("\0\0\0\0", 4) == MESO_FILE_UNKNOWN);
-    for (unsigned bit = 0; bit < 16; bit++)
+    for (unsigned bit = 0; bit < 18; bit++)
         CHECK(strncmp(meso_file_kind_phrase((MesoFileKind)(1u << bit)), "of no", 5) != 0);
 }
 

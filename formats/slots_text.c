@@ -345,15 +345,13 @@ static uint64_t count_lines(Lines lines)
 
 static MesoStatus read_csv(Reader *reader, const MesoInput *input)
 {
-    static const char mark[] = "\xef\xbb\xbf";      /* of UTF-8, as spreadsheets write it */
     Header header;
     Line line;
     char *copy = MESO_NEW(reader->arena, char, input->size + 1, reader->error);
     if (!copy)
         return MESO_ERR_MEMORY;
     memcpy(copy, input->data, input->size);
-    bool marked = input->size >= 3 && memcmp(copy, mark, 3) == 0;
-    Lines lines = {.next = copy + (marked ? 3 : 0), .end = copy + input->size};
+    Lines lines = {.next = copy + meso_input_mark(input), .end = copy + input->size};
     if (memchr(copy, 0, input->size) || !take_line(&lines, &line))
         return fail_kind(reader);
     MesoStatus status = read_header(reader, &line, &header);
@@ -458,7 +456,7 @@ static MesoStatus read_json(Reader *reader, const MesoInput *input)
 
 static bool begins_json(const MesoInput *input)
 {
-    size_t i = 0;
+    size_t i = meso_input_mark(input);
     while (i < input->size && isspace(input->data[i]))
         i++;
     return i < input->size && input->data[i] == '{';

@@ -36,6 +36,8 @@ meso-solve -q vase.tiles.json vase.obj -o x.slots --constraints no.json --report
 meso-solve -q --engine wfc --observations 3 --seeds 1-2 vase.tiles.json vase.obj 2>/dev/null >gave-up.jsonl
 meso-solve -q --seeds 1-2 gap.tiles.json vase.obj 2>/dev/null >unsolvable.jsonl
 
+meso-info --slots json vase.slots >listing.json
+
 # Broken ones, each in one place.
 sed 's/"solved"/"perhaps"/' solved.json >broken-1.json
 sed 's/"initial": true/"initial": 1/' gap.json >broken-2.json
@@ -55,6 +57,7 @@ if [ -d "$npm/node_modules/ajv" ]; then
     validate seeds x.jsonl gave-up.jsonl unsolvable.jsonl
     validate tiles vase.tiles.json x.tiles.json "$testdata/teapot.tiles.json"
     validate constraints no.json pin.json
+    validate slots listing.json
     validate report broken-[123].json
     validate seeds broken.jsonl
     validate constraints broken-4.json
