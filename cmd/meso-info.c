@@ -21,6 +21,9 @@ static const MesoToolInfo INFO_TOOL = {
     .examples = "meso-info vase.slots\n"
                 "meso-info vase.meso -o vase.json\n"
                 "meso-info --slots csv vase.slots -o vase.csv",
+    .words = "1 *\n"
+             "--output .json .csv\n"
+             "--json .json",
     .operands_low = 1,
     .operands_high = UINT32_MAX,
     .to_standard_output = true,

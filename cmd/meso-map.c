@@ -23,6 +23,11 @@ static const MesoToolInfo MAP_TOOL = {
     .examples = "meso-map vase.tiles.json vase.obj vase.slots -o vase.meso\n"
                 "meso-map --divisions 24 vase.meso -o vase.glb\n"
                 "meso-map --to ply vase.meso -o - | gzip > vase.ply.gz",
+    .words = "1 .json .meso\n"
+             "2 .obj .ply .off\n"
+             "3 .slots .csv .json\n"
+             "--output .meso .ply .obj .glb .drc\n"
+             "--json .json",
     .operands_low = 1,
     .operands_high = 3,
 };

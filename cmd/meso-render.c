@@ -19,6 +19,11 @@ static const MesoToolInfo RENDER_TOOL = {
     .purpose = "Draw a model to an image: colour, depth, normals, albedo, slot and tile ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
                 "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png",
+    .words = "1 .meso\n"
+             "--output .exr .png\n"
+             "--json .json\n"
+             "--png .png\n"
+             "--background none",
     .operands_low = 1,
     .operands_high = 1,
 };

@@ -40,6 +40,17 @@ static const MesoToolInfo info = {
                 "meso-solve --seed 7 --report vase.json vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --constraints knobs.json vase.tiles.json vase.obj -o vase.slots\n"
                 "meso-solve --seeds 1-100 --best balance=v.slots vase.tiles.json vase.obj",
+    .words = "1 .json\n"
+             "2 .obj .ply .off\n"
+             "--output .slots .jsonl\n"
+             "--report .json\n"
+             "--json .json\n"
+             "--orient file comb u,v field=\n"
+             "--constraints .json\n"
+             "--strands connected acyclic no-loops max-length=\n"
+             "--keep .slots .csv .json\n"
+             "--resume .jsonl\n"
+             "--best attempts balance loops",
     .operands_low = 2,
     .operands_high = 2,
 };

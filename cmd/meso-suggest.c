@@ -26,6 +26,12 @@ static const MesoToolInfo info = {
     .purpose = "Adds to TILES the tile that the dead ends of a solve ask for most.",
     .examples = "meso-suggest gap.tiles.json gap.json -o mended.tiles.json\n"
                 "meso-suggest --surface vase.obj gap.tiles.json -o mended.tiles.json",
+    .words = "1 .json\n"
+             "2 .json\n"
+             "--output .tiles.json\n"
+             "--json .json\n"
+             "--surface .obj .ply .off\n"
+             "--orient file comb u,v field=",
     .operands_low = 1,
     .operands_high = 2,
 };

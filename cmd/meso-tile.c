@@ -52,6 +52,14 @@ static MesoStatus refuse(MesoTool *tool)
     return meso_fail(&tool->error, MESO_ERR_USAGE, "unknown command '%s'; there are %s", name, names);
 }
 
+/* For programs, as meso_options_list(): the commands, whose options each of them lists. */
+static MesoStatus list_commands(MesoTool *tool)
+{
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        printf("command\t%s\n", commands[i].name);
+    return fflush(stdout) == 0 ? MESO_OK : meso_fail(&tool->error, MESO_ERR_OUTPUT, "cannot write standard output");
+}
+
 static int run_help(int argc, char **argv, int command)
 {
     char help[] = "--help", *arguments[] = {command < 0 ? argv[0] : argv[2], help, NULL};
@@ -77,5 +85,7 @@ int main(int argc, char **argv)
     MesoOption options[] = {MESO_TOOL_OPTIONS(tool), {0}};
     if (meso_tool_start(&tool, &info, options, argc, argv))
         tool.status = refuse(&tool);
+    else if (tool.list_options && tool.status == MESO_OK)
+        tool.status = list_commands(&tool);
     return meso_tool_finish(&tool);
 }

@@ -50,7 +50,7 @@ static const MesoOption *find_letter(const MesoOption *options, char letter)
 static const MesoOption *find_similar(const MesoOption *options, const char *name, size_t length)
 {
     for (; length > 2 && !meso_option_is_last(options); options++) {
-        if (meso_option_kind(options) == MESO_OPTION_GROUP || !options->name)
+        if (meso_option_kind(options) == MESO_OPTION_GROUP || !options->name || !options->help)
             continue;
         size_t own = strlen(options->name), same = 0;
         while (same < own && same < length && options->name[same] == name[same])
@@ -430,6 +430,8 @@ static void print_wrapped(const char *text, int column)
 void meso_options_print(const MesoOption *options)
 {
     for (; !meso_option_is_last(options); options++) {
+        if (meso_option_kind(options) != MESO_OPTION_GROUP && !options->help)
+            continue;
         if (meso_option_kind(options) == MESO_OPTION_GROUP) {
             printf("\n%s:\n", options->name);
             continue;
@@ -449,5 +451,67 @@ void meso_options_print(const MesoOption *options)
         else
             printf("%-*s", HELP_COLUMN, left);
         print_wrapped(options->help, HELP_COLUMN);
+    }
+}
+
+/* The rest of the line of `words` that begins with `name`, of `length` bytes; NULL where there is none. */
+static const char *find_words(const char *words, const char *name, int *length)
+{
+    size_t size = strlen(name);
+    for (; words && *words; words += *words == '\n') {
+        size_t end = strcspn(words, "\n");
+        if (end > size && strncmp(words, name, size) == 0 && words[size] == ' ') {
+            *length = (int)(end - size - 1);
+            return words + size + 1;
+        }
+        words += end;
+    }
+    return NULL;
+}
+
+static bool takes_file(const MesoOption *option)
+{
+    MesoOptionKind kind = meso_option_kind(option);
+    return kind == MESO_OPTION_INPUT || kind == MESO_OPTION_OUTPUT || kind == MESO_OPTION_OUTPUT_OPT ||
+           kind == MESO_OPTION_PATTERN;
+}
+
+static void list_words(const MesoOption *option, const char *words)
+{
+    char name[64];
+    int length;
+    snprintf(name, sizeof name, "--%s", option->name);
+    const char *found = find_words(words, name, &length);
+    if (meso_option_kind(option) == MESO_OPTION_CHOICE) {
+        for (const char *c = option->choices; *c; c++)
+            putchar(*c == '|' ? ' ' : *c);
+    } else if (found) {
+        printf("%.*s", length, found);
+    } else if (takes_file(option)) {
+        putchar('*');
+    } else if (meso_option_kind(option) == MESO_OPTION_FOLDER) {
+        putchar('/');
+    }
+}
+
+void meso_options_list(const MesoOption *options, const char *words)
+{
+    for (; !meso_option_is_last(options); options++) {
+        if (meso_option_kind(options) == MESO_OPTION_GROUP || !options->help)
+            continue;
+        char letter[2] = {options->letter, 0};
+        printf("option\t%s\t%s\t%s\t", options->name, letter,
+               takes_value(options) ? "value" : meso_option_kind(options) == MESO_OPTION_FLAG ? "flag" : "optional");
+        list_words(options, words);
+        printf("\t%s\n", options->help);
+    }
+    for (int number = 1;; number++) {
+        char name[16];
+        int length;
+        snprintf(name, sizeof name, "%d", number);
+        const char *found = find_words(words, name, &length);
+        if (!found)
+            break;
+        printf("operand\t%d\t%.*s\n", number, length, found);
     }
 }

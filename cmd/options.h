@@ -95,7 +95,19 @@ char *meso_options_append(const char *line, const char *name, const char *value,
 char *meso_options_command_typed(const MesoOption *options, const char *program, int argc, char **argv,
                                  const MesoOptionChange *changes, MesoArena *arena, MesoError *error);
 
-/* Help text of the table to standard output, wrapped at 80 columns. */
+/* Help text of the table to standard output, wrapped at 80 columns. A row without help is hidden. */
 void meso_options_print(const MesoOption *options);
+
+/*
+ * The table for programs, which make shell completions of it, to standard output, lines of
+ *
+ *     option TAB name TAB letter TAB kind TAB words TAB help
+ *     operand TAB number TAB words
+ *
+ * kind is flag, value or optional (--name or --name=VALUE). Words, with blanks between, are what may
+ * stand there: .x for files that end so, * for any, / for folders. Beyond what the kinds of options tell, `words`
+ * says so in lines "--name WORDS", and "NUMBER WORDS" for operands, the last of which may be repeated.
+ */
+void meso_options_list(const MesoOption *options, const char *words);
 
 #endif

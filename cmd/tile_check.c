@@ -16,6 +16,8 @@ static const MesoToolInfo info = {
     .synopsis = "meso-tile check [--strict] FILE",
     .purpose = "Prints every problem of a tile set, one a line. Exit status 1 if there is an error.",
     .examples = "meso-tile check vase.tiles.json\nmeso-tile check --strict --json=check.json vase.tiles.json",
+    .words = "1 .json\n"
+             "--json .json",
     .operands_low = 1,
     .operands_high = 1,
 };

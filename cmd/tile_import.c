@@ -15,6 +15,9 @@ static const MesoToolInfo info = {
     .synopsis = "meso-tile import [-o OUT.tiles.json] FILE",
     .purpose = "Writes FILE, a tile set of the MesoGen prototype or of ours, as .tiles.json.",
     .examples = "meso-tile import -o basket.tiles.json basket.json",
+    .words = "1 .json\n"
+             "--output .tiles.json\n"
+             "--json .json",
     .operands_low = 1,
     .operands_high = 1,
 };

@@ -11,6 +11,8 @@ static const MesoToolInfo info = {
     .synopsis = "meso-tile list FILE",
     .purpose = "Prints the interfaces and the tiles of a tile set as tables.",
     .examples = "meso-tile list vase.tiles.json",
+    .words = "1 .json\n"
+             "--json .json",
     .operands_low = 1,
     .operands_high = 1,
 };

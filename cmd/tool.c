@@ -194,7 +194,7 @@ static MesoStatus parse_words(MesoTool *tool)
     MesoError *error = &tool->error;
     MesoStatus status = meso_options_parse(tool->options, tool->argc, tool->argv, tool->operands,
                                            &tool->operand_count, error);
-    if (tool->help || tool->version)
+    if (tool->help || tool->version || tool->list_options)
         return MESO_OK;
     if (status == MESO_OK)
         status = check_operands(tool->info, tool->operand_count, error);
@@ -307,11 +307,13 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
     meso_progress_init(tool->progress, tool->progress_mode, tool->quiet);
     if (tool->status != MESO_OK)
         return false;
-    if (!tool->help && !tool->version)
+    if (!tool->help && !tool->version && !tool->list_options)
         return true;
     tool->json = NULL;
     if (tool->help)
         print_help(tool, options);
+    else if (tool->list_options)
+        meso_options_list(options, info->words);
     else
         printf("%s %s\n", info->name, MESO_VERSION);
     tool->status = flush_standard_output(&tool->error);

@@ -28,6 +28,7 @@ typedef struct MesoToolInfo {
     const char *synopsis;   /* lines, without "usage:" */
     const char *purpose;    /* one line */
     const char *examples;   /* lines */
+    const char *words;      /* of operands and options, for meso_options_list() */
     uint32_t operands_low, operands_high;   /* each names a file that is read */
     bool to_standard_output;    /* the product goes there without -o, and so no report may */
 } MesoToolInfo;
@@ -46,6 +47,7 @@ typedef struct MesoTool {
     uint64_t seed;
     uint32_t threads;           /* 0: all cores */
     bool quiet, verbose, help, version;
+    bool list_options;          /* --list-options: for programs, and hidden */
 
     const char **operands;
     uint32_t operand_count;
@@ -84,14 +86,15 @@ typedef struct MesoTool {
     {MESO_OPTION_FLAG | MESO_OPTION_SILENT, 'v', "verbose", 0, "say more, timings too",       \
      &(tool).verbose, 0, 0, 0, 0},                                                            \
     {MESO_OPTION_FLAG, 'h', "help", 0, "this text", &(tool).help, 0, 0, 0, 0},                \
-    {MESO_OPTION_FLAG, 0, "version", 0, "name and version", &(tool).version, 0, 0, 0, 0}
+    {MESO_OPTION_FLAG, 0, "version", 0, "name and version", &(tool).version, 0, 0, 0, 0},     \
+    {MESO_OPTION_FLAG, 0, "list-options", 0, 0, &(tool).list_options, 0, 0, 0, 0}
 
 /*
  * Parses, refuses outputs that are inputs or written twice, installs the signal handlers (SIGTERM, SIGINT, SIGHUP, SIGQUIT,
  * SIGXCPU and crashes: remove temporary files, then die of the signal; an input that is cut while
  * it is read: exit code 4), ignores SIGPIPE, and ends the tool with code 33 where a library finds
  * no memory. `tool` must be zeroed, except for option values that are not the default here. Returns
- * false where there is nothing left to run: --help, --version, or wrong usage.
+ * false where there is nothing left to run: --help, --version, --list-options, or wrong usage.
  */
 bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption *options,
                      int argc, char **argv);
