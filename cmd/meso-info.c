@@ -212,8 +212,13 @@ static MesoStatus write_listing(const InfoArguments *a, const MesoSlotsFile *slo
     MesoOutput *output;
     json_t *root = NULL;
     bool csv = strcmp(a->slots, "csv") == 0;
-    if (!csv && !(root = meso_slots_to_json(slots)))
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    if (!csv) {
+        root = meso_slots_to_json(slots);
+        if (json_object_set_new(root, "provenance", meso_provenance_json(&a->tool.provenance)) != 0) {
+            json_decref(root);
+            return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+        }
+    }
     MesoStatus status = meso_output_open(&output, a->tool.output ? a->tool.output : "-", error);
     if (status == MESO_OK) {
         status = csv ? meso_slots_write_csv(slots, output, error) : meso_json_write(root, output, error);

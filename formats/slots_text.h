@@ -10,7 +10,8 @@
  *
  *     {"format": "meso-slots", "version": 1,
  *      "inputs": {"tiles": "XXH3-128, 32 digits", "surface": the same},
- *      "slots": [{"slot": 0, "tile": "reed turn", "turn": 1, "flip": false, "corner": 2}, ...]}
+ *      "slots": [{"slot": 0, "tile": "reed turn", "turn": 1, "flip": false, "corner": 2}, ...],
+ *      "provenance": {...}}     which the caller adds, and readers pass over
  *
  * turn     quarter turns counter-clockwise, 0 to 3, after the flip; 0 where it is missing
  * flip     1 (true) where the tile is mirrored, x to -x; 0 (false)

@@ -31,6 +31,8 @@ report meso-map vase.tiles.json vase.obj vase.slots -o x.meso
 report meso-map vase.meso -o x.drc
 report meso-render --size 40x30 vase.meso -o x.png
 report meso-info vase.slots -o x.json
+report meso-map vase.meso --provenance none -o x.ply
+report meso-map vase.meso --provenance full -o x.ply
 meso-solve -q vase.tiles.json vase.obj -o x.slots --report solved.json
 meso-solve -q vase.tiles.json vase.obj -o x.slots --constraints no.json --report unsolvable.json 2>/dev/null
 meso-solve -q --engine wfc --observations 3 --seeds 1-2 vase.tiles.json vase.obj 2>/dev/null >gave-up.jsonl
