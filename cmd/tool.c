@@ -19,6 +19,7 @@
 #include "libcore/base/clock.h"
 
 static const char *tool_name;      /* for those who die on the spot */
+static struct sigaction other_bus_error;
 
 static void die_of_signal(int number)
 {
@@ -54,29 +55,34 @@ static void die_of_memory(void)
     die(MESO_ERR_MEMORY, "out of memory in a library", "", "");
 }
 
-/* An input that is cut while it is mapped is a bad input; its pages are gone in whatever code reads them. */
+/* An input that is cut while it is mapped is a bad input; its pages are gone in whatever code reads
+ * them. Any other bus error is left to whoever had it before: a sanitizer, or death. */
 static void die_of_bus_error(int number, siginfo_t *about, void *context)
 {
     (void)context;
     const char *path = meso_input_mapped_at(about->si_addr);
     if (path)
         die(MESO_ERR_INPUT, "'", path, "' became shorter while it was read");
-    die_of_signal(number);
+    meso_temporary_remove_all();
+    sigaction(number, &other_bus_error, NULL);
+    raise(number);
 }
 
 /* What the caller chose to ignore (nohup) stays ignored. Crashes of libraries leave no temporary
  * file either. Writes to a closed pipe and past the size limit become errors that are reported. */
 static void install_handlers(void)
 {
-    static const int deadly[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGSEGV, SIGBUS, SIGABRT};
+    static const int deadly[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGSEGV, SIGABRT};
     for (size_t i = 0; i < sizeof deadly / sizeof *deadly; i++) {
         struct sigaction old, action = {.sa_handler = die_of_signal};
-        if (deadly[i] == SIGBUS)
-            action = (struct sigaction){.sa_sigaction = die_of_bus_error, .sa_flags = SA_SIGINFO};
         sigfillset(&action.sa_mask);
         if (sigaction(deadly[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
             sigaction(deadly[i], &action, NULL);
     }
+    struct sigaction bus_error = {.sa_sigaction = die_of_bus_error, .sa_flags = SA_SIGINFO};
+    sigfillset(&bus_error.sa_mask);
+    if (sigaction(SIGBUS, NULL, &other_bus_error) == 0 && other_bus_error.sa_handler != SIG_IGN)
+        sigaction(SIGBUS, &bus_error, NULL);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
 }

@@ -31,6 +31,8 @@ judge() {
         diff -r right out >differences && return
         echo "status 0, but other bytes: FAIL_MALLOC=$fail $*"
     elif [ "$status" = 33 ]; then
+        # What is there of many seeds is there to go on with: whole lines.
+        [ ! -e out/lines.jsonl.partial ] || grep -v '^{.*}$' out/lines.jsonl.partial
         rm -f out/*.partial out/stdout
         for file in out/* out/.[!.]*; do
             [ ! -e "$file" ] || cmp -s "$file" "right/${file#out/}" || echo "left $file: FAIL_MALLOC=$fail $*"
