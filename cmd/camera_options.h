@@ -27,11 +27,11 @@ typedef struct MesoCameraOptions {
      &(c).camera.fov_degrees, 0, 0.1, 170, 0}
 
 /*
- * The camera that the options ask for. What is not given frames `structure`:
+ * The camera that the options ask for. What is not given frames `scene`:
  * without an eye and a target all of it; with an eye alone the target is the
  * middle of the box; with a target alone the eye looks at it as it would at
  * the whole.
  */
-MesoCamera meso_camera_options_resolve(const MesoCameraOptions *options, const MesoStructure *structure);
+MesoCamera meso_camera_options_resolve(const MesoCameraOptions *options, const MesoScene *scene);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "cmd/input_kind.h"
 #include "cmd/mesh_path.h"
+#include "cmd/scene_report.h"
 #include "cmd/surface_judge.h"
 #include "cmd/tool.h"
 #include "formats/mesh_file.h"
@@ -13,6 +14,7 @@
 #include "formats/slots_file.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
+#include "libcore/shell/expansion.h"
 #include "libcore/surface/orientation.h"
 
 static const MesoToolInfo MAP_TOOL = {
@@ -45,18 +47,22 @@ typedef struct MapArguments {
     bool draco_given[3];        /* of these three */
 } MapArguments;
 
-typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+typedef MesoStatus WriteMesh(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                              MesoOutput *output, MesoError *error);
 
 typedef struct OutputKind {
     const char *name;           /* and extension */
     WriteMesh *write;           /* NULL: a model */
     bool draco;
+    const char *smaller;        /* what helps where the product is too large */
 } OutputKind;
 
 static const OutputKind OUTPUT_KINDS[] = {
-    {"meso", NULL, false},         {"ply", meso_ply_write, false}, {"obj", meso_obj_write, false},
-    {"glb", meso_glb_write, true}, {"drc", meso_drc_write, true},
+    {"meso", NULL, false, NULL},
+    {"ply", meso_ply_write, false, "lower --divisions or raise --section-step"},
+    {"obj", meso_obj_write, false, "lower --divisions or raise --section-step"},
+    {"glb", meso_glb_write, true, "lower --divisions, raise --section-step or write .ply"},
+    {"drc", meso_drc_write, true, "lower --divisions, raise --section-step or write .glb"},
 };
 enum { OUTPUT_KIND_COUNT = sizeof OUTPUT_KINDS / sizeof *OUTPUT_KINDS };
 
@@ -301,7 +307,7 @@ static void close_inputs(Inputs *inputs)
 /* ---- products ---- */
 
 static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const MesoModel *model,
-                                const MesoTessellation *tessellation, MesoError *error)
+                                const MesoSceneParts *parts, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     MesoMeshWriteOptions options = {
@@ -310,6 +316,7 @@ static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const M
         .normal_bits = a->normal_bits,
         .speed = a->speed,
         .provenance = &tool->provenance,
+        .smaller = kind->smaller,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };
@@ -318,7 +325,7 @@ static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const M
     if (status != MESO_OK)
         return status;
     meso_tool_progress_begin(tool, "writing", kind->draco ? "triangles" : "vertices");
-    status = kind->write ? kind->write(tessellation, &options, output, error)
+    status = kind->write ? kind->write(parts, &options, output, error)
                          : meso_model_write(model, &tool->provenance, output, error);
     if (status == MESO_OK)
         return meso_output_commit(output, error);
@@ -326,31 +333,29 @@ static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const M
     return status;
 }
 
-static void report_product(MesoTool *tool, const OutputKind *kind, const MesoModel *model,
-                           const MesoTessellation *t)
+static void report_product(MesoTool *tool, const OutputKind *kind, const MesoSceneParts *parts)
 {
     struct stat file;
     json_t *report = tool->report;
     json_object_set_new(report, "kind", json_string(kind->name));
-    json_object_set_new(report, "slots", json_integer(model->assignment.slot_count));
-    json_object_set_new(report, "parts", json_integer(t->part_count));
-    json_object_set_new(report, "vertices", json_integer((json_int_t)t->vertex_begin[t->part_count]));
-    json_object_set_new(report, "faces", json_integer((json_int_t)t->face_begin[t->part_count]));
-    json_object_set_new(report, "triangles", json_integer((json_int_t)t->triangle_count));
+    meso_scene_report_ids(report, parts->scene);
+    json_object_set_new(report, "parts", json_integer(parts->part_count));
+    json_object_set_new(report, "vertices", json_integer((json_int_t)parts->vertex_begin[parts->part_count]));
+    json_object_set_new(report, "faces", json_integer((json_int_t)parts->face_begin[parts->part_count]));
+    json_object_set_new(report, "triangles", json_integer((json_int_t)parts->triangle_count));
     if (stat(tool->output, &file) == 0 && S_ISREG(file.st_mode))
         json_object_set_new(report, "bytes", json_integer((json_int_t)file.st_size));
     if (tool->verbose)
-        meso_tool_say(tool, "%u slots, %u parts, %llu vertices, %llu triangles",
-                      model->assignment.slot_count, t->part_count,
-                      (unsigned long long)t->vertex_begin[t->part_count],
-                      (unsigned long long)t->triangle_count);
+        meso_tool_say(tool, "%u parts, %llu vertices, %llu triangles", parts->part_count,
+                      (unsigned long long)parts->vertex_begin[parts->part_count],
+                      (unsigned long long)parts->triangle_count);
 }
 
 /* What the shell refuses lies in the surface. */
-static MesoStatus build(MapArguments *a, const MesoModel *model, MesoStructure *structure, MesoError *error)
+static MesoStatus expand(MapArguments *a, const MesoModel *model, MesoScene *scene, MesoError *error)
 {
     MesoTool *tool = &a->tool;
-    MesoStatus status = meso_structure_build(structure, &tool->arena, model, tool->threads, error);
+    MesoStatus status = meso_model_expand(scene, NULL, &tool->arena, model, tool->threads, error);
     if (status == MESO_ERR_INPUT)
         meso_fail_prefix(error, tool->operands[tool->operand_count == 1 ? 0 : 1]);
     return status;
@@ -361,8 +366,8 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     MesoTool *tool = &a->tool;
     const OutputKind *kind;
     MesoModel model = {0};
-    MesoStructure structure;
-    MesoTessellation tessellation;
+    MesoScene scene;
+    MesoSceneParts parts;
     if (!tool->output)
         tool->output = "-";
     MesoStatus status = choose_kind(a, &kind, error);
@@ -373,13 +378,13 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     if (status == MESO_OK)
         status = read_model(a, inputs, &model, error);
     if (status == MESO_OK)
-        status = build(a, &model, &structure, error);
+        status = expand(a, &model, &scene, error);
     if (status == MESO_OK)
-        status = meso_tessellation_init(&tessellation, &tool->arena, &structure, error);
+        status = meso_scene_parts_init(&parts, &tool->arena, &scene, error);
     if (status == MESO_OK)
-        status = write_product(a, kind, &model, &tessellation, error);
+        status = write_product(a, kind, &model, &parts, error);
     if (status == MESO_OK)
-        report_product(tool, kind, &model, &tessellation);
+        report_product(tool, kind, &parts);
     return status;
 }
 

@@ -6,12 +6,14 @@
 
 #include "cmd/camera_options.h"
 #include "cmd/input_kind.h"
+#include "cmd/scene_report.h"
 #include "cmd/tool.h"
 #include "formats/image_file.h"
 #include "formats/json_text.h"
 #include "formats/model_file.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
+#include "libcore/shell/expansion.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
@@ -82,13 +84,13 @@ static MesoStatus choose_product(RenderArguments *a, MesoError *error)
 }
 
 static MesoStatus write_image(const RenderArguments *a, const char *path, bool exr,
-                              const MesoImage *image, const MesoModel *model, MesoError *error)
+                              const MesoImage *image, MesoError *error)
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path, error);
     if (status)
         return status;
-    status = exr ? meso_exr_write(image, model, &a->tool.provenance, a->tool.threads, output, error)
+    status = exr ? meso_exr_write(image, &a->tool.provenance, a->tool.threads, output, error)
                  : meso_png_write(image, a->transparent ? NULL : a->background, &a->tool.provenance,
                                   output, error);
     if (!status)
@@ -102,20 +104,20 @@ static json_t *point_json(MesoVec3 p)
     return json_pack("[f, f, f]", (double)p.x, (double)p.y, (double)p.z);
 }
 
-static void report_image(MesoTool *tool, const MesoImage *image, const MesoStructure *structure,
+static void report_image(MesoTool *tool, const MesoImage *image, const MesoScene *scene,
                          const char *renderer)
 {
     uint64_t covered = 0, count = (uint64_t)image->width * image->height;
     for (uint64_t i = 0; i < count; i++)
-        covered += image->slot[i] != 0;
+        covered += isfinite(image->depth[i]) != 0;
     const MesoCamera *camera = &image->camera;
     json_t *report = tool->report;
     json_object_set_new(report, "width", json_integer(image->width));
     json_object_set_new(report, "height", json_integer(image->height));
     json_object_set_new(report, "renderer", meso_json_string(renderer));
-    json_object_set_new(report, "slots", json_integer(structure->model->assignment.slot_count));
-    json_object_set_new(report, "sweeps", json_integer(structure->instance_count));
-    json_object_set_new(report, "inner_meshes", json_integer(structure->inner_count));
+    meso_scene_report_ids(report, scene);
+    json_object_set_new(report, "sweeps", json_integer(scene->sweep_count));
+    json_object_set_new(report, "inner_meshes", json_integer(scene->placed_count));
     json_object_set_new(report, "covered_pixels", json_integer((json_int_t)covered));
     json_object_set_new(report, "camera",
                         json_pack("{s:o, s:o, s:o, s:f}", "eye", point_json(camera->eye), "target",
@@ -133,48 +135,47 @@ static void say_times(const MesoTool *tool, const double *at)
                       1e3 * (at[4] - at[3]));
 }
 
-static MesoStatus draw(RenderArguments *a, MesoPicture **picture, const MesoStructure *structure,
+static MesoStatus draw(RenderArguments *a, MesoPicture **picture, const MesoScene *scene,
                        MesoError *error)
 {
     const MesoRenderOptions options = {
         .width = a->camera.size[0],
         .height = a->camera.size[1],
-        .camera = meso_camera_options_resolve(&a->camera, structure),
+        .camera = meso_camera_options_resolve(&a->camera, scene),
         .samples = strcmp(a->samples_text, "1") == 0 ? 1 : 4,
     };
-    return meso_picture_init(picture, &a->tool.arena, a->context, a->tool.threads, structure, &options, error);
+    return meso_picture_init(picture, &a->tool.arena, a->context, a->tool.threads, scene, &options, error);
 }
 
-static MesoStatus write_images(const RenderArguments *a, const MesoImage *image, const MesoModel *model,
-                               MesoError *error)
+static MesoStatus write_images(const RenderArguments *a, const MesoImage *image, MesoError *error)
 {
-    MesoStatus status = write_image(a, a->tool.output, a->exr_product, image, model, error);
+    MesoStatus status = write_image(a, a->tool.output, a->exr_product, image, error);
     if (!status && a->png)
-        status = write_image(a, a->png, false, image, model, error);
+        status = write_image(a, a->png, false, image, error);
     return status;
 }
 
 static MesoStatus render(RenderArguments *a, const MesoModel *model, double start, MesoError *error)
 {
     MesoTool *tool = &a->tool;
-    MesoStructure structure;
+    MesoScene scene;
     MesoPicture *picture;
     double at[5] = {start};
 
-    MesoStatus status = meso_structure_build(&structure, &tool->arena, model, tool->threads, error);
+    MesoStatus status = meso_model_expand(&scene, NULL, &tool->arena, model, tool->threads, error);
     at[1] = meso_seconds();
     if (status == MESO_ERR_INPUT)
         meso_fail_prefix(error, tool->operands[0]);
     if (!status)
-        status = draw(a, &picture, &structure, error);
+        status = draw(a, &picture, &scene, error);
     if (status)
         return status;
     at[2] = picture->context_made;
     at[3] = meso_seconds();
-    status = write_images(a, &picture->image, model, error);
+    status = write_images(a, &picture->image, error);
     at[4] = meso_seconds();
     if (!status) {
-        report_image(tool, &picture->image, &structure, picture->renderer);
+        report_image(tool, &picture->image, &scene, picture->renderer);
         say_times(tool, at);
     }
     meso_picture_release(picture);

@@ -46,8 +46,10 @@ T *add_attribute(draco::Mesh *mesh, GeometryAttribute::Type type, draco::DataTyp
 
 /* Attribute numbers within a mesh. */
 struct Ids {
-    int position, normal, uv, slot, tile, material;
+    int position = -1, normal = -1, uv = -1, color = -1, material = -1;
+    int channel[MESO_ID_CHANNELS] = {-1, -1, -1, -1};
 };
+static_assert(MESO_ID_CHANNELS == 4, "as many attributes");
 
 void add_vertices(draco::Mesh *mesh, const MesoDracoMesh &from, const MesoDracoOptions &options, Ids *ids)
 {
@@ -63,8 +65,8 @@ void add_vertices(draco::Mesh *mesh, const MesoDracoMesh &from, const MesoDracoO
         std::memcpy(normal + 3 * i, &from.vertices[i].normal, 12);
         std::memcpy(uv + 2 * i, &from.vertices[i].uv, 8);
     }
-    const MesoMeshVertex corners[CORNERS] = {{options.low, {0, 0, 1}, {0, 0}},
-                                             {options.high, {0, 0, 1}, {1, 1}}};
+    const MesoMeshVertex corners[CORNERS] = {{options.box.low, {0, 0, 1}, {0, 0}},
+                                             {options.box.high, {0, 0, 1}, {1, 1}}};
     for (size_t i = 0; i < CORNERS; i++) {
         std::memcpy(position + 3 * (n + i), &corners[i].position, 12);
         std::memcpy(normal + 3 * (n + i), &corners[i].normal, 12);
@@ -82,31 +84,46 @@ void for_parts(const MesoDracoMesh &from, Set set)
             set(vertex, from.parts[part]);
 }
 
-void add_numbers(draco::Mesh *mesh, const MesoDracoMesh &from, bool for_gltf, Ids *ids)
+void add_colors(draco::Mesh *mesh, const MesoDracoMesh &from, Ids *ids)
+{
+    if (!from.colors)
+        return;
+    uint8_t *color = add_attribute<uint8_t>(mesh, GeometryAttribute::COLOR, draco::DT_UINT8, 3, nullptr,
+                                            from.vertex_count, &ids->color);
+    std::memcpy(color, from.colors, 3 * static_cast<size_t>(from.vertex_count));
+    mesh->attribute(ids->color)->set_normalized(true);
+}
+
+void add_channel(draco::Mesh *mesh, const MesoDracoMesh &from, uint32_t channel, bool for_gltf, Ids *ids)
 {
     const GeometryAttribute::Type type = GeometryAttribute::GENERIC;
-    if (for_gltf) {
-        uint16_t *slot = add_attribute<uint16_t>(mesh, type, draco::DT_UINT16, 2, "slot",
-                                                 from.vertex_count, &ids->slot);
-        for_parts(from, [slot](size_t i, const MesoMeshPart &part) {
-            slot[2 * i] = static_cast<uint16_t>(part.slot);
-            slot[2 * i + 1] = static_cast<uint16_t>(part.slot >> 16);
+    const MesoIdChannel &what = from.scene->channels[channel];
+    int *id = &ids->channel[channel];
+    auto id_of = [&from, channel](const MesoPart &part) { return meso_scene_id(from.scene, part.ids, channel); };
+    if (what.names) {
+        uint16_t *out = add_attribute<uint16_t>(mesh, type, draco::DT_UINT16, 1, what.name, from.vertex_count, id);
+        for_parts(from, [out, id_of](size_t i, const MesoPart &part) { out[i] = static_cast<uint16_t>(id_of(part)); });
+    } else if (for_gltf) {
+        uint16_t *out = add_attribute<uint16_t>(mesh, type, draco::DT_UINT16, 2, what.name, from.vertex_count, id);
+        for_parts(from, [out, id_of](size_t i, const MesoPart &part) {
+            out[2 * i] = static_cast<uint16_t>(id_of(part));
+            out[2 * i + 1] = static_cast<uint16_t>(id_of(part) >> 16);
         });
     } else {
-        uint32_t *slot = add_attribute<uint32_t>(mesh, type, draco::DT_UINT32, 1, "slot",
-                                                 from.vertex_count, &ids->slot);
-        for_parts(from, [slot](size_t i, const MesoMeshPart &part) { slot[i] = part.slot; });
+        uint32_t *out = add_attribute<uint32_t>(mesh, type, draco::DT_UINT32, 1, what.name, from.vertex_count, id);
+        for_parts(from, [out, id_of](size_t i, const MesoPart &part) { out[i] = id_of(part); });
     }
-    uint16_t *tile = add_attribute<uint16_t>(mesh, type, draco::DT_UINT16, 1, "tile",
-                                             from.vertex_count, &ids->tile);
-    for_parts(from, [tile](size_t i, const MesoMeshPart &part) {
-        tile[i] = static_cast<uint16_t>(part.tile);
-    });
+}
+
+void add_numbers(draco::Mesh *mesh, const MesoDracoMesh &from, bool for_gltf, Ids *ids)
+{
+    for (uint32_t c = 0; c < from.scene->channel_count; c++)
+        add_channel(mesh, from, c, for_gltf, ids);
     if (for_gltf)
         return;
-    uint16_t *material = add_attribute<uint16_t>(mesh, type, draco::DT_UINT16, 1, "material",
+    uint16_t *material = add_attribute<uint16_t>(mesh, GeometryAttribute::GENERIC, draco::DT_UINT16, 1, "material",
                                                  from.vertex_count, &ids->material);
-    for_parts(from, [material](size_t i, const MesoMeshPart &part) {
+    for_parts(from, [material](size_t i, const MesoPart &part) {
         material[i] = static_cast<uint16_t>(part.material);
     });
 }
@@ -156,8 +173,8 @@ void set_options(draco::ExpertEncoder *encoder, const MesoDracoOptions &options,
 float decoded(float value, float low, const MesoDracoOptions &options)
 {
     const int32_t steps = static_cast<int32_t>((1u << options.position_bits) - 1);
-    const float range = std::fmax(options.high.x - options.low.x,
-                                  std::fmax(options.high.y - options.low.y, options.high.z - options.low.z));
+    const float range = std::fmax(options.box.high.x - options.box.low.x,
+                                  std::fmax(options.box.high.y - options.box.low.y, options.box.high.z - options.box.low.z));
     draco::Quantizer quantizer;
     draco::Dequantizer dequantizer;
     quantizer.Init(range > 0 ? range : 1, steps);
@@ -167,8 +184,8 @@ float decoded(float value, float low, const MesoDracoOptions &options)
 
 MesoVec3 decoded_point(MesoVec3 point, const MesoDracoOptions &options)
 {
-    return MesoVec3{decoded(point.x, options.low.x, options), decoded(point.y, options.low.y, options),
-                    decoded(point.z, options.low.z, options)};
+    return MesoVec3{decoded(point.x, options.box.low.x, options), decoded(point.y, options.box.low.y, options),
+                    decoded(point.z, options.box.low.z, options)};
 }
 
 /* Rounding to the grid keeps the order of coordinates, so the corners of the box suffice. */
@@ -197,8 +214,9 @@ void describe(const draco::Mesh &mesh, const draco::ExpertEncoder &encoder, cons
     result->position_id = unique_id(mesh, ids.position);
     result->normal_id = unique_id(mesh, ids.normal);
     result->uv_id = unique_id(mesh, ids.uv);
-    result->slot_id = unique_id(mesh, ids.slot);
-    result->tile_id = unique_id(mesh, ids.tile);
+    result->color_id = unique_id(mesh, ids.color);
+    for (uint32_t c = 0; c < MESO_ID_CHANNELS; c++)
+        result->channel_id[c] = unique_id(mesh, ids.channel[c]);
     result->material_id = unique_id(mesh, ids.material);
 }
 
@@ -206,9 +224,10 @@ MesoStatus encode(const MesoDracoMesh &from, const MesoDracoOptions &options,
                   MesoDracoResult *result, MesoError *error)
 {
     draco::Mesh mesh;
-    Ids ids = {-1, -1, -1, -1, -1, -1};
+    Ids ids;
     mesh.set_num_points(from.vertex_count + CORNERS);
     add_vertices(&mesh, from, options, &ids);
+    add_colors(&mesh, from, &ids);
     add_numbers(&mesh, from, options.for_gltf, &ids);
     add_faces(&mesh, from);
     add_texts(&mesh, options);

@@ -7,17 +7,19 @@
 #include <stdint.h>
 
 #include "libcore/base/error.h"
-#include "libcore/shell/tessellate.h"
+#include "libcore/scene/parts.h"
 
-/* Numbers of slots from here on do not survive Draco's 32-bit attributes. */
+/* Ids from here on do not survive Draco's 32-bit attributes. */
 enum { MESO_DRACO_ID_LIMIT = 1 << 30 };
 
 /* At least one vertex and one face, and fewer than 2^31 / 3 triangles. */
 typedef struct MesoDracoMesh {
+    const MesoScene *scene;
     uint32_t vertex_count, face_count, part_count;
     const MesoMeshVertex *vertices; /* [vertex_count] finite */
+    const MesoMeshColor *colors;    /* [vertex_count], or NULL */
     const MesoMeshFace *faces;      /* [face_count] quads are cut along corners 0 and 2 */
-    const MesoMeshPart *parts;      /* [part_count] */
+    const MesoPart *parts;      /* [part_count] */
     const uint32_t *part_end;       /* [part_count] vertex after the last of each part */
 } MesoDracoMesh;
 
@@ -30,8 +32,9 @@ typedef struct MesoDracoOptions {
     uint32_t position_bits, normal_bits, uv_bits;   /* in [1, 30] */
     uint32_t speed;                 /* 0 best to 10 fastest */
     /* Positions lie in this box; meshes that share it share the grid that positions are rounded to. */
-    MesoVec3 low, high;
-    /* Slots as two 16-bit components, low then high, and no materials: what glTF can say. */
+    MesoBox box;
+    bool colored;
+    /* Ids without names as two 16-bit components, low then high, and no materials: what glTF can say. */
     bool for_gltf;
     uint32_t text_count;            /* metadata of the geometry */
     const MesoDracoText *texts;     /* [text_count] */
@@ -43,7 +46,8 @@ typedef struct MesoDracoResult {
     /* What a decoder will give, and the box of its positions; only for_gltf, as it takes time. */
     uint32_t vertex_count, triangle_count;
     MesoVec3 decoded_low, decoded_high;
-    uint32_t position_id, normal_id, uv_id, slot_id, tile_id, material_id;  /* unique ids */
+    uint32_t position_id, normal_id, uv_id, color_id, material_id;  /* unique ids, or MESO_NO_INDEX */
+    uint32_t channel_id[MESO_ID_CHANNELS];
 } MesoDracoResult;
 
 #ifdef __cplusplus
@@ -51,8 +55,9 @@ extern "C" {
 #endif
 
 /*
- * Encodes `mesh` with attributes POSITION, NORMAL, TEX_COORD and the generic
- * "slot", "tile" and "material", named by attribute metadata. Draco may drop
+ * Encodes `mesh` with attributes POSITION, NORMAL, TEX_COORD, COLOR where it
+ * has any, and a generic one for each channel of ids and "material", named by
+ * attribute metadata. Draco may drop
  * degenerate triangles and reorder all. Several threads may encode at once; the
  * bytes depend on the arguments alone. O(triangles).
  * MESO_ERR_MEMORY, or MESO_ERR_INTERNAL with what Draco says.

@@ -1,4 +1,4 @@
-/* Ranges of a tessellation through Draco: what .drc and .glb share. */
+/* Ranges of a parts through Draco: what .drc and .glb share. */
 #ifndef MESO_DRACO_MESH_H
 #define MESO_DRACO_MESH_H
 
@@ -6,11 +6,11 @@
 #include "formats/mesh_file.h"
 
 /*
- * Options for all meshes of `tessellation`: one grid for all of them, so that
- * what meets before the rounding meets after it. MESO_ERR_LIMIT where a slot's
- * number is too large for Draco; MESO_ERR_INPUT as meso_mesh_bounds().
+ * Options for all meshes of a scene: one grid for all of them, so that
+ * what meets before the rounding meets after it. MESO_ERR_LIMIT where an id is
+ * too large for Draco; MESO_ERR_INPUT as meso_scene_parts_box().
  */
-MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoTessellation *tessellation,
+MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoSceneParts *parts,
                                    const MesoMeshWriteOptions *options, MesoError *error);
 
 /* Parts [begin, end). */
@@ -20,7 +20,7 @@ typedef struct MesoPartRange {
 
 /* Tessellates and encodes the parts of `ranges`, which have faces, as one mesh. Threads may call
  * this at once. */
-MesoStatus meso_draco_encode_parts(const MesoTessellation *tessellation, uint32_t range_count,
+MesoStatus meso_draco_encode_parts(const MesoSceneParts *parts, uint32_t range_count,
                                    const MesoPartRange *ranges, const MesoDracoOptions *draco,
                                    MesoDracoResult *result, MesoError *error);
 

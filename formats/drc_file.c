@@ -5,14 +5,13 @@
 #include "formats/mesh_file.h"
 #include "formats/mesh_window.h"
 
-static MesoStatus check(const MesoTessellation *t, MesoError *error)
+static MesoStatus check(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoError *error)
 {
-    MesoStatus status = meso_mesh_check_counts(t, "a Draco file", error);
-    if (status == MESO_OK && t->triangle_count > MESO_DRACO_TRIANGLES)
-        return meso_fail(error, MESO_ERR_LIMIT,
-                         "too large for one Draco mesh: %llu triangles, at most %u: "
-                         "lower --divisions, raise --section-step or write .glb",
-                         (unsigned long long)t->triangle_count, MESO_DRACO_TRIANGLES);
+    MesoStatus status = meso_mesh_check_counts(parts, options, "a Draco file", error);
+    if (status == MESO_OK && parts->triangle_count > MESO_DRACO_TRIANGLES)
+        return meso_fail(error, MESO_ERR_LIMIT, "too large for one Draco mesh: %llu triangles, at most %u%s%s",
+                         (unsigned long long)parts->triangle_count, MESO_DRACO_TRIANGLES,
+                         MESO_MESH_SMALLER(options));
     return status;
 }
 
@@ -22,39 +21,56 @@ static void report(const MesoMeshWriteOptions *options, uint64_t done, uint64_t 
         options->progress(options->progress_context, done, total);
 }
 
-static MesoStatus encode(const MesoTessellation *t, const MesoMeshWriteOptions *options,
+/* Names of the channels, and of the materials; where there is one, the provenance. */
+static MesoStatus make_texts(MesoDracoText *texts, uint32_t *count, const MesoScene *scene,
+                             const MesoMeshWriteOptions *options, MesoArena *arena, MesoError *error)
+{
+    *count = 0;
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        const MesoIdChannel *channel = &scene->channels[c];
+        if (channel->names)
+            texts[(*count)++] = (MesoDracoText){meso_mesh_names_key(channel, arena, error),
+                                                meso_mesh_names(channel->names, channel->count, arena, error)};
+    }
+    texts[(*count)++] = (MesoDracoText){"materials", meso_mesh_material_names(scene, arena, error)};
+    texts[(*count)++] = (MesoDracoText){"provenance", meso_mesh_provenance(options, arena, error)};
+    for (uint32_t i = 0; i < *count; i++)
+        if (!texts[i].key || !texts[i].value)
+            return MESO_ERR_MEMORY;
+    *count -= *texts[*count - 1].value == 0;
+    return MESO_OK;
+}
+
+static MesoStatus encode(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                          MesoArena *arena, MesoDracoResult *result, MesoError *error)
 {
     MesoDracoOptions draco;
-    MesoDracoText texts[] = {
-        {"tiles", meso_mesh_tile_names(t, arena, error)},
-        {"materials", meso_mesh_material_names(t, arena, error)},
-        {"provenance", meso_mesh_provenance(options, arena, error)},
-    };
-    if (!texts[0].value || !texts[1].value || !texts[2].value)
-        return MESO_ERR_MEMORY;
-    MesoStatus status = meso_draco_options_make(&draco, t, options, error);
+    MesoDracoText texts[MESO_ID_CHANNELS + 2];
+    uint32_t text_count;
+    MesoStatus status = make_texts(texts, &text_count, parts->scene, options, arena, error);
+    if (status == MESO_OK)
+        status = meso_draco_options_make(&draco, parts, options, error);
     if (status != MESO_OK)
         return status;
     draco.texts = texts;
-    draco.text_count = *texts[2].value ? 3 : 2;
-    MesoPartRange all = {0, t->part_count};
-    return meso_draco_encode_parts(t, 1, &all, &draco, result, error);
+    draco.text_count = text_count;
+    MesoPartRange all = {0, parts->part_count};
+    return meso_draco_encode_parts(parts, 1, &all, &draco, result, error);
 }
 
-MesoStatus meso_drc_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+MesoStatus meso_drc_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                           MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
     MesoDracoResult result = {0};
     meso_arena_init(&arena);
-    report(options, 0, tessellation->triangle_count);
-    MesoStatus status = check(tessellation, error);
+    report(options, 0, parts->triangle_count);
+    MesoStatus status = check(parts, options, error);
     if (status == MESO_OK)
-        status = encode(tessellation, options, &arena, &result, error);
+        status = encode(parts, options, &arena, &result, error);
     if (status == MESO_OK)
         status = meso_output_write(output, result.data, result.size, error);
-    report(options, tessellation->triangle_count, tessellation->triangle_count);
+    report(options, parts->triangle_count, parts->triangle_count);
     meso_draco_result_release(&result);
     meso_arena_release(&arena);
     return status;

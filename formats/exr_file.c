@@ -11,7 +11,7 @@
 #include "libcore/base/parallel.h"
 #include "libcore/render/projection.h"
 
-enum { CHANNELS = 13, BATCH = 16, ZIP_LEVEL = 4 };
+enum { PICTURE_CHANNELS = 11, CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS, BATCH = 16, ZIP_LEVEL = 4 };
 
 /* The library removes this file after a failure, so it is one that cannot exist. */
 static const char *const NO_FILE = "/dev/null/none.exr";
@@ -34,7 +34,10 @@ typedef struct Stream {
 typedef struct Writer {
     const MesoImage *image;
     exr_context_t context;
+    uint32_t channel_count;
     Channel channels[CHANNELS];
+    const char *names_keys[MESO_ID_CHANNELS];   /* "meso:tiles" for the channel "tile"; NULL without names */
+    const char *names[MESO_ID_CHANNELS];
     exr_encode_pipeline_t pipelines[BATCH];
     bool ready[BATCH];                  /* pipeline is initialised */
     exr_chunk_info_t chunks[BATCH];
@@ -44,7 +47,7 @@ typedef struct Writer {
 static void list_channels(Writer *writer)
 {
     const MesoImage *m = writer->image;
-    const Channel channels[CHANNELS] = {
+    const Channel channels[PICTURE_CHANNELS] = {
         {"R", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color},
         {"G", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color + 1},
         {"B", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color + 2},
@@ -56,10 +59,12 @@ static void list_channels(Writer *writer)
         {"albedo.R", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->albedo},
         {"albedo.G", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->albedo + 1},
         {"albedo.B", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->albedo + 2},
-        {"slot", EXR_PIXEL_UINT, EXR_PIXEL_UINT, 1, m->slot},
-        {"tile", EXR_PIXEL_UINT, EXR_PIXEL_UINT, 1, m->tile},
     };
     memcpy(writer->channels, channels, sizeof channels);
+    writer->channel_count = PICTURE_CHANNELS;
+    for (uint32_t c = 0; c < m->channel_count; c++)
+        writer->channels[writer->channel_count++] =
+            (Channel){m->channels[c].name, EXR_PIXEL_UINT, EXR_PIXEL_UINT, 1, m->ids[c]};
 }
 
 static int64_t write_stream(exr_const_context_t context, void *user, const void *data, uint64_t size,
@@ -116,27 +121,38 @@ static exr_result_t set_camera(Writer *writer)
     return result ? result : set_matrix(writer->context, "worldToNDC", &ndc);
 }
 
-static MesoStatus join_tile_names(const char **text, const MesoModel *model, MesoArena *arena,
-                                  MesoError *error)
+/* The names of a channel, one a line. */
+static const char *join_names(const MesoIdChannel *channel, MesoArena *arena, MesoError *error)
 {
     size_t size = 1;
-    for (uint32_t t = 0; t < model->tile_set.tile_count; t++)
-        size += strlen(model->tile_set.tiles[t].name) + 1;
-    char *out = MESO_NEW(arena, char, size, error);
-    if (!out)
-        return MESO_ERR_MEMORY;
-    *text = out;
-    for (uint32_t t = 0; t < model->tile_set.tile_count; t++) {
-        size_t length = strlen(model->tile_set.tiles[t].name);
-        if (t > 0)
+    for (uint32_t i = 0; i < channel->count; i++)
+        size += strlen(channel->names[i]) + 1;
+    char *text = MESO_NEW(arena, char, size, error), *out = text;
+    for (uint32_t i = 0; out && i < channel->count; i++) {
+        size_t length = strlen(channel->names[i]);
+        if (i > 0)
             *out++ = '\n';
-        memcpy(out, model->tile_set.tiles[t].name, length);
+        memcpy(out, channel->names[i], length);
         out += length;
+    }
+    return text;
+}
+
+static MesoStatus list_names(Writer *writer, MesoArena *arena, MesoError *error)
+{
+    for (uint32_t c = 0; c < writer->image->channel_count; c++) {
+        const MesoIdChannel *channel = &writer->image->channels[c];
+        if (!channel->names)
+            continue;
+        writer->names_keys[c] = meso_arena_print(arena, error, "meso:%ss", channel->name);
+        writer->names[c] = join_names(channel, arena, error);
+        if (!writer->names_keys[c] || !writer->names[c])
+            return MESO_ERR_MEMORY;
     }
     return MESO_OK;
 }
 
-static exr_result_t describe(Writer *writer, const char *provenance, const char *tiles)
+static exr_result_t describe(Writer *writer, const char *provenance)
 {
     exr_context_t context = writer->context;
     int part;
@@ -147,13 +163,14 @@ static exr_result_t describe(Writer *writer, const char *provenance, const char 
                                                      EXR_COMPRESSION_ZIP);
     if (!result)
         result = exr_set_zip_compression_level(context, part, ZIP_LEVEL);
-    for (uint32_t i = 0; i < CHANNELS && !result; i++)
+    for (uint32_t i = 0; i < writer->channel_count && !result; i++)
         result = exr_add_channel(context, part, writer->channels[i].name, writer->channels[i].stored,
                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     if (!result)
         result = exr_attr_set_string(context, part, "meso:provenance", provenance);
-    if (!result)
-        result = exr_attr_set_string(context, part, "meso:tiles", tiles);
+    for (uint32_t c = 0; c < MESO_ID_CHANNELS && !result; c++)
+        if (writer->names[c])
+            result = exr_attr_set_string(context, part, writer->names_keys[c], writer->names[c]);
     if (!result)
         result = set_camera(writer);
     return result ? result : exr_write_header(context);
@@ -161,7 +178,7 @@ static exr_result_t describe(Writer *writer, const char *provenance, const char 
 
 static const Channel *find_channel(const Writer *writer, const char *name)
 {
-    for (uint32_t i = 0; i < CHANNELS; i++)
+    for (uint32_t i = 0; i < writer->channel_count; i++)
         if (strcmp(writer->channels[i].name, name) == 0)
             return &writer->channels[i];
     return NULL;
@@ -238,8 +255,7 @@ static exr_result_t write_pixels(Writer *writer, uint32_t thread_count)
     return result;
 }
 
-static exr_result_t write_file(Writer *writer, Stream *stream, const char *provenance,
-                               const char *tiles, uint32_t thread_count)
+static exr_result_t write_file(Writer *writer, Stream *stream, const char *provenance, uint32_t thread_count)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ignore_message;
@@ -249,7 +265,7 @@ static exr_result_t write_file(Writer *writer, Stream *stream, const char *prove
     if (result)
         return result;
     exr_set_longname_support(writer->context, 1);
-    result = describe(writer, provenance, tiles);
+    result = describe(writer, provenance);
     if (!result)
         result = write_pixels(writer, thread_count);
     for (uint32_t i = 0; i < BATCH; i++)
@@ -259,25 +275,26 @@ static exr_result_t write_file(Writer *writer, Stream *stream, const char *prove
     return result ? result : finished;
 }
 
-MesoStatus meso_exr_write(const MesoImage *image, const MesoModel *model,
-                          const MesoProvenance *provenance, uint32_t thread_count,
+MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
                           MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
-    const char *tiles = "", *text = NULL;
+    const char *text = NULL;
     Stream stream = {.output = output};
     exr_result_t result = EXR_ERR_SUCCESS;
 
     meso_arena_init(&arena);
     Writer *writer = MESO_NEW(&arena, Writer, 1, error);
-    MesoStatus status = writer ? join_tile_names(&tiles, model, &arena, error) : MESO_ERR_MEMORY;
-    if (!status && !(text = meso_provenance_text(provenance, &arena, error)))
-        status = MESO_ERR_MEMORY;
-    if (!status) {
+    MesoStatus status = MESO_ERR_MEMORY;
+    if (writer) {
         writer->image = image;
         list_channels(writer);
-        result = write_file(writer, &stream, text, tiles, thread_count);
+        status = list_names(writer, &arena, error);
     }
+    if (!status && !(text = meso_provenance_text(provenance, &arena, error)))
+        status = MESO_ERR_MEMORY;
+    if (!status)
+        result = write_file(writer, &stream, text, thread_count);
     meso_arena_release(&arena);
 
     if (status)

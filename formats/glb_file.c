@@ -30,7 +30,7 @@ typedef struct Piece {
 
 /* What all pieces are made from, and what became of each. */
 typedef struct Encoding {
-    const MesoTessellation *tessellation;
+    const MesoSceneParts *parts;
     const MesoMeshWriteOptions *options;
     MesoDracoOptions draco;
     MesoPartRange *ranges;
@@ -44,18 +44,18 @@ typedef struct Encoding {
 } Encoding;
 
 /* Runs in the order of the parts; `runs` NULL only counts. */
-static uint32_t cut_runs(const MesoTessellation *t, Run *runs)
+static uint32_t cut_runs(const MesoSceneParts *parts, Run *runs)
 {
     uint32_t count = 0;
-    for (uint32_t part = 0; part < t->part_count;) {
-        Run run = {{part, part}, meso_tessellation_part(t, part).material, 0};
-        uint64_t first = t->face_begin[part];
+    for (uint32_t part = 0; part < parts->part_count;) {
+        Run run = {{part, part}, meso_scene_part(parts, part).material, 0};
+        uint64_t first = parts->face_begin[part];
         do
             part++;
-        while (part < t->part_count && t->face_begin[part + 1] - first <= PIECE_FACES &&
-               meso_tessellation_part(t, part).material == run.material);
+        while (part < parts->part_count && parts->face_begin[part + 1] - first <= PIECE_FACES &&
+               meso_scene_part(parts, part).material == run.material);
         run.range.end = part;
-        run.face_count = t->face_begin[part] - first;
+        run.face_count = parts->face_begin[part] - first;
         if (run.face_count == 0)
             continue;
         if (runs)
@@ -94,9 +94,9 @@ static void join_runs(Encoding *encoding, const Run *runs, uint32_t count)
 
 static MesoStatus make_pieces(Encoding *encoding, MesoArena *arena, MesoError *error)
 {
-    const MesoTessellation *t = encoding->tessellation;
-    uint32_t count = cut_runs(t, NULL);
-    uint32_t material_count = meso_structure_material_count(t->structure);
+    const MesoSceneParts *parts = encoding->parts;
+    uint32_t count = cut_runs(parts, NULL);
+    uint32_t material_count = parts->scene->material_count;
     Run *runs = MESO_NEW(arena, Run, count, error);
     Run *sorted = MESO_NEW(arena, Run, count, error);
     uint32_t *bins = MESO_NEW(arena, uint32_t, (size_t)material_count + 1, error);
@@ -104,7 +104,7 @@ static MesoStatus make_pieces(Encoding *encoding, MesoArena *arena, MesoError *e
     encoding->pieces = MESO_NEW(arena, Piece, count, error);
     if (!runs || !sorted || !bins || !encoding->ranges || !encoding->pieces)
         return MESO_ERR_MEMORY;
-    cut_runs(t, runs);
+    cut_runs(parts, runs);
     sort_runs(runs, count, bins, material_count, sorted);
     join_runs(encoding, sorted, count);
     return MESO_OK;
@@ -113,14 +113,14 @@ static MesoStatus make_pieces(Encoding *encoding, MesoArena *arena, MesoError *e
 /* One thread at a time reports; the others pass on. */
 static void report(Encoding *encoding, uint64_t faces)
 {
-    const MesoTessellation *t = encoding->tessellation;
+    const MesoSceneParts *parts = encoding->parts;
     const MesoMeshWriteOptions *options = encoding->options;
     uint64_t done = atomic_fetch_add(&encoding->faces_done, faces) + faces;
     if (!options->progress || atomic_flag_test_and_set(&encoding->reporting))
         return;
-    double share = (double)done / (double)t->face_begin[t->part_count];
-    options->progress(options->progress_context, (uint64_t)(share * (double)t->triangle_count),
-                      t->triangle_count);
+    double share = (double)done / (double)parts->face_begin[parts->part_count];
+    options->progress(options->progress_context, (uint64_t)(share * (double)parts->triangle_count),
+                      parts->triangle_count);
     atomic_flag_clear(&encoding->reporting);
 }
 
@@ -132,7 +132,7 @@ static void encode_pieces(void *context, uint64_t begin, uint64_t end)
         if (atomic_load(&encoding->bytes) > UINT32_MAX)
             continue;   /* too large already, as the adapter will find */
         encoding->status[i] = meso_draco_encode_parts(
-            encoding->tessellation, piece->range_end - piece->range_begin,
+            encoding->parts, piece->range_end - piece->range_begin,
             encoding->ranges + piece->range_begin, &encoding->draco, &encoding->results[i],
             &encoding->errors[i]);
         atomic_fetch_add(&encoding->bytes, encoding->results[i].size);
@@ -177,7 +177,7 @@ static void drop_empty(Encoding *encoding)
 static MesoStatus make_meshes(const Encoding *encoding, MesoGltfScene *scene, MesoArena *arena,
                               MesoError *error)
 {
-    const MesoTessellation *t = encoding->tessellation;
+    const MesoSceneParts *parts = encoding->parts;
     MesoGltfMesh *meshes = MESO_NEW(arena, MesoGltfMesh, encoding->piece_count, error);
     if (!meshes)
         return MESO_ERR_MEMORY;
@@ -185,10 +185,10 @@ static MesoStatus make_meshes(const Encoding *encoding, MesoGltfScene *scene, Me
         uint32_t material = encoding->pieces[i].material;
         if (i == 0 || material != encoding->pieces[i - 1].material) {
             char name[MESO_MESH_NAME];
-            meso_mesh_material_name(t, material, name);
+            meso_mesh_material_name(parts->scene, material, name);
             MesoGltfMesh *mesh = &meshes[scene->mesh_count++];
             mesh->name = meso_arena_copy_text(arena, name, error);
-            mesh->material = meso_structure_material(t->structure, material);
+            mesh->material = &parts->scene->materials[material];
             mesh->piece_begin = i;
             if (!mesh->name)
                 return MESO_ERR_MEMORY;
@@ -202,17 +202,15 @@ static MesoStatus make_meshes(const Encoding *encoding, MesoGltfScene *scene, Me
 static MesoStatus make_asset(const Encoding *encoding, MesoGltfScene *scene, MesoArena *arena,
                              MesoError *error)
 {
-    const MesoTileSet *set = &encoding->tessellation->structure->model->tile_set;
     const MesoProvenance *provenance = encoding->options->provenance;
-    const char **names = MESO_NEW(arena, const char *, set->tile_count, error);
     scene->generator = meso_arena_print(arena, error, "%s %s", provenance ? provenance->tool : "meso", MESO_VERSION);
     scene->provenance = meso_mesh_provenance(encoding->options, arena, error);
-    if (!names || !scene->generator || !scene->provenance)
+    if (!scene->generator || !scene->provenance)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < set->tile_count; i++)
-        names[i] = set->tiles[i].name;
-    scene->tile_count = set->tile_count;
-    scene->tile_names = names;
+    scene->channel_count = encoding->parts->scene->channel_count;
+    scene->channels = encoding->parts->scene->channels;
+    scene->colored = encoding->draco.colored;
+    scene->smaller = encoding->options->smaller;
     return MESO_OK;
 }
 
@@ -226,7 +224,7 @@ static MesoStatus run(Encoding *encoding, MesoArena *arena, MesoOutput *output, 
     MesoGltfScene scene = {0};
     MesoStatus status = make_pieces(encoding, arena, error);
     if (status == MESO_OK)
-        status = meso_draco_options_make(&encoding->draco, encoding->tessellation, encoding->options, error);
+        status = meso_draco_options_make(&encoding->draco, encoding->parts, encoding->options, error);
     encoding->draco.for_gltf = true;
     if (status == MESO_OK)
         status = encode_all(encoding, arena, error);
@@ -244,13 +242,13 @@ static MesoStatus run(Encoding *encoding, MesoArena *arena, MesoOutput *output, 
     return meso_gltf_write(&scene, append, output, error);
 }
 
-MesoStatus meso_glb_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                           MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
-    Encoding encoding = {.tessellation = tessellation, .options = options, .reporting = ATOMIC_FLAG_INIT};
+    Encoding encoding = {.parts = parts, .options = options, .reporting = ATOMIC_FLAG_INIT};
     meso_arena_init(&arena);
-    MesoStatus status = meso_mesh_check_counts(tessellation, "a GLB file", error);
+    MesoStatus status = meso_mesh_check_counts(parts, options, "a GLB file", error);
     if (status == MESO_OK)
         status = run(&encoding, &arena, output, error);
     for (uint32_t i = 0; encoding.results && i < encoding.piece_count; i++)

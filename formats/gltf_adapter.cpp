@@ -53,13 +53,32 @@ uint32_t count_pieces(const MesoGltfScene &scene)
 uint64_t bound_size(const MesoGltfScene &scene)
 {
     uint64_t size = PIECE_JSON_BYTES + 6 * std::string(scene.provenance).size();
-    for (uint32_t i = 0; i < scene.tile_count; i++)
-        size += 6 * std::string(scene.tile_names[i]).size() + 16;
+    for (uint32_t c = 0; c < scene.channel_count; c++)
+        for (uint32_t i = 0; scene.channels[c].names && i < scene.channels[c].count; i++)
+            size += 6 * std::string(scene.channels[c].names[i]).size() + 16;
     for (uint32_t i = 0; i < scene.mesh_count; i++)
         size += 18 * std::string(scene.meshes[i].name).size() + PIECE_JSON_BYTES;
     for (uint32_t i = 0; i < count_pieces(scene); i++)
         size += scene.pieces[i].size + PIECE_JSON_BYTES;
     return size;
+}
+
+tinygltf::Value channel_names(const MesoIdChannel &channel)
+{
+    tinygltf::Value::Array names;
+    for (uint32_t i = 0; i < channel.count; i++)
+        names.emplace_back(std::string(channel.names[i]));
+    return tinygltf::Value(names);
+}
+
+/* "_TILE" for the channel "tile". */
+std::string attribute_name(const MesoIdChannel &channel)
+{
+    std::string name = std::string("_") + channel.name;
+    for (char &c : name)
+        if (c >= 'a' && c <= 'z')
+            c = static_cast<char>(c - 'a' + 'A');
+    return name;
 }
 
 tinygltf::Asset make_asset(const MesoGltfScene &scene)
@@ -70,10 +89,9 @@ tinygltf::Asset make_asset(const MesoGltfScene &scene)
     tinygltf::Value::Object extras;
     if (*scene.provenance)
         extras["provenance"] = tinygltf::Value(std::string(scene.provenance));
-    tinygltf::Value::Array tiles;
-    for (uint32_t i = 0; i < scene.tile_count; i++)
-        tiles.emplace_back(std::string(scene.tile_names[i]));
-    extras["tiles"] = tinygltf::Value(tiles);
+    for (uint32_t c = 0; c < scene.channel_count; c++)
+        if (scene.channels[c].names)
+            extras[std::string(scene.channels[c].name) + "s"] = channel_names(scene.channels[c]);
     asset.extras = tinygltf::Value(extras);
     return asset;
 }
@@ -116,22 +134,25 @@ int add_view(tinygltf::Model *model, MesoDracoResult *piece)
     return static_cast<int>(model->bufferViews.size()) - 1;
 }
 
-tinygltf::Value draco_extension(int view, const MesoDracoResult &piece)
+tinygltf::Value draco_extension(int view, const MesoGltfScene &scene, const MesoDracoResult &piece)
 {
     auto number = [](uint32_t id) { return tinygltf::Value(static_cast<int>(id)); };
     tinygltf::Value::Object attributes;
     attributes["POSITION"] = number(piece.position_id);
     attributes["NORMAL"] = number(piece.normal_id);
     attributes["TEXCOORD_0"] = number(piece.uv_id);
-    attributes["_SLOT"] = number(piece.slot_id);
-    attributes["_TILE"] = number(piece.tile_id);
+    if (scene.colored)
+        attributes["COLOR_0"] = number(piece.color_id);
+    for (uint32_t c = 0; c < scene.channel_count; c++)
+        attributes[attribute_name(scene.channels[c])] = number(piece.channel_id[c]);
     tinygltf::Value::Object extension;
     extension["bufferView"] = tinygltf::Value(view);
     extension["attributes"] = tinygltf::Value(attributes);
     return tinygltf::Value(extension);
 }
 
-tinygltf::Primitive make_primitive(tinygltf::Model *model, MesoDracoResult *piece, int material)
+tinygltf::Primitive make_primitive(tinygltf::Model *model, const MesoGltfScene &scene, MesoDracoResult *piece,
+                                   int material)
 {
     const uint32_t vertices = piece->vertex_count;
     tinygltf::Primitive primitive;
@@ -147,11 +168,16 @@ tinygltf::Primitive make_primitive(tinygltf::Model *model, MesoDracoResult *piec
         add_accessor(model, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, vertices);
     primitive.attributes["TEXCOORD_0"] =
         add_accessor(model, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT, vertices);
-    primitive.attributes["_SLOT"] =
-        add_accessor(model, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, vertices);
-    primitive.attributes["_TILE"] =
-        add_accessor(model, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, vertices);
-    primitive.extensions[EXTENSION] = draco_extension(add_view(model, piece), *piece);
+    if (scene.colored) {
+        primitive.attributes["COLOR_0"] =
+            add_accessor(model, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, vertices);
+        model->accessors.back().normalized = true;
+    }
+    for (uint32_t c = 0; c < scene.channel_count; c++)
+        primitive.attributes[attribute_name(scene.channels[c])] =
+            add_accessor(model, scene.channels[c].names ? TINYGLTF_TYPE_SCALAR : TINYGLTF_TYPE_VEC2,
+                         TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, vertices);
+    primitive.extensions[EXTENSION] = draco_extension(add_view(model, piece), scene, *piece);
     return primitive;
 }
 
@@ -169,7 +195,7 @@ tinygltf::Model make_model(const MesoGltfScene &scene, uint64_t data_bound)
         tinygltf::Mesh mesh;
         mesh.name = scene.meshes[i].name;
         for (uint32_t k = scene.meshes[i].piece_begin; k < scene.meshes[i].piece_end; k++)
-            mesh.primitives.push_back(make_primitive(&model, &scene.pieces[k], number));
+            mesh.primitives.push_back(make_primitive(&model, scene, &scene.pieces[k], number));
         tinygltf::Node node;
         node.name = scene.meshes[i].name;
         node.mesh = number;
@@ -185,9 +211,8 @@ MesoStatus write(const MesoGltfScene &scene, MesoGltfSink *sink, void *context, 
 {
     const uint64_t size = bound_size(scene);
     if (size > UINT32_MAX)
-        return meso_fail(error, MESO_ERR_LIMIT,
-                         "too large for a GLB file: over 4 GiB; lower --divisions, raise --section-step "
-                         "or write .ply");
+        return meso_fail(error, MESO_ERR_LIMIT, "too large for a GLB file: over 4 GiB%s%s",
+                         scene.smaller ? ": " : "", scene.smaller ? scene.smaller : "");
     const tinygltf::Model model = make_model(scene, size);
     SinkBuffer buffer(sink, context, error);
     std::ostream stream(&buffer);

@@ -14,8 +14,10 @@ typedef struct MesoGltfMesh {
 typedef struct MesoGltfScene {
     const char *generator;
     const char *provenance;             /* to asset.extras.provenance; "" for none */
-    uint32_t tile_count;
-    const char *const *tile_names;      /* [tile_count] to asset.extras.tiles */
+    uint32_t channel_count;
+    const MesoIdChannel *channels;      /* [channel_count] names go to asset.extras, "tiles" for "tile" */
+    bool colored;
+    const char *smaller;                /* what would make the file smaller, for messages; may be NULL */
     uint32_t mesh_count;
     const MesoGltfMesh *meshes;         /* [mesh_count] */
     MesoDracoResult *pieces;            /* [piece_end of the last mesh] encoded for_gltf */
@@ -30,8 +32,9 @@ extern "C" {
 
 /*
  * Writes `scene` as GLB with KHR_draco_mesh_compression (required): accessors
- * POSITION, NORMAL, TEXCOORD_0, _SLOT (low and high 16 bits of the slot) and
- * _TILE. Takes over the pieces' data: all are released, on failure too. Holds
+ * POSITION, NORMAL, TEXCOORD_0, COLOR_0 where colored, and one for each channel
+ * after its name: _TILE, and where it has no names (_SLOT) the low and high 16
+ * bits. Takes over the pieces' data: all are released, on failure too. Holds
  * them twice at its peak. MESO_ERR_LIMIT where the file would pass 4 GiB.
  */
 MesoStatus meso_gltf_write(const MesoGltfScene *scene, MesoGltfSink *sink, void *context,

@@ -24,8 +24,9 @@
 #include "formats/json_text.h"
 #include "formats/surface_file.h"
 #include "formats/tiles_file.h"
-#include "libcore/shell/tessellate.h"
-#include "libcore/shell/trajectory.h"
+#include "libcore/scene/parts.h"
+#include "libcore/scene/sweep.h"
+#include "libcore/shell/expansion.h"
 
 /* Points of a finely resampled contour: half of one is 2e-5 of an edge for the longest. */
 enum { FINE = 1 << 16 };
@@ -39,6 +40,11 @@ typedef struct Reference {
     bool same_set;              /* TILES.json is the golden data's own set */
     int failures;
 } Reference;
+
+typedef struct Expanded {
+    MesoScene scene;
+    MesoExpansion expansion;
+} Expanded;
 
 static void die(const MesoError *error)
 {
@@ -220,13 +226,15 @@ static bool is_comparable(const Reference *r, const json_t *sweep, uint32_t *slo
            !meso_transform_flips(r->model.assignment.transform[*slot]);
 }
 
-static const MesoSweepInstance *find_instance(const MesoStructure *s, uint32_t slot, uint32_t sweep)
+static const MesoSweepInstance *find_instance(const Expanded *e, uint32_t slot, uint32_t sweep)
 {
-    for (uint32_t k = 0; k < s->kind_count; k++)
-        if (!s->kinds[k].cap && s->kinds[k].sweep == sweep)
-            for (uint32_t i = 0; i < s->kinds[k].instance_count; i++)
-                if (s->instances[s->kinds[k].instance_begin + i].slot == slot)
-                    return &s->instances[s->kinds[k].instance_begin + i];
+    for (uint32_t k = 0; k < e->scene.kind_count; k++) {
+        const MesoSweepInstance *instances = &e->scene.sweeps[e->scene.kinds[k].instance_begin];
+        if (e->expansion.origins[k].sweep == sweep)
+            for (uint32_t i = 0; i < e->scene.kinds[k].instance_count; i++)
+                if (instances[i].ids == slot)
+                    return &instances[i];
+    }
     return NULL;
 }
 
@@ -235,7 +243,7 @@ static double apart(MesoVec3 a, MesoVec3 b)
     return (double)meso_vec3_length(meso_vec3_sub(a, b));
 }
 
-static void compare_controls(Reference *r, const MesoStructure *structure)
+static void compare_controls(Reference *r, const Expanded *expanded)
 {
     const json_t *sweeps = json_object_get(r->golden, "sweeps");
     double worst = 0;
@@ -245,7 +253,7 @@ static void compare_controls(Reference *r, const MesoStructure *structure)
         uint32_t slot, index;
         if (!is_comparable(r, sweep, &slot, &index))
             continue;
-        const MesoSweepInstance *ours = find_instance(structure, slot, index);
+        const MesoSweepInstance *ours = find_instance(expanded, slot, index);
         MesoVec3 p0 = vector_at(sweep, 3), p3 = vector_at(sweep, 6);
         MesoVec3 golden[4] = {p0, meso_vec3_add(p0, vector_at(sweep, 4)),
                               meso_vec3_add(p3, vector_at(sweep, 5)), p3};
@@ -288,9 +296,9 @@ static MesoContourSet refine(Reference *r)
 }
 
 /* Profile point of our own columns at u around and v along. Columns are in the order of u. */
-static MesoVec2 profile_at(const MesoStructure *s, const MesoSweepInstance *instance, double u, float v)
+static MesoVec2 profile_at(const MesoScene *s, const MesoSweepInstance *instance, double u, float v)
 {
-    const MesoSweepKind *kind = &s->kinds[meso_structure_kind(s, (uint32_t)(instance - s->instances))];
+    const MesoSweptKind *kind = &s->kinds[meso_scene_kind(s, (uint32_t)(instance - s->sweeps))];
     const MesoSweepColumn *columns = s->columns + kind->column_begin;
     double wanted = u - 0.5 / FINE;
     uint32_t low = 0, high = kind->column_count - 1;
@@ -305,19 +313,19 @@ static MesoVec2 profile_at(const MesoStructure *s, const MesoSweepInstance *inst
     return meso_vec2_lerp(columns[nearest].start, columns[nearest].end, v * v * (3 - 2 * v));
 }
 
-static double compare_at_parameters(const Reference *r, const MesoStructure *structure, const json_t *sample)
+static double compare_at_parameters(const Reference *r, const Expanded *expanded, const json_t *sample)
 {
     uint32_t slot = (uint32_t)number_at(sample, 0);
     const MesoTile *tile = &r->model.tile_set.tiles[r->model.assignment.tile[slot]];
     MesoVec3 golden = {(float)number_at(sample, 1), (float)number_at(sample, 2), (float)number_at(sample, 3)};
     double best = INFINITY;
     for (uint32_t i = 0; i < tile->sweep_count; i++) {
-        const MesoSweepInstance *instance = find_instance(structure, slot, tile->sweep_begin + i);
+        const MesoSweepInstance *instance = find_instance(expanded, slot, tile->sweep_begin + i);
         float v = (float)number_at(sample, 8);
         if (!instance)
             continue;
-        MesoVec2 s = profile_at(structure, instance, number_at(sample, 7), v);
-        best = fmin(best, apart(meso_sweep_point(structure, instance, s, v), golden));
+        MesoVec2 s = profile_at(&expanded->scene, instance, number_at(sample, 7), v);
+        best = fmin(best, apart(meso_sweep_point(&expanded->scene, instance, s, v), golden));
     }
     return best / r->edge;
 }
@@ -350,16 +358,16 @@ typedef struct Window {
     MesoMeshFace *faces;
 } Window;
 
-static double compare_with_mesh(const Reference *r, const MesoTessellation *t, Window *w, const json_t *sample)
+static double compare_with_mesh(const Reference *r, const MesoSceneParts *t, Window *w, const json_t *sample)
 {
     uint32_t slot = (uint32_t)number_at(sample, 0);
     MesoVec3 p = {(float)number_at(sample, 1), (float)number_at(sample, 2), (float)number_at(sample, 3)};
     double best = INFINITY;
-    for (uint32_t part = 0; part < t->structure->instance_count; part++) {
-        if (t->structure->instances[part].slot != slot)
+    for (uint32_t part = 0; part < t->scene->sweep_count; part++) {
+        if (t->scene->sweeps[part].ids != slot)
             continue;
-        meso_tessellation_vertices(t, part, part + 1, w->vertices);
-        meso_tessellation_faces(t, part, part + 1, 0, w->faces);
+        meso_scene_vertices(t, part, part + 1, w->vertices);
+        meso_scene_faces(t, part, part + 1, 0, w->faces);
         for (uint64_t f = 0; f < t->face_begin[part + 1] - t->face_begin[part]; f++) {
             const uint32_t *v = w->faces[f].v;
             for (int k = 2; k < 4 && v[k] != MESO_NO_INDEX; k++)
@@ -371,14 +379,14 @@ static double compare_with_mesh(const Reference *r, const MesoTessellation *t, W
     return best / r->edge;
 }
 
-static void compare_samples(Reference *r, const MesoStructure *structure, const MesoStructure *fine)
+static void compare_samples(Reference *r, const Expanded *expanded, const Expanded *fine)
 {
     const json_t *samples = json_object_get(r->golden, "samples");
     double at_parameters = 0, with_mesh = 0;
     uint64_t count = 0, close = 0;
-    MesoTessellation t;
+    MesoSceneParts t;
     MesoError error;
-    if (meso_tessellation_init(&t, &r->arena, structure, &error))
+    if (meso_scene_parts_init(&t, &r->arena, &expanded->scene, &error))
         die(&error);
     uint64_t most_vertices = 0, most_faces = 0;
     for (uint32_t part = 0; part < t.part_count; part++) {
@@ -415,14 +423,14 @@ int main(int argc, char **argv)
     printf("%s: %u slots\n", argv[1], r.model.assignment.slot_count);
     compare_contours(&r);
 
-    MesoStructure structure, fine_structure;
+    Expanded expanded, fine_expanded;
     MesoError error;
     MesoContourSet fine = refine(&r);
-    if (meso_structure_build_over(&structure, &r.arena, &r.model, &r.theirs, 0, &error) ||
-        meso_structure_build_over(&fine_structure, &r.arena, &r.model, &fine, 0, &error))
+    if (meso_model_expand_over(&expanded.scene, &expanded.expansion, &r.arena, &r.model, &r.theirs, 0, &error) ||
+        meso_model_expand_over(&fine_expanded.scene, &fine_expanded.expansion, &r.arena, &r.model, &fine, 0, &error))
         die(&error);
-    compare_controls(&r, &structure);
-    compare_samples(&r, &structure, &fine_structure);
+    compare_controls(&r, &expanded);
+    compare_samples(&r, &expanded, &fine_expanded);
     json_decref(r.golden);
     meso_arena_release(&r.arena);
     return r.failures ? MESO_ERR_NO : MESO_OK;

@@ -9,15 +9,15 @@
 /*
  * One part, scan lines, ZIP: R G B A (half, linear, premultiplied), Z (float,
  * distance along the view axis, +inf where empty), N.X N.Y N.Z (half, world
- * space), albedo.R albedo.G albedo.B (half), slot and tile (uint, number + 1,
- * 0 where empty). String attributes "meso:provenance" (JSON) and "meso:tiles"
- * (names of the tiles, one a line); "worldToCamera" and "worldToNDC" are the
+ * space), albedo.R albedo.G albedo.B (half), and one layer for each channel of
+ * ids after its name: slot, tile (uint, id + 1, 0 where empty). String
+ * attributes "meso:provenance" (JSON) and, for each channel with names,
+ * "meso:tiles" (the names, one a line); "worldToCamera" and "worldToNDC" are the
  * camera's, with x to the right, y up, and z into the picture, as in Z. Uses
  * `thread_count` threads (0: all cores); the bytes do not depend on it.
  * MESO_ERR_OUTPUT where `output` takes no more.
  */
-MesoStatus meso_exr_write(const MesoImage *image, const MesoModel *model,
-                          const MesoProvenance *provenance, uint32_t thread_count,
+MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
                           MesoOutput *output, MesoError *error);
 
 /*

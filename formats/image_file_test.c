@@ -27,8 +27,7 @@ typedef struct Picture {
 } Picture;
 
 static Picture picture;
-static MesoTile tiles[2] = {{.name = "first"}, {.name = "second tile"}};
-static const MesoModel model = {.tile_set = {.tile_count = 2, .tiles = tiles}};
+static const char *tile_names[2] = {"first", "second tile"};
 static const MesoProvenance provenance = {.tool = "meso-render", .command_line = "meso-render x"};
 
 /* Halves exactly, so that nothing is rounded on the way. */
@@ -53,15 +52,16 @@ static void make_picture(void)
         picture.tile[i] = meso_random_below(&random, 100);
     }
     picture.image = (MesoImage){WIDTH, HEIGHT, {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30}, picture.color,
-                                picture.depth, picture.normal, picture.albedo, picture.slot,
-                                picture.tile};
+                                picture.depth, picture.normal, picture.albedo, 2,
+                                {{"slot", UINT32_MAX, NULL}, {"tile", 2, tile_names}},
+                                {picture.slot, picture.tile}};
 }
 
 static MesoStatus write_exr(const char *path, uint32_t threads, MesoError *error)
 {
     MesoOutput *output;
     CHECK(meso_output_open(&output, path, error) == MESO_OK);
-    MesoStatus status = meso_exr_write(&picture.image, &model, &provenance, threads, output, error);
+    MesoStatus status = meso_exr_write(&picture.image, &provenance, threads, output, error);
     if (status) {
         meso_output_discard(output);
         return status;

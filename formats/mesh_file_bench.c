@@ -8,12 +8,12 @@
 #include <sys/stat.h>
 
 #include "formats/mesh_file.h"
-#include "formats/mesh_scene.h"
+#include "formats/scene_fixture.h"
 #include "libcore/base/clock.h"
 
 enum { ROUNDS = 4, COPY_BYTES = 8 << 20 };
 
-typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+typedef MesoStatus WriteMesh(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                              MesoOutput *output, MesoError *error);
 
 /*
@@ -21,7 +21,7 @@ typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMes
  * size; the others are thrown away, so that no sync to the disk, which is not
  * ours to measure, goes on behind them.
  */
-static double write_once(WriteMesh *write, const MeshScene *scene, uint32_t threads, const char *path,
+static double write_once(WriteMesh *write, const SceneFixture *fixture, uint32_t threads, const char *path,
                          uint64_t *bytes)
 {
     MesoOutput *output;
@@ -30,7 +30,7 @@ static double write_once(WriteMesh *write, const MeshScene *scene, uint32_t thre
     struct stat file;
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
     double start = meso_seconds();
-    if (write(&scene->tessellation, &options, output, &error) != MESO_OK) {
+    if (write(&fixture->parts, &options, output, &error) != MESO_OK) {
         fprintf(stderr, "%s\n", error.message);
         exit(1);
     }
@@ -49,21 +49,21 @@ static double write_once(WriteMesh *write, const MeshScene *scene, uint32_t thre
 /* Returns the size of the product. */
 static uint64_t bench(const char *kind, WriteMesh *write, uint32_t slots, uint32_t threads, const char *folder)
 {
-    MeshScene scene;
+    SceneFixture fixture;
     char path[512];
     double best = 1e30;
     uint64_t bytes = 0;
-    mesh_scene_init(&scene, slots, 20, 0.01f);
+    scene_fixture_init(&fixture, slots, 20, 0.01f);
     snprintf(path, sizeof path, "%s/mesh_file_bench.%s", folder, kind);
     for (int i = 0; i < ROUNDS; i++) {
-        double time = write_once(write, &scene, threads, path, &bytes);
+        double time = write_once(write, &fixture, threads, path, &bytes);
         best = time < best ? time : best;
     }
-    uint64_t triangles = scene.tessellation.triangle_count;
+    uint64_t triangles = fixture.parts.triangle_count;
     printf("%s  %8.3f M triangles  %8.1f MB  %7.1f ms  %8.1f MB/s  %7.2f M triangles/s  %5.2f B/triangle\n",
            kind, 1e-6 * (double)triangles, 1e-6 * (double)bytes, 1e3 * best, 1e-6 * (double)bytes / best,
            1e-6 * (double)triangles / best, (double)bytes / (double)triangles);
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
     return bytes;
 }
 

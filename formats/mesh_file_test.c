@@ -1,5 +1,5 @@
 /*
- * Mesh writers: what is read back from each kind of file is the tessellation
+ * Mesh writers: what is read back from each kind of file is the scene's geometry
  * itself, bit by bit (PLY, OBJ) or to the rounding of Draco (its own decoder
  * reads .drc and the pieces of .glb); the bytes do not depend on the threads;
  * what a format cannot hold is refused.
@@ -12,9 +12,9 @@
 
 #include "formats/input.h"
 #include "formats/mesh_file.h"
-#include "formats/mesh_scene.h"
+#include "formats/scene_fixture.h"
 
-typedef MesoStatus WriteMesh(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+typedef MesoStatus WriteMesh(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                              MesoOutput *output, MesoError *error);
 
 static char folder[] = "/tmp/mesh_file_test.XXXXXX";
@@ -28,7 +28,7 @@ static const char *path_of(const char *name)
     return path;
 }
 
-static MesoInput write_mesh(WriteMesh *write, const MesoTessellation *t, uint32_t threads, const char *path)
+static MesoInput write_mesh(WriteMesh *write, const MesoSceneParts *t, uint32_t threads, const char *path)
 {
     MesoProvenance provenance = {.tool = "meso-map", .command_line = "meso-map 'a b' \"c\"", .seed = 7};
     MesoMeshWriteOptions options = {.thread_count = threads, .speed = 7, .provenance = &provenance};
@@ -42,7 +42,7 @@ static MesoInput write_mesh(WriteMesh *write, const MesoTessellation *t, uint32_
     return input;
 }
 
-static void check_threads(WriteMesh *write, const MesoTessellation *t, const MesoInput *expected)
+static void check_threads(WriteMesh *write, const MesoSceneParts *t, const MesoInput *expected)
 {
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
         MesoInput again = write_mesh(write, t, threads, path_of("again"));
@@ -51,28 +51,28 @@ static void check_threads(WriteMesh *write, const MesoTessellation *t, const Mes
     }
 }
 
-/* The whole tessellation at once, in the scene's arena. */
+/* All polygons at once, in the scene's arena. */
 typedef struct Whole {
     uint64_t vertex_count, face_count;
     MesoMeshVertex *vertices;
     MesoMeshFace *faces;
 } Whole;
 
-static Whole tessellate(MeshScene *s)
+static Whole make_whole(SceneFixture *s)
 {
     MesoError error;
-    const MesoTessellation *t = &s->tessellation;
+    const MesoSceneParts *t = &s->parts;
     Whole whole = {t->vertex_begin[t->part_count], t->face_begin[t->part_count], NULL, NULL};
     whole.vertices = MESO_NEW(&s->arena, MesoMeshVertex, whole.vertex_count, &error);
     whole.faces = MESO_NEW(&s->arena, MesoMeshFace, whole.face_count, &error);
     CHECK(whole.vertices && whole.faces);
-    meso_tessellation_vertices(t, 0, t->part_count, whole.vertices);
-    meso_tessellation_faces(t, 0, t->part_count, 0, whole.faces);
+    meso_scene_vertices(t, 0, t->part_count, whole.vertices);
+    meso_scene_faces(t, 0, t->part_count, 0, whole.faces);
     return whole;
 }
 
 /* First and last part of the faces, walking along. */
-static uint32_t part_of_face(const MesoTessellation *t, uint32_t part, uint64_t face)
+static uint32_t part_of_face(const MesoSceneParts *t, uint32_t part, uint64_t face)
 {
     while (t->face_begin[part + 1] <= face)
         part++;
@@ -90,7 +90,7 @@ static const uint8_t *after(const MesoInput *input, const char *line)
     return NULL;
 }
 
-static void check_ply_faces(const MesoTessellation *t, const Whole *whole, const uint8_t *row, const uint8_t *end)
+static void check_ply_faces(const MesoSceneParts *t, const Whole *whole, const uint8_t *row, const uint8_t *end)
 {
     uint32_t part = 0;
     for (uint64_t i = 0; i < whole->face_count; i++) {
@@ -98,13 +98,14 @@ static void check_ply_faces(const MesoTessellation *t, const Whole *whole, const
         uint32_t corners = face->v[3] == MESO_NO_INDEX ? 3 : 4, slot;
         uint16_t tile, material;
         part = part_of_face(t, part, i);
-        MesoMeshPart of = meso_tessellation_part(t, part);
+        MesoPart of = meso_scene_part(t, part);
         CHECK(row[0] == corners && memcmp(row + 1, face->v, 4 * corners) == 0);
         row += 1 + 4 * corners;
         memcpy(&slot, row, 4);
         memcpy(&tile, row + 4, 2);
         memcpy(&material, row + 6, 2);
-        CHECK(slot == of.slot && tile == of.tile && material == of.material);
+        CHECK(slot == meso_scene_id(t->scene, of.ids, 0) && tile == meso_scene_id(t->scene, of.ids, 1));
+        CHECK(material == of.material);
         row += 8;
     }
     CHECK(row == end);
@@ -113,10 +114,10 @@ static void check_ply_faces(const MesoTessellation *t, const Whole *whole, const
 /* Large enough for several windows. */
 static void test_ply(void)
 {
-    MeshScene scene;
-    mesh_scene_init(&scene, 24, 24, 0.02f);
-    const MesoTessellation *t = &scene.tessellation;
-    Whole whole = tessellate(&scene);
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 24, 24, 0.02f);
+    const MesoSceneParts *t = &fixture.parts;
+    Whole whole = make_whole(&fixture);
     MesoInput input = write_mesh(meso_ply_write, t, 2, path_of("x.ply"));
     CHECK(input.size > (size_t)17 << 20);
 
@@ -135,7 +136,7 @@ static void test_ply(void)
     check_ply_faces(t, &whole, rows + vertex_bytes, input.data + input.size);
     check_threads(meso_ply_write, t, &input);
     meso_input_close(&input);
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
 }
 
 /* ---- winding ---- */
@@ -151,9 +152,9 @@ static MesoVec3 face_normal(const Whole *whole, const MesoMeshFace *face)
 /* Counter-clockwise from outside, which is where the vertex normals point. */
 static void test_winding(void)
 {
-    MeshScene scene;
-    mesh_scene_init(&scene, 6, 12, 0.02f);
-    Whole whole = tessellate(&scene);
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 6, 12, 0.02f);
+    Whole whole = make_whole(&fixture);
     for (uint64_t i = 0; i < whole.face_count; i++) {
         const MesoMeshFace *face = &whole.faces[i];
         MesoVec3 normal = {0, 0, 0};
@@ -166,7 +167,7 @@ static void test_winding(void)
                 meso_vec3_sub(whole.vertices[face->v[2]].position, whole.vertices[face->v[0]].position));
         CHECK(meso_vec3_dot(across, normal) > 0);
     }
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
 }
 
 /* ---- OBJ ---- */
@@ -202,7 +203,7 @@ typedef struct ObjCounts {
 } ObjCounts;
 
 static const char *check_obj_line(const char *line, const char *newline, const Whole *whole,
-                                  const MesoTessellation *t, ObjCounts *n)
+                                  const MesoSceneParts *t, ObjCounts *n)
 {
     const char *end = newline;
     if (line[0] == 'v' && line[1] == ' ')
@@ -214,7 +215,7 @@ static const char *check_obj_line(const char *line, const char *newline, const W
     else if (line[0] == 'f')
         end = parse_face(line + 1, &whole->faces[n->faces++]);
     else if (strncmp(line, "# slot ", 7) == 0)
-        CHECK(strtoul(line + 7, NULL, 10) == meso_tessellation_part(t, (uint32_t)n->slots++).slot);
+        CHECK(strtoul(line + 7, NULL, 10) == meso_scene_part(t, (uint32_t)n->slots++).ids);
     else if (strncmp(line, "o ", 2) == 0)
         n->objects++;
     else if (strncmp(line, "usemtl ", 7) == 0)
@@ -226,10 +227,10 @@ static const char *check_obj_line(const char *line, const char *newline, const W
 
 static void test_obj(void)
 {
-    MeshScene scene;
-    mesh_scene_init(&scene, 4, 9, 0.02f);
-    const MesoTessellation *t = &scene.tessellation;
-    Whole whole = tessellate(&scene);
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 4, 9, 0.02f);
+    const MesoSceneParts *t = &fixture.parts;
+    Whole whole = make_whole(&fixture);
     MesoInput input = write_mesh(meso_obj_write, t, 2, path_of("x.obj"));
     ObjCounts n = {0};
     const char *line = (const char *)input.data, *end = line + input.size;
@@ -244,7 +245,7 @@ static void test_obj(void)
     CHECK(n.objects >= 2 && n.materials >= 4);
     check_threads(meso_obj_write, t, &input);
     meso_input_close(&input);
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
 }
 
 /* ---- Draco, read back by its own decoder ---- */
@@ -261,7 +262,7 @@ static uint64_t number_after(const MesoInput *input, const char *line)
     return strtoull((const char *)digits, NULL, 10);
 }
 
-/* The decoder writes positions and normals as 24 bytes, then the faces. */
+/* The decoder writes positions and normals as 24 bytes, and colours as 3 more, then the faces. */
 static Decoded decode(const char *path)
 {
     char command[512];
@@ -274,10 +275,11 @@ static Decoded decode(const char *path)
     Decoded d = {number_after(&input, "element vertex "), number_after(&input, "element face "),
                  {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     const uint8_t *rows = after(&input, "end_header\n");
-    CHECK(rows && (size_t)(input.data + input.size - rows) >= 24 * d.vertex_count);
+    size_t row = after(&input, "property uchar red\n") ? 27 : 24;
+    CHECK(rows && (size_t)(input.data + input.size - rows) >= row * d.vertex_count);
     for (uint64_t i = 0; i < d.vertex_count; i++) {
         MesoVec3 p;
-        memcpy(&p, rows + 24 * i, 12);
+        memcpy(&p, rows + row * i, 12);
         d.low = (MesoVec3){fminf(d.low.x, p.x), fminf(d.low.y, p.y), fminf(d.low.z, p.z)};
         d.high = (MesoVec3){fmaxf(d.high.x, p.x), fmaxf(d.high.y, p.y), fmaxf(d.high.z, p.z)};
     }
@@ -312,13 +314,13 @@ static void bounds_of(const Whole *whole, MesoVec3 *low, MesoVec3 *high)
 
 static void test_drc(void)
 {
-    MeshScene scene;
+    SceneFixture fixture;
     MesoVec3 low, high;
-    mesh_scene_init(&scene, 5, 8, 0.02f);
-    Whole whole = tessellate(&scene);
-    MesoInput input = write_mesh(meso_drc_write, &scene.tessellation, 2, path_of("x.drc"));
+    scene_fixture_init(&fixture, 5, 8, 0.02f);
+    Whole whole = make_whole(&fixture);
+    MesoInput input = write_mesh(meso_drc_write, &fixture.parts, 2, path_of("x.drc"));
     Decoded d = decode(path_of("x.drc"));
-    CHECK(d.face_count == scene.tessellation.triangle_count);
+    CHECK(d.face_count == fixture.parts.triangle_count);
     CHECK(d.vertex_count <= whole.vertex_count && d.vertex_count > whole.vertex_count * 9 / 10);
     bounds_of(&whole, &low, &high);
     MesoVec3 extent = meso_vec3_sub(high, low);
@@ -327,9 +329,9 @@ static void test_drc(void)
     check_near(d.high, high, 0.51f * step);
     CHECK(contains(&input, "slot") && contains(&input, "material") && contains(&input, "provenance"));
     CHECK(contains(&input, "[\"plain \\\"weave\\\"\",\"float\"]"));
-    check_threads(meso_drc_write, &scene.tessellation, &input);
+    check_threads(meso_drc_write, &fixture.parts, &input);
     meso_input_close(&input);
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
 }
 
 /* ---- GLB ---- */
@@ -357,7 +359,8 @@ static MesoVec3 point(const json_t *array)
 }
 
 /* Decodes one primitive and compares it with what its accessors promise; returns its triangles. */
-static uint64_t check_primitive(const json_t *root, const json_t *primitive, const uint8_t *data, size_t size)
+static uint64_t check_primitive(const json_t *root, const json_t *primitive, const uint8_t *data, size_t size,
+                                const char *numbers)
 {
     const json_t *draco = json_object_get(json_object_get(primitive, "extensions"), "KHR_draco_mesh_compression");
     const json_t *view = json_array_get(json_object_get(root, "bufferViews"), integer(draco, "bufferView"));
@@ -365,7 +368,7 @@ static uint64_t check_primitive(const json_t *root, const json_t *primitive, con
     const json_t *attributes = json_object_get(primitive, "attributes");
     const json_t *position = json_array_get(accessors, integer(attributes, "POSITION"));
     const json_t *indices = json_array_get(accessors, integer(primitive, "indices"));
-    const json_t *slot = json_array_get(accessors, integer(attributes, "_SLOT"));
+    const json_t *slot = json_array_get(accessors, integer(attributes, numbers));
     size_t offset = json_object_get(view, "byteOffset") ? integer(view, "byteOffset") : 0;
     size_t length = integer(view, "byteLength");
     CHECK(offset + length <= size && offset % 4 == 0);
@@ -384,7 +387,7 @@ static uint64_t check_primitive(const json_t *root, const json_t *primitive, con
     return d.face_count;
 }
 
-static void check_glb(const MeshScene *scene, const MesoInput *input, size_t least_primitives)
+static void check_glb(const SceneFixture *fixture, const MesoInput *input, size_t least_primitives)
 {
     uint32_t json_size = word(input, 12), data_at = 20 + json_size + 8;
     CHECK(word(input, 0) == 0x46546c67 && word(input, 4) == 2 && word(input, 8) == input->size);
@@ -405,22 +408,87 @@ static void check_glb(const MeshScene *scene, const MesoInput *input, size_t lea
         primitive_count += json_array_size(primitives);
         for (size_t p = 0; p < json_array_size(primitives); p++)
             triangles += check_primitive(root, json_array_get(primitives, p), input->data + data_at,
-                                         input->size - data_at);
+                                         input->size - data_at, "_SLOT");
     }
     CHECK(primitive_count >= least_primitives);
-    CHECK(triangles == scene->tessellation.triangle_count);
+    CHECK(triangles == fixture->parts.triangle_count);
     json_decref(root);
 }
 
 static void test_glb(void)
 {
-    MeshScene scene;
-    mesh_scene_init(&scene, 24, 28, 0.02f);
-    MesoInput input = write_mesh(meso_glb_write, &scene.tessellation, 2, path_of("x.glb"));
-    check_glb(&scene, &input, 5);   /* four materials, one of which needs two pieces */
-    check_threads(meso_glb_write, &scene.tessellation, &input);
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 24, 28, 0.02f);
+    MesoInput input = write_mesh(meso_glb_write, &fixture.parts, 2, path_of("x.glb"));
+    check_glb(&fixture, &input, 5);   /* four materials, one of which needs two pieces */
+    check_threads(meso_glb_write, &fixture.parts, &input);
     meso_input_close(&input);
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
+}
+
+/* ---- bodies with colours, and channels of another kind ---- */
+
+static void test_colored_ply(const MesoSceneParts *parts, const ColoredFixture *c)
+{
+    MesoInput input = write_mesh(meso_ply_write, parts, 2, path_of("x.ply"));
+    const uint8_t *row = after(&input, "comment region 1 stem one\ncomment state 0 green\ncomment state 1 dry\n"
+                                       "comment material 0 paint\n");
+    uint32_t element = 70000;
+    CHECK(row && memcmp(row, "element vertex 3\n", 17) == 0);
+    row = after(&input, "property float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                        "element face 1\nproperty list uchar uint vertex_indices\nproperty ushort region\n"
+                        "property uint element\nproperty ushort state\nproperty ushort material\nend_header\n");
+    CHECK(row && memcmp(row + 35 + 32, &c->colors[1], 3) == 0 && memcmp(row + 35, &c->positions[1], 12) == 0);
+    row += 3 * 35;
+    CHECK(row[0] == 3 && memcmp(row + 1, c->corners, 12) == 0 && row[13] == 1 && row[14] == 0);
+    CHECK(memcmp(row + 15, &element, 4) == 0 && row[19] == 0 && row + 23 == input.data + input.size);
+    meso_input_close(&input);
+}
+
+static void test_colored_obj(const MesoSceneParts *parts)
+{
+    MesoInput input = write_mesh(meso_obj_write, parts, 2, path_of("x.obj"));
+    CHECK(after(&input, "\no stem_one\nusemtl paint\n# element 70000\n# state 0 green\nv 0 0 0 1 0 0\n"));
+    CHECK(after(&input, "\nv 1 0 0 0 0.2 0\n") && after(&input, "\nv 0 1 0 0 0 0.4\n"));
+    meso_input_close(&input);
+}
+
+static void test_colored_draco(const MesoSceneParts *parts)
+{
+    MesoInput input = write_mesh(meso_drc_write, parts, 2, path_of("x.drc"));
+    CHECK(contains(&input, "[\"leaf\",\"stem one\"]") && contains(&input, "states") && contains(&input, "element"));
+    meso_input_close(&input);
+    input = write_mesh(meso_glb_write, parts, 2, path_of("x.glb"));
+    json_t *root = json_loadb((const char *)input.data + 20, word(&input, 12), 0, NULL);
+    const json_t *extras = json_object_get(json_object_get(json_object_get(root, "asset"), "extras"), "regions");
+    const json_t *mesh = json_array_get(json_object_get(root, "meshes"), 0);
+    const json_t *attributes = json_object_get(json_array_get(json_object_get(mesh, "primitives"), 0), "attributes");
+    const json_t *accessors = json_object_get(root, "accessors");
+    const json_t *color = json_array_get(accessors, integer(attributes, "COLOR_0"));
+    const json_t *element = json_array_get(accessors, integer(attributes, "_ELEMENT"));
+    CHECK(strcmp(json_string_value(json_array_get(extras, 1)), "stem one") == 0);
+    CHECK(integer(color, "componentType") == 5121 && json_is_true(json_object_get(color, "normalized")));
+    CHECK(strcmp(json_string_value(json_object_get(element, "type")), "VEC2") == 0);
+    CHECK(json_object_get(attributes, "_REGION") && json_object_get(attributes, "_STATE"));
+    CHECK(check_primitive(root, json_array_get(json_object_get(mesh, "primitives"), 0),
+                          input.data + 20 + word(&input, 12) + 8, word(&input, 20 + word(&input, 12)),
+                          "_ELEMENT") == 1);
+    json_decref(root);
+    meso_input_close(&input);
+}
+
+static void test_colored(void)
+{
+    ColoredFixture c;
+    MesoArena arena;
+    MesoSceneParts parts;
+    meso_arena_init(&arena);
+    colored_fixture_init(&c);
+    CHECK(meso_scene_parts_init(&parts, &arena, &c.scene, NULL) == MESO_OK);
+    test_colored_ply(&parts, &c);
+    test_colored_obj(&parts);
+    test_colored_draco(&parts);
+    meso_arena_release(&arena);
 }
 
 /* ---- refusals ---- */
@@ -428,9 +496,9 @@ static void test_glb(void)
 static WriteMesh *const WRITERS[] = {meso_ply_write, meso_obj_write, meso_drc_write, meso_glb_write};
 enum { WRITER_COUNT = 4 };
 
-static MesoStatus try_write(WriteMesh *write, const MesoTessellation *t, MesoError *error)
+static MesoStatus try_write(WriteMesh *write, const MesoSceneParts *t, MesoError *error)
 {
-    MesoMeshWriteOptions options = {.speed = 7};
+    MesoMeshWriteOptions options = {.speed = 7, .smaller = "make less of it"};
     MesoOutput *output;
     CHECK(meso_output_open(&output, path_of("refused"), error) == MESO_OK);
     MesoStatus status = write(t, &options, output, error);
@@ -441,32 +509,32 @@ static MesoStatus try_write(WriteMesh *write, const MesoTessellation *t, MesoErr
 
 static void test_refusals(void)
 {
-    MeshScene scene;
+    SceneFixture fixture;
     MesoError error;
-    mesh_scene_init(&scene, 2, 4, 0.1f);
+    scene_fixture_init(&fixture, 2, 4, 0.1f);
 
     uint64_t nothing[1] = {0}, too_many[2] = {0, UINT32_MAX}, some[2] = {0, 1 << 26};
-    MesoTessellation empty = {&scene.structure, 0, nothing, nothing, 0};
-    MesoTessellation huge = {&scene.structure, 1, too_many, too_many, 2 * (uint64_t)UINT32_MAX};
-    MesoTessellation large = {&scene.structure, 1, some, some, (1 << 26) + 1};
+    MesoSceneParts empty = {&fixture.scene, 0, nothing, nothing, 0};
+    MesoSceneParts huge = {&fixture.scene, 1, too_many, too_many, 2 * (uint64_t)UINT32_MAX};
+    MesoSceneParts large = {&fixture.scene, 1, some, some, (1 << 26) + 1};
     for (int i = 0; i < WRITER_COUNT; i++) {
         CHECK(try_write(WRITERS[i], &empty, &error) == MESO_ERR_INPUT);
-        CHECK(try_write(WRITERS[i], &huge, &error) == MESO_ERR_LIMIT && strstr(error.message, "--divisions"));
+        CHECK(try_write(WRITERS[i], &huge, &error) == MESO_ERR_LIMIT && strstr(error.message, ": make less of it"));
     }
-    CHECK(try_write(meso_drc_write, &large, &error) == MESO_ERR_LIMIT && strstr(error.message, ".glb"));
+    CHECK(try_write(meso_drc_write, &large, &error) == MESO_ERR_LIMIT && strstr(error.message, ": make less of it"));
 
-    uint32_t slots = scene.model.assignment.slot_count;
-    scene.model.assignment.slot_count = (1u << 30) + 1;
-    CHECK(try_write(meso_drc_write, &scene.tessellation, &error) == MESO_ERR_LIMIT);
-    CHECK(try_write(meso_glb_write, &scene.tessellation, &error) == MESO_ERR_LIMIT);
-    scene.model.assignment.slot_count = slots;
+    uint32_t slots = fixture.scene.channels[0].count;
+    fixture.scene.channels[0].count = (1u << 30) + 1;
+    CHECK(try_write(meso_drc_write, &fixture.parts, &error) == MESO_ERR_LIMIT);
+    CHECK(try_write(meso_glb_write, &fixture.parts, &error) == MESO_ERR_LIMIT);
+    fixture.scene.channels[0].count = slots;
 
-    scene.structure.instances[1].p[1].y = NAN;
+    fixture.scene.sweeps[1].p[1].y = NAN;
     char slot[32];
-    snprintf(slot, sizeof slot, "slot %u:", scene.structure.instances[1].slot);
-    CHECK(try_write(meso_drc_write, &scene.tessellation, &error) == MESO_ERR_INPUT && strstr(error.message, slot));
-    CHECK(try_write(meso_glb_write, &scene.tessellation, &error) == MESO_ERR_INPUT && strstr(error.message, slot));
-    mesh_scene_release(&scene);
+    snprintf(slot, sizeof slot, "slot %u:", fixture.scene.sweeps[1].ids);
+    CHECK(try_write(meso_drc_write, &fixture.parts, &error) == MESO_ERR_INPUT && strstr(error.message, slot));
+    CHECK(try_write(meso_glb_write, &fixture.parts, &error) == MESO_ERR_INPUT && strstr(error.message, slot));
+    scene_fixture_release(&fixture);
 }
 
 /* Progress never goes back and ends at the total. */
@@ -483,19 +551,19 @@ static void watch(void *context, uint64_t done, uint64_t total)
 
 static void test_progress(void)
 {
-    MeshScene scene;
+    SceneFixture fixture;
     MesoError error;
-    mesh_scene_init(&scene, 3, 5, 0.05f);
+    scene_fixture_init(&fixture, 3, 5, 0.05f);
     for (int i = 0; i < WRITER_COUNT; i++) {
         Watch w = {0, 0};
         MesoMeshWriteOptions options = {.thread_count = 1, .speed = 7, .progress = watch, .progress_context = &w};
         MesoOutput *output;
         CHECK(meso_output_open(&output, path_of("watched"), &error) == MESO_OK);
-        CHECK(WRITERS[i](&scene.tessellation, &options, output, &error) == MESO_OK);
+        CHECK(WRITERS[i](&fixture.parts, &options, output, &error) == MESO_OK);
         meso_output_discard(output);
         CHECK(w.total > 0 && w.done == w.total);
     }
-    mesh_scene_release(&scene);
+    scene_fixture_release(&fixture);
 }
 
 int main(void)
@@ -506,6 +574,7 @@ int main(void)
     test_obj();
     test_drc();
     test_glb();
+    test_colored();
     test_refusals();
     test_progress();
     static const char *const products[] = {"x.ply", "x.obj", "x.drc", "x.glb", "again"};

@@ -12,7 +12,7 @@
  * consecutive ranges, joined, must not depend on where the ranges are cut.
  */
 typedef struct MesoMeshPass {
-    size_t (*format)(const void *context, const MesoTessellation *tessellation, uint32_t begin,
+    size_t (*format)(const void *context, const MesoSceneParts *parts, uint32_t begin,
                      uint32_t end, uint8_t *out, uint8_t *scratch);
     const void *context;
     /* The most bytes that one of them takes at `out`, and at `scratch`, which is aligned to 64. */
@@ -22,7 +22,7 @@ typedef struct MesoMeshPass {
 
 /* Where a writer stands, over all its passes. */
 typedef struct MesoMeshStream {
-    const MesoTessellation *tessellation;
+    const MesoSceneParts *parts;
     const MesoMeshWriteOptions *options;
     MesoOutput *output;
     uint64_t offset;            /* of the next byte in the output */
@@ -42,28 +42,24 @@ MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass
 /* A window stays within the caches of a core or two: what is formatted is written while it is hot. */
 enum { MESO_WINDOW_BYTES = 8 << 20, MESO_WINDOW_CHUNK = 256 << 10 };
 
-/* MESO_ERR_INPUT for a structure without faces, MESO_ERR_LIMIT where 32-bit vertex numbers,
- * or 16-bit numbers of tiles and materials, do not suffice. */
-MesoStatus meso_mesh_check_counts(const MesoTessellation *tessellation, const char *kind,
-                                  MesoError *error);
+/* MESO_ERR_INPUT for a scene without faces, MESO_ERR_LIMIT where 32-bit vertex numbers,
+ * or 16-bit numbers of names, do not suffice. */
+MesoStatus meso_mesh_check_counts(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                                  const char *kind, MesoError *error);
 
-/*
- * Box around all vertices, by tessellating them. MESO_ERR_INPUT names the slot
- * where a vertex is not finite. O(vertices).
- */
-MesoStatus meso_mesh_bounds(const MesoTessellation *tessellation, uint32_t thread_count,
-                            MesoVec3 *low, MesoVec3 *high, MesoError *error);
+/* ": " and what would make the product smaller, or two empty texts. */
+#define MESO_MESH_SMALLER(options) (options)->smaller ? ": " : "", (options)->smaller ? (options)->smaller : ""
 
 /* Name of a material, cut off where it is long, but never within a character. */
 enum { MESO_MESH_NAME = 256 };
-void meso_mesh_material_name(const MesoTessellation *tessellation, uint32_t material,
-                             char name[MESO_MESH_NAME]);
+void meso_mesh_material_name(const MesoScene *scene, uint32_t material, char name[MESO_MESH_NAME]);
 
-/* Names of the tiles, and of the materials, as a JSON array on one line; NULL with `error` filled. */
-const char *meso_mesh_tile_names(const MesoTessellation *tessellation, MesoArena *arena,
-                                 MesoError *error);
-const char *meso_mesh_material_names(const MesoTessellation *tessellation, MesoArena *arena,
-                                     MesoError *error);
+/* Names as a JSON array on one line; NULL with `error` filled. Those of the materials are cut off as above. */
+const char *meso_mesh_names(const char *const *names, uint32_t count, MesoArena *arena, MesoError *error);
+const char *meso_mesh_material_names(const MesoScene *scene, MesoArena *arena, MesoError *error);
+
+/* What files call the names of a channel: "tiles". NULL with `error` filled. */
+const char *meso_mesh_names_key(const MesoIdChannel *channel, MesoArena *arena, MesoError *error);
 
 /*
  * The provenance as comment lines that begin with `mark` and "provenance ", or, where readers of

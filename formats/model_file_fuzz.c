@@ -1,7 +1,8 @@
 /* Reader of models: a good file with chunks replaced; what is read must be a sound model, of finite geometry. */
 #include "formats/container_memory.h"
 #include "formats/model_fixture.h"
-#include "libcore/shell/tessellate.h"
+#include "libcore/scene/parts.h"
+#include "libcore/shell/expansion.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -30,16 +31,16 @@ static void check_sound(const MesoModel *model)
 static void check_geometry(const MesoModel *model, MesoArena *arena)
 {
     enum { MOST_VERTICES = 1 << 16 };
-    MesoStructure structure;
-    MesoTessellation t;
+    MesoScene scene;
+    MesoSceneParts t;
     MesoError error;
-    if (meso_structure_build(&structure, arena, model, 1, &error) != MESO_OK ||
-        meso_tessellation_init(&t, arena, &structure, &error) != MESO_OK || t.vertex_begin[t.part_count] > MOST_VERTICES)
+    if (meso_model_expand(&scene, NULL, arena, model, 1, &error) != MESO_OK ||
+        meso_scene_parts_init(&t, arena, &scene, &error) != MESO_OK || t.vertex_begin[t.part_count] > MOST_VERTICES)
         return;
     uint64_t count = t.vertex_begin[t.part_count];
     MesoMeshVertex *vertices = MESO_NEW(arena, MesoMeshVertex, count, &error);
     CHECK(vertices);
-    meso_tessellation_vertices(&t, 0, t.part_count, vertices);
+    meso_scene_vertices(&t, 0, t.part_count, vertices);
     for (uint64_t v = 0; v < count; v++)
         CHECK(meso_vec3_finite(vertices[v].position) && meso_vec3_finite(vertices[v].normal));
 }

@@ -19,8 +19,9 @@
 #include <xxhash.h>
 
 #include "formats/model_file.h"
-#include "libcore/shell/tessellate.h"
-#include "libcore/shell/trajectory.h"
+#include "libcore/math/bezier.h"
+#include "libcore/scene/parts.h"
+#include "libcore/shell/expansion.h"
 
 /* The ring that a slot shows of one cross-section on one side, all contours. */
 typedef struct Shown {
@@ -95,13 +96,13 @@ static MesoVec3 side_of(const MesoMeshVertex *v, const MesoMeshFace *face, int f
 }
 
 /* A face that has come to stand: less than a quarter of the way that its sweep goes there. */
-static bool is_folded(const MesoStructure *s, uint32_t part, const MesoSweepKind *kind,
+static bool is_folded(const MesoScene *s, uint32_t part, const MesoSweptKind *kind,
                       const MesoMeshVertex *v, const MesoMeshFace *face)
 {
     if (kind->cap)
         return false;
     float from = v[face->v[0]].uv.y, to = v[face->v[1]].uv.y;
-    MesoVec3 step = meso_vec3_scale(meso_bezier_derivative(s->instances[part].p, 0.5f * (from + to)), to - from);
+    MesoVec3 step = meso_vec3_scale(meso_bezier_derivative(s->sweeps[part].p, 0.5f * (from + to)), to - from);
     float least = 0.25f * meso_vec3_dot(step, step);
     return meso_vec3_dot(side_of(v, face, 0, 1), step) < least ||
            meso_vec3_dot(side_of(v, face, 3, 2), step) < least ||
@@ -121,18 +122,18 @@ static bool agrees(const MesoMeshVertex *v, const MesoMeshFace *face)
     return meso_vec3_dot(meso_vec3_cross(diagonal, other), shaded) >= 0;
 }
 
-static void look_at_part(const MesoTessellation *t, uint32_t part, const MesoMeshVertex *v,
+static void look_at_part(const MesoSceneParts *t, uint32_t part, const MesoMeshVertex *v,
                          const MesoMeshFace *faces, Counts *counts)
 {
-    const MesoStructure *s = t->structure;
+    const MesoScene *s = t->scene;
     uint64_t vertex_count = t->vertex_begin[part + 1] - t->vertex_begin[part];
     uint64_t face_count = t->face_begin[part + 1] - t->face_begin[part];
     for (uint64_t i = 0; i < vertex_count; i++)
         counts->not_finite += !meso_vec3_finite(v[i].position) || !meso_vec3_finite(v[i].normal);
     for (uint64_t f = 0; f < face_count; f++) {
         counts->faces++;
-        if (part < s->instance_count &&
-            is_folded(s, part, &s->kinds[meso_structure_kind(s, part)], v, &faces[f]))
+        if (part < s->sweep_count &&
+            is_folded(s, part, &s->kinds[meso_scene_kind(s, part)], v, &faces[f]))
             counts->folded++;
         else
             counts->against += !agrees(v, &faces[f]);
@@ -141,20 +142,21 @@ static void look_at_part(const MesoTessellation *t, uint32_t part, const MesoMes
 
 /* ---- models ---- */
 
-static void show_ends(const MesoTessellation *t, uint32_t part, const MesoMeshVertex *v, MesoVec3 *scratch,
-                      Shown *shown, uint32_t *count)
+static void show_ends(const MesoSceneParts *t, const MesoModel *model, const MesoExpansion *expansion,
+                      uint32_t part, const MesoMeshVertex *v, MesoVec3 *scratch, Shown *shown, uint32_t *count)
 {
-    const MesoStructure *s = t->structure;
-    const MesoSweepKind *kind = &s->kinds[meso_structure_kind(s, part)];
-    uint32_t slot = s->instances[part].slot, width = kind->column_count;
-    MesoTransform transform = s->model->assignment.transform[slot];
+    const MesoScene *s = t->scene;
+    const MesoSweptKind *kind = &s->kinds[meso_scene_kind(s, part)];
+    const MesoKindOrigin *origin = &expansion->origins[meso_scene_kind(s, part)];
+    uint32_t slot = s->sweeps[part].ids, width = kind->column_count;
+    MesoTransform transform = model->assignment.transform[slot];
     for (int end = 0; end < (kind->cap ? 1 : 2); end++) {
-        uint32_t side = end ? kind->end_side : kind->start_side;
+        uint32_t side = end ? origin->end_side : origin->start_side;
         if (side >= 4)
             continue;
         const MesoMeshVertex *ring = v + (end ? (size_t)(kind->division_count - 1) * width : 0);
         shown[(*count)++] = (Shown){4 * slot + meso_transform_side(transform, side),
-                                    end ? kind->end_section : kind->start_section,
+                                    end ? origin->end_section : origin->start_section,
                                     ring_hash(ring, width, scratch)};
     }
 }
@@ -162,13 +164,14 @@ static void show_ends(const MesoTessellation *t, uint32_t part, const MesoMeshVe
 static MesoStatus look(MesoArena *arena, const MesoModel *model, Counts *counts, MesoError *error)
 {
     MesoSlotGraph graph;
-    MesoStructure structure;
-    MesoTessellation t;
+    MesoScene scene;
+    MesoExpansion expansion;
+    MesoSceneParts t;
     MesoStatus status = meso_slot_graph_build(&graph, arena, &model->surface, error);
     if (!status)
-        status = meso_structure_build(&structure, arena, model, 0, error);
+        status = meso_model_expand(&scene, &expansion, arena, model, 0, error);
     if (!status)
-        status = meso_tessellation_init(&t, arena, &structure, error);
+        status = meso_scene_parts_init(&t, arena, &scene, error);
     if (status)
         return status;
 
@@ -182,16 +185,16 @@ static MesoStatus look(MesoArena *arena, const MesoModel *model, Counts *counts,
     MesoMeshVertex *v = MESO_NEW(arena, MesoMeshVertex, most_vertices, error);
     MesoMeshFace *faces = MESO_NEW(arena, MesoMeshFace, most_faces, error);
     MesoVec3 *scratch = MESO_NEW(arena, MesoVec3, most_vertices, error);
-    Shown *shown = MESO_NEW(arena, Shown, 2 * (size_t)structure.instance_count, error);
+    Shown *shown = MESO_NEW(arena, Shown, 2 * (size_t)scene.sweep_count, error);
     uint32_t shown_count = 0;
     if (!v || !faces || !scratch || !shown)
         return MESO_ERR_MEMORY;
     for (uint32_t part = 0; part < t.part_count; part++) {
-        meso_tessellation_vertices(&t, part, part + 1, v);
-        meso_tessellation_faces(&t, part, part + 1, 0, faces);
+        meso_scene_vertices(&t, part, part + 1, v);
+        meso_scene_faces(&t, part, part + 1, 0, faces);
         look_at_part(&t, part, v, faces, counts);
-        if (part < structure.instance_count)
-            show_ends(&t, part, v, scratch, shown, &shown_count);
+        if (part < scene.sweep_count)
+            show_ends(&t, model, &expansion, part, v, scratch, shown, &shown_count);
     }
     compare_across(shown, unique_shown(shown, shown_count), &graph, counts);
     return MESO_OK;

@@ -1,6 +1,7 @@
 /*
- * Wavefront OBJ: part by part, its vertices and then its faces. Comment lines
- * give the slots; `o` the tiles and `usemtl` the materials, where they change.
+ * Wavefront OBJ: part by part, its vertices and then its faces. The first
+ * channel with names is `o` and the materials are `usemtl`, where they change;
+ * comment lines give the other ids of each part.
  */
 #include <string.h>
 
@@ -12,8 +13,10 @@ enum {
     NUMBER_TEXT = 10,                       /* digits of a 32-bit number */
     VECTOR_TEXT = 3 + 3 * (MESO_FLOAT_TEXT + 1),
     VERTEX_TEXT = 3 * VECTOR_TEXT,
+    COLOR_TEXT = 3 * (MESO_FLOAT_TEXT + 1),
     FACE_TEXT = 2 + 4 * (3 * NUMBER_TEXT + 3),
-    PART_TEXT = 64 + 2 * (MESO_MESH_NAME + 16)
+    LINE_TEXT = MESO_MESH_NAME + 16,            /* `o` or `usemtl` */
+    ID_TEXT = MESO_CHANNEL_NAME + NUMBER_TEXT + 8
 };
 
 static char *put_text(char *out, const char *text)
@@ -43,22 +46,38 @@ static char *put_name(char *out, const char *name, size_t limit)
     return out;
 }
 
-static char *put_vector(char *out, const char *key, const float *v, int count)
+static char *put_floats(char *out, const float *v, int count)
 {
-    out = put_text(out, key);
     for (int i = 0; i < count; i++) {
         *out++ = ' ';
         out = meso_float_text(v[i], out);
     }
+    return out;
+}
+
+static char *put_vector(char *out, const char *key, const float *v, int count)
+{
+    out = put_floats(put_text(out, key), v, count);
     *out++ = '\n';
     return out;
 }
 
-static char *put_vertices(char *out, const MesoMeshVertex *vertices, uint64_t count)
+/* `v x y z r g b` is not of the format's first days, but what many programs read. */
+static char *put_position(char *out, MesoVec3 p, const MesoMeshColor *color)
+{
+    out = put_floats(put_text(out, "v"), (const float[]){p.x, p.y, p.z}, 3);
+    if (color)
+        out = put_floats(out, (const float[]){(float)color->r / 255, (float)color->g / 255, (float)color->b / 255}, 3);
+    *out++ = '\n';
+    return out;
+}
+
+/* `colors` may be NULL. */
+static char *put_vertices(char *out, const MesoMeshVertex *vertices, const MesoMeshColor *colors, uint64_t count)
 {
     for (uint64_t i = 0; i < count; i++) {
         const MesoMeshVertex *v = &vertices[i];
-        out = put_vector(out, "v", (const float[]){v->position.x, v->position.y, v->position.z}, 3);
+        out = put_position(out, v->position, colors ? &colors[i] : NULL);
         out = put_vector(out, "vt", (const float[]){v->uv.x, v->uv.y}, 2);
         out = put_vector(out, "vn", (const float[]){v->normal.x, v->normal.y, v->normal.z}, 3);
     }
@@ -86,48 +105,80 @@ static char *put_faces(char *out, const MesoMeshFace *faces, uint64_t count)
     return out;
 }
 
-/* What changes against the part before, whichever range that one was in. */
-static char *put_part(char *out, const MesoTessellation *t, uint32_t part)
+/* What the passes share. */
+typedef struct Objects {
+    bool colored;
+    uint32_t channel;   /* the one whose names are `o`, or MESO_NO_INDEX */
+} Objects;
+
+static char *put_line(char *out, const char *key, const char *name)
 {
-    const MesoTileSet *set = &t->structure->model->tile_set;
-    MesoMeshPart of = meso_tessellation_part(t, part);
-    MesoMeshPart before = part > 0 ? meso_tessellation_part(t, part - 1)
-                                   : (MesoMeshPart){MESO_NO_INDEX, MESO_NO_INDEX, MESO_NO_INDEX};
-    if (of.tile != before.tile) {
-        out = put_text(out, "o ");
-        out = put_name(out, set->tiles[of.tile].name, MESO_MESH_NAME);
-        *out++ = '\n';
-    }
-    if (of.material != before.material) {
-        char name[MESO_MESH_NAME];
-        meso_mesh_material_name(t, of.material, name);
-        out = put_text(out, "usemtl ");
-        out = put_name(out, name, MESO_MESH_NAME);
-        *out++ = '\n';
-    }
-    out = put_text(out, "# slot ");
-    out = put_number(out, of.slot);
+    out = put_name(put_text(out, key), name, MESO_MESH_NAME);
     *out++ = '\n';
     return out;
 }
 
-static size_t format_parts(const void *context, const MesoTessellation *t, uint32_t begin,
+static char *put_ids(char *out, const MesoScene *scene, uint32_t row, uint32_t object_channel)
+{
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        const MesoIdChannel *channel = &scene->channels[c];
+        uint32_t id = meso_scene_id(scene, row, c);
+        if (c == object_channel)
+            continue;
+        out = put_text(out, "# ");
+        out = put_name(out, channel->name, MESO_CHANNEL_NAME);
+        *out++ = ' ';
+        out = put_number(out, id);
+        if (channel->names) {
+            *out++ = ' ';
+            out = put_name(out, channel->names[id], MESO_MESH_NAME);
+        }
+        *out++ = '\n';
+    }
+    return out;
+}
+
+/* What changes against the part before, whichever range that one was in. */
+static char *put_part(char *out, const Objects *objects, const MesoSceneParts *parts, uint32_t part)
+{
+    const MesoScene *scene = parts->scene;
+    MesoPart of = meso_scene_part(parts, part);
+    MesoPart before = part > 0 ? meso_scene_part(parts, part - 1) : of;
+    if (objects->channel != MESO_NO_INDEX) {
+        uint32_t id = meso_scene_id(scene, of.ids, objects->channel);
+        if (part == 0 || id != meso_scene_id(scene, before.ids, objects->channel))
+            out = put_line(out, "o ", scene->channels[objects->channel].names[id]);
+    }
+    if (part == 0 || of.material != before.material) {
+        char name[MESO_MESH_NAME];
+        meso_mesh_material_name(scene, of.material, name);
+        out = put_line(out, "usemtl ", name);
+    }
+    return put_ids(out, scene, of.ids, objects->channel);
+}
+
+static size_t format_parts(const void *context, const MesoSceneParts *parts, uint32_t begin,
                            uint32_t end, uint8_t *out, uint8_t *scratch)
 {
-    (void)context;
-    uint64_t vertex_count = t->vertex_begin[end] - t->vertex_begin[begin];
+    const Objects *objects = context;
+    uint64_t vertex_count = parts->vertex_begin[end] - parts->vertex_begin[begin];
+    uint64_t face_count = parts->face_begin[end] - parts->face_begin[begin];
     MesoMeshVertex *vertices = (MesoMeshVertex *)(void *)scratch;
     MesoMeshFace *faces = (MesoMeshFace *)(void *)(vertices + vertex_count);
-    meso_tessellation_vertices(t, begin, end, vertices);
-    meso_tessellation_faces(t, begin, end, (uint32_t)t->vertex_begin[begin] + 1, faces);
+    MesoMeshColor *colors = objects->colored ? (MesoMeshColor *)(void *)(faces + face_count) : NULL;
+    meso_scene_vertices(parts, begin, end, vertices);
+    meso_scene_faces(parts, begin, end, (uint32_t)parts->vertex_begin[begin] + 1, faces);
+    if (colors)
+        meso_scene_colors(parts, begin, end, colors);
 
     char *next = (char *)out;
     for (uint32_t part = begin; part < end; part++) {
-        next = put_part(next, t, part);
-        next = put_vertices(next, vertices + (t->vertex_begin[part] - t->vertex_begin[begin]),
-                            t->vertex_begin[part + 1] - t->vertex_begin[part]);
-        next = put_faces(next, faces + (t->face_begin[part] - t->face_begin[begin]),
-                         t->face_begin[part + 1] - t->face_begin[part]);
+        uint64_t first = parts->vertex_begin[part] - parts->vertex_begin[begin];
+        next = put_part(next, objects, parts, part);
+        next = put_vertices(next, vertices + first, colors ? colors + first : NULL,
+                            parts->vertex_begin[part + 1] - parts->vertex_begin[part]);
+        next = put_faces(next, faces + (parts->face_begin[part] - parts->face_begin[begin]),
+                         parts->face_begin[part + 1] - parts->face_begin[part]);
     }
     return (size_t)(next - (char *)out);
 }
@@ -141,22 +192,42 @@ static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError
     return meso_output_write(stream->output, text, strlen(text), error);
 }
 
-MesoStatus meso_obj_write(const MesoTessellation *tessellation, const MesoMeshWriteOptions *options,
+static Objects find_objects(const MesoScene *scene)
+{
+    Objects objects = {meso_scene_is_colored(scene), MESO_NO_INDEX};
+    for (uint32_t c = scene->channel_count; c-- > 0;)
+        if (scene->channels[c].names)
+            objects.channel = c;
+    return objects;
+}
+
+static uint32_t part_text_bound(const MesoScene *scene, const Objects *objects)
+{
+    uint32_t bound = 2 * LINE_TEXT;
+    for (uint32_t c = 0; c < scene->channel_count; c++)
+        if (c != objects->channel)
+            bound += scene->channels[c].names ? ID_TEXT + MESO_MESH_NAME : ID_TEXT;
+    return bound;
+}
+
+MesoStatus meso_obj_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                           MesoOutput *output, MesoError *error)
 {
-    static const MesoMeshPass pass = {
+    const Objects objects = find_objects(parts->scene);
+    const MesoMeshPass pass = {
         .format = format_parts,
-        .part_bytes = PART_TEXT,
-        .vertex_bytes = VERTEX_TEXT,
+        .context = &objects,
+        .part_bytes = part_text_bound(parts->scene, &objects),
+        .vertex_bytes = VERTEX_TEXT + (objects.colored ? COLOR_TEXT : 0),
         .face_bytes = FACE_TEXT,
-        .vertex_scratch = sizeof(MesoMeshVertex),
+        .vertex_scratch = sizeof(MesoMeshVertex) + (objects.colored ? sizeof(MesoMeshColor) : 0),
         .face_scratch = sizeof(MesoMeshFace),
     };
-    uint64_t vertex_count = tessellation->vertex_begin[tessellation->part_count];
-    MesoMeshStream stream = {tessellation, options, output, 0, 0, vertex_count};
+    uint64_t vertex_count = parts->vertex_begin[parts->part_count];
+    MesoMeshStream stream = {parts, options, output, 0, 0, vertex_count};
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoStatus status = meso_mesh_check_counts(tessellation, "an OBJ file", error);
+    MesoStatus status = meso_mesh_check_counts(parts, options, "an OBJ file", error);
     if (status == MESO_OK)
         status = put_header(&stream, &arena, error);
     if (status == MESO_OK)

@@ -1,6 +1,6 @@
 /*
  * Any bytes as a tile set that goes the whole way: variants, a solve on two small
- * surfaces, structure, tessellation, a mesh file. What a tile set's reader accepts,
+ * surfaces, scene, polygons, a mesh file. What a tile set's reader accepts,
  * everything after takes or refuses; what is written is finite.
  */
 #include <math.h>
@@ -9,6 +9,7 @@
 #include "formats/mesh_file.h"
 #include "formats/tiles_file.h"
 #include "libcore/base/check.h"
+#include "libcore/shell/expansion.h"
 #include "libcore/solve/solve.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -66,7 +67,7 @@ static bool solve(MesoModel *model, const MesoVariantSet *variants, MesoArena *a
     return true;
 }
 
-static void write_mesh(const MesoTessellation *t, MesoArena *arena)
+static void write_mesh(const MesoSceneParts *t, MesoArena *arena)
 {
     const MesoProvenance provenance = {.tool = "fuzz", .command_line = "fuzz"};
     const MesoMeshWriteOptions options = {.thread_count = 1, .speed = 10, .provenance = &provenance};
@@ -75,7 +76,7 @@ static void write_mesh(const MesoTessellation *t, MesoArena *arena)
     uint64_t count = t->vertex_begin[t->part_count];
     MesoMeshVertex *vertices = MESO_NEW(arena, MesoMeshVertex, count, &error);
     CHECK(vertices);
-    meso_tessellation_vertices(t, 0, t->part_count, vertices);
+    meso_scene_vertices(t, 0, t->part_count, vertices);
     for (uint64_t v = 0; v < count; v++)
         CHECK(meso_vec3_finite(vertices[v].position) && meso_vec3_finite(vertices[v].normal) &&
               isfinite(vertices[v].uv.x) && isfinite(vertices[v].uv.y));
@@ -90,19 +91,19 @@ static void grow(const MesoTileSet *set, const MesoVariantSet *variants, bool to
     MesoModel model = {.tile_set = *set};   /* of fine strands on the torus, of coarse ones on the sheet */
     if (!torus)
         model.options = (MesoMapOptions){.divisions = 2, .section_step = 0.4f, .tangent_scale = 3};
-    MesoStructure structure;
-    MesoTessellation tessellation;
+    MesoScene scene;
+    MesoSceneParts parts;
     MesoError error;
     MesoArena arena;
     meso_arena_init(&arena);
     make_surface(&model.surface, &arena, torus);
     add_meshes(&model, &arena);
     if (solve(&model, variants, &arena)) {
-        MesoStatus status = meso_structure_build(&structure, &arena, &model, 1, &error);
+        MesoStatus status = meso_model_expand(&scene, NULL, &arena, &model, 1, &error);
         CHECK(status == MESO_OK || status == MESO_ERR_INPUT || status == MESO_ERR_LIMIT);
-        if (status == MESO_OK && meso_tessellation_init(&tessellation, &arena, &structure, &error) == MESO_OK &&
-            tessellation.vertex_begin[tessellation.part_count] <= MOST_VERTICES)
-            write_mesh(&tessellation, &arena);
+        if (status == MESO_OK && meso_scene_parts_init(&parts, &arena, &scene, &error) == MESO_OK &&
+            parts.vertex_begin[parts.part_count] <= MOST_VERTICES)
+            write_mesh(&parts, &arena);
     }
     meso_arena_release(&arena);
 }

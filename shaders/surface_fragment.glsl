@@ -3,13 +3,15 @@
 in vec3 world_normal;
 in float view_depth;
 in float material_blend;
-flat in uint slot_id;
+flat in uint id_row;
+#ifdef COLORED
+in vec3 vertex_color;
+#endif
 
 layout(location = 4) uniform vec4 start_color;      // albedo, roughness
 layout(location = 5) uniform vec4 end_color;
 layout(location = 6) uniform float start_metallic;
 layout(location = 7) uniform float end_metallic;
-layout(location = 8) uniform uint tile;
 
 #ifdef PACKED
 // For the antialiased colour alone: the depth is in the depth buffer.
@@ -25,13 +27,16 @@ vec2 octahedral(vec3 n)
 layout(location = 0) out vec4 out_normal;           // and roughness
 layout(location = 1) out vec4 out_albedo;           // and metallic
 layout(location = 2) out float out_depth;
-layout(location = 3) out uvec2 out_ids;             // slot + 1, tile + 1
+layout(location = 3) out uint out_ids;              // row + 1
 #endif
 
 void main()
 {
     float blend = smoothstep(0.0, 1.0, material_blend);
     vec4 color = mix(start_color, end_color, blend);
+#ifdef COLORED
+    color.rgb *= vertex_color;
+#endif
     float metallic = mix(start_metallic, end_metallic, blend);
     float square = dot(world_normal, world_normal);
     vec3 normal = square > 0.0 ? world_normal * inversesqrt(square) : vec3(0, 0, 1);
@@ -44,6 +49,6 @@ void main()
     out_normal = vec4(normal, color.a);
     out_albedo = vec4(color.rgb, metallic);
     out_depth = view_depth;
-    out_ids = uvec2(slot_id + 1u, tile + 1u);
+    out_ids = id_row + 1u;
 #endif
 }

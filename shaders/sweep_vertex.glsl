@@ -1,5 +1,5 @@
 // A vertex of the pattern, bent along the trajectory of its instance: the
-// formulas of libcore/shell/structure.h. CAP: closes a cross-section.
+// formulas of libcore/scene/scene.h. CAP: closes a cross-section.
 layout(location = 0) in vec4 profile;           // start.xy, end.xy
 layout(location = 1) in vec4 profile_normal;
 layout(location = 2) in float along;
@@ -11,7 +11,7 @@ layout(location = 7) in vec3 up0;
 layout(location = 8) in vec3 up1;
 layout(location = 9) in vec3 direction0;
 layout(location = 10) in vec3 direction1;
-layout(location = 11) in uint slot;
+layout(location = 11) in uint ids;
 
 layout(location = 0) uniform mat4 clip_from_world;
 layout(location = 1) uniform vec4 depth_axis;
@@ -21,7 +21,7 @@ layout(location = 3) uniform float cap_rise;
 out vec3 world_normal;
 out float view_depth;
 out float material_blend;
-flat out uint slot_id;
+flat out uint id_row;
 
 vec3 unit(vec3 v, vec3 otherwise)
 {
@@ -60,5 +60,5 @@ void main()
     world_normal = unit(n.x * x + n.y * y + lean * tangent, x);
     gl_Position = clip_from_world * vec4(position, 1.0);
     view_depth = dot(depth_axis, vec4(position, 1.0));
-    slot_id = slot;
+    id_row = ids;
 }

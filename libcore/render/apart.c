@@ -16,7 +16,7 @@ typedef struct Work {
     MesoArena *arena;
     const char *maker;
     uint32_t thread_count;
-    const MesoStructure *structure;
+    const MesoScene *scene;
     const MesoRenderOptions *options;
 } Work;
 
@@ -30,17 +30,17 @@ static MesoStatus draw(void *pointer, MesoError *error)
         return status;
     work->picture->context_made = meso_seconds();
     memcpy(work->picture->renderer, context.renderer, sizeof context.renderer);
-    return meso_render_placed(&work->picture->image, work->arena, &context, work->structure,
+    return meso_render_placed(&work->picture->image, work->arena, &context, work->scene,
                               work->options, error);
 }
 
 MesoStatus meso_picture_init(MesoPicture **picture, MesoArena *arena, const char *maker,
-                             uint32_t thread_count, const MesoStructure *structure,
+                             uint32_t thread_count, const MesoScene *scene,
                              const MesoRenderOptions *options, MesoError *error)
 {
     size_t image_bytes, least_bytes;
     *picture = NULL;
-    MesoStatus status = meso_render_memory(options, &image_bytes, &least_bytes, error);
+    MesoStatus status = meso_render_memory(scene, options, &image_bytes, &least_bytes, error);
     if (status)
         return status;
     size_t size = HEAD_BYTES + image_bytes;
@@ -48,9 +48,9 @@ MesoStatus meso_picture_init(MesoPicture **picture, MesoArena *arena, const char
     if (!result)
         return MESO_ERR_MEMORY;
     result->size = size;
-    meso_image_place(&result->image, (unsigned char *)result + HEAD_BYTES, options);
+    meso_image_place(&result->image, (unsigned char *)result + HEAD_BYTES, scene, options);
 
-    Work work = {result, arena, maker, thread_count, structure, options};
+    Work work = {result, arena, maker, thread_count, scene, options};
     status = meso_isolate("drawing", draw, &work, DRIVER_BYTES + least_bytes, error);
     if (status) {
         meso_picture_release(result);

@@ -19,7 +19,7 @@ typedef struct MesoPicture {
  * MESO_ERR_INTERNAL where it dies otherwise.
  */
 MesoStatus meso_picture_init(MesoPicture **picture, MesoArena *arena, const char *maker,
-                             uint32_t thread_count, const MesoStructure *structure,
+                             uint32_t thread_count, const MesoScene *scene,
                              const MesoRenderOptions *options, MesoError *error);
 void meso_picture_release(MesoPicture *picture);
 

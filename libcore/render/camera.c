@@ -8,6 +8,8 @@
 
 #include <float.h>
 
+#include "libcore/scene/placed.h"
+
 /* Share of the picture that stays empty at each side. */
 static const float MARGIN = 0.05f;
 
@@ -105,52 +107,35 @@ static MesoVec3 curve_point(const MesoVec3 p[4], float t)
     return meso_vec3_lerp(meso_vec3_lerp(a, b, t), meso_vec3_lerp(b, c, t), t);
 }
 
-/* The largest distance of a kind's profile from its trajectory. */
-static float profile_radius(const MesoStructure *structure, const MesoSweepKind *kind)
+static void add_kind(Frame *frame, const MesoScene *scene, const MesoSweptKind *kind)
 {
-    float radius = 0;
-    for (uint32_t c = 0; c < kind->column_count; c++) {
-        const MesoSweepColumn *column = &structure->columns[kind->column_begin + c];
-        radius = fmaxf(radius, fmaxf(meso_vec2_length(column->start), meso_vec2_length(column->end)));
-    }
-    return radius * structure->options.section_scale;
-}
-
-static void add_kind(Frame *frame, const MesoStructure *structure, const MesoSweepKind *kind)
-{
-    float radius = profile_radius(structure, kind);
+    float radius = meso_scene_kind_radius(scene, kind);
     for (uint32_t i = 0; i < kind->instance_count; i++) {
-        const MesoSweepInstance *instance = &structure->instances[kind->instance_begin + i];
+        const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
         if (kind->cap)
-            add_ball(frame, instance->p[0],
-                     fmaxf(radius, MESO_CAP_RISE * structure->options.section_scale));
+            add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * scene->section_scale));
         for (uint32_t k = 0; k <= 4 && !kind->cap; k++)
-            add_ball(frame, curve_point(instance->p, (float)k / 4), radius);
+            add_ball(frame, curve_point(sweep->p, (float)k / 4), radius);
     }
 }
 
-/* Inner meshes lie in their slots' shells, unless an artist's mesh sticks out. */
-static void add_inner(Frame *frame, const MesoStructure *structure, uint32_t slot)
+/* Bodies lie in their cages, unless an artist's mesh sticks out. */
+static void add_placed(Frame *frame, const MesoScene *scene, const MesoPlacedBody *placed)
 {
-    const MesoQuadMesh *surface = &structure->model->surface;
-    const MesoMapOptions *options = &structure->options;
-    for (uint32_t k = 0; k < 4; k++) {
-        MesoVec3 p = surface->positions[surface->face_vertices[4 * (size_t)slot + k]];
-        MesoVec3 n = surface->normals[surface->face_normals[4 * (size_t)slot + k]];
-        add_ball(frame, meso_vec3_mad(p, options->offset, n), 0);
-        add_ball(frame, meso_vec3_mad(p, options->offset + 0.5f * options->thickness, n), 0);
-    }
+    const MesoBody *body = &scene->bodies[placed->body];
+    bool caged = placed->place == MESO_PLACED_IN_CAGE;
+    for (uint32_t k = 0; caged && k < 8; k++)
+        add_ball(frame, meso_cage_corner(&scene->cages[placed->cage], k), 0);
+    for (uint32_t v = 0; !caged && v < body->vertex_count; v++)
+        add_ball(frame, meso_placed_point(scene, placed, body->positions[v]), 0);
 }
 
-MesoCamera meso_camera_frame_structure(const MesoStructure *structure, MesoVec3 up, float fov_degrees,
-                                       float aspect)
+MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fov_degrees, float aspect)
 {
-    MesoVec3 low, high;
-    meso_structure_bounds(structure, &low, &high);
-    Frame frame = begin_frame(low, high, up, fov_degrees, aspect);
-    for (uint32_t k = 0; k < structure->kind_count; k++)
-        add_kind(&frame, structure, &structure->kinds[k]);
-    for (uint32_t i = 0; i < structure->inner_count; i++)
-        add_inner(&frame, structure, structure->inners[i].slot);
+    Frame frame = begin_frame(scene->box.low, scene->box.high, up, fov_degrees, aspect);
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        add_kind(&frame, scene, &scene->kinds[k]);
+    for (uint32_t i = 0; i < scene->placed_count; i++)
+        add_placed(&frame, scene, &scene->placed[i]);
     return end_frame(&frame, fov_degrees);
 }

@@ -7,7 +7,7 @@
  */
 #include "libcore/render/render.h"
 
-#include "libcore/render/scene.h"
+#include "libcore/render/draw_lists.h"
 #include "libcore/render/targets.h"
 
 extern const char meso_shader_screen_vertex[], meso_shader_occlusion_fragment[];
@@ -28,16 +28,18 @@ static const float TOLERANCE_PIXELS = 0.25f;
 /* Places that the occlusion of a pixel looks at; taps a side of the shadow's filter. */
 enum { OCCLUSION_SAMPLES = 20, SHADOW_TAPS = 4 };
 
-/* Occlusion reaches over a slot's shell and a share of the whole, at most so many pixels of a window. */
-static const float OCCLUSION_SHELLS = 0.9f, OCCLUSION_SHARE = 0.015f;
+/* Occlusion reaches over the scene's layer and a share of the whole, at most so many pixels of a window. */
+static const float OCCLUSION_LAYERS = 0.9f, OCCLUSION_SHARE = 0.015f;
 static const uint32_t MAX_OCCLUSION_PIXELS = 256;
 
 typedef struct Renderer {
     MesoGl gl;
     const MesoRenderOptions *options;
     MesoView view;
-    MesoScene scene;
-    MesoScenePrograms surface, packed, depth;
+    const MesoScene *scene;
+    MesoBox box;                /* around the scene, relative to the view's anchor */
+    MesoDrawLists lists;
+    MesoDrawPrograms surface, packed, depth;
     GLuint occlusion, blur, shade, empty_array;
     MesoTargets targets;
     MesoMatrix light;
@@ -65,7 +67,7 @@ static size_t array_bytes(const MesoRenderOptions *options, size_t pixel_bytes)
     return (pixel_bytes * options->width * options->height + 63) & ~(size_t)63;
 }
 
-void meso_image_place(MesoImage *image, void *memory, const MesoRenderOptions *options)
+void meso_image_place(MesoImage *image, void *memory, const MesoScene *scene, const MesoRenderOptions *options)
 {
     unsigned char *next = memory;
     *image = (MesoImage){.width = options->width, .height = options->height, .camera = options->camera};
@@ -77,20 +79,24 @@ void meso_image_place(MesoImage *image, void *memory, const MesoRenderOptions *o
     next += array_bytes(options, NORMAL_BYTES);
     image->albedo = (float *)next;
     next += array_bytes(options, ALBEDO_BYTES);
-    image->slot = (uint32_t *)next;
-    next += array_bytes(options, ID_BYTES);
-    image->tile = (uint32_t *)next;
+    image->channel_count = scene->channel_count;
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        image->channels[c] = scene->channels[c];
+        image->ids[c] = (uint32_t *)next;
+        next += array_bytes(options, ID_BYTES);
+    }
 }
 
 static MesoStatus make_programs(Renderer *r, MesoError *error)
 {
     const char *screen = meso_shader_screen_vertex;
+    bool colored = meso_scene_is_colored(r->scene);
     const char *samples = r->options->samples == 4 ? "#define SAMPLES 4\n" : "#define SAMPLES 1\n";
-    MesoStatus status = meso_scene_programs_init(&r->surface, &r->gl, MESO_DRAW_SURFACE, error);
+    MesoStatus status = meso_draw_programs_init(&r->surface, &r->gl, MESO_DRAW_SURFACE, colored, error);
     if (!status && r->options->samples > 1)
-        status = meso_scene_programs_init(&r->packed, &r->gl, MESO_DRAW_PACKED, error);
+        status = meso_draw_programs_init(&r->packed, &r->gl, MESO_DRAW_PACKED, colored, error);
     if (!status)
-        status = meso_scene_programs_init(&r->depth, &r->gl, MESO_DRAW_DEPTH, error);
+        status = meso_draw_programs_init(&r->depth, &r->gl, MESO_DRAW_DEPTH, colored, error);
     if (!status)
         status = meso_gl_program(&r->occlusion, &r->gl, "", screen, meso_shader_occlusion_fragment, error);
     if (!status)
@@ -109,11 +115,11 @@ static MesoVec3 in_view(const MesoView *view, float right, float up, float back)
 /* Near plane, lights and occlusion from the box around the scene. */
 static void measure(Renderer *r)
 {
-    const MesoScene *scene = &r->scene;
+    MesoBox box = r->box;
     float nearest = INFINITY, farthest = 0;
     MesoVec3 eye = meso_vec3_sub(r->view.eye, r->view.anchor);
     for (uint32_t i = 0; i < 8; i++) {
-        MesoVec3 corner = meso_box_corner(scene->low, scene->high, i);
+        MesoVec3 corner = meso_box_corner(box.low, box.high, i);
         float depth = meso_vec3_dot(meso_vec3_sub(corner, eye), r->view.forward);
         nearest = fminf(nearest, depth);
         farthest = fmaxf(farthest, depth);
@@ -124,12 +130,11 @@ static void measure(Renderer *r)
 
     r->to_key = in_view(&r->view, -0.55f, 0.8f, 0.7f);
     r->to_rim = in_view(&r->view, 0.75f, 0.35f, -0.55f);
-    float extent, size = meso_vec3_length(meso_vec3_sub(scene->high, scene->low));
-    r->light = meso_light_clip_from_world(meso_vec3_scale(r->to_key, -1), scene->low, scene->high,
+    float extent, size = meso_vec3_length(meso_vec3_sub(box.high, box.low));
+    r->light = meso_light_clip_from_world(meso_vec3_scale(r->to_key, -1), box.low, box.high,
                                           &extent);
     r->shadow_texel = extent / (float)r->targets.shadow_size;
-    r->occlusion_radius = OCCLUSION_SHELLS * scene->structure->options.thickness
-                          + OCCLUSION_SHARE * size;
+    r->occlusion_radius = OCCLUSION_LAYERS * r->scene->thickness + OCCLUSION_SHARE * size;
     if (!(r->occlusion_radius > 0 && isfinite(r->occlusion_radius)))
         r->occlusion_radius = 1;
 }
@@ -171,7 +176,7 @@ static void draw_shadow(Renderer *r)
     meso_targets_begin_shadow(&r->targets);
     gl->Enable(GL_POLYGON_OFFSET_FILL);
     gl->PolygonOffset(-1.5f, -4);
-    meso_scene_draw(&r->scene, &r->depth, &r->light, NULL);
+    meso_draw_lists_draw(&r->lists, &r->depth, &r->light, NULL);
     gl->Disable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -271,9 +276,21 @@ static void read_back(const Renderer *r, MesoImage *image, MesoWindow inner, Mes
     gl->ReadPixels(x, y, w, h, GL_RGB, GL_FLOAT, image->normal + 3 * first);
     gl->NamedFramebufferReadBuffer(center, GL_COLOR_ATTACHMENT0 + MESO_TARGET_ALBEDO);
     gl->ReadPixels(x, y, w, h, GL_RGB, GL_FLOAT, image->albedo + 3 * first);
+    if (image->channel_count == 0)
+        return;
     gl->NamedFramebufferReadBuffer(center, GL_COLOR_ATTACHMENT0 + MESO_TARGET_IDS);
-    gl->ReadPixels(x, y, w, h, GL_RED_INTEGER, GL_UNSIGNED_INT, image->slot + first);
-    gl->ReadPixels(x, y, w, h, GL_GREEN_INTEGER, GL_UNSIGNED_INT, image->tile + first);
+    gl->ReadPixels(x, y, w, h, GL_RED_INTEGER, GL_UNSIGNED_INT, image->ids[0] + first);
+}
+
+/* The pixels have rows of the scene's ids in the first channel's place, which is filled last. */
+static void look_up_ids(const MesoScene *scene, MesoImage *image)
+{
+    size_t count = image->channel_count ? (size_t)image->width * image->height : 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t row = image->ids[0][i];
+        for (uint32_t c = image->channel_count; row > 0 && c-- > 0;)
+            image->ids[c][i] = meso_scene_id(scene, row - 1, c) + 1;
+    }
 }
 
 /* Where the target's pixels lie so that it holds `inner` with as much around it as the image has. */
@@ -290,12 +307,12 @@ static void draw_window(Renderer *r, MesoImage *image, MesoWindow inner)
     MesoWindow outer = surround(r, inner);
     MesoMatrix clip = meso_view_clip_from_world(&r->view, r->near_depth, r->options->width,
                                                 r->options->height, outer);
-    meso_scene_select(&r->scene, &clip);
+    meso_draw_lists_select(&r->lists, &clip);
     meso_targets_begin_center(&r->targets);
-    meso_scene_draw(&r->scene, &r->surface, &clip, &r->view);
+    meso_draw_lists_draw(&r->lists, &r->surface, &clip, &r->view);
     if (r->targets.sample_side > 1) {
         meso_targets_begin_multi(&r->targets);
-        meso_scene_draw(&r->scene, &r->packed, &clip, &r->view);
+        meso_draw_lists_draw(&r->lists, &r->packed, &clip, &r->view);
     }
     r->gl.Disable(GL_DEPTH_TEST);
     draw_occlusion(r, outer);
@@ -329,26 +346,25 @@ static void release(Renderer *r)
 {
     const MesoGl *gl = &r->gl;
     meso_targets_release(&r->targets);
-    meso_scene_release(&r->scene);
-    meso_scene_programs_release(&r->surface, gl);
-    meso_scene_programs_release(&r->packed, gl);
-    meso_scene_programs_release(&r->depth, gl);
+    meso_draw_lists_release(&r->lists);
+    meso_draw_programs_release(&r->surface, gl);
+    meso_draw_programs_release(&r->packed, gl);
+    meso_draw_programs_release(&r->depth, gl);
     gl->DeleteProgram(r->occlusion);
     gl->DeleteProgram(r->blur);
     gl->DeleteProgram(r->shade);
     gl->DeleteVertexArrays(1, &r->empty_array);
 }
 
-static MesoStatus draw(Renderer *r, MesoImage *image, MesoArena *arena,
-                       const MesoStructure *structure, MesoError *error)
+static MesoStatus draw(Renderer *r, MesoImage *image, MesoArena *arena, MesoError *error)
 {
     const MesoRenderOptions *options = r->options;
     MesoStatus status = make_programs(r, error);
     if (!status)
         status = make_targets(r, error);
     if (!status)
-        status = meso_scene_init(&r->scene, arena, &r->gl, structure, &r->view, options->height,
-                                 options->full_detail ? 0 : TOLERANCE_PIXELS, error);
+        status = meso_draw_lists_init(&r->lists, arena, &r->gl, r->scene, &r->view, options->height,
+                                      options->full_detail ? 0 : TOLERANCE_PIXELS, error);
     if (status)
         return status;
 
@@ -357,54 +373,57 @@ static MesoStatus draw(Renderer *r, MesoImage *image, MesoArena *arena,
     measure(r);
     draw_shadow(r);
     status = meso_gl_check(&r->gl, "shadow", error);
-    return status ? status : draw_windows(r, image, error);
+    if (!status)
+        status = draw_windows(r, image, error);
+    if (!status)
+        look_up_ids(r->scene, image);
+    return status;
 }
 
-MesoStatus meso_render_memory(const MesoRenderOptions *options, size_t *image_bytes, size_t *least_bytes,
-                              MesoError *error)
+MesoStatus meso_render_memory(const MesoScene *scene, const MesoRenderOptions *options, size_t *image_bytes,
+                              size_t *least_bytes, MesoError *error)
 {
-    static const size_t arrays[] = {COLOR_BYTES, DEPTH_BYTES, NORMAL_BYTES, ALBEDO_BYTES, ID_BYTES, ID_BYTES};
+    static const size_t arrays[] = {COLOR_BYTES, DEPTH_BYTES, NORMAL_BYTES, ALBEDO_BYTES};
     MesoStatus status = check_options(options, error);
     if (status)
         return status;
     uint32_t margin;
     MesoTargets plan = plan_targets(options, &margin);
     *least_bytes = meso_targets_bytes(plan.width, plan.height, plan.sample_side, plan.shadow_size);
-    *image_bytes = 0;
+    *image_bytes = scene->channel_count * array_bytes(options, ID_BYTES);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         *image_bytes += array_bytes(options, arrays[i]);
     return MESO_OK;
 }
 
 MesoStatus meso_render_placed(MesoImage *image, MesoArena *arena, MesoGlContext *context,
-                              const MesoStructure *structure, const MesoRenderOptions *options,
+                              const MesoScene *scene, const MesoRenderOptions *options,
                               MesoError *error)
 {
-    Renderer r = {.options = options};
+    Renderer r = {.options = options, .scene = scene};
     MesoStatus status = meso_view_build(&r.view, &options->camera, error);
     if (!status)
         status = meso_gl_load(&r.gl, context, error);
     if (status)
         return status;
-    MesoVec3 low, high;
-    meso_structure_bounds(structure, &low, &high);
-    r.view.anchor = meso_box_anchor(low, high);
-    status = draw(&r, image, arena, structure, error);
+    r.view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
+    r.box = (MesoBox){meso_vec3_sub(scene->box.low, r.view.anchor), meso_vec3_sub(scene->box.high, r.view.anchor)};
+    status = draw(&r, image, arena, error);
     release(&r);
     return status;
 }
 
 MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *context,
-                       const MesoStructure *structure, const MesoRenderOptions *options,
+                       const MesoScene *scene, const MesoRenderOptions *options,
                        MesoError *error)
 {
     size_t bytes, least;
-    MesoStatus status = meso_render_memory(options, &bytes, &least, error);
+    MesoStatus status = meso_render_memory(scene, options, &bytes, &least, error);
     if (status)
         return status;
     unsigned char *memory = MESO_NEW(arena, unsigned char, bytes, error);
     if (!memory)
         return MESO_ERR_MEMORY;
-    meso_image_place(image, memory, options);
-    return meso_render_placed(image, arena, context, structure, options, error);
+    meso_image_place(image, memory, scene, options);
+    return meso_render_placed(image, arena, context, scene, options, error);
 }

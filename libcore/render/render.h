@@ -1,11 +1,11 @@
-/* Renderer: a structure to an image with its arbitrary output variables (AOVs). */
+/* Renderer: a scene to an image with its arbitrary output variables (AOVs). */
 #ifndef MESO_RENDER_H
 #define MESO_RENDER_H
 
 #include <stddef.h>
 
 #include "libcore/render/context.h"
-#include "libcore/shell/structure.h"
+#include "libcore/scene/scene.h"
 
 typedef struct MesoCamera {
     MesoVec3 eye, target, up;
@@ -19,9 +19,8 @@ typedef struct MesoCamera {
  */
 MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect);
 
-/* The same, around the sweeps themselves and the slots with inner meshes. O(instances). */
-MesoCamera meso_camera_frame_structure(const MesoStructure *structure, MesoVec3 up, float fov_degrees,
-                                       float aspect);
+/* The same, around the sweeps, cages and bodies themselves. O(sweeps + vertices). */
+MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fov_degrees, float aspect);
 
 /* Rows from top to bottom. Unused arrays are never NULL: all AOVs are always made. */
 typedef struct MesoImage {
@@ -31,8 +30,9 @@ typedef struct MesoImage {
     float *depth;       /* [width * height] along the view axis, scene units; +inf where empty */
     float *normal;      /* [3 * width * height] world space; 0 where empty */
     float *albedo;      /* [3 * width * height] */
-    uint32_t *slot;     /* [width * height] slot + 1; 0 where empty */
-    uint32_t *tile;     /* [width * height] tile + 1 */
+    uint32_t channel_count;
+    MesoIdChannel channels[MESO_ID_CHANNELS];
+    uint32_t *ids[MESO_ID_CHANNELS];    /* [width * height] id + 1 in each channel; 0 where empty */
 } MesoImage;
 
 typedef struct MesoRenderOptions {
@@ -43,13 +43,13 @@ typedef struct MesoRenderOptions {
 } MesoRenderOptions;
 
 /*
- * Draws all kinds and inner meshes of `structure`. Colour is antialiased, the
+ * Draws all sweeps and bodies of `scene`. Colour is antialiased, the
  * other variables are those of the pixel's centre. Arrays of `image` go to
- * `arena`. MESO_ERR_LIMIT for an image over the context's limits,
+ * `arena`, the names of its channels stay the scene's. MESO_ERR_LIMIT for an image over the context's limits,
  * MESO_ERR_INTERNAL with the driver's words where GL fails.
  */
 MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *context,
-                       const MesoStructure *structure, const MesoRenderOptions *options,
+                       const MesoScene *scene, const MesoRenderOptions *options,
                        MesoError *error);
 
 /*
@@ -58,11 +58,11 @@ MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *contex
  * many at the least GL takes to draw it. Then the image's arrays get their
  * places in `memory`, aligned to 64, and are drawn.
  */
-MesoStatus meso_render_memory(const MesoRenderOptions *options, size_t *image_bytes, size_t *least_bytes,
-                              MesoError *error);
-void meso_image_place(MesoImage *image, void *memory, const MesoRenderOptions *options);
+MesoStatus meso_render_memory(const MesoScene *scene, const MesoRenderOptions *options, size_t *image_bytes,
+                              size_t *least_bytes, MesoError *error);
+void meso_image_place(MesoImage *image, void *memory, const MesoScene *scene, const MesoRenderOptions *options);
 MesoStatus meso_render_placed(MesoImage *image, MesoArena *arena, MesoGlContext *context,
-                              const MesoStructure *structure, const MesoRenderOptions *options,
+                              const MesoScene *scene, const MesoRenderOptions *options,
                               MesoError *error);
 
 #endif

@@ -20,43 +20,42 @@ enum { SIDES = 64, WIDTH = 160, HEIGHT = 90 };
 static const float RADIUS = 0.25f;
 
 typedef struct Bar {
-    MesoSection sections[2];
-    MesoModel model;
+    MesoMaterial materials[2];
     MesoSweepColumn columns[SIDES + 1];
-    MesoSweepKind kinds[2];
+    MesoSweptKind kinds[2];
     MesoSweepInstance instances[2];
-    MesoStructure structure;
+    uint32_t ids[4];
+    MesoScene scene;
 } Bar;
 
 static void make_bar(Bar *bar)
 {
     *bar = (Bar){0};
-    bar->sections[0].material = (MesoMaterial){{0.75f, 0.25f, 0.125f}, 0.5f, 0};
-    bar->sections[1].material = (MesoMaterial){{0.125f, 0.25f, 0.75f}, 0.5f, 0};
-    bar->model.tile_set.sections = bar->sections;
-    bar->model.tile_set.section_count = 2;
+    bar->materials[0] = (MesoMaterial){{0.75f, 0.25f, 0.125f}, 0.5f, 0};
+    bar->materials[1] = (MesoMaterial){{0.125f, 0.25f, 0.75f}, 0.5f, 0};
     for (uint32_t i = 0; i <= SIDES; i++) {     /* clockwise around the tangent */
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
         MesoVec2 s = {RADIUS * n.x, RADIUS * n.y};
         bar->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES};
     }
-    bar->kinds[0] = (MesoSweepKind){.column_count = SIDES + 1, .joint_count = SIDES,
-        .division_count = 9, .instance_count = 1, .tile = 6, .start_section = 0, .end_section = 1};
-    bar->kinds[1] = (MesoSweepKind){.column_count = SIDES + 1, .joint_count = SIDES,
-        .division_count = 9, .instance_begin = 1, .instance_count = 1, .tile = 8,
-        .sweep = MESO_NO_INDEX, .cap = true};
+    bar->kinds[0] = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES,
+        .division_count = 9, .instance_count = 1, .start_material = 0, .end_material = 1};
+    bar->kinds[1] = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES,
+        .division_count = 9, .instance_begin = 1, .instance_count = 1, .cap = true};
     bar->instances[0] = (MesoSweepInstance){
         {{-1, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{1, 0, 0}, {1, 0, 0}}, 40};
+        {{1, 0, 0}, {1, 0, 0}}, 0};
     bar->instances[1] = (MesoSweepInstance){
         {{-1, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{-1, 0, 0}, {-1, 0, 0}}, 41};
-    bar->structure = (MesoStructure){.model = &bar->model, .kind_count = 2, .column_count = SIDES + 1,
-        .instance_count = 2, .kinds = bar->kinds, .columns = bar->columns,
-        .instances = bar->instances};
-    bar->structure.options.section_scale = 1;
-    bar->structure.options.thickness = 0.5f;
+        {{-1, 0, 0}, {-1, 0, 0}}, 1};
+    const uint32_t ids[4] = {40, 6, 41, 8};
+    memcpy(bar->ids, ids, sizeof ids);
+    bar->scene = (MesoScene){.channel_count = 2, .channels = {{"slot", 42, NULL}, {"tile", 9, NULL}},
+        .material_count = 2, .materials = bar->materials, .id_row_count = 2, .ids = bar->ids,
+        .section_scale = 1, .thickness = 0.5f, .kind_count = 2, .column_count = SIDES + 1,
+        .sweep_count = 2, .kinds = bar->kinds, .columns = bar->columns, .sweeps = bar->instances};
+    meso_scene_measure(&bar->scene);
 }
 
 /* At 10 units the picture is 4 x 2.25 units wide: 40 pixels a unit. */
@@ -66,14 +65,14 @@ static MesoRenderOptions look(uint32_t samples)
     return (MesoRenderOptions){WIDTH, HEIGHT, {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, fov}, samples, false};
 }
 
-static MesoImage draw(MesoArena *arena, const MesoStructure *structure, const MesoRenderOptions *options,
+static MesoImage draw(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
                       const char *maker, uint32_t threads)
 {
     MesoGlContext context;
     MesoError error = {0};
     MesoImage image;
     if (meso_gl_context_init(&context, maker, threads, &error)
-        || meso_render(&image, arena, &context, structure, options, &error))
+        || meso_render(&image, arena, &context, scene, options, &error))
         fprintf(stderr, "%s\n", error.message);
     CHECK(error.status == MESO_OK);
     meso_gl_context_release(&context);
@@ -86,7 +85,7 @@ static bool same_pixels(const MesoImage *a, const MesoImage *b)
     return a->width == b->width && a->height == b->height
         && memcmp(a->color, b->color, 16 * n) == 0 && memcmp(a->depth, b->depth, 4 * n) == 0
         && memcmp(a->normal, b->normal, 12 * n) == 0 && memcmp(a->albedo, b->albedo, 12 * n) == 0
-        && memcmp(a->slot, b->slot, 4 * n) == 0 && memcmp(a->tile, b->tile, 4 * n) == 0;
+        && memcmp(a->ids[0], b->ids[0], 4 * n) == 0 && memcmp(a->ids[1], b->ids[1], 4 * n) == 0;
 }
 
 /* Pixel (x, y) sees the point ((x + 0.5 - 80) / 40, (45 - y - 0.5) / 40) of the plane z = 0. */
@@ -96,8 +95,8 @@ static void test_values(const MesoImage *image)
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = 0; x < WIDTH; x++) {
             size_t i = (size_t)y * WIDTH + x;
-            bool empty = image->slot[i] == 0;
-            CHECK(empty == (image->tile[i] == 0) && empty == (isinf(image->depth[i]) != 0));
+            bool empty = image->ids[0][i] == 0;
+            CHECK(empty == (image->ids[1][i] == 0) && empty == (isinf(image->depth[i]) != 0));
             CHECK(empty == (image->normal[3 * i] == 0 && image->normal[3 * i + 1] == 0
                             && image->normal[3 * i + 2] == 0));
             CHECK(image->color[4 * i + 3] >= 0 && image->color[4 * i + 3] <= 1);
@@ -112,7 +111,7 @@ static void test_values(const MesoImage *image)
             bool inside = b * b - a * c > 0.002 && fabs(world_x) < 0.98;
             if (!inside)
                 continue;
-            CHECK(image->slot[i] == 41 && image->tile[i] == 7);
+            CHECK(image->ids[0][i] == 41 && image->ids[1][i] == 7);
             CHECK(fabs(image->depth[i] - (10 - z)) < 0.25 / 40 * (double)RADIUS / z + 1e-3);
             CHECK(fabs(image->normal[3 * i]) < 1e-3);
             CHECK(fabs(image->normal[3 * i + 1] - (10 - z) * slope / (double)RADIUS) < 0.05);
@@ -128,7 +127,7 @@ static void test_values(const MesoImage *image)
     /* The bar's 80 x 20 pixels, nearer than the plane by its radius, and the cap's dome. */
     CHECK(covered > 1600 && covered < 1800);
     size_t cap = (size_t)(HEIGHT / 2) * WIDTH + 37;     /* world x = -1.06 */
-    CHECK(image->slot[cap] == 42 && image->tile[cap] == 9 && image->albedo[3 * cap] == 0.75f);
+    CHECK(image->ids[0][cap] == 42 && image->ids[1][cap] == 9 && image->albedo[3 * cap] == 0.75f);
     CHECK(image->normal[3 * cap] < 0);
 }
 
@@ -145,17 +144,18 @@ static void test_detail(MesoArena *arena)
             bar.instances[i].p[k].x += 0.5f;
             bar.instances[i].p[k].y += 0.5f;
         }
+    meso_scene_measure(&bar.scene);
     MesoRenderOptions options = look(1);
-    MesoImage thin = draw(arena, &bar.structure, &options, "osmesa", 0);
+    MesoImage thin = draw(arena, &bar.scene, &options, "osmesa", 0);
     options.full_detail = true;
-    MesoImage full = draw(arena, &bar.structure, &options, "osmesa", 0);
+    MesoImage full = draw(arena, &bar.scene, &options, "osmesa", 0);
     for (size_t i = 0; i < WIDTH * HEIGHT; i++)
-        if (thin.slot[i] && full.slot[i] && full.normal[3 * i + 2] > 0.2f)
+        if (thin.ids[0][i] && full.ids[0][i] && full.normal[3 * i + 2] > 0.2f)
             CHECK(fabsf(thin.depth[i] - full.depth[i]) < 0.5f / 40 / full.normal[3 * i + 2]);
     CHECK(!same_pixels(&thin, &full));
-    CHECK(full.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 + 50] == 41);
-    CHECK(full.slot[(HEIGHT / 2 + 20) * WIDTH + WIDTH / 2 + 50] == 0);
-    CHECK(full.slot[(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 - 30] == 0);
+    CHECK(full.ids[0][(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 + 50] == 41);
+    CHECK(full.ids[0][(HEIGHT / 2 + 20) * WIDTH + WIDTH / 2 + 50] == 0);
+    CHECK(full.ids[0][(HEIGHT / 2 - 20) * WIDTH + WIDTH / 2 - 30] == 0);
 }
 
 /* An image of several windows is the same as one drawn at once, but for rounding at the seams. */
@@ -167,14 +167,14 @@ static void test_windows(MesoArena *arena)
     options.width = 2400;
     options.height = 64;
     options.camera.fov_degrees = 1;
-    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    MesoImage image = draw(arena, &bar.scene, &options, "osmesa", 0);
     float pixel = 2 * tanf((float)(3.14159265358979323846 / 360)) * 10 / 64;
     for (uint32_t x = 0; x < 2400; x++) {
         float world_x = ((float)x + 0.5f - 1200) * pixel * (10 - RADIUS) / 10;
         if (fabsf(world_x) < 0.98f)
-            CHECK(image.slot[32 * 2400 + x] == 41);
+            CHECK(image.ids[0][32 * 2400 + x] == 41);
         else if (fabsf(world_x) > 1.2f)
-            CHECK(image.slot[32 * 2400 + x] == 0);
+            CHECK(image.ids[0][32 * 2400 + x] == 0);
     }
 }
 
@@ -187,23 +187,24 @@ static void test_far(MesoArena *arena, const MesoImage *expected)
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 4; k++)
             bar.instances[i].p[k] = meso_vec3_add(bar.instances[i].p[k], place);
+    meso_scene_measure(&bar.scene);
     MesoRenderOptions options = look(1);
     options.camera.eye = meso_vec3_add(options.camera.eye, place);
     options.camera.target = meso_vec3_add(options.camera.target, place);
-    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    MesoImage image = draw(arena, &bar.scene, &options, "osmesa", 0);
     size_t other = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
-        other += image.slot[i] != expected->slot[i];
-        if (image.slot[i] && image.slot[i] == expected->slot[i])
+        other += image.ids[0][i] != expected->ids[0][i];
+        if (image.ids[0][i] && image.ids[0][i] == expected->ids[0][i])
             CHECK(fabsf(image.depth[i] - expected->depth[i]) < 1e-3f);
     }
     CHECK(other < 10);
 
-    options.camera = meso_camera_frame_structure(&bar.structure, (MesoVec3){0, 1, 0}, 30, 16 / 9.0f);
-    image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    options.camera = meso_camera_frame_scene(&bar.scene, (MesoVec3){0, 1, 0}, 30, 16 / 9.0f);
+    image = draw(arena, &bar.scene, &options, "osmesa", 0);
     size_t covered = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; i++)
-        covered += image.slot[i] != 0;
+        covered += image.ids[0][i] != 0;
     CHECK(covered > 2000);      /* the bar reaches over most of the width */
 }
 
@@ -211,11 +212,12 @@ static void test_nothing(MesoArena *arena)
 {
     Bar bar;
     make_bar(&bar);
-    bar.structure.kind_count = bar.structure.instance_count = 0;
+    bar.scene.kind_count = bar.scene.sweep_count = 0;
+    meso_scene_measure(&bar.scene);
     MesoRenderOptions options = look(4);
-    MesoImage image = draw(arena, &bar.structure, &options, "osmesa", 0);
+    MesoImage image = draw(arena, &bar.scene, &options, "osmesa", 0);
     for (size_t i = 0; i < WIDTH * HEIGHT; i++)
-        CHECK(image.slot[i] == 0 && isinf(image.depth[i]) && image.color[4 * i + 3] == 0);
+        CHECK(image.ids[0][i] == 0 && isinf(image.depth[i]) && image.color[4 * i + 3] == 0);
 }
 
 static void test_refusals(MesoArena *arena)
@@ -228,21 +230,21 @@ static void test_refusals(MesoArena *arena)
     CHECK(meso_gl_context_init(&context, "glx", 0, &error) == MESO_ERR_USAGE);
     CHECK(meso_gl_context_init(&context, "osmesa", 0, &error) == MESO_OK);
     MesoRenderOptions options = look(2);
-    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_USAGE);
+    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_USAGE);
     options = look(1);
     options.width = 16385;
-    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_LIMIT);
+    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_LIMIT);
     options = look(1);
     options.camera.eye.z = 0;
-    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_USAGE);
+    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_USAGE);
     options.camera.eye.z = NAN;
-    CHECK(meso_render(&image, arena, &context, &bar.structure, &options, &error) == MESO_ERR_USAGE);
+    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_USAGE);
     meso_gl_context_release(&context);
     CHECK(meso_gl_is_software("llvmpipe (LLVM 15.0.6, 256 bits)") && !meso_gl_is_software("NVIDIA H200"));
 }
 
 /* EGL may offer nothing; where it is software, it agrees, for another number of threads too. */
-static void test_makers(MesoArena *arena, const MesoStructure *structure, const MesoImage *expected)
+static void test_makers(MesoArena *arena, const MesoScene *scene, const MesoImage *expected)
 {
     MesoGlContext context;
     if (meso_gl_context_init(&context, "egl", 0, NULL) != MESO_OK)
@@ -250,7 +252,7 @@ static void test_makers(MesoArena *arena, const MesoStructure *structure, const 
     bool software = meso_gl_is_software(context.renderer);
     meso_gl_context_release(&context);
     MesoRenderOptions options = look(4);
-    MesoImage image = draw(arena, structure, &options, "egl", 2);
+    MesoImage image = draw(arena, scene, &options, "egl", 2);
     if (software)
         CHECK(same_pixels(&image, expected));
     else
@@ -267,16 +269,16 @@ int main(void)
     meso_arena_init(&arena);
     make_bar(&bar);
     MesoRenderOptions options = look(1);
-    MesoImage one = draw(&arena, &bar.structure, &options, "osmesa", 0);
+    MesoImage one = draw(&arena, &bar.scene, &options, "osmesa", 0);
     test_values(&one);
     options = look(4);
-    MesoImage four = draw(&arena, &bar.structure, &options, "osmesa", 1);
+    MesoImage four = draw(&arena, &bar.scene, &options, "osmesa", 1);
     test_values(&four);
     CHECK(memcmp(one.depth, four.depth, 4 * WIDTH * HEIGHT) == 0);
-    MesoImage again = draw(&arena, &bar.structure, &options, "osmesa", 2);
+    MesoImage again = draw(&arena, &bar.scene, &options, "osmesa", 2);
     CHECK(same_pixels(&four, &again));
 
-    test_makers(&arena, &bar.structure, &four);
+    test_makers(&arena, &bar.scene, &four);
     test_detail(&arena);
     test_windows(&arena);
     test_far(&arena, &one);

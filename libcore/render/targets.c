@@ -7,7 +7,7 @@ static const GLenum SURFACE_FORMATS[MESO_SURFACE_TARGETS] = {
     [MESO_TARGET_NORMAL] = GL_RGBA16F,
     [MESO_TARGET_ALBEDO] = GL_RGBA16F,
     [MESO_TARGET_DEPTH] = GL_R32F,
-    [MESO_TARGET_IDS] = GL_RG32UI,
+    [MESO_TARGET_IDS] = GL_R32UI,
 };
 
 static GLuint make_texture(const MesoGl *gl, GLenum format, uint32_t width, uint32_t height)
@@ -100,8 +100,8 @@ MesoStatus meso_targets_init(MesoTargets *targets, const MesoGl *gl, uint32_t wi
 
 size_t meso_targets_bytes(uint32_t width, uint32_t height, uint32_t sample_side, uint32_t shadow_size)
 {
-    /* normal and albedo of 8, depth 4, ids 8, z 4; openness twice 2; color 16 */
-    size_t pixel_bytes = 2 * 8 + 4 + 8 + 4 + 2 * 2 + 16;
+    /* normal and albedo of 8, depth 4, ids 4, z 4; openness twice 2; color 16 */
+    size_t pixel_bytes = 2 * 8 + 4 + 4 + 4 + 2 * 2 + 16;
     if (sample_side > 1)
         pixel_bytes += (size_t)sample_side * sample_side * (16 + 4);
     return pixel_bytes * width * height + (size_t)4 * shadow_size * shadow_size;

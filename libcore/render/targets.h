@@ -11,7 +11,7 @@ typedef enum MesoSurfaceTarget {
     MESO_TARGET_NORMAL,     /* and roughness */
     MESO_TARGET_ALBEDO,     /* and metallic */
     MESO_TARGET_DEPTH,
-    MESO_TARGET_IDS,
+    MESO_TARGET_IDS,        /* row of the scene's ids, from 1 */
     MESO_SURFACE_TARGETS
 } MesoSurfaceTarget;
 

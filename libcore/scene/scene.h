@@ -1,24 +1,169 @@
 /*
  * Scene: what every method ends in, and all that writers and the renderer
  * read: materials, channels of ids with their names, tubes, and bodies where
- * they are placed. It knows no method and no adjacency.
+ * they are placed. It knows no method and no adjacency. It owns nothing; its
+ * arrays live in the arenas of whoever made it.
+ *
+ * A point of an instance of a swept kind, at column c and v in [0,1]:
+ *
+ *     B(v)    cubic Bezier over p[0..3] (MesoGen, section 3.5)
+ *     T(v)    unit B'(v); at the ends exactly direction[0], direction[1]
+ *     X(v)    unit cross(lerp(up[0], up[1], v), T)        Y(v) = cross(T, X)
+ *     w(v)    v v (3 - 2 v)
+ *     s(v)    lerp(c.start, c.end, w)
+ *     P(v)    B + section_scale * (s.x X + s.y Y)
+ *
+ * with the normal n.x X + n.y Y - tilt T made unit, where n is the 2D normal
+ * interpolated like s and tilt = section_scale w'(v) dot(c.end - c.start, n) / |B'|.
+ *
+ * A cap has the straight axis T = direction[0], X and Y from up[0], s = start, and
+ *
+ *     P(v) = p[0] + section_scale * ((1 - v^4) (s.x X + s.y Y) + MESO_CAP_RISE v T)
+ *
+ * with the normal MESO_CAP_RISE (n.x X + n.y Y) + 4 v^3 dot(s, n) T made unit.
+ * (The prototype's dome, radius 1 - t^2 and rise sqrt(t) / 8, with t = v^2.)
  */
 #ifndef MESO_SCENE_H
 #define MESO_SCENE_H
 
 #include "libcore/base/arena.h"
-#include "libcore/base/vec.h"
+#include "libcore/math/box.h"
+#include "libcore/math/cage.h"
+#include "libcore/math/square.h"
+#include "libcore/scene/material.h"
+
+/* Height of a cap over its end, in units of the profiles (the prototype's). */
+#define MESO_CAP_RISE 0.125f
 
 /*
  * What tells the parts of a scene apart: "slot" and "tile", "region", "element". Each part has one id in every
  * channel, and so has each pixel of a picture. Ids of channels with names fit in 16 bits in files.
  */
-enum { MESO_ID_CHANNELS = 4 };
+enum { MESO_ID_CHANNELS = 4, MESO_CHANNEL_NAME = 32 };
 
 typedef struct MesoIdChannel {
-    const char *name;
+    const char *name;           /* lower-case letters, digits and '_', under MESO_CHANNEL_NAME bytes */
     uint32_t count;             /* ids are below it */
     const char **names;         /* [count], or NULL: numbers are their own names */
 } MesoIdChannel;
+
+/* ---- tubes ---- */
+
+/* One line of vertices along a sweep. */
+typedef struct MesoSweepColumn {
+    MesoVec2 start, end;                /* profile points at v 0 and 1, in units of the profiles */
+    MesoVec2 start_normal, end_normal;  /* outward, as long as the chord that they are normal to */
+    float u;                            /* around, in [0,1] */
+    uint32_t joins_next;                /* 1 if quads lie between this column and the next */
+} MesoSweepColumn;
+
+/* Sweeps that share their columns. The columns run clockwise around the trajectory. */
+typedef struct MesoSweptKind {
+    uint32_t column_begin, column_count;
+    uint32_t joint_count;               /* columns that join the next */
+    uint32_t division_count;            /* vertices along, at least 2 */
+    uint32_t instance_begin, instance_count;
+    uint32_t start_material, end_material;  /* drawn as a blend; files know the first */
+    bool cap;
+} MesoSweptKind;
+
+typedef struct MesoSweepInstance {
+    MesoVec3 p[4];              /* control points; a cap has p[1..3] along its axis */
+    MesoVec3 up[2];             /* of the profile's y direction at both ends; not of unit length */
+    MesoVec3 direction[2];      /* unit tangents at both ends, from start to end */
+    uint32_t ids;               /* row of the scene's ids */
+} MesoSweepInstance;
+
+/* ---- bodies ---- */
+
+typedef struct MesoMeshVertex {
+    MesoVec3 position;
+    MesoVec3 normal;    /* unit length, outward */
+    MesoVec2 uv;        /* of a sweep: u around, v along */
+} MesoMeshVertex;
+
+/* Counter-clockwise seen from outside. */
+typedef struct MesoMeshFace {
+    uint32_t v[4];      /* v[3] is MESO_NO_INDEX for a triangle */
+} MesoMeshFace;
+
+/* Linear, 255 for 1; times the material's albedo. */
+typedef struct MesoMeshColor {
+    uint8_t r, g, b;
+} MesoMeshColor;
+
+/* A mesh of triangles and quads. What has several materials or ids is several bodies, which may share arrays. */
+typedef struct MesoBody {
+    uint32_t vertex_count, face_count;
+    uint32_t face_width;            /* 3: triangles; 4: as in MesoMeshFace */
+    const MesoVec3 *positions;      /* [vertex_count] */
+    const MesoVec3 *normals;        /* [vertex_count] unit length */
+    const MesoVec2 *uvs;            /* [vertex_count], or NULL: all 0 */
+    const MesoMeshColor *colors;    /* [vertex_count], or NULL: all white */
+    const uint32_t *corners;        /* [face_width * face_count] */
+} MesoBody;
+
+/* Rows of a 3 x 4 matrix. */
+typedef struct MesoFrame {
+    float m[12];
+} MesoFrame;
+
+typedef enum MesoPlace {
+    MESO_PLACED_HERE,       /* where the body's own coordinates say */
+    MESO_PLACED_IN_FRAME,   /* under an affine frame */
+    MESO_PLACED_IN_CAGE     /* under a frame into [0,1] x [0,1] x [0,1/2], turned there, and bent into a cage */
+} MesoPlace;
+
+typedef struct MesoPlacedBody {
+    uint32_t body, material;
+    uint32_t ids;           /* row of the scene's ids */
+    uint32_t frame, cage;   /* where the place has them */
+    MesoPlace place;
+    MesoTransform turn;     /* in the cage */
+} MesoPlacedBody;
+
+/* ---- scenes ---- */
+
+typedef struct MesoScene {
+    uint32_t channel_count, material_count;
+    MesoIdChannel channels[MESO_ID_CHANNELS];
+    MesoMaterial *materials;        /* [material_count] */
+    const char **material_names;    /* [material_count] */
+    uint32_t id_row_count;
+    uint32_t *ids;                  /* [id_row_count * channel_count], row by row */
+
+    float section_scale;            /* scene units of one unit of the profiles */
+    float thickness;                /* of the layer that the scene makes, for ambient occlusion; 0: it is none */
+    uint32_t kind_count, column_count, sweep_count;
+    MesoSweptKind *kinds;           /* [kind_count] */
+    MesoSweepColumn *columns;       /* [column_count] */
+    MesoSweepInstance *sweeps;      /* [sweep_count] by kind */
+
+    uint32_t body_count, placed_count, frame_count, cage_count;
+    MesoBody *bodies;               /* [body_count] */
+    MesoPlacedBody *placed;         /* [placed_count] */
+    MesoFrame *frames;              /* [frame_count] */
+    MesoCage *cages;                /* [cage_count] */
+
+    MesoBox box;                    /* around everything, from meso_scene_measure() */
+} MesoScene;
+
+/* Fills in the box: around all control points, widened by the profiles, cages and bodies. O(sweeps + vertices). */
+void meso_scene_measure(MesoScene *scene);
+
+/* Kind of a sweep. O(log kinds). */
+uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep);
+
+/* The largest distance of a kind's profile from its trajectory, in scene units. */
+float meso_scene_kind_radius(const MesoScene *scene, const MesoSweptKind *kind);
+
+/* Id of a row in a channel. */
+static inline uint32_t meso_scene_id(const MesoScene *scene, uint32_t row, uint32_t channel)
+{
+    return scene->ids[(size_t)row * scene->channel_count + channel];
+}
+
+/* True if some body has colours of its own: files then have them for all vertices. O(bodies). */
+bool meso_scene_is_colored(const MesoScene *scene);
 
 #endif

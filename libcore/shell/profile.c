@@ -267,18 +267,8 @@ static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoError *err
     return MESO_OK;
 }
 
-/* `kind` lacks its columns. */
-static MesoStatus push_kind(Builder *b, MesoSweepKind kind, Walk start, Walk end, MesoError *error)
+static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count, MesoError *error)
 {
-    MesoProfileSet *out = b->out;
-    uint32_t count = start.ring ? start.ring->count : end.ring->count;
-    if (!start.ring)
-        start.point = walk_middle(&end);
-    if (!end.ring)
-        end.point = walk_middle(&start);
-
-    kind.column_begin = out->column_count;
-    kind.joint_count = count;
     for (uint32_t k = 0; k <= count; k++) {
         bool creased = walk_creased(&start, k) || walk_creased(&end, k);
         MesoStatus status = MESO_OK;
@@ -289,10 +279,33 @@ static MesoStatus push_kind(Builder *b, MesoSweepKind kind, Walk start, Walk end
         if (status)
             return status;
     }
+    return MESO_OK;
+}
+
+/* A kind with the columns of two walks; the materials are those of the sections. */
+static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t divisions, Walk start, Walk end,
+                            MesoError *error)
+{
+    MesoProfileSet *out = b->out;
+    uint32_t count = start.ring ? start.ring->count : end.ring->count;
+    if (!start.ring)
+        start.point = walk_middle(&end);
+    if (!end.ring)
+        end.point = walk_middle(&start);
+
+    MesoSweptKind kind = {.column_begin = out->column_count, .joint_count = count, .division_count = divisions,
+                          .start_material = origin.start_section, .end_material = origin.end_section,
+                          .cap = origin.sweep == MESO_NO_INDEX};
+    MesoStatus status = push_columns(b, start, end, count, error);
+    if (status)
+        return status;
     kind.column_count = out->column_count - kind.column_begin;
+    uint32_t capacity = b->kind_capacity;
     out->kinds = MESO_GROW(b->scratch, out->kinds, out->kind_count, b->kind_capacity, 64, error);
-    if (!out->kinds)
+    out->origins = MESO_GROW(b->scratch, out->origins, out->kind_count, capacity, 64, error);
+    if (!out->kinds || !out->origins)
         return MESO_ERR_MEMORY;
+    out->origins[out->kind_count] = origin;
     out->kinds[out->kind_count++] = kind;
     return MESO_OK;
 }
@@ -315,11 +328,8 @@ static MesoStatus push_sweep(Builder *b, uint32_t tile, uint32_t sweep_index, bo
     for (uint32_t n = 0; nth_pair(b, s->from_section, s->to_section, n, pair); n++) {
         const Ring *from = ring_or_none(b, pair[0]), *to = ring_or_none(b, pair[1]);
         uint32_t count = from ? from->count : to->count;
-        MesoSweepKind kind = {.division_count = b->divisions, .tile = tile, .sweep = sweep_index,
-                              .start_side = s->from_side, .end_side = s->to_side,
-                              .start_section = s->from_section, .end_section = s->to_section,
-                              .mirrored = mirrored};
-        MesoStatus status = push_kind(b, kind, walk_start(from, start_flipped),
+        MesoKindOrigin origin = {tile, sweep_index, s->from_side, s->to_side, s->from_section, s->to_section, mirrored};
+        MesoStatus status = push_kind(b, origin, b->divisions, walk_start(from, start_flipped),
                                       walk_end(to, s, start_flipped, end_flipped, count), error);
         if (status)
             return status;
@@ -350,12 +360,9 @@ static MesoStatus push_caps(Builder *b, uint32_t tile, uint32_t side, bool mirro
         if (section_is_swept(b->set, t, side, section))
             continue;
         for (uint32_t c = contour_begin(b, section); c < contour_end(b, section); c++) {
-            MesoSweepKind kind = {.division_count = divisions, .tile = tile, .sweep = MESO_NO_INDEX,
-                                  .start_side = side, .end_side = side,
-                                  .start_section = section, .end_section = section,
-                                  .mirrored = mirrored, .cap = true};
+            MesoKindOrigin origin = {tile, MESO_NO_INDEX, side, side, section, section, mirrored};
             Walk walk = walk_start(&b->rings[c], flipped);
-            MesoStatus status = push_kind(b, kind, walk, walk, error);
+            MesoStatus status = push_kind(b, origin, divisions, walk, walk, error);
             if (status)
                 return status;
         }
@@ -395,15 +402,19 @@ static MesoStatus push_all(Builder *b, MesoError *error)
 /* The growing arrays lie in scratch; the result gets copies of their final size. */
 static MesoStatus keep(MesoProfileSet *out, MesoArena *arena, MesoError *error)
 {
-    MesoSweepKind *kinds = MESO_NEW(arena, MesoSweepKind, out->kind_count, error);
+    MesoSweptKind *kinds = MESO_NEW(arena, MesoSweptKind, out->kind_count, error);
+    MesoKindOrigin *origins = MESO_NEW(arena, MesoKindOrigin, out->kind_count, error);
     MesoSweepColumn *columns = MESO_NEW(arena, MesoSweepColumn, out->column_count, error);
-    if (!kinds || !columns)
+    if (!kinds || !origins || !columns)
         return MESO_ERR_MEMORY;
-    if (out->kind_count)
+    if (out->kind_count) {
         memcpy(kinds, out->kinds, out->kind_count * sizeof *kinds);
+        memcpy(origins, out->origins, out->kind_count * sizeof *origins);
+    }
     if (out->column_count)
         memcpy(columns, out->columns, out->column_count * sizeof *columns);
     out->kinds = kinds;
+    out->origins = origins;
     out->columns = columns;
     return MESO_OK;
 }

@@ -6,11 +6,12 @@
 #ifndef MESO_PROFILE_H
 #define MESO_PROFILE_H
 
-#include "libcore/shell/structure.h"
+#include "libcore/shell/expansion.h"
 
 typedef struct MesoProfileSet {
     uint32_t kind_count, column_count;
-    MesoSweepKind *kinds;       /* by tile, mirrored, then sweeps before caps; no instances yet */
+    MesoSweptKind *kinds;       /* [kind_count] by tile, mirrored, then sweeps before caps; no instances yet */
+    MesoKindOrigin *origins;    /* [kind_count] */
     MesoSweepColumn *columns;
     uint32_t *tile_kinds;       /* [2 * tile_count + 1]: kinds of tile t unmirrored from 2 t, mirrored from 2 t + 1 */
 } MesoProfileSet;

@@ -101,22 +101,21 @@ uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint3
     return count;
 }
 
-MesoVec3 meso_shell_point(const MesoShell *shell, uint32_t slot, float x, float y, float h)
+MesoCage meso_shell_cage(const MesoShell *shell, uint32_t slot)
 {
-    MesoVec3 p[4];
-    float height = shell->bottom + (shell->top - shell->bottom) * h;
-    for (uint32_t i = 0; i < 4; i++)
-        p[i] = meso_vec3_mad(corner_position(shell, slot, i), height, corner_normal(shell, slot, i));
-    return meso_vec3_lerp(meso_vec3_lerp(p[3], p[0], x), meso_vec3_lerp(p[2], p[1], x), y);
+    MesoCage cage = {.low = shell->bottom, .high = shell->top};
+    for (uint32_t i = 0; i < 4; i++) {
+        cage.base[i] = corner_position(shell, slot, i);
+        cage.rise[i] = corner_normal(shell, slot, i);
+    }
+    return cage;
 }
 
 /* Derivative of the shell's map along the direction `along` of the unit square at `at`. */
-static MesoVec3 lid_direction(const MesoShell *shell, uint32_t slot, MesoVec2 at, MesoVec2 along, float h)
+static MesoVec3 lid_direction(const MesoCage *cage, MesoVec2 at, MesoVec2 along, float h)
 {
-    MesoVec3 dx = meso_vec3_sub(meso_shell_point(shell, slot, 1, at.y, h),
-                                meso_shell_point(shell, slot, 0, at.y, h));
-    MesoVec3 dy = meso_vec3_sub(meso_shell_point(shell, slot, at.x, 1, h),
-                                meso_shell_point(shell, slot, at.x, 0, h));
+    MesoVec3 dx = meso_vec3_sub(meso_cage_point(cage, 1, at.y, h), meso_cage_point(cage, 0, at.y, h));
+    MesoVec3 dy = meso_vec3_sub(meso_cage_point(cage, at.x, 1, h), meso_cage_point(cage, at.x, 0, h));
     return meso_vec3_add(meso_vec3_scale(dx, along.x), meso_vec3_scale(dy, along.y));
 }
 
@@ -131,10 +130,11 @@ MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, uint32_t s
     MesoVec2 at = meso_transform_point(transform, in_tile);
     MesoVec2 y_end = meso_transform_point(transform, (MesoVec2){in_tile.x, in_tile.y + 1});
 
-    port->point = meso_shell_point(shell, slot, at.x, at.y, h);
-    port->up = lid_direction(shell, slot, at, meso_vec2_sub(y_end, at), h);
-    MesoVec3 outward = meso_vec3_cross(lid_direction(shell, slot, at, (MesoVec2){1, 0}, h),
-                                       lid_direction(shell, slot, at, (MesoVec2){0, 1}, h));
+    MesoCage cage = meso_shell_cage(shell, slot);
+    port->point = meso_cage_point(&cage, at.x, at.y, h);
+    port->up = lid_direction(&cage, at, meso_vec2_sub(y_end, at), h);
+    MesoVec3 outward = meso_vec3_cross(lid_direction(&cage, at, (MesoVec2){1, 0}, h),
+                                       lid_direction(&cage, at, (MesoVec2){0, 1}, h));
     MesoVec3 none = {0, 0, 0};
     port->inward = meso_vec3_direction(meso_vec3_scale(outward, bottom ? 1 : -1), none);
     if (meso_vec3_dot(port->inward, port->inward) == 0 || meso_vec3_dot(port->up, port->up) == 0)

@@ -6,6 +6,7 @@
 #ifndef MESO_SHELL_H
 #define MESO_SHELL_H
 
+#include "libcore/math/cage.h"
 #include "libcore/shell/model.h"
 
 /* The shell of one model; keeps pointers to its arguments. */
@@ -55,10 +56,7 @@ MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, uint32_t s
                                MesoTransform transform, MesoVec2 center, bool flipped,
                                MesoPort *port, MesoError *error);
 
-/*
- * Maps a point of the slot's unit cube into its hexahedron, trilinearly;
- * h runs from the bottom to the top. Corners as in tile_set.h.
- */
-MesoVec3 meso_shell_point(const MesoShell *shell, uint32_t slot, float x, float y, float h);
+/* The slot's hexahedron: the unit square's corners as in tile_set.h, from the bottom to the top. */
+MesoCage meso_shell_cage(const MesoShell *shell, uint32_t slot);
 
 #endif

@@ -22,8 +22,4 @@
 void meso_trajectory(const MesoPort *start, const MesoPort *end, bool same_side, float scale,
                      MesoVec3 p[4]);
 
-/* Point and derivative of the Bezier at v in [0,1]. */
-MesoVec3 meso_bezier_point(const MesoVec3 p[4], float v);
-MesoVec3 meso_bezier_derivative(const MesoVec3 p[4], float v);
-
 #endif

@@ -8,6 +8,7 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/base/vec.h"
+#include "libcore/scene/material.h"
 #include "libcore/tile/label.h"
 
 /*
@@ -20,12 +21,6 @@ enum { MESO_SIDE_TOP = 4, MESO_SIDE_BOTTOM = 5, MESO_SIDE_COUNT = 6 };
 
 /* Levels of a drawing; a chain a + b + c + ... to the left counts as one. */
 enum { MESO_CSG_NESTING = 64 };
-
-typedef struct MesoMaterial {
-    float albedo[3];    /* linear, [0,1] */
-    float roughness;    /* [0,1] */
-    float metallic;     /* [0,1] */
-} MesoMaterial;
 
 typedef enum MesoCsgKind {
     MESO_CSG_DISC,          /* ellipse inscribed in the box of `size` */

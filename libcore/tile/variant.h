@@ -1,28 +1,12 @@
 /*
- * Transforms of tiles, and variants: tiles under the transforms that they
- * allow. A transform is an element of D4: flip x first, then `quarter`
- * counter-clockwise quarter turns. The prototype's flip y is flip x and two
- * quarter turns, so that each element has exactly one number here.
+ * Transforms of tiles (square.h), and variants: tiles under the transforms
+ * that they allow.
  */
 #ifndef MESO_VARIANT_H
 #define MESO_VARIANT_H
 
+#include "libcore/math/square.h"
 #include "libcore/tile/tile_set.h"
-
-enum { MESO_TRANSFORM_COUNT = 8 };
-
-typedef uint8_t MesoTransform;  /* 4 * flip + quarter */
-
-static inline MesoTransform meso_transform_make(bool flip_x, bool flip_y, uint32_t quarters)
-{
-    return (MesoTransform)(4u * (flip_x != flip_y) + ((quarters + (flip_y ? 2u : 0u)) & 3u));
-}
-
-/* True for the four that mirror; labels change their sign under them. */
-static inline bool meso_transform_flips(MesoTransform transform)
-{
-    return transform >= 4;
-}
 
 /* Where side 0..5 of the tile lies in the slot; top and bottom stay. */
 static inline uint32_t meso_transform_side(MesoTransform transform, uint32_t side)
@@ -36,13 +20,6 @@ static inline uint32_t meso_transform_side(MesoTransform transform, uint32_t sid
 
 /* Which side 0..5 of the tile lies on side `side` of the slot. */
 uint32_t meso_transform_source(MesoTransform transform, uint32_t side);
-
-/* Where the point of the tile's unit square lies in the slot's. */
-MesoVec2 meso_transform_point(MesoTransform transform, MesoVec2 point);
-
-/* `second` after `first`. */
-MesoTransform meso_transform_compose(MesoTransform second, MesoTransform first);
-MesoTransform meso_transform_inverse(MesoTransform transform);
 
 /* True if `tile` allows `transform`: the subgroup that its flags generate. */
 bool meso_tile_allows(const MesoTile *tile, MesoTransform transform);

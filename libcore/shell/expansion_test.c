@@ -1,5 +1,5 @@
 /*
- * Trajectories, ports, structures and their tessellation on small curved
+ * Trajectories, ports, expansions and their polygons on small curved
  * surfaces: equal floats across edges, mirror images, winding, volumes.
  */
 #include <math.h>
@@ -8,7 +8,9 @@
 
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
-#include "libcore/shell/tessellate.h"
+#include "libcore/math/bezier.h"
+#include "libcore/scene/parts.h"
+#include "libcore/shell/expansion.h"
 #include "libcore/shell/trajectory.h"
 
 /* ---- a tile set: two interfaces of lopsided drawings, a straight and a bent sweep, a cap ----
@@ -21,7 +23,7 @@
  *        +------|------+
  *            side 3 (b')
  */
-typedef struct Scene {
+typedef struct Case {
     MesoCsgNode csg[6];
     MesoSection sections[4];
     MesoInterface interfaces[2];
@@ -33,11 +35,11 @@ typedef struct Scene {
     uint32_t inner_triangles[12];
     MesoModel model;
     MesoTileSet set;
-} Scene;
+} Case;
 
 static const MesoMaterial GREY = {{0.5f, 0.5f, 0.5f}, 0.5f, 0};
 
-static void make_tile_set(Scene *s)
+static void make_tile_set(Case *s)
 {
     s->csg[0] = (MesoCsgNode){MESO_CSG_BOX, 0, 0, {0.3f, 0.6f}, {0.2f, 0.1f}, 0.4f};
     s->csg[1] = (MesoCsgNode){MESO_CSG_DISC, 0, 0, {0.35f, 0.6f}, {0.1f, 0.08f}, 0};
@@ -74,7 +76,7 @@ static void make_tile_set(Scene *s)
 }
 
 /* A bumpy n x n grid, shared corners and normals; side 0 of each face looks to +x. */
-static void make_grid(Scene *s, MesoArena *arena, uint32_t n, uint32_t *tile, MesoTransform *transform)
+static void make_grid(Case *s, MesoArena *arena, uint32_t n, uint32_t *tile, MesoTransform *transform)
 {
     MesoError error;
     MesoRandom random;
@@ -102,23 +104,23 @@ static void make_grid(Scene *s, MesoArena *arena, uint32_t n, uint32_t *tile, Me
     s->model.options = (MesoMapOptions){.divisions = 9, .section_step = 0.02f};
 }
 
-static MesoStructure expand(const MesoModel *model, MesoArena *arena)
+static MesoScene expand(const MesoModel *model, MesoExpansion *expansion, MesoArena *arena)
 {
-    MesoStructure structure;
+    MesoScene scene;
     MesoError error;
-    CHECK(meso_structure_build(&structure, arena, model, 2, &error) == MESO_OK);
-    return structure;
+    CHECK(meso_model_expand(&scene, expansion, arena, model, 2, &error) == MESO_OK);
+    return scene;
 }
 
-static MesoMeshVertex *tessellate(const MesoStructure *structure, MesoArena *arena, MesoTessellation *t,
-                                  MesoMeshFace **faces)
+static MesoMeshVertex *make_polygons(const MesoScene *scene, MesoArena *arena, MesoSceneParts *t,
+                                     MesoMeshFace **faces)
 {
     MesoError error;
-    CHECK(meso_tessellation_init(t, arena, structure, &error) == MESO_OK);
+    CHECK(meso_scene_parts_init(t, arena, scene, &error) == MESO_OK);
     MesoMeshVertex *vertices = MESO_NEW(arena, MesoMeshVertex, t->vertex_begin[t->part_count], &error);
     *faces = MESO_NEW(arena, MesoMeshFace, t->face_begin[t->part_count], &error);
-    meso_tessellation_vertices(t, 0, t->part_count, vertices);
-    meso_tessellation_faces(t, 0, t->part_count, 0, *faces);
+    meso_scene_vertices(t, 0, t->part_count, vertices);
+    meso_scene_faces(t, 0, t->part_count, 0, *faces);
     return vertices;
 }
 
@@ -157,10 +159,10 @@ static bool contains(const MesoMeshVertex *vertices, uint32_t count, MesoVec3 v)
 }
 
 /* Ring of part `part` at its start or end. */
-static const MesoMeshVertex *ring(const MesoTessellation *t, const MesoMeshVertex *vertices, uint32_t part,
+static const MesoMeshVertex *ring(const MesoSceneParts *t, const MesoMeshVertex *vertices, uint32_t part,
                                   bool end, uint32_t *count)
 {
-    const MesoSweepKind *kind = &t->structure->kinds[meso_structure_kind(t->structure, part)];
+    const MesoSweptKind *kind = &t->scene->kinds[meso_scene_kind(t->scene, part)];
     *count = kind->column_count;
     return vertices + t->vertex_begin[part] + (end ? (kind->division_count - 1) * *count : 0);
 }
@@ -172,26 +174,27 @@ static const MesoMeshVertex *ring(const MesoTessellation *t, const MesoMeshVerte
  */
 static void test_same_floats(MesoArena *arena)
 {
-    Scene s = {0};
+    Case s = {0};
     uint32_t tile[9] = {0};
     MesoTransform transform[9] = {0};
     make_tile_set(&s);
     make_grid(&s, arena, 3, tile, transform);
-    MesoStructure structure = expand(&s.model, arena);
-    MesoTessellation t;
+    MesoExpansion expansion;
+    MesoScene scene = expand(&s.model, &expansion, arena);
+    MesoSceneParts t;
     MesoMeshFace *faces;
-    MesoMeshVertex *vertices = tessellate(&structure, arena, &t, &faces);
+    MesoMeshVertex *vertices = make_polygons(&scene, arena, &t, &faces);
 
     uint32_t met = 0;
-    for (uint32_t a = 0; a < structure.instance_count; a++)
-        for (uint32_t b = 0; b < structure.instance_count; b++) {
-            const MesoSweepKind *ka = &structure.kinds[meso_structure_kind(&structure, a)];
-            const MesoSweepKind *kb = &structure.kinds[meso_structure_kind(&structure, b)];
-            uint32_t sa = structure.instances[a].slot, sb = structure.instances[b].slot;
+    for (uint32_t a = 0; a < scene.sweep_count; a++)
+        for (uint32_t b = 0; b < scene.sweep_count; b++) {
+            const MesoKindOrigin *ka = &expansion.origins[meso_scene_kind(&scene, a)];
+            const MesoKindOrigin *kb = &expansion.origins[meso_scene_kind(&scene, b)];
+            uint32_t sa = scene.sweeps[a].ids, sb = scene.sweeps[b].ids;
             bool east = sb == sa + 1 && sa % 3 < 2, north = sb == sa + 3;
             for (int ends = 0; ends < 4; ends++) {
                 bool end_a = ends & 1, end_b = ends & 2;
-                if ((ka->cap && end_a) || (kb->cap && end_b))
+                if ((ka->sweep == MESO_NO_INDEX && end_a) || (kb->sweep == MESO_NO_INDEX && end_b))
                     continue;
                 uint32_t side_a = end_a ? ka->end_side : ka->start_side;
                 uint32_t side_b = end_b ? kb->end_side : kb->start_side;
@@ -229,7 +232,7 @@ static double distance_to_nearest(const MesoMeshVertex *v, uint64_t count, MesoV
  */
 static void test_mirror(MesoArena *arena)
 {
-    Scene a = {0}, b = {0};
+    Case a = {0}, b = {0};
     uint32_t tile[1] = {0};
     MesoTransform flip[1] = {meso_transform_make(true, false, 0)}, identity[1] = {0};
     make_tile_set(&a);
@@ -255,10 +258,10 @@ static void test_mirror(MesoArena *arena)
         normal_of[i] = a.model.surface.face_normals[3 - i];
     b.model.surface.face_normals = normal_of;
 
-    MesoStructure sa = expand(&a.model, arena), sb = expand(&b.model, arena);
-    MesoTessellation ta, tb;
+    MesoScene sa = expand(&a.model, NULL, arena), sb = expand(&b.model, NULL, arena);
+    MesoSceneParts ta, tb;
     MesoMeshFace *fa, *fb;
-    MesoMeshVertex *va = tessellate(&sa, arena, &ta, &fa), *vb = tessellate(&sb, arena, &tb, &fb);
+    MesoMeshVertex *va = make_polygons(&sa, arena, &ta, &fa), *vb = make_polygons(&sb, arena, &tb, &fb);
     CHECK(ta.part_count == tb.part_count && ta.triangle_count == tb.triangle_count);
     for (uint32_t part = 0; part < ta.part_count; part++) {
         uint64_t begin = ta.vertex_begin[part], count = ta.vertex_begin[part + 1] - begin;
@@ -285,14 +288,14 @@ static MesoVec3 face_normal(const MesoMeshVertex *v, const MesoMeshFace *f, uint
 static void test_winding(MesoArena *arena)
 {
     for (MesoTransform transform = 0; transform < MESO_TRANSFORM_COUNT; transform++) {
-        Scene s = {0};
+        Case s = {0};
         uint32_t tile[1] = {0};
         make_tile_set(&s);
         make_grid(&s, arena, 1, tile, &transform);
-        MesoStructure structure = expand(&s.model, arena);
-        MesoTessellation t;
+        MesoScene scene = expand(&s.model, NULL, arena);
+        MesoSceneParts t;
         MesoMeshFace *faces;
-        MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
+        MesoMeshVertex *v = make_polygons(&scene, arena, &t, &faces);
         for (uint64_t f = 0; f < t.face_begin[t.part_count]; f++) {
             bool quad = faces[f].v[3] != MESO_NO_INDEX;
             MesoVec3 geometric = face_normal(v, &faces[f], 1, 2), shaded = {0, 0, 0};
@@ -327,7 +330,7 @@ static double volume6(const MesoMeshVertex *v, const MesoMeshFace *faces, uint64
  */
 static void test_volumes(MesoArena *arena)
 {
-    Scene s = {0};
+    Case s = {0};
     uint32_t tile[1] = {0};
     MesoTransform transform[1] = {0};
     MesoVec3 flat[4] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, up = {0, 0, 1};
@@ -337,15 +340,16 @@ static void test_volumes(MesoArena *arena)
     make_grid(&s, arena, 1, tile, transform);
     s.model.options = (MesoMapOptions){.divisions = 400, .section_step = 0.02f};
     CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, &error) == MESO_OK);
-    MesoStructure structure = expand(&s.model, arena);
-    MesoTessellation t;
+    MesoExpansion expansion;
+    MesoScene scene = expand(&s.model, &expansion, arena);
+    MesoSceneParts t;
     MesoMeshFace *faces;
-    MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
+    MesoMeshVertex *v = make_polygons(&scene, arena, &t, &faces);
 
     uint32_t caps = 0;
-    for (uint32_t part = 0; part < structure.instance_count; part++) {
-        const MesoSweepKind *kind = &structure.kinds[meso_structure_kind(&structure, part)];
-        if (!kind->cap || kind->start_section != 1 || kind->start_side != 2)
+    for (uint32_t part = 0; part < scene.sweep_count; part++) {
+        const MesoKindOrigin *origin = &expansion.origins[meso_scene_kind(&scene, part)];
+        if (origin->sweep != MESO_NO_INDEX || origin->start_section != 1 || origin->start_side != 2)
             continue;
         /* side 2 lies in the plane x = 0: the wall adds nothing to the volume about the origin */
         double volume = volume6(v, faces, t.face_begin[part], t.face_begin[part + 1]) / 6;
@@ -355,73 +359,73 @@ static void test_volumes(MesoArena *arena)
     /* section 2 of a is swept on side 0 only, so that the cap stands on side 2 */
     CHECK(caps == 1);
 
-    uint32_t inner = structure.instance_count;
+    uint32_t inner = scene.sweep_count;
     CHECK(t.part_count == inner + 1);
     double volume = volume6(v, faces, t.face_begin[inner], t.face_begin[inner + 1]) / 6;
     CHECK(fabs(volume - 0.2 * 0.3 * 0.4 / 6) < 1e-7);
-    CHECK(meso_tessellation_part(&t, inner).material == 4);
+    CHECK(meso_scene_part(&t, inner).material == 4);
 }
 
 /* Inner meshes reach as far as the product of three of their coordinates is a float, on the largest surface. */
 static void test_far_inner(MesoArena *arena)
 {
-    Scene s = {0};
+    Case s = {0};
     uint32_t tile[1] = {0};
     MesoTransform transform[1] = {0};
     MesoVec3 flat[4] = {{1e18f, -1e18f, 1e18f}, {1e18f, 1e18f, 1e18f}, {-1e18f, 1e18f, 1e18f}, {-1e18f, -1e18f, 1e18f}};
     MesoVec3 up = {0, 0, 1};
     uint32_t corners[4] = {0, 1, 2, 3}, normals[4] = {0, 0, 0, 0};
-    MesoStructure structure;
+    MesoScene scene;
     MesoError error;
     make_tile_set(&s);
     make_grid(&s, arena, 1, tile, transform);
     CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, &error) == MESO_OK);
     s.inners[0] = (MesoInnerMesh){"x", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0}, GREY};
     s.inner_positions[1] = (MesoVec3){MESO_INNER_LIMIT, MESO_INNER_LIMIT, MESO_INNER_LIMIT};
-    structure = expand(&s.model, arena);
-    MesoTessellation t;
+    scene = expand(&s.model, NULL, arena);
+    MesoSceneParts t;
     MesoMeshFace *faces;
-    const MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
-    for (uint64_t i = t.vertex_begin[structure.instance_count]; i < t.vertex_begin[t.part_count]; i++)
+    const MesoMeshVertex *v = make_polygons(&scene, arena, &t, &faces);
+    for (uint64_t i = t.vertex_begin[scene.sweep_count]; i < t.vertex_begin[t.part_count]; i++)
         CHECK(meso_vec3_finite(v[i].position) && meso_vec3_finite(v[i].normal));
 
     s.inners[0].transform[3] = -1;
-    CHECK(meso_structure_build(&structure, arena, &s.model, 1, &error) == MESO_ERR_INPUT);
+    CHECK(meso_model_expand(&scene, NULL, arena, &s.model, 1, &error) == MESO_ERR_INPUT);
     CHECK(strstr(error.message, "vertex 2 of its mesh 'x' lies more than 1e+06 tiles away"));
     s.inner_positions[1] = (MesoVec3){3e38f, 3e38f, 3e38f};
-    CHECK(meso_structure_build(&structure, arena, &s.model, 1, &error) == MESO_ERR_INPUT);
+    CHECK(meso_model_expand(&scene, NULL, arena, &s.model, 1, &error) == MESO_ERR_INPUT);
 }
 
 /* Ranges and threads do not change a byte. */
 static void test_ranges(MesoArena *arena)
 {
-    Scene s = {0};
+    Case s = {0};
     uint32_t tile[9] = {0};
     MesoTransform transform[9] = {0};
     make_tile_set(&s);
     make_grid(&s, arena, 3, tile, transform);
-    MesoStructure structure = expand(&s.model, arena);
-    MesoTessellation t;
+    MesoScene scene = expand(&s.model, NULL, arena);
+    MesoSceneParts t;
     MesoMeshFace *faces;
-    MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
+    MesoMeshVertex *v = make_polygons(&scene, arena, &t, &faces);
     MesoMeshVertex *w = MESO_NEW(arena, MesoMeshVertex, t.vertex_begin[t.part_count], NULL);
     MesoMeshFace *g = MESO_NEW(arena, MesoMeshFace, t.face_begin[t.part_count], NULL);
     for (uint32_t part = 0; part < t.part_count; part++) {
-        meso_tessellation_vertices(&t, part, part + 1, w + t.vertex_begin[part]);
-        meso_tessellation_faces(&t, part, part + 1, (uint32_t)t.vertex_begin[part], g + t.face_begin[part]);
+        meso_scene_vertices(&t, part, part + 1, w + t.vertex_begin[part]);
+        meso_scene_faces(&t, part, part + 1, (uint32_t)t.vertex_begin[part], g + t.face_begin[part]);
     }
     CHECK(memcmp(v, w, t.vertex_begin[t.part_count] * sizeof *v) == 0);
     CHECK(memcmp(faces, g, t.face_begin[t.part_count] * sizeof *g) == 0);
 
-    MesoStructure again;
-    CHECK(meso_structure_build(&again, arena, &s.model, 1, NULL) == MESO_OK);
-    CHECK(memcmp(again.instances, structure.instances, again.instance_count * sizeof *again.instances) == 0);
+    MesoScene again;
+    CHECK(meso_model_expand(&again, NULL, arena, &s.model, 1, NULL) == MESO_OK);
+    CHECK(memcmp(again.sweeps, scene.sweeps, again.sweep_count * sizeof *again.sweeps) == 0);
 }
 
 /* Sweeps to the lids: they end in the middle of the top and the bottom, and drawings there turn with the tile. */
 static void test_lids(MesoArena *arena)
 {
-    Scene s = {0};
+    Case s = {0};
     uint32_t tile[1] = {0};
     make_tile_set(&s);
     s.tiles[0].side_count = 6;
@@ -433,15 +437,16 @@ static void test_lids(MesoArena *arena)
         uint32_t corners[4] = {0, 1, 2, 3}, normals[4] = {0, 0, 0, 0};
         make_grid(&s, arena, 1, tile, &transform);
         CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, NULL) == MESO_OK);
-        MesoStructure structure = expand(&s.model, arena);
-        for (uint32_t i = 0; i < structure.instance_count; i++) {
-            const MesoSweepKind *kind = &structure.kinds[meso_structure_kind(&structure, i)];
-            if (kind->cap || kind->end_side != MESO_SIDE_TOP)
+        MesoExpansion expansion;
+        MesoScene scene = expand(&s.model, &expansion, arena);
+        for (uint32_t i = 0; i < scene.sweep_count; i++) {
+            const MesoKindOrigin *origin = &expansion.origins[meso_scene_kind(&scene, i)];
+            if (origin->sweep == MESO_NO_INDEX || origin->end_side != MESO_SIDE_TOP)
                 continue;
-            MesoVec3 end = structure.instances[i].p[3];
+            MesoVec3 end = scene.sweeps[i].p[3];
             MesoVec2 expected = meso_transform_point(transform, (MesoVec2){0.325f, 0.6f});
             CHECK(fabsf(end.x - expected.x) < 1e-6f && fabsf(end.y - expected.y) < 1e-6f && end.z == 0.5f);
-            CHECK(structure.instances[i].direction[1].z == 1);
+            CHECK(scene.sweeps[i].direction[1].z == 1);
         }
     }
 }
@@ -451,7 +456,7 @@ static void test_scales(MesoArena *arena)
 {
     const float scales[] = {1e-16f, 1e16f};
     for (int k = 0; k < 2; k++) {
-        Scene s = {0};
+        Case s = {0};
         uint32_t tile[1] = {0}, corners[4] = {0, 1, 2, 3};
         MesoTransform transform[1] = {0};
         float a = scales[k];
@@ -459,10 +464,10 @@ static void test_scales(MesoArena *arena)
         make_tile_set(&s);
         make_grid(&s, arena, 1, tile, transform);
         CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 0, NULL, 1, corners, NULL, NULL) == MESO_OK);
-        MesoStructure structure = expand(&s.model, arena);
-        MesoTessellation t;
+        MesoScene scene = expand(&s.model, NULL, arena);
+        MesoSceneParts t;
         MesoMeshFace *faces;
-        MesoMeshVertex *v = tessellate(&structure, arena, &t, &faces);
+        MesoMeshVertex *v = make_polygons(&scene, arena, &t, &faces);
         for (uint64_t i = 0; i < t.vertex_begin[t.part_count]; i++) {
             CHECK(meso_vec3_finite(v[i].position));
             CHECK(fabsf(meso_vec3_length(v[i].normal) - 1) < 1e-4f);

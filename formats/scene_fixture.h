@@ -1,19 +1,20 @@
 /*
- * A scene for the tests and the benchmark of the mesh writers: a wavy sheet of
+ * A model and its scene for the tests and the benchmark of the mesh writers: a wavy sheet of
  * quads, each with two crossing sweeps, a cap on a second cross-section, and
  * a tetrahedron.
  */
-#ifndef MESO_MESH_SCENE_H
-#define MESO_MESH_SCENE_H
+#ifndef MESO_SCENE_FIXTURE_H
+#define MESO_SCENE_FIXTURE_H
 
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "libcore/base/check.h"
-#include "libcore/shell/tessellate.h"
+#include "libcore/scene/parts.h"
+#include "libcore/shell/expansion.h"
 
-typedef struct MeshScene {
+typedef struct SceneFixture {
     MesoArena arena;
     MesoCsgNode csg[3];
     MesoSection sections[3];
@@ -25,11 +26,11 @@ typedef struct MeshScene {
     MesoVec3 inner_positions[4], inner_normals[4];
     uint32_t inner_triangles[12];
     MesoModel model;
-    MesoStructure structure;
-    MesoTessellation tessellation;
-} MeshScene;
+    MesoScene scene;
+    MesoSceneParts parts;
+} SceneFixture;
 
-static inline void mesh_scene_tiles(MeshScene *s)
+static inline void scene_fixture_tiles(SceneFixture *s)
 {
     s->csg[0] = (MesoCsgNode){MESO_CSG_DISC, 0, 0, {0.5f, 0.3f}, {0.25f, 0.2f}, 0};
     s->csg[1] = (MesoCsgNode){MESO_CSG_BOX, 0, 0, {0.5f, 0.8f}, {0.2f, 0.1f}, 0.3f};
@@ -64,7 +65,7 @@ static inline void mesh_scene_tiles(MeshScene *s)
 }
 
 /* Side 0 of each face looks to +x; every third slot has the second tile. */
-static inline void mesh_scene_surface(MeshScene *s, uint32_t n)
+static inline void scene_fixture_surface(SceneFixture *s, uint32_t n)
 {
     MesoError error;
     uint32_t w = n + 1;
@@ -88,22 +89,48 @@ static inline void mesh_scene_surface(MeshScene *s, uint32_t n)
     s->model.assignment = (MesoAssignment){n * n, tile, transform};
 }
 
-/* n x n slots; released by mesh_scene_release(). */
-static inline void mesh_scene_init(MeshScene *s, uint32_t n, uint32_t divisions, float section_step)
+/* n x n slots; released by scene_fixture_release(). */
+static inline void scene_fixture_init(SceneFixture *s, uint32_t n, uint32_t divisions, float section_step)
 {
     MesoError error;
-    *s = (MeshScene){0};
+    *s = (SceneFixture){0};
     meso_arena_init(&s->arena);
-    mesh_scene_tiles(s);
-    mesh_scene_surface(s, n);
+    scene_fixture_tiles(s);
+    scene_fixture_surface(s, n);
     s->model.options = (MesoMapOptions){.divisions = divisions, .section_step = section_step};
-    CHECK(meso_structure_build(&s->structure, &s->arena, &s->model, 2, &error) == MESO_OK);
-    CHECK(meso_tessellation_init(&s->tessellation, &s->arena, &s->structure, &error) == MESO_OK);
+    CHECK(meso_model_expand(&s->scene, NULL, &s->arena, &s->model, 2, &error) == MESO_OK);
+    CHECK(meso_scene_parts_init(&s->parts, &s->arena, &s->scene, &error) == MESO_OK);
 }
 
-static inline void mesh_scene_release(MeshScene *s)
+static inline void scene_fixture_release(SceneFixture *s)
 {
     meso_arena_release(&s->arena);
+}
+
+/* A triangle with colours, in three channels: of names, of numbers, and of names again. */
+typedef struct ColoredFixture {
+    MesoVec3 positions[3], normals[3];
+    MesoMeshColor colors[3];
+    uint32_t corners[3], ids[6];
+    const char *names[3][2];
+    MesoMaterial material;
+    MesoBody body;
+    MesoPlacedBody placed;
+    MesoScene scene;
+} ColoredFixture;
+
+static inline void colored_fixture_init(ColoredFixture *c)
+{
+    *c = (ColoredFixture){.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+                   .colors = {{255, 0, 0}, {0, 51, 0}, {0, 0, 102}}, .corners = {0, 1, 2},
+                   .ids = {0, 0, 0, 1, 70000, 0},
+                   .names = {{"leaf", "stem one"}, {"green", "dry"}, {"paint", NULL}}};
+    c->body = (MesoBody){3, 1, 3, c->positions, c->normals, NULL, c->colors, c->corners};
+    c->placed = (MesoPlacedBody){.ids = 1};
+    c->scene = (MesoScene){.channel_count = 3,
+        .channels = {{"region", 2, c->names[0]}, {"element", 70001, NULL}, {"state", 2, c->names[1]}},
+        .material_count = 1, .materials = &c->material, .material_names = c->names[2], .id_row_count = 2,
+        .ids = c->ids, .body_count = 1, .bodies = &c->body, .placed_count = 1, .placed = &c->placed};
 }
 
 #endif

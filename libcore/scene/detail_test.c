@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "libcore/base/check.h"
-#include "libcore/render/detail.h"
+#include "libcore/scene/detail.h"
 
 enum { SIDES = 128 };
 
@@ -65,26 +65,25 @@ static void test_rings(void)
     make_circle();
     MesoSweepInstance instance = {{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
                                   {{0, 1, 0}, {-1, 0, 0}}, 0};
-    MesoSweepKind kind = {.column_count = SIDES + 1, .division_count = 100, .instance_count = 1};
-    MesoStructure structure = {.kinds = &kind, .columns = columns, .instances = &instance,
-                               .kind_count = 1, .instance_count = 1};
-    structure.options.section_scale = 1;
-    CHECK(meso_detail_rings(&structure, &kind, 0) == 100);
-    uint32_t fine = meso_detail_rings(&structure, &kind, 1e-3f);
-    uint32_t coarse = meso_detail_rings(&structure, &kind, 1e-1f);
+    MesoSweptKind kind = {.column_count = SIDES + 1, .division_count = 100, .instance_count = 1};
+    MesoScene scene = {.kinds = &kind, .columns = columns, .sweeps = &instance, .kind_count = 1,
+                       .sweep_count = 1, .section_scale = 1};
+    CHECK(meso_detail_rings(&scene, &kind, 0) == 100);
+    uint32_t fine = meso_detail_rings(&scene, &kind, 1e-3f);
+    uint32_t coarse = meso_detail_rings(&scene, &kind, 1e-1f);
     float step = 1.5707963f / (float)(fine - 1);
     CHECK(step * step / 8 * (1 + RADIUS) <= 1e-3f && fine < 60);
     CHECK(coarse >= 3 && coarse < fine);
     kind.division_count = 5;
-    CHECK(meso_detail_rings(&structure, &kind, 1e-6f) == 5);
+    CHECK(meso_detail_rings(&scene, &kind, 1e-6f) == 5);
 
     MesoSweepInstance line = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 0, 1}, {0, 0, 1}},
                               {{1, 0, 0}, {1, 0, 0}}, 0};
-    structure.instances = &line;
+    scene.sweeps = &line;
     kind.division_count = 100;
-    CHECK(meso_detail_rings(&structure, &kind, 1e-3f) == 2);
+    CHECK(meso_detail_rings(&scene, &kind, 1e-3f) == 2);
     kind.cap = true;
-    CHECK(meso_detail_rings(&structure, &kind, 1e-3f) > 10);
+    CHECK(meso_detail_rings(&scene, &kind, 1e-3f) > 10);
 }
 
 int main(void)

@@ -1,7 +1,10 @@
-// A vertex of an inner mesh, bent into its slot on the CPU.
+// A vertex of a body, placed on the CPU. COLORED: with a colour of its own.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in uint slot;
+layout(location = 2) in uint ids;
+#ifdef COLORED
+layout(location = 3) in vec3 color;
+#endif
 
 layout(location = 0) uniform mat4 clip_from_world;
 layout(location = 1) uniform vec4 depth_axis;
@@ -9,7 +12,10 @@ layout(location = 1) uniform vec4 depth_axis;
 out vec3 world_normal;
 out float view_depth;
 out float material_blend;
-flat out uint slot_id;
+flat out uint id_row;
+#ifdef COLORED
+out vec3 vertex_color;
+#endif
 
 void main()
 {
@@ -17,5 +23,8 @@ void main()
     world_normal = normal;
     view_depth = dot(depth_axis, vec4(position, 1.0));
     material_blend = 0.0;
-    slot_id = slot;
+    id_row = ids;
+#ifdef COLORED
+    vertex_color = color;
+#endif
 }

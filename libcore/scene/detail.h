@@ -5,14 +5,14 @@
 #ifndef MESO_DETAIL_H
 #define MESO_DETAIL_H
 
-#include "libcore/shell/structure.h"
+#include "libcore/scene/scene.h"
 
 /*
  * Thins the columns of a kind.
  *
  * columns    [count]
  * tolerance  how far a dropped profile point may lie from the line that
- *            replaces it, in edge lengths; 0 keeps all
+ *            replaces it, in units of the profiles; 0 keeps all
  * kept       [count] gets ascending indices; kept[k] joins kept[k + 1] where
  *            columns[kept[k]] joins its next
  *
@@ -27,6 +27,6 @@ uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, flo
  * within `tolerance` (scene units) of the curves; at least 2, at most the
  * kind's division_count. O(instances + columns).
  */
-uint32_t meso_detail_rings(const MesoStructure *structure, const MesoSweepKind *kind, float tolerance);
+uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, float tolerance);
 
 #endif

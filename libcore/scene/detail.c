@@ -5,7 +5,7 @@
  * second derivative of its blend (6 times its change) and of the frame's turn
  * (radius times the square of the turning angle).
  */
-#include "libcore/render/detail.h"
+#include "libcore/scene/detail.h"
 
 /* Columns that one kept column may stand for: bounds the look-ahead. */
 enum { MAX_SKIP = 64 };
@@ -97,14 +97,14 @@ static float bend_of(const MesoSweepInstance *instance)
     return 6 * fmaxf(meso_vec3_length(d0), meso_vec3_length(d1));
 }
 
-uint32_t meso_detail_rings(const MesoStructure *structure, const MesoSweepKind *kind, float tolerance)
+uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, float tolerance)
 {
     uint32_t most = kind->division_count < 2 ? 2 : kind->division_count;
     if (!(tolerance > 0))
         return most;
 
-    float change, scale = structure->options.section_scale;
-    float radius = scale * largest_radius(&structure->columns[kind->column_begin],
+    float change, scale = scene->section_scale;
+    float radius = scale * largest_radius(&scene->columns[kind->column_begin],
                                           kind->column_count, &change);
     float steps = 1;
     if (kind->cap) {
@@ -112,7 +112,7 @@ uint32_t meso_detail_rings(const MesoStructure *structure, const MesoSweepKind *
         steps = fmaxf(sqrtf(12 * radius / (8 * tolerance)), 3);
     } else {
         for (uint32_t i = 0; i < kind->instance_count; i++) {
-            const MesoSweepInstance *instance = &structure->instances[kind->instance_begin + i];
+            const MesoSweepInstance *instance = &scene->sweeps[kind->instance_begin + i];
             float turn = turn_of(instance);
             float second = bend_of(instance) + 6 * change * scale + radius * turn * turn;
             steps = fmaxf(steps, fmaxf(sqrtf(second / (8 * tolerance)), turn / RING_TURN));

@@ -1,0 +1,11 @@
+/* Cubic Bezier curves. */
+#ifndef MESO_BEZIER_H
+#define MESO_BEZIER_H
+
+#include "libcore/base/vec.h"
+
+/* Point and derivative of the curve with control points `p` at v in [0,1]. */
+MesoVec3 meso_bezier_point(const MesoVec3 p[4], float v);
+MesoVec3 meso_bezier_derivative(const MesoVec3 p[4], float v);
+
+#endif

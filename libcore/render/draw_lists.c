@@ -1,0 +1,543 @@
+#include "libcore/render/draw_lists.h"
+
+#include <stddef.h>
+
+#include "libcore/scene/detail.h"
+#include "libcore/scene/parts.h"
+
+extern const char meso_shader_sweep_vertex[], meso_shader_body_vertex[];
+extern const char meso_shader_surface_fragment[], meso_shader_depth_fragment[];
+
+/* GL counts indices and base vertices in signed ints. */
+static const uint64_t MAX_ELEMENTS = INT32_MAX;
+
+/* Uniforms by the locations that the shaders give them. */
+enum {
+    CLIP_FROM_WORLD, DEPTH_AXIS, SECTION_SCALE, CAP_RISE, START_COLOR, END_COLOR,
+    START_METALLIC, END_METALLIC
+};
+
+typedef struct PatternVertex {
+    MesoVec2 start, end, start_normal, end_normal;
+    float along;
+} PatternVertex;
+
+typedef struct BodyVertex {
+    MesoVec3 position, normal;
+    uint32_t ids;
+    uint8_t color[4];
+} BodyVertex;
+
+/* A pattern in the making: which columns and how many rings of each kind. */
+typedef struct Plan {
+    uint32_t **kept;            /* [kind_count] each [column_count of the kind] */
+    uint32_t *kept_count;       /* [kind_count] */
+    uint32_t *ring_count;       /* [kind_count] */
+    uint64_t vertex_count, index_count;
+} Plan;
+
+static GLuint upload(const MesoGl *gl, const void *data, size_t size)
+{
+    GLuint buffer = 0;
+    gl->CreateBuffers(1, &buffer);
+    gl->NamedBufferStorage(buffer, (GLsizeiptr)size, data, 0);
+    return buffer;
+}
+
+/* How far the surface of a kind may lie from the control points of its instances. */
+static float kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    return fmaxf(meso_scene_kind_radius(scene, kind), MESO_CAP_RISE * scene->section_scale);
+}
+
+/* Scene units that one pixel shows at the kind's point nearest to the eye; 0 where the eye is inside. */
+static float finest_pixel(const MesoScene *scene, const MesoSweptKind *kind,
+                          const MesoView *view, uint32_t height)
+{
+    float nearest = INFINITY;
+    for (uint32_t i = 0; i < kind->instance_count; i++)
+        for (uint32_t k = 0; k < 4; k++) {
+            const MesoVec3 *p = &scene->sweeps[kind->instance_begin + i].p[k];
+            nearest = fminf(nearest, meso_vec3_dot(meso_vec3_sub(*p, view->eye), view->forward));
+        }
+    nearest -= kind_reach(scene, kind);
+    return nearest > 0 && isfinite(nearest) ? nearest * 2 * view->tan_half_fov / (float)height : 0;
+}
+
+static void count_pattern(Plan *plan, const MesoScene *scene, uint32_t k)
+{
+    const MesoSweptKind *kind = &scene->kinds[k];
+    const uint32_t *kept = plan->kept[k];
+    uint64_t joints = 0;
+    for (uint32_t i = 0; i + 1 < plan->kept_count[k]; i++)
+        joints += scene->columns[kind->column_begin + kept[i]].joins_next != 0;
+    plan->vertex_count += (uint64_t)plan->kept_count[k] * plan->ring_count[k];
+    plan->index_count += 6 * joints * (plan->ring_count[k] - 1);
+}
+
+static MesoStatus make_plan(Plan *plan, MesoArena *arena, const MesoScene *scene,
+                            const MesoView *view, uint32_t height, float tolerance_pixels,
+                            MesoError *error)
+{
+    plan->kept = MESO_NEW(arena, uint32_t *, scene->kind_count, error);
+    plan->kept_count = MESO_NEW(arena, uint32_t, scene->kind_count, error);
+    plan->ring_count = MESO_NEW(arena, uint32_t, scene->kind_count, error);
+    if (!plan->kept || !plan->kept_count || !plan->ring_count)
+        return MESO_ERR_MEMORY;
+
+    float scale = scene->section_scale;
+    for (uint32_t k = 0; k < scene->kind_count; k++) {
+        const MesoSweptKind *kind = &scene->kinds[k];
+        float tolerance = tolerance_pixels > 0
+            ? tolerance_pixels * finest_pixel(scene, kind, view, height) : 0;
+        plan->kept[k] = MESO_NEW(arena, uint32_t, kind->column_count, error);
+        if (!plan->kept[k])
+            return MESO_ERR_MEMORY;
+        plan->kept_count[k] = meso_detail_columns(&scene->columns[kind->column_begin],
+                                                  kind->column_count, scale > 0 ? tolerance / scale : 0,
+                                                  plan->kept[k]);
+        plan->ring_count[k] = meso_detail_rings(scene, kind, tolerance);
+        count_pattern(plan, scene, k);
+    }
+    if (plan->vertex_count > MAX_ELEMENTS || plan->index_count > MAX_ELEMENTS)
+        return meso_fail(error, MESO_ERR_LIMIT, "sweeps have too many columns and divisions to draw "
+                         "(%llu vertices)", (unsigned long long)plan->vertex_count);
+    return MESO_OK;
+}
+
+static void fill_vertices(PatternVertex *out, const MesoSweepColumn *columns, const uint32_t *kept,
+                          uint32_t kept_count, uint32_t ring_count)
+{
+    for (uint32_t r = 0; r < ring_count; r++)
+        for (uint32_t c = 0; c < kept_count; c++) {
+            const MesoSweepColumn *column = &columns[kept[c]];
+            *out++ = (PatternVertex){column->start, column->end, column->start_normal,
+                                     column->end_normal, (float)r / (float)(ring_count - 1)};
+        }
+}
+
+/* Columns run clockwise around the trajectory: along, then around is counter-clockwise from outside. */
+static uint32_t fill_indices(uint32_t *out, const MesoSweepColumn *columns, const uint32_t *kept,
+                             uint32_t kept_count, uint32_t ring_count)
+{
+    uint32_t *begin = out;
+    for (uint32_t r = 0; r + 1 < ring_count; r++)
+        for (uint32_t c = 0; c + 1 < kept_count; c++) {
+            if (!columns[kept[c]].joins_next)
+                continue;
+            uint32_t a = r * kept_count + c, b = a + kept_count;
+            uint32_t quad[6] = {a, b, b + 1, a, b + 1, a + 1};
+            for (uint32_t i = 0; i < 6; i++)
+                *out++ = quad[i];
+        }
+    return (uint32_t)(out - begin);
+}
+
+static void describe_sweeps(MesoDrawLists *lists)
+{
+    const MesoGl *gl = lists->gl;
+    static const struct { GLuint size, offset; } shared[] = {
+        {4, offsetof(PatternVertex, start)}, {4, offsetof(PatternVertex, start_normal)},
+        {1, offsetof(PatternVertex, along)}};
+
+    gl->CreateVertexArrays(1, &lists->sweep_array);
+    GLuint array = lists->sweep_array;
+    gl->VertexArrayVertexBuffer(array, 0, lists->pattern_vertices, 0, sizeof(PatternVertex));
+    gl->VertexArrayVertexBuffer(array, 1, lists->instances, 0, sizeof(MesoSweepInstance));
+    gl->VertexArrayBindingDivisor(array, 1, 1);
+    gl->VertexArrayElementBuffer(array, lists->pattern_indices);
+    for (GLuint i = 0; i < 12; i++) {
+        gl->EnableVertexArrayAttrib(array, i);
+        gl->VertexArrayAttribBinding(array, i, i < 3 ? 0 : 1);
+        if (i < 3)
+            gl->VertexArrayAttribFormat(array, i, (GLint)shared[i].size, GL_FLOAT, GL_FALSE,
+                                        shared[i].offset);
+        else if (i < 11)    /* p[4], up[2], direction[2] follow each other */
+            gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE,
+                                        (i - 3) * (GLuint)sizeof(MesoVec3));
+        else
+            gl->VertexArrayAttribIFormat(array, i, 1, GL_UNSIGNED_INT, offsetof(MesoSweepInstance, ids));
+    }
+}
+
+static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Plan *plan, MesoError *error)
+{
+    const MesoScene *scene = lists->scene;
+    PatternVertex *vertices = MESO_NEW(arena, PatternVertex, plan->vertex_count, error);
+    uint32_t *indices = MESO_NEW(arena, uint32_t, plan->index_count, error);
+    if (!vertices || !indices)
+        return MESO_ERR_MEMORY;
+
+    uint32_t vertex = 0, index = 0;
+    for (uint32_t k = 0; k < scene->kind_count; k++) {
+        const MesoSweptKind *kind = &scene->kinds[k];
+        const MesoSweepColumn *columns = &scene->columns[kind->column_begin];
+        const uint32_t *kept = plan->kept[k];
+        uint32_t kept_count = plan->kept_count[k], ring_count = plan->ring_count[k];
+        MesoDrawSweep *draw = &lists->sweeps[k];
+
+        draw->kind = k;
+        draw->reach = kind_reach(scene, kind);
+        draw->base_vertex = vertex;
+        draw->index_begin = index;
+        fill_vertices(&vertices[vertex], columns, kept, kept_count, ring_count);
+        draw->index_count = fill_indices(&indices[index], columns, kept, kept_count, ring_count);
+        vertex += kept_count * ring_count;
+        index += draw->index_count;
+    }
+    lists->sweep_count = scene->kind_count;
+    lists->pattern_vertices = upload(lists->gl, vertices, vertex * sizeof *vertices);
+    lists->pattern_indices = upload(lists->gl, indices, index * sizeof *indices);
+    lists->gl->CreateBuffers(1, &lists->instances);
+    describe_sweeps(lists);
+    meso_draw_lists_select(lists, NULL);
+    return meso_gl_check(lists->gl, "upload of the sweeps", error);
+}
+
+static void describe_bodies(MesoDrawLists *lists)
+{
+    const MesoGl *gl = lists->gl;
+    gl->CreateVertexArrays(1, &lists->body_array);
+    GLuint array = lists->body_array;
+    gl->VertexArrayVertexBuffer(array, 0, lists->body_vertices, 0, sizeof(BodyVertex));
+    gl->VertexArrayElementBuffer(array, lists->body_indices);
+    gl->VertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, position));
+    gl->VertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, normal));
+    gl->VertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, offsetof(BodyVertex, ids));
+    gl->VertexArrayAttribFormat(array, 3, 3, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(BodyVertex, color));
+    for (GLuint i = 0; i < 4; i++) {
+        gl->EnableVertexArrayAttrib(array, i);
+        gl->VertexArrayAttribBinding(array, i, 0);
+    }
+}
+
+/* One draw for consecutive parts of one material. */
+static void add_body_draw(MesoDrawLists *lists, uint32_t material, uint32_t index_begin, uint32_t index_end)
+{
+    MesoDrawBodies *last = lists->bodies_count ? &lists->bodies[lists->bodies_count - 1] : NULL;
+    if (last && last->material == material) {
+        last->index_count += index_end - index_begin;
+        return;
+    }
+    lists->bodies[lists->bodies_count++] = (MesoDrawBodies){material, index_begin, index_end - index_begin};
+}
+
+static uint32_t add_triangles(uint32_t *indices, const MesoMeshFace *face)
+{
+    indices[0] = face->v[0];
+    indices[1] = face->v[1];
+    indices[2] = face->v[2];
+    if (face->v[3] == MESO_NO_INDEX)
+        return 3;
+    indices[3] = face->v[0];
+    indices[4] = face->v[2];
+    indices[5] = face->v[3];
+    return 6;
+}
+
+/* All placed bodies, one after the other. */
+typedef struct BodyArrays {
+    MesoMeshVertex *points;
+    MesoMeshColor *colors;
+    MesoMeshFace *faces;
+    BodyVertex *vertices;
+    uint32_t *indices;
+} BodyArrays;
+
+static MesoStatus make_bodies(BodyArrays *arrays, MesoArena *arena, const MesoSceneParts *parts, MesoError *error)
+{
+    uint32_t begin = parts->scene->sweep_count, end = parts->part_count;
+    uint64_t vertex_count = parts->vertex_begin[end] - parts->vertex_begin[begin];
+    uint64_t face_count = parts->face_begin[end] - parts->face_begin[begin];
+    if (vertex_count > MAX_ELEMENTS || face_count > MAX_ELEMENTS / 6)
+        return meso_fail(error, MESO_ERR_LIMIT, "bodies have too many vertices to draw (%llu)",
+                         (unsigned long long)vertex_count);
+    arrays->points = MESO_NEW(arena, MesoMeshVertex, vertex_count, error);
+    arrays->colors = MESO_NEW(arena, MesoMeshColor, vertex_count, error);
+    arrays->faces = MESO_NEW(arena, MesoMeshFace, face_count, error);
+    arrays->vertices = MESO_NEW(arena, BodyVertex, vertex_count, error);
+    arrays->indices = MESO_NEW(arena, uint32_t, 6 * face_count, error);
+    if (!arrays->points || !arrays->colors || !arrays->faces || !arrays->vertices || !arrays->indices)
+        return MESO_ERR_MEMORY;
+    meso_scene_vertices(parts, begin, end, arrays->points);
+    meso_scene_colors(parts, begin, end, arrays->colors);
+    meso_scene_faces(parts, begin, end, 0, arrays->faces);
+    return MESO_OK;
+}
+
+static MesoStatus upload_bodies(MesoDrawLists *lists, MesoArena *arena, MesoVec3 anchor, MesoError *error)
+{
+    MesoSceneParts parts;
+    BodyArrays arrays = {0};
+    MesoStatus status = meso_scene_parts_init(&parts, arena, lists->scene, error);
+    if (!status)
+        status = make_bodies(&arrays, arena, &parts, error);
+    if (status)
+        return status;
+
+    uint32_t index = 0, first = lists->scene->sweep_count;
+    uint64_t vertex = 0, face = 0;
+    for (uint32_t p = first; p < parts.part_count; p++) {
+        MesoPart part = meso_scene_part(&parts, p);
+        uint32_t index_begin = index;
+        for (; vertex < parts.vertex_begin[p + 1] - parts.vertex_begin[first]; vertex++) {
+            MesoMeshColor c = arrays.colors[vertex];
+            arrays.vertices[vertex] = (BodyVertex){meso_vec3_sub(arrays.points[vertex].position, anchor),
+                                                   arrays.points[vertex].normal, part.ids, {c.r, c.g, c.b, 255}};
+        }
+        for (; face < parts.face_begin[p + 1] - parts.face_begin[first]; face++)
+            index += add_triangles(&arrays.indices[index], &arrays.faces[face]);
+        add_body_draw(lists, part.material, index_begin, index);
+    }
+    if (index == 0)
+        return MESO_OK;
+    lists->body_vertices = upload(lists->gl, arrays.vertices, vertex * sizeof *arrays.vertices);
+    lists->body_indices = upload(lists->gl, arrays.indices, index * sizeof *arrays.indices);
+    describe_bodies(lists);
+    return meso_gl_check(lists->gl, "upload of the bodies", error);
+}
+
+static bool is_zero(MesoVec3 v)
+{
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+/* The sweeps relative to `anchor`; NULL where memory is out. */
+static const MesoSweepInstance *place_sweeps(const MesoScene *scene, MesoVec3 anchor, MesoArena *arena,
+                                             MesoError *error)
+{
+    if (is_zero(anchor) || scene->sweep_count == 0)
+        return scene->sweeps;
+    MesoSweepInstance *placed = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
+    for (uint32_t i = 0; placed && i < scene->sweep_count; i++) {
+        placed[i] = scene->sweeps[i];
+        for (uint32_t k = 0; k < 4; k++)
+            placed[i].p[k] = meso_vec3_sub(placed[i].p[k], anchor);
+    }
+    return placed;
+}
+
+MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const MesoGl *gl,
+                                const MesoScene *scene, const MesoView *view, uint32_t height,
+                                float tolerance_pixels, MesoError *error)
+{
+    *lists = (MesoDrawLists){.gl = gl, .scene = scene};
+    lists->placed = place_sweeps(scene, view->anchor, arena, error);
+    lists->sweeps = MESO_NEW(arena, MesoDrawSweep, scene->kind_count, error);
+    lists->bodies = MESO_NEW(arena, MesoDrawBodies, scene->placed_count, error);
+    lists->selected = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
+    if ((scene->sweep_count && !lists->placed) || !lists->sweeps || !lists->bodies || !lists->selected)
+        return MESO_ERR_MEMORY;
+
+    MesoArenaMark mark = meso_arena_mark(arena);
+    Plan plan = {0};
+    MesoStatus status = make_plan(&plan, arena, scene, view, height, tolerance_pixels, error);
+    if (!status && plan.index_count && scene->sweep_count)
+        status = upload_sweeps(lists, arena, &plan, error);
+    if (!status && scene->placed_count)
+        status = upload_bodies(lists, arena, view->anchor, error);
+    meso_arena_rewind(arena, mark);
+    if (status)
+        meso_draw_lists_release(lists);
+    return status;
+}
+
+void meso_draw_lists_release(MesoDrawLists *lists)
+{
+    if (!lists->gl)
+        return;
+    const GLuint buffers[] = {lists->pattern_vertices, lists->pattern_indices, lists->instances,
+                              lists->body_vertices, lists->body_indices};
+    const GLuint arrays[] = {lists->sweep_array, lists->body_array};
+    lists->gl->DeleteVertexArrays(sizeof arrays / sizeof *arrays, arrays);
+    lists->gl->DeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
+    *lists = (MesoDrawLists){0};
+}
+
+MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, MesoDrawPurpose purpose,
+                                   bool colored, MesoError *error)
+{
+    static const char *const defines[][4] = {
+        [MESO_DRAW_SURFACE] = {"", "#define CAP\n", "", "#define COLORED\n"},
+        [MESO_DRAW_PACKED] = {"#define PACKED\n", "#define CAP\n#define PACKED\n", "#define PACKED\n",
+                              "#define PACKED\n#define COLORED\n"},
+        [MESO_DRAW_DEPTH] = {"", "#define CAP\n", "", ""},
+    };
+    const char *const *text = defines[purpose];
+    const char *sweep = meso_shader_sweep_vertex, *body = meso_shader_body_vertex;
+    const char *fragment = purpose == MESO_DRAW_DEPTH ? meso_shader_depth_fragment
+                                                      : meso_shader_surface_fragment;
+    *programs = (MesoDrawPrograms){0};
+    MesoStatus status = meso_gl_program(&programs->sweep, gl, text[0], sweep, fragment, error);
+    if (!status)
+        status = meso_gl_program(&programs->cap, gl, text[1], sweep, fragment, error);
+    if (!status)
+        status = meso_gl_program(&programs->body, gl, text[colored ? 3 : 2], body, fragment, error);
+    if (status)
+        meso_draw_programs_release(programs, gl);
+    return status;
+}
+
+void meso_draw_programs_release(MesoDrawPrograms *programs, const MesoGl *gl)
+{
+    gl->DeleteProgram(programs->sweep);
+    gl->DeleteProgram(programs->cap);
+    gl->DeleteProgram(programs->body);
+    *programs = (MesoDrawPrograms){0};
+}
+
+/* ---- selection ---- */
+
+typedef struct Plane {
+    MesoVec3 normal;    /* unit length, inward */
+    float distance;
+} Plane;
+
+/* Planes of the frustum but the far one: w + x, w - x, w + y, w - y and w of the clip coordinates. */
+static void frustum_planes(Plane planes[5], const MesoMatrix *clip)
+{
+    static const float signs[5][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0, 0}};
+    for (uint32_t i = 0; i < 5; i++) {
+        float p[4];
+        for (uint32_t column = 0; column < 4; column++) {
+            const float *m = &clip->m[4 * column];
+            p[column] = m[3] + signs[i][0] * m[0] + signs[i][1] * m[1];
+        }
+        MesoVec3 normal = {p[0], p[1], p[2]};
+        float length = meso_vec3_length(normal);
+        float scale = length > 0 ? 1 / length : 0;
+        planes[i] = (Plane){meso_vec3_scale(normal, scale), length > 0 ? p[3] * scale : 1};
+    }
+}
+
+/* The curve lies within the hull of its control points. */
+static bool may_show(const Plane planes[5], const MesoSweepInstance *instance, float reach)
+{
+    for (uint32_t i = 0; i < 5; i++) {
+        float furthest = -INFINITY;
+        for (uint32_t k = 0; k < 4; k++)
+            furthest = fmaxf(furthest, meso_vec3_dot(planes[i].normal, instance->p[k]));
+        if (furthest + planes[i].distance < -reach)
+            return false;
+    }
+    return true;
+}
+
+static void select_all(MesoDrawLists *lists)
+{
+    for (uint32_t d = 0; d < lists->sweep_count; d++) {
+        const MesoSweptKind *kind = &lists->scene->kinds[lists->sweeps[d].kind];
+        lists->sweeps[d].instance_begin = kind->instance_begin;
+        lists->sweeps[d].instance_count = kind->instance_count;
+    }
+}
+
+/* Returns how many were selected. */
+static uint32_t select_shown(MesoDrawLists *lists, const MesoMatrix *clip_from_world)
+{
+    const MesoScene *scene = lists->scene;
+    uint32_t count = 0;
+    Plane planes[5];
+    frustum_planes(planes, clip_from_world);
+    for (uint32_t d = 0; d < lists->sweep_count; d++) {
+        MesoDrawSweep *draw = &lists->sweeps[d];
+        const MesoSweptKind *kind = &scene->kinds[draw->kind];
+        draw->instance_begin = count;
+        for (uint32_t i = 0; i < kind->instance_count; i++) {
+            const MesoSweepInstance *instance = &lists->placed[kind->instance_begin + i];
+            if (may_show(planes, instance, draw->reach))
+                lists->selected[count++] = *instance;
+        }
+        draw->instance_count = count - draw->instance_begin;
+    }
+    return count;
+}
+
+void meso_draw_lists_select(MesoDrawLists *lists, const MesoMatrix *clip_from_world)
+{
+    const MesoSweepInstance *shown = lists->placed;
+    uint32_t count = lists->scene->sweep_count;
+    if (lists->sweep_count == 0)
+        return;
+    if (clip_from_world) {
+        shown = lists->selected;
+        count = select_shown(lists, clip_from_world);
+    } else {
+        select_all(lists);
+    }
+    lists->gl->NamedBufferData(lists->instances, (GLsizeiptr)(count * sizeof *shown), shown, GL_STATIC_DRAW);
+}
+
+/* ---- drawing ---- */
+
+static void set_materials(const MesoDrawLists *lists, GLuint program, uint32_t start, uint32_t end)
+{
+    const MesoGl *gl = lists->gl;
+    const MesoMaterial *a = &lists->scene->materials[start], *b = &lists->scene->materials[end];
+    gl->ProgramUniform4f(program, START_COLOR, a->albedo[0], a->albedo[1], a->albedo[2], a->roughness);
+    gl->ProgramUniform4f(program, END_COLOR, b->albedo[0], b->albedo[1], b->albedo[2], b->roughness);
+    gl->ProgramUniform1f(program, START_METALLIC, a->metallic);
+    gl->ProgramUniform1f(program, END_METALLIC, b->metallic);
+}
+
+static void set_view(const MesoDrawLists *lists, GLuint program, const MesoMatrix *clip_from_world,
+                     const MesoView *view)
+{
+    const MesoGl *gl = lists->gl;
+    gl->ProgramUniformMatrix4fv(program, CLIP_FROM_WORLD, 1, GL_FALSE, clip_from_world->m);
+    if (view)
+        gl->ProgramUniform4f(program, DEPTH_AXIS, view->forward.x, view->forward.y, view->forward.z,
+                             -meso_vec3_dot(view->forward, meso_vec3_sub(view->eye, view->anchor)));
+}
+
+static const void *index_offset(uint32_t index)
+{
+    return (const void *)(sizeof(uint32_t) * (uintptr_t)index);
+}
+
+static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, GLuint program, bool shaded)
+{
+    const MesoGl *gl = lists->gl;
+    const MesoSweptKind *kind = &lists->scene->kinds[draw->kind];
+    if (draw->index_count == 0 || draw->instance_count == 0)
+        return;
+    if (shaded)
+        set_materials(lists, program, kind->start_material, kind->cap ? kind->start_material : kind->end_material);
+    gl->UseProgram(program);
+    gl->DrawElementsInstancedBaseVertexBaseInstance(
+        GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT, index_offset(draw->index_begin),
+        (GLsizei)draw->instance_count, (GLint)draw->base_vertex, draw->instance_begin);
+}
+
+static void draw_bodies(const MesoDrawLists *lists, const MesoDrawBodies *draw, GLuint program, bool shaded)
+{
+    const MesoGl *gl = lists->gl;
+    if (shaded)
+        set_materials(lists, program, draw->material, draw->material);
+    gl->UseProgram(program);
+    gl->DrawElementsBaseVertex(GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT,
+                               index_offset(draw->index_begin), 0);
+}
+
+void meso_draw_lists_draw(const MesoDrawLists *lists, const MesoDrawPrograms *programs,
+                          const MesoMatrix *clip_from_world, const MesoView *view)
+{
+    const MesoGl *gl = lists->gl;
+    const GLuint all[] = {programs->sweep, programs->cap, programs->body};
+    for (uint32_t i = 0; i < 3; i++)
+        set_view(lists, all[i], clip_from_world, view);
+    for (uint32_t i = 0; i < 2; i++) {
+        gl->ProgramUniform1f(all[i], SECTION_SCALE, lists->scene->section_scale);
+        if (all[i] == programs->cap)
+            gl->ProgramUniform1f(all[i], CAP_RISE, MESO_CAP_RISE);
+    }
+
+    gl->BindVertexArray(lists->sweep_array);
+    for (uint32_t i = 0; i < lists->sweep_count; i++) {
+        bool cap = lists->scene->kinds[lists->sweeps[i].kind].cap;
+        draw_sweep(lists, &lists->sweeps[i], cap ? programs->cap : programs->sweep, view);
+    }
+    gl->BindVertexArray(lists->body_array);
+    for (uint32_t i = 0; i < lists->bodies_count && lists->body_array; i++)
+        draw_bodies(lists, &lists->bodies[i], programs->body, view);
+}
