@@ -11,6 +11,7 @@
 #include "formats/file_kind.h"
 #include "formats/json_text.h"
 #include "formats/product_file.h"
+#include "formats/slots_file.h"
 #include "formats/slots_text.h"
 
 static const MesoToolInfo INFO_TOOL = {

@@ -3,7 +3,7 @@
 #define MESO_SOLVE_EACH_H
 
 #include "cmd/seed_list.h"
-#include "cmd/solve_seeds.h"
+#include "cmd/seed_problem.h"
 #include "formats/seed_lines.h"
 
 typedef struct MesoSeedEach {

@@ -2,8 +2,7 @@
 #ifndef MESO_SOLVE_SEEDS_H
 #define MESO_SOLVE_SEEDS_H
 
-#include "cmd/solve_surface.h"
-#include "libcore/solve/solve.h"
+#include "cmd/seed_problem.h"
 
 typedef struct MesoSeedOptions {
     const char *seeds, *each, *resume, *best;
@@ -19,15 +18,6 @@ typedef struct MesoSeedOptions {
      &(o).resume, 0, 0, 0, 0},                                                                \
     {MESO_OPTION_TEXT | MESO_OPTION_OUTWARD, 0, "best", "METRIC[=FILE]", "say which seed is best by attempts, balance or loops, and write its " \
      "assignment to FILE", &(o).best, 0, 0, 0, 0}
-
-/* What is solved for each seed. */
-typedef struct MesoSeedProblem {
-    const MesoTilingProblem *tiling;
-    const MesoSolveSurface *surface;
-    const uint64_t *tiles_hash;     /* [2] */
-    MesoSolveOptions solve;         /* but for seed and progress; its attempts unless --seeds says */
-    const char *others;             /* whatever else is asked for, in words: part of the problem's hash */
-} MesoSeedProblem;
 
 /* Checks the options among each other and with the tool's. MESO_ERR_USAGE. */
 MesoStatus meso_seed_options_check(const MesoSeedOptions *options, const MesoTool *tool, bool attempts_given,

@@ -59,8 +59,7 @@ static bool has_coinciding_corners(const MesoQuadMesh *mesh, uint32_t face)
 static Walls find_walls(const MesoSurfaceJudge *judge)
 {
     Walls walls;
-    MesoMapOptions options = meso_map_options_resolve((MesoMapOptions){0}, judge->mesh->mean_edge_length);
-    MesoShell shell = meso_shell_make(judge->mesh, judge->graph, &options);
+    MesoShell shell = meso_shell_make(judge->mesh, judge->graph, 0, judge->mesh->mean_edge_length);
     walls.count = meso_shell_without_walls(&shell, walls.faces, NAMED);
     return walls;
 }

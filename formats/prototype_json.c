@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "formats/tiles_file.h"
 #include "formats/tiles_room.h"
 #include "libcore/tile/tile_set_check.h"
 

@@ -16,17 +16,7 @@
 
 #include "formats/container.h"
 #include "formats/provenance.h"
-#include "libcore/solve/assignment.h"
-
-typedef struct MesoSlotsFile {
-    MesoAssignment assignment;
-    uint64_t tiles_hash[2], surface_hash[2];
-    bool anonymous;                 /* a listing that has no hashes: they are 0 */
-    uint32_t tile_count;
-    const char **tile_names;        /* [tile_count] */
-    const char *provenance;         /* JSON text; {} of a listing */
-    uint8_t *quarters;              /* [slot_count] orientation; NULL: as in the surface's file */
-} MesoSlotsFile;
+#include "formats/slots_content.h"
 
 /* `quarters` [slot_count] is the orientation; NULL, or all 0: as in the surface's file. */
 MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet *set,

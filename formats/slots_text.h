@@ -24,7 +24,9 @@
 
 #include <jansson.h>
 
-#include "formats/slots_file.h"
+#include "formats/input.h"
+#include "formats/output.h"
+#include "formats/slots_content.h"
 
 MesoStatus meso_slots_write_csv(const MesoSlotsFile *slots, MesoOutput *output, MesoError *error);
 

@@ -1,4 +1,5 @@
 /* Listings of slots: round trips through both forms, every order and quote, every wrong line. */
+#include "formats/slots_file.h"
 #include "formats/slots_text.h"
 
 #include <stdlib.h>

@@ -7,11 +7,7 @@
 #include "formats/input.h"
 #include "libcore/tile/tile_set_check.h"
 
-enum { MESO_TILES_VERSION = 1, MESO_TILES_ITEMS = 1 << 20 };  /* the most items of a list */
-
-/* Materials that a file does not give; a cross-section's albedo is its interface's colour. */
-#define MESO_DEFAULT_ALBEDO 0.8f
-#define MESO_DEFAULT_ROUGHNESS 0.5f
+enum { MESO_TILES_VERSION = 1 };
 
 /*
  * Reads a tile set of either kind, known by its content, into `arena` (names

@@ -5,6 +5,12 @@
 #include "formats/json_field.h"
 #include "libcore/tile/tile_set.h"
 
+enum { MESO_TILES_ITEMS = 1 << 20 };    /* the most items of a list */
+
+/* Materials that a file does not give; a cross-section's albedo is its interface's colour. */
+#define MESO_DEFAULT_ALBEDO 0.8f
+#define MESO_DEFAULT_ROUGHNESS 0.5f
+
 /* The most that each array of the set will hold. */
 typedef struct MesoTilesRoom {
     uint64_t interfaces, sections, csg, tiles, sweeps, inners;

@@ -1,4 +1,5 @@
 #include "formats/tiles_file.h"
+#include "formats/tiles_room.h"
 
 #include <math.h>
 #include <stdio.h>

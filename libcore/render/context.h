@@ -8,14 +8,7 @@
 
 #include <stdint.h>
 
-#include "libcore/base/error.h"
-
-typedef struct MesoGlContext {
-    void *native;
-    void (*release)(struct MesoGlContext *context);
-    void *(*find)(const char *name);    /* a GL function by its name */
-    char renderer[128];                 /* GL_RENDERER */
-} MesoGlContext;
+#include "libcore/render/gl_context.h"
 
 /*
  * `maker` is "osmesa", "egl" or "auto" (egl where it offers a GPU, else

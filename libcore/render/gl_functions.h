@@ -7,7 +7,7 @@
 
 #include <GL/glcorearb.h>
 
-#include "libcore/render/context.h"
+#include "libcore/render/gl_context.h"
 
 #define MESO_GL_FUNCTIONS(X)                                                        \
     X(ATTACHSHADER, AttachShader)                                                   \

@@ -7,7 +7,7 @@
 #ifndef MESO_PROJECTION_H
 #define MESO_PROJECTION_H
 
-#include "libcore/render/render.h"
+#include "libcore/render/camera.h"
 
 /* Column-major, as GL takes it. */
 typedef struct MesoMatrix {

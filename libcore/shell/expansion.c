@@ -6,7 +6,6 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/scene/placed.h"
-#include "libcore/shell/profile.h"
 #include "libcore/shell/shell.h"
 #include "libcore/shell/trajectory.h"
 
@@ -98,7 +97,8 @@ static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side,
     int32_t label = b->model->tile_set.tiles[a->tile[slot]].labels[tile_side];
     MesoVec2 center = b->contours->center[section];
     if (tile_side >= MESO_SIDE_TOP)
-        return meso_shell_lid_port(&b->shell, slot, tile_side, transform, center, label < 0, port, error);
+        return meso_shell_lid_port(&b->shell, slot, tile_side == MESO_SIDE_BOTTOM, transform, center, label < 0, port,
+                                   error);
     return meso_shell_wall_port(&b->shell, slot, meso_transform_side(transform, tile_side), center,
                                 (label < 0) != meso_transform_flips(transform), port, error);
 }
@@ -356,7 +356,7 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
     if (status)
         return status;
 
-    b->shell = meso_shell_make(&b->model->surface, &graph, &b->options);
+    b->shell = meso_shell_make(&b->model->surface, &graph, b->options.offset, b->options.thickness);
     status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)
         status = make_instances(b, thread_count, error);

@@ -6,21 +6,12 @@
 #ifndef MESO_EXPANSION_H
 #define MESO_EXPANSION_H
 
-#include "libcore/scene/scene.h"
 #include "libcore/shell/model.h"
-#include "libcore/tile/contour.h"
+#include "libcore/shell/profile.h"
 
 /* Coordinates of inner meshes in their tile, in tiles: those of the shell, which follow the product of
  * three of them, stay finite. */
 #define MESO_INNER_LIMIT 1e6f
-
-/* Where a swept kind of the scene comes from. */
-typedef struct MesoKindOrigin {
-    uint32_t tile, sweep;               /* sweep is MESO_NO_INDEX for a cap */
-    uint32_t start_side, end_side;      /* of the tile; equal for a cap */
-    uint32_t start_section, end_section;
-    bool mirrored;                      /* the tile's transform flips */
-} MesoKindOrigin;
 
 /* What the scene itself does not know. */
 typedef struct MesoExpansion {

@@ -6,7 +6,16 @@
 #ifndef MESO_PROFILE_H
 #define MESO_PROFILE_H
 
-#include "libcore/shell/expansion.h"
+#include "libcore/scene/scene.h"
+#include "libcore/tile/contour.h"
+
+/* Where a swept kind of the scene comes from. */
+typedef struct MesoKindOrigin {
+    uint32_t tile, sweep;               /* sweep is MESO_NO_INDEX for a cap */
+    uint32_t start_side, end_side;      /* of the tile; equal for a cap */
+    uint32_t start_section, end_section;
+    bool mirrored;                      /* the tile's transform flips */
+} MesoKindOrigin;
 
 typedef struct MesoProfileSet {
     uint32_t kind_count, column_count;

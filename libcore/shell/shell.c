@@ -3,9 +3,9 @@
 #include <assert.h>
 
 MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
-                          const MesoMapOptions *options)
+                          float offset, float thickness)
 {
-    return (MesoShell){mesh, graph, options->offset, options->offset + 0.5f * options->thickness};
+    return (MesoShell){mesh, graph, offset, offset + 0.5f * thickness};
 }
 
 static MesoVec3 corner_position(const MesoShell *shell, uint32_t slot, uint32_t corner)
@@ -119,12 +119,10 @@ static MesoVec3 lid_direction(const MesoCage *cage, MesoVec2 at, MesoVec2 along,
     return meso_vec3_add(meso_vec3_scale(dx, along.x), meso_vec3_scale(dy, along.y));
 }
 
-MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, uint32_t side,
+MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, bool bottom,
                                MesoTransform transform, MesoVec2 center, bool flipped,
                                MesoPort *port, MesoError *error)
 {
-    assert(side == MESO_SIDE_TOP || side == MESO_SIDE_BOTTOM);
-    bool bottom = side == MESO_SIDE_BOTTOM;
     float h = bottom ? 0 : 1;
     MesoVec2 in_tile = {flipped != bottom ? 1 - center.x : center.x, center.y};
     MesoVec2 at = meso_transform_point(transform, in_tile);

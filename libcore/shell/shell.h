@@ -7,18 +7,19 @@
 #define MESO_SHELL_H
 
 #include "libcore/math/cage.h"
-#include "libcore/shell/model.h"
+#include "libcore/math/square.h"
+#include "libcore/surface/slot_graph.h"
 
-/* The shell of one model; keeps pointers to its arguments. */
+/* The shell of one surface; keeps pointers to its arguments. */
 typedef struct MesoShell {
     const MesoQuadMesh *mesh;
     const MesoSlotGraph *graph;
     float bottom, top;      /* heights of the two surfaces along the normals */
 } MesoShell;
 
-/* `options` must be resolved. bottom = offset, top = offset + thickness / 2. */
+/* From `offset` along the normals to half the thickness above it. */
 MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
-                          const MesoMapOptions *options);
+                          float offset, float thickness);
 
 /* Where a cross-section lies on a face of a slot's hexahedron. */
 typedef struct MesoPort {
@@ -47,12 +48,12 @@ MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t 
 uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint32_t room);
 
 /*
- * Port on the top or bottom (MESO_SIDE_TOP, MESO_SIDE_BOTTOM) of `slot` for a
+ * Port on the top or bottom of `slot` for a
  * tile under `transform`, whose label there is `flipped`. Drawings are seen from
  * outside the shell: on the top, x and y are the tile's; on the bottom x runs
  * the other way.
  */
-MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, uint32_t side,
+MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, bool bottom,
                                MesoTransform transform, MesoVec2 center, bool flipped,
                                MesoPort *port, MesoError *error);
 

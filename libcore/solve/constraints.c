@@ -3,7 +3,8 @@
 #include <assert.h>
 #include <string.h>
 
-#include "libcore/solve/domain.h"
+#include "libcore/base/bits.h"
+#include "libcore/base/interner.h"
 
 const char *meso_constraint_name(const MesoConstraints *constraints, uint32_t number)
 {

@@ -1,0 +1,22 @@
+/* Cameras, and the one that frames a scene. */
+#ifndef MESO_CAMERA_H
+#define MESO_CAMERA_H
+
+#include "libcore/scene/scene.h"
+
+typedef struct MesoCamera {
+    MesoVec3 eye, target, up;
+    float fov_degrees;      /* vertical */
+} MesoCamera;
+
+/*
+ * A camera that frames the box from the front, a little from the right and
+ * above, with a margin of 5 %. The front is +Z, or -Y where `up` is along Z.
+ * `aspect` is width / height.
+ */
+MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect);
+
+/* The same, around the sweeps, cages and bodies themselves. O(sweeps + vertices). */
+MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fov_degrees, float aspect);
+
+#endif
