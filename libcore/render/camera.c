@@ -4,6 +4,7 @@
  * and the same for y: with A = max(p.x + t p.z) and B = max(t p.z - p.x), the
  * nearest such eye has z = (A + B) / (2 t) and x = (A - B) / 2.
  */
+#include "libcore/render/camera.h"
 #include "libcore/render/projection.h"
 
 #include <float.h>

@@ -2,12 +2,8 @@
 #ifndef MESO_CAMERA_H
 #define MESO_CAMERA_H
 
+#include "libcore/render/projection.h"
 #include "libcore/scene/scene.h"
-
-typedef struct MesoCamera {
-    MesoVec3 eye, target, up;
-    float fov_degrees;      /* vertical */
-} MesoCamera;
 
 /*
  * A camera that frames the box from the front, a little from the right and

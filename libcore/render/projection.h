@@ -7,7 +7,13 @@
 #ifndef MESO_PROJECTION_H
 #define MESO_PROJECTION_H
 
-#include "libcore/render/camera.h"
+#include "libcore/base/error.h"
+#include "libcore/base/vec.h"
+
+typedef struct MesoCamera {
+    MesoVec3 eye, target, up;
+    float fov_degrees;      /* vertical */
+} MesoCamera;
 
 /* Column-major, as GL takes it. */
 typedef struct MesoMatrix {
