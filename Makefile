@@ -56,19 +56,19 @@ LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
 LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -lOSMesa -lEGL \
             -lOpenEXRCore-3_1 -lpng -lz -ljansson -lxxhash -lcadical -lm
 
-SOURCES := $(sort $(shell find libcore formats -name '*.c' -o -name '*.cpp'))
-SHARED  := $(filter-out cmd/meso-%,$(wildcard cmd/*.c))
-APART   := %_test.c %_bench.c %_fuzz.c %_reference.c
-TOOLS   := $(patsubst cmd/%.c,%,$(wildcard cmd/meso-*.c))
-TESTS   := $(patsubst %.c,%,$(filter %_test.c,$(SOURCES)) $(wildcard cmd/*_test.c))
+SOURCES := $(sort $(shell find libcore formats cmd scripts -name '*.c' -o -name '*.cpp'))
+APART   := %_test.c %_bench.c %_fuzz.c %_reference.c cmd/meso-%.c scripts/%
+LIBRARY := $(filter-out $(APART),$(SOURCES))
+TOOLS   := $(patsubst cmd/%.c,%,$(filter cmd/meso-%,$(SOURCES)))
+TESTS   := $(patsubst %.c,%,$(filter %_test.c,$(SOURCES)))
 BENCHES := $(patsubst %.c,%,$(filter %_bench.c,$(SOURCES)))
 FUZZERS := $(patsubst %.c,%,$(filter %_fuzz.c,$(SOURCES)))
-GENERATORS := make_vase make_teapot
 REFERENCES := $(patsubst %.c,%,$(filter %_reference.c,$(SOURCES)))
+GENERATORS := make_vase make_teapot
 SHADERS := $(wildcard shaders/*.glsl)
 
-LIB_OBJECTS := $(patsubst %,$(OUT)/obj/%.o,$(filter-out $(APART),$(SOURCES) $(SHARED))) $(OUT)/obj/shaders.o
-LIB := $(OUT)/libmeso.a
+# Each archive may call those behind it and none before it: the linker goes through them once.
+LIBS := $(OUT)/cmd.a $(OUT)/formats.a $(OUT)/libcore.a
 
 all: $(TOOLS:%=$(BIN)/%)
 
@@ -90,18 +90,22 @@ $(OUT)/obj/shaders.o: $(OUT)/shaders.c
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
-$(LIB): $(LIB_OBJECTS)
+objects = $(patsubst %,$(OUT)/obj/%.o,$(filter $(1)/%,$(LIBRARY)))
+$(OUT)/cmd.a: $(call objects,cmd)
+$(OUT)/formats.a: $(call objects,formats)
+$(OUT)/libcore.a: $(call objects,libcore) $(OUT)/obj/shaders.o
+$(LIBS):
 	@rm -f $@
 	ar rcs $@ $^
 
-link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LIB) $(LDLIBS)
-$(BIN)/%: $(OUT)/obj/cmd/%.c.o $(LIB)
+link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LIBS) $(LDLIBS)
+$(BIN)/%: $(OUT)/obj/cmd/%.c.o $(LIBS)
 	@mkdir -p $(@D)
 	$(link)
-$(OUT)/test/%: $(OUT)/obj/%.c.o $(LIB)
+$(OUT)/test/%: $(OUT)/obj/%.c.o $(LIBS)
 	@mkdir -p $(@D)
 	$(link)
-$(OUT)/fuzz/%: $(OUT)/obj/%.c.o $(LIB)
+$(OUT)/fuzz/%: $(OUT)/obj/%.c.o $(LIBS)
 	@mkdir -p $(@D)
 	$(link) -fsanitize=fuzzer
 
@@ -130,14 +134,14 @@ check-unit: tests
 	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%)
 check-cli: all tests
 	@scripts/run-tests $(OUT) $(BIN) man cli
-check-exhaustive: $(OUT)/test/libcore/solve/small_graphs_test
+check-exhaustive: $(OUT)/test/libcore/tiling/solve/small_graphs_test
 	@n=$$(nproc) && seq 0 $$((n - 1)) | xargs -P $$n -I PART nice $< $(CHECK_SLOTS) $(CHECK_SECONDS) PART $$n
 check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
-	@scripts/bench $(OUT) $(BIN) $(DATA) $(BENCHES)
+	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
-	@scripts/bench-solve $(OUT) $(BIN) $(DATA)
+	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 fuzz-run: fuzzers all generators

@@ -5,14 +5,14 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cmd/info_describe.h"
-#include "cmd/tool.h"
-#include "formats/container.h"
-#include "formats/file_kind.h"
-#include "formats/json_text.h"
-#include "formats/product_file.h"
-#include "formats/slots_file.h"
-#include "formats/slots_text.h"
+#include "cmd/common/tool.h"
+#include "cmd/info/info_describe.h"
+#include "formats/file/container.h"
+#include "formats/json/json_text.h"
+#include "formats/product/file_kind.h"
+#include "formats/product/product_file.h"
+#include "formats/tiling/result/slots_file.h"
+#include "formats/tiling/result/slots_text.h"
 
 static const MesoToolInfo INFO_TOOL = {
     .name = "meso-info",

@@ -4,18 +4,18 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-#include "cmd/input_kind.h"
-#include "cmd/mesh_path.h"
-#include "cmd/scene_report.h"
-#include "cmd/surface_judge.h"
-#include "cmd/tool.h"
-#include "formats/mesh_file.h"
-#include "formats/model_file.h"
-#include "formats/slots_file.h"
+#include "cmd/common/input_kind.h"
+#include "cmd/common/mesh_path.h"
+#include "cmd/common/scene_report.h"
+#include "cmd/common/surface_judge.h"
+#include "cmd/common/tool.h"
+#include "formats/model/model_file.h"
+#include "formats/scene/mesh_file.h"
 #include "formats/surface_file.h"
-#include "formats/tiles_file.h"
-#include "libcore/shell/expansion.h"
-#include "libcore/surface/orientation.h"
+#include "formats/tiling/result/slots_file.h"
+#include "formats/tiling/tiles/tiles_file.h"
+#include "libcore/mesh/orientation.h"
+#include "libcore/tiling/strand/expansion.h"
 
 static const MesoToolInfo MAP_TOOL = {
     .name = "meso-map",

@@ -4,16 +4,16 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cmd/camera_options.h"
-#include "cmd/input_kind.h"
-#include "cmd/scene_report.h"
-#include "cmd/tool.h"
-#include "formats/image_file.h"
-#include "formats/json_text.h"
-#include "formats/model_file.h"
+#include "cmd/common/camera_options.h"
+#include "cmd/common/input_kind.h"
+#include "cmd/common/scene_report.h"
+#include "cmd/common/tool.h"
+#include "formats/image/image_file.h"
+#include "formats/json/json_text.h"
+#include "formats/model/model_file.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
-#include "libcore/shell/expansion.h"
+#include "libcore/tiling/strand/expansion.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",

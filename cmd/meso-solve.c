@@ -1,10 +1,10 @@
 /* meso-solve: assigns a tile to every slot of a surface. */
 #include <string.h>
 
-#include "cmd/solve_constraints.h"
-#include "cmd/solve_seeds.h"
-#include "formats/report_file.h"
-#include "formats/slots_file.h"
+#include "cmd/solve/solve_constraints.h"
+#include "cmd/solve/solve_seeds.h"
+#include "formats/tiling/result/report_file.h"
+#include "formats/tiling/result/slots_file.h"
 
 typedef struct Arguments {
     MesoTool tool;

@@ -3,13 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cmd/input_kind.h"
-#include "cmd/mesh_path.h"
-#include "cmd/solve_inputs.h"
-#include "cmd/solve_surface.h"
-#include "formats/report_file.h"
-#include "formats/tiles_file.h"
-#include "libcore/solve/suggest.h"
+#include "cmd/common/input_kind.h"
+#include "cmd/common/mesh_path.h"
+#include "cmd/solve/solve_inputs.h"
+#include "cmd/solve/solve_surface.h"
+#include "formats/tiling/result/report_file.h"
+#include "formats/tiling/tiles/tiles_file.h"
+#include "libcore/tiling/solve/suggest.h"
 
 typedef struct Arguments {
     MesoTool tool;

@@ -1,7 +1,7 @@
 /* meso-tile: makes and looks at tile sets. The work is in the commands' files. */
 #include <string.h>
 
-#include "cmd/tile_command.h"
+#include "cmd/tile/tile_command.h"
 
 static const struct {
     const char *name;

@@ -2,7 +2,7 @@
 #ifndef MESO_GLTF_READ_ADAPTER_H
 #define MESO_GLTF_READ_ADAPTER_H
 
-#include "formats/input.h"
+#include "formats/file/input.h"
 
 #ifdef __cplusplus
 extern "C" {

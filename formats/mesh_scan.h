@@ -8,10 +8,10 @@
 
 #include <stdbool.h>
 
-#include "formats/input.h"
+#include "formats/file/input.h"
 #include "formats/surface_groups.h"
 #include "libcore/base/arena.h"
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 /* Arrays have room for more than their counts while a scan fills them. */
 typedef struct MesoMeshScan {

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "formats/input.h"
+#include "formats/file/input.h"
 #include "libcore/base/arena.h"
 
 typedef struct MesoMeshText {

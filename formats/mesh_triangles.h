@@ -3,7 +3,7 @@
 #define MESO_MESH_TRIANGLES_H
 
 #include "formats/mesh_scan.h"
-#include "libcore/shell/model.h"
+#include "libcore/tiling/strand/model.h"
 
 /*
  * Cuts every face of a checked scan into the fan around its first corner. A

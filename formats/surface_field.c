@@ -3,7 +3,7 @@
 #include <assert.h>
 
 #include "formats/mesh_scan.h"
-#include "libcore/surface/orientation.h"
+#include "libcore/mesh/orientation.h"
 
 typedef struct FieldReader {
     MesoArena scratch;

@@ -2,8 +2,8 @@
 #ifndef MESO_SURFACE_FIELD_H
 #define MESO_SURFACE_FIELD_H
 
-#include "formats/input.h"
-#include "libcore/surface/quad_mesh.h"
+#include "formats/file/input.h"
+#include "libcore/mesh/quad_mesh.h"
 
 /*
  * One direction for each face of `mesh`, which was read from `input`: the

@@ -4,12 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/file_kind.h"
 #include "formats/gltf_read_adapter.h"
 #include "formats/mesh_scan.h"
 #include "formats/mesh_triangles.h"
 #include "formats/openmesh_adapter.h"
-#include "libcore/surface/slot_graph.h"
+#include "formats/product/file_kind.h"
+#include "libcore/mesh/slot_graph.h"
 
 typedef enum FileKind { KIND_OBJ, KIND_PLY, KIND_OFF, KIND_GLB, KIND_COUNT, KIND_UNKNOWN } FileKind;
 

@@ -8,10 +8,10 @@
 #ifndef MESO_SURFACE_FILE_H
 #define MESO_SURFACE_FILE_H
 
-#include "formats/input.h"
+#include "formats/file/input.h"
 #include "formats/surface_groups.h"
-#include "libcore/shell/model.h"
-#include "libcore/surface/quad_mesh.h"
+#include "libcore/mesh/quad_mesh.h"
+#include "libcore/tiling/strand/model.h"
 
 /*
  * Reads a macrosurface by the extension of its name (the content where there

@@ -2,8 +2,8 @@
 #include "formats/surface_field.h"
 #include "formats/surface_file.h"
 #include "libcore/base/check.h"
-#include "libcore/surface/orientation.h"
-#include "libcore/surface/slot_graph.h"
+#include "libcore/mesh/orientation.h"
+#include "libcore/mesh/slot_graph.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 
 #include "libcore/base/arena.h"
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 typedef enum MesoGroupKind { MESO_GROUP_GROUP, MESO_GROUP_OBJECT, MESO_GROUP_MATERIAL, MESO_GROUP_KINDS } MesoGroupKind;
 

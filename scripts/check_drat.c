@@ -6,7 +6,7 @@
  */
 #include <stdio.h>
 
-#include "libcore/solve/drat_checker.h"
+#include "libcore/sat/drat_checker.h"
 
 /* All of the file, with a zero behind it. */
 static char *read_file(const char *path)

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 typedef struct ObjMesh {
     uint32_t vertex_count, face_count;

@@ -2,7 +2,7 @@
 #ifndef MESO_BEZIER_H
 #define MESO_BEZIER_H
 
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 /* Point and derivative of the curve with control points `p` at v in [0,1]. */
 MesoVec3 meso_bezier_point(const MesoVec3 p[4], float v);

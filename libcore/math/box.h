@@ -2,7 +2,7 @@
 #ifndef MESO_BOX_H
 #define MESO_BOX_H
 
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 typedef struct MesoBox {
     MesoVec3 low, high;

@@ -5,7 +5,7 @@
 #ifndef MESO_CAGE_H
 #define MESO_CAGE_H
 
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 /* Corners of the patch in the order (1,0), (1,1), (0,1), (0,0) of the unit square. */
 typedef struct MesoCage {

@@ -6,7 +6,7 @@
 #ifndef MESO_SQUARE_H
 #define MESO_SQUARE_H
 
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 enum { MESO_TRANSFORM_COUNT = 8 };
 

@@ -3,7 +3,7 @@
 #define MESO_ATTRIBUTE_H
 
 #include "libcore/base/arena.h"
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 typedef enum MesoAttributeDomain { MESO_ON_VERTICES, MESO_ON_FACES, MESO_ON_CORNERS } MesoAttributeDomain;
 

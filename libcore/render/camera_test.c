@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "libcore/base/check.h"
+#include "libcore/render/camera.h"
 #include "libcore/render/projection.h"
 
 /* Position on the picture, -1 to 1 on both axes, y down. */

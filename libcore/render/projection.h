@@ -8,7 +8,7 @@
 #define MESO_PROJECTION_H
 
 #include "libcore/base/error.h"
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 typedef struct MesoCamera {
     MesoVec3 eye, target, up;

@@ -12,8 +12,8 @@
 #include "libcore/base/arena.h"
 #include "libcore/base/check.h"
 #include "libcore/render/context_makers.h"
-#include "libcore/render/renderer_name.h"
 #include "libcore/render/render.h"
+#include "libcore/render/renderer_name.h"
 
 enum { SIDES = 64, WIDTH = 160, HEIGHT = 90 };
 

@@ -1,0 +1,51 @@
+/* The surface of a solve: its slot graph, with the slots oriented as --orient says. */
+#ifndef MESO_SOLVE_SURFACE_H
+#define MESO_SOLVE_SURFACE_H
+
+#include "cmd/common/surface_judge.h"
+#include "cmd/common/tool.h"
+#include "formats/surface_groups.h"
+#include "libcore/mesh/slot_graph.h"
+
+typedef struct MesoOrientArguments {
+    const char *how;
+    bool given;
+} MesoOrientArguments;
+
+#define MESO_ORIENT_DEFAULTS {"file", false}
+
+#define MESO_ORIENT_OPTION(orient)                                                            \
+    {MESO_OPTION_TEXT, 0, "orient", "HOW", "which side of a slot is direction 0: file (the first of its face, " \
+     "default), comb (as the neighbours), field=ATTRIBUTE (along a vector attribute of a PLY), u,v (along u)", \
+     &(orient).how, &(orient).given, 0, 0, 0}
+
+/* Singular corners that a report lists. */
+enum { MESO_REPORT_SINGULAR = 1000 };
+
+typedef struct MesoSolveSurface {
+    MesoQuadMesh mesh;          /* corners and */
+    MesoSlotGraph graph;        /* sides as oriented */
+    MesoSurfaceGroups groups;   /* where asked for */
+    uint8_t *quarters;          /* [slot_count] see orientation.h; NULL: as in the file */
+    uint64_t hash[2];           /* of the file */
+} MesoSolveSurface;
+
+/* Whether it is one of the above. MESO_ERR_USAGE. */
+MesoStatus meso_orient_check(const MesoOrientArguments *orient, MesoError *error);
+
+typedef struct MesoSurfaceWish {
+    const char *path;
+    MesoOrientArguments orient;
+    const MesoTileSet *set;     /* that will be grown on it */
+    bool groups;                /* wanted too */
+    bool strict;                /* see surface_judge.h */
+} MesoSurfaceWish;
+
+/*
+ * Reads a surface, notes it in the provenance, builds its slot graph, judges
+ * it and orients it. Where `orient` is given, says in one line what remains of disagreement,
+ * and puts it in the report as "orientation".
+ */
+MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, MesoSolveSurface *surface);
+
+#endif

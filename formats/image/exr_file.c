@@ -1,0 +1,313 @@
+/*
+ * Chunks of 16 rows are packed and compressed by all threads, a batch at a
+ * time, and written in order, as the library wants them.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include <OpenEXR/openexr.h>
+
+#include "formats/image/image_file.h"
+#include "libcore/base/parallel.h"
+#include "libcore/render/projection.h"
+
+enum { PICTURE_CHANNELS = 11, CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS, BATCH = 16, ZIP_LEVEL = 4 };
+
+/* The library removes this file after a failure, so it is one that cannot exist. */
+static const char *const NO_FILE = "/dev/null/none.exr";
+
+typedef struct Channel {
+    const char *name;
+    exr_pixel_type_t stored;
+    exr_pixel_type_t given;
+    uint32_t stride;        /* values from a pixel to the next */
+    const void *values;     /* of pixel 0 */
+} Channel;
+
+/* What the library's callbacks get: our own record of failures, since it forgets them. */
+typedef struct Stream {
+    MesoOutput *output;
+    MesoStatus status;
+    MesoError error;
+} Stream;
+
+typedef struct Writer {
+    const MesoImage *image;
+    exr_context_t context;
+    uint32_t channel_count;
+    Channel channels[CHANNELS];
+    const char *names_keys[MESO_ID_CHANNELS];   /* "meso:tiles" for the channel "tile"; NULL without names */
+    const char *names[MESO_ID_CHANNELS];
+    exr_encode_pipeline_t pipelines[BATCH];
+    bool ready[BATCH];                  /* pipeline is initialised */
+    exr_chunk_info_t chunks[BATCH];
+    exr_result_t results[BATCH];
+} Writer;
+
+static void list_channels(Writer *writer)
+{
+    const MesoImage *m = writer->image;
+    const Channel channels[PICTURE_CHANNELS] = {
+        {"R", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color},
+        {"G", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color + 1},
+        {"B", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color + 2},
+        {"A", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 4, m->color + 3},
+        {"Z", EXR_PIXEL_FLOAT, EXR_PIXEL_FLOAT, 1, m->depth},
+        {"N.X", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->normal},
+        {"N.Y", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->normal + 1},
+        {"N.Z", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->normal + 2},
+        {"albedo.R", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->albedo},
+        {"albedo.G", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->albedo + 1},
+        {"albedo.B", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 3, m->albedo + 2},
+    };
+    memcpy(writer->channels, channels, sizeof channels);
+    writer->channel_count = PICTURE_CHANNELS;
+    for (uint32_t c = 0; c < m->channel_count; c++)
+        writer->channels[writer->channel_count++] =
+            (Channel){m->channels[c].name, EXR_PIXEL_UINT, EXR_PIXEL_UINT, 1, m->ids[c]};
+}
+
+static int64_t write_stream(exr_const_context_t context, void *user, const void *data, uint64_t size,
+                            uint64_t offset, exr_stream_error_func_ptr_t report)
+{
+    Stream *stream = user;
+    if (!stream->status)
+        stream->status = meso_output_write_at(stream->output, offset, data, (size_t)size,
+                                              &stream->error);
+    if (!stream->status)
+        return (int64_t)size;
+    report(context, EXR_ERR_WRITE_IO, "%s", stream->error.message);
+    return -1;
+}
+
+/* Failures are told by their codes; nothing is printed. */
+static void ignore_message(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
+/* Column-major to the row vectors of EXR, which is a plain copy. */
+static exr_result_t set_matrix(exr_context_t context, const char *name, const MesoMatrix *matrix)
+{
+    exr_attr_m44f_t value;
+    memcpy(value.m, matrix->m, sizeof value.m);
+    return exr_attr_set_m44f(context, 0, name, &value);
+}
+
+static exr_result_t set_camera(Writer *writer)
+{
+    MesoView view;
+    const MesoImage *m = writer->image;
+    if (meso_view_build(&view, &m->camera, NULL))
+        return EXR_ERR_SUCCESS;
+    const MesoVec3 axes[3] = {view.right, view.up, view.forward};
+    MesoMatrix camera = {{0}};
+    for (uint32_t a = 0; a < 3; a++) {
+        camera.m[a] = axes[a].x;
+        camera.m[4 + a] = axes[a].y;
+        camera.m[8 + a] = axes[a].z;
+        camera.m[12 + a] = -meso_vec3_dot(axes[a], view.eye);
+    }
+    camera.m[15] = 1;
+
+    /* Ours has its rows downwards; NDC has y up. */
+    MesoMatrix ndc = meso_view_clip_from_world(&view, 1, m->width, m->height,
+                                               (MesoWindow){0, 0, m->width, m->height});
+    for (uint32_t column = 0; column < 4; column++)
+        ndc.m[4 * column + 1] = -ndc.m[4 * column + 1];
+    exr_result_t result = set_matrix(writer->context, "worldToCamera", &camera);
+    return result ? result : set_matrix(writer->context, "worldToNDC", &ndc);
+}
+
+/* The names of a channel, one a line. */
+static const char *join_names(const MesoIdChannel *channel, MesoArena *arena, MesoError *error)
+{
+    size_t size = 1;
+    for (uint32_t i = 0; i < channel->count; i++)
+        size += strlen(channel->names[i]) + 1;
+    char *text = MESO_NEW(arena, char, size, error), *out = text;
+    for (uint32_t i = 0; out && i < channel->count; i++) {
+        size_t length = strlen(channel->names[i]);
+        if (i > 0)
+            *out++ = '\n';
+        memcpy(out, channel->names[i], length);
+        out += length;
+    }
+    return text;
+}
+
+static MesoStatus list_names(Writer *writer, MesoArena *arena, MesoError *error)
+{
+    for (uint32_t c = 0; c < writer->image->channel_count; c++) {
+        const MesoIdChannel *channel = &writer->image->channels[c];
+        if (!channel->names)
+            continue;
+        writer->names_keys[c] = meso_arena_print(arena, error, "meso:%ss", channel->name);
+        writer->names[c] = join_names(channel, arena, error);
+        if (!writer->names_keys[c] || !writer->names[c])
+            return MESO_ERR_MEMORY;
+    }
+    return MESO_OK;
+}
+
+static exr_result_t describe(Writer *writer, const char *provenance)
+{
+    exr_context_t context = writer->context;
+    int part;
+    exr_result_t result = exr_add_part(context, "image", EXR_STORAGE_SCANLINE, &part);
+    if (!result)
+        result = exr_initialize_required_attr_simple(context, part, (int32_t)writer->image->width,
+                                                     (int32_t)writer->image->height,
+                                                     EXR_COMPRESSION_ZIP);
+    if (!result)
+        result = exr_set_zip_compression_level(context, part, ZIP_LEVEL);
+    for (uint32_t i = 0; i < writer->channel_count && !result; i++)
+        result = exr_add_channel(context, part, writer->channels[i].name, writer->channels[i].stored,
+                                 EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (!result)
+        result = exr_attr_set_string(context, part, "meso:provenance", provenance);
+    for (uint32_t c = 0; c < MESO_ID_CHANNELS && !result; c++)
+        if (writer->names[c])
+            result = exr_attr_set_string(context, part, writer->names_keys[c], writer->names[c]);
+    if (!result)
+        result = set_camera(writer);
+    return result ? result : exr_write_header(context);
+}
+
+static const Channel *find_channel(const Writer *writer, const char *name)
+{
+    for (uint32_t i = 0; i < writer->channel_count; i++)
+        if (strcmp(writer->channels[i].name, name) == 0)
+            return &writer->channels[i];
+    return NULL;
+}
+
+static exr_result_t connect(const Writer *writer, exr_encode_pipeline_t *pipeline, uint32_t row)
+{
+    size_t first = (size_t)row * writer->image->width;
+    for (int16_t i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *info = &pipeline->channels[i];
+        const Channel *channel = find_channel(writer, info->channel_name);
+        if (!channel)
+            return EXR_ERR_INVALID_ARGUMENT;
+        info->user_data_type = (uint16_t)channel->given;
+        info->user_bytes_per_element = 4;
+        info->user_pixel_stride = (int32_t)(4 * channel->stride);
+        info->user_line_stride = (int32_t)(4 * channel->stride * writer->image->width);
+        info->encode_from_ptr = (const uint8_t *)channel->values + 4 * channel->stride * first;
+    }
+    return EXR_ERR_SUCCESS;
+}
+
+/* The batch writes its chunks itself, in order. */
+static exr_result_t write_later(exr_encode_pipeline_t *pipeline)
+{
+    (void)pipeline;
+    return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t encode_chunk(Writer *writer, uint32_t slot)
+{
+    exr_encode_pipeline_t *pipeline = &writer->pipelines[slot];
+    const exr_chunk_info_t *chunk = &writer->chunks[slot];
+    exr_result_t result = writer->ready[slot]
+        ? exr_encoding_update(writer->context, 0, chunk, pipeline)
+        : exr_encoding_initialize(writer->context, 0, chunk, pipeline);
+    if (result)
+        return result;
+    writer->ready[slot] = true;
+    result = connect(writer, pipeline, (uint32_t)chunk->start_y);
+    if (!result)
+        result = exr_encoding_choose_default_routines(writer->context, 0, pipeline);
+    pipeline->yield_until_ready_fn = write_later;
+    pipeline->write_fn = write_later;
+    return result ? result : exr_encoding_run(writer->context, 0, pipeline);
+}
+
+static void encode_range(void *user, uint64_t begin, uint64_t end)
+{
+    Writer *writer = user;
+    for (uint64_t i = begin; i < end; i++)
+        writer->results[i] = encode_chunk(writer, (uint32_t)i);
+}
+
+static exr_result_t write_pixels(Writer *writer, uint32_t thread_count)
+{
+    int32_t chunk_rows;
+    exr_result_t result = exr_get_scanlines_per_chunk(writer->context, 0, &chunk_rows);
+    uint32_t height = writer->image->height;
+    for (uint32_t row = 0; row < height && !result;) {
+        uint32_t count = 0;
+        for (; count < BATCH && row < height && !result; row += (uint32_t)chunk_rows)
+            result = exr_write_scanline_chunk_info(writer->context, 0, (int)row,
+                                                   &writer->chunks[count++]);
+        if (result)
+            break;
+        meso_parallel_for(thread_count, count, 1, encode_range, writer);
+        for (uint32_t i = 0; i < count && !result; i++)
+            result = writer->results[i] ? writer->results[i]
+                : exr_write_scanline_chunk(writer->context, 0, writer->chunks[i].start_y,
+                                           writer->pipelines[i].compressed_buffer,
+                                           writer->pipelines[i].compressed_bytes);
+    }
+    return result;
+}
+
+static exr_result_t write_file(Writer *writer, Stream *stream, const char *provenance, uint32_t thread_count)
+{
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = ignore_message;
+    setup.user_data = stream;
+    setup.write_fn = write_stream;
+    exr_result_t result = exr_start_write(&writer->context, NO_FILE, EXR_WRITE_FILE_DIRECTLY, &setup);
+    if (result)
+        return result;
+    exr_set_longname_support(writer->context, 1);
+    result = describe(writer, provenance);
+    if (!result)
+        result = write_pixels(writer, thread_count);
+    for (uint32_t i = 0; i < BATCH; i++)
+        if (writer->ready[i])
+            exr_encoding_destroy(writer->context, &writer->pipelines[i]);
+    exr_result_t finished = exr_finish(&writer->context);
+    return result ? result : finished;
+}
+
+MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
+                          MesoOutput *output, MesoError *error)
+{
+    MesoArena arena;
+    const char *text = NULL;
+    Stream stream = {.output = output};
+    exr_result_t result = EXR_ERR_SUCCESS;
+
+    meso_arena_init(&arena);
+    Writer *writer = MESO_NEW(&arena, Writer, 1, error);
+    MesoStatus status = MESO_ERR_MEMORY;
+    if (writer) {
+        writer->image = image;
+        list_channels(writer);
+        status = list_names(writer, &arena, error);
+    }
+    if (!status && !(text = meso_provenance_text(provenance, &arena, error)))
+        status = MESO_ERR_MEMORY;
+    if (!status)
+        result = write_file(writer, &stream, text, thread_count);
+    meso_arena_release(&arena);
+
+    if (status)
+        return status;
+    if (stream.status) {
+        if (error)
+            *error = stream.error;
+        return stream.status;
+    }
+    if (result == EXR_ERR_OUT_OF_MEMORY)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: EXR");
+    if (result)
+        return meso_fail(error, MESO_ERR_INTERNAL, "OpenEXR failed: %s",
+                         exr_get_default_error_message(result));
+    return MESO_OK;
+}

@@ -1,0 +1,30 @@
+/* Pictures out: OpenEXR through its Core C API, PNG through libpng. */
+#ifndef MESO_IMAGE_FILE_H
+#define MESO_IMAGE_FILE_H
+
+#include "formats/file/output.h"
+#include "formats/product/provenance.h"
+#include "libcore/render/render.h"
+
+/*
+ * One part, scan lines, ZIP: R G B A (half, linear, premultiplied), Z (float,
+ * distance along the view axis, +inf where empty), N.X N.Y N.Z (half, world
+ * space), albedo.R albedo.G albedo.B (half), and one layer for each channel of
+ * ids after its name: slot, tile (uint, id + 1, 0 where empty). String
+ * attributes "meso:provenance" (JSON) and, for each channel with names,
+ * "meso:tiles" (the names, one a line); "worldToCamera" and "worldToNDC" are the
+ * camera's, with x to the right, y up, and z into the picture, as in Z. Uses
+ * `thread_count` threads (0: all cores); the bytes do not depend on it.
+ * MESO_ERR_OUTPUT where `output` takes no more.
+ */
+MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
+                          MesoOutput *output, MesoError *error);
+
+/*
+ * 8 bits, sRGB, highlights rolled off, over `background` (linear RGB) or,
+ * where that is NULL, with alpha. Provenance as text.
+ */
+MesoStatus meso_png_write(const MesoImage *image, const float *background,
+                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+
+#endif

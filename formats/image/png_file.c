@@ -1,0 +1,165 @@
+#include <math.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <png.h>
+
+#include "formats/image/image_file.h"
+
+/* Highlights above this share of white roll off instead of clipping. */
+static const float SHOULDER = 0.75f;
+
+typedef struct Stream {
+    MesoOutput *output;
+    MesoStatus status;
+    MesoError *error;
+} Stream;
+
+/* The line up to SHOULDER, then a hyperbola of the same slope that ends in white. */
+static float roll_off(float x)
+{
+    float room = 1 - SHOULDER;
+    return x <= SHOULDER ? fmaxf(x, 0) : 1 - room * room / (x - SHOULDER + room);
+}
+
+static uint8_t to_byte(float x)
+{
+    return (uint8_t)(fminf(fmaxf(x, 0), 1) * 255 + 0.5f);
+}
+
+static uint8_t encode_srgb(float linear)
+{
+    float x = fminf(fmaxf(linear, 0), 1);
+    return to_byte(x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f);
+}
+
+/* The colour is rolled off before the background is put behind it, which stays as given. */
+static void over_background(const float *color, const float *background, uint8_t *out)
+{
+    float alpha = fminf(fmaxf(color[3], 0), 1);
+    for (int c = 0; c < 3; c++) {
+        float own = alpha > 0 ? alpha * roll_off(color[c] / alpha) : 0;
+        out[c] = encode_srgb(own + (1 - alpha) * background[c]);
+    }
+}
+
+static void with_alpha(const float *color, uint8_t *out)
+{
+    float alpha = fminf(fmaxf(color[3], 0), 1);
+    for (int c = 0; c < 3; c++)
+        out[c] = alpha > 0 ? encode_srgb(roll_off(color[c] / alpha)) : 0;
+    out[3] = to_byte(alpha);
+}
+
+static void write_stream(png_structp png, png_bytep data, png_size_t size)
+{
+    Stream *stream = png_get_io_ptr(png);
+    stream->status = meso_output_write(stream->output, data, size, stream->error);
+    if (stream->status)
+        png_error(png, "write");
+}
+
+static void flush_stream(png_structp png)
+{
+    (void)png;
+}
+
+/* libpng would say it in words alone. */
+static png_voidp allocate(png_structp png, png_alloc_size_t size)
+{
+    void *memory = malloc(size);
+    Stream *stream = png_get_mem_ptr(png);
+    if (!memory && !stream->status)
+        stream->status = meso_fail(stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
+    return memory;
+}
+
+static void release(png_structp png, png_voidp memory)
+{
+    (void)png;
+    free(memory);
+}
+
+static void on_error(png_structp png, png_const_charp message)
+{
+    Stream *stream = png_get_error_ptr(png);
+    if (!stream->status)
+        stream->status = meso_fail(stream->error, MESO_ERR_INTERNAL, "libpng failed: %s", message);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message;
+}
+
+static void write_image(png_structp png, png_infop info, const MesoImage *image,
+                        const float *background, char *provenance, uint8_t *row)
+{
+    size_t bytes = background ? 3 : 4;
+    png_set_IHDR(png, info, image->width, image->height, 8,
+                 background ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_text text = {.compression = PNG_ITXT_COMPRESSION_NONE, .key = (png_charp)"meso:provenance",
+                     .text = provenance};
+    png_set_text(png, info, &text, 1);
+    png_set_compression_level(png, 6);
+    png_write_info(png, info);
+    for (size_t y = 0; y < image->height; y++) {
+        const float *color = image->color + 4 * y * image->width;
+        for (size_t x = 0; x < image->width; x++)
+            if (background)
+                over_background(color + 4 * x, background, row + bytes * x);
+            else
+                with_alpha(color + 4 * x, row + bytes * x);
+        png_write_row(png, row);
+    }
+    png_write_end(png, info);
+}
+
+/* libpng leaves by a jump: what it would clobber lives in the caller. */
+static MesoStatus write_or_fail(png_structp png, png_infop info, Stream *stream,
+                                const MesoImage *image, const float *background, char *provenance,
+                                uint8_t *row)
+{
+    if (setjmp(png_jmpbuf(png)))
+        return stream->status;
+    write_image(png, info, image, background, provenance, row);
+    return MESO_OK;
+}
+
+static MesoStatus write_png(Stream *stream, const MesoImage *image, const float *background,
+                            char *provenance, uint8_t *row)
+{
+    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, on_error, on_warning, stream, allocate,
+                                                release);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    MesoStatus status;
+    if (info) {
+        png_set_write_fn(png, stream, write_stream, flush_stream);
+        status = write_or_fail(png, info, stream, image, background, provenance, row);
+    } else {
+        status = meso_fail(stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
+    }
+    png_destroy_write_struct(&png, &info);
+    return status;
+}
+
+MesoStatus meso_png_write(const MesoImage *image, const float *background,
+                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    Stream stream = {output, MESO_OK, error};
+    MesoStatus status = MESO_ERR_MEMORY;
+    const char *text = meso_provenance_text(provenance, &arena, error);
+    char *copy = text ? meso_arena_copy_text(&arena, text, error) : NULL;
+    uint8_t *row = copy ? MESO_NEW(&arena, uint8_t, 4 * (size_t)image->width, error) : NULL;
+    if (row)
+        status = write_png(&stream, image, background, copy, row);
+    meso_arena_release(&arena);
+    return status;
+}

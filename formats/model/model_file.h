@@ -1,0 +1,29 @@
+/*
+ * Model files (.meso), version 1.0: all that a renderer needs. Chunks:
+ *
+ *     prov      provenance, JSON text
+ *     tiles     tile set, JSON text as in .tiles.json
+ *     options   MesoMapOptions, resolved: f32 thickness, offset, section_scale, tangent_scale,
+ *               section_step, u32 divisions
+ *     position  f32[3 * vertex_count]       normal   f32[3 * normal_count]
+ *     face      u32[4 * face_count]         facenorm u32[4 * face_count]
+ *               corners in the slots' order: not the surface file's where slots were oriented
+ *     tile      u32[face_count]             xform    u8[face_count]
+ *     inner     u32[2 * inner_count]: vertex and triangle count of each inner mesh
+ *     innerpos, innernrm  f32[3 * sum]      innertri u32[3 * sum]
+ */
+#ifndef MESO_MODEL_FILE_H
+#define MESO_MODEL_FILE_H
+
+#include "formats/file/container.h"
+#include "formats/product/provenance.h"
+#include "libcore/tiling/strand/model.h"
+
+MesoStatus meso_model_write(const MesoModel *model, const MesoProvenance *provenance,
+                            MesoOutput *output, MesoError *error);
+
+/* Reads and checks everything: mesh, tile set, assignment against both. `provenance` may be NULL. */
+MesoStatus meso_model_read(MesoModel *model, const char **provenance, MesoArena *arena,
+                           const MesoInput *input, MesoError *error);
+
+#endif

@@ -1,0 +1,44 @@
+/* Meshes out: binary PLY, OBJ, Draco, GLB with KHR_draco_mesh_compression. */
+#ifndef MESO_MESH_FILE_H
+#define MESO_MESH_FILE_H
+
+#include "formats/file/output.h"
+#include "formats/product/provenance.h"
+#include "libcore/scene/parts.h"
+
+typedef struct MesoMeshWriteOptions {
+    uint32_t thread_count;      /* 0: all cores */
+    uint32_t position_bits;     /* Draco; 0: 14 */
+    uint32_t normal_bits;       /* Draco; 0: 10 */
+    uint32_t speed;             /* Draco, 0 best to 10 fastest */
+    const MesoProvenance *provenance;
+    const char *smaller;        /* what would make the product smaller, for messages; may be NULL */
+    /* Called now and then with the work done so far; may be NULL. */
+    void (*progress)(void *context, uint64_t done, uint64_t total);
+    void *progress_context;
+} MesoMeshWriteOptions;
+
+/* The most triangles in one .drc, for each of which Draco takes 160 bytes of memory at speeds of 6
+ * and more, 300 below: 11 to 20 GB. */
+enum { MESO_DRACO_TRIANGLES = 1 << 26 };
+
+/*
+ * Each writes all parts of a scene, with their ids in every channel: the ones
+ * of a channel with names in 16 bits, beside the names, the others in 32. Where
+ * a body has colours, all vertices have. PLY and OBJ stream in windows of
+ * bounded size, whatever the mesh (a body is held whole); Draco and GLB hold
+ * what they encode: up to MESO_DRACO_TRIANGLES in one .drc, a piece of one
+ * material at a time in .glb, beside the compressed result. MESO_ERR_LIMIT
+ * beyond what a format can hold; MESO_ERR_INPUT for a scene without geometry.
+ * Bytes do not depend on the thread count.
+ */
+MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+MesoStatus meso_obj_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+MesoStatus meso_drc_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+
+#endif

@@ -1,0 +1,585 @@
+/*
+ * Mesh writers: what is read back from each kind of file is the scene's geometry
+ * itself, bit by bit (PLY, OBJ) or to the rounding of Draco (its own decoder
+ * reads .drc and the pieces of .glb); the bytes do not depend on the threads;
+ * what a format cannot hold is refused.
+ */
+#include <errno.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <jansson.h>
+
+#include "formats/file/input.h"
+#include "formats/scene/mesh_file.h"
+#include "formats/scene/scene_fixture.h"
+
+typedef MesoStatus WriteMesh(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                             MesoOutput *output, MesoError *error);
+
+static char folder[] = "/tmp/mesh_file_test.XXXXXX";
+
+static const char *path_of(const char *name)
+{
+    static char paths[8][64];
+    static int next;
+    char *path = paths[next++ % 8];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static MesoInput write_mesh(WriteMesh *write, const MesoSceneParts *t, uint32_t threads, const char *path)
+{
+    MesoProvenance provenance = {.tool = "meso-map", .command_line = "meso-map 'a b' \"c\"", .seed = 7};
+    MesoMeshWriteOptions options = {.thread_count = threads, .speed = 7, .provenance = &provenance};
+    MesoOutput *output;
+    MesoInput input;
+    MesoError error;
+    CHECK(meso_output_open(&output, path, &error) == MESO_OK);
+    CHECK(write(t, &options, output, &error) == MESO_OK);
+    CHECK(meso_output_commit(output, &error) == MESO_OK);
+    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
+    return input;
+}
+
+static void check_threads(WriteMesh *write, const MesoSceneParts *t, const MesoInput *expected)
+{
+    for (uint32_t threads = 1; threads <= 3; threads += 2) {
+        MesoInput again = write_mesh(write, t, threads, path_of("again"));
+        CHECK(again.size == expected->size && memcmp(again.data, expected->data, again.size) == 0);
+        meso_input_close(&again);
+    }
+}
+
+/* All polygons at once, in the scene's arena. */
+typedef struct Whole {
+    uint64_t vertex_count, face_count;
+    MesoMeshVertex *vertices;
+    MesoMeshFace *faces;
+} Whole;
+
+static Whole make_whole(SceneFixture *s)
+{
+    MesoError error;
+    const MesoSceneParts *t = &s->parts;
+    Whole whole = {t->vertex_begin[t->part_count], t->face_begin[t->part_count], NULL, NULL};
+    whole.vertices = MESO_NEW(&s->arena, MesoMeshVertex, whole.vertex_count, &error);
+    whole.faces = MESO_NEW(&s->arena, MesoMeshFace, whole.face_count, &error);
+    CHECK(whole.vertices && whole.faces);
+    meso_scene_vertices(t, 0, t->part_count, whole.vertices);
+    meso_scene_faces(t, 0, t->part_count, 0, whole.faces);
+    return whole;
+}
+
+/* First and last part of the faces, walking along. */
+static uint32_t part_of_face(const MesoSceneParts *t, uint32_t part, uint64_t face)
+{
+    while (t->face_begin[part + 1] <= face)
+        part++;
+    return part;
+}
+
+/* ---- PLY ---- */
+
+static const uint8_t *after(const MesoInput *input, const char *line)
+{
+    size_t length = strlen(line);
+    for (size_t i = 0; i + length <= input->size && i < 1 << 14; i++)
+        if (memcmp(input->data + i, line, length) == 0)
+            return input->data + i + length;
+    return NULL;
+}
+
+static void check_ply_faces(const MesoSceneParts *t, const Whole *whole, const uint8_t *row, const uint8_t *end)
+{
+    uint32_t part = 0;
+    for (uint64_t i = 0; i < whole->face_count; i++) {
+        const MesoMeshFace *face = &whole->faces[i];
+        uint32_t corners = face->v[3] == MESO_NO_INDEX ? 3 : 4, slot;
+        uint16_t tile, material;
+        part = part_of_face(t, part, i);
+        MesoPart of = meso_scene_part(t, part);
+        CHECK(row[0] == corners && memcmp(row + 1, face->v, 4 * corners) == 0);
+        row += 1 + 4 * corners;
+        memcpy(&slot, row, 4);
+        memcpy(&tile, row + 4, 2);
+        memcpy(&material, row + 6, 2);
+        CHECK(slot == meso_scene_id(t->scene, of.ids, 0) && tile == meso_scene_id(t->scene, of.ids, 1));
+        CHECK(material == of.material);
+        row += 8;
+    }
+    CHECK(row == end);
+}
+
+/* Large enough for several windows. */
+static void test_ply(void)
+{
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 24, 24, 0.02f);
+    const MesoSceneParts *t = &fixture.parts;
+    Whole whole = make_whole(&fixture);
+    MesoInput input = write_mesh(meso_ply_write, t, 2, path_of("x.ply"));
+    CHECK(input.size > (size_t)17 << 20);
+
+    char count[64];
+    CHECK(memcmp(input.data, "ply\nformat binary_little_endian 1.0\ncomment provenance {", 56) == 0);
+    CHECK(after(&input, "comment tile 0 plain \"weave\"\n") && after(&input, "comment material 2 weft/stud\n"));
+    snprintf(count, sizeof count, "element vertex %llu\n", (unsigned long long)whole.vertex_count);
+    CHECK(after(&input, count));
+    snprintf(count, sizeof count, "element face %llu\n", (unsigned long long)whole.face_count);
+    CHECK(after(&input, count));
+
+    const uint8_t *rows = after(&input, "end_header\n");
+    size_t vertex_bytes = whole.vertex_count * 32;
+    CHECK(rows && (size_t)(input.data + input.size - rows) > vertex_bytes);
+    CHECK(memcmp(rows, whole.vertices, vertex_bytes) == 0);
+    check_ply_faces(t, &whole, rows + vertex_bytes, input.data + input.size);
+    check_threads(meso_ply_write, t, &input);
+    meso_input_close(&input);
+    scene_fixture_release(&fixture);
+}
+
+/* ---- winding ---- */
+
+static MesoVec3 face_normal(const Whole *whole, const MesoMeshFace *face)
+{
+    MesoVec3 p[4];
+    for (int k = 0; k < 4; k++)
+        p[k] = whole->vertices[face->v[k] == MESO_NO_INDEX ? face->v[0] : face->v[k]].position;
+    return meso_vec3_cross(meso_vec3_sub(p[2], p[0]), meso_vec3_sub(p[3], p[1]));
+}
+
+/* Counter-clockwise from outside, which is where the vertex normals point. */
+static void test_winding(void)
+{
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 6, 12, 0.02f);
+    Whole whole = make_whole(&fixture);
+    for (uint64_t i = 0; i < whole.face_count; i++) {
+        const MesoMeshFace *face = &whole.faces[i];
+        MesoVec3 normal = {0, 0, 0};
+        for (int k = 0; k < 4 && face->v[k] != MESO_NO_INDEX; k++)
+            normal = meso_vec3_add(normal, whole.vertices[face->v[k]].normal);
+        MesoVec3 across = face_normal(&whole, face);
+        if (face->v[3] == MESO_NO_INDEX)    /* diagonals of a triangle span it the other way */
+            across = meso_vec3_cross(
+                meso_vec3_sub(whole.vertices[face->v[1]].position, whole.vertices[face->v[0]].position),
+                meso_vec3_sub(whole.vertices[face->v[2]].position, whole.vertices[face->v[0]].position));
+        CHECK(meso_vec3_dot(across, normal) > 0);
+    }
+    scene_fixture_release(&fixture);
+}
+
+/* ---- OBJ ---- */
+
+static const char *parse_floats(const char *text, const float *expected, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char *end;
+        CHECK(*text == ' ');
+        float value = strtof(text + 1, &end);
+        CHECK(memcmp(&value, &expected[i], 4) == 0 || (value == 0 && expected[i] == 0));
+        text = end;
+    }
+    CHECK(*text == '\n');
+    return text;
+}
+
+static const char *parse_face(const char *text, const MesoMeshFace *face)
+{
+    for (int k = 0; k < 4 && face->v[k] != MESO_NO_INDEX; k++)
+        for (int j = 0; j < 3; j++) {
+            char *end;
+            CHECK(*text == (j == 0 ? ' ' : '/'));
+            CHECK(strtoul(text + 1, &end, 10) == (unsigned long)face->v[k] + 1);
+            text = end;
+        }
+    CHECK(*text == '\n');
+    return text;
+}
+
+typedef struct ObjCounts {
+    uint64_t positions, uvs, normals, faces, slots, objects, materials;
+} ObjCounts;
+
+static const char *check_obj_line(const char *line, const char *newline, const Whole *whole,
+                                  const MesoSceneParts *t, ObjCounts *n)
+{
+    const char *end = newline;
+    if (line[0] == 'v' && line[1] == ' ')
+        end = parse_floats(line + 1, &whole->vertices[n->positions++].position.x, 3);
+    else if (line[0] == 'v' && line[1] == 't')
+        end = parse_floats(line + 2, &whole->vertices[n->uvs++].uv.x, 2);
+    else if (line[0] == 'v' && line[1] == 'n')
+        end = parse_floats(line + 2, &whole->vertices[n->normals++].normal.x, 3);
+    else if (line[0] == 'f')
+        end = parse_face(line + 1, &whole->faces[n->faces++]);
+    else if (strncmp(line, "# slot ", 7) == 0)
+        CHECK(strtoul(line + 7, NULL, 10) == meso_scene_part(t, (uint32_t)n->slots++).ids);
+    else if (strncmp(line, "o ", 2) == 0)
+        n->objects++;
+    else if (strncmp(line, "usemtl ", 7) == 0)
+        n->materials++;
+    else
+        CHECK(strncmp(line, "# provenance {", 14) == 0);
+    return end;
+}
+
+static void test_obj(void)
+{
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 4, 9, 0.02f);
+    const MesoSceneParts *t = &fixture.parts;
+    Whole whole = make_whole(&fixture);
+    MesoInput input = write_mesh(meso_obj_write, t, 2, path_of("x.obj"));
+    ObjCounts n = {0};
+    const char *line = (const char *)input.data, *end = line + input.size;
+    while (line < end) {
+        const char *newline = memchr(line, '\n', (size_t)(end - line));
+        CHECK(newline);
+        CHECK(check_obj_line(line, newline, &whole, t, &n) == newline);
+        line = newline + 1;
+    }
+    CHECK(n.positions == whole.vertex_count && n.uvs == n.positions && n.normals == n.positions);
+    CHECK(n.faces == whole.face_count && n.slots == t->part_count);
+    CHECK(n.objects >= 2 && n.materials >= 4);
+    check_threads(meso_obj_write, t, &input);
+    meso_input_close(&input);
+    scene_fixture_release(&fixture);
+}
+
+/* ---- Draco, read back by its own decoder ---- */
+
+typedef struct Decoded {
+    uint64_t vertex_count, face_count;
+    MesoVec3 low, high;
+} Decoded;
+
+static uint64_t number_after(const MesoInput *input, const char *line)
+{
+    const uint8_t *digits = after(input, line);
+    CHECK(digits);
+    return strtoull((const char *)digits, NULL, 10);
+}
+
+/* The decoder writes positions and normals as 24 bytes, and colours as 3 more, then the faces. */
+static Decoded decode(const char *path)
+{
+    char command[512];
+    const char *ply = path_of("decoded.ply");
+    MesoInput input;
+    MesoError error;
+    snprintf(command, sizeof command, "draco_decoder -i %s -o %s >/dev/null 2>&1", path, ply);
+    CHECK(system(command) == 0);
+    CHECK(meso_input_open(&input, ply, &error) == MESO_OK);
+    Decoded d = {number_after(&input, "element vertex "), number_after(&input, "element face "),
+                 {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    const uint8_t *rows = after(&input, "end_header\n");
+    size_t row = after(&input, "property uchar red\n") ? 27 : 24;
+    CHECK(rows && (size_t)(input.data + input.size - rows) >= row * d.vertex_count);
+    for (uint64_t i = 0; i < d.vertex_count; i++) {
+        MesoVec3 p;
+        memcpy(&p, rows + row * i, 12);
+        d.low = (MesoVec3){fminf(d.low.x, p.x), fminf(d.low.y, p.y), fminf(d.low.z, p.z)};
+        d.high = (MesoVec3){fmaxf(d.high.x, p.x), fmaxf(d.high.y, p.y), fmaxf(d.high.z, p.z)};
+    }
+    meso_input_close(&input);
+    remove(ply);
+    return d;
+}
+
+static bool contains(const MesoInput *input, const char *text)
+{
+    size_t length = strlen(text);
+    for (size_t i = 0; i + length <= input->size; i++)
+        if (memcmp(input->data + i, text, length) == 0)
+            return true;
+    return false;
+}
+
+static void check_near(MesoVec3 a, MesoVec3 b, float tolerance)
+{
+    CHECK(fabsf(a.x - b.x) <= tolerance && fabsf(a.y - b.y) <= tolerance && fabsf(a.z - b.z) <= tolerance);
+}
+
+static void bounds_of(const Whole *whole, MesoVec3 *low, MesoVec3 *high)
+{
+    *low = *high = whole->vertices[0].position;
+    for (uint64_t i = 1; i < whole->vertex_count; i++) {
+        MesoVec3 p = whole->vertices[i].position;
+        *low = (MesoVec3){fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z)};
+        *high = (MesoVec3){fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z)};
+    }
+}
+
+static void test_drc(void)
+{
+    SceneFixture fixture;
+    MesoVec3 low, high;
+    scene_fixture_init(&fixture, 5, 8, 0.02f);
+    Whole whole = make_whole(&fixture);
+    MesoInput input = write_mesh(meso_drc_write, &fixture.parts, 2, path_of("x.drc"));
+    Decoded d = decode(path_of("x.drc"));
+    CHECK(d.face_count == fixture.parts.triangle_count);
+    CHECK(d.vertex_count <= whole.vertex_count && d.vertex_count > whole.vertex_count * 9 / 10);
+    bounds_of(&whole, &low, &high);
+    MesoVec3 extent = meso_vec3_sub(high, low);
+    float step = fmaxf(extent.x, fmaxf(extent.y, extent.z)) / (float)((1 << 14) - 1);
+    check_near(d.low, low, 0.51f * step);
+    check_near(d.high, high, 0.51f * step);
+    CHECK(contains(&input, "slot") && contains(&input, "material") && contains(&input, "provenance"));
+    CHECK(contains(&input, "[\"plain \\\"weave\\\"\",\"float\"]"));
+    check_threads(meso_drc_write, &fixture.parts, &input);
+    meso_input_close(&input);
+    scene_fixture_release(&fixture);
+}
+
+/* ---- GLB ---- */
+
+static uint32_t word(const MesoInput *input, size_t offset)
+{
+    uint32_t value;
+    CHECK(offset + 4 <= input->size);
+    memcpy(&value, input->data + offset, 4);
+    return value;
+}
+
+static uint32_t integer(const json_t *object, const char *key)
+{
+    CHECK(json_is_integer(json_object_get(object, key)));
+    return (uint32_t)json_integer_value(json_object_get(object, key));
+}
+
+static MesoVec3 point(const json_t *array)
+{
+    CHECK(json_array_size(array) == 3);
+    return (MesoVec3){(float)json_number_value(json_array_get(array, 0)),
+                      (float)json_number_value(json_array_get(array, 1)),
+                      (float)json_number_value(json_array_get(array, 2))};
+}
+
+/* Decodes one primitive and compares it with what its accessors promise; returns its triangles. */
+static uint64_t check_primitive(const json_t *root, const json_t *primitive, const uint8_t *data, size_t size,
+                                const char *numbers)
+{
+    const json_t *draco = json_object_get(json_object_get(primitive, "extensions"), "KHR_draco_mesh_compression");
+    const json_t *view = json_array_get(json_object_get(root, "bufferViews"), integer(draco, "bufferView"));
+    const json_t *accessors = json_object_get(root, "accessors");
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const json_t *position = json_array_get(accessors, integer(attributes, "POSITION"));
+    const json_t *indices = json_array_get(accessors, integer(primitive, "indices"));
+    const json_t *slot = json_array_get(accessors, integer(attributes, numbers));
+    size_t offset = json_object_get(view, "byteOffset") ? integer(view, "byteOffset") : 0;
+    size_t length = integer(view, "byteLength");
+    CHECK(offset + length <= size && offset % 4 == 0);
+    CHECK(json_object_size(json_object_get(draco, "attributes")) == json_object_size(attributes));
+    CHECK(integer(slot, "componentType") == 5123 && strcmp(json_string_value(json_object_get(slot, "type")), "VEC2") == 0);
+
+    const char *path = path_of("piece.drc");
+    FILE *file = fopen(path, "wb");
+    CHECK(file && fwrite(data + offset, 1, length, file) == length && fclose(file) == 0);
+    Decoded d = decode(path);
+    CHECK(d.vertex_count == integer(position, "count") && d.vertex_count == integer(slot, "count"));
+    CHECK(3 * d.face_count == integer(indices, "count"));
+    check_near(d.low, point(json_object_get(position, "min")), 0);
+    check_near(d.high, point(json_object_get(position, "max")), 0);
+    remove(path);
+    return d.face_count;
+}
+
+static void check_glb(const SceneFixture *fixture, const MesoInput *input, size_t least_primitives)
+{
+    uint32_t json_size = word(input, 12), data_at = 20 + json_size + 8;
+    CHECK(word(input, 0) == 0x46546c67 && word(input, 4) == 2 && word(input, 8) == input->size);
+    CHECK(word(input, 16) == 0x4e4f534a && word(input, data_at - 4) == 0x004e4942);
+    CHECK(data_at + word(input, data_at - 8) == input->size);
+    json_t *root = json_loadb((const char *)input->data + 20, json_size, 0, NULL);
+    CHECK(root);
+    const json_t *meshes = json_object_get(root, "meshes");
+    const json_t *extras = json_object_get(json_object_get(root, "asset"), "extras");
+    CHECK(json_array_size(meshes) == 4);
+    CHECK(strcmp(json_string_value(json_object_get(json_array_get(meshes, 2), "name")), "weft/stud") == 0);
+    CHECK(strcmp(json_string_value(json_array_get(json_object_get(extras, "tiles"), 0)), "plain \"weave\"") == 0);
+    CHECK(strstr(json_string_value(json_object_get(extras, "provenance")), "\"seed\":7"));
+
+    uint64_t triangles = 0, primitive_count = 0;
+    for (size_t m = 0; m < json_array_size(meshes); m++) {
+        const json_t *primitives = json_object_get(json_array_get(meshes, m), "primitives");
+        primitive_count += json_array_size(primitives);
+        for (size_t p = 0; p < json_array_size(primitives); p++)
+            triangles += check_primitive(root, json_array_get(primitives, p), input->data + data_at,
+                                         input->size - data_at, "_SLOT");
+    }
+    CHECK(primitive_count >= least_primitives);
+    CHECK(triangles == fixture->parts.triangle_count);
+    json_decref(root);
+}
+
+static void test_glb(void)
+{
+    SceneFixture fixture;
+    scene_fixture_init(&fixture, 24, 28, 0.02f);
+    MesoInput input = write_mesh(meso_glb_write, &fixture.parts, 2, path_of("x.glb"));
+    check_glb(&fixture, &input, 5);   /* four materials, one of which needs two pieces */
+    check_threads(meso_glb_write, &fixture.parts, &input);
+    meso_input_close(&input);
+    scene_fixture_release(&fixture);
+}
+
+/* ---- bodies with colours, and channels of another kind ---- */
+
+static void test_colored_ply(const MesoSceneParts *parts, const ColoredFixture *c)
+{
+    MesoInput input = write_mesh(meso_ply_write, parts, 2, path_of("x.ply"));
+    const uint8_t *row = after(&input, "comment region 1 stem one\ncomment state 0 green\ncomment state 1 dry\n"
+                                       "comment material 0 paint\n");
+    uint32_t element = 70000;
+    CHECK(row && memcmp(row, "element vertex 3\n", 17) == 0);
+    row = after(&input, "property float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                        "element face 1\nproperty list uchar uint vertex_indices\nproperty ushort region\n"
+                        "property uint element\nproperty ushort state\nproperty ushort material\nend_header\n");
+    CHECK(row && memcmp(row + 35 + 32, &c->colors[1], 3) == 0 && memcmp(row + 35, &c->positions[1], 12) == 0);
+    row += 3 * 35;
+    CHECK(row[0] == 3 && memcmp(row + 1, c->corners, 12) == 0 && row[13] == 1 && row[14] == 0);
+    CHECK(memcmp(row + 15, &element, 4) == 0 && row[19] == 0 && row + 23 == input.data + input.size);
+    meso_input_close(&input);
+}
+
+static void test_colored_obj(const MesoSceneParts *parts)
+{
+    MesoInput input = write_mesh(meso_obj_write, parts, 2, path_of("x.obj"));
+    CHECK(after(&input, "\no stem_one\nusemtl paint\n# element 70000\n# state 0 green\nv 0 0 0 1 0 0\n"));
+    CHECK(after(&input, "\nv 1 0 0 0 0.2 0\n") && after(&input, "\nv 0 1 0 0 0 0.4\n"));
+    meso_input_close(&input);
+}
+
+static void test_colored_draco(const MesoSceneParts *parts)
+{
+    MesoInput input = write_mesh(meso_drc_write, parts, 2, path_of("x.drc"));
+    CHECK(contains(&input, "[\"leaf\",\"stem one\"]") && contains(&input, "states") && contains(&input, "element"));
+    meso_input_close(&input);
+    input = write_mesh(meso_glb_write, parts, 2, path_of("x.glb"));
+    json_t *root = json_loadb((const char *)input.data + 20, word(&input, 12), 0, NULL);
+    const json_t *extras = json_object_get(json_object_get(json_object_get(root, "asset"), "extras"), "regions");
+    const json_t *mesh = json_array_get(json_object_get(root, "meshes"), 0);
+    const json_t *attributes = json_object_get(json_array_get(json_object_get(mesh, "primitives"), 0), "attributes");
+    const json_t *accessors = json_object_get(root, "accessors");
+    const json_t *color = json_array_get(accessors, integer(attributes, "COLOR_0"));
+    const json_t *element = json_array_get(accessors, integer(attributes, "_ELEMENT"));
+    CHECK(strcmp(json_string_value(json_array_get(extras, 1)), "stem one") == 0);
+    CHECK(integer(color, "componentType") == 5121 && json_is_true(json_object_get(color, "normalized")));
+    CHECK(strcmp(json_string_value(json_object_get(element, "type")), "VEC2") == 0);
+    CHECK(json_object_get(attributes, "_REGION") && json_object_get(attributes, "_STATE"));
+    CHECK(check_primitive(root, json_array_get(json_object_get(mesh, "primitives"), 0),
+                          input.data + 20 + word(&input, 12) + 8, word(&input, 20 + word(&input, 12)),
+                          "_ELEMENT") == 1);
+    json_decref(root);
+    meso_input_close(&input);
+}
+
+static void test_colored(void)
+{
+    ColoredFixture c;
+    MesoArena arena;
+    MesoSceneParts parts;
+    meso_arena_init(&arena);
+    colored_fixture_init(&c);
+    CHECK(meso_scene_parts_init(&parts, &arena, &c.scene, NULL) == MESO_OK);
+    test_colored_ply(&parts, &c);
+    test_colored_obj(&parts);
+    test_colored_draco(&parts);
+    meso_arena_release(&arena);
+}
+
+/* ---- refusals ---- */
+
+static WriteMesh *const WRITERS[] = {meso_ply_write, meso_obj_write, meso_drc_write, meso_glb_write};
+enum { WRITER_COUNT = 4 };
+
+static MesoStatus try_write(WriteMesh *write, const MesoSceneParts *t, MesoError *error)
+{
+    MesoMeshWriteOptions options = {.speed = 7, .smaller = "make less of it"};
+    MesoOutput *output;
+    CHECK(meso_output_open(&output, path_of("refused"), error) == MESO_OK);
+    MesoStatus status = write(t, &options, output, error);
+    meso_output_discard(output);
+    CHECK(access(path_of("refused"), F_OK) != 0);
+    return status;
+}
+
+static void test_refusals(void)
+{
+    SceneFixture fixture;
+    MesoError error;
+    scene_fixture_init(&fixture, 2, 4, 0.1f);
+
+    uint64_t nothing[1] = {0}, too_many[2] = {0, UINT32_MAX}, some[2] = {0, 1 << 26};
+    MesoSceneParts empty = {&fixture.scene, 0, nothing, nothing, 0};
+    MesoSceneParts huge = {&fixture.scene, 1, too_many, too_many, 2 * (uint64_t)UINT32_MAX};
+    MesoSceneParts large = {&fixture.scene, 1, some, some, (1 << 26) + 1};
+    for (int i = 0; i < WRITER_COUNT; i++) {
+        CHECK(try_write(WRITERS[i], &empty, &error) == MESO_ERR_INPUT);
+        CHECK(try_write(WRITERS[i], &huge, &error) == MESO_ERR_LIMIT && strstr(error.message, ": make less of it"));
+    }
+    CHECK(try_write(meso_drc_write, &large, &error) == MESO_ERR_LIMIT && strstr(error.message, ": make less of it"));
+
+    uint32_t slots = fixture.scene.channels[0].count;
+    fixture.scene.channels[0].count = (1u << 30) + 1;
+    CHECK(try_write(meso_drc_write, &fixture.parts, &error) == MESO_ERR_LIMIT);
+    CHECK(try_write(meso_glb_write, &fixture.parts, &error) == MESO_ERR_LIMIT);
+    fixture.scene.channels[0].count = slots;
+
+    fixture.scene.sweeps[1].p[1].y = NAN;
+    char slot[32];
+    snprintf(slot, sizeof slot, "slot %u:", fixture.scene.sweeps[1].ids);
+    CHECK(try_write(meso_drc_write, &fixture.parts, &error) == MESO_ERR_INPUT && strstr(error.message, slot));
+    CHECK(try_write(meso_glb_write, &fixture.parts, &error) == MESO_ERR_INPUT && strstr(error.message, slot));
+    scene_fixture_release(&fixture);
+}
+
+/* Progress never goes back and ends at the total. */
+typedef struct Watch {
+    uint64_t done, total;
+} Watch;
+
+static void watch(void *context, uint64_t done, uint64_t total)
+{
+    Watch *w = context;
+    CHECK(done >= w->done && done <= total);
+    *w = (Watch){done, total};
+}
+
+static void test_progress(void)
+{
+    SceneFixture fixture;
+    MesoError error;
+    scene_fixture_init(&fixture, 3, 5, 0.05f);
+    for (int i = 0; i < WRITER_COUNT; i++) {
+        Watch w = {0, 0};
+        MesoMeshWriteOptions options = {.thread_count = 1, .speed = 7, .progress = watch, .progress_context = &w};
+        MesoOutput *output;
+        CHECK(meso_output_open(&output, path_of("watched"), &error) == MESO_OK);
+        CHECK(WRITERS[i](&fixture.parts, &options, output, &error) == MESO_OK);
+        meso_output_discard(output);
+        CHECK(w.total > 0 && w.done == w.total);
+    }
+    scene_fixture_release(&fixture);
+}
+
+int main(void)
+{
+    CHECK(mkdtemp(folder));
+    test_ply();
+    test_winding();
+    test_obj();
+    test_drc();
+    test_glb();
+    test_colored();
+    test_refusals();
+    test_progress();
+    static const char *const products[] = {"x.ply", "x.obj", "x.drc", "x.glb", "again"};
+    for (int i = 0; i < 5; i++)
+        remove(path_of(products[i]));
+    CHECK(rmdir(folder) == 0);
+    return 0;
+}

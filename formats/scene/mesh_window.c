@@ -1,0 +1,277 @@
+#include "formats/scene/mesh_window.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/json/json_text.h"
+#include "libcore/base/parallel.h"
+
+enum { SCRATCH_ALIGNMENT = 64 };
+
+/* A range of parts, and the memory that its bytes go to. */
+typedef struct Chunk {
+    uint32_t begin, end;
+    size_t size;        /* bytes formatted */
+    uint8_t *data;
+} Chunk;
+
+typedef struct Window {
+    uint32_t chunk_count;
+    Chunk *chunks;      /* [chunk capacity of the run] */
+} Window;
+
+typedef struct Run {
+    MesoMeshStream *stream;
+    const MesoMeshPass *pass;
+    Window *filling, *full;
+    MesoStatus status;
+    MesoError error;
+} Run;
+
+static uint64_t round_up(uint64_t size)
+{
+    return (size + SCRATCH_ALIGNMENT - 1) & ~(uint64_t)(SCRATCH_ALIGNMENT - 1);
+}
+
+static uint64_t text_bound(const MesoMeshPass *pass, const MesoSceneParts *parts, uint32_t begin,
+                           uint32_t end)
+{
+    uint64_t vertices = parts->vertex_begin[end] - parts->vertex_begin[begin];
+    uint64_t faces = parts->face_begin[end] - parts->face_begin[begin];
+    return round_up((uint64_t)(end - begin) * pass->part_bytes + vertices * pass->vertex_bytes +
+                    faces * pass->face_bytes);
+}
+
+static uint64_t chunk_bound(const MesoMeshPass *pass, const MesoSceneParts *parts, uint32_t begin,
+                            uint32_t end)
+{
+    uint64_t vertices = parts->vertex_begin[end] - parts->vertex_begin[begin];
+    uint64_t faces = parts->face_begin[end] - parts->face_begin[begin];
+    return text_bound(pass, parts, begin, end) + round_up(vertices * pass->vertex_scratch) +
+           round_up(faces * pass->face_scratch);
+}
+
+/* Item 0 writes the full window; the others format a chunk of the one that is being filled. */
+static void run_item(void *context, uint64_t begin, uint64_t end)
+{
+    Run *run = context;
+    const MesoSceneParts *parts = run->stream->parts;
+    for (uint64_t item = begin; item < end; item++) {
+        if (item > 0) {
+            Chunk *chunk = &run->filling->chunks[item - 1];
+            uint64_t text = text_bound(run->pass, parts, chunk->begin, chunk->end);
+            chunk->size = run->pass->format(run->pass->context, parts, chunk->begin, chunk->end,
+                                            chunk->data, chunk->data + text);
+            assert(chunk->size <= text);
+            continue;
+        }
+        for (uint32_t i = 0; i < run->full->chunk_count && run->status == MESO_OK; i++) {
+            const Chunk *chunk = &run->full->chunks[i];
+            run->status = meso_output_write_at(run->stream->output, run->stream->offset,
+                                               chunk->data, chunk->size, &run->error);
+            run->stream->offset += chunk->size;
+        }
+    }
+}
+
+static uint64_t largest_part(const MesoMeshPass *pass, const MesoSceneParts *parts)
+{
+    uint64_t largest = 0;
+    for (uint32_t part = 0; part < parts->part_count; part++) {
+        uint64_t bound = chunk_bound(pass, parts, part, part + 1);
+        largest = bound > largest ? bound : largest;
+    }
+    return largest;
+}
+
+static MesoStatus make_window(Window *window, MesoArena *arena, uint32_t chunk_count,
+                              uint64_t capacity, MesoError *error)
+{
+    window->chunk_count = 0;
+    window->chunks = MESO_NEW(arena, Chunk, chunk_count, error);
+    uint8_t *data = window->chunks ? meso_arena_alloc(arena, chunk_count, capacity, error) : NULL;
+    if (!data)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < chunk_count; i++)
+        window->chunks[i].data = data + i * capacity;
+    return MESO_OK;
+}
+
+/* Gives each chunk as many parts as its memory holds, at least one; returns the first part left. */
+static uint32_t cut_window(Window *window, uint32_t chunk_capacity, uint64_t capacity,
+                           const MesoMeshPass *pass, const MesoSceneParts *parts, uint32_t part)
+{
+    window->chunk_count = 0;
+    while (window->chunk_count < chunk_capacity && part < parts->part_count) {
+        Chunk *chunk = &window->chunks[window->chunk_count++];
+        chunk->begin = part++;
+        while (part < parts->part_count && chunk_bound(pass, parts, chunk->begin, part + 1) <= capacity)
+            part++;
+        chunk->end = part;
+    }
+    return part;
+}
+
+static void report(const MesoMeshStream *stream, uint64_t work, uint32_t part)
+{
+    const MesoMeshWriteOptions *options = stream->options;
+    uint64_t part_count = stream->parts->part_count;
+    double share = part_count ? (double)part / (double)part_count : 1;
+    if (options->progress)
+        options->progress(options->progress_context, stream->done + (uint64_t)(share * (double)work),
+                          stream->total);
+}
+
+static MesoStatus run_windows(Run *run, Window windows[2], uint32_t chunk_capacity,
+                              uint64_t capacity, uint64_t work)
+{
+    const MesoSceneParts *parts = run->stream->parts;
+    uint32_t threads = run->stream->options->thread_count;
+    uint32_t part = 0;
+    run->filling = &windows[0];
+    run->full = &windows[1];
+    do {
+        part = cut_window(run->filling, chunk_capacity, capacity, run->pass, parts, part);
+        meso_parallel_for(threads, (uint64_t)run->filling->chunk_count + 1, 1, run_item, run);
+        Window *full = run->filling;
+        run->filling = run->full;
+        run->full = full;
+        report(run->stream, work, part);
+    } while (run->status == MESO_OK && run->full->chunk_count > 0);
+    return run->status;
+}
+
+MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass, uint64_t work,
+                                MesoError *error)
+{
+    uint64_t capacity = largest_part(pass, stream->parts);
+    if (capacity < MESO_WINDOW_CHUNK)
+        capacity = MESO_WINDOW_CHUNK;
+    uint64_t chunks = MESO_WINDOW_BYTES / capacity;
+    uint32_t chunk_capacity = chunks > 0 ? (uint32_t)chunks : 1;
+
+    MesoArena arena;
+    meso_arena_init(&arena);
+    Window windows[2];
+    Run run = {.stream = stream, .pass = pass};
+    MesoStatus status = make_window(&windows[0], &arena, chunk_capacity, capacity, error);
+    if (status == MESO_OK)
+        status = make_window(&windows[1], &arena, chunk_capacity, capacity, error);
+    if (status == MESO_OK) {
+        status = run_windows(&run, windows, chunk_capacity, capacity, work);
+        if (status != MESO_OK && error)
+            *error = run.error;
+    }
+    meso_arena_release(&arena);
+    stream->done += work;
+    return status;
+}
+
+static MesoStatus check_names(const MesoScene *scene, const char *kind, MesoError *error)
+{
+    for (uint32_t c = 0; c < scene->channel_count; c++)
+        if (scene->channels[c].names && scene->channels[c].count > UINT16_MAX)
+            return meso_fail(error, MESO_ERR_LIMIT, "too many names for %s: %u %ss, at most %u", kind,
+                             scene->channels[c].count, scene->channels[c].name, UINT16_MAX);
+    if (scene->material_count > UINT16_MAX)
+        return meso_fail(error, MESO_ERR_LIMIT, "too many names for %s: %u materials, at most %u", kind,
+                         scene->material_count, UINT16_MAX);
+    return MESO_OK;
+}
+
+MesoStatus meso_mesh_check_counts(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                                  const char *kind, MesoError *error)
+{
+    uint64_t vertices = parts->vertex_begin[parts->part_count];
+    uint64_t faces = parts->face_begin[parts->part_count];
+    if (vertices == 0 || faces == 0)
+        return meso_fail(error, MESO_ERR_INPUT, "no geometry to write: the scene has no sweeps and no bodies");
+    if (vertices > UINT32_MAX - 1 || faces > UINT32_MAX - 1)
+        return meso_fail(error, MESO_ERR_LIMIT,
+                         "too large for %s: %llu vertices and %llu faces, at most %u of each%s%s", kind,
+                         (unsigned long long)vertices, (unsigned long long)faces, UINT32_MAX - 1,
+                         MESO_MESH_SMALLER(options));
+    return check_names(parts->scene, kind, error);
+}
+
+/* Names are UTF-8: one that was cut off within a character loses the rest of it. */
+void meso_mesh_material_name(const MesoScene *scene, uint32_t material, char name[MESO_MESH_NAME])
+{
+    snprintf(name, MESO_MESH_NAME, "%s", scene->material_names[material]);
+    size_t length = strlen(name);
+    if (length + 1 < MESO_MESH_NAME)
+        return;
+    while (length > 0 && ((unsigned char)name[length - 1] & 0xc0) == 0x80)
+        length--;
+    if (length > 0 && (unsigned char)name[length - 1] >= 0xc0)
+        length--;
+    name[length] = 0;
+}
+
+static const char *names_text(json_t *names, bool complete, MesoArena *arena, MesoError *error)
+{
+    char *text = complete ? json_dumps(names, JSON_COMPACT) : NULL;
+    const char *copy = NULL;
+    if (text)
+        copy = meso_arena_copy_text(arena, text, error);
+    else
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    free(text);
+    json_decref(names);
+    return copy;
+}
+
+const char *meso_mesh_names(const char *const *names, uint32_t count, MesoArena *arena, MesoError *error)
+{
+    json_t *array = json_array();
+    bool complete = array != NULL;
+    for (uint32_t i = 0; complete && i < count; i++)
+        complete = json_array_append_new(array, meso_json_string(names[i])) == 0;
+    return names_text(array, complete, arena, error);
+}
+
+const char *meso_mesh_material_names(const MesoScene *scene, MesoArena *arena, MesoError *error)
+{
+    json_t *array = json_array();
+    bool complete = array != NULL;
+    for (uint32_t i = 0; complete && i < scene->material_count; i++) {
+        char name[MESO_MESH_NAME];
+        meso_mesh_material_name(scene, i, name);
+        complete = json_array_append_new(array, meso_json_string(name)) == 0;
+    }
+    return names_text(array, complete, arena, error);
+}
+
+const char *meso_mesh_names_key(const MesoIdChannel *channel, MesoArena *arena, MesoError *error)
+{
+    return meso_arena_print(arena, error, "%ss", channel->name);
+}
+
+const char *meso_mesh_provenance(const MesoMeshWriteOptions *options, MesoArena *arena,
+                                 MesoError *error)
+{
+    return options->provenance ? meso_provenance_text(options->provenance, arena, error) : "";
+}
+
+/* Some readers of PLY and OBJ take no line over 1023 bytes. */
+enum { PIECE = 960 };
+
+const char *meso_mesh_provenance_lines(const MesoMeshWriteOptions *options, const char *mark, MesoArena *arena,
+                                       MesoError *error)
+{
+    const char *text = meso_mesh_provenance(options, arena, error);
+    size_t left = text ? strlen(text) : 0, count = left / (PIECE - 3) + 1;
+    char *lines = text ? MESO_NEW(arena, char, left + count * (strlen(mark) + 16) + 1, error) : NULL;
+    char *out = lines;
+    for (bool first = true; lines && left > 0; first = false) {
+        size_t size = left < PIECE ? left : PIECE;
+        while (size < left && ((unsigned char)text[size] & 0xc0) == 0x80 && size > PIECE - 3)
+            size--;     /* characters stay whole */
+        out += sprintf(out, "%sprovenance%s %.*s\n", mark, first ? "" : "+", (int)size, text);
+        text += size;
+        left -= size;
+    }
+    return lines;
+}

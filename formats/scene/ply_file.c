@@ -1,0 +1,191 @@
+/*
+ * Binary PLY, little-endian: vertices as they lie in memory, then faces with
+ * the ids and the material of the part that they belong to.
+ */
+#include <string.h>
+
+#include "formats/scene/mesh_file.h"
+#include "formats/scene/mesh_window.h"
+
+_Static_assert(sizeof(MesoMeshVertex) == 32 && sizeof(MesoMeshFace) == 16, "layout of the rows");
+_Static_assert(sizeof(MesoMeshColor) == 3, "layout of the rows");
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows are written as they lie in memory");
+
+/* Count and corners of a quad; ids and material. */
+enum { CORNERS_BYTES = 1 + 16, MAX_TAIL = 4 * MESO_ID_CHANNELS + 2 };
+
+static size_t format_vertices(const void *context, const MesoSceneParts *parts, uint32_t begin,
+                              uint32_t end, uint8_t *out, uint8_t *scratch)
+{
+    (void)context;
+    (void)scratch;
+    meso_scene_vertices(parts, begin, end, (MesoMeshVertex *)(void *)out);
+    return (size_t)(parts->vertex_begin[end] - parts->vertex_begin[begin]) * sizeof(MesoMeshVertex);
+}
+
+static size_t format_colored(const void *context, const MesoSceneParts *parts, uint32_t begin,
+                             uint32_t end, uint8_t *out, uint8_t *scratch)
+{
+    const size_t row = sizeof(MesoMeshVertex) + sizeof(MesoMeshColor);
+    uint64_t count = parts->vertex_begin[end] - parts->vertex_begin[begin];
+    MesoMeshVertex *vertices = (MesoMeshVertex *)(void *)scratch;
+    MesoMeshColor *colors = (MesoMeshColor *)(void *)(vertices + count);
+    (void)context;
+    meso_scene_vertices(parts, begin, end, vertices);
+    meso_scene_colors(parts, begin, end, colors);
+    for (uint64_t i = 0; i < count; i++) {
+        memcpy(out + row * i, &vertices[i], sizeof *vertices);
+        memcpy(out + row * i + sizeof *vertices, &colors[i], sizeof *colors);
+    }
+    return row * (size_t)count;
+}
+
+/* What follows the corners in each row of a part; returns its size. */
+static size_t format_tail(const MesoScene *scene, MesoPart part, uint8_t tail[MAX_TAIL])
+{
+    size_t size = 0;
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        uint32_t id = meso_scene_id(scene, part.ids, c);
+        size_t bytes = scene->channels[c].names ? 2 : 4;
+        memcpy(tail + size, &id, bytes);
+        size += bytes;
+    }
+    memcpy(tail + size, &part.material, 2);
+    return size + 2;
+}
+
+static uint8_t *format_part(const MesoMeshFace *faces, uint64_t count, const uint8_t *tail, size_t tail_size,
+                            uint8_t *out)
+{
+    for (uint64_t i = 0; i < count; i++) {
+        bool quad = faces[i].v[3] != MESO_NO_INDEX;
+        size_t corners = quad ? 16 : 12;
+        *out = quad ? 4 : 3;
+        memcpy(out + 1, faces[i].v, 16);
+        memcpy(out + 1 + corners, tail, tail_size);
+        out += 1 + corners + tail_size;
+    }
+    return out;
+}
+
+static size_t format_faces(const void *context, const MesoSceneParts *parts, uint32_t begin,
+                           uint32_t end, uint8_t *out, uint8_t *scratch)
+{
+    (void)context;
+    MesoMeshFace *faces = (MesoMeshFace *)(void *)scratch;
+    uint8_t *next = out;
+    meso_scene_faces(parts, begin, end, (uint32_t)parts->vertex_begin[begin], faces);
+    for (uint32_t part = begin; part < end; part++) {
+        uint8_t tail[MAX_TAIL];
+        size_t tail_size = format_tail(parts->scene, meso_scene_part(parts, part), tail);
+        next = format_part(faces + (parts->face_begin[part] - parts->face_begin[begin]),
+                           parts->face_begin[part + 1] - parts->face_begin[part], tail, tail_size, next);
+    }
+    return (size_t)(next - out);
+}
+
+/* A name within a comment line. */
+static const char *comment(MesoArena *arena, const char *what, uint32_t number, const char *name,
+                           MesoError *error)
+{
+    char *line = meso_arena_print(arena, error, "comment %s %u %s\n", what, number, name);
+    for (char *c = line; c && c[0] && c[1]; c++)    /* the last byte is the line's own end */
+        if ((unsigned char)*c < 0x20)
+            *c = ' ';
+    return line;
+}
+
+static MesoStatus put(MesoMeshStream *stream, const char *text, MesoError *error)
+{
+    if (!text)
+        return MESO_ERR_MEMORY;
+    size_t size = strlen(text);
+    stream->offset += size;
+    return meso_output_write(stream->output, text, size, error);
+}
+
+static MesoStatus put_names(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
+{
+    const MesoScene *scene = stream->parts->scene;
+    MesoStatus status = MESO_OK;
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        const MesoIdChannel *channel = &scene->channels[c];
+        for (uint32_t i = 0; status == MESO_OK && channel->names && i < channel->count; i++)
+            status = put(stream, comment(arena, channel->name, i, channel->names[i], error), error);
+    }
+    for (uint32_t i = 0; status == MESO_OK && i < scene->material_count; i++) {
+        char name[MESO_MESH_NAME];
+        meso_mesh_material_name(scene, i, name);
+        status = put(stream, comment(arena, "material", i, name, error), error);
+    }
+    return status;
+}
+
+static MesoStatus put_face_properties(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
+{
+    const MesoScene *scene = stream->parts->scene;
+    MesoStatus status = MESO_OK;
+    for (uint32_t c = 0; status == MESO_OK && c < scene->channel_count; c++)
+        status = put(stream, meso_arena_print(arena, error, "property %s %s\n",
+                                              scene->channels[c].names ? "ushort" : "uint",
+                                              scene->channels[c].name), error);
+    return status == MESO_OK ? put(stream, "property ushort material\n", error) : status;
+}
+
+static MesoStatus put_elements(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
+{
+    const MesoSceneParts *parts = stream->parts;
+    const char *colors = colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "";
+    const char *text = meso_arena_print(arena, error,
+                                        "element vertex %llu\n"
+                                        "property float x\nproperty float y\nproperty float z\n"
+                                        "property float nx\nproperty float ny\nproperty float nz\n"
+                                        "property float s\nproperty float t\n%s"
+                                        "element face %llu\n"
+                                        "property list uchar uint vertex_indices\n",
+                                        (unsigned long long)parts->vertex_begin[parts->part_count], colors,
+                                        (unsigned long long)parts->face_begin[parts->part_count]);
+    MesoStatus status = put(stream, text, error);
+    if (status == MESO_OK)
+        status = put_face_properties(stream, arena, error);
+    return status == MESO_OK ? put(stream, "end_header\n", error) : status;
+}
+
+static MesoStatus put_header(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
+{
+    const char *provenance = meso_mesh_provenance_lines(stream->options, "comment ", arena, error);
+    if (!provenance)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = put(stream, "ply\nformat binary_little_endian 1.0\n", error);
+    if (status == MESO_OK)
+        status = put(stream, provenance, error);
+    if (status == MESO_OK)
+        status = put_names(stream, arena, error);
+    return status == MESO_OK ? put_elements(stream, colored, arena, error) : status;
+}
+
+MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error)
+{
+    static const MesoMeshPass plain = {.format = format_vertices, .vertex_bytes = 32};
+    static const MesoMeshPass colored = {.format = format_colored, .vertex_bytes = 35, .vertex_scratch = 35};
+    /* A row of a triangle is written with one corner too many, over which the tail goes. */
+    static const MesoMeshPass faces = {.format = format_faces, .face_bytes = CORNERS_BYTES + MAX_TAIL,
+                                       .face_scratch = 16};
+
+    uint64_t vertex_count = parts->vertex_begin[parts->part_count];
+    uint64_t face_count = parts->face_begin[parts->part_count];
+    MesoMeshStream stream = {parts, options, output, 0, 0, vertex_count + face_count};
+    bool has_colors = meso_scene_is_colored(parts->scene);
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoStatus status = meso_mesh_check_counts(parts, options, "a PLY file", error);
+    if (status == MESO_OK)
+        status = put_header(&stream, has_colors, &arena, error);
+    if (status == MESO_OK)
+        status = meso_mesh_stream_run(&stream, has_colors ? &colored : &plain, vertex_count, error);
+    if (status == MESO_OK)
+        status = meso_mesh_stream_run(&stream, &faces, face_count, error);
+    meso_arena_release(&arena);
+    return status;
+}

@@ -1,0 +1,17 @@
+/* What files of assignments say, in whichever form. */
+#ifndef MESO_SLOTS_CONTENT_H
+#define MESO_SLOTS_CONTENT_H
+
+#include "libcore/tiling/problem/assignment.h"
+
+typedef struct MesoSlotsFile {
+    MesoAssignment assignment;
+    uint64_t tiles_hash[2], surface_hash[2];
+    bool anonymous;                 /* a listing that has no hashes: they are 0 */
+    uint32_t tile_count;
+    const char **tile_names;        /* [tile_count] */
+    const char *provenance;         /* JSON text; {} of a listing */
+    uint8_t *quarters;              /* [slot_count] orientation; NULL: as in the surface's file */
+} MesoSlotsFile;
+
+#endif

@@ -1,0 +1,142 @@
+#include "libcore/shell/hexahedra.h"
+
+#include <assert.h>
+
+MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
+                          float offset, float thickness)
+{
+    return (MesoShell){mesh, graph, offset, offset + 0.5f * thickness};
+}
+
+static MesoVec3 corner_position(const MesoShell *shell, uint32_t slot, uint32_t corner)
+{
+    return shell->mesh->positions[shell->mesh->face_vertices[4 * (size_t)slot + (corner & 3)]];
+}
+
+static MesoVec3 corner_normal(const MesoShell *shell, uint32_t slot, uint32_t corner)
+{
+    return shell->mesh->normals[shell->mesh->face_normals[4 * (size_t)slot + (corner & 3)]];
+}
+
+/* Equal normals stay the very same floats; opposite ones have no mean, and a face keeps its own. */
+static MesoVec3 mean_normal(MesoVec3 a, MesoVec3 b)
+{
+    if (a.x == b.x && a.y == b.y && a.z == b.z)
+        return a;
+    return meso_vec3_unit(meso_vec3_add(a, b), a);
+}
+
+/* A side with its two ends, as the half-edge that speaks for the edge runs. */
+typedef struct Edge {
+    MesoVec3 a, b;      /* positions */
+    MesoVec3 na, nb;    /* normals, of both faces */
+    bool reversed;      /* the asking side runs from b to a */
+} Edge;
+
+static Edge find_edge(const MesoShell *shell, uint32_t slot, uint32_t side)
+{
+    uint32_t half = 4 * slot + side, twin = shell->graph->twin[half];
+    Edge e = {corner_position(shell, slot, side), corner_position(shell, slot, side + 1),
+              corner_normal(shell, slot, side), corner_normal(shell, slot, side + 1), false};
+    if (twin == MESO_NO_INDEX)
+        return e;
+
+    uint32_t other = twin / 4, other_side = twin % 4;
+    const uint32_t *corners = shell->mesh->face_vertices;
+    bool opposed = corners[4 * (size_t)other + other_side] == corners[4 * (size_t)slot + ((side + 1) & 3)];
+    if (!opposed)   /* inconsistent winding: what they draw there is not one shape */
+        return e;
+    e.na = mean_normal(e.na, corner_normal(shell, other, other_side + 1));
+    e.nb = mean_normal(e.nb, corner_normal(shell, other, other_side));
+    if (twin < half)
+        e = (Edge){e.b, e.a, e.nb, e.na, true};
+    return e;
+}
+
+MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side,
+                                MesoVec2 center, bool flipped, MesoPort *port, MesoError *error)
+{
+    assert(side < 4);
+    Edge e = find_edge(shell, slot, side);
+    MesoVec3 a0 = meso_vec3_mad(e.a, shell->bottom, e.na), b0 = meso_vec3_mad(e.b, shell->bottom, e.nb);
+    MesoVec3 a1 = meso_vec3_mad(e.a, shell->top, e.na), b1 = meso_vec3_mad(e.b, shell->top, e.nb);
+
+    /* Seen along the edge that speaks, the other side's drawing is mirrored, and so is its flip. */
+    float x = flipped != e.reversed ? 1 - center.x : center.x;
+    port->point = meso_vec3_lerp(meso_vec3_lerp(a0, b0, x), meso_vec3_lerp(a1, b1, x), center.y);
+    port->up = meso_vec3_add(e.na, e.nb);
+
+    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(a1, b0), meso_vec3_sub(b1, a0));
+    MesoVec3 none = {0, 0, 0};
+    port->inward = meso_vec3_direction(normal, none);
+    if (e.reversed)
+        port->inward = meso_vec3_scale(port->inward, -1);
+    if (meso_vec3_dot(port->inward, port->inward) == 0 || meso_vec3_dot(port->up, port->up) == 0)
+        return meso_fail(error, MESO_ERR_INPUT,
+                         "slot %u: the shell has no wall on side %u (coinciding corners or opposite normals)",
+                         slot, side);
+    return MESO_OK;
+}
+
+/* Neither the point nor the flip has a say in whether there is a wall. */
+static bool has_walls(const MesoShell *shell, uint32_t slot)
+{
+    MesoPort port;
+    bool all = true;
+    for (uint32_t side = 0; side < 4 && all; side++)
+        all = meso_shell_wall_port(shell, slot, side, (MesoVec2){0, 0}, false, &port, NULL) == MESO_OK;
+    return all;
+}
+
+uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint32_t room)
+{
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < shell->mesh->face_count; slot++) {
+        if (has_walls(shell, slot))
+            continue;
+        if (count < room)
+            slots[count] = slot;
+        count++;
+    }
+    return count;
+}
+
+MesoCage meso_shell_cage(const MesoShell *shell, uint32_t slot)
+{
+    MesoCage cage = {.low = shell->bottom, .high = shell->top};
+    for (uint32_t i = 0; i < 4; i++) {
+        cage.base[i] = corner_position(shell, slot, i);
+        cage.rise[i] = corner_normal(shell, slot, i);
+    }
+    return cage;
+}
+
+/* Derivative of the shell's map along the direction `along` of the unit square at `at`. */
+static MesoVec3 lid_direction(const MesoCage *cage, MesoVec2 at, MesoVec2 along, float h)
+{
+    MesoVec3 dx = meso_vec3_sub(meso_cage_point(cage, 1, at.y, h), meso_cage_point(cage, 0, at.y, h));
+    MesoVec3 dy = meso_vec3_sub(meso_cage_point(cage, at.x, 1, h), meso_cage_point(cage, at.x, 0, h));
+    return meso_vec3_add(meso_vec3_scale(dx, along.x), meso_vec3_scale(dy, along.y));
+}
+
+MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, bool bottom,
+                               MesoTransform transform, MesoVec2 center, bool flipped,
+                               MesoPort *port, MesoError *error)
+{
+    float h = bottom ? 0 : 1;
+    MesoVec2 in_tile = {flipped != bottom ? 1 - center.x : center.x, center.y};
+    MesoVec2 at = meso_transform_point(transform, in_tile);
+    MesoVec2 y_end = meso_transform_point(transform, (MesoVec2){in_tile.x, in_tile.y + 1});
+
+    MesoCage cage = meso_shell_cage(shell, slot);
+    port->point = meso_cage_point(&cage, at.x, at.y, h);
+    port->up = lid_direction(&cage, at, meso_vec2_sub(y_end, at), h);
+    MesoVec3 outward = meso_vec3_cross(lid_direction(&cage, at, (MesoVec2){1, 0}, h),
+                                       lid_direction(&cage, at, (MesoVec2){0, 1}, h));
+    MesoVec3 none = {0, 0, 0};
+    port->inward = meso_vec3_direction(meso_vec3_scale(outward, bottom ? 1 : -1), none);
+    if (meso_vec3_dot(port->inward, port->inward) == 0 || meso_vec3_dot(port->up, port->up) == 0)
+        return meso_fail(error, MESO_ERR_INPUT, "slot %u: the shell has no %s (coinciding corners)", slot,
+                         bottom ? "bottom" : "top");
+    return MESO_OK;
+}

@@ -1,0 +1,63 @@
+/*
+ * Shell: the space between the offset surfaces of a macrosurface, one
+ * hexahedron a slot (MesoGen, section 3.5), and the ports on its faces where
+ * sweeps begin and end.
+ */
+#ifndef MESO_SHELL_H
+#define MESO_SHELL_H
+
+#include "libcore/math/cage.h"
+#include "libcore/math/square.h"
+#include "libcore/mesh/slot_graph.h"
+
+/* The shell of one surface; keeps pointers to its arguments. */
+typedef struct MesoShell {
+    const MesoQuadMesh *mesh;
+    const MesoSlotGraph *graph;
+    float bottom, top;      /* heights of the two surfaces along the normals */
+} MesoShell;
+
+/* From `offset` along the normals to half the thickness above it. */
+MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
+                          float offset, float thickness);
+
+/* Where a cross-section lies on a face of a slot's hexahedron. */
+typedef struct MesoPort {
+    MesoVec3 point;         /* of the cross-section's centre */
+    MesoVec3 up;            /* the drawing's y direction; not of unit length */
+    MesoVec3 inward;        /* unit normal of the hexahedron's face, into the slot */
+} MesoPort;
+
+/*
+ * Port on a wall, side 0..3 of `slot`: the point lies at `center` of the
+ * interface's unit square, mirrored in x where `flipped`. The normal of the wall
+ * is the cross product of its diagonals.
+ *
+ * Two slots that meet at an edge, run along it in opposite directions and show
+ * opposite labels there get the same floats for `point` and `up`, and exactly
+ * opposite `inward`: all is computed from the edge, with the mean of the two
+ * faces' corner normals. O(1). MESO_ERR_INPUT for a wall without a direction.
+ */
+MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side,
+                                MesoVec2 center, bool flipped, MesoPort *port, MesoError *error);
+
+/*
+ * Counts the slots with a side where meso_shell_wall_port() fails whatever is
+ * drawn there, and writes the first `room` of them, ascending, to `slots`. O(slots).
+ */
+uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint32_t room);
+
+/*
+ * Port on the top or bottom of `slot` for a
+ * tile under `transform`, whose label there is `flipped`. Drawings are seen from
+ * outside the shell: on the top, x and y are the tile's; on the bottom x runs
+ * the other way.
+ */
+MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, bool bottom,
+                               MesoTransform transform, MesoVec2 center, bool flipped,
+                               MesoPort *port, MesoError *error);
+
+/* The slot's hexahedron: the unit square's corners as in tile_set.h, from the bottom to the top. */
+MesoCage meso_shell_cage(const MesoShell *shell, uint32_t slot);
+
+#endif

@@ -1,0 +1,404 @@
+#include "libcore/tiling/strand/expansion.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/scene/placed.h"
+#include "libcore/shell/hexahedra.h"
+#include "libcore/tiling/strand/trajectory.h"
+
+enum { INSTANCES_A_RANGE = 1024 };
+
+typedef struct Builder {
+    const MesoModel *model;
+    MesoScene *scene;
+    MesoMapOptions options;     /* resolved */
+    MesoKindOrigin *origins;    /* of the scene's kinds */
+    const MesoContourSet *contours;
+    MesoShell shell;
+    uint32_t *bucket_slots;     /* [slot_count] slots by tile and mirroring, ascending within */
+    uint32_t *bucket_begin;     /* [2 * tile_count + 1] */
+    atomic_uint_fast64_t failed;    /* smallest instance that has no port */
+} Builder;
+
+/* ---- slots by tile and mirroring ---- */
+
+static uint32_t bucket_of(const MesoModel *model, uint32_t slot)
+{
+    return 2 * model->assignment.tile[slot] + meso_transform_flips(model->assignment.transform[slot]);
+}
+
+static MesoStatus fill_buckets(Builder *b, MesoArena *scratch, MesoError *error)
+{
+    const MesoModel *model = b->model;
+    uint32_t bucket_count = 2 * model->tile_set.tile_count, slot_count = model->assignment.slot_count;
+    uint32_t *next = MESO_NEW(scratch, uint32_t, bucket_count, error);
+    b->bucket_begin = MESO_NEW(scratch, uint32_t, (size_t)bucket_count + 1, error);
+    b->bucket_slots = MESO_NEW(scratch, uint32_t, slot_count, error);
+    if (!next || !b->bucket_begin || !b->bucket_slots)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < slot_count; s++)
+        b->bucket_begin[bucket_of(model, s) + 1]++;
+    for (uint32_t i = 0; i < bucket_count; i++)
+        next[i] = b->bucket_begin[i + 1] += b->bucket_begin[i];
+    for (uint32_t i = 0; i < bucket_count; i++)
+        next[i] = b->bucket_begin[i];
+    for (uint32_t s = 0; s < slot_count; s++)
+        b->bucket_slots[next[bucket_of(model, s)]++] = s;
+    return MESO_OK;
+}
+
+/* ---- kinds ---- */
+
+static uint32_t bucket_of_kind(const MesoKindOrigin *origin)
+{
+    return 2 * origin->tile + origin->mirrored;
+}
+
+/* Keeps the kinds of `profiles` that have instances. */
+static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, MesoArena *arena,
+                                  MesoError *error)
+{
+    MesoScene *out = b->scene;
+    uint64_t instance_count = 0;
+    out->kinds = MESO_NEW(arena, MesoSweptKind, profiles->kind_count, error);
+    b->origins = MESO_NEW(arena, MesoKindOrigin, profiles->kind_count, error);
+    if (!out->kinds || !b->origins)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < profiles->kind_count; k++) {
+        MesoSweptKind kind = profiles->kinds[k];
+        uint32_t bucket = bucket_of_kind(&profiles->origins[k]);
+        kind.instance_begin = (uint32_t)instance_count;
+        kind.instance_count = b->bucket_begin[bucket + 1] - b->bucket_begin[bucket];
+        if (kind.instance_count == 0)
+            continue;
+        instance_count += kind.instance_count;
+        if (instance_count > UINT32_MAX / 2)
+            return meso_fail(error, MESO_ERR_LIMIT, "over 2^31 sweeps; split the surface");
+        b->origins[out->kind_count] = profiles->origins[k];
+        out->kinds[out->kind_count++] = kind;
+    }
+    out->sweep_count = (uint32_t)instance_count;
+    out->columns = profiles->columns;
+    out->column_count = profiles->column_count;
+    out->sweeps = MESO_NEW(arena, MesoSweepInstance, out->sweep_count, error);
+    return out->sweeps ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* ---- instances ---- */
+
+static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side, uint32_t section,
+                            MesoPort *port, MesoError *error)
+{
+    const MesoAssignment *a = &b->model->assignment;
+    MesoTransform transform = a->transform[slot];
+    int32_t label = b->model->tile_set.tiles[a->tile[slot]].labels[tile_side];
+    MesoVec2 center = b->contours->center[section];
+    if (tile_side >= MESO_SIDE_TOP)
+        return meso_shell_lid_port(&b->shell, slot, tile_side == MESO_SIDE_BOTTOM, transform, center, label < 0, port,
+                                   error);
+    return meso_shell_wall_port(&b->shell, slot, meso_transform_side(transform, tile_side), center,
+                                (label < 0) != meso_transform_flips(transform), port, error);
+}
+
+static MesoStatus make_cap(const Builder *b, const MesoKindOrigin *origin, uint32_t slot,
+                           MesoSweepInstance *out, MesoError *error)
+{
+    MesoPort port;
+    MesoStatus status = find_port(b, slot, origin->start_side, origin->start_section, &port, error);
+    if (status)
+        return status;
+    float rise = MESO_CAP_RISE * b->options.section_scale;
+    *out = (MesoSweepInstance){.up = {port.up, port.up}, .direction = {port.inward, port.inward}, .ids = slot};
+    for (int i = 0; i < 4; i++)
+        out->p[i] = meso_vec3_mad(port.point, rise * (float)i / 3, port.inward);
+    return MESO_OK;
+}
+
+static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, uint32_t slot,
+                             MesoSweepInstance *out, MesoError *error)
+{
+    MesoPort start, end;
+    MesoStatus status = find_port(b, slot, origin->start_side, origin->start_section, &start, error);
+    if (!status)
+        status = find_port(b, slot, origin->end_side, origin->end_section, &end, error);
+    if (status)
+        return status;
+    *out = (MesoSweepInstance){.up = {start.up, end.up},
+                               .direction = {start.inward, meso_vec3_scale(end.inward, -1)},
+                               .ids = slot};
+    meso_trajectory(&start, &end, origin->start_side == origin->end_side, b->options.tangent_scale, out->p);
+    return MESO_OK;
+}
+
+static MesoStatus make_instance(const Builder *b, uint32_t kind, uint32_t i, MesoError *error)
+{
+    const MesoKindOrigin *origin = &b->origins[kind];
+    uint32_t first = b->bucket_begin[bucket_of_kind(origin)];
+    uint32_t slot = b->bucket_slots[first + (i - b->scene->kinds[kind].instance_begin)];
+    MesoSweepInstance *out = &b->scene->sweeps[i];
+    return b->scene->kinds[kind].cap ? make_cap(b, origin, slot, out, error)
+                                     : make_sweep(b, origin, slot, out, error);
+}
+
+static void make_range(void *context, uint64_t begin, uint64_t end)
+{
+    Builder *b = context;
+    const MesoSweptKind *kinds = b->scene->kinds;
+    uint32_t kind = meso_scene_kind(b->scene, (uint32_t)begin);
+    for (uint64_t i = begin; i < end; i++) {
+        while (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count)
+            kind++;
+        if (!make_instance(b, kind, (uint32_t)i, NULL))
+            continue;
+        uint_fast64_t first = atomic_load(&b->failed);
+        while (i < first && !atomic_compare_exchange_weak(&b->failed, &first, i)) {
+        }
+    }
+}
+
+/* The first failure is found again alone, so that the message does not depend on the threads. */
+static MesoStatus make_instances(Builder *b, uint32_t thread_count, MesoError *error)
+{
+    atomic_store(&b->failed, UINT64_MAX);
+    meso_parallel_for(thread_count, b->scene->sweep_count, INSTANCES_A_RANGE, make_range, b);
+    uint64_t failed = atomic_load(&b->failed);
+    if (failed == UINT64_MAX)
+        return MESO_OK;
+    return make_instance(b, meso_scene_kind(b->scene, (uint32_t)failed), (uint32_t)failed, error);
+}
+
+/* ---- inner meshes ---- */
+
+static uint32_t slots_of_tile(const Builder *b, uint32_t tile)
+{
+    return b->bucket_begin[2 * tile + 2] - b->bucket_begin[2 * tile];
+}
+
+static bool is_near(float x)
+{
+    return fabsf(x) <= MESO_INNER_LIMIT;    /* and a number */
+}
+
+static MesoStatus check_inner(const MesoModel *model, const MesoTile *tile, uint32_t inner, MesoError *error)
+{
+    const MesoInnerMesh *place = &model->tile_set.inners[inner];
+    const MesoTriangleMesh *mesh = &model->inner_meshes[inner];
+    MesoFrame frame;
+    memcpy(frame.m, place->transform, sizeof frame.m);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        MesoVec3 q = meso_frame_point(&frame, mesh->positions[v]);
+        if (!is_near(q.x) || !is_near(q.y) || !is_near(q.z))
+            return meso_fail(error, MESO_ERR_INPUT, "tile '%s': vertex %u of its mesh '%s' lies more than %g tiles away",
+                             tile->name, v + 1, place->file, (double)MESO_INNER_LIMIT);
+    }
+    return MESO_OK;
+}
+
+/* Of tiles that some slot holds. */
+static MesoStatus check_inners(const Builder *b, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    MesoStatus status = MESO_OK;
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        for (uint32_t k = 0; k < set->tiles[t].inner_count && !status; k++)
+            if (slots_of_tile(b, t) > 0)
+                status = check_inner(b->model, &set->tiles[t], set->tiles[t].inner_begin + k, error);
+    return status;
+}
+
+/* Bodies and frames are numbered as the inner meshes are. */
+static MesoStatus make_bodies(Builder *b, MesoArena *arena, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    MesoScene *out = b->scene;
+    out->body_count = out->frame_count = set->inner_count;
+    out->bodies = MESO_NEW(arena, MesoBody, set->inner_count, error);
+    out->frames = MESO_NEW(arena, MesoFrame, set->inner_count, error);
+    if (!out->bodies || !out->frames)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < set->inner_count; i++) {
+        const MesoTriangleMesh *mesh = &b->model->inner_meshes[i];
+        out->bodies[i] = (MesoBody){.vertex_count = mesh->vertex_count, .face_count = mesh->triangle_count,
+                                    .face_width = 3, .positions = mesh->positions, .normals = mesh->normals,
+                                    .corners = mesh->triangles};
+        memcpy(out->frames[i].m, set->inners[i].transform, sizeof out->frames[i].m);
+    }
+    return MESO_OK;
+}
+
+static bool is_placed(const Builder *b, uint32_t inner)
+{
+    return b->model->inner_meshes[inner].triangle_count > 0;
+}
+
+/* How many inner meshes of a tile have something in them. */
+static uint32_t placed_of_tile(const Builder *b, const MesoTile *tile)
+{
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < tile->inner_count; k++)
+        count += is_placed(b, tile->inner_begin + k);
+    return count;
+}
+
+static MesoStatus count_placed(Builder *b, MesoArena *arena, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    MesoScene *out = b->scene;
+    uint64_t placed_count = 0, cage_count = 0;
+    for (uint32_t t = 0; t < set->tile_count; t++) {
+        uint32_t placed = placed_of_tile(b, &set->tiles[t]);
+        placed_count += (uint64_t)placed * slots_of_tile(b, t);
+        cage_count += placed ? slots_of_tile(b, t) : 0;
+    }
+    if (placed_count > UINT32_MAX / 2)
+        return meso_fail(error, MESO_ERR_LIMIT, "over 2^31 inner meshes; split the surface");
+    out->placed_count = (uint32_t)placed_count;
+    out->cage_count = (uint32_t)cage_count;
+    out->placed = MESO_NEW(arena, MesoPlacedBody, placed_count, error);
+    out->cages = MESO_NEW(arena, MesoCage, cage_count, error);
+    return out->placed && out->cages ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* By inner mesh, then slot. */
+static MesoStatus place_inners(Builder *b, MesoArena *arena, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    MesoStatus status = count_placed(b, arena, error);
+    MesoPlacedBody *placed = b->scene->placed;
+    uint32_t cage_begin = 0;
+    for (uint32_t t = 0; t < set->tile_count && !status; t++) {
+        const MesoTile *tile = &set->tiles[t];
+        const uint32_t *slots = b->bucket_slots + b->bucket_begin[2 * t];
+        uint32_t slot_count = placed_of_tile(b, tile) ? slots_of_tile(b, t) : 0;
+        for (uint32_t i = 0; i < slot_count; i++)
+            b->scene->cages[cage_begin + i] = meso_shell_cage(&b->shell, slots[i]);
+        for (uint32_t inner = tile->inner_begin; inner < tile->inner_begin + tile->inner_count; inner++)
+            for (uint32_t i = 0; i < slot_count && is_placed(b, inner); i++)
+                *placed++ = (MesoPlacedBody){.body = inner, .material = set->section_count + inner,
+                                             .ids = slots[i], .frame = inner, .cage = cage_begin + i,
+                                             .place = MESO_PLACED_IN_CAGE,
+                                             .turn = b->model->assignment.transform[slots[i]]};
+        cage_begin += slot_count;
+    }
+    return status;
+}
+
+/* ---- materials and ids ---- */
+
+/* "interface/section" and "tile/inner N": each inner mesh belongs to a tile. */
+static MesoStatus make_materials(Builder *b, MesoArena *arena, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    MesoScene *out = b->scene;
+    uint32_t count = out->material_count = set->section_count + set->inner_count;
+    out->materials = MESO_NEW(arena, MesoMaterial, count, error);
+    out->material_names = MESO_NEW(arena, const char *, count, error);
+    if (!out->materials || !out->material_names)
+        return MESO_ERR_MEMORY;
+    bool complete = true;
+    for (uint32_t i = 0; i < set->section_count; i++) {
+        const MesoSection *section = &set->sections[i];
+        out->materials[i] = section->material;
+        out->material_names[i] = meso_arena_print(arena, error, "%s/%s", set->interfaces[section->interface].name,
+                                                  section->name);
+        complete = complete && out->material_names[i];
+    }
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        for (uint32_t k = 0; k < set->tiles[t].inner_count; k++) {
+            uint32_t inner = set->tiles[t].inner_begin + k, material = set->section_count + inner;
+            out->materials[material] = set->inners[inner].material;
+            out->material_names[material] = meso_arena_print(arena, error, "%s/inner %u", set->tiles[t].name, k + 1);
+            complete = complete && out->material_names[material];
+        }
+    return complete ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus make_ids(Builder *b, MesoArena *arena, MesoError *error)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    const MesoAssignment *assignment = &b->model->assignment;
+    MesoScene *out = b->scene;
+    const char **names = MESO_NEW(arena, const char *, set->tile_count, error);
+    out->channel_count = 2;
+    out->channels[0] = (MesoIdChannel){"slot", assignment->slot_count, NULL};
+    out->channels[1] = (MesoIdChannel){"tile", set->tile_count, names};
+    out->id_row_count = assignment->slot_count;
+    out->ids = MESO_NEW(arena, uint32_t, 2 * (size_t)assignment->slot_count, error);
+    if (!names || !out->ids)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        names[t] = set->tiles[t].name;
+    for (uint32_t s = 0; s < assignment->slot_count; s++) {
+        out->ids[2 * (size_t)s] = s;
+        out->ids[2 * (size_t)s + 1] = assignment->tile[s];
+    }
+    return MESO_OK;
+}
+
+/* ---- all of it ---- */
+
+static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint32_t thread_count,
+                         MesoError *error)
+{
+    MesoSlotGraph graph;
+    MesoProfileSet profiles;
+    MesoStatus status = meso_slot_graph_build(&graph, scratch, &b->model->surface, error);
+    if (!status)
+        status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours,
+                                        b->options.divisions, error);
+    if (!status)
+        status = fill_buckets(b, scratch, error);
+    if (!status)
+        status = check_inners(b, error);
+    if (status)
+        return status;
+
+    b->shell = meso_shell_make(&b->model->surface, &graph, b->options.offset, b->options.thickness);
+    status = keep_used_kinds(b, &profiles, arena, error);
+    if (!status)
+        status = make_instances(b, thread_count, error);
+    if (!status)
+        status = make_bodies(b, arena, error);
+    if (!status)
+        status = place_inners(b, arena, error);
+    if (!status)
+        status = make_materials(b, arena, error);
+    if (!status)
+        status = make_ids(b, arena, error);
+    if (!status)
+        meso_scene_measure(b->scene);
+    return status;
+}
+
+MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
+                                  const MesoModel *model, const MesoContourSet *contours,
+                                  uint32_t thread_count, MesoError *error)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    Builder builder = {.model = model, .scene = scene, .options = options, .contours = contours};
+    *scene = (MesoScene){.section_scale = options.section_scale, .thickness = options.thickness};
+    MesoStatus status = expand(&builder, arena, &scratch, thread_count, error);
+    meso_arena_release(&scratch);
+    if (expansion)
+        *expansion = (MesoExpansion){options, builder.origins};
+    return status;
+}
+
+MesoStatus meso_model_expand(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
+                             const MesoModel *model, uint32_t thread_count, MesoError *error)
+{
+    MesoArena scratch;
+    MesoContourSet contours;
+    meso_arena_init(&scratch);
+    MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    MesoStatus status = meso_contour_set_build(&contours, &scratch, &model->tile_set, options.section_step, error);
+    if (!status)
+        status = meso_model_expand_over(scene, expansion, arena, model, &contours, thread_count, error);
+    meso_arena_release(&scratch);
+    return status;
+}

@@ -1,0 +1,44 @@
+#include "libcore/tiling/strand/model.h"
+
+static float positive_or(float value, float otherwise)
+{
+    return value > 0 ? value : otherwise;
+}
+
+static bool within(float value, float low, float high)
+{
+    return value >= low && value <= high;
+}
+
+const char *meso_map_options_problem(const MesoMapOptions *options)
+{
+    const float shortest = MESO_SHORTEST_EDGE, longest = 4 * MESO_COORDINATE_LIMIT;
+    if (!within(options->thickness, shortest, longest))
+        return "thickness";
+    if (!within(options->offset, -longest, longest))
+        return "offset";
+    if (!within(options->section_scale, shortest, longest))
+        return "section scale";
+    if (!within(options->tangent_scale, 1e-6f, 1e3f))
+        return "tangent scale";
+    if (!within(options->section_step, 1e-4f, 1))
+        return "section step";
+    if (options->divisions < 2 || options->divisions > 4096)
+        return "number of divisions";
+    return NULL;
+}
+
+MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length)
+{
+    /* All vertices in one point: any length will do, but not 0, which stands for the default. */
+    float edge = positive_or(mean_edge_length, 1);
+    options.thickness = positive_or(options.thickness, edge);
+    options.section_scale = positive_or(options.section_scale, edge);
+    options.tangent_scale = positive_or(options.tangent_scale, 1);
+    options.section_step = positive_or(options.section_step, 0.02f);
+    if (options.divisions == 0)
+        options.divisions = 12;
+    if (options.divisions < 2)
+        options.divisions = 2;
+    return options;
+}

@@ -1,0 +1,50 @@
+/*
+ * Model: tile set, macrosurface, assignment and mapping options, the compact
+ * procedural form of a mesostructure (MesoGen, section 3.2). It owns nothing;
+ * its parts live in the arenas of whoever made them.
+ */
+#ifndef MESO_MODEL_H
+#define MESO_MODEL_H
+
+#include "libcore/mesh/quad_mesh.h"
+#include "libcore/tiling/problem/assignment.h"
+#include "libcore/tiling/tile/tile_set.h"
+
+/* A triangle mesh that tiles carry along; arrays as in MesoQuadMesh. */
+typedef struct MesoTriangleMesh {
+    uint32_t vertex_count, triangle_count;
+    MesoVec3 *positions;    /* [vertex_count] */
+    MesoVec3 *normals;      /* [vertex_count] unit length */
+    uint32_t *triangles;    /* [3 * triangle_count] */
+} MesoTriangleMesh;
+
+/* Lengths in scene units. Zero (or negative) lengths stand for the default in brackets. */
+typedef struct MesoMapOptions {
+    float thickness;        /* height of the shell is half of it [mean edge length] */
+    float offset;           /* of the shell's bottom along the normals; 0 is the default */
+    float section_scale;    /* length of one edge length in the drawings [mean edge length] */
+    float tangent_scale;    /* factor on the handles of trajectories [1] */
+    float section_step;     /* sampling step of contours in edge lengths [0.02] */
+    uint32_t divisions;     /* vertices along a sweep [12], at least 2 */
+} MesoMapOptions;
+
+typedef struct MesoModel {
+    MesoTileSet tile_set;
+    MesoQuadMesh surface;
+    MesoAssignment assignment;
+    MesoMapOptions options;
+    MesoTriangleMesh *inner_meshes;     /* [tile_set.inner_count], empty where there is none */
+} MesoModel;
+
+/*
+ * Name of the first of the resolved options that no geometry can be made with,
+ * or NULL: lengths under MESO_SHORTEST_EDGE or over 4 MESO_COORDINATE_LIMIT,
+ * tangent scales outside [1e-6, 1e3], section steps outside [1e-4, 1],
+ * divisions outside [2, 4096], and what is not a number.
+ */
+const char *meso_map_options_problem(const MesoMapOptions *options);
+
+/* `options` with every default filled in from the mean edge length. */
+MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length);
+
+#endif

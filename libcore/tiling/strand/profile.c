@@ -1,0 +1,437 @@
+#include "libcore/tiling/strand/profile.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcore/base/disjoint_sets.h"
+#include "libcore/base/grow.h"
+
+/* A ring's corner is sharp where it turns by more than 50 degrees: discs of 8 points stay round. */
+static const float CREASE_COSINE = 0.6428f;
+
+enum { MIN_CAP_DIVISIONS = 4 };
+
+/* One resampled contour. */
+typedef struct Ring {
+    uint32_t count;
+    MesoVec2 *points;       /* [count] */
+    bool *creased;          /* [count] a sharp corner */
+} Ring;
+
+typedef struct Builder {
+    const MesoTileSet *set;
+    const MesoContourSet *contours;
+    MesoArena *arena, *scratch;
+    MesoProfileSet *out;
+    Ring *rings;            /* [contour_count] */
+    uint32_t divisions;
+    uint32_t column_capacity, kind_capacity;
+} Builder;
+
+/* ---- rings ---- */
+
+typedef struct Share {
+    double rest;
+    uint32_t segment;
+} Share;
+
+static int compare_shares(const void *a, const void *b)
+{
+    const Share *x = a, *y = b;
+    if (x->rest != y->rest)
+        return x->rest > y->rest ? -1 : 1;
+    return x->segment < y->segment ? -1 : x->segment > y->segment;
+}
+
+static double segment_length(const MesoVec2 *p, uint32_t count, uint32_t i)
+{
+    return (double)meso_vec2_length(meso_vec2_sub(p[(i + 1) % count], p[i]));
+}
+
+MesoStatus meso_contour_resample(const MesoVec2 *contour, uint32_t contour_count, MesoVec2 *out,
+                                 uint32_t count, MesoArena *scratch, MesoError *error)
+{
+    assert(count >= contour_count && contour_count > 0);
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    Share *shares = MESO_NEW(scratch, Share, contour_count, error);
+    uint32_t *extra = MESO_NEW(scratch, uint32_t, contour_count, error);
+    if (!shares || !extra)
+        return MESO_ERR_MEMORY;
+
+    /* Largest remainders: whole shares first, then one each where most is left. */
+    double total = 0;
+    for (uint32_t i = 0; i < contour_count; i++)
+        total += segment_length(contour, contour_count, i);
+    uint32_t left = count - contour_count;
+    for (uint32_t i = 0; i < contour_count; i++) {
+        double share = total > 0 ? (count - contour_count) * segment_length(contour, contour_count, i) / total : 0;
+        extra[i] = (uint32_t)share < left ? (uint32_t)share : left;
+        shares[i] = (Share){share - extra[i], i};
+        left -= extra[i];
+    }
+    qsort(shares, contour_count, sizeof *shares, compare_shares);
+    for (uint32_t i = 0; left > 0; i = (i + 1) % contour_count, left--)
+        extra[shares[i].segment]++;
+
+    for (uint32_t i = 0; i < contour_count; i++)
+        for (uint32_t k = 0; k <= extra[i]; k++)
+            *out++ = meso_vec2_lerp(contour[i], contour[(i + 1) % contour_count],
+                                    (float)k / (float)(extra[i] + 1));
+    meso_arena_rewind(scratch, mark);
+    return MESO_OK;
+}
+
+static MesoVec2 segment_direction(MesoVec2 a, MesoVec2 b)
+{
+    MesoVec2 d = meso_vec2_sub(b, a);
+    float length = meso_vec2_length(d);
+    return length > 0 ? (MesoVec2){d.x / length, d.y / length} : (MesoVec2){1, 0};
+}
+
+static void find_creases(Ring *ring)
+{
+    for (uint32_t i = 0; i < ring->count; i++) {
+        MesoVec2 here = ring->points[i];
+        MesoVec2 a = segment_direction(ring->points[(i + ring->count - 1) % ring->count], here);
+        MesoVec2 b = segment_direction(here, ring->points[(i + 1) % ring->count]);
+        ring->creased[i] = a.x * b.x + a.y * b.y < CREASE_COSINE;
+    }
+}
+
+static MesoStatus make_ring(Builder *b, uint32_t contour, uint32_t count, MesoError *error)
+{
+    const MesoContour *c = &b->contours->contours[contour];
+    Ring *ring = &b->rings[contour];
+    *ring = (Ring){count, MESO_NEW(b->scratch, MesoVec2, count, error),
+                   MESO_NEW(b->scratch, bool, count, error)};
+    if (!ring->points || !ring->creased)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_contour_resample(b->contours->points + c->point_begin, c->point_count,
+                                              ring->points, count, b->scratch, error);
+    if (!status)
+        find_creases(ring);
+    return status;
+}
+
+/* ---- pairing of contours ---- */
+
+static uint32_t contour_begin(const Builder *b, uint32_t section)
+{
+    return b->contours->section_begin[section];
+}
+
+static uint32_t contour_end(const Builder *b, uint32_t section)
+{
+    return b->contours->section_begin[section + 1];
+}
+
+/* The n-th contour of `section` that is (not) a hole, or MESO_NO_INDEX. */
+static uint32_t nth_contour(const Builder *b, uint32_t section, bool hole, uint32_t n)
+{
+    for (uint32_t c = contour_begin(b, section); c < contour_end(b, section); c++)
+        if (b->contours->contours[c].hole == hole && n-- == 0)
+            return c;
+    return MESO_NO_INDEX;
+}
+
+/* Pair number `n` of the contours of two sections: outlines, then holes. False when there is none. */
+static bool nth_pair(const Builder *b, uint32_t from, uint32_t to, uint32_t n, uint32_t pair[2])
+{
+    uint32_t outlines[2] = {0, 0}, sections[2] = {from, to};
+    for (int k = 0; k < 2; k++)
+        for (uint32_t c = contour_begin(b, sections[k]); c < contour_end(b, sections[k]); c++)
+            outlines[k] += !b->contours->contours[c].hole;
+    uint32_t outline_pairs = outlines[0] > outlines[1] ? outlines[0] : outlines[1];
+    bool hole = n >= outline_pairs;
+    for (int k = 0; k < 2; k++)
+        pair[k] = nth_contour(b, sections[k], hole, hole ? n - outline_pairs : n);
+    return pair[0] != MESO_NO_INDEX || pair[1] != MESO_NO_INDEX;
+}
+
+/* Joins the contours that sweeps pair, and gives every class the count of its largest. */
+static MesoStatus make_rings(Builder *b, MesoError *error)
+{
+    uint32_t count = b->contours->contour_count;
+    uint32_t *parent = MESO_NEW(b->scratch, uint32_t, count, error);
+    uint32_t *most = MESO_NEW(b->scratch, uint32_t, count, error);
+    b->rings = MESO_NEW(b->scratch, Ring, count, error);
+    if (!parent || !most || !b->rings)
+        return MESO_ERR_MEMORY;
+    meso_sets_init(parent, count);
+    for (uint32_t s = 0; s < b->set->sweep_count; s++) {
+        uint32_t pair[2];
+        const MesoSweep *sweep = &b->set->sweeps[s];
+        for (uint32_t n = 0; nth_pair(b, sweep->from_section, sweep->to_section, n, pair); n++)
+            if (pair[0] != MESO_NO_INDEX && pair[1] != MESO_NO_INDEX)
+                meso_sets_join(parent, pair[0], pair[1]);
+    }
+    for (uint32_t c = 0; c < count; c++) {
+        uint32_t root = meso_sets_root(parent, c), own = b->contours->contours[c].point_count;
+        most[root] = most[root] > own ? most[root] : own;
+    }
+    for (uint32_t c = 0; c < count; c++) {
+        MesoStatus status = make_ring(b, c, most[meso_sets_root(parent, c)], error);
+        if (status)
+            return status;
+    }
+    return MESO_OK;
+}
+
+/* ---- columns ---- */
+
+/* A ring as one end of a sweep walks it: which point at step k, in the sweep's own plane. */
+typedef struct Walk {
+    const Ring *ring;       /* NULL: all in one point */
+    MesoVec2 point;         /* that one */
+    float x_sign;
+    bool backwards;
+    uint32_t shift;
+} Walk;
+
+/* The plane has x along cross(up, tangent): against the drawing's x at the start, with it at the end. */
+static Walk walk_start(const Ring *ring, bool flipped)
+{
+    return (Walk){ring, {0, 0}, flipped ? 1.0f : -1.0f, flipped, 0};
+}
+
+static Walk walk_end(const Ring *ring, const MesoSweep *sweep, bool start_flipped, bool end_flipped,
+                     uint32_t count)
+{
+    double phase = (start_flipped != end_flipped ? 0.5 : 0) + (sweep->half_turn ? 0 : 0.5) + (double)sweep->turn;
+    phase -= floor(phase);
+    return (Walk){ring, {0, 0}, end_flipped ? -1.0f : 1.0f, !end_flipped,
+                  (uint32_t)lround(phase * count) % count};
+}
+
+static uint32_t walk_index(const Walk *walk, uint32_t k)
+{
+    uint32_t n = walk->ring->count;
+    uint32_t i = walk->backwards ? n - 1 - k % n : k % n;
+    return (i + walk->shift) % n;
+}
+
+static MesoVec2 walk_point(const Walk *walk, uint32_t k)
+{
+    if (!walk->ring)
+        return walk->point;
+    MesoVec2 p = walk->ring->points[walk_index(walk, k)];
+    return (MesoVec2){walk->x_sign * p.x, p.y};
+}
+
+static bool walk_creased(const Walk *walk, uint32_t k)
+{
+    return walk->ring && walk->ring->creased[walk_index(walk, k)];
+}
+
+/*
+ * Outward normal of the chord from step `from` to step `to`, as long as the
+ * chord: the one of an interpolated profile is then the interpolated one.
+ */
+static MesoVec2 walk_normal(const Walk *walk, uint32_t from, uint32_t to)
+{
+    MesoVec2 chord = meso_vec2_sub(walk_point(walk, to), walk_point(walk, from));
+    return (MesoVec2){-chord.y, chord.x};   /* walks run clockwise */
+}
+
+static MesoVec2 walk_middle(const Walk *walk)
+{
+    double x = 0, y = 0;
+    for (uint32_t k = 0; k < walk->ring->count; k++) {
+        x += (double)walk_point(walk, k).x;
+        y += (double)walk_point(walk, k).y;
+    }
+    return (MesoVec2){(float)(x / walk->ring->count), (float)(y / walk->ring->count)};
+}
+
+/* Which neighbours a column takes its normal from. */
+typedef enum Facing { BOTH, PREVIOUS, NEXT } Facing;
+
+static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t k, uint32_t count,
+                                   Facing facing, bool joins)
+{
+    const Walk *start_normals = start->ring ? start : end, *end_normals = end->ring ? end : start;
+    uint32_t from = facing == NEXT ? k : k + count - 1, to = facing == PREVIOUS ? k : k + 1;
+    return (MesoSweepColumn){walk_point(start, k), walk_point(end, k),
+                             walk_normal(start_normals, from, to), walk_normal(end_normals, from, to),
+                             (float)k / (float)count, joins};
+}
+
+static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoError *error)
+{
+    MesoProfileSet *out = b->out;
+    out->columns = MESO_GROW(b->scratch, out->columns, out->column_count, b->column_capacity, 64, error);
+    if (!out->columns)
+        return MESO_ERR_MEMORY;
+    out->columns[out->column_count++] = column;
+    return MESO_OK;
+}
+
+static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count, MesoError *error)
+{
+    for (uint32_t k = 0; k <= count; k++) {
+        bool creased = walk_creased(&start, k) || walk_creased(&end, k);
+        MesoStatus status = MESO_OK;
+        if (creased && k > 0)
+            status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, false), error);
+        if (!status && (k < count || !creased))
+            status = push_column(b, make_column(&start, &end, k, count, creased ? NEXT : BOTH, k < count), error);
+        if (status)
+            return status;
+    }
+    return MESO_OK;
+}
+
+/* A kind with the columns of two walks; the materials are those of the sections. */
+static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t divisions, Walk start, Walk end,
+                            MesoError *error)
+{
+    MesoProfileSet *out = b->out;
+    uint32_t count = start.ring ? start.ring->count : end.ring->count;
+    if (!start.ring)
+        start.point = walk_middle(&end);
+    if (!end.ring)
+        end.point = walk_middle(&start);
+
+    MesoSweptKind kind = {.column_begin = out->column_count, .joint_count = count, .division_count = divisions,
+                          .start_material = origin.start_section, .end_material = origin.end_section,
+                          .cap = origin.sweep == MESO_NO_INDEX};
+    MesoStatus status = push_columns(b, start, end, count, error);
+    if (status)
+        return status;
+    kind.column_count = out->column_count - kind.column_begin;
+    uint32_t capacity = b->kind_capacity;
+    out->kinds = MESO_GROW(b->scratch, out->kinds, out->kind_count, b->kind_capacity, 64, error);
+    out->origins = MESO_GROW(b->scratch, out->origins, out->kind_count, capacity, 64, error);
+    if (!out->kinds || !out->origins)
+        return MESO_ERR_MEMORY;
+    out->origins[out->kind_count] = origin;
+    out->kinds[out->kind_count++] = kind;
+    return MESO_OK;
+}
+
+/* ---- kinds ---- */
+
+static const Ring *ring_or_none(const Builder *b, uint32_t contour)
+{
+    return contour == MESO_NO_INDEX ? NULL : &b->rings[contour];
+}
+
+static MesoStatus push_sweep(Builder *b, uint32_t tile, uint32_t sweep_index, bool mirrored, MesoError *error)
+{
+    const MesoTile *t = &b->set->tiles[tile];
+    const MesoSweep *s = &b->set->sweeps[sweep_index];
+    bool start_flipped = (t->labels[s->from_side] < 0) != mirrored;
+    bool end_flipped = (t->labels[s->to_side] < 0) != mirrored;
+    uint32_t pair[2];
+
+    for (uint32_t n = 0; nth_pair(b, s->from_section, s->to_section, n, pair); n++) {
+        const Ring *from = ring_or_none(b, pair[0]), *to = ring_or_none(b, pair[1]);
+        uint32_t count = from ? from->count : to->count;
+        MesoKindOrigin origin = {tile, sweep_index, s->from_side, s->to_side, s->from_section, s->to_section, mirrored};
+        MesoStatus status = push_kind(b, origin, b->divisions, walk_start(from, start_flipped),
+                                      walk_end(to, s, start_flipped, end_flipped, count), error);
+        if (status)
+            return status;
+    }
+    return MESO_OK;
+}
+
+static bool section_is_swept(const MesoTileSet *set, const MesoTile *tile, uint32_t side, uint32_t section)
+{
+    for (uint32_t i = 0; i < tile->sweep_count; i++) {
+        const MesoSweep *s = &set->sweeps[tile->sweep_begin + i];
+        if ((s->from_side == side && s->from_section == section) ||
+            (s->to_side == side && s->to_section == section))
+            return true;
+    }
+    return false;
+}
+
+static MesoStatus push_caps(Builder *b, uint32_t tile, uint32_t side, bool mirrored, MesoError *error)
+{
+    const MesoTile *t = &b->set->tiles[tile];
+    const MesoInterface *shown = &b->set->interfaces[meso_label_interface(t->labels[side])];
+    uint32_t divisions = b->divisions / 4 < MIN_CAP_DIVISIONS ? MIN_CAP_DIVISIONS : b->divisions / 4;
+    bool flipped = (t->labels[side] < 0) != mirrored;
+
+    for (uint32_t i = 0; i < shown->section_count; i++) {
+        uint32_t section = shown->section_begin + i;
+        if (section_is_swept(b->set, t, side, section))
+            continue;
+        for (uint32_t c = contour_begin(b, section); c < contour_end(b, section); c++) {
+            MesoKindOrigin origin = {tile, MESO_NO_INDEX, side, side, section, section, mirrored};
+            Walk walk = walk_start(&b->rings[c], flipped);
+            MesoStatus status = push_kind(b, origin, divisions, walk, walk, error);
+            if (status)
+                return status;
+        }
+    }
+    return MESO_OK;
+}
+
+static MesoStatus push_tile(Builder *b, uint32_t tile, bool mirrored, MesoError *error)
+{
+    const MesoTile *t = &b->set->tiles[tile];
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < t->sweep_count && !status; i++)
+        status = push_sweep(b, tile, t->sweep_begin + i, mirrored, error);
+    for (uint32_t side = 0; side < t->side_count && !status; side++)
+        if (t->labels[side])
+            status = push_caps(b, tile, side, mirrored, error);
+    return status;
+}
+
+static MesoStatus push_all(Builder *b, MesoError *error)
+{
+    MesoProfileSet *out = b->out;
+    out->tile_kinds = MESO_NEW(b->arena, uint32_t, 2 * (size_t)b->set->tile_count + 1, error);
+    if (!out->tile_kinds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < b->set->tile_count; t++)
+        for (uint32_t mirrored = 0; mirrored < 2; mirrored++) {
+            out->tile_kinds[2 * t + mirrored] = out->kind_count;
+            MesoStatus status = push_tile(b, t, mirrored, error);
+            if (status)
+                return status;
+        }
+    out->tile_kinds[2 * b->set->tile_count] = out->kind_count;
+    return MESO_OK;
+}
+
+/* The growing arrays lie in scratch; the result gets copies of their final size. */
+static MesoStatus keep(MesoProfileSet *out, MesoArena *arena, MesoError *error)
+{
+    MesoSweptKind *kinds = MESO_NEW(arena, MesoSweptKind, out->kind_count, error);
+    MesoKindOrigin *origins = MESO_NEW(arena, MesoKindOrigin, out->kind_count, error);
+    MesoSweepColumn *columns = MESO_NEW(arena, MesoSweepColumn, out->column_count, error);
+    if (!kinds || !origins || !columns)
+        return MESO_ERR_MEMORY;
+    if (out->kind_count) {
+        memcpy(kinds, out->kinds, out->kind_count * sizeof *kinds);
+        memcpy(origins, out->origins, out->kind_count * sizeof *origins);
+    }
+    if (out->column_count)
+        memcpy(columns, out->columns, out->column_count * sizeof *columns);
+    out->kinds = kinds;
+    out->origins = origins;
+    out->columns = columns;
+    return MESO_OK;
+}
+
+MesoStatus meso_profile_set_build(MesoProfileSet *profiles, MesoArena *arena, const MesoTileSet *set,
+                                  const MesoContourSet *contours, uint32_t divisions, MesoError *error)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    *profiles = (MesoProfileSet){0};
+    Builder builder = {.set = set, .contours = contours, .arena = arena, .scratch = &scratch,
+                       .out = profiles, .divisions = divisions};
+    MesoStatus status = make_rings(&builder, error);
+    if (!status)
+        status = push_all(&builder, error);
+    if (!status)
+        status = keep(profiles, arena, error);
+    meso_arena_release(&scratch);
+    return status;
+}
