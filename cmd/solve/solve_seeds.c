@@ -14,7 +14,7 @@
 #include "formats/file/line_file.h"
 #include "formats/file/output.h"
 #include "formats/tiling/result/seed_lines.h"
-#include "libcore/tiling/solve/seed_sweep.h"
+#include "libcore/tiling/solve/many_seeds.h"
 
 /* ---- options ---- */
 
@@ -326,12 +326,12 @@ static uint32_t count_alike(const Seeds *seeds, uint32_t begin)
 static MesoStatus sweep_alike(Seeds *seeds, uint32_t count, MesoError *error)
 {
     const uint64_t *todo = seeds->todo + seeds->todo_begin;
-    const MesoSeedSweep alike = {
+    const MesoManySeeds alike = {
         .problem = seeds->problem->tiling,
         .options = options_of(seeds, meso_seed_list_find(&seeds->list, *todo)), .thread_count = seeds->tool->threads,
         .seeds = todo, .seed_count = count, .take = take_result, .context = seeds,
     };
-    return meso_seed_sweep(&alike, error);
+    return meso_many_seeds(&alike, error);
 }
 
 static MesoStatus sweep(Seeds *seeds, MesoError *error)

@@ -8,7 +8,7 @@ enum { MOST_SIDE_BITS = 6 };
 /* Together some 300 MB with the joints, most of it while rings are built. */
 enum { MOST_SETTINGS = 1 << 17, MOST_CASES = 1 << 22 };
 
-/* What one side shows under a setting: ranks of labels as in MesoCarryLink, and the wires that tell of them. */
+/* What one side shows under a setting: ranks of labels as in MesoChainLink, and the wires that tell of them. */
 typedef struct Side {
     uint64_t shown;
     uint32_t bit_count;
@@ -29,11 +29,11 @@ typedef struct Pattern {
 typedef struct Builder {
     MesoChainRings *rings;
     const MesoPropagation *propagation;
-    MesoPatternTable *table;
-    const MesoCarry *carry;
+    MesoLabelPatternTable *table;
+    const MesoEdgeChains *chains;
     MesoArena scratch;
     uint32_t *link_begin;       /* [4 * slot_count + 1] into links, by edge */
-    const MesoCarryLink **links;
+    const MesoChainLink **links;
     Pattern *patterns, *left;   /* [variants] of the slot at hand, and under a setting */
     uint32_t pattern_count;
     Setting **settings;         /* [slot_count] */
@@ -49,19 +49,19 @@ static uint32_t edge_of(const Builder *builder, uint32_t half_edge)
 
 static MesoStatus sort_links(Builder *builder, MesoError *error)
 {
-    const MesoCarry *carry = builder->carry;
+    const MesoEdgeChains *chains = builder->chains;
     uint32_t edges = 4 * builder->propagation->graph->slot_count;
     builder->link_begin = MESO_NEW(&builder->scratch, uint32_t, (size_t)edges + 2, error);
-    builder->links = MESO_NEW(&builder->scratch, const MesoCarryLink *, carry->link_count, error);
+    builder->links = MESO_NEW(&builder->scratch, const MesoChainLink *, chains->link_count, error);
     if (!builder->link_begin || !builder->links)
         return MESO_ERR_MEMORY;
     uint32_t *next = builder->link_begin + 1;
-    for (uint32_t i = 0; i < carry->link_count; i++)
-        next[carry->links[i].edge + 1]++;
+    for (uint32_t i = 0; i < chains->link_count; i++)
+        next[chains->links[i].edge + 1]++;
     for (uint32_t e = 0; e < edges; e++)
         next[e + 1] += next[e];
-    for (uint32_t i = 0; i < carry->link_count; i++)
-        builder->links[next[carry->links[i].edge]++] = &carry->links[i];
+    for (uint32_t i = 0; i < chains->link_count; i++)
+        builder->links[next[chains->links[i].edge]++] = &chains->links[i];
     return MESO_OK;
 }
 
@@ -104,7 +104,7 @@ static uint64_t rank_bit(const Builder *builder, uint32_t half_edge, uint32_t co
 
 static MesoStatus read_patterns(Builder *builder, uint32_t slot, MesoError *error)
 {
-    const MesoPatternList *list = meso_pattern_list(builder->table, slot, error);
+    const MesoLabelPatternList *list = meso_label_pattern_list(builder->table, slot, error);
     if (!list)
         return MESO_ERR_MEMORY;
     builder->pattern_count = list->count;
@@ -123,7 +123,7 @@ static uint64_t ranks_left(const Builder *builder, uint32_t slot, uint32_t side,
     if (edge == MESO_NO_INDEX)
         return ranks;
     for (uint32_t i = builder->link_begin[edge]; i < builder->link_begin[edge + 1]; i++) {
-        const MesoCarryLink *link = builder->links[i];
+        const MesoChainLink *link = builder->links[i];
         meet_chain(ring_slot, link->chain, &number);
         ranks &= (bool)(setting >> number & 1) != link->negated ? link->ranks : ~link->ranks;
     }
@@ -214,7 +214,7 @@ static bool join_sides(Setting *setting, const Pattern *patterns, uint32_t count
 {
     uint64_t pieces[64][2];
     uint32_t piece_count = find_pieces(patterns, count, from, to, pieces);
-    bool all_sums = piece_count <= MESO_CARRY_SUMMED, fits = true;
+    bool all_sums = piece_count <= MESO_EDGE_CHAINS_SUMMED, fits = true;
     if (piece_count == 1)
         return true;
     uint64_t end = all_sums ? (uint64_t)1 << (piece_count - 1) : piece_count;
@@ -380,12 +380,12 @@ static MesoStatus build(Builder *builder, MesoArena *arena, MesoError *error)
     return MESO_OK;
 }
 
-MesoStatus meso_chain_rings_build(MesoChainRings *rings, MesoArena *arena, MesoPatternTable *table,
-                                  const MesoCarry *carry, MesoError *error)
+MesoStatus meso_chain_rings_build(MesoChainRings *rings, MesoArena *arena, MesoLabelPatternTable *table,
+                                  const MesoEdgeChains *chains, MesoError *error)
 {
-    *rings = (MesoChainRings){.possible = carry->chain_count > 0, .chain_count = carry->chain_count,
+    *rings = (MesoChainRings){.possible = chains->chain_count > 0, .chain_count = chains->chain_count,
                               .slot_count = table->propagation->graph->slot_count};
-    Builder builder = {.rings = rings, .propagation = table->propagation, .table = table, .carry = carry};
+    Builder builder = {.rings = rings, .propagation = table->propagation, .table = table, .chains = chains};
     if (!rings->possible)
         return MESO_OK;
     meso_arena_init(&builder.scratch);

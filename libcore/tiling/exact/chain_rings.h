@@ -1,5 +1,5 @@
 /*
- * Rings under chains. Once the bits of all chains (carry.h) are set, the patterns that
+ * Rings under chains. Once the bits of all chains (edge_chains.h) are set, the patterns that
  * a slot has left may carry more than these: where one side's label tells another's, a
  * wire runs from side to side, through slot after slot, until it comes back. What comes
  * back as its opposite is a contradiction: these bits have no tiling. Where slots have
@@ -9,7 +9,7 @@
 #ifndef MESO_CHAIN_RINGS_H
 #define MESO_CHAIN_RINGS_H
 
-#include "libcore/tiling/exact/carry.h"
+#include "libcore/tiling/exact/edge_chains.h"
 
 /* At a slot; where more meet, rings are not looked for. */
 enum { MESO_CHAIN_RINGS_SLOT_CHAINS = 6 };
@@ -53,8 +53,8 @@ typedef struct MesoRingCount {
  * Arrays live in `arena`. MESO_ERR_MEMORY alone. O(slots * patterns), and O(slots)
  * memory, up to some 300 MB, where two chains meet at most slots.
  */
-MesoStatus meso_chain_rings_build(MesoChainRings *rings, MesoArena *arena, MesoPatternTable *table,
-                                  const MesoCarry *carry, MesoError *error);
+MesoStatus meso_chain_rings_build(MesoChainRings *rings, MesoArena *arena, MesoLabelPatternTable *table,
+                                  const MesoEdgeChains *chains, MesoError *error);
 
 /*
  * Counts rings under values[chain_count]. Where a tiling shows these bits there is no

@@ -79,7 +79,7 @@ static MesoStatus ask(MesoExact *exact, Walk *walk, int32_t *assumptions, MesoSa
 
 static MesoStatus search(MesoExact *exact, Walk *walk, MesoSatAnswer *answer, MesoError *error)
 {
-    MesoStatus status = meso_chain_rings_build(&walk->rings, exact->arena, &exact->patterns, &exact->carry, error);
+    MesoStatus status = meso_chain_rings_build(&walk->rings, exact->arena, &exact->patterns, &exact->chains, error);
     if (status || !walk->rings.possible)
         return status;
     walk->values = MESO_NEW(exact->arena, bool, exact->chain_count, error);

@@ -1,5 +1,5 @@
 /*
- * Chain search: looks for bits of all chains (carry.h) under which no ring contradicts
+ * Chain search: looks for bits of all chains (edge_chains.h) under which no ring contradicts
  * itself (chain_rings.h), by turning one chain after the other, and lets the exact
  * engine finish under them, which is easy then. "Simulated annealing" (Kirkpatrick,
  * Gelatt and Vecchi, 1983) at one temperature: turning a chain moves many rings at

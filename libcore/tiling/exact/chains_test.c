@@ -31,30 +31,30 @@ static void test_strips(void)
     static const int32_t cross[1][4] = {{1, 2, -1, -2}};
     MesoArena arena;
     Case c;
-    MesoPatternTable table;
-    MesoCarry carry;
+    MesoLabelPatternTable table;
+    MesoEdgeChains chains;
     meso_arena_init(&arena);
     begin(&c, &arena, fixture_set(&arena, 2, 1, cross, true, true, true),
           fixture_grid(&arena, 5, 3, true, true, false));
-    CHECK(meso_pattern_table_init(&table, &arena, &c.propagation, NULL, NULL) == MESO_OK);
-    CHECK(meso_carry_find(&carry, &arena, &table, NULL) == MESO_OK);
+    CHECK(meso_label_pattern_table_init(&table, &arena, &c.propagation, NULL, NULL) == MESO_OK);
+    CHECK(meso_edge_chains_find(&chains, &arena, &table, NULL) == MESO_OK);
     uint32_t lengths[64] = {0};
-    CHECK(carry.chain_count > 0 && carry.chain_count <= 64);
-    for (uint32_t i = 0; i < carry.link_count; i++)
-        lengths[carry.links[i].chain]++;
+    CHECK(chains.chain_count > 0 && chains.chain_count <= 64);
+    for (uint32_t i = 0; i < chains.link_count; i++)
+        lengths[chains.links[i].chain]++;
     /* Two bits of each of the three and five strips, {a, b} and {a, b'}; of all edges together, {a, a'}, by turns. */
     uint32_t by_length[31] = {0};
-    for (uint32_t i = 0; i < carry.chain_count; i++) {
+    for (uint32_t i = 0; i < chains.chain_count; i++) {
         CHECK(lengths[i] <= 30);
         by_length[lengths[i]]++;
     }
-    CHECK(by_length[5] == 2 * 3 && by_length[3] == 2 * 5 && by_length[30] == 1 && carry.chain_count == 17);
+    CHECK(by_length[5] == 2 * 3 && by_length[3] == 2 * 5 && by_length[30] == 1 && chains.chain_count == 17);
     meso_propagation_release(&c.propagation);
     meso_arena_release(&arena);
 }
 
 /* The bit of a link's chain under the assignment `variant`. */
-static bool link_bit(const Case *c, const MesoCarryLink *link, const uint32_t *variant)
+static bool link_bit(const Case *c, const MesoChainLink *link, const uint32_t *variant)
 {
     uint32_t twin = c->graph.twin[link->edge];
     const uint64_t *labels = meso_propagation_labels(&c->propagation, link->edge);
@@ -71,20 +71,20 @@ static uint32_t chains_met, rings_met;
  */
 enum { TABLE_CHAINS = 12 };
 
-static void check_chains(MesoArena *arena, const Case *c, const MesoCarry *carry, MesoChainRings *rings,
+static void check_chains(MesoArena *arena, const Case *c, const MesoEdgeChains *chains, MesoChainRings *rings,
                          const BruteForce *force, bool *shown)
 {
-    uint8_t *seen = MESO_NEW(arena, uint8_t, carry->chain_count, NULL);
-    bool *values = MESO_NEW(arena, bool, carry->chain_count, NULL);
+    uint8_t *seen = MESO_NEW(arena, uint8_t, chains->chain_count, NULL);
+    bool *values = MESO_NEW(arena, bool, chains->chain_count, NULL);
     for (uint64_t i = 0; i < force->count; i++) {
         uint32_t variant[BRUTE_FORCE_SLOTS], index = 0;
         uint64_t number = force->numbers[i];
         for (uint32_t s = 0; s < c->graph.slot_count; s++, number /= c->variants.count)
             variant[s] = (uint32_t)(number % c->variants.count);
-        memset(seen, 0, carry->chain_count);
-        for (uint32_t l = 0; l < carry->link_count; l++)
-            seen[carry->links[l].chain] |= (uint8_t)(1 << link_bit(c, &carry->links[l], variant));
-        for (uint32_t k = 0; k < carry->chain_count; k++) {
+        memset(seen, 0, chains->chain_count);
+        for (uint32_t l = 0; l < chains->link_count; l++)
+            seen[chains->links[l].chain] |= (uint8_t)(1 << link_bit(c, &chains->links[l], variant));
+        for (uint32_t k = 0; k < chains->chain_count; k++) {
             CHECK(seen[k] == 1 || seen[k] == 2);
             values[k] = seen[k] == 2;
             index |= k < TABLE_CHAINS ? (uint32_t)values[k] << k : 0;
@@ -94,10 +94,10 @@ static void check_chains(MesoArena *arena, const Case *c, const MesoCarry *carry
             CHECK(count.contradictions == 0);
             rings_met += count.rings;
         }
-        if (carry->chain_count <= TABLE_CHAINS)
+        if (chains->chain_count <= TABLE_CHAINS)
             shown[index] = true;
     }
-    chains_met += carry->chain_count;
+    chains_met += chains->chain_count;
 }
 
 static uint32_t tables_met, wrong_bits_met, wrong_bits_missed;
@@ -170,17 +170,17 @@ static void check_cubes(MesoArena *arena, const Case *c, const BruteForce *force
 static void check_case(MesoArena *arena, MesoTileSet set, MesoSlotGraph graph, uint64_t seed, bool only_rings)
 {
     Case c;
-    MesoPatternTable table;
-    MesoCarry carry;
+    MesoLabelPatternTable table;
+    MesoEdgeChains chains;
     MesoChainRings rings;
     begin(&c, arena, set, graph);
     if (c.propagation.initial_dead_count == 0) {
         bool shown[1 << TABLE_CHAINS] = {false};
         BruteForce force = brute_force(arena, &c.set, &c.graph, only_rings ? 100000 : 500, true);
-        CHECK(meso_pattern_table_init(&table, arena, &c.propagation, NULL, NULL) == MESO_OK);
-        CHECK(meso_carry_find(&carry, arena, &table, NULL) == MESO_OK);
-        CHECK(meso_chain_rings_build(&rings, arena, &table, &carry, NULL) == MESO_OK);
-        check_chains(arena, &c, &carry, &rings, &force, shown);
+        CHECK(meso_label_pattern_table_init(&table, arena, &c.propagation, NULL, NULL) == MESO_OK);
+        CHECK(meso_edge_chains_find(&chains, arena, &table, NULL) == MESO_OK);
+        CHECK(meso_chain_rings_build(&rings, arena, &table, &chains, NULL) == MESO_OK);
+        check_chains(arena, &c, &chains, &rings, &force, shown);
         if (only_rings && force.count < force.most)
             check_all_bits(arena, &rings, shown);
         check_cubes(arena, &c, &force, seed);

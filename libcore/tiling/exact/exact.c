@@ -78,7 +78,7 @@ static MesoStatus number_variables(MesoExact *exact, MesoError *error)
     const MesoPropagation *propagation = exact->propagation;
     uint64_t next = 1;
     for (uint32_t s = 0; s < propagation->graph->slot_count; s++) {
-        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
+        const MesoLabelPatternList *list = meso_label_pattern_list(&exact->patterns, s, error);
         if (!list)
             return MESO_ERR_MEMORY;
         assert(list->count > 0);
@@ -100,7 +100,7 @@ static MesoStatus number_variables(MesoExact *exact, MesoError *error)
 
 /* A label on a side implies that one of the patterns with it is there. */
 static MesoStatus add_supports(MesoExact *exact, uint32_t slot, uint32_t side,
-                               const MesoPatternList *list, int32_t *literals, bool *told,
+                               const MesoLabelPatternList *list, int32_t *literals, bool *told,
                                MesoError *error)
 {
     memset(told, 0, list->count * sizeof *told);
@@ -124,7 +124,7 @@ static MesoStatus add_supports(MesoExact *exact, uint32_t slot, uint32_t side,
 static MesoStatus add_slot(MesoExact *exact, uint32_t slot, int32_t *literals, bool *told,
                            MesoError *error)
 {
-    const MesoPatternList *list = meso_pattern_list(&exact->patterns, slot, error);
+    const MesoLabelPatternList *list = meso_label_pattern_list(&exact->patterns, slot, error);
     if (!list)
         return MESO_ERR_MEMORY;
     if (list->count == 1)
@@ -133,7 +133,7 @@ static MesoStatus add_slot(MesoExact *exact, uint32_t slot, int32_t *literals, b
     /* That no two patterns hold follows from their labels, unless a group tells them apart. */
     MesoStatus status = add_one_of(exact, first, list->count, exact->patterns.group != NULL, literals, error);
     for (uint32_t k = 0; k < 4 && !status; k++) {
-        if (list->codes[k] == MESO_PATTERN_BORDER)
+        if (list->codes[k] == MESO_LABEL_PATTERN_BORDER)
             continue;
         for (uint32_t p = 0; p < list->count && !status; p++) {
             int32_t implies[2] = {-choice_literal(first, list->count, p),
@@ -171,7 +171,7 @@ static MesoStatus add_clauses(MesoExact *exact, MesoError *error)
 }
 
 /* The chain's bit is equivalent to a set of labels on each of its edges. */
-static MesoStatus add_link(MesoExact *exact, const MesoCarryLink *link, MesoError *error)
+static MesoStatus add_link(MesoExact *exact, const MesoChainLink *link, MesoError *error)
 {
     uint32_t count = meso_propagation_label_count(exact->propagation, link->edge);
     int32_t bit = (int32_t)(exact->chain_first + link->chain);
@@ -186,21 +186,21 @@ static MesoStatus add_link(MesoExact *exact, const MesoCarryLink *link, MesoErro
 
 static MesoStatus add_chains(MesoExact *exact, MesoError *error)
 {
-    MesoCarry *carry = &exact->carry;
-    MesoStatus status = meso_carry_find(carry, exact->arena, &exact->patterns, error);
+    MesoEdgeChains *chains = &exact->chains;
+    MesoStatus status = meso_edge_chains_find(chains, exact->arena, &exact->patterns, error);
     if (status)
         return status;
     exact->chain_first = exact->variable_count + 1;
-    exact->chain_count = carry->chain_count;
-    exact->variable_count += carry->chain_count;
-    exact->chain_length = MESO_NEW(exact->arena, uint32_t, carry->chain_count, error);
+    exact->chain_count = chains->chain_count;
+    exact->variable_count += chains->chain_count;
+    exact->chain_length = MESO_NEW(exact->arena, uint32_t, chains->chain_count, error);
     if (!exact->chain_length)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < carry->link_count && !status; i++) {
-        exact->chain_length[carry->links[i].chain]++;
-        status = add_link(exact, &carry->links[i], error);
+    for (uint32_t i = 0; i < chains->link_count && !status; i++) {
+        exact->chain_length[chains->links[i].chain]++;
+        status = add_link(exact, &chains->links[i], error);
     }
-    for (uint32_t c = 0; c < carry->chain_count && !status; c++)
+    for (uint32_t c = 0; c < chains->chain_count && !status; c++)
         status = meso_sat_freeze(exact->sat, (int32_t)(exact->chain_first + c), error);
     return status;
 }
@@ -216,7 +216,7 @@ MesoStatus meso_exact_init(MesoExact *exact, MesoArena *arena, const MesoPropaga
     if (!status && options->proof && options->grows)
         status = meso_sat_expect_clauses(exact->sat, error);
     if (!status)
-        status = meso_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
+        status = meso_label_pattern_table_init(&exact->patterns, arena, propagation, options->group, error);
     if (status)
         return status;
     exact->edge_first = MESO_NEW(arena, uint32_t, 4 * (size_t)slot_count, error);
@@ -234,7 +234,7 @@ void meso_exact_release(MesoExact *exact)
     meso_sat_release(exact->sat);
 }
 
-static uint32_t pattern_of_variant(const MesoPatternList *list, uint32_t variant)
+static uint32_t pattern_of_variant(const MesoLabelPatternList *list, uint32_t variant)
 {
     for (uint32_t p = 0; p < list->count; p++)
         for (uint32_t i = list->begin[p]; i < list->begin[p + 1]; i++)
@@ -246,7 +246,7 @@ static uint32_t pattern_of_variant(const MesoPatternList *list, uint32_t variant
 int32_t meso_exact_literal(MesoExact *exact, uint32_t slot, uint32_t variant)
 {
     /* Every list was made when the variables were numbered. */
-    const MesoPatternList *list = meso_pattern_list(&exact->patterns, slot, NULL);
+    const MesoLabelPatternList *list = meso_label_pattern_list(&exact->patterns, slot, NULL);
     assert(list);
     uint32_t pattern = pattern_of_variant(list, variant);
     if (pattern == MESO_NO_INDEX)
@@ -310,7 +310,7 @@ static bool keep_fitting(const MesoExact *exact, uint32_t slot, const uint32_t *
 
 static void show_pattern(MesoExact *exact, uint32_t slot, uint32_t pattern, uint32_t *shown)
 {
-    const MesoPatternList *list = meso_pattern_list(&exact->patterns, slot, NULL);
+    const MesoLabelPatternList *list = meso_label_pattern_list(&exact->patterns, slot, NULL);
     memcpy(shown + 4 * (size_t)slot, list->codes + 4 * (size_t)pattern, 4 * sizeof *shown);
 }
 
@@ -320,7 +320,7 @@ static uint32_t hinted_pattern(MesoExact *exact, uint32_t slot, const uint32_t *
     const MesoDomainTable *domains = &exact->propagation->domains;
     if (!hint || domains->domains[hint[slot]].size != 1)
         return MESO_NO_INDEX;
-    return pattern_of_variant(meso_pattern_list(&exact->patterns, slot, NULL),
+    return pattern_of_variant(meso_label_pattern_list(&exact->patterns, slot, NULL),
                               draw(exact, slot, meso_domain_bits(domains, hint[slot]), random));
 }
 
@@ -347,7 +347,7 @@ static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32
         const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->initial[s]);
         pattern[s] = hinted_pattern(exact, s, hint, random);
         if (pattern[s] == MESO_NO_INDEX && !fits)
-            pattern[s] = pattern_of_variant(meso_pattern_list(&exact->patterns, s, NULL), draw(exact, s, bits, random));
+            pattern[s] = pattern_of_variant(meso_label_pattern_list(&exact->patterns, s, NULL), draw(exact, s, bits, random));
         if (pattern[s] == MESO_NO_INDEX)
             order[count++] = s;
         else
@@ -359,7 +359,7 @@ static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32
         order[other] = order[i];
         memcpy(fitting, bits, words * sizeof *bits);
         bool any = keep_fitting(exact, s, shown, fitting);
-        pattern[s] = pattern_of_variant(meso_pattern_list(&exact->patterns, s, NULL),
+        pattern[s] = pattern_of_variant(meso_label_pattern_list(&exact->patterns, s, NULL),
                                         draw(exact, s, any ? fitting : bits, random));
         show_pattern(exact, s, pattern[s], shown);
     }
@@ -375,7 +375,7 @@ MesoStatus meso_exact_choose_phases(MesoExact *exact, const uint32_t *hint, Meso
     MesoStatus status = pattern ? choose_patterns(exact, hint, pattern, random, error) : MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < slots && !status; s++) {
         /* Every list was made when the variables were numbered. */
-        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, NULL);
+        const MesoLabelPatternList *list = meso_label_pattern_list(&exact->patterns, s, NULL);
         status = prefer(exact, exact->slot_first[s], list->count, pattern[s], error);
         if (!status)
             status = prefer_labels(exact, s, list->codes + 4 * (size_t)pattern[s], error);
@@ -402,7 +402,7 @@ static uint32_t choose_listed(const MesoExact *exact, uint32_t slot, const uint3
 MesoStatus meso_exact_extract(MesoExact *exact, uint32_t *variant, MesoRandom *random, MesoError *error)
 {
     for (uint32_t s = 0; s < exact->propagation->graph->slot_count; s++) {
-        const MesoPatternList *list = meso_pattern_list(&exact->patterns, s, error);
+        const MesoLabelPatternList *list = meso_label_pattern_list(&exact->patterns, s, error);
         uint32_t p = 0;
         if (!list)
             return MESO_ERR_MEMORY;

@@ -1,17 +1,17 @@
 /*
  * Exact engine: the tiling problem as a propositional formula, for CaDiCaL.
  * Variables say which label an edge carries, shared by the two sides of the
- * edge, and which pattern (see pattern.h) a slot holds, as far as the initial
+ * edge, and which pattern (see label_pattern.h) a slot holds, as far as the initial
  * propagation leaves a choice. Clauses join the two both ways: a pattern
  * implies its labels, and a label that one of the patterns with it is there.
- * A variable for each chain of edges (carry.h) says what the edges share.
+ * A variable for each chain of edges (edge_chains.h) says what the edges share.
  */
 #ifndef MESO_EXACT_H
 #define MESO_EXACT_H
 
 #include "libcore/sat/cadical_adapter.h"
-#include "libcore/tiling/exact/carry.h"
-#include "libcore/tiling/propagate/pattern.h"
+#include "libcore/tiling/exact/edge_chains.h"
+#include "libcore/tiling/propagate/label_pattern.h"
 
 /* Variables with their clauses take some 600 B each: 10 GB. */
 enum { MESO_EXACT_MOST_VARIABLES = 1 << 24 };
@@ -21,7 +21,7 @@ enum { MESO_EXACT_MOST_CHAINS = 1 << 10 };
 
 typedef struct MesoExact {
     const MesoPropagation *propagation;
-    MesoPatternTable patterns;
+    MesoLabelPatternTable patterns;
     const MesoConstraints *constraints;
     MesoArena *arena;
     MesoSat *sat;
@@ -29,15 +29,15 @@ typedef struct MesoExact {
     uint64_t clause_count;
     uint32_t *edge_first;       /* [4 * slot_count] first label variable, at the edge's lower half-edge; 0: none */
     uint32_t *slot_first;       /* [slot_count] first pattern variable; 0: the slot has one pattern */
-    MesoCarry carry;
-    uint32_t chain_first, chain_count;  /* variables of the chains (carry.h) */
+    MesoEdgeChains chains;
+    uint32_t chain_first, chain_count;  /* variables of the chains (edge_chains.h) */
     uint32_t *chain_length;     /* [chain_count] edges */
     void (*clause)(void *context, const int32_t *literals, uint32_t count);
     void *context;
 } MesoExact;
 
 typedef struct MesoExactOptions {
-    const uint32_t *group;      /* as in MesoPatternTable; for clauses of the caller's own */
+    const uint32_t *group;      /* as in MesoLabelPatternTable; for clauses of the caller's own */
     bool chains;                /* with variables for the chains, where there are any */
     const MesoConstraints *constraints;     /* whose weights and variants to keep guide the choices; NULL: none */
     bool (*proof)(void *context, const char *data, size_t size);    /* gets the proof; may be NULL */

@@ -1,5 +1,5 @@
 /*
- * Cubes: the exact engine split by the bits of chains (carry.h). "Cube and
+ * Cubes: the exact engine split by the bits of chains (edge_chains.h). "Cube and
  * conquer" (Heule, Kullmann, Wieringa and Biere, 2011) with conflict-directed
  * backjumping: under the bits assumed so far the engine has a few conflicts;
  * where that does not do, one more bit is assumed, each way. What a refutation

@@ -44,7 +44,7 @@ static inline uint32_t meso_constraint_count(const MesoConstraints *constraints)
            meso_strand_rule_given(&constraints->strands);
 }
 
-/* Whether they ask for more than domains and weights: for guided.h. */
+/* Whether they ask for more than domains and weights: for constrained_search.h. */
 static inline bool meso_constraints_need_guidance(const MesoConstraints *constraints)
 {
     return constraints->quota_count || constraints->keep || meso_strand_rule_given(&constraints->strands);

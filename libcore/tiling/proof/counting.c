@@ -9,7 +9,7 @@ enum { BALANCE_STEPS = 1000 };
 
 /* Slots of a piece that have the same patterns. */
 typedef struct Class {
-    const MesoPatternList *list;
+    const MesoLabelPatternList *list;
     uint32_t component, first_slot;
     uint64_t count;
 } Class;
@@ -29,7 +29,7 @@ static int compare_keys(const void *a, const void *b)
 }
 
 /* Classes by component; NULL when memory is out. */
-static Class *sort_slots(MesoArena *arena, MesoPatternTable *table, uint32_t *class_count, MesoError *error)
+static Class *sort_slots(MesoArena *arena, MesoLabelPatternTable *table, uint32_t *class_count, MesoError *error)
 {
     const MesoSlotGraph *graph = table->propagation->graph;
     uint32_t *component = MESO_NEW(arena, uint32_t, graph->slot_count, error);
@@ -38,7 +38,7 @@ static Class *sort_slots(MesoArena *arena, MesoPatternTable *table, uint32_t *cl
         return NULL;
     meso_slot_graph_components(graph, component);
     for (uint32_t s = 0; s < graph->slot_count; s++) {
-        const MesoPatternList *list = meso_pattern_list(table, s, error);
+        const MesoLabelPatternList *list = meso_label_pattern_list(table, s, error);
         if (!list)
             return NULL;
         keys[s] = (Key){component[s], list->index, s};
@@ -52,7 +52,7 @@ static Class *sort_slots(MesoArena *arena, MesoPatternTable *table, uint32_t *cl
     *class_count = 0;
     for (uint32_t s = 0; classes && s < graph->slot_count; s++) {
         if (s == 0 || keys[s].component != keys[s - 1].component || keys[s].list != keys[s - 1].list)
-            classes[(*class_count)++] = (Class){meso_pattern_list(table, keys[s].slot, error),
+            classes[(*class_count)++] = (Class){meso_label_pattern_list(table, keys[s].slot, error),
                                                 keys[s].component, keys[s].slot, 0};
         classes[*class_count - 1].count++;
     }
@@ -60,12 +60,12 @@ static Class *sort_slots(MesoArena *arena, MesoPatternTable *table, uint32_t *cl
 }
 
 /* Which interfaces a pattern shows an odd number of times. */
-static void pattern_parity(const MesoPatternList *list, uint32_t pattern, uint64_t *bits, uint32_t words)
+static void pattern_parity(const MesoLabelPatternList *list, uint32_t pattern, uint64_t *bits, uint32_t words)
 {
     memset(bits, 0, words * sizeof *bits);
     for (uint32_t k = 0; k < 4; k++) {
         uint32_t code = list->codes[4 * (size_t)pattern + k];
-        if (code != MESO_PATTERN_BORDER)
+        if (code != MESO_LABEL_PATTERN_BORDER)
             bits[code / 2 / 64] ^= (uint64_t)1 << (code / 2 % 64);
     }
 }
@@ -140,18 +140,18 @@ static MesoStatus prove_parity(MesoCountingProof *proof, MesoArena *arena, const
     return MESO_OK;
 }
 
-static double pattern_sum(const MesoPatternList *list, uint32_t pattern, const double *weights)
+static double pattern_sum(const MesoLabelPatternList *list, uint32_t pattern, const double *weights)
 {
     double sum = 0;
     for (uint32_t k = 0; k < 4; k++) {
         uint32_t code = list->codes[4 * (size_t)pattern + k];
-        if (code != MESO_PATTERN_BORDER)
+        if (code != MESO_LABEL_PATTERN_BORDER)
             sum += code % 2 ? -weights[code / 2] : weights[code / 2];
     }
     return sum;
 }
 
-static uint32_t lightest_pattern(const MesoPatternList *list, const double *weights, double *least)
+static uint32_t lightest_pattern(const MesoLabelPatternList *list, const double *weights, double *least)
 {
     uint32_t lightest = 0;
     *least = pattern_sum(list, 0, weights);
@@ -165,12 +165,12 @@ static uint32_t lightest_pattern(const MesoPatternList *list, const double *weig
     return lightest;
 }
 
-static int64_t whole_pattern_sum(const MesoPatternList *list, uint32_t pattern, const int64_t *weights)
+static int64_t whole_pattern_sum(const MesoLabelPatternList *list, uint32_t pattern, const int64_t *weights)
 {
     int64_t sum = 0;
     for (uint32_t k = 0; k < 4; k++) {
         uint32_t code = list->codes[4 * (size_t)pattern + k];
-        if (code != MESO_PATTERN_BORDER)
+        if (code != MESO_LABEL_PATTERN_BORDER)
             sum += code % 2 ? -weights[code / 2] : weights[code / 2];
     }
     return sum;
@@ -181,7 +181,7 @@ static bool balance_holds(const Class *classes, uint32_t class_count, const int6
 {
     int64_t total = 0;
     for (uint32_t c = 0; c < class_count; c++) {
-        const MesoPatternList *list = classes[c].list;
+        const MesoLabelPatternList *list = classes[c].list;
         int64_t least = whole_pattern_sum(list, 0, weights);
         for (uint32_t p = 1; p < list->count; p++) {
             int64_t sum = whole_pattern_sum(list, p, weights);
@@ -224,12 +224,12 @@ static MesoStatus prove_balance(MesoCountingProof *proof, MesoArena *arena, cons
         double total = 0, largest = 0, least;
         memset(sum, 0, interface_count * sizeof *sum);
         for (uint32_t c = 0; c < class_count; c++) {
-            const MesoPatternList *list = classes[c].list;
+            const MesoLabelPatternList *list = classes[c].list;
             uint32_t p = lightest_pattern(list, weights, &least);
             total += least * (double)classes[c].count;
             for (uint32_t k = 0; k < 4; k++) {
                 uint32_t code = list->codes[4 * (size_t)p + k];
-                if (code != MESO_PATTERN_BORDER)
+                if (code != MESO_LABEL_PATTERN_BORDER)
                     sum[code / 2] += (code % 2 ? -1 : 1) * (double)classes[c].count;
             }
         }
@@ -247,7 +247,7 @@ static MesoStatus prove_balance(MesoCountingProof *proof, MesoArena *arena, cons
     return MESO_OK;
 }
 
-MesoStatus meso_counting_prove(MesoCountingProof *proof, MesoArena *arena, MesoPatternTable *table,
+MesoStatus meso_counting_prove(MesoCountingProof *proof, MesoArena *arena, MesoLabelPatternTable *table,
                                MesoError *error)
 {
     uint32_t interface_count = table->propagation->set->interface_count, class_count;
@@ -316,13 +316,13 @@ const char *meso_counting_explain(const MesoCountingProof *proof, MesoArena *are
 }
 
 /* Whether all patterns of a list show the interfaces of `weights` equally often modulo 2; `parity` gets that. */
-static bool constant_parity(const MesoPatternList *list, const int64_t *weights, uint32_t *parity)
+static bool constant_parity(const MesoLabelPatternList *list, const int64_t *weights, uint32_t *parity)
 {
     for (uint32_t p = 0; p < list->count; p++) {
         uint32_t odd = 0;
         for (uint32_t k = 0; k < 4; k++) {
             uint32_t code = list->codes[4 * (size_t)p + k];
-            odd ^= code != MESO_PATTERN_BORDER && weights[code / 2] != 0;
+            odd ^= code != MESO_LABEL_PATTERN_BORDER && weights[code / 2] != 0;
         }
         if (p > 0 && odd != *parity)
             return false;
@@ -332,7 +332,7 @@ static bool constant_parity(const MesoPatternList *list, const int64_t *weights,
 }
 
 MesoStatus meso_counting_check(const MesoCountingProof *proof, bool *holds, MesoArena *arena,
-                               MesoPatternTable *table, MesoError *error)
+                               MesoLabelPatternTable *table, MesoError *error)
 {
     const MesoSlotGraph *graph = table->propagation->graph;
     uint32_t *component = MESO_NEW(arena, uint32_t, graph->slot_count, error);
@@ -343,7 +343,7 @@ MesoStatus meso_counting_check(const MesoCountingProof *proof, bool *holds, Meso
     int64_t total = 0;
     uint32_t odd = 0, parity = 0;
     for (uint32_t s = 0; s < graph->slot_count && *holds; s++) {
-        const MesoPatternList *list = meso_pattern_list(table, s, error);
+        const MesoLabelPatternList *list = meso_label_pattern_list(table, s, error);
         if (!list)
             return MESO_ERR_MEMORY;
         if (component[s] != component[proof->first_slot])

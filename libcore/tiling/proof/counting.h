@@ -14,7 +14,7 @@
 #ifndef MESO_COUNTING_H
 #define MESO_COUNTING_H
 
-#include "libcore/tiling/propagate/pattern.h"
+#include "libcore/tiling/propagate/label_pattern.h"
 
 typedef struct MesoCountingProof {
     bool found;                 /* else nothing was proved */
@@ -29,7 +29,7 @@ typedef struct MesoCountingProof {
  * Everything lives in `arena`. O(slots * log(slots)) and a limited effort for the
  * weights. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_counting_prove(MesoCountingProof *proof, MesoArena *arena, MesoPatternTable *table,
+MesoStatus meso_counting_prove(MesoCountingProof *proof, MesoArena *arena, MesoLabelPatternTable *table,
                                MesoError *error);
 
 /* The proof in words, by the names of the interfaces, in `arena`; NULL when memory is out. */
@@ -38,6 +38,6 @@ const char *meso_counting_explain(const MesoCountingProof *proof, MesoArena *are
 
 /* Whether `proof` holds: counts again, in whole numbers, from the slots. For tests. */
 MesoStatus meso_counting_check(const MesoCountingProof *proof, bool *holds, MesoArena *arena,
-                               MesoPatternTable *table, MesoError *error);
+                               MesoLabelPatternTable *table, MesoError *error);
 
 #endif

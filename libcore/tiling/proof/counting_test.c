@@ -17,7 +17,7 @@ static Found prove(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph
     Found found = {0};
     MesoVariantSet variants;
     MesoPropagation propagation;
-    MesoPatternTable table;
+    MesoLabelPatternTable table;
     uint32_t slot;
     bool holds;
     CHECK(meso_variant_set_build(&variants, arena, set, NULL) == MESO_OK);
@@ -25,7 +25,7 @@ static Found prove(MesoArena *arena, const MesoTileSet *set, const MesoSlotGraph
                                 NULL) == MESO_OK);
     found.dead = propagation.initial_dead_count > 0;
     if (!found.dead) {
-        CHECK(meso_pattern_table_init(&table, arena, &propagation, NULL, NULL) == MESO_OK);
+        CHECK(meso_label_pattern_table_init(&table, arena, &propagation, NULL, NULL) == MESO_OK);
         CHECK(meso_counting_prove(&found.counting, arena, &table, NULL) == MESO_OK);
         CHECK(meso_counting_check(&found.counting, &holds, arena, &table, NULL) == MESO_OK);
         CHECK(holds == found.counting.found);

@@ -15,7 +15,7 @@ typedef struct Relations {
 
 /* The equations on the front; each has a pivot column that no other has. */
 typedef struct Sweep {
-    MesoPatternTable *table;
+    MesoLabelPatternTable *table;
     MesoArena *arena;
     Relations **relations;      /* [lists of the table] */
     uint32_t *order;            /* [slot_count] */
@@ -49,7 +49,7 @@ static void add_row(uint64_t *to, const uint64_t *from, uint32_t words)
  * The patterns as rows in reduced form; returns how many independent ones there are.
  * `pivot` [columns] gets the row of each pivot column, MESO_NO_INDEX for the free ones.
  */
-static uint32_t reduce_patterns(const Relations *relations, const MesoPatternList *list, uint64_t *rows,
+static uint32_t reduce_patterns(const Relations *relations, const MesoLabelPatternList *list, uint64_t *rows,
                                 uint32_t *pivot)
 {
     uint32_t words = relations->words, rank = 0;
@@ -59,7 +59,7 @@ static uint32_t reduce_patterns(const Relations *relations, const MesoPatternLis
         memset(row, 0, words * sizeof *row);
         meso_bits_set(row, 0);
         for (uint32_t k = 0; k < 4; k++)
-            if (list->codes[4 * (size_t)p + k] != MESO_PATTERN_BORDER)
+            if (list->codes[4 * (size_t)p + k] != MESO_LABEL_PATTERN_BORDER)
                 meso_bits_set(row, find_column(relations, k, list->codes[4 * (size_t)p + k]));
         for (uint32_t c = 0; c < relations->column_count; c++)
             if (pivot[c] != MESO_NO_INDEX && meso_bits_test(row, c))
@@ -89,7 +89,7 @@ static void fill_null_space(Relations *relations, const uint64_t *patterns, cons
     }
 }
 
-static Relations *find_relations(MesoArena *arena, const MesoPatternList *list, MesoError *error)
+static Relations *find_relations(MesoArena *arena, const MesoLabelPatternList *list, MesoError *error)
 {
     Relations *relations = MESO_NEW(arena, Relations, 1, error);
     size_t most = 4 * (size_t)list->count + 1;
@@ -99,7 +99,7 @@ static Relations *find_relations(MesoArena *arena, const MesoPatternList *list, 
     *relations = (Relations){.column_count = 1, .side = side, .code = code};
     for (uint32_t i = 0; i < 4 * list->count; i++) {
         uint32_t c = relations->column_count;
-        if (list->codes[i] == MESO_PATTERN_BORDER || find_column(relations, i % 4, list->codes[i]) < c)
+        if (list->codes[i] == MESO_LABEL_PATTERN_BORDER || find_column(relations, i % 4, list->codes[i]) < c)
             continue;
         side[c] = i % 4;
         code[c] = list->codes[i];
@@ -315,7 +315,7 @@ static void close_edge(Sweep *sweep, uint32_t edge)
 
 static MesoStatus add_slot(Sweep *sweep, uint32_t slot, uint32_t *columns, MesoError *error)
 {
-    const MesoPatternList *list = meso_pattern_list(sweep->table, slot, error);
+    const MesoLabelPatternList *list = meso_label_pattern_list(sweep->table, slot, error);
     if (!list)
         return MESO_ERR_MEMORY;
     Relations **relations = &sweep->relations[list->index];
@@ -351,7 +351,7 @@ static size_t prepare_lists(Sweep *sweep, MesoError *error)
 {
     size_t most = 1;
     for (uint32_t s = 0; s < sweep->table->propagation->graph->slot_count; s++) {
-        const MesoPatternList *list = meso_pattern_list(sweep->table, s, error);
+        const MesoLabelPatternList *list = meso_label_pattern_list(sweep->table, s, error);
         if (!list)
             return 0;
         most = 4 * (size_t)list->count + 1 > most ? 4 * (size_t)list->count + 1 : most;
@@ -359,7 +359,7 @@ static size_t prepare_lists(Sweep *sweep, MesoError *error)
     return most;
 }
 
-MesoStatus meso_parity_prove(uint32_t *slot, MesoArena *arena, MesoPatternTable *table,
+MesoStatus meso_parity_prove(uint32_t *slot, MesoArena *arena, MesoLabelPatternTable *table,
                              uint64_t work_limit, MesoError *error)
 {
     Sweep sweep = {.table = table, .arena = arena, .work_limit = work_limit};

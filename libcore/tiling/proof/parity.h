@@ -12,7 +12,7 @@
 #ifndef MESO_PARITY_H
 #define MESO_PARITY_H
 
-#include "libcore/tiling/propagate/pattern.h"
+#include "libcore/tiling/propagate/label_pattern.h"
 
 /*
  * Sets `slot` to the one whose equations brought the contradiction, or to
@@ -20,7 +20,7 @@
  * operations, or memory over 1 GiB. Scratch lives in `arena`. MESO_ERR_MEMORY
  * alone. O(slots * w^2) for w unknowns on the longest front, over 64.
  */
-MesoStatus meso_parity_prove(uint32_t *slot, MesoArena *arena, MesoPatternTable *table,
+MesoStatus meso_parity_prove(uint32_t *slot, MesoArena *arena, MesoLabelPatternTable *table,
                              uint64_t work_limit, MesoError *error);
 
 #endif

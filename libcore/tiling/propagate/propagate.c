@@ -91,8 +91,8 @@ static MesoStatus set_state(MesoPropagation *propagation, uint32_t slot, uint32_
         propagation->state[slot] = next;
         return MESO_OK;
     }
-    if (propagation->journal)
-        meso_journal_change(propagation->journal, slot, propagation->state[slot], cause);
+    if (propagation->causes)
+        meso_cause_log_change(propagation->causes, slot, propagation->state[slot], cause);
     if (note_change(propagation, slot, error) ||
         (propagation->tracing && note_on(&propagation->history, propagation, slot, error)))
         return MESO_ERR_MEMORY;
@@ -335,8 +335,8 @@ static MesoStatus begin_step(MesoPropagation *propagation, MesoError *error)
         return MESO_ERR_MEMORY;
     plan_collection(propagation);
     meso_propagation_forget(propagation);
-    if (propagation->journal)
-        meso_journal_clear(propagation->journal, true);
+    if (propagation->causes)
+        meso_cause_log_clear(propagation->causes, true);
     return MESO_OK;
 }
 
@@ -369,8 +369,8 @@ MesoStatus meso_propagation_assign(MesoPropagation *propagation, uint32_t slot, 
 {
     if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
-    if (propagation->journal)
-        meso_journal_begin(propagation->journal, variant, true);
+    if (propagation->causes)
+        meso_cause_log_begin(propagation->causes, variant, true);
     uint32_t next = meso_domain_single(&propagation->domains, variant, error);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, MESO_NO_INDEX, error))
         return MESO_ERR_MEMORY;
@@ -382,8 +382,8 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
 {
     if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
-    if (propagation->journal)
-        meso_journal_begin(propagation->journal, variant, false);
+    if (propagation->causes)
+        meso_cause_log_begin(propagation->causes, variant, false);
     uint32_t next = meso_domain_without(&propagation->domains, propagation->state[slot], variant, error);
     assert(next != MESO_DOMAIN_EMPTY);
     if (next == MESO_NO_INDEX || set_state(propagation, slot, next, MESO_NO_INDEX, error))
@@ -393,8 +393,8 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
 
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 {
-    if (propagation->journal)
-        meso_journal_pop(propagation->journal);
+    if (propagation->causes)
+        meso_cause_log_pop(propagation->causes);
     while (propagation->trail.count) {
         MesoTrailEntry entry = propagation->trail.entries[--propagation->trail.count];
         propagation->pending[entry.slot] &= (uint8_t)~ON_TRAIL;
@@ -406,16 +406,16 @@ MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error)
 
 MesoStatus meso_propagation_jump(MesoPropagation *propagation, uint32_t step, MesoError *error)
 {
-    MesoJournal *journal = propagation->journal;
+    MesoCauseLog *causes = propagation->causes;
     clear_trail(propagation);
-    while (journal->step_count > step) {
-        uint32_t first = journal->steps[journal->step_count - 1].first;
-        while (journal->change_count > first) {
-            MesoChange change = journal->changes[--journal->change_count];
+    while (causes->step_count > step) {
+        uint32_t first = causes->steps[causes->step_count - 1].first;
+        while (causes->change_count > first) {
+            MesoChange change = causes->changes[--causes->change_count];
             if (move_to_state(propagation, change.slot, change.before, error))
                 return MESO_ERR_MEMORY;
         }
-        meso_journal_pop(journal);
+        meso_cause_log_pop(causes);
     }
     return MESO_OK;
 }
@@ -425,7 +425,7 @@ void meso_propagation_explain(const MesoPropagation *propagation, MesoConflict *
     uint32_t dead = propagation->dead_slot;
     assert(dead != MESO_NO_INDEX);
     bool changed = propagation->state[dead] != propagation->initial[dead];
-    meso_journal_explain(propagation->journal, changed ? dead : MESO_NO_INDEX, propagation->dead_teller,
+    meso_cause_log_explain(propagation->causes, changed ? dead : MESO_NO_INDEX, propagation->dead_teller,
                          propagation->initial, propagation->pending, IN_CONFLICT, conflict);
 }
 
@@ -486,8 +486,8 @@ MesoStatus meso_propagation_reopen(MesoPropagation *propagation, uint32_t slot, 
 {
     if (begin_step(propagation, error))
         return MESO_ERR_MEMORY;
-    if (propagation->journal)
-        meso_journal_clear(propagation->journal, true);
+    if (propagation->causes)
+        meso_cause_log_clear(propagation->causes, true);
     assert(propagation->list.count == 0);
     collect_ball(propagation, slot, radius);
     *reopened = propagation->list.count;
@@ -529,8 +529,8 @@ void meso_propagation_restart(MesoPropagation *propagation)
     propagation->trail.count = 0;
     propagation->decided_count = 0;
     meso_propagation_forget(propagation);
-    if (propagation->journal)
-        meso_journal_clear(propagation->journal, false);
+    if (propagation->causes)
+        meso_cause_log_clear(propagation->causes, false);
 }
 
 const uint64_t *meso_propagation_allowed(const MesoPropagation *propagation, uint32_t slot,

@@ -8,8 +8,8 @@
 
 #include "libcore/tiling/problem/tiling_problem.h"
 #include "libcore/tiling/propagate/bucket_queue.h"
+#include "libcore/tiling/propagate/cause_log.h"
 #include "libcore/tiling/propagate/domain.h"
-#include "libcore/tiling/propagate/journal.h"
 #include "libcore/tiling/propagate/quota.h"
 #include "libcore/tiling/propagate/work_list.h"
 
@@ -54,7 +54,7 @@ typedef struct MesoPropagation {
     bool tracing;               /* keep a history, for meso_propagation_rewind() */
     MesoTrail history;          /* every change since the last restart, or the last collection */
     uint32_t generation;        /* of the history: marks of an earlier one are void */
-    MesoJournal *journal;       /* of the steps, where the search keeps one; or NULL */
+    MesoCauseLog *causes;       /* of the steps, where the search keeps one; or NULL */
 
     /* What constraints ask for. */
     MesoQuotaTrack quotas;      /* none without constraints */
@@ -94,13 +94,13 @@ MesoStatus meso_propagation_exclude(MesoPropagation *propagation, uint32_t slot,
 MesoStatus meso_propagation_undo(MesoPropagation *propagation, MesoError *error);
 
 /*
- * Takes back the steps in the journal from steps[step] on. Where a step was left at a dead
+ * Takes back the steps in the log from steps[step] on. Where a step was left at a dead
  * slot, in the place of meso_propagation_undo(). Not with quotas, nor where tracing.
  * O(changes). MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_propagation_jump(MesoPropagation *propagation, uint32_t step, MesoError *error);
 
-/* The decisions that the dead slot at hand hangs on. With a journal, and without quotas. */
+/* The decisions that the dead slot at hand hangs on. With a log of causes, and without quotas. */
 void meso_propagation_explain(const MesoPropagation *propagation, MesoConflict *conflict);
 
 /*

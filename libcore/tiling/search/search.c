@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "libcore/tiling/search/choice.h"
+#include "libcore/tiling/search/variant_choice.h"
 
 enum { TICK_INTERVAL = 4096, PROBE_TICK_INTERVAL = 16 };    /* observations; slots */
 
@@ -105,7 +105,7 @@ static MesoStatus exclude(MesoSearch *search, uint32_t slot, uint32_t variant, c
         return MESO_ERR_MEMORY;
     /* The first of the decisions is the one that was taken back. */
     if (conflict->count)
-        meso_journal_conclude(propagation->journal, conflict->decisions + 1, conflict->count - 1, conflict->whole);
+        meso_cause_log_conclude(propagation->causes, conflict->decisions + 1, conflict->count - 1, conflict->whole);
     return MESO_OK;
 }
 
@@ -117,7 +117,7 @@ static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutc
                             MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
-    MesoJournal *journal = propagation->journal;
+    MesoCauseLog *causes = propagation->causes;
     MesoConflict conflict;
     while (propagation->dead_slot != MESO_NO_INDEX) {
         meso_propagation_explain(propagation, &conflict);
@@ -129,8 +129,8 @@ static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutc
         if (conflict.count == 0 || attempt->jumps == attempt->effort.jumps ||
             attempt->jumped == attempt->effort.slots)
             return meso_propagation_undo(propagation, error);
-        uint32_t step = meso_journal_find(journal, conflict.decisions[0]);
-        uint32_t slot = journal->changes[journal->steps[step].first].slot, variant = journal->steps[step].variant;
+        uint32_t step = meso_cause_log_find(causes, conflict.decisions[0]);
+        uint32_t slot = causes->changes[causes->steps[step].first].slot, variant = causes->steps[step].variant;
         attempt->jumps++;
         attempt->jumped++;
         search->jumps++;
@@ -141,14 +141,14 @@ static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutc
     return MESO_OK;
 }
 
-/* A journal costs a little: it begins with the first dead end. It knows nothing of causes beyond the neighbours. */
-static MesoStatus begin_journal(MesoPropagation *propagation, MesoError *error)
+/* A log of causes costs a little: it begins with the first dead end. It knows nothing of causes beyond the neighbours. */
+static MesoStatus begin_cause_log(MesoPropagation *propagation, MesoError *error)
 {
     assert(propagation->quotas.count == 0 && !propagation->tracing && !propagation->decided);
-    propagation->journal = MESO_NEW(propagation->arena, MesoJournal, 1, error);
-    if (!propagation->journal)
+    propagation->causes = MESO_NEW(propagation->arena, MesoCauseLog, 1, error);
+    if (!propagation->causes)
         return MESO_ERR_MEMORY;
-    meso_journal_clear(propagation->journal, true);
+    meso_cause_log_clear(propagation->causes, true);
     return MESO_OK;
 }
 
@@ -165,7 +165,7 @@ static MesoStatus retreat(MesoSearch *search, Attempt *attempt, uint32_t slot, u
             return status;
     }
     attempt->dead_end_told = true;
-    if (!propagation->journal && begin_journal(propagation, error))
+    if (!propagation->causes && begin_cause_log(propagation, error))
         return MESO_ERR_MEMORY;
     /* The first attempt jumps so little that it does not pay to know why. */
     conflict.count = 0;
@@ -277,7 +277,7 @@ MesoStatus meso_search_probe(MesoSearch *search, uint64_t work_limit, MesoSearch
     uint64_t work = 0, excluded = 1;
     bool impossible = false;
     *outcome = MESO_SEARCH_STUCK;
-    propagation->journal = NULL;    /* steps that are taken back at once need none */
+    propagation->causes = NULL;    /* steps that are taken back at once need none */
     meso_propagation_restart(propagation);
     while (excluded > 0 && work < work_limit) {
         excluded = 0;

@@ -6,7 +6,7 @@
 #include "libcore/tiling/propagate/propagate.h"
 #include "libcore/tiling/search/strand_places.h"
 #include "libcore/tiling/search/strand_search.h"
-#include "libcore/tiling/solve/reason.h"
+#include "libcore/tiling/solve/verdict_text.h"
 
 /* Slots that all tries together may go through; a few seconds. */
 static const uint64_t work_limit = (uint64_t)1 << 26;

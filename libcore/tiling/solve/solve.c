@@ -6,14 +6,14 @@
 #include "libcore/tiling/exact/chain_search.h"
 #include "libcore/tiling/exact/exact_control.h"
 #include "libcore/tiling/exact/exact_cubes.h"
-#include "libcore/tiling/exact/keep.h"
+#include "libcore/tiling/exact/fewest_changes.h"
 #include "libcore/tiling/proof/counting.h"
 #include "libcore/tiling/proof/parity.h"
 #include "libcore/tiling/propagate/initial_states.h"
-#include "libcore/tiling/search/guided.h"
+#include "libcore/tiling/search/constrained_search.h"
 #include "libcore/tiling/search/search.h"
 #include "libcore/tiling/search/strand_places.h"
-#include "libcore/tiling/solve/reason.h"
+#include "libcore/tiling/solve/verdict_text.h"
 
 /* Word operations of the parity prover: a second or two. */
 static const uint64_t parity_work = (uint64_t)1 << 32;
@@ -52,7 +52,7 @@ typedef struct Search {
     MesoHotSpots hot_spots;
     MesoPropagation propagation;
     MesoSearch wfc;                 /* the search where no constraint calls for guidance */
-    MesoGuidedSearch guided;        /* where one does */
+    MesoConstrainedSearch guided;        /* where one does */
     uint32_t *best_variant;         /* [slot_count] where the best attempt ended; MESO_NO_INDEX: undecided. NULL: none
                                        failed yet */
     uint32_t best_open;             /* slots that it left undecided */
@@ -458,10 +458,10 @@ static MesoStatus decide_at_length(Search *search, bool guided, MesoError *error
 static MesoStatus decide_by_numbers(Search *search, MesoError *error)
 {
     MesoSolveResult *result = search->result;
-    MesoPatternTable table;
+    MesoLabelPatternTable table;
     MesoCountingProof proof;
     uint32_t slot;
-    if (meso_pattern_table_init(&table, &search->scratch, &search->propagation, NULL, error) ||
+    if (meso_label_pattern_table_init(&table, &search->scratch, &search->propagation, NULL, error) ||
         meso_counting_prove(&proof, &search->scratch, &table, error))
         return MESO_ERR_MEMORY;
     if (proof.found) {
@@ -529,7 +529,7 @@ static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *err
     uint64_t *violations = MESO_NEW(search->arena, uint64_t, meso_constraint_count(constraints), error);
     if (!violations)
         return MESO_ERR_MEMORY;
-    MesoStatus status = meso_guided_init(&search->guided, &search->scratch, &search->propagation,
+    MesoStatus status = meso_constrained_search_init(&search->guided, &search->scratch, &search->propagation,
                                          search->problem->variants, constraints, violations, disproved, error);
     search->result->violations = violations;
     search->guided.tick = tick;
@@ -546,7 +546,7 @@ static MesoStatus prepare_guided(Search *search, bool *disproved, MesoError *err
 /* The search's rung under quotas, rules on strands, or with an assignment to keep. */
 static MesoStatus search_guided(Search *search, MesoError *error)
 {
-    MesoGuidedSearch *guided = &search->guided;
+    MesoConstrainedSearch *guided = &search->guided;
     MesoSolveResult *result = search->result;
     bool solved = false;
     MesoStatus status = MESO_OK;
@@ -555,7 +555,7 @@ static MesoStatus search_guided(Search *search, MesoError *error)
         MesoRandom random;
         meso_random_init(&random, search->options->seed, ++result->attempts);
         meso_propagation_restart(&search->propagation);
-        status = meso_guided_attempt(guided, &random, &solved, error);
+        status = meso_constrained_search_attempt(guided, &random, &solved, error);
         if (!status && !solved)
             status = keep_best(search, error);
         /* Where a quota or strands ended the attempt, there is no dead slot to tell of. */
@@ -632,14 +632,14 @@ static MesoStatus keep_more(Search *search, MesoError *error)
     const MesoAssignment *found = &result->assignment;
     uint64_t conflicts;
     allow_conflicts(search);
-    const MesoKeepOptions keep = {.seed = options->seed, .max_conflicts = conflicts_left(search, KEEP_CONFLICTS),
+    const MesoFewestChangesOptions keep = {.seed = options->seed, .max_conflicts = conflicts_left(search, KEEP_CONFLICTS),
                                   .stop = options->stop, .stop_context = options->stop_context};
     uint32_t *variant = MESO_NEW(&search->scratch, uint32_t, found->slot_count, error);
     if (!variant)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < found->slot_count; s++)
         variant[s] = meso_variant_find(search->problem->variants, search->problem->set, found->tile[s], found->transform[s]);
-    MesoStatus status = meso_keep_more(variant, &result->changes_fewest, &conflicts, &search->propagation,
+    MesoStatus status = meso_fewest_changes(variant, &result->changes_fewest, &conflicts, &search->propagation,
                                        search->problem->variants, search->problem->constraints, &keep, error);
     if (status)
         return status;

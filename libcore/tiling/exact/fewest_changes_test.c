@@ -1,5 +1,5 @@
 /* Assignments that change the fewest of the variants to keep, against every assignment. */
-#include "libcore/tiling/exact/keep.h"
+#include "libcore/tiling/exact/fewest_changes.h"
 
 #include "libcore/tiling/fixture/brute_force.h"
 #include "libcore/tiling/fixture/random_case.h"
@@ -148,8 +148,8 @@ static void test_long_row(void)
         keep[s] = s < 50 ? 0 : s == 50 ? 2 : 1;
         variant[s] = s < 7 ? 0 : s == 7 ? 2 : 1;
     }
-    const MesoKeepOptions options = {.max_conflicts = 10000};
-    CHECK(meso_keep_more(variant, &fewest, &conflicts, &propagation, &variants, &constraints, &options, NULL) ==
+    const MesoFewestChangesOptions options = {.max_conflicts = 10000};
+    CHECK(meso_fewest_changes(variant, &fewest, &conflicts, &propagation, &variants, &constraints, &options, NULL) ==
           MESO_OK);
     /* The slots from 39, which turns, to 50 are others now; that it is the fewest is known of those nearby alone. */
     for (uint32_t s = 0; s < SLOTS; s++)

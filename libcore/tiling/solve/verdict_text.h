@@ -1,6 +1,6 @@
 /* Reasons of verdicts in words, for the user. */
-#ifndef MESO_REASON_H
-#define MESO_REASON_H
+#ifndef MESO_VERDICT_TEXT_H
+#define MESO_VERDICT_TEXT_H
 
 #include "libcore/tiling/propagate/quota.h"
 #include "libcore/tiling/solve/solve_result.h"

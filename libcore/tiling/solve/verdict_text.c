@@ -1,4 +1,4 @@
-#include "libcore/tiling/solve/reason.h"
+#include "libcore/tiling/solve/verdict_text.h"
 
 #include <string.h>
 

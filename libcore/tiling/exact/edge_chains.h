@@ -7,26 +7,26 @@
  * find them again for every strip. They are the sums modulo 2 with two terms
  * that hold in a slot, those of parity.h with the fewest.
  */
-#ifndef MESO_CARRY_H
-#define MESO_CARRY_H
+#ifndef MESO_EDGE_CHAINS_H
+#define MESO_EDGE_CHAINS_H
 
-#include "libcore/tiling/propagate/pattern.h"
+#include "libcore/tiling/propagate/label_pattern.h"
 
 /* Values of one pair of sides of which all sums are tried; of more, each value alone. */
-enum { MESO_CARRY_SUMMED = 4 };
+enum { MESO_EDGE_CHAINS_SUMMED = 4 };
 
 /* One edge of a chain: the chain's bit tells whether the edge's label is one of a set. */
-typedef struct MesoCarryLink {
+typedef struct MesoChainLink {
     uint32_t edge;              /* its lower half-edge (slot_graph.h) */
     uint32_t chain;
     uint64_t ranks;             /* the set: ranks among the labels that the far side may show, ascending */
     bool negated;               /* the bit tells whether it is none of them */
-} MesoCarryLink;
+} MesoChainLink;
 
-typedef struct MesoCarry {
+typedef struct MesoEdgeChains {
     uint32_t link_count, chain_count;
-    MesoCarryLink *links;       /* [link_count] in no order */
-} MesoCarry;
+    MesoChainLink *links;       /* [link_count] in no order */
+} MesoEdgeChains;
 
 /*
  * Chains of the initial states of `table`'s propagation, none of which may be
@@ -34,6 +34,6 @@ typedef struct MesoCarry {
  * Edges with over 64 labels have none. Arrays live in `arena`. Expected
  * O(slots * labels). MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_carry_find(MesoCarry *carry, MesoArena *arena, MesoPatternTable *table, MesoError *error);
+MesoStatus meso_edge_chains_find(MesoEdgeChains *chains, MesoArena *arena, MesoLabelPatternTable *table, MesoError *error);
 
 #endif

@@ -1,4 +1,4 @@
-#include "libcore/tiling/solve/seed_sweep.h"
+#include "libcore/tiling/solve/many_seeds.h"
 
 #include <assert.h>
 #include <stdatomic.h>
@@ -7,7 +7,7 @@
 #include "libcore/base/parallel.h"
 
 typedef struct Run {
-    const MesoSeedSweep *sweep;
+    const MesoManySeeds *sweep;
     mtx_t lock;                 /* of `error` */
     MesoError error;            /* of the first failure */
     atomic_bool failed;
@@ -25,7 +25,7 @@ static void fail_run(Run *run, const MesoError *error)
 static void solve_range(void *context, uint64_t begin, uint64_t end)
 {
     Run *run = context;
-    const MesoSeedSweep *sweep = run->sweep;
+    const MesoManySeeds *sweep = run->sweep;
     for (uint64_t i = begin; i < end && !atomic_load(&run->failed); i++) {
         MesoArena arena;
         MesoSolveResult result;
@@ -42,7 +42,7 @@ static void solve_range(void *context, uint64_t begin, uint64_t end)
     }
 }
 
-MesoStatus meso_seed_sweep(const MesoSeedSweep *sweep, MesoError *error)
+MesoStatus meso_many_seeds(const MesoManySeeds *sweep, MesoError *error)
 {
     assert(!sweep->options.progress);
     Run run = {.sweep = sweep};

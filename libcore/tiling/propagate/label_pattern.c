@@ -1,4 +1,4 @@
-#include "libcore/tiling/propagate/pattern.h"
+#include "libcore/tiling/propagate/label_pattern.h"
 
 #include <string.h>
 
@@ -10,25 +10,25 @@ uint32_t meso_slot_border_sides(const MesoSlotGraph *graph, uint32_t slot)
     return sides;
 }
 
-MesoStatus meso_pattern_table_init(MesoPatternTable *table, MesoArena *arena,
+MesoStatus meso_label_pattern_table_init(MesoLabelPatternTable *table, MesoArena *arena,
                                    const MesoPropagation *propagation, const uint32_t *group,
                                    MesoError *error)
 {
-    *table = (MesoPatternTable){.propagation = propagation, .group = group, .arena = arena};
-    table->lists = MESO_NEW(arena, MesoPatternList *, 16 * (size_t)propagation->domains.states.count,
+    *table = (MesoLabelPatternTable){.propagation = propagation, .group = group, .arena = arena};
+    table->lists = MESO_NEW(arena, MesoLabelPatternList *, 16 * (size_t)propagation->domains.states.count,
                             error);
     return table->lists ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static void visible_codes(const MesoPatternTable *table, uint32_t variant, uint32_t border,
+static void visible_codes(const MesoLabelPatternTable *table, uint32_t variant, uint32_t border,
                           uint32_t codes[4])
 {
     for (uint32_t k = 0; k < 4; k++)
-        codes[k] = (border >> k) & 1 ? MESO_PATTERN_BORDER
+        codes[k] = (border >> k) & 1 ? MESO_LABEL_PATTERN_BORDER
                                      : table->propagation->codes[4 * (size_t)variant + k];
 }
 
-static bool same_pattern(const MesoPatternTable *table, uint32_t a, uint32_t b, uint32_t border)
+static bool same_pattern(const MesoLabelPatternTable *table, uint32_t a, uint32_t b, uint32_t border)
 {
     uint32_t a_codes[4], b_codes[4];
     if (table->group && table->group[a] != table->group[b])
@@ -39,7 +39,7 @@ static bool same_pattern(const MesoPatternTable *table, uint32_t a, uint32_t b, 
 }
 
 /* Pattern [size] of each of the variants [size], numbered by first appearance; returns how many. */
-static uint32_t sort_out(const MesoPatternTable *table, const uint32_t *variants, uint32_t size,
+static uint32_t sort_out(const MesoLabelPatternTable *table, const uint32_t *variants, uint32_t size,
                          uint32_t border, uint32_t *pattern, uint32_t *first)
 {
     uint32_t count = 0;
@@ -54,7 +54,7 @@ static uint32_t sort_out(const MesoPatternTable *table, const uint32_t *variants
     return count;
 }
 
-static MesoStatus fill(const MesoPatternTable *table, MesoPatternList *list, const uint32_t *variants,
+static MesoStatus fill(const MesoLabelPatternTable *table, MesoLabelPatternList *list, const uint32_t *variants,
                        uint32_t size, uint32_t border, uint32_t *scratch, MesoError *error)
 {
     uint32_t *pattern = scratch, *first = scratch + size;
@@ -76,12 +76,12 @@ static MesoStatus fill(const MesoPatternTable *table, MesoPatternList *list, con
     return MESO_OK;
 }
 
-static MesoPatternList *make_list(const MesoPatternTable *table, uint32_t state, uint32_t border,
+static MesoLabelPatternList *make_list(const MesoLabelPatternTable *table, uint32_t state, uint32_t border,
                                   MesoError *error)
 {
     const MesoDomainTable *domains = &table->propagation->domains;
     uint32_t size = domains->domains[state].size;
-    MesoPatternList *list = MESO_NEW(table->arena, MesoPatternList, 1, error);
+    MesoLabelPatternList *list = MESO_NEW(table->arena, MesoLabelPatternList, 1, error);
     uint32_t *scratch = MESO_NEW(table->arena, uint32_t, 3 * (size_t)size, error);
     if (!list || !scratch)
         return NULL;
@@ -92,11 +92,11 @@ static MesoPatternList *make_list(const MesoPatternTable *table, uint32_t state,
     return list;
 }
 
-const MesoPatternList *meso_pattern_list(MesoPatternTable *table, uint32_t slot, MesoError *error)
+const MesoLabelPatternList *meso_label_pattern_list(MesoLabelPatternTable *table, uint32_t slot, MesoError *error)
 {
     uint32_t state = table->propagation->initial[slot];
     uint32_t border = meso_slot_border_sides(table->propagation->graph, slot);
-    MesoPatternList **list = &table->lists[16 * (size_t)state + border];
+    MesoLabelPatternList **list = &table->lists[16 * (size_t)state + border];
     if (!*list) {
         *list = make_list(table, state, border, error);
         if (*list)

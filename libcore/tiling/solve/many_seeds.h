@@ -1,10 +1,10 @@
 /* Many seeds of one problem, on several cores: each seed is solved by itself, on one thread. */
-#ifndef MESO_SEED_SWEEP_H
-#define MESO_SEED_SWEEP_H
+#ifndef MESO_MANY_SEEDS_H
+#define MESO_MANY_SEEDS_H
 
 #include "libcore/tiling/solve/solve.h"
 
-typedef struct MesoSeedSweep {
+typedef struct MesoManySeeds {
     const MesoTilingProblem *problem;
     MesoSolveOptions options;   /* but for the seed; its progress must be NULL */
     uint32_t thread_count;      /* 0: all cores */
@@ -18,7 +18,7 @@ typedef struct MesoSeedSweep {
      */
     MesoStatus (*take)(void *context, uint32_t index, const MesoSolveResult *result, MesoError *error);
     void *context;
-} MesoSeedSweep;
+} MesoManySeeds;
 
 /*
  * Solves every seed as meso_solve() does; the results do not depend on the
@@ -26,6 +26,6 @@ typedef struct MesoSeedSweep {
  * every verdict, or what ended the sweep; seeds that were begun by then are taken.
  * Memory as meso_solve(), for each thread.
  */
-MesoStatus meso_seed_sweep(const MesoSeedSweep *sweep, MesoError *error);
+MesoStatus meso_many_seeds(const MesoManySeeds *sweep, MesoError *error);
 
 #endif

@@ -5,20 +5,20 @@
  * it says that there are none. On a large surface slots far from every change stay as
  * they are.
  */
-#ifndef MESO_KEEP_H
-#define MESO_KEEP_H
+#ifndef MESO_FEWEST_CHANGES_H
+#define MESO_FEWEST_CHANGES_H
 
 #include "libcore/tiling/exact/exact.h"
 
 /* Slots that may change, those nearest to the changes that there are; surfaces of more than the other are left alone. */
-enum { MESO_KEEP_OPEN_SLOTS = 1 << 12, MESO_KEEP_SLOTS = 1 << 16 };
+enum { MESO_FEWEST_CHANGES_OPEN = 1 << 12, MESO_FEWEST_CHANGES_SLOTS = 1 << 16 };
 
-typedef struct MesoKeepOptions {
+typedef struct MesoFewestChangesOptions {
     uint64_t seed;
     uint64_t max_conflicts;     /* of the engine, in all */
     bool (*stop)(void *context);    /* may be NULL */
     void *stop_context;
-} MesoKeepOptions;
+} MesoFewestChangesOptions;
 
 /*
  * variant     [slot_count] an assignment that holds to `constraints`, of the initial states of
@@ -29,8 +29,8 @@ typedef struct MesoKeepOptions {
  * arguments alone, unless `stop` ended the work. O(slots * patterns), and what the engine
  * takes. MESO_ERR_MEMORY, or what CaDiCaL fails with.
  */
-MesoStatus meso_keep_more(uint32_t *variant, bool *fewest, uint64_t *conflicts, MesoPropagation *propagation,
+MesoStatus meso_fewest_changes(uint32_t *variant, bool *fewest, uint64_t *conflicts, MesoPropagation *propagation,
                           const MesoVariantSet *variants, const MesoConstraints *constraints,
-                          const MesoKeepOptions *options, MesoError *error);
+                          const MesoFewestChangesOptions *options, MesoError *error);
 
 #endif

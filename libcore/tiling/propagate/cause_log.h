@@ -1,10 +1,10 @@
 /*
- * Journal: the changes of the last steps of a search with their causes, and which of its decisions a
+ * Cause log: the changes of the last steps of a search with their causes, and which of its decisions a
  * dead end hangs on: for conflict-directed backjumping (Prosser, Hybrid algorithms for the constraint
  * satisfaction problem, 1993). It is a window: where it is full, the older half is forgotten.
  */
-#ifndef MESO_JOURNAL_H
-#define MESO_JOURNAL_H
+#ifndef MESO_CAUSE_LOG_H
+#define MESO_CAUSE_LOG_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@
 #include "libcore/math/vec.h"
 
 /* The window: half a mebibyte in all. */
-enum { MESO_JOURNAL_CHANGES = 1 << 14, MESO_JOURNAL_STEPS = 1 << 12, MESO_JOURNAL_REASONS = 1 << 15 };
+enum { MESO_CAUSE_LOG_CHANGES = 1 << 14, MESO_CAUSE_LOG_STEPS = 1 << 12, MESO_CAUSE_LOG_REASONS = 1 << 15 };
 
 typedef struct MesoChange {
     uint32_t slot, before;      /* state that it had */
@@ -27,45 +27,45 @@ typedef struct MesoStep {
     uint32_t reason_begin, reason_count;    /* in `reasons` */
 } MesoStep;
 
-typedef struct MesoJournal {
-    MesoChange changes[MESO_JOURNAL_CHANGES];
-    MesoStep steps[MESO_JOURNAL_STEPS];
-    uint64_t reasons[MESO_JOURNAL_REASONS];     /* serial numbers of decisions */
+typedef struct MesoCauseLog {
+    MesoChange changes[MESO_CAUSE_LOG_CHANGES];
+    MesoStep steps[MESO_CAUSE_LOG_STEPS];
+    uint64_t reasons[MESO_CAUSE_LOG_REASONS];     /* serial numbers of decisions */
     uint32_t change_count, step_count, reason_count;
     uint64_t first_serial;      /* of steps[0]; serial numbers are not used twice, but for steps taken back */
     bool partial;               /* there are steps that were forgotten, or never told */
     bool muted;                 /* no step is at hand, or one with too many changes */
-} MesoJournal;
+} MesoCauseLog;
 
 /* The decisions that a dead end hangs on. */
 typedef struct MesoConflict {
-    uint64_t decisions[MESO_JOURNAL_STEPS];     /* serial numbers, the latest first */
+    uint64_t decisions[MESO_CAUSE_LOG_STEPS];     /* serial numbers, the latest first */
     uint32_t count;
-    bool whole;                 /* and no others, that the journal has forgotten */
+    bool whole;                 /* and no others, that the log has forgotten */
 } MesoConflict;
 
 /* Forgets all steps, and is told none until one begins. `partial`: they are not taken back, or there were others. */
-void meso_journal_clear(MesoJournal *journal, bool partial);
+void meso_cause_log_clear(MesoCauseLog *causes, bool partial);
 
 /* Begins a step; its changes follow, that of the chosen slot first. */
-void meso_journal_begin(MesoJournal *journal, uint32_t variant, bool decision);
+void meso_cause_log_begin(MesoCauseLog *causes, uint32_t variant, bool decision);
 
-/* Makes room in a full journal. */
-void meso_journal_forget(MesoJournal *journal);
+/* Makes room in a full log. */
+void meso_cause_log_forget(MesoCauseLog *causes);
 
-static inline void meso_journal_change(MesoJournal *journal, uint32_t slot, uint32_t before, uint32_t cause)
+static inline void meso_cause_log_change(MesoCauseLog *causes, uint32_t slot, uint32_t before, uint32_t cause)
 {
-    if (journal->change_count == MESO_JOURNAL_CHANGES)
-        meso_journal_forget(journal);
-    if (!journal->muted)
-        journal->changes[journal->change_count++] = (MesoChange){slot, before, cause};
+    if (causes->change_count == MESO_CAUSE_LOG_CHANGES)
+        meso_cause_log_forget(causes);
+    if (!causes->muted)
+        causes->changes[causes->change_count++] = (MesoChange){slot, before, cause};
 }
 
 /* Takes the last step out, if it is here. */
-void meso_journal_pop(MesoJournal *journal);
+void meso_cause_log_pop(MesoCauseLog *causes);
 
 /* Says what the last step, which is no decision, is concluded from. */
-void meso_journal_conclude(MesoJournal *journal, const uint64_t *decisions, uint32_t count, bool whole);
+void meso_cause_log_conclude(MesoCauseLog *causes, const uint64_t *decisions, uint32_t count, bool whole);
 
 /*
  * The decisions without which slot `dead` would have a variant left: those that its changes, and the
@@ -73,13 +73,13 @@ void meso_journal_conclude(MesoJournal *journal, const uint64_t *decisions, uint
  * MESO_NO_INDEX where it has not changed. Slots had the states initial[slot] before all decisions. `bit` is a mask
  * of marks[slot] that is free for use, and 0 before and after. O(changes from the first of these decisions on).
  */
-void meso_journal_explain(const MesoJournal *journal, uint32_t dead, uint32_t teller, const uint32_t *initial,
+void meso_cause_log_explain(const MesoCauseLog *causes, uint32_t dead, uint32_t teller, const uint32_t *initial,
                           uint8_t *marks, uint8_t bit, MesoConflict *conflict);
 
 /* Place in `steps` of the step with a serial number, or MESO_NO_INDEX where it was forgotten. */
-static inline uint32_t meso_journal_find(const MesoJournal *journal, uint64_t serial)
+static inline uint32_t meso_cause_log_find(const MesoCauseLog *causes, uint64_t serial)
 {
-    return serial < journal->first_serial ? MESO_NO_INDEX : (uint32_t)(serial - journal->first_serial);
+    return serial < causes->first_serial ? MESO_NO_INDEX : (uint32_t)(serial - causes->first_serial);
 }
 
 #endif

@@ -4,27 +4,27 @@
  * a choice that comes to a dead end is taken back and excluded (chronological
  * backtracking), up to a limit for each attempt.
  */
-#ifndef MESO_GUIDED_H
-#define MESO_GUIDED_H
+#ifndef MESO_CONSTRAINED_SEARCH_H
+#define MESO_CONSTRAINED_SEARCH_H
 
-#include "libcore/tiling/search/choice.h"
 #include "libcore/tiling/search/hot_spots.h"
 #include "libcore/tiling/search/strand_search.h"
+#include "libcore/tiling/search/variant_choice.h"
 
-typedef struct MesoGuidedChoice {
+typedef struct MesoConstrainedChoice {
     MesoPropagationMark mark;
     size_t strand_mark;
     uint32_t slot, variant;
-} MesoGuidedChoice;
+} MesoConstrainedChoice;
 
-typedef struct MesoGuidedSearch {
+typedef struct MesoConstrainedSearch {
     MesoPropagation *propagation;
     const MesoConstraints *constraints;
     MesoArena *arena;
     MesoStrandSearch strands;
     size_t strand_base;         /* trail of the strands after the initial slots */
     uint32_t strands_seen;      /* decided slots that the strands have got */
-    MesoGuidedChoice *choices;
+    MesoConstrainedChoice *choices;
     uint32_t choice_count, choice_capacity;
     bool strands_broken;        /* by the last step */
     uint32_t generation;        /* of the propagation's history when the attempt's choices began */
@@ -40,14 +40,14 @@ typedef struct MesoGuidedSearch {
     bool stopped;               /* the last attempt: out of observations, or told to stop */
     bool (*tick)(void *context);    /* called now and then; false stops the attempt; may be NULL */
     void *context;
-} MesoGuidedSearch;
+} MesoConstrainedSearch;
 
 /*
  * Prepares for attempts on `propagation`, which is at its initial fixed point
  * without dead slots or broken quotas. `*disproved` where slots decided there
  * violate the rule on strands. Arrays live in `arena`.
  */
-MesoStatus meso_guided_init(MesoGuidedSearch *search, MesoArena *arena, MesoPropagation *propagation,
+MesoStatus meso_constrained_search_init(MesoConstrainedSearch *search, MesoArena *arena, MesoPropagation *propagation,
                             const MesoVariantSet *variants, const MesoConstraints *constraints,
                             uint64_t *violations, bool *disproved, MesoError *error);
 
@@ -59,6 +59,6 @@ MesoStatus meso_guided_init(MesoGuidedSearch *search, MesoArena *arena, MesoProp
  * attempt keeps nothing in a ball around the place of the failure, twice as
  * wide each time.
  */
-MesoStatus meso_guided_attempt(MesoGuidedSearch *search, MesoRandom *random, bool *solved, MesoError *error);
+MesoStatus meso_constrained_search_attempt(MesoConstrainedSearch *search, MesoRandom *random, bool *solved, MesoError *error);
 
 #endif

@@ -1,4 +1,4 @@
-#include "libcore/tiling/search/guided.h"
+#include "libcore/tiling/search/constrained_search.h"
 
 #include <string.h>
 
@@ -9,11 +9,11 @@ enum { LEAST_BACKTRACKS = 1000, BACKTRACK_PART = 4 };
 
 enum { TICK_INTERVAL = 4096 };  /* observations */
 
-MesoStatus meso_guided_init(MesoGuidedSearch *search, MesoArena *arena, MesoPropagation *propagation,
+MesoStatus meso_constrained_search_init(MesoConstrainedSearch *search, MesoArena *arena, MesoPropagation *propagation,
                             const MesoVariantSet *variants, const MesoConstraints *constraints,
                             uint64_t *violations, bool *disproved, MesoError *error)
 {
-    *search = (MesoGuidedSearch){.propagation = propagation, .constraints = constraints, .arena = arena,
+    *search = (MesoConstrainedSearch){.propagation = propagation, .constraints = constraints, .arena = arena,
                                  .violations = violations, .max_observations = UINT64_MAX};
     *disproved = false;
     bool strands = meso_strand_rule_given(&constraints->strands), kept = true;
@@ -33,7 +33,7 @@ MesoStatus meso_guided_init(MesoGuidedSearch *search, MesoArena *arena, MesoProp
 }
 
 /* Tells the strands of the slots that the last step decided. */
-static MesoStatus follow_strands(MesoGuidedSearch *search, MesoError *error)
+static MesoStatus follow_strands(MesoConstrainedSearch *search, MesoError *error)
 {
     const MesoPropagation *propagation = search->propagation;
     bool kept = true;
@@ -51,7 +51,7 @@ static MesoStatus follow_strands(MesoGuidedSearch *search, MesoError *error)
 }
 
 /* True where the last step met a dead end of any kind; counts it for its constraint. */
-static bool in_conflict(MesoGuidedSearch *search)
+static bool in_conflict(MesoConstrainedSearch *search)
 {
     const MesoPropagation *propagation = search->propagation;
     const MesoConstraints *constraints = search->constraints;
@@ -65,19 +65,19 @@ static bool in_conflict(MesoGuidedSearch *search)
            propagation->dead_slot != MESO_NO_INDEX;
 }
 
-static MesoStatus push_choice(MesoGuidedSearch *search, uint32_t slot, uint32_t variant, MesoError *error)
+static MesoStatus push_choice(MesoConstrainedSearch *search, uint32_t slot, uint32_t variant, MesoError *error)
 {
     search->choices = MESO_GROW(search->arena, search->choices, search->choice_count, search->choice_capacity, 256,
                                 error);
     if (!search->choices)
         return MESO_ERR_MEMORY;
-    MesoGuidedChoice *choice = &search->choices[search->choice_count++];
-    *choice = (MesoGuidedChoice){.strand_mark = search->strands.trail_count, .slot = slot, .variant = variant};
+    MesoConstrainedChoice *choice = &search->choices[search->choice_count++];
+    *choice = (MesoConstrainedChoice){.strand_mark = search->strands.trail_count, .slot = slot, .variant = variant};
     return meso_propagation_mark(search->propagation, &choice->mark, error);
 }
 
 /* Takes the last choice back; `*done` is false where there is none, or none that can be. */
-static MesoStatus pop_choice(MesoGuidedSearch *search, MesoGuidedChoice *choice, bool *done, MesoError *error)
+static MesoStatus pop_choice(MesoConstrainedSearch *search, MesoConstrainedChoice *choice, bool *done, MesoError *error)
 {
     *done = false;
     if (search->choice_count == 0) {
@@ -97,16 +97,16 @@ static MesoStatus pop_choice(MesoGuidedSearch *search, MesoGuidedChoice *choice,
     return MESO_OK;
 }
 
-static MesoStatus assign(MesoGuidedSearch *search, uint32_t slot, uint32_t variant, MesoError *error)
+static MesoStatus assign(MesoConstrainedSearch *search, uint32_t slot, uint32_t variant, MesoError *error)
 {
     MesoStatus status = meso_propagation_assign(search->propagation, slot, variant, error);
     return status ? status : follow_strands(search, error);
 }
 
 /* Takes choices back, and excludes them, until there is no conflict. `*done`: there is none any more. */
-static MesoStatus backtrack(MesoGuidedSearch *search, uint64_t *left, bool *done, MesoError *error)
+static MesoStatus backtrack(MesoConstrainedSearch *search, uint64_t *left, bool *done, MesoError *error)
 {
-    MesoGuidedChoice choice;
+    MesoConstrainedChoice choice;
     *done = !in_conflict(search);
     while (!*done) {
         if (!search->propagation->tracing || *left == 0)
@@ -130,7 +130,7 @@ static MesoStatus backtrack(MesoGuidedSearch *search, uint64_t *left, bool *done
  * Gives every slot its variant to keep, as far as it goes: one that leads to a
  * conflict at once is taken back, and left to the search. Marks are void after.
  */
-static MesoStatus keep_variants(MesoGuidedSearch *search, MesoError *error)
+static MesoStatus keep_variants(MesoConstrainedSearch *search, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
     const uint32_t *keep = search->constraints->keep;
@@ -140,7 +140,7 @@ static MesoStatus keep_variants(MesoGuidedSearch *search, MesoError *error)
             propagation->domains.domains[state].size == 1 ||
             !meso_bits_test(meso_domain_bits(&propagation->domains, state), keep[s]))
             continue;
-        MesoGuidedChoice choice;
+        MesoConstrainedChoice choice;
         bool done = true;
         MesoStatus status = push_choice(search, s, keep[s], error);
         if (!status)
@@ -158,7 +158,7 @@ static MesoStatus keep_variants(MesoGuidedSearch *search, MesoError *error)
 }
 
 /* Releases the slots up to `radius` steps from `centre`. */
-static MesoStatus release_ball(MesoGuidedSearch *search, uint32_t centre, uint32_t radius, MesoError *error)
+static MesoStatus release_ball(MesoConstrainedSearch *search, uint32_t centre, uint32_t radius, MesoError *error)
 {
     const MesoSlotGraph *graph = search->propagation->graph;
     MesoArenaMark mark = meso_arena_mark(search->arena);
@@ -184,7 +184,7 @@ static MesoStatus release_ball(MesoGuidedSearch *search, uint32_t centre, uint32
     return MESO_OK;
 }
 
-static MesoStatus release_after_failure(MesoGuidedSearch *search, uint32_t last_slot, MesoError *error)
+static MesoStatus release_after_failure(MesoConstrainedSearch *search, uint32_t last_slot, MesoError *error)
 {
     uint32_t dead = search->propagation->dead_slot;
     uint32_t radius = search->failures < 30 ? 1u << search->failures : UINT32_MAX;
@@ -192,7 +192,7 @@ static MesoStatus release_after_failure(MesoGuidedSearch *search, uint32_t last_
     return release_ball(search, dead != MESO_NO_INDEX ? dead : last_slot, radius, error);
 }
 
-static MesoStatus begin_attempt(MesoGuidedSearch *search, MesoError *error)
+static MesoStatus begin_attempt(MesoConstrainedSearch *search, MesoError *error)
 {
     search->choice_count = 0;
     search->strands_seen = 0;
@@ -203,14 +203,14 @@ static MesoStatus begin_attempt(MesoGuidedSearch *search, MesoError *error)
     return search->constraints->keep ? keep_variants(search, error) : MESO_OK;
 }
 
-static bool may_go_on(const MesoGuidedSearch *search)
+static bool may_go_on(const MesoConstrainedSearch *search)
 {
     if (search->observations >= search->max_observations)
         return false;
     return search->observations % TICK_INTERVAL != 0 || !search->tick || search->tick(search->context);
 }
 
-MesoStatus meso_guided_attempt(MesoGuidedSearch *search, MesoRandom *random, bool *solved, MesoError *error)
+MesoStatus meso_constrained_search_attempt(MesoConstrainedSearch *search, MesoRandom *random, bool *solved, MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
     uint64_t left = LEAST_BACKTRACKS + propagation->graph->slot_count / BACKTRACK_PART;

@@ -1,4 +1,4 @@
-#include "libcore/tiling/exact/carry.h"
+#include "libcore/tiling/exact/edge_chains.h"
 
 #include <assert.h>
 #include <string.h>
@@ -29,7 +29,7 @@ typedef struct Bit {
 } Bit;
 
 typedef struct Finder {
-    MesoPatternTable *table;
+    MesoLabelPatternTable *table;
     MesoArena *arena;
     uint32_t label_count;
     PairList *pair_lists;       /* [lists of the table] */
@@ -43,7 +43,7 @@ typedef struct Finder {
  * The labels of the two sides, joined where a pattern shows both: each connected
  * piece is one value that the slot carries.
  */
-static MesoStatus find_values(Finder *finder, const MesoPatternList *list, Pair *pair, MesoError *error)
+static MesoStatus find_values(Finder *finder, const MesoLabelPatternList *list, Pair *pair, MesoError *error)
 {
     uint32_t count = finder->label_count;
     uint32_t *parent = MESO_NEW(finder->arena, uint32_t, 2 * (size_t)count, error);
@@ -68,12 +68,12 @@ static MesoStatus find_values(Finder *finder, const MesoPatternList *list, Pair 
     return MESO_OK;
 }
 
-static MesoStatus find_pairs(Finder *finder, const MesoPatternList *list, PairList *pairs, MesoError *error)
+static MesoStatus find_pairs(Finder *finder, const MesoLabelPatternList *list, PairList *pairs, MesoError *error)
 {
     pairs->known = true;
     for (uint32_t i = 0; i < 4; i++)
         for (uint32_t j = i + 1; j < 4; j++) {
-            if (list->codes[i] == MESO_PATTERN_BORDER || list->codes[j] == MESO_PATTERN_BORDER)
+            if (list->codes[i] == MESO_LABEL_PATTERN_BORDER || list->codes[j] == MESO_LABEL_PATTERN_BORDER)
                 continue;
             Pair pair = {.from = i, .to = j};
             if (find_values(finder, list, &pair, error))
@@ -209,7 +209,7 @@ static MesoStatus join_values(Finder *finder, uint32_t slot, const Pair *pair, u
 static MesoStatus join_pair(Finder *finder, uint32_t slot, const Pair *pair, MesoError *error)
 {
     MesoStatus status = MESO_OK;
-    if (pair->value_count > MESO_CARRY_SUMMED) {
+    if (pair->value_count > MESO_EDGE_CHAINS_SUMMED) {
         for (uint32_t v = 0; v < pair->value_count && v < 64 && !status; v++)
             status = join_values(finder, slot, pair, (uint64_t)1 << v, error);
         return status;
@@ -224,7 +224,7 @@ static MesoStatus join_slots(Finder *finder, MesoError *error)
 {
     MesoStatus status = MESO_OK;
     for (uint32_t s = 0; s < finder->table->propagation->graph->slot_count && !status; s++) {
-        const MesoPatternList *list = meso_pattern_list(finder->table, s, error);
+        const MesoLabelPatternList *list = meso_label_pattern_list(finder->table, s, error);
         if (!list)
             return MESO_ERR_MEMORY;
         PairList *pairs = &finder->pair_lists[list->index];
@@ -236,11 +236,11 @@ static MesoStatus join_slots(Finder *finder, MesoError *error)
     return status;
 }
 
-static MesoStatus number_chains(Finder *finder, MesoCarry *carry, MesoError *error)
+static MesoStatus number_chains(Finder *finder, MesoEdgeChains *chains, MesoError *error)
 {
     uint32_t *chain = MESO_NEW(finder->arena, uint32_t, finder->bit_count, error);
-    carry->links = MESO_NEW(finder->arena, MesoCarryLink, finder->bit_count, error);
-    if (!chain || !carry->links)
+    chains->links = MESO_NEW(finder->arena, MesoChainLink, finder->bit_count, error);
+    if (!chain || !chains->links)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < finder->bit_count; i++) {
         bool negated = false;
@@ -248,22 +248,22 @@ static MesoStatus number_chains(Finder *finder, MesoCarry *carry, MesoError *err
         if (finder->bits[root].size < 2 || !finder->bits[root].wide)
             continue;
         if (chain[root] == 0)
-            chain[root] = ++carry->chain_count;
-        carry->links[carry->link_count++] = (MesoCarryLink){finder->bits[i].edge, chain[root] - 1,
+            chain[root] = ++chains->chain_count;
+        chains->links[chains->link_count++] = (MesoChainLink){finder->bits[i].edge, chain[root] - 1,
                                                             finder->bits[i].ranks, negated};
     }
     return MESO_OK;
 }
 
-MesoStatus meso_carry_find(MesoCarry *carry, MesoArena *arena, MesoPatternTable *table, MesoError *error)
+MesoStatus meso_edge_chains_find(MesoEdgeChains *chains, MesoArena *arena, MesoLabelPatternTable *table, MesoError *error)
 {
     Finder finder = {.table = table, .arena = arena, .label_count = 2 * table->propagation->set->interface_count};
-    *carry = (MesoCarry){0};
+    *chains = (MesoEdgeChains){0};
     for (uint32_t s = 0; s < table->propagation->graph->slot_count; s++)
-        if (!meso_pattern_list(table, s, error))
+        if (!meso_label_pattern_list(table, s, error))
             return MESO_ERR_MEMORY;
     finder.pair_lists = MESO_NEW(arena, PairList, table->list_count, error);
     if (!finder.pair_lists || join_slots(&finder, error))
         return MESO_ERR_MEMORY;
-    return number_chains(&finder, carry, error);
+    return number_chains(&finder, chains, error);
 }

@@ -1,4 +1,4 @@
-#include "libcore/tiling/search/choice.h"
+#include "libcore/tiling/search/variant_choice.h"
 
 static uint32_t common_count(const uint64_t *bits, const uint64_t *also, uint32_t words)
 {

@@ -1,6 +1,6 @@
 /* Choice of a variant for an observed slot: what is to be kept, quotas, weights. */
-#ifndef MESO_CHOICE_H
-#define MESO_CHOICE_H
+#ifndef MESO_VARIANT_CHOICE_H
+#define MESO_VARIANT_CHOICE_H
 
 #include "libcore/tiling/propagate/propagate.h"
 

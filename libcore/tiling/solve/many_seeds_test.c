@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "libcore/tiling/fixture/solve_fixture.h"
-#include "libcore/tiling/solve/seed_sweep.h"
+#include "libcore/tiling/solve/many_seeds.h"
 
 enum { SEEDS = 24, SLOTS = 9 * 7 };
 
@@ -39,7 +39,7 @@ static MesoStatus take(void *context, uint32_t index, const MesoSolveResult *res
     return MESO_OK;
 }
 
-static MesoSeedSweep make_sweep(MesoArena *arena, const uint64_t *seeds)
+static MesoManySeeds make_sweep(MesoArena *arena, const uint64_t *seeds)
 {
     static MesoTileSet set;
     static MesoVariantSet variants;
@@ -49,7 +49,7 @@ static MesoSeedSweep make_sweep(MesoArena *arena, const uint64_t *seeds)
     set = fixture_set(arena, 4, 7, labels, true, false, false);
     graph = fixture_grid(arena, 9, 7, false, false, false);
     CHECK(meso_variant_set_build(&variants, arena, &set, &error) == MESO_OK);
-    return (MesoSeedSweep){.problem = &problem, .take = take,
+    return (MesoManySeeds){.problem = &problem, .take = take,
                            .options = {.max_attempts = 2, .max_dead_ends = 5}, .seeds = seeds,
                            .seed_count = SEEDS};
 }
@@ -74,7 +74,7 @@ int main(void)
     meso_arena_init(&arena);
     for (uint32_t i = 0; i < SEEDS; i++)
         seeds[i] = 1000 + 7 * i;
-    MesoSeedSweep sweep = make_sweep(&arena, seeds);
+    MesoManySeeds sweep = make_sweep(&arena, seeds);
 
     /* One by one: what a solve of the seed gives. */
     for (uint32_t i = 0; i < SEEDS; i++) {
@@ -94,14 +94,14 @@ int main(void)
         memset(&other, 0, sizeof other);
         sweep.context = &other;
         sweep.thread_count = threads[t];
-        CHECK(meso_seed_sweep(&sweep, &error) == MESO_OK);
+        CHECK(meso_many_seeds(&sweep, &error) == MESO_OK);
         check_same(&alone, &other);
     }
     memset(&other, 0, sizeof other);
     for (other.base = 0; other.base < SEEDS; other.base += 6) {
         sweep.seeds = seeds + other.base;
         sweep.seed_count = 6;
-        CHECK(meso_seed_sweep(&sweep, &error) == MESO_OK);
+        CHECK(meso_many_seeds(&sweep, &error) == MESO_OK);
     }
     check_same(&alone, &other);
 
@@ -110,10 +110,10 @@ int main(void)
     sweep.seed_count = SEEDS;
     sweep.thread_count = 1;
     other.fail_at = 4;
-    CHECK(meso_seed_sweep(&sweep, &error) == MESO_ERR_OUTPUT);
+    CHECK(meso_many_seeds(&sweep, &error) == MESO_ERR_OUTPUT);
     CHECK(strcmp(error.message, "no room") == 0 && other.calls == 4);
     sweep.seed_count = 0;
-    CHECK(meso_seed_sweep(&sweep, &error) == MESO_OK);
+    CHECK(meso_many_seeds(&sweep, &error) == MESO_OK);
     meso_arena_release(&arena);
     return 0;
 }

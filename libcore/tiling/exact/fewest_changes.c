@@ -1,4 +1,4 @@
-#include "libcore/tiling/exact/keep.h"
+#include "libcore/tiling/exact/fewest_changes.h"
 
 #include <string.h>
 
@@ -11,7 +11,7 @@ typedef struct Keeper {
     MesoPropagation *propagation;
     const MesoVariantSet *variants;
     const MesoConstraints *constraints;
-    const MesoKeepOptions *options;
+    const MesoFewestChangesOptions *options;
     MesoArena arena;
     MesoExact exact;
     MesoRandom random;
@@ -34,7 +34,7 @@ static bool is_changed(const Keeper *keeper, uint32_t slot)
 static MesoStatus open_slots(Keeper *keeper, MesoError *error)
 {
     const MesoSlotGraph *graph = keeper->propagation->graph;
-    uint32_t most = graph->slot_count < MESO_KEEP_OPEN_SLOTS ? graph->slot_count : MESO_KEEP_OPEN_SLOTS, count = 0;
+    uint32_t most = graph->slot_count < MESO_FEWEST_CHANGES_OPEN ? graph->slot_count : MESO_FEWEST_CHANGES_OPEN, count = 0;
     keeper->open = MESO_NEW(&keeper->arena, uint32_t, most, error);
     bool *open = keeper->is_open = MESO_NEW(&keeper->arena, bool, graph->slot_count, error);
     if (!keeper->open || !open)
@@ -202,15 +202,15 @@ static MesoStatus keep_more(Keeper *keeper, bool *fewest, MesoError *error)
     return status == MESO_ERR_LIMIT ? MESO_OK : status;
 }
 
-MesoStatus meso_keep_more(uint32_t *variant, bool *fewest, uint64_t *conflicts, MesoPropagation *propagation,
+MesoStatus meso_fewest_changes(uint32_t *variant, bool *fewest, uint64_t *conflicts, MesoPropagation *propagation,
                           const MesoVariantSet *variants, const MesoConstraints *constraints,
-                          const MesoKeepOptions *options, MesoError *error)
+                          const MesoFewestChangesOptions *options, MesoError *error)
 {
     Keeper keeper = {.propagation = propagation, .variants = variants, .constraints = constraints, .options = options,
                      .variant = variant};
     *conflicts = 0;
     *fewest = false;
-    if (propagation->graph->slot_count > MESO_KEEP_SLOTS)
+    if (propagation->graph->slot_count > MESO_FEWEST_CHANGES_SLOTS)
         return MESO_OK;
     meso_random_init(&keeper.random, options->seed, UINT64_MAX - 1);
     meso_arena_init(&keeper.arena);
