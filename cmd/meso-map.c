@@ -224,8 +224,9 @@ static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *s
                          model->surface.face_count);
     if (meso_slots_bind(slots, &model->tile_set, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
-    if (slots->quarters)    /* the model keeps corners in the order that they were solved in */
-        meso_orientation_turn_mesh(&model->surface, slots->quarters);
+    if (slots->quarters &&  /* the model keeps corners in the order that they were solved in */
+        meso_orientation_turn_mesh(&model->surface, &tool->arena, slots->quarters, error) != MESO_OK)
+        return MESO_ERR_MEMORY;
     MesoStatus status = meso_slot_graph_build(&graph, &tool->arena, &model->surface, error);
     if (status != MESO_OK)
         return meso_fail_prefix(error, inputs->surface.path);

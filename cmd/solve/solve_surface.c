@@ -104,10 +104,11 @@ static MesoStatus orient(Orienting *o)
     MesoStatus status = find_quarters(o);
     if (!status)
         status = tell_orientation(o);
-    if (!status) {
-        meso_orientation_turn_graph(&o->surface->graph, o->surface->quarters);
-        meso_orientation_turn_mesh(&o->surface->mesh, o->surface->quarters);
-    }
+    MesoTool *tool = o->tool;
+    if (!status)
+        status = meso_orientation_turn_graph(&o->surface->graph, &tool->arena, o->surface->quarters, &tool->error);
+    if (!status)
+        status = meso_orientation_turn_mesh(&o->surface->mesh, &tool->arena, o->surface->quarters, &tool->error);
     return status;
 }
 

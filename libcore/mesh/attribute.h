@@ -3,6 +3,7 @@
 #define MESO_ATTRIBUTE_H
 
 #include "libcore/base/arena.h"
+#include "libcore/base/index.h"
 #include "libcore/math/vec.h"
 
 typedef enum MesoAttributeDomain { MESO_ON_VERTICES, MESO_ON_FACES, MESO_ON_CORNERS } MesoAttributeDomain;
@@ -49,6 +50,9 @@ static inline uint32_t meso_attribute_entry(const MesoAttribute *attribute, uint
 
 /* A number of an entry, scaled where it is normalized. Component below width. */
 double meso_attribute_number(const MesoAttribute *attribute, uint32_t entry, uint32_t component);
+
+/* Place of the number that the file calls `name`, or that is the only one of an attribute `name`; or MESO_NO_INDEX. */
+uint32_t meso_attribute_component(const MesoAttribute *attribute, const char *name);
 
 /* The first two or three numbers of an entry as floats; what is missing is 0. */
 MesoVec2 meso_attribute_vec2(const MesoAttribute *attribute, uint32_t entry);

@@ -243,29 +243,29 @@ MesoStatus meso_orientation_singular(uint32_t *count, uint32_t *vertices, uint32
 
 /* ---- application ---- */
 
-static void turn(uint32_t four[4], uint32_t quarter)
+/* A copy of `from` [4 * count], each four of it started where `quarters` say; NULL: out of memory. */
+static uint32_t *turned(MesoArena *arena, const uint32_t *from, uint32_t count, const uint8_t *quarters, MesoError *error)
 {
-    uint32_t old[4];
-    memcpy(old, four, sizeof old);
-    for (uint32_t i = 0; i < 4; i++)
-        four[i] = old[(i + quarter) & 3u];
+    uint32_t *to = MESO_NEW(arena, uint32_t, (size_t)count * 4, error);
+    for (size_t i = 0; to && i < 4 * (size_t)count; i++)
+        to[i] = from[(i & ~(size_t)3) | ((i + quarters[i / 4]) & 3)];
+    return to;
 }
 
-void meso_orientation_turn_mesh(MesoQuadMesh *mesh, const uint8_t *quarters)
+MesoStatus meso_orientation_turn_mesh(MesoQuadMesh *mesh, MesoArena *arena, const uint8_t *quarters, MesoError *error)
 {
-    for (uint32_t f = 0; f < mesh->face_count; f++) {
-        turn(mesh->face_vertices + 4 * (size_t)f, quarters[f]);
-        turn(mesh->face_normals + 4 * (size_t)f, quarters[f]);
-    }
+    mesh->face_vertices = turned(arena, mesh->face_vertices, mesh->face_count, quarters, error);
+    mesh->face_normals = turned(arena, mesh->face_normals, mesh->face_count, quarters, error);
+    return mesh->face_vertices && mesh->face_normals ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-void meso_orientation_turn_graph(MesoSlotGraph *graph, const uint8_t *quarters)
+MesoStatus meso_orientation_turn_graph(MesoSlotGraph *graph, MesoArena *arena, const uint8_t *quarters, MesoError *error)
 {
-    for (uint32_t s = 0; s < graph->slot_count; s++) {
-        uint32_t *twin = graph->twin + 4 * (size_t)s;
-        turn(twin, quarters[s]);
-        for (uint32_t k = 0; k < 4; k++)
-            if (twin[k] != MESO_NO_INDEX)
-                twin[k] = (twin[k] & ~3u) | ((twin[k] - quarters[twin[k] / 4]) & 3u);
+    graph->twin = turned(arena, graph->twin, graph->slot_count, quarters, error);
+    for (size_t h = 0; graph->twin && h < 4 * (size_t)graph->slot_count; h++) {
+        uint32_t *twin = &graph->twin[h];
+        if (*twin != MESO_NO_INDEX)
+            *twin = (*twin & ~3u) | ((*twin - quarters[*twin / 4]) & 3u);
     }
+    return graph->twin ? MESO_OK : MESO_ERR_MEMORY;
 }

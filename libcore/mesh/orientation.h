@@ -59,8 +59,12 @@ MesoStatus meso_orientation_singular(uint32_t *count, uint32_t *vertices, uint32
                                      MesoArena *scratch, const MesoQuadMesh *mesh,
                                      const MesoSlotGraph *graph, MesoError *error);
 
-/* Start the faces' corner lists, and with them the slots' sides, where `quarters` say. O(faces). */
-void meso_orientation_turn_mesh(MesoQuadMesh *mesh, const uint8_t *quarters);
-void meso_orientation_turn_graph(MesoSlotGraph *graph, const uint8_t *quarters);
+/*
+ * Start the faces' corner lists, and with them the slots' sides, where `quarters` say. What is turned are copies
+ * in `arena`: arrays may be shared with a surface. O(faces). MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_orientation_turn_mesh(MesoQuadMesh *mesh, MesoArena *arena, const uint8_t *quarters, MesoError *error);
+MesoStatus meso_orientation_turn_graph(MesoSlotGraph *graph, MesoArena *arena, const uint8_t *quarters,
+                                       MesoError *error);
 
 #endif

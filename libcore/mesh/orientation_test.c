@@ -63,15 +63,15 @@ static void scramble(MesoQuadMesh *mesh, uint64_t seed)
     meso_random_init(&random, seed, 0);
     for (uint32_t f = 0; f < mesh->face_count; f++)
         quarters[f] = (uint8_t)meso_random_below(&random, 4);
-    meso_orientation_turn_mesh(mesh, quarters);
+    CHECK(meso_orientation_turn_mesh(mesh, &arena, quarters, &error) == MESO_OK);
 }
 
 /* Turning the graph gives what building it from the turned mesh does. */
 static void check_turn(MesoQuadMesh mesh, const uint8_t *quarters)
 {
     MesoSlotGraph turned = graph_of(&mesh);
-    meso_orientation_turn_graph(&turned, quarters);
-    meso_orientation_turn_mesh(&mesh, quarters);
+    CHECK(meso_orientation_turn_graph(&turned, &arena, quarters, &error) == MESO_OK);
+    CHECK(meso_orientation_turn_mesh(&mesh, &arena, quarters, &error) == MESO_OK);
     MesoSlotGraph built = graph_of(&mesh);
     CHECK(memcmp(turned.twin, built.twin, 16 * (size_t)mesh.face_count) == 0);
 }
@@ -92,7 +92,7 @@ static void test_flat(void)
         CHECK(meso_orientation_singular(&singular, vertices, 8, &arena, &mesh, &graph, &error) == MESO_OK);
         CHECK(singular == 0);
         check_turn(mesh, quarters);
-        meso_orientation_turn_mesh(&mesh, quarters);
+        CHECK(meso_orientation_turn_mesh(&mesh, &arena, quarters, &error) == MESO_OK);
         MesoVec3 same = mesh.positions[mesh.face_vertices[0]];
         CHECK(first.x == same.x && first.y == same.y);
         meso_arena_release(&arena);
@@ -178,7 +178,7 @@ static void test_along(void)
     CHECK(memcmp(quarters, expected, 8) == 0);
     scramble(&mesh, 7);
     meso_orientation_along(quarters, &mesh, to);
-    meso_orientation_turn_mesh(&mesh, quarters);
+    CHECK(meso_orientation_turn_mesh(&mesh, &arena, quarters, &error) == MESO_OK);
     CHECK(meso_orientation_along(quarters, &mesh, to) == 3);
     for (uint32_t f = 0; f < 4; f++)
         CHECK(quarters[f] == 0);

@@ -8,6 +8,12 @@
 
 #include "libcore/mesh/attribute.h"
 
+/*
+ * Coordinates beyond this are refused: products of two lengths, which all
+ * later stages form in single precision, would no longer be finite.
+ */
+#define MESO_COORDINATE_LIMIT 1e18f
+
 typedef struct MesoPolygonMesh {
     uint32_t vertex_count, face_count, corner_count;
     uint32_t side_count;        /* of every face, where all have as many; else 0 */
@@ -39,18 +45,29 @@ const MesoAttribute *meso_polygon_attribute(const MesoPolygonMesh *mesh, const c
 const MesoAttribute *meso_polygon_attribute_on(const MesoPolygonMesh *mesh, const char *name,
                                                MesoAttributeDomain domain);
 
+/* The attribute "normal" of corners, or else of vertices, with three numbers; or NULL. Those of faces are no shading. */
+const MesoAttribute *meso_polygon_normals(const MesoPolygonMesh *mesh);
+
 /*
  * The same for one number: `name` is an attribute of width 1, or what the file calls a component ("red",
  * "fieldx"), whose place goes to `component`.
  */
 const MesoAttribute *meso_polygon_number(const MesoPolygonMesh *mesh, const char *name, uint32_t *component);
+const MesoAttribute *meso_polygon_number_on(const MesoPolygonMesh *mesh, const char *name,
+                                            MesoAttributeDomain domain, uint32_t *component);
+
+/* A number of a face: its own, or the mean over its vertices or corners. NaN where one of them has none. */
+double meso_polygon_face_number(const MesoPolygonMesh *mesh, const MesoAttribute *attribute, uint32_t component,
+                                uint32_t face);
 
 /*
- * Checks what no reader may leave unchecked: positions finite and within
- * MESO_COORDINATE_LIMIT, corners below vertex_count, three sides or more a face and no
- * vertex twice in one, entries of attributes in range. MESO_ERR_INPUT names the first vertex
- * or face, counted from 1. O(corners), on `thread_count` threads (0: all cores).
+ * Checks what no reader may leave unchecked: corners below vertex_count, three sides or more a face and no
+ * vertex twice in one, entries of attributes in range, positions finite and within
+ * MESO_COORDINATE_LIMIT. MESO_ERR_INPUT names the first face, or else the first vertex, counted from 1; the
+ * number of that face from 0, or MESO_NO_INDEX, goes to `face`, which may be NULL. O(corners), on `thread_count`
+ * threads (0: all cores); the same for any number of them.
  */
-MesoStatus meso_polygon_mesh_check(const MesoPolygonMesh *mesh, uint32_t thread_count, MesoError *error);
+MesoStatus meso_polygon_mesh_check(const MesoPolygonMesh *mesh, uint32_t thread_count, uint32_t *face,
+                                   MesoError *error);
 
 #endif

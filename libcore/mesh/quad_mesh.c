@@ -1,5 +1,6 @@
 #include "libcore/mesh/quad_mesh.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -27,20 +28,6 @@ static bool unit(Vec3Double a, MesoVec3 *out)
     return true;
 }
 
-static MesoStatus check_positions(uint32_t count, const MesoVec3 *positions, MesoError *error)
-{
-    for (uint32_t v = 0; v < count; v++) {
-        MesoVec3 p = positions[v];
-        if (!meso_vec3_finite(p))
-            return meso_fail(error, MESO_ERR_INPUT, "vertex %u is not finite", v + 1);
-        if (fabsf(p.x) > MESO_COORDINATE_LIMIT || fabsf(p.y) > MESO_COORDINATE_LIMIT ||
-            fabsf(p.z) > MESO_COORDINATE_LIMIT)
-            return meso_fail(error, MESO_ERR_INPUT, "vertex %u lies beyond the largest coordinate, %g",
-                             v + 1, (double)MESO_COORDINATE_LIMIT);
-    }
-    return MESO_OK;
-}
-
 static MesoStatus check_normals(uint32_t count, const MesoVec3 *normals, MesoError *error)
 {
     for (uint32_t n = 0; n < count; n++)
@@ -49,62 +36,41 @@ static MesoStatus check_normals(uint32_t count, const MesoVec3 *normals, MesoErr
     return MESO_OK;
 }
 
-static MesoStatus check_face(uint32_t face, const uint32_t *vertices, uint32_t vertex_count,
-                             MesoError *error)
+/* Normals of a mesh on their way from the file's to one for every corner. */
+typedef struct Completion {
+    const MesoAttribute *given;     /* or NULL */
+    uint32_t *lacking;              /* [vertex_count] vertices with a corner that has no usable normal: 1, then the normal's number */
+    uint32_t lacking_count;
+} Completion;
+
+static uint32_t given_count(const Completion *completion)
 {
-    for (uint32_t i = 0; i < 4; i++)
-        if (vertices[i] >= vertex_count)
-            return meso_fail(error, MESO_ERR_INPUT, "face %u uses vertex %llu of %u", face + 1,
-                             (unsigned long long)vertices[i] + 1, vertex_count);
-    for (uint32_t i = 0; i < 3; i++)
-        for (uint32_t j = i + 1; j < 4; j++)
-            if (vertices[i] == vertices[j])
-                return meso_fail(error, MESO_ERR_INPUT, "face %u uses vertex %u twice", face + 1,
-                                 vertices[i] + 1);
-    return MESO_OK;
+    return completion->given ? completion->given->entry_count : 0;
 }
 
-static MesoStatus check_faces(uint32_t face_count, const uint32_t *face_vertices,
-                              uint32_t vertex_count, const uint32_t *face_normals,
-                              uint32_t normal_count, MesoError *error)
+/* Number of the corner's normal, or MESO_NO_INDEX where it has none of any length. */
+static uint32_t usable_normal(const Completion *completion, const MesoQuadMesh *mesh, size_t corner)
 {
-    if (face_count == 0)
-        return meso_fail(error, MESO_ERR_INPUT, "mesh has no faces");
-    if (face_count > (MESO_NO_INDEX - 2) / 4)
-        return meso_fail(error, MESO_ERR_INPUT, "mesh has more than %u faces", (MESO_NO_INDEX - 2) / 4);
-    for (uint32_t f = 0; f < face_count; f++) {
-        MesoStatus status = check_face(f, face_vertices + 4 * (size_t)f, vertex_count, error);
-        if (status)
-            return status;
-        for (size_t h = 4 * (size_t)f; face_normals && h < 4 * (size_t)f + 4; h++)
-            if (face_normals[h] >= normal_count && face_normals[h] != MESO_NO_INDEX)
-                return meso_fail(error, MESO_ERR_INPUT, "face %u uses normal %llu of %u", f + 1,
-                                 (unsigned long long)face_normals[h] + 1, normal_count);
-    }
-    return MESO_OK;
+    const MesoAttribute *given = completion->given;
+    if (!given)
+        return MESO_NO_INDEX;
+    bool of_corners = given->domain == MESO_ON_CORNERS;
+    uint32_t n = meso_attribute_entry(given, of_corners ? (uint32_t)corner : mesh->face_vertices[corner]);
+    if (n == MESO_NO_INDEX)
+        return n;
+    MesoVec3 normal = meso_attribute_vec3(given, n);
+    return normal.x != 0 || normal.y != 0 || normal.z != 0 ? n : MESO_NO_INDEX;
 }
 
-/*
- * Copies the given normals at unit length and points the corners at them; a
- * corner without a usable one gets MESO_NO_INDEX, and its vertex a mark in
- * `lacking`. Returns the number of marked vertices.
- */
-static uint32_t take_normals(MesoQuadMesh *mesh, uint32_t normal_count, const MesoVec3 *normals,
-                             const uint32_t *face_normals, uint32_t *lacking)
+static void mark_lacking(Completion *completion, const MesoQuadMesh *mesh)
 {
-    uint32_t lacking_count = 0;
     for (size_t h = 0; h < 4 * (size_t)mesh->face_count; h++) {
-        uint32_t n = face_normals ? face_normals[h] : MESO_NO_INDEX;
-        MesoVec3 ignored;
-        bool usable = n < normal_count && unit(difference(normals[n], (MesoVec3){0}), &ignored);
-        uint32_t v = mesh->face_vertices[h];
-        mesh->face_normals[h] = usable ? n : MESO_NO_INDEX;
-        if (!usable && !lacking[v]) {
-            lacking[v] = 1;
-            lacking_count++;
-        }
+        uint32_t *lacking = &completion->lacking[mesh->face_vertices[h]];
+        if (*lacking || usable_normal(completion, mesh, h) != MESO_NO_INDEX)
+            continue;
+        *lacking = 1;
+        completion->lacking_count++;
     }
-    return lacking_count;
 }
 
 /* Adds the cross product of each face's diagonals, twice its area, to its corners. */
@@ -123,65 +89,121 @@ static void sum_face_normals(const MesoQuadMesh *mesh, Vec3Double *sums)
     }
 }
 
-/* Appends the normal of each vertex marked in `lacking` behind the first `begin` normals. */
-static void append_vertex_normals(MesoQuadMesh *mesh, uint32_t begin, uint32_t *lacking,
-                                  const Vec3Double *sums)
+/* Appends the normal of each vertex marked in `lacking`. */
+static void append_vertex_normals(const Completion *completion, MesoQuadMesh *mesh, const Vec3Double *sums)
 {
-    uint32_t next = begin;
+    uint32_t next = given_count(completion);
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        if (!lacking[v])
+        if (!completion->lacking[v])
             continue;
         mesh->normals[next] = (MesoVec3){0, 0, 1};
         mesh->lost_normals += !unit(sums[v], &mesh->normals[next]);
-        lacking[v] = next++;
+        completion->lacking[v] = next++;
     }
-    for (size_t h = 0; h < 4 * (size_t)mesh->face_count; h++)
-        if (mesh->face_normals[h] == MESO_NO_INDEX)
-            mesh->face_normals[h] = lacking[mesh->face_vertices[h]];
 }
 
-static MesoStatus build_normals(MesoQuadMesh *mesh, MesoArena *arena, uint32_t normal_count,
-                                const MesoVec3 *normals, const uint32_t *face_normals,
-                                MesoError *error)
+/* Where every corner has its normal, `face_normals` is what the file has. */
+static MesoStatus number_corners(const Completion *completion, MesoQuadMesh *mesh, MesoArena *arena, MesoError *error)
 {
-    uint32_t *lacking = MESO_NEW(arena, uint32_t, mesh->vertex_count, error);
-    if (!lacking)
-        return MESO_ERR_MEMORY;
-    uint32_t lacking_count = take_normals(mesh, normal_count, normals, face_normals, lacking);
-    if (lacking_count > MESO_NO_INDEX - 1 - normal_count)
-        return meso_fail(error, MESO_ERR_INPUT, "mesh has more than %u normals", MESO_NO_INDEX - 1);
-
-    mesh->normal_count = normal_count + lacking_count;
-    mesh->given_normals = normal_count;
-    for (uint32_t n = 0; n < normal_count; n++) {
-        mesh->normals[n] = (MesoVec3){0, 0, 1};
-        unit(difference(normals[n], (MesoVec3){0}), &mesh->normals[n]);
-    }
-    if (lacking_count == 0)
+    const MesoAttribute *given = completion->given;
+    if (completion->lacking_count == 0 && given && given->domain == MESO_ON_CORNERS && given->entry_of)
+        mesh->face_normals = given->entry_of;
+    else if (completion->lacking_count == 0 && given && given->domain == MESO_ON_VERTICES && !given->entry_of)
+        mesh->face_normals = mesh->face_vertices;
+    if (mesh->face_normals)
         return MESO_OK;
-    Vec3Double *sums = MESO_NEW(arena, Vec3Double, mesh->vertex_count, error);
-    if (!sums)
+    size_t corner_count = 4 * (size_t)mesh->face_count;
+    mesh->face_normals = MESO_NEW(arena, uint32_t, corner_count, error);
+    for (size_t h = 0; mesh->face_normals && h < corner_count; h++) {
+        uint32_t n = usable_normal(completion, mesh, h);
+        mesh->face_normals[h] = n == MESO_NO_INDEX ? completion->lacking[mesh->face_vertices[h]] : n;
+    }
+    return mesh->face_normals ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus fill_normals(Completion *completion, MesoQuadMesh *mesh, MesoArena *arena, MesoArena *scratch,
+                               MesoError *error)
+{
+    uint32_t count = given_count(completion);
+    mesh->given_normals = count;
+    mesh->normal_count = count + completion->lacking_count;
+    mesh->normals = MESO_NEW(arena, MesoVec3, mesh->normal_count, error);
+    if (!mesh->normals)
         return MESO_ERR_MEMORY;
-    sum_face_normals(mesh, sums);
-    append_vertex_normals(mesh, normal_count, lacking, sums);
+    for (uint32_t n = 0; n < count; n++) {
+        mesh->normals[n] = (MesoVec3){0, 0, 1};
+        unit(difference(meso_attribute_vec3(completion->given, n), (MesoVec3){0}), &mesh->normals[n]);
+    }
+    if (completion->lacking_count) {
+        Vec3Double *sums = MESO_NEW(scratch, Vec3Double, mesh->vertex_count, error);
+        if (!sums)
+            return MESO_ERR_MEMORY;
+        sum_face_normals(mesh, sums);
+        append_vertex_normals(completion, mesh, sums);
+    }
+    return number_corners(completion, mesh, arena, error);
+}
+
+/* Gives `mesh` unit normals: those of `given` (may be NULL), and of vertices where corners lack one. */
+static MesoStatus complete_normals(MesoQuadMesh *mesh, MesoArena *arena, const MesoAttribute *given, MesoError *error)
+{
+    MesoArena scratch;
+    Completion completion = {.given = given};
+    MesoStatus status = MESO_OK;
+    meso_arena_init(&scratch);
+    completion.lacking = MESO_NEW(&scratch, uint32_t, mesh->vertex_count, error);
+    if (!completion.lacking)
+        return MESO_ERR_MEMORY;
+    mark_lacking(&completion, mesh);
+    if (completion.lacking_count > MESO_NO_INDEX - 1 - given_count(&completion))
+        status = meso_fail(error, MESO_ERR_INPUT, "mesh has more than %u normals", MESO_NO_INDEX - 1);
+    if (!status)
+        status = fill_normals(&completion, mesh, arena, &scratch, error);
+    meso_arena_release(&scratch);
+    return status;
+}
+
+static MesoStatus check_count(uint32_t face_count, MesoError *error)
+{
+    if (face_count == 0)
+        return meso_fail(error, MESO_ERR_INPUT, "mesh has no faces");
+    if (face_count > (MESO_NO_INDEX - 2) / 4)
+        return meso_fail(error, MESO_ERR_INPUT, "mesh has more than %u faces", (MESO_NO_INDEX - 2) / 4);
     return MESO_OK;
 }
 
-static MesoStatus measure_edges(MesoQuadMesh *mesh, MesoError *error)
+static MesoStatus check_extent(const MesoQuadMesh *mesh, MesoError *error)
 {
-    double sum = 0;
-    for (uint32_t f = 0; f < mesh->face_count; f++) {
-        const uint32_t *v = mesh->face_vertices + 4 * (size_t)f;
-        for (uint32_t i = 0; i < 4; i++)
-            sum += length(difference(mesh->positions[v[(i + 1) & 3]], mesh->positions[v[i]]));
-    }
-    mesh->mean_edge_length = (float)(sum / (4.0 * mesh->face_count));
     if (!(mesh->mean_edge_length > 0))
         return meso_fail(error, MESO_ERR_INPUT, "mesh has no extent: all edges have length 0");
     if (mesh->mean_edge_length < MESO_SHORTEST_EDGE)
         return meso_fail(error, MESO_ERR_INPUT, "mesh is too small: its mean edge length is %g, at least %g is needed",
                          (double)mesh->mean_edge_length, (double)MESO_SHORTEST_EDGE);
     return MESO_OK;
+}
+
+MesoStatus meso_quad_mesh_view(MesoQuadMesh *mesh, MesoArena *arena, const MesoSurface *surface, MesoError *error)
+{
+    const MesoPolygonMesh *polygons = &surface->mesh;
+    assert(polygons->side_count == 4);
+    *mesh = (MesoQuadMesh){
+        .vertex_count = polygons->vertex_count, .positions = polygons->positions,
+        .face_count = polygons->face_count, .face_vertices = polygons->corners,
+        .mean_edge_length = surface->mean_edge_length};
+    MesoStatus status = check_count(mesh->face_count, error);
+    if (!status)
+        status = check_extent(mesh, error);
+    return status ? status : complete_normals(mesh, arena, meso_polygon_normals(polygons), error);
+}
+
+/* ---- from arrays ---- */
+
+static void *copy(MesoArena *arena, const void *from, size_t count, size_t size, MesoError *error)
+{
+    void *to = meso_arena_alloc(arena, count, size, error);
+    if (to && from && count)
+        memcpy(to, from, count * size);
+    return to;
 }
 
 MesoStatus meso_quad_mesh_build(MesoQuadMesh *mesh, MesoArena *arena,
@@ -191,29 +213,30 @@ MesoStatus meso_quad_mesh_build(MesoQuadMesh *mesh, MesoArena *arena,
                                 const uint32_t *face_normals, MesoError *error)
 {
     *mesh = (MesoQuadMesh){.vertex_count = vertex_count, .face_count = face_count};
-    MesoStatus status = check_positions(vertex_count, positions, error);
+    MesoStatus status = check_count(face_count, error);
     if (!status)
         status = check_normals(normal_count, normals, error);
-    if (!status)
-        status = check_faces(face_count, face_vertices, vertex_count, face_normals, normal_count, error);
+    if (status)
+        return status;
+    MesoAttribute given = {
+        .name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = normal_count,
+        .values = (void *)normals, .entry_of = (uint32_t *)face_normals};
+    MesoPolygonMesh polygons = {
+        .vertex_count = vertex_count, .face_count = face_count, .corner_count = 4 * face_count, .side_count = 4,
+        .positions = (MesoVec3 *)positions, .corners = (uint32_t *)face_vertices,
+        .attribute_count = normals && face_normals, .attributes = &given};
+    status = meso_polygon_mesh_check(&polygons, 1, NULL, error);
+    if (status)
+        return status;
+    mesh->mean_edge_length = (float)meso_polygon_mean_edge(&polygons, 1);
+    status = check_extent(mesh, error);
     if (status)
         return status;
 
-    size_t corner_count = 4 * (size_t)face_count;
-    mesh->positions = MESO_NEW(arena, MesoVec3, vertex_count, error);
-    mesh->face_vertices = MESO_NEW(arena, uint32_t, corner_count, error);
-    mesh->face_normals = MESO_NEW(arena, uint32_t, corner_count, error);
-    mesh->normals = MESO_NEW(arena, MesoVec3, (size_t)normal_count + vertex_count, error);
-    if (!mesh->positions || !mesh->face_vertices || !mesh->face_normals || !mesh->normals)
+    mesh->positions = copy(arena, positions, vertex_count, sizeof *positions, error);
+    mesh->face_vertices = copy(arena, face_vertices, polygons.corner_count, sizeof *face_vertices, error);
+    given.entry_of = copy(arena, face_normals, face_normals ? polygons.corner_count : 0, sizeof *face_normals, error);
+    if (!mesh->positions || !mesh->face_vertices || !given.entry_of)
         return MESO_ERR_MEMORY;
-    memcpy(mesh->positions, positions, vertex_count * sizeof *positions);
-    memcpy(mesh->face_vertices, face_vertices, corner_count * sizeof *face_vertices);
-
-    status = measure_edges(mesh, error);
-    if (status)
-        return status;
-    MesoArenaMark mark = meso_arena_mark(arena);
-    status = build_normals(mesh, arena, normal_count, normals, face_normals, error);
-    meso_arena_rewind(arena, mark);
-    return status;
+    return complete_normals(mesh, arena, polygons.attribute_count ? &given : NULL, error);
 }

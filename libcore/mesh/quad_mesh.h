@@ -2,14 +2,7 @@
 #ifndef MESO_QUAD_MESH_H
 #define MESO_QUAD_MESH_H
 
-#include "libcore/base/arena.h"
-#include "libcore/math/vec.h"
-
-/*
- * Coordinates beyond this are refused: products of two lengths, which all
- * later stages form in single precision, would no longer be finite.
- */
-#define MESO_COORDINATE_LIMIT 1e18f
+#include "libcore/mesh/surface.h"
 
 /* A shorter mean edge is refused: products of two lengths would lose their digits. */
 #define MESO_SHORTEST_EDGE 1e-18f
@@ -26,6 +19,13 @@ typedef struct MesoQuadMesh {
     uint32_t *face_normals;     /* [4 * face_count] into normals */
     float mean_edge_length;     /* over all sides of all faces */
 } MesoQuadMesh;
+
+/*
+ * The same of a surface all of whose faces are quads; it goes on to use the surface's positions and corners,
+ * and where every corner has a normal its numbers of these. Normals go to `arena`, as below.
+ * MESO_ERR_INPUT for a surface without faces or with edges that are too short.
+ */
+MesoStatus meso_quad_mesh_view(MesoQuadMesh *mesh, MesoArena *arena, const MesoSurface *surface, MesoError *error);
 
 /*
  * Builds a mesh from arrays that may come from anywhere, and checks them.

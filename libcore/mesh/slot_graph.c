@@ -1,101 +1,33 @@
 #include "libcore/mesh/slot_graph.h"
 
+#include <assert.h>
 #include <string.h>
 
-typedef struct Ends {
-    uint32_t from, to;
-} Ends;
-
-static Ends ends_of(const MesoQuadMesh *mesh, uint32_t half_edge)
+static MesoStatus take_edges(MesoSlotGraph *graph, const MesoHalfEdges *edges, const MesoPolygonMesh *mesh,
+                             MesoError *error)
 {
-    uint32_t next = (half_edge & ~3u) | ((half_edge + 1) & 3u);
-    return (Ends){mesh->face_vertices[half_edge], mesh->face_vertices[next]};
+    *graph = (MesoSlotGraph){
+        .slot_count = mesh->face_count, .edge_count = edges->edge_count, .border_count = edges->border_count,
+        .reversed_count = edges->reversed_count, .twin = edges->twin};
+    return meso_half_edges_require_manifold(edges, mesh, error);
 }
 
-static uint32_t lower(Ends ends)
+MesoStatus meso_slot_graph_view(MesoSlotGraph *graph, const MesoSurface *surface, MesoError *error)
 {
-    return ends.from < ends.to ? ends.from : ends.to;
-}
-
-static uint32_t upper(Ends ends)
-{
-    return ends.from < ends.to ? ends.to : ends.from;
-}
-
-/*
- * Lists the half-edges by their lower vertex: list[v] is the first, and `next`
- * leads to the following ones, in ascending order. `list` arrives filled with
- * MESO_NO_INDEX.
- */
-static void list_half_edges(const MesoQuadMesh *mesh, uint32_t *list, uint32_t *next)
-{
-    for (uint32_t h = 4 * mesh->face_count; h-- > 0;) {
-        uint32_t v = lower(ends_of(mesh, h));
-        next[h] = list[v];
-        list[v] = h;
-    }
-}
-
-static MesoStatus fail_third_face(const MesoQuadMesh *mesh, uint32_t a, uint32_t b, uint32_t c,
-                                  MesoError *error)
-{
-    Ends ends = ends_of(mesh, a);
-    return meso_fail(error, MESO_ERR_INPUT,
-                     "edge between vertices %u and %u joins more than two faces (%u, %u, %u)",
-                     lower(ends) + 1, upper(ends) + 1, a / 4 + 1, b / 4 + 1, c / 4 + 1);
-}
-
-/*
- * Pairs the half-edges of one list. `first[u]` is the half-edge met last at
- * upper vertex u, perhaps in the list of another lower vertex. The lists live
- * in `twin` itself: a half-edge leaves its list before it gets its twin.
- */
-static MesoStatus pair_list(MesoSlotGraph *graph, const MesoQuadMesh *mesh, uint32_t begin,
-                            uint32_t *first, MesoError *error)
-{
-    uint32_t next;
-    for (uint32_t h = begin; h != MESO_NO_INDEX; h = next) {
-        next = graph->twin[h];
-        graph->twin[h] = MESO_NO_INDEX;
-        Ends ends = ends_of(mesh, h);
-        uint32_t *met = &first[upper(ends)];
-        if (*met == MESO_NO_INDEX || lower(ends_of(mesh, *met)) != lower(ends)) {
-            *met = h;
-            graph->edge_count++;
-            graph->border_count++;
-            continue;
-        }
-        if (graph->twin[*met] != MESO_NO_INDEX)
-            return fail_third_face(mesh, *met, graph->twin[*met], h, error);
-        graph->twin[*met] = h;
-        graph->twin[h] = *met;
-        graph->border_count--;
-        graph->reversed_count += ends_of(mesh, *met).from == ends.from;
-    }
-    return MESO_OK;
+    assert(surface->mesh.side_count == 4);
+    return take_edges(graph, &surface->edges, &surface->mesh, error);
 }
 
 MesoStatus meso_slot_graph_build(MesoSlotGraph *graph, MesoArena *arena,
                                  const MesoQuadMesh *mesh, MesoError *error)
 {
-    *graph = (MesoSlotGraph){.slot_count = mesh->face_count};
-    graph->twin = MESO_NEW(arena, uint32_t, (size_t)mesh->face_count * 4, error);
-    if (!graph->twin)
-        return MESO_ERR_MEMORY;
-
-    MesoArenaMark mark = meso_arena_mark(arena);
-    uint32_t *scratch = MESO_NEW(arena, uint32_t, (size_t)mesh->vertex_count * 2, error);
-    if (!scratch)
-        return MESO_ERR_MEMORY;
-    memset(scratch, 0xff, (size_t)mesh->vertex_count * 2 * sizeof *scratch);
-    uint32_t *list = scratch, *first = scratch + mesh->vertex_count;
-
-    list_half_edges(mesh, list, graph->twin);
-    MesoStatus status = MESO_OK;
-    for (uint32_t v = 0; v < mesh->vertex_count && !status; v++)
-        status = pair_list(graph, mesh, list[v], first, error);
-    meso_arena_rewind(arena, mark);
-    return status;
+    MesoHalfEdges edges;
+    MesoPolygonMesh polygons = {
+        .vertex_count = mesh->vertex_count, .positions = mesh->positions, .side_count = 4,
+        .face_count = mesh->face_count, .corner_count = 4 * mesh->face_count, .corners = mesh->face_vertices};
+    *graph = (MesoSlotGraph){0};
+    MesoStatus status = meso_half_edges_join(&edges, arena, &polygons, 1, error);
+    return status ? status : take_edges(graph, &edges, &polygons, error);
 }
 
 /*

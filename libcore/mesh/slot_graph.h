@@ -16,6 +16,9 @@ typedef struct MesoSlotGraph {
     uint32_t *twin;             /* [4 * slot_count] half-edge across, or MESO_NO_INDEX */
 } MesoSlotGraph;
 
+/* That of a surface all of whose faces are quads, whose twins it goes on to use. Errors as below. */
+MesoStatus meso_slot_graph_view(MesoSlotGraph *graph, const MesoSurface *surface, MesoError *error);
+
 /*
  * Joins the sides of faces that share two vertices. `mesh` is only read.
  * O(face_count). MESO_ERR_INPUT names the three faces (counted from 1) where

@@ -1,23 +1,15 @@
 /*
  * Surface: a polygon mesh with its adjacency, built once. What every method
  * starts from; quads or triangles is what a method asks of it.
- *
- * Half-edge h runs along its face from corner h to the face's next corner, so
- * that of a mesh of quads half-edge 4 f + k is side k of face f.
  */
 #ifndef MESO_SURFACE_H
 #define MESO_SURFACE_H
 
-#include "libcore/mesh/polygon_mesh.h"
+#include "libcore/mesh/half_edges.h"
 
 typedef struct MesoSurface {
     MesoPolygonMesh mesh;
-    uint32_t edge_count;        /* borders included */
-    uint32_t border_count;      /* edges with one face */
-    uint32_t reversed_count;    /* edges whose two faces run along them the same way */
-    uint32_t crowded_count;     /* edges with three faces or more; their half-edges have no twin */
-    uint32_t crowded[3];        /* half-edges of the first of them, ascending, where there is one */
-    uint32_t *twin;             /* [corner_count] half-edge across, or MESO_NO_INDEX */
+    MesoHalfEdges edges;
     float mean_edge_length;     /* over all sides of all faces */
 } MesoSurface;
 
@@ -30,15 +22,23 @@ typedef enum MesoSurfaceNeed {
 } MesoSurfaceNeed;
 
 /*
- * Joins the half-edges of a checked mesh, whose arrays `surface` goes on to use. Linear time: half-edges are
- * sorted by their smaller vertex. O(corners). MESO_ERR_MEMORY alone.
+ * Joins the half-edges of a checked mesh, whose arrays `surface` goes on to use. O(corners), on
+ * `thread_count` threads (0: all cores); the same for any number of them. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_surface_build(MesoSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh, MesoError *error);
+MesoStatus meso_surface_build(MesoSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh,
+                              uint32_t thread_count, MesoError *error);
 
 /*
- * MESO_ERR_INPUT where the surface lacks what `needs` (of MesoSurfaceNeed) says, with the first face (counted
- * from 1), the reason, and the step of meso-mesh that would help.
+ * MESO_ERR_INPUT where the surface lacks what `needs` (of MesoSurfaceNeed) says, with the reason and the first
+ * face, counted from 1. Its number from 0 goes to `face`, which may be NULL; MESO_NO_INDEX where the
+ * message does not begin with a face. O(corners).
  */
-MesoStatus meso_surface_require(const MesoSurface *surface, unsigned needs, MesoError *error);
+MesoStatus meso_surface_require(const MesoSurface *surface, unsigned needs, uint32_t *face, MesoError *error);
+
+/*
+ * Mean length over all sides of all faces, summed up in double precision over each 65536 faces, and then over
+ * those sums. O(corners).
+ */
+double meso_polygon_mean_edge(const MesoPolygonMesh *mesh, uint32_t thread_count);
 
 #endif

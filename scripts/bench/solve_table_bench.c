@@ -15,7 +15,7 @@
 
 #include "formats/surface_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
-#include "scripts/bench/solve_totals.h"
+#include "scripts/bench/stages/solve_totals.h"
 
 enum { SECONDS = 60 };
 

@@ -7,16 +7,9 @@
 #define MESO_MODEL_H
 
 #include "libcore/mesh/quad_mesh.h"
+#include "libcore/mesh/triangle_mesh.h"
 #include "libcore/tiling/problem/assignment.h"
 #include "libcore/tiling/tile/tile_set.h"
-
-/* A triangle mesh that tiles carry along; arrays as in MesoQuadMesh. */
-typedef struct MesoTriangleMesh {
-    uint32_t vertex_count, triangle_count;
-    MesoVec3 *positions;    /* [vertex_count] */
-    MesoVec3 *normals;      /* [vertex_count] unit length */
-    uint32_t *triangles;    /* [3 * triangle_count] */
-} MesoTriangleMesh;
 
 /* Lengths in scene units. Zero (or negative) lengths stand for the default in brackets. */
 typedef struct MesoMapOptions {
