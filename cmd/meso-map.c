@@ -9,9 +9,9 @@
 #include "cmd/common/scene_report.h"
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/model/model_file.h"
 #include "formats/scene/mesh_file.h"
-#include "formats/surface_file.h"
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/mesh/orientation.h"
@@ -167,7 +167,7 @@ static MesoStatus read_inner(MapArguments *a, const MesoTileSet *set, uint32_t i
     MesoStatus status = meso_tool_open_input(tool, &input, path, "mesh");
     if (status != MESO_OK)
         return status;
-    status = meso_triangle_mesh_read(mesh, &tool->arena, &input, error);
+    status = meso_triangle_mesh_read(mesh, &tool->arena, &input, tool->threads, error);
     meso_input_close(&input);
     return status;
 }
@@ -212,11 +212,20 @@ static void warn_of_other_inputs(const MesoTool *tool, const MesoSlotsFile *slot
                       surface ? "" : "the surface");
 }
 
-static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *slots, const Inputs *inputs,
-                             MesoError *error)
+/* The model keeps corners in the order that they were solved in; `graph` follows. */
+static MesoStatus turn_surface(MesoTool *tool, MesoModel *model, MesoSlotGraph *graph, const uint8_t *quarters,
+                               MesoError *error)
+{
+    if (!quarters)
+        return MESO_OK;
+    MesoStatus status = meso_orientation_turn_mesh(&model->surface, &tool->arena, quarters, error);
+    return status ? status : meso_orientation_turn_graph(graph, &tool->arena, quarters, error);
+}
+
+static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotGraph *graph, MesoSlotsFile *slots,
+                             const Inputs *inputs, MesoError *error)
 {
     MesoTool *tool = &a->tool;
-    MesoSlotGraph graph;
     if (slots->assignment.slot_count != model->surface.face_count)
         return meso_fail(error, MESO_ERR_INPUT,
                          "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another surface",
@@ -224,17 +233,13 @@ static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *s
                          model->surface.face_count);
     if (meso_slots_bind(slots, &model->tile_set, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
-    if (slots->quarters &&  /* the model keeps corners in the order that they were solved in */
-        meso_orientation_turn_mesh(&model->surface, &tool->arena, slots->quarters, error) != MESO_OK)
+    if (turn_surface(tool, model, graph, slots->quarters, error) != MESO_OK)
         return MESO_ERR_MEMORY;
-    MesoStatus status = meso_slot_graph_build(&graph, &tool->arena, &model->surface, error);
-    if (status != MESO_OK)
-        return meso_fail_prefix(error, inputs->surface.path);
     model->assignment = slots->assignment;
-    if (meso_assignment_check(&model->assignment, &model->tile_set, &graph, error) != MESO_OK)
+    if (meso_assignment_check(&model->assignment, &model->tile_set, graph, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
     warn_of_other_inputs(tool, slots, inputs);
-    const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = &graph,
+    const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = graph,
                                     .strict = a->strict};
     return meso_tool_judge_surface(tool, &judge);
 }
@@ -243,19 +248,21 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
 {
     MesoTool *tool = &a->tool;
     MesoSlotsFile slots;
+    MesoQuadSurface surface = {0};
     MesoStatus status = meso_tool_open_place(tool, &inputs->tiles, tool->operands[0], &MESO_PLACE_TILES);
     if (status == MESO_OK)
         status = meso_tiles_read(&model->tile_set, &tool->arena, &inputs->tiles, error);
     if (status == MESO_OK)
         status = meso_tool_open_place(tool, &inputs->surface, tool->operands[1], &MESO_PLACE_SURFACE);
     if (status == MESO_OK)
-        status = meso_surface_read(&model->surface, &tool->arena, &inputs->surface, error);
+        status = meso_quad_surface_read(&surface, &tool->arena, &inputs->surface, tool->threads, error);
+    model->surface = surface.mesh;
     if (status == MESO_OK)
         status = meso_tool_open_place(tool, &inputs->slots, tool->operands[2], &MESO_PLACE_SLOTS);
     if (status == MESO_OK)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
     if (status == MESO_OK)
-        status = bind_slots(a, model, &slots, inputs, error);
+        status = bind_slots(a, model, &surface.graph, &slots, inputs, error);
     if (status == MESO_OK)
         status = read_inners(a, model, error);
     model->options = a->options;

@@ -95,7 +95,7 @@ static MesoStatus check_arguments(Arguments *a)
 static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     const MesoSurfaceWish wish = {.path = a->tool.operands[1], .orient = a->orient, .set = &p->set,
-                                  .groups = a->control.constraints != NULL, .strict = a->strict};
+                                  .strict = a->strict};
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
         status = meso_tool_read_surface(&a->tool, &wish, &p->surface);

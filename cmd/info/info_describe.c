@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "formats/json/json_text.h"
+#include "formats/mesh/mesh_read.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/model/model_file.h"
-#include "formats/surface_file.h"
 #include "formats/tiling/constraints/constraints_file.h"
 #include "formats/tiling/result/report_file.h"
 #include "formats/tiling/result/seed_lines.h"
@@ -219,22 +220,20 @@ static int put_bounds(json_t *facts, uint32_t count, const MesoVec3 *positions)
     return failed | json_object_set_new(facts, "bounds", bounds);
 }
 
-static MesoStatus put_surface(json_t *facts, MesoArena *arena, const MesoQuadMesh *mesh,
+static MesoStatus put_surface(json_t *facts, MesoArena *arena, const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
                               MesoError *error)
 {
-    MesoSlotGraph graph;
     MesoArenaMark mark = meso_arena_mark(arena);
-    MesoStatus status = meso_slot_graph_build(&graph, arena, mesh, error);
-    uint32_t *component = status ? NULL : MESO_NEW(arena, uint32_t, graph.slot_count, error);
+    uint32_t *component = MESO_NEW(arena, uint32_t, graph->slot_count, error);
     if (!component)
-        return status ? status : MESO_ERR_MEMORY;
-    uint32_t components = meso_slot_graph_components(&graph, component);
+        return MESO_ERR_MEMORY;
+    uint32_t components = meso_slot_graph_components(graph, component);
     meso_arena_rewind(arena, mark);
     int failed = put_count(facts, "vertices", mesh->vertex_count);
     failed |= put_count(facts, "faces", mesh->face_count);
-    failed |= put_count(facts, "edges", graph.edge_count);
-    failed |= put_count(facts, "border_edges", graph.border_count);
-    failed |= put_count(facts, "reversed_edges", graph.reversed_count);
+    failed |= put_count(facts, "edges", graph->edge_count);
+    failed |= put_count(facts, "border_edges", graph->border_count);
+    failed |= put_count(facts, "reversed_edges", graph->reversed_count);
     failed |= put_count(facts, "components", components);
     failed |= put_number(facts, "mean_edge_length", mesh->mean_edge_length);
     failed |= put_bounds(facts, mesh->vertex_count, mesh->positions);
@@ -270,6 +269,7 @@ static int put_inners(json_t *facts, const MesoModel *model)
 MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
     MesoModel model;
+    MesoSlotGraph graph;
     const char *provenance;
     MesoStatus status = meso_model_read(&model, &provenance, arena, input, error);
     if (status != MESO_OK)
@@ -288,7 +288,9 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
     failed |= put_inners(facts, &model);
     status = memory_if(failed, error);
     if (status == MESO_OK)
-        status = put_surface(surface, arena, &model.surface, error);
+        status = meso_slot_graph_build(&graph, arena, &model.surface, error);
+    if (status == MESO_OK)
+        status = put_surface(surface, arena, &model.surface, &graph, error);
     if (status == MESO_OK)
         status = put_histograms(facts, arena, &model.assignment, model.tile_set.tile_count, names, error);
     return status ? status : put_tile_set(facts, arena, &model.tile_set, error);
@@ -297,14 +299,18 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
 /* A macrosurface; where it is none, any polygon mesh will do. The error is the first one's. */
 MesoStatus meso_info_mesh(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
-    MesoQuadMesh quads;
+    MesoPolygonMesh mesh;
+    MesoQuadSurface quads;
     MesoTriangleMesh triangles;
-    MesoStatus status = meso_surface_read(&quads, arena, input, error);
+    MesoStatus status = meso_polygon_mesh_read(&mesh, arena, input, 0, error);
+    if (status != MESO_OK)
+        return status;
+    status = meso_quad_surface_make(&quads, arena, &mesh, input, 0, error);
     if (status == MESO_OK) {
         int failed = json_object_set_new(facts, "kind", json_string("surface"));
-        return failed ? memory_if(failed, error) : put_surface(facts, arena, &quads, error);
+        return failed ? memory_if(failed, error) : put_surface(facts, arena, &quads.mesh, &quads.graph, error);
     }
-    if (status == MESO_ERR_MEMORY || meso_triangle_mesh_read(&triangles, arena, input, NULL) != MESO_OK)
+    if (status == MESO_ERR_MEMORY || meso_polygon_triangulate(&triangles, arena, &mesh, NULL) != MESO_OK)
         return status;
     int failed = json_object_set_new(facts, "kind", json_string("mesh"));
     failed |= json_object_set_new(facts, "surface", json_false());

@@ -85,7 +85,7 @@ MesoStatus meso_tool_read_control(MesoTool *tool, const MesoControlArguments *ar
     if (arguments->constraints) {
         MesoBoundary boundary;
         status = meso_boundary_build(&boundary, &tool->arena, &surface->mesh, &surface->graph, &tool->error);
-        const MesoConstraintScope scope = {set, variants, &surface->graph, &boundary, &surface->groups};
+        const MesoConstraintScope scope = {set, variants, &surface->graph, &boundary, &surface->file.mesh};
         if (!status)
             status = read_file(tool, arguments->constraints, &scope, read);
     }

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "cmd/common/input_kind.h"
-#include "formats/surface_field.h"
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_field.h"
 #include "libcore/mesh/orientation.h"
 
 static const char field_prefix[] = "field=";
@@ -30,6 +29,7 @@ typedef struct Orienting {
     MesoTool *tool;
     const char *orient;
     const MesoInput *input;
+    const MesoQuadSurface *quads;   /* not turned */
     MesoSolveSurface *surface;
     uint32_t without;           /* faces that the field says nothing about */
 } Orienting;
@@ -40,10 +40,9 @@ static MesoStatus follow_field(Orienting *o)
     MesoVec3 *directions = NULL;
     const char *attribute = attribute_of(o->orient);
     MesoArenaMark mark = meso_arena_mark(&tool->arena);
-    MesoStatus status = attribute ? meso_surface_attribute_read(&directions, &tool->arena, &o->surface->mesh, o->input,
-                                                                attribute, &tool->error)
-                                  : meso_surface_texture_read(&directions, &tool->arena, &o->surface->mesh, o->input,
-                                                              &tool->error);
+    MesoStatus status = attribute ? meso_surface_attribute_field(&directions, &tool->arena, o->quads, o->input, attribute,
+                                                                 &tool->error)
+                                  : meso_surface_texture_field(&directions, &tool->arena, o->quads, o->input, &tool->error);
     if (!status)
         o->without = meso_orientation_along(o->surface->quarters, &o->surface->mesh, directions);
     meso_arena_rewind(&tool->arena, mark);
@@ -122,23 +121,21 @@ static MesoStatus judge(MesoTool *tool, const MesoSurfaceWish *wish, const MesoS
 MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, MesoSolveSurface *surface)
 {
     MesoInput input;
-    MesoError *error = &tool->error;
+    MesoQuadSurface quads;
     *surface = (MesoSolveSurface){0};
     MesoStatus status = meso_tool_open_place(tool, &input, wish->path, &MESO_PLACE_SURFACE);
     if (status)
         return status;
     memcpy(surface->hash, input.hash, sizeof surface->hash);
-    status = wish->groups ? meso_surface_read_groups(&surface->mesh, &surface->groups, &tool->arena, &input, error)
-                          : meso_surface_read(&surface->mesh, &tool->arena, &input, error);
+    status = meso_quad_surface_read(&quads, &tool->arena, &input, tool->threads, &tool->error);
     if (!status) {
-        status = meso_slot_graph_build(&surface->graph, &tool->arena, &surface->mesh, error);
-        if (status == MESO_ERR_INPUT)
-            meso_fail_prefix(error, wish->path);
-    }
-    if (!status)
+        surface->file = quads.surface;
+        surface->mesh = quads.mesh;
+        surface->graph = quads.graph;
         status = judge(tool, wish, surface);
+    }
     if (!status && wish->orient.given) {
-        Orienting o = {.tool = tool, .orient = wish->orient.how, .input = &input, .surface = surface};
+        Orienting o = {.tool = tool, .orient = wish->orient.how, .input = &input, .quads = &quads, .surface = surface};
         status = orient(&o);
     }
     meso_input_close(&input);

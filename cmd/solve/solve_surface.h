@@ -4,8 +4,8 @@
 
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
-#include "formats/surface_groups.h"
 #include "libcore/mesh/slot_graph.h"
+#include "libcore/mesh/surface.h"
 
 typedef struct MesoOrientArguments {
     const char *how;
@@ -23,9 +23,9 @@ typedef struct MesoOrientArguments {
 enum { MESO_REPORT_SINGULAR = 1000 };
 
 typedef struct MesoSolveSurface {
+    MesoSurface file;           /* as the file has it, with all attributes */
     MesoQuadMesh mesh;          /* corners and */
     MesoSlotGraph graph;        /* sides as oriented */
-    MesoSurfaceGroups groups;   /* where asked for */
     uint8_t *quarters;          /* [slot_count] see orientation.h; NULL: as in the file */
     uint64_t hash[2];           /* of the file */
 } MesoSolveSurface;
@@ -37,7 +37,6 @@ typedef struct MesoSurfaceWish {
     const char *path;
     MesoOrientArguments orient;
     const MesoTileSet *set;     /* that will be grown on it */
-    bool groups;                /* wanted too */
     bool strict;                /* see surface_judge.h */
 } MesoSurfaceWish;
 

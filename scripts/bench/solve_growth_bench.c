@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/tiling/result/report_file.h"
 #include "libcore/base/clock.h"
 #include "libcore/tiling/fixture/solve_fixture.h"
@@ -58,15 +58,14 @@ static MesoSlotGraph quarter(MesoArena *arena, const MesoSlotGraph *coarse)
 static MesoSlotGraph read_surface(MesoArena *arena, const char *path, uint32_t slot_count)
 {
     MesoInput input;
-    MesoQuadMesh mesh;
-    MesoSlotGraph graph;
+    MesoQuadSurface surface;
     MesoError error;
-    if (meso_input_open(&input, path, &error) || meso_surface_read(&mesh, arena, &input, &error) ||
-        meso_slot_graph_build(&graph, arena, &mesh, &error)) {
+    if (meso_input_open(&input, path, &error) || meso_quad_surface_read(&surface, arena, &input, 0, &error)) {
         fprintf(stderr, "solve_growth_bench: %s\n", error.message);
         exit((int)error.status);
     }
     meso_input_close(&input);
+    MesoSlotGraph graph = surface.graph;
     CHECK(graph.reversed_count == 0);
     while (graph.slot_count < slot_count)
         graph = quarter(arena, &graph);

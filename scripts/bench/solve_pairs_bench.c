@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/tiling/result/report_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/base/clock.h"
@@ -33,7 +33,7 @@ static MesoStatus read_pair(const char *folder, const struct Pair *pair, MesoAre
                             MesoError *error)
 {
     MesoInput input;
-    MesoQuadMesh mesh;
+    MesoQuadSurface quads;
     char *tiles = meso_arena_print(arena, error, "%s/tilesets/%s.json", folder, pair->tiles);
     char *surface = meso_arena_print(arena, error, "%s/surfaces/%s.obj", folder, pair->surface);
     MesoStatus status = tiles && surface ? meso_input_open(&input, tiles, error) : MESO_ERR_MEMORY;
@@ -45,10 +45,9 @@ static MesoStatus read_pair(const char *folder, const struct Pair *pair, MesoAre
         status = meso_input_open(&input, surface, error);
     if (status)
         return status;
-    status = meso_surface_read(&mesh, arena, &input, error);
+    status = meso_quad_surface_read(&quads, arena, &input, 0, error);
     meso_input_close(&input);
-    if (!status)
-        status = meso_slot_graph_build(graph, arena, &mesh, error);
+    *graph = quads.graph;
     return status ? status : meso_variant_set_build(variants, arena, set, error);
 }
 

@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/tiling/tiles/tiles_file.h"
-#include "scripts/bench/stages/solve_totals.h"
+#include "scripts/bench/solve_totals.h"
 
 enum { SECONDS = 60 };
 
@@ -33,13 +33,14 @@ static const char *base_name(MesoArena *arena, const char *path)
 static MesoStatus read_surface(const char *path, MesoArena *arena, MesoSlotGraph *graph, MesoError *error)
 {
     MesoInput input;
-    MesoQuadMesh mesh;
+    MesoQuadSurface surface;
     MesoStatus status = meso_input_open(&input, path, error);
     if (status)
         return status;
-    status = meso_surface_read(&mesh, arena, &input, error);
+    status = meso_quad_surface_read(&surface, arena, &input, 0, error);
     meso_input_close(&input);
-    return status ? status : meso_slot_graph_build(graph, arena, &mesh, error);
+    *graph = surface.graph;
+    return status;
 }
 
 static MesoStatus read_tiles(const char *path, MesoArena *arena, MesoTileSet *set, MesoVariantSet *variants,

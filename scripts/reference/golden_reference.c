@@ -22,7 +22,7 @@
 #include <string.h>
 
 #include "formats/json/json_text.h"
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/scene/parts.h"
 #include "libcore/scene/sweep.h"
@@ -131,14 +131,16 @@ static void load_contours(Reference *r)
 static void load(Reference *r, char **argv)
 {
     MesoInput golden, tiles, surface;
+    MesoQuadSurface quads;
     MesoError error;
     meso_arena_init(&r->arena);
     if (meso_input_open(&golden, argv[1], &error) || meso_json_parse(&r->golden, &golden, &error) ||
         meso_input_open(&tiles, argv[2], &error) ||
         meso_tiles_read(&r->model.tile_set, &r->arena, &tiles, &error) ||
         meso_input_open(&surface, argv[3], &error) ||
-        meso_surface_read(&r->model.surface, &r->arena, &surface, &error))
+        meso_quad_surface_read(&quads, &r->arena, &surface, 0, &error))
         die(&error);
+    r->model.surface = quads.mesh;
     meso_input_close(&golden);
     meso_input_close(&tiles);
     meso_input_close(&surface);

@@ -10,13 +10,13 @@ static const uint64_t places_limit = (uint64_t)1 << 29;
 
 /* A condition that each face fulfils or not. */
 typedef struct Condition {
-    const uint32_t *of_face;        /* names, with `chosen` [count] telling which ones; or NULL */
-    const uint8_t *chosen;
-    const double *values;           /* with `low` and `high`; or NULL */
-    double low, high;
+    const MesoAttribute *attribute;
+    const uint8_t *chosen;          /* [entry_count] of names, the ones that fulfil it; NULL: a number is to lie */
+    uint32_t component;             /* in this place */
+    double low, high;               /* between these */
 } Condition;
 
-enum { CONDITION_COUNT = MESO_GROUP_KINDS + 1 };
+enum { CONDITION_COUNT = 4 };
 
 typedef struct Selection {
     Condition conditions[CONDITION_COUNT];
@@ -42,23 +42,38 @@ static uint32_t *new_places(MesoPlaceSelector *selector, uint32_t count)
     return reader->status ? NULL : allocate(selector, count, sizeof(uint32_t));
 }
 
-static void add_names(MesoPlaceSelector *selector, const MesoJsonField *where, MesoGroupKind kind, const char *key,
-                      Selection *selection)
+/* True if the entry `names` is `name`, or has it among its words: a statement `g a b` puts faces into both groups. */
+static bool has_word(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *word = names; *word && length > 0;) {
+        size_t size = strcspn(word, " ");
+        if (size == length && memcmp(word, name, length) == 0)
+            return true;
+        word += size;
+        word += strspn(word, " ");
+    }
+    return strcmp(names, name) == 0;
+}
+
+/* Names are attributes of faces: "group", "object", "material". */
+static void add_names(MesoPlaceSelector *selector, const MesoJsonField *where, const char *key, Selection *selection)
 {
     MesoJsonField field = meso_json_key(where, key);
-    const MesoFaceNames *names = &selector->groups->names[kind];
+    const MesoAttribute *attribute = meso_polygon_attribute_on(selector->mesh, key, MESO_ON_FACES);
+    uint32_t count = attribute && attribute->width == 0 ? attribute->entry_count : 0;
+    bool groups = strcmp(key, "group") == 0, any = false;
     if (!field.value)
         return;
     const char *name = meso_json_text(&field);
-    uint8_t *chosen = allocate(selector, names->count, 1);
-    bool any = false;
-    for (uint32_t i = 0; chosen && i < names->count; i++) {
-        chosen[i] = meso_face_names_match(kind, names->names[i], name);
+    uint8_t *chosen = allocate(selector, count, 1);
+    for (uint32_t i = 0; chosen && i < count; i++) {
+        chosen[i] = groups ? has_word(attribute->names[i], name) : strcmp(attribute->names[i], name) == 0;
         any |= chosen[i];
     }
     if (!any)
         meso_json_wrong(&field, "the surface has no %s '%.80s'", key, name);
-    selection->conditions[selection->count++] = (Condition){.of_face = names->of_face, .chosen = chosen};
+    selection->conditions[selection->count++] = (Condition){.attribute = attribute, .chosen = chosen};
 }
 
 static double read_number(const MesoJsonField *field)
@@ -80,12 +95,13 @@ static void add_property(MesoPlaceSelector *selector, const MesoJsonField *where
         return;
     if (!value.value == !range.value)
         meso_json_wrong(where, "with \"property\", either \"value\" or \"range\" is needed");
-    const MesoFaceAttribute *attribute = meso_face_attribute(selector->groups, meso_json_text(&field));
+    uint32_t component;
+    const MesoAttribute *attribute = meso_polygon_number(selector->mesh, meso_json_text(&field), &component);
     if (meso_json_good(where) && !attribute)
         meso_json_wrong(&field, "the surface has no property '%.80s'", json_string_value(field.value));
     if (!meso_json_good(where))
         return;
-    Condition condition = {.values = attribute->values};
+    Condition condition = {.attribute = attribute, .component = component};
     if (value.value) {
         condition.low = condition.high = read_number(&value);
     } else if (meso_json_count(&range, 2, 2) == 2) {
@@ -98,15 +114,17 @@ static void add_property(MesoPlaceSelector *selector, const MesoJsonField *where
     selection->conditions[selection->count++] = condition;
 }
 
-static bool fulfils(const Selection *selection, uint32_t slot)
+static bool fulfils(const MesoPolygonMesh *mesh, const Selection *selection, uint32_t slot)
 {
     for (uint32_t i = 0; i < selection->count; i++) {
         const Condition *condition = &selection->conditions[i];
-        if (condition->values) {
-            double value = condition->values[slot];
-            if (!(value >= condition->low && value <= condition->high))
-                return false;
-        } else if (condition->of_face[slot] == MESO_NO_INDEX || !condition->chosen[condition->of_face[slot]])
+        uint32_t entry = condition->chosen ? meso_attribute_entry(condition->attribute, slot) : 0;
+        if (condition->chosen && (entry == MESO_NO_INDEX || !condition->chosen[entry]))
+            return false;
+        if (condition->chosen)
+            continue;
+        double value = meso_polygon_face_number(mesh, condition->attribute, condition->component, slot);
+        if (!(value >= condition->low && value <= condition->high))
             return false;
     }
     return true;
@@ -141,7 +159,7 @@ static uint64_t go_through(const MesoPlaceSelector *selector, const Selection *s
     uint64_t count = 0;
     for (uint32_t i = 0; i < span_count; i++)
         for (uint32_t s = spans[i][0]; s <= spans[i][1] && s < selector->slot_count; s++)
-            if (fulfils(selection, s)) {
+            if (fulfils(selector->mesh, selection, s)) {
                 if (places)
                     places[count] = s;
                 count++;
@@ -156,9 +174,9 @@ uint32_t *meso_places_select(MesoPlaceSelector *selector, const MesoJsonField *w
     *count = 0;
     if (!meso_json_object(where, keys))
         return NULL;
-    add_names(selector, where, MESO_GROUP_GROUP, "group", &selection);
-    add_names(selector, where, MESO_GROUP_OBJECT, "object", &selection);
-    add_names(selector, where, MESO_GROUP_MATERIAL, "material", &selection);
+    add_names(selector, where, "group", &selection);
+    add_names(selector, where, "object", &selection);
+    add_names(selector, where, "material", &selection);
     add_property(selector, where, &selection);
 
     MesoJsonField slots = meso_json_key(where, "slots");

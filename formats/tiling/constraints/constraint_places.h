@@ -3,11 +3,11 @@
 #define MESO_CONSTRAINT_PLACES_H
 
 #include "formats/json/json_field.h"
-#include "formats/surface_groups.h"
+#include "libcore/mesh/polygon_mesh.h"
 
 typedef struct MesoPlaceSelector {
     MesoJsonReader *reader;
-    const MesoSurfaceGroups *groups;
+    const MesoPolygonMesh *mesh;    /* whose faces are the slots */
     uint32_t slot_count;
     uint64_t total;             /* places so far */
 } MesoPlaceSelector;

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "libcore/base/grow.h"
+
 enum { MOST_STOPS = 1024 };
 
 /* 2 GiB of weights. */
@@ -84,16 +86,39 @@ static MesoWeightStop *read_stops(MesoWeightReader *weights, const MesoJsonField
     return stops;
 }
 
+/* The number that the surface calls `name`, of every slot; NULL where it has none. */
+static const double *find_values(MesoWeightReader *weights, const char *name)
+{
+    MesoWeightColumn column;
+    column.attribute = meso_polygon_number(weights->mesh, name, &column.component);
+    for (uint32_t c = 0; c < weights->column_count; c++)
+        if (weights->columns[c].attribute == column.attribute && weights->columns[c].component == column.component)
+            return weights->columns[c].values;
+    column.values = column.attribute ? allocate(weights, weights->slot_count, sizeof *column.values) : NULL;
+    if (!column.values)
+        return NULL;
+    for (uint32_t slot = 0; slot < weights->slot_count; slot++)
+        column.values[slot] = meso_polygon_face_number(weights->mesh, column.attribute, column.component, slot);
+    weights->columns = MESO_GROW(weights->reader->arena, weights->columns, weights->column_count, weights->column_room, 8,
+                                 weights->reader->error);
+    if (!weights->columns) {
+        out_of_memory(weights);
+        return NULL;
+    }
+    weights->columns[weights->column_count++] = column;
+    return column.values;
+}
+
 /* Every slot that the ramp is for must have a number. */
-static void check_values(const MesoWeightReader *weights, const MesoJsonField *property,
-                         const MesoFaceAttribute *attribute, Places places)
+static void check_values(const MesoWeightReader *weights, const MesoJsonField *property, const char *name,
+                         const double *values, Places places)
 {
     uint32_t count = places.places ? places.count : weights->slot_count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t slot = places.places ? places.places[i] : i;
-        if (!isnan(attribute->values[slot]))
+        if (!isnan(values[slot]))
             continue;
-        meso_json_wrong(property, "'%.80s' of slot %u is not a number", attribute->name, slot);
+        meso_json_wrong(property, "'%.80s' of slot %u is not a number", name, slot);
         return;
     }
 }
@@ -123,12 +148,11 @@ static MesoWeight read_ramp(MesoWeightReader *weights, const MesoJsonField *fiel
         return weight;
     MesoJsonField property = meso_json_key(field, "property"), list = meso_json_key(field, "stops");
     const char *name = meso_json_text(&property);
-    const MesoFaceAttribute *attribute = meso_face_attribute(weights->groups, name);
-    if (!attribute)
+    MesoWeightRamp ramp = {.values = find_values(weights, name)};
+    if (ramp.values)
+        check_values(weights, &property, name, ramp.values, places);
+    else if (meso_json_good(field))
         meso_json_wrong(&property, "the surface has no property '%.80s'", name);
-    else
-        check_values(weights, &property, attribute, places);
-    MesoWeightRamp ramp = {.values = attribute ? attribute->values : NULL};
     ramp.stops = read_stops(weights, &list, &ramp.stop_count);
     if (meso_json_good(field))
         weight.ramp = add_ramp(weights, ramp);

@@ -2,15 +2,22 @@
 #ifndef MESO_CONSTRAINT_WEIGHTS_H
 #define MESO_CONSTRAINT_WEIGHTS_H
 
-#include "formats/surface_groups.h"
 #include "formats/tiling/constraints/constraint_names.h"
+#include "libcore/mesh/polygon_mesh.h"
 #include "libcore/tiling/problem/weights.h"
+
+/* A number of every slot, made when the first ramp asks for it. */
+typedef struct MesoWeightColumn {
+    const MesoAttribute *attribute;
+    uint32_t component;
+    double *values;                 /* [slot_count] NaN where there is none */
+} MesoWeightColumn;
 
 typedef struct MesoWeightReader {
     MesoJsonReader *reader;
     const MesoConstraintNames *names;
     const MesoVariantSet *variants;
-    const MesoSurfaceGroups *groups;
+    const MesoPolygonMesh *mesh;    /* whose faces are the slots */
     uint32_t slot_count;
     bool given;                     /* there were weights */
     bool fractions;                 /* one of them is no whole number */
@@ -20,11 +27,12 @@ typedef struct MesoWeightReader {
     uint32_t *slot_table;           /* [slot_count] NULL until a region has weights */
     uint32_t ramp_count, ramp_room;
     MesoWeightRamp *ramps;
+    uint32_t column_count, column_room;
+    MesoWeightColumn *columns;   /* numbers of slots that ramps go along */
 } MesoWeightReader;
 
 /*
- * Every tile weighs 1. What the reader points to must outlive it, and the
- * groups' attributes the weights too. Problems are told to the JSON reader, here and below.
+ * Every tile weighs 1. What the reader points to must outlive it. Problems are told to the JSON reader, here and below.
  */
 void meso_weight_reader_begin(MesoWeightReader *weights);
 

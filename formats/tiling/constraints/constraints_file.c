@@ -345,10 +345,10 @@ static void read_root(Parser *parser, const json_t *json, MesoConstraints *const
 {
     const MesoConstraintScope *scope = parser->scope;
     MesoJsonField root = meso_json_root(parser->reader, json);
-    parser->selector = (MesoPlaceSelector){.reader = parser->reader, .groups = scope->groups,
+    parser->selector = (MesoPlaceSelector){.reader = parser->reader, .mesh = scope->mesh,
                                            .slot_count = scope->graph->slot_count};
     parser->weights = (MesoWeightReader){.reader = parser->reader, .names = &parser->names,
-                                         .variants = scope->variants, .groups = scope->groups,
+                                         .variants = scope->variants, .mesh = scope->mesh,
                                          .slot_count = scope->graph->slot_count};
     parser->names.set = scope->set;
     parser->reader->status = meso_tile_names_init(&parser->names.by_name, parser->reader->arena, scope->set,

@@ -5,8 +5,8 @@
 #include <jansson.h>
 
 #include "formats/file/input.h"
-#include "formats/surface_groups.h"
 #include "libcore/mesh/boundary.h"
+#include "libcore/mesh/polygon_mesh.h"
 #include "libcore/tiling/problem/constraints.h"
 
 enum { MESO_CONSTRAINTS_VERSION = 1, MESO_CONSTRAINTS_ITEMS = 1 << 20 };    /* the most items of a list */
@@ -17,7 +17,7 @@ typedef struct MesoConstraintScope {
     const MesoVariantSet *variants;
     const MesoSlotGraph *graph;
     const MesoBoundary *boundary;
-    const MesoSurfaceGroups *groups;
+    const MesoPolygonMesh *mesh;    /* of the surface, with its attributes */
 } MesoConstraintScope;
 
 /*

@@ -22,14 +22,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static const char *names[2] = {"left", "right wing"};
     static uint32_t of_face[3] = {0, 1, UINT32_MAX};
     static double values[3] = {0, 0.5, 1}, partial[3] = {-1e308, NAN, INFINITY};
-    static MesoFaceAttribute attributes[2] = {{.name = "red", .values = values}, {.name = "heat", .values = partial}};
+    static MesoAttribute attributes[3] = {
+        {.name = "red", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_DOUBLE, .width = 1, .entry_count = 3, .values = values},
+        {.name = "heat", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_DOUBLE, .width = 1, .entry_count = 3, .values = partial},
+        {.name = "group", .domain = MESO_ON_FACES, .entry_count = 2, .names = names, .entry_of = of_face}};
     const MesoTileSet set = {.interface_count = 2, .interfaces = interfaces, .tile_count = 3, .tiles = tiles,
                              .section_count = 1, .sections = sections, .sweep_count = 2, .sweeps = sweeps};
     const MesoSlotGraph graph = {.slot_count = 3, .edge_count = 10, .border_count = 8, .twin = twin};
     const MesoBoundary boundary = {.loop_count = 1, .loop_begin = loop_begin, .half_edges = half_edges};
-    const MesoSurfaceGroups groups = {
-        .face_count = 3, .names[MESO_GROUP_GROUP] = {.count = 2, .names = names, .of_face = of_face},
-        .attribute_count = 2, .attributes = attributes};
+    const MesoPolygonMesh mesh = {.face_count = 3, .corner_count = 12, .side_count = 4, .attribute_count = 3,
+                                  .attributes = attributes};
     MesoArena arena;
     MesoError error;
     MesoInput input;
@@ -41,7 +43,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     meso_input_wrap(&input, "fuzz", data, size);
     if (meso_variant_set_build(&variants, &arena, &set, &error) != MESO_OK)
         abort();
-    const MesoConstraintScope scope = {&set, &variants, &graph, &boundary, &groups};
+    const MesoConstraintScope scope = {&set, &variants, &graph, &boundary, &mesh};
     const MesoSolveOptions options = {.max_attempts = 2, .max_dead_ends = 2};
     /* A wrong result is an internal error: the solver checks what it found. */
     if (meso_constraints_read(&constraints, &arena, &input, &scope, &error) == MESO_OK &&

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "libcore/base/check.h"
 #include "libcore/tiling/solve/solve.h"
 
@@ -31,8 +31,7 @@ typedef struct Case {
     MesoError error;
     MesoTileSet set;
     MesoVariantSet variants;
-    MesoQuadMesh mesh;
-    MesoSurfaceGroups groups;
+    MesoQuadSurface surface;
     MesoSlotGraph graph;
     MesoBoundary boundary;
     MesoConstraintScope scope;
@@ -56,10 +55,10 @@ static void begin(Case *c, const char *path, const char *text)
     CHECK(meso_variant_set_build(&c->variants, &c->arena, &c->set, NULL) == MESO_OK);
     CHECK(c->variants.count == 6);
     meso_input_wrap(&input, path, text, strlen(text));
-    CHECK(meso_surface_read_groups(&c->mesh, &c->groups, &c->arena, &input, &c->error) == MESO_OK);
-    CHECK(meso_slot_graph_build(&c->graph, &c->arena, &c->mesh, NULL) == MESO_OK);
-    CHECK(meso_boundary_build(&c->boundary, &c->arena, &c->mesh, &c->graph, NULL) == MESO_OK);
-    c->scope = (MesoConstraintScope){&c->set, &c->variants, &c->graph, &c->boundary, &c->groups};
+    CHECK(meso_quad_surface_read(&c->surface, &c->arena, &input, 1, &c->error) == MESO_OK);
+    c->graph = c->surface.graph;
+    CHECK(meso_boundary_build(&c->boundary, &c->arena, &c->surface.mesh, &c->graph, NULL) == MESO_OK);
+    c->scope = (MesoConstraintScope){&c->set, &c->variants, &c->graph, &c->boundary, &c->surface.surface.mesh};
 }
 
 static MesoStatus read_text(Case *c, const char *text)
@@ -150,7 +149,7 @@ static void test_ply(void)
     static const uint32_t zero[1] = {0}, one[1] = {1};
     Case c;
     begin(&c, "s.ply", ply_text);
-    CHECK(c.groups.attribute_count == 3);
+    CHECK(c.surface.surface.mesh.attribute_count == 3);
     expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"part\", \"value\": -2}, \"tiles\": [\"plain\"]}]", false, 1,
                   one, 1);
     expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"heat\", \"value\": 1}, \"tiles\": [\"plain\"]}]", false, 1,
@@ -254,13 +253,17 @@ static void test_ply_ramps(void)
     CHECK(weight(&c, 0, 5) == 840 && weight(&c, 1, 5) == 7 * 840);     /* 1 and 3 */
     CHECK(read(&c, RAMP("part", "[[0, 1], [8, 9]]")) == MESO_OK);
     CHECK(weight(&c, 0, 5) == 8 * 840 && weight(&c, 1, 5) == 840);     /* 7 and -2 */
-    c.groups.attributes[0].values[1] = NAN;
-    const char *spoilt = c.groups.attributes[0].name;
-    CHECK(strcmp(spoilt, "part") == 0);
+    uint32_t component;
+    const MesoAttribute *part = meso_polygon_number(&c.surface.surface.mesh, "part", &component);
+    double spoilt[2] = {7, NAN};
+    MesoAttribute changed = *part;
+    changed.scalar = MESO_SCALAR_DOUBLE;
+    changed.values = spoilt;
+    *(MesoAttribute *)part = changed;
     expect(&c, RAMP("part", "[[0, 1], [8, 9]]"), "weights.even.property: 'part' of slot 1 is not a number");
     CHECK(read(&c, "\"regions\": [{\"where\": {\"slots\": [0]}, " RAMP("part", "[[0, 1], [8, 9]]") "}]") == MESO_OK);
     CHECK(weight(&c, 0, 5) == 8 * 840 && weight(&c, 1, 5) == 840);
-    c.groups.attributes[0].values[0] = -INFINITY;
+    spoilt[0] = -INFINITY;
     CHECK(read(&c, "\"regions\": [{\"where\": {\"slots\": [0]}, " RAMP("part", "[[0, 3], [8, 9]]") "}]") == MESO_OK);
     CHECK(weight(&c, 0, 5) == 3 * 840);
     meso_arena_release(&c.arena);
@@ -336,7 +339,8 @@ int main(void)
 {
     Case c;
     begin(&c, "s.obj", surface_text);
-    CHECK(c.groups.names[MESO_GROUP_GROUP].count == 4 && c.groups.names[MESO_GROUP_MATERIAL].count == 2);
+    const MesoPolygonMesh *mesh = &c.surface.surface.mesh;
+    CHECK(meso_polygon_attribute(mesh, "group")->entry_count == 4 && meso_polygon_attribute(mesh, "material")->entry_count == 2);
     test_pins(&c);
     test_places(&c);
     test_weights(&c);

@@ -1,7 +1,7 @@
 /* Every kind of constraint from its text to the assignment: that it holds there, and is named where it cannot. */
 #include <string.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "formats/tiling/constraints/constraints_file.h"
 #include "libcore/base/check.h"
 #include "libcore/tiling/solve/explain.h"
@@ -31,8 +31,7 @@ typedef struct Case {
     MesoError error;
     MesoTileSet set;
     MesoVariantSet variants;
-    MesoQuadMesh mesh;
-    MesoSurfaceGroups groups;
+    MesoQuadSurface surface;
     MesoSlotGraph graph;
     MesoBoundary boundary;
     MesoConstraints constraints;
@@ -90,15 +89,15 @@ static void begin(Case *c, bool ply)
     CHECK(c->variants.count == 4 + 8 + 1 + 1);
     const char *text = ply ? ply_text(&c->arena) : obj_text(&c->arena);
     meso_input_wrap(&input, ply ? "s.ply" : "s.obj", text, strlen(text));
-    CHECK(meso_surface_read_groups(&c->mesh, &c->groups, &c->arena, &input, &c->error) == MESO_OK);
-    CHECK(meso_slot_graph_build(&c->graph, &c->arena, &c->mesh, NULL) == MESO_OK);
-    CHECK(meso_boundary_build(&c->boundary, &c->arena, &c->mesh, &c->graph, NULL) == MESO_OK);
+    CHECK(meso_quad_surface_read(&c->surface, &c->arena, &input, 1, &c->error) == MESO_OK);
+    c->graph = c->surface.graph;
+    CHECK(meso_boundary_build(&c->boundary, &c->arena, &c->surface.mesh, &c->graph, NULL) == MESO_OK);
     CHECK(c->boundary.loop_count == (ply ? 1 : 2));
 }
 
 static void solve(Case *c, const char *content, MesoEngine engine, uint64_t seed)
 {
-    const MesoConstraintScope scope = {&c->set, &c->variants, &c->graph, &c->boundary, &c->groups};
+    const MesoConstraintScope scope = {&c->set, &c->variants, &c->graph, &c->boundary, &c->surface.surface.mesh};
     const MesoSolveOptions options = {.seed = seed, .engine = engine, .max_attempts = 20, .max_dead_ends = 5};
     const char *text = meso_arena_print(&c->arena, NULL, "{\"format\": \"meso-constraints\", \"version\": 1, %s}",
                                         content);

@@ -1,4 +1,4 @@
-#include "formats/openmesh_adapter.h"
+#include "formats/mesh/openmesh_adapter.h"
 
 #include <exception>
 #include <istream>

@@ -2,8 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "formats/surface_field.h"
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_field.h"
 #include "libcore/base/check.h"
 
 static MesoArena arena;
@@ -13,11 +12,11 @@ static MesoError error;
 static MesoStatus read_field(MesoVec3 **directions, const char *path, const char *text, const char *attribute)
 {
     MesoInput input;
-    MesoQuadMesh mesh;
+    MesoQuadSurface surface;
     meso_input_wrap(&input, path, text, strlen(text));
-    CHECK(meso_surface_read(&mesh, &arena, &input, &error) == MESO_OK);
-    return attribute ? meso_surface_attribute_read(directions, &arena, &mesh, &input, attribute, &error)
-                     : meso_surface_texture_read(directions, &arena, &mesh, &input, &error);
+    CHECK(meso_quad_surface_read(&surface, &arena, &input, 1, &error) == MESO_OK);
+    return attribute ? meso_surface_attribute_field(directions, &arena, &surface, &input, attribute, &error)
+                     : meso_surface_texture_field(directions, &arena, &surface, &input, &error);
 }
 
 static void expect(const char *path, const char *text, const char *attribute, uint32_t count, const MesoVec3 *expected)

@@ -24,7 +24,7 @@ typedef struct MesoOpenMeshSink {
  * Reads `bytes` with OpenMesh and hands every vertex and face on as its reader
  * parsed it: they never go into an OpenMesh mesh, which would add faces again
  * on duplicated vertices, or drop them. Indices are unchecked. The bytes must
- * have passed a scan (mesh_scan.h): on others the readers run away on absurd
+ * be as mesh_kinds.h says a reader takes them: on others the readers run away on absurd
  * counts, and open files that an OBJ names. Not to be called from two threads
  * at once, for the readers are singletons with state.
  * MESO_ERR_INPUT where OpenMesh refuses, MESO_ERR_MEMORY, MESO_ERR_INTERNAL.

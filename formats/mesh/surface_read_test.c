@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "libcore/base/check.h"
 
 static MesoArena arena;
@@ -10,18 +10,26 @@ static MesoQuadMesh mesh;
 static MesoTriangleMesh triangles;
 static MesoError error;
 
+static MesoStatus read_mesh(const MesoInput *input)
+{
+    MesoQuadSurface surface;
+    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
+    mesh = surface.mesh;
+    return status;
+}
+
 static MesoStatus read(const char *path, const char *text)
 {
     MesoInput input;
     meso_input_wrap(&input, path, text, strlen(text));
-    return meso_surface_read(&mesh, &arena, &input, &error);
+    return read_mesh(&input);
 }
 
 static MesoStatus read_triangles(const char *path, const char *text)
 {
     MesoInput input;
     meso_input_wrap(&input, path, text, strlen(text));
-    return meso_triangle_mesh_read(&triangles, &arena, &input, &error);
+    return meso_triangle_mesh_read(&triangles, &arena, &input, 1, &error);
 }
 
 static void check_message(const char *path, const char *text, const char *message)
@@ -109,7 +117,7 @@ static void test_binary_ply_returns(void)
     at += sizeof face;
     MesoInput input;
     meso_input_wrap(&input, "a.ply", bytes, (size_t)(at - bytes));
-    CHECK(meso_surface_read(&mesh, &arena, &input, &error) == MESO_OK);
+    CHECK(read_mesh(&input) == MESO_OK);
     CHECK(mesh.face_count == 1 && mesh.positions[0].z == odd && mesh.positions[1].x == 1);
 }
 
@@ -123,11 +131,11 @@ static void test_gltf(void)
 {
     MesoInput input;
     meso_input_wrap(&input, "a.glb", glb, sizeof glb - 1);
-    CHECK(meso_surface_read(&mesh, &arena, &input, &error) == MESO_ERR_INPUT);
+    CHECK(read_mesh(&input) == MESO_ERR_INPUT);
     CHECK(strcmp(error.message, "a.glb" REFUSAL) == 0);
     for (size_t size = 1; size < sizeof glb - 1; size++) {
         meso_input_wrap(&input, "a.glb", glb, size);
-        CHECK(meso_surface_read(&mesh, &arena, &input, &error) == MESO_ERR_INPUT);
+        CHECK(read_mesh(&input) == MESO_ERR_INPUT);
         CHECK(strncmp(error.message, "a.glb: broken glTF: ", 20) == 0);
     }
     check_message("a.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "a.gltf" REFUSAL);
@@ -207,7 +215,7 @@ static void test_truncation(void)
             MesoInput input;
             char *copy = meso_arena_copy_text(&arena, texts[i], &error);
             meso_input_wrap(&input, "a", copy, size);
-            MesoStatus status = meso_surface_read(&mesh, &arena, &input, &error);
+            MesoStatus status = read_mesh(&input);
             CHECK(status == MESO_OK || status == MESO_ERR_INPUT);
         }
 }

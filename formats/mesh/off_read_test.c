@@ -1,18 +1,26 @@
 /* OFF: its kinds and layouts, and what is refused. */
 #include <string.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "libcore/base/check.h"
 
 static MesoArena arena;
 static MesoQuadMesh mesh;
 static MesoError error;
 
+static MesoStatus read_mesh(const MesoInput *input)
+{
+    MesoQuadSurface surface;
+    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
+    mesh = surface.mesh;
+    return status;
+}
+
 static MesoStatus read_bytes(const char *text, size_t size)
 {
     MesoInput input;
     meso_input_wrap(&input, "t.off", text, size);
-    return meso_surface_read(&mesh, &arena, &input, &error);
+    return read_mesh(&input);
 }
 
 static void check_message(const char *text, const char *message)

@@ -2,18 +2,26 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/surface_file.h"
+#include "formats/mesh/surface_read.h"
 #include "libcore/base/check.h"
 
 static MesoArena arena;
 static MesoQuadMesh mesh;
 static MesoError error;
 
+static MesoStatus read_mesh(const MesoInput *input)
+{
+    MesoQuadSurface surface;
+    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
+    mesh = surface.mesh;
+    return status;
+}
+
 static MesoStatus read_bytes(const void *bytes, size_t size)
 {
     MesoInput input;
     meso_input_wrap(&input, "t.ply", bytes, size);
-    return meso_surface_read(&mesh, &arena, &input, &error);
+    return read_mesh(&input);
 }
 
 static void check_message(const char *text, const char *message)

@@ -1,0 +1,63 @@
+#include "formats/mesh/surface_read.h"
+
+#include "formats/mesh/mesh_read.h"
+
+static MesoStatus require(const MesoSurface *surface, const MesoInput *input, unsigned needs, MesoError *error)
+{
+    uint32_t face;
+    MesoStatus status = meso_surface_require(surface, needs, &face, error);
+    return status ? meso_mesh_fail_at_face(input, face, error) : MESO_OK;
+}
+
+/* Numbers of sides come first: they need no half-edges. */
+static MesoStatus make_surface(MesoSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh, const MesoInput *input,
+                               unsigned needs, uint32_t thread_count, MesoError *error)
+{
+    const unsigned of_sides = MESO_NEEDS_QUADS | MESO_NEEDS_TRIANGLES;
+    *surface = (MesoSurface){.mesh = *mesh};
+    MesoStatus status = require(surface, input, needs & of_sides, error);
+    if (!status)
+        status = meso_surface_build(surface, arena, mesh, thread_count, error);
+    return status ? status : require(surface, input, needs & ~of_sides, error);
+}
+
+MesoStatus meso_surface_read(MesoSurface *surface, MesoArena *arena, const MesoInput *input, unsigned needs,
+                             uint32_t thread_count, MesoError *error)
+{
+    MesoPolygonMesh mesh;
+    MesoStatus status = meso_polygon_mesh_read(&mesh, arena, input, thread_count, error);
+    return status ? status : make_surface(surface, arena, &mesh, input, needs, thread_count, error);
+}
+
+MesoStatus meso_quad_surface_make(MesoQuadSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh,
+                                  const MesoInput *input, uint32_t thread_count, MesoError *error)
+{
+    MesoStatus status = make_surface(&surface->surface, arena, mesh, input, MESO_NEEDS_QUADS, thread_count, error);
+    if (status)
+        return status;
+    status = meso_quad_mesh_view(&surface->mesh, arena, &surface->surface, error);
+    if (!status)
+        status = meso_slot_graph_view(&surface->graph, &surface->surface, error);
+    return status == MESO_ERR_INPUT ? meso_fail_prefix(error, input->path) : status;
+}
+
+MesoStatus meso_quad_surface_read(MesoQuadSurface *surface, MesoArena *arena, const MesoInput *input,
+                                  uint32_t thread_count, MesoError *error)
+{
+    MesoPolygonMesh mesh;
+    MesoStatus status = meso_polygon_mesh_read(&mesh, arena, input, thread_count, error);
+    return status ? status : meso_quad_surface_make(surface, arena, &mesh, input, thread_count, error);
+}
+
+MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, const MesoInput *input,
+                                   uint32_t thread_count, MesoError *error)
+{
+    MesoPolygonMesh polygons;
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    MesoStatus status = meso_polygon_mesh_read(&polygons, &scratch, input, thread_count, error);
+    if (!status)
+        status = meso_polygon_triangulate(mesh, arena, &polygons, error);
+    meso_arena_release(&scratch);
+    return status;
+}
