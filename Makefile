@@ -139,9 +139,9 @@ check-exhaustive: $(OUT)/test/libcore/tiling/solve/small_graphs_test
 check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
-	@scripts/bench/stages/stages/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
+	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
-	@scripts/bench/stages/stages/solve $(OUT) $(BIN) $(DATA)
+	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 fuzz-run: fuzzers all generators

@@ -3,7 +3,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "formats/gltf_read_adapter.h"
+#include "formats/mesh/gltf_read_adapter.h"
 #include "formats/mesh/mesh_kinds.h"
 #include "formats/product/file_kind.h"
 

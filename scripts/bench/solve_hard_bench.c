@@ -21,7 +21,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/tiling/fixture/solve_fixture.h"
-#include "scripts/bench/stages/stages/solve_totals.h"
+#include "scripts/bench/solve_totals.h"
 
 enum { WIDTH = 60, MOST_TILES = 40, DRAWS = 5 };
 

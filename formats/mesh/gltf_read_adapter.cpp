@@ -1,4 +1,4 @@
-#include "formats/gltf_read_adapter.h"
+#include "formats/mesh/gltf_read_adapter.h"
 
 #include <climits>
 #include <cstring>
