@@ -2,7 +2,7 @@
 #
 #   all               the tools, to build/bin (release) or build/CONFIG/bin
 #   examples          tile sets and surfaces to try, to build/examples
-#   check             every test: units, folder pages, man pages, command lines
+#   check             every test: units, folder pages, the order of includes, man pages, command lines
 #   check-exhaustive  the solver against brute force on all gluings of up to $(CHECK_SLOTS) slots, for
 #                     $(CHECK_SECONDS) seconds at most: a line for each number of slots and core
 #   check-reference   comparison with the prototype's published data in $(DATA)
@@ -129,7 +129,7 @@ benches: $(BENCHES:%=$(OUT)/test/%)
 references: $(REFERENCES:%=$(OUT)/test/%)
 
 check: all tests
-	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%) folders man cli
+	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%) folders includes man cli
 check-unit: tests
 	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%)
 check-cli: all tests

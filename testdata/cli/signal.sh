@@ -28,7 +28,7 @@ for wait in 00 01 02 03 05 08 11 15 19 23; do
         tries=$((tries + 1))
     done
     sleep 0.$wait
-    kill -s TERM $process
+    kill -s TERM $process 2>/dev/null || true
     wait $process 2>/dev/null || true
     find each -name '.*' -type f
     rm -f each/* each/.meso*

@@ -1,7 +1,7 @@
 #include "formats/mesh/mesh_kinds.h"
 #include "formats/mesh/mesh_text.h"
-#include "formats/mesh/ply_body.h"
-#include "formats/mesh/ply_layout.h"
+#include "formats/mesh/ply/ply_body.h"
+#include "formats/mesh/ply/ply_layout.h"
 
 MesoStatus meso_ply_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
                          MesoError *error)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "formats/mesh/number_text.h"
-#include "formats/mesh/obj_pieces.h"
+#include "formats/mesh/obj/obj_pieces.h"
 
 /* A piece on its way into the arrays: how many of everything there were before the line. */
 typedef struct ObjFill {

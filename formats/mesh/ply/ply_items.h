@@ -2,7 +2,7 @@
 #ifndef MESO_PLY_ITEMS_H
 #define MESO_PLY_ITEMS_H
 
-#include "formats/mesh/ply_header.h"
+#include "formats/mesh/ply/ply_header.h"
 
 /* Numbers that lie beside each other in items and in the mesh. */
 typedef struct MesoPlyRun {

@@ -1,4 +1,4 @@
-#include "formats/mesh/ply_layout.h"
+#include "formats/mesh/ply/ply_layout.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "formats/mesh/obj_pieces.h"
+#include "formats/mesh/obj/obj_pieces.h"
 #include "libcore/base/grow.h"
 #include "libcore/base/names.h"
 

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "formats/mesh/obj_pieces.h"
+#include "formats/mesh/obj/obj_pieces.h"
 
 MesoObjName meso_obj_name_kind(MesoWord statement)
 {

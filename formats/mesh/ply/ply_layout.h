@@ -2,7 +2,7 @@
 #ifndef MESO_PLY_LAYOUT_H
 #define MESO_PLY_LAYOUT_H
 
-#include "formats/mesh/ply_header.h"
+#include "formats/mesh/ply/ply_header.h"
 #include "libcore/mesh/polygon_mesh.h"
 
 /*

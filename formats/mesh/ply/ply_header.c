@@ -1,5 +1,5 @@
 /* PLY 1.0 (Turk, "The PLY Polygon File Format", 1994), with the type names in use since. */
-#include "formats/mesh/ply_header.h"
+#include "formats/mesh/ply/ply_header.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "formats/mesh/mesh_kinds.h"
-#include "formats/mesh/obj_pieces.h"
+#include "formats/mesh/obj/obj_pieces.h"
 
 enum { MOST_ATTRIBUTES = 3 + MESO_OBJ_NAME_KINDS };
 

@@ -1,4 +1,4 @@
-#include "formats/mesh/ply_items.h"
+#include "formats/mesh/ply/ply_items.h"
 
 #include <string.h>
 

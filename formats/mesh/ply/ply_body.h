@@ -3,7 +3,7 @@
 #define MESO_PLY_BODY_H
 
 #include "formats/file/input.h"
-#include "formats/mesh/ply_header.h"
+#include "formats/mesh/ply/ply_header.h"
 #include "libcore/mesh/polygon_mesh.h"
 
 /* Each reads all elements of a header with a plan (ply_layout.h) into `mesh`. Errors as of meso_ply_read(). */

@@ -5,9 +5,9 @@
 #include "formats/mesh/mesh_kinds.h"
 #include "formats/mesh/mesh_text.h"
 #include "formats/mesh/number_text.h"
-#include "formats/mesh/ply_body.h"
-#include "formats/mesh/ply_items.h"
-#include "formats/mesh/ply_layout.h"
+#include "formats/mesh/ply/ply_body.h"
+#include "formats/mesh/ply/ply_items.h"
+#include "formats/mesh/ply/ply_layout.h"
 
 typedef struct AsciiPiece {
     uint64_t lines, lines_before;       /* with words: each is an item */

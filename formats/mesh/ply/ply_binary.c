@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "formats/mesh/mesh_kinds.h"
-#include "formats/mesh/ply_body.h"
-#include "formats/mesh/ply_items.h"
-#include "formats/mesh/ply_layout.h"
+#include "formats/mesh/ply/ply_body.h"
+#include "formats/mesh/ply/ply_items.h"
+#include "formats/mesh/ply/ply_layout.h"
 #include "libcore/base/parallel.h"
 
 enum { GRAIN = 1 << 14 };
