@@ -253,8 +253,8 @@ int main(int argc, char **argv)
 {
     static InfoArguments a;
     const MesoOption options[] = {
-        {MESO_OPTION_CHOICE, 0, "slots", "FORMAT", "list which tile each slot of an assignment holds: csv or json",
-         &a.slots, 0, 0, 0, "csv|json"},
+        MESO_CHOICE(0, "slots", "FORMAT", "list which tile each slot of an assignment holds: csv or json",
+                    &a.slots, "csv|json"),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

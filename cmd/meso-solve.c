@@ -231,13 +231,12 @@ int main(int argc, char **argv)
 {
     Arguments a = {.attempts = 20, .orient = MESO_ORIENT_DEFAULTS, .engine = MESO_ENGINE_DEFAULTS};
     const MesoOption options[] = {
-        {MESO_OPTION_GROUP, 0, "Solving", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_COUNT, 0, "attempts", "N", "attempts of the search (default 20)",
-         &a.attempts, &a.attempts_given, 1, 1e9, 0},
+        MESO_GROUP("Solving"),
+        MESO_COUNT(0, "attempts", "N", "attempts of the search (default 20)", &a.attempts, 1, 1e9,
+                   .given = &a.attempts_given),
         MESO_ORIENT_OPTION(a.orient),
         MESO_STRICT_OPTION(a.strict),
-        {MESO_OPTION_OUTPUT, 0, "report", "FILE", "write verdict, statistics and dead ends as JSON",
-         &a.report, 0, 0, 0, 0},
+        MESO_OUTPUT_FILE(0, "report", "FILE", "write verdict, statistics and dead ends as JSON", &a.report),
         MESO_ENGINE_OPTIONS(a.engine),
         MESO_CONTROL_OPTIONS(a.control),
         MESO_SEED_OPTIONS(a.seeds),

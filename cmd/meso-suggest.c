@@ -219,15 +219,14 @@ int main(int argc, char **argv)
 {
     Arguments a = {.attempts = 20, .orient = MESO_ORIENT_DEFAULTS};
     const MesoOption options[] = {
-        {MESO_OPTION_GROUP, 0, "Suggesting", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_INPUT, 0, "surface", "FILE", "solve this surface for dead ends, without a report",
-         &a.surface, 0, 0, 0, 0},
+        MESO_GROUP("Suggesting"),
+        MESO_INPUT_FILE(0, "surface", "FILE", "solve this surface for dead ends, without a report",
+                        &a.surface),
         MESO_ORIENT_OPTION(a.orient),
         MESO_STRICT_OPTION(a.strict),
-        {MESO_OPTION_COUNT, 0, "attempts", "N", "restarts of each solve (default 20)",
-         &a.attempts, 0, 1, 1e9, 0},
-        {MESO_OPTION_COUNT, 0, "until-solved", "N", "add up to N tiles, until the surface is solved",
-         &a.until_solved, &a.until_given, 1, 1000, 0},
+        MESO_COUNT(0, "attempts", "N", "restarts of each solve (default 20)", &a.attempts, 1, 1e9),
+        MESO_COUNT(0, "until-solved", "N", "add up to N tiles, until the surface is solved",
+                   &a.until_solved, 1, 1000, .given = &a.until_given),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

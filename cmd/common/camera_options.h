@@ -14,17 +14,15 @@ typedef struct MesoCameraOptions {
 #define MESO_CAMERA_DEFAULTS {{1280, 720}, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30}, false, false}
 
 #define MESO_CAMERA_OPTIONS(c)                                                                \
-    {MESO_OPTION_GROUP, 0, "Camera", 0, 0, 0, 0, 0, 0, 0},                                    \
-    {MESO_OPTION_SIZE, 0, "size", "WxH", "pixels of the image (default 1280x720)",            \
-     (c).size, 0, 1, 16384, 0},                                                               \
-    {MESO_OPTION_POINT | MESO_OPTION_OVERRIDES, 0, "eye", "X,Y,Z", "where the camera is (default: so that the object fits)", \
-     &(c).camera.eye, &(c).eye_given, 0, 0, 0},                                               \
-    {MESO_OPTION_POINT | MESO_OPTION_OVERRIDES, 0, "target", "X,Y,Z", "the point in the middle of the image (default: of the object)", \
-     &(c).camera.target, &(c).target_given, 0, 0, 0},                                         \
-    {MESO_OPTION_POINT, 0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", \
-     &(c).camera.up, 0, 0, 0, 0},                                                             \
-    {MESO_OPTION_NUMBER, 0, "fov", "DEGREES", "vertical field of view (default 30)",          \
-     &(c).camera.fov_degrees, 0, 0.1, 170, 0}
+    MESO_GROUP("Camera"), \
+    MESO_SIZE(0, "size", "WxH", "pixels of the image (default 1280x720)", (c).size, 1, 16384), \
+    MESO_POINT(0, "eye", "X,Y,Z", "where the camera is (default: so that the object fits)", &(c).camera.eye, \
+               .given = &(c).eye_given, .more = MESO_OPTION_OVERRIDES), \
+    MESO_POINT(0, "target", "X,Y,Z", "the point in the middle of the image (default: of the object)", \
+               &(c).camera.target, .given = &(c).target_given, .more = MESO_OPTION_OVERRIDES), \
+    MESO_POINT(0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", &(c).camera.up), \
+    MESO_NUMBER(0, "fov", "DEGREES", "vertical field of view (default 30)", &(c).camera.fov_degrees, 0.1, \
+                170)
 
 /*
  * The camera that the options ask for. What is not given frames `scene`:

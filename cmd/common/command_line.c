@@ -24,7 +24,7 @@ static bool value_text(const char **text, const MesoOption *option, MesoArena *a
 {
     const uint32_t *count = option->value;
     *text = NULL;
-    switch (meso_option_kind(option)) {
+    switch (option->kind) {
     case MESO_OPTION_GROUP:
         return true;
     case MESO_OPTION_FLAG:
@@ -72,21 +72,21 @@ const char **meso_options_values(const MesoOption *options, MesoArena *arena, Me
 
 static bool is_outward(const MesoOption *option)
 {
-    MesoOptionKind kind = meso_option_kind(option);
+    MesoOptionKind kind = option->kind;
     return kind == MESO_OPTION_GROUP || kind == MESO_OPTION_OUTPUT || kind == MESO_OPTION_OUTPUT_OPT ||
-           kind == MESO_OPTION_PATTERN || option->kind & (MESO_OPTION_SILENT | MESO_OPTION_OUTWARD);
+           kind == MESO_OPTION_PATTERN || option->more & (MESO_OPTION_SILENT | MESO_OPTION_OUTWARD);
 }
 
 static bool is_default(const MesoOption *option, const char *value, const char *by_default)
 {
-    if (option->kind & MESO_OPTION_OVERRIDES)
+    if (option->more & MESO_OPTION_OVERRIDES)
         return !*option->given;
     return !value || (by_default && strcmp(value, by_default) == 0);
 }
 
 static char *append_meaning(char *line, const MesoOption *option, const char *value, MesoArena *arena, MesoError *error)
 {
-    MesoOptionKind kind = meso_option_kind(option);
+    MesoOptionKind kind = option->kind;
     if (kind == MESO_OPTION_FLAG)
         return meso_arena_print(arena, error, "%s --%s", line, option->name);
     if (kind == MESO_OPTION_INPUT || kind == MESO_OPTION_FOLDER)

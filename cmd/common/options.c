@@ -31,7 +31,7 @@ typedef struct Cursor {
 static const MesoOption *find_name(const MesoOption *options, const char *name, size_t length)
 {
     for (; !meso_option_is_last(options); options++)
-        if (meso_option_kind(options) != MESO_OPTION_GROUP && options->name &&
+        if (options->kind != MESO_OPTION_GROUP && options->name &&
             strlen(options->name) == length && memcmp(options->name, name, length) == 0)
             return options;
     return NULL;
@@ -40,7 +40,7 @@ static const MesoOption *find_name(const MesoOption *options, const char *name, 
 static const MesoOption *find_letter(const MesoOption *options, char letter)
 {
     for (; !meso_option_is_last(options); options++)
-        if (meso_option_kind(options) != MESO_OPTION_GROUP && options->letter == letter)
+        if (options->kind != MESO_OPTION_GROUP && options->letter == letter)
             return options;
     return NULL;
 }
@@ -50,7 +50,7 @@ static const MesoOption *find_letter(const MesoOption *options, char letter)
 static const MesoOption *find_similar(const MesoOption *options, const char *name, size_t length)
 {
     for (; length > 2 && !meso_option_is_last(options); options++) {
-        if (meso_option_kind(options) == MESO_OPTION_GROUP || !options->name || !options->help)
+        if (options->kind == MESO_OPTION_GROUP || !options->name || !options->help)
             continue;
         size_t own = strlen(options->name), same = 0;
         while (same < own && same < length && options->name[same] == name[same])
@@ -74,7 +74,7 @@ static ItemKind unknown_name(const Cursor *cursor, const char *name, size_t leng
 
 static bool takes_value(const MesoOption *option)
 {
-    return meso_option_kind(option) != MESO_OPTION_FLAG && meso_option_kind(option) != MESO_OPTION_OUTPUT_OPT;
+    return option->kind != MESO_OPTION_FLAG && option->kind != MESO_OPTION_OUTPUT_OPT;
 }
 
 static ItemKind take_next_as_value(Cursor *cursor, Item *item, MesoError *error)
@@ -98,7 +98,7 @@ static ItemKind read_name(Cursor *cursor, const char *name, Item *item, MesoErro
     item->option = find_name(cursor->options, name, length);
     if (!item->option)
         return unknown_name(cursor, name, length, error);
-    if (equals && meso_option_kind(item->option) == MESO_OPTION_FLAG) {
+    if (equals && item->option->kind == MESO_OPTION_FLAG) {
         meso_fail(error, MESO_ERR_USAGE, "option '--%s' takes no value", item->option->name);
         return ITEM_BAD;
     }
@@ -287,7 +287,7 @@ static MesoStatus set_point(const MesoOption *option, const char *text, MesoErro
 
 static MesoStatus set_value(const MesoOption *option, const char *text, MesoError *error)
 {
-    switch (meso_option_kind(option)) {
+    switch (option->kind) {
     case MESO_OPTION_FLAG:
         *(bool *)option->value = true;
         return MESO_OK;
@@ -394,7 +394,7 @@ char *meso_options_command_typed(const MesoOption *options, const char *program,
     while (line && next_item(&cursor, &item, NULL) != ITEM_END) {
         if (item.kind == ITEM_BAD)
             continue;
-        if (item.option && (item.option->kind & MESO_OPTION_SILENT || meso_option_change(changes, item.option)))
+        if (item.option && (item.option->more & MESO_OPTION_SILENT || meso_option_change(changes, item.option)))
             continue;
         if (cursor.operands_only && !dashes) {
             line = meso_arena_print(arena, error, "%s --", line);
@@ -430,20 +430,20 @@ static void print_wrapped(const char *text, int column)
 void meso_options_print(const MesoOption *options)
 {
     for (; !meso_option_is_last(options); options++) {
-        if (meso_option_kind(options) != MESO_OPTION_GROUP && !options->help)
+        if (options->kind != MESO_OPTION_GROUP && !options->help)
             continue;
-        if (meso_option_kind(options) == MESO_OPTION_GROUP) {
+        if (options->kind == MESO_OPTION_GROUP) {
             printf("\n%s:\n", options->name);
             continue;
         }
         char left[80];
-        const char *argument = meso_option_kind(options) == MESO_OPTION_CHOICE && !options->argument
+        const char *argument = options->kind == MESO_OPTION_CHOICE && !options->argument
                                    ? options->choices : options->argument;
         int length = options->letter ? snprintf(left, sizeof left, "  -%c, ", options->letter)
                                      : snprintf(left, sizeof left, "      ");
         length += snprintf(left + length, sizeof left - (size_t)length,
-                           meso_option_kind(options) == MESO_OPTION_FLAG       ? "--%s"
-                           : meso_option_kind(options) == MESO_OPTION_OUTPUT_OPT ? "--%s[=%s]"
+                           options->kind == MESO_OPTION_FLAG       ? "--%s"
+                           : options->kind == MESO_OPTION_OUTPUT_OPT ? "--%s[=%s]"
                                                                    : "--%s %s",
                            options->name, argument);
         if (length > HELP_COLUMN - 2)
@@ -471,7 +471,7 @@ static const char *find_words(const char *words, const char *name, int *length)
 
 static bool takes_file(const MesoOption *option)
 {
-    MesoOptionKind kind = meso_option_kind(option);
+    MesoOptionKind kind = option->kind;
     return kind == MESO_OPTION_INPUT || kind == MESO_OPTION_OUTPUT || kind == MESO_OPTION_OUTPUT_OPT ||
            kind == MESO_OPTION_PATTERN;
 }
@@ -482,14 +482,14 @@ static void list_words(const MesoOption *option, const char *words)
     int length;
     snprintf(name, sizeof name, "--%s", option->name);
     const char *found = find_words(words, name, &length);
-    if (meso_option_kind(option) == MESO_OPTION_CHOICE) {
+    if (option->kind == MESO_OPTION_CHOICE) {
         for (const char *c = option->choices; *c; c++)
             putchar(*c == '|' ? ' ' : *c);
     } else if (found) {
         printf("%.*s", length, found);
     } else if (takes_file(option)) {
         putchar('*');
-    } else if (meso_option_kind(option) == MESO_OPTION_FOLDER) {
+    } else if (option->kind == MESO_OPTION_FOLDER) {
         putchar('/');
     }
 }
@@ -497,11 +497,11 @@ static void list_words(const MesoOption *option, const char *words)
 void meso_options_list(const MesoOption *options, const char *words)
 {
     for (; !meso_option_is_last(options); options++) {
-        if (meso_option_kind(options) == MESO_OPTION_GROUP || !options->help)
+        if (options->kind == MESO_OPTION_GROUP || !options->help)
             continue;
         char letter[2] = {options->letter, 0};
         printf("option\t%s\t%s\t%s\t", options->name, letter,
-               takes_value(options) ? "value" : meso_option_kind(options) == MESO_OPTION_FLAG ? "flag" : "optional");
+               takes_value(options) ? "value" : options->kind == MESO_OPTION_FLAG ? "flag" : "optional");
         list_words(options, words);
         printf("\t%s\n", options->help);
     }

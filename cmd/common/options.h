@@ -28,13 +28,14 @@ typedef enum MesoOptionKind {
 
 /* What a row may add to its kind, for the record of the command. */
 enum {
-    MESO_OPTION_SILENT = 0x100,     /* no byte of a product depends on it: never recorded */
-    MESO_OPTION_OUTWARD = 0x200,    /* about places, as OUTPUT and PATTERN are, not about what is made */
-    MESO_OPTION_OVERRIDES = 0x400   /* says something though its value is the default; `given` tells */
+    MESO_OPTION_SILENT = 1,         /* no byte of a product depends on it: never recorded */
+    MESO_OPTION_OUTWARD = 2,        /* about places, as OUTPUT and PATTERN are, not about what is made */
+    MESO_OPTION_OVERRIDES = 4       /* says something though its value is the default; `given` tells */
 };
 
 typedef struct MesoOption {
-    uint32_t kind;          /* MesoOptionKind, with any of the above */
+    MesoOptionKind kind;
+    uint32_t more;          /* any of the above */
     char letter;            /* 0 for none */
     const char *name;       /* without the dashes; a group's heading */
     const char *argument;   /* its name in the help, "FILE" */
@@ -45,10 +46,44 @@ typedef struct MesoOption {
     const char *choices;
 } MesoOption;
 
-static inline MesoOptionKind meso_option_kind(const MesoOption *option)
-{
-    return (MesoOptionKind)(option->kind & 0xff);
-}
+/*
+ * Rows of a table, each with a pointer of the type that its kind wants: another is a compiler's warning. Behind the
+ * last argument `.given = &flag` and `.more = MESO_OPTION_SILENT` and the like may follow. `letter` is 0 for none.
+ */
+#define MESO_OPTION_ROW(kind_, letter_, name_, argument_, help_, type, pointer, ...)              \
+    {.kind = (kind_), .letter = (letter_), .name = (name_), .argument = (argument_), .help = (help_), \
+     .value = (1 ? (pointer) : (type *)0), __VA_ARGS__}
+#define MESO_GROUP(heading) {.kind = MESO_OPTION_GROUP, .name = (heading)}
+#define MESO_FLAG(letter, name, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_FLAG, letter, name, 0, help, bool, pointer, __VA_ARGS__)
+#define MESO_COUNT(letter, name, argument, help, pointer, low_, high_, ...)                       \
+    MESO_OPTION_ROW(MESO_OPTION_COUNT, letter, name, argument, help, uint32_t, pointer, .low = (low_), .high = (high_), \
+                    __VA_ARGS__)
+#define MESO_SEED(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_SEED, letter, name, argument, help, uint64_t, pointer, __VA_ARGS__)
+#define MESO_NUMBER(letter, name, argument, help, pointer, low_, high_, ...)                      \
+    MESO_OPTION_ROW(MESO_OPTION_NUMBER, letter, name, argument, help, float, pointer, .low = (low_), .high = (high_), \
+                    __VA_ARGS__)
+#define MESO_TEXT(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_TEXT, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
+#define MESO_CHOICE(letter, name, argument, help, pointer, choices_, ...)                         \
+    MESO_OPTION_ROW(MESO_OPTION_CHOICE, letter, name, argument, help, const char *, pointer, .choices = (choices_), \
+                    __VA_ARGS__)
+#define MESO_SIZE(letter, name, argument, help, pointer, low_, high_, ...)                        \
+    MESO_OPTION_ROW(MESO_OPTION_SIZE, letter, name, argument, help, uint32_t, pointer, .low = (low_), .high = (high_), \
+                    __VA_ARGS__)
+#define MESO_POINT(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_POINT, letter, name, argument, help, MesoVec3, pointer, __VA_ARGS__)
+#define MESO_INPUT_FILE(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_INPUT, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
+#define MESO_FOLDER(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_FOLDER, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
+#define MESO_OUTPUT_FILE(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_OUTPUT, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
+#define MESO_OUTPUT_FILE_OPT(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_OUTPUT_OPT, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
+#define MESO_PATTERN(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_PATTERN, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
 
 /* The zeroed entry at the end of a table. */
 static inline bool meso_option_is_last(const MesoOption *option)

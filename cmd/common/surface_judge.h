@@ -7,8 +7,8 @@
 #include "libcore/tiling/tile/tile_set.h"
 
 #define MESO_STRICT_OPTION(strict)                                                            \
-    {MESO_OPTION_FLAG | MESO_OPTION_SILENT, 0, "strict", 0,                                   \
-     "what is only warned of in a surface is an error", &(strict), 0, 0, 0, 0}
+    MESO_FLAG(0, "strict", "what is only warned of in a surface is an error", &(strict), \
+              .more = MESO_OPTION_SILENT)
 
 typedef struct MesoSurfaceJudge {
     const char *path;           /* of the surface, as given */

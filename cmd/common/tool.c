@@ -161,7 +161,7 @@ MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *pa
 
 static MesoStatus add_option_path(MesoTool *tool, const MesoOption *option)
 {
-    MesoOptionKind kind = meso_option_kind(option);
+    MesoOptionKind kind = option->kind;
     bool output = kind == MESO_OPTION_OUTPUT || kind == MESO_OPTION_OUTPUT_OPT;
     const char *path = output || kind == MESO_OPTION_INPUT ? *(const char *const *)option->value : NULL;
     if (!path)

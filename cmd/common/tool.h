@@ -66,28 +66,23 @@ typedef struct MesoTool {
 
 /* The options that all tools share, for the end of a table. */
 #define MESO_TOOL_OPTIONS(tool)                                                               \
-    {MESO_OPTION_GROUP, 0, "Common options", 0, 0, 0, 0, 0, 0, 0},                            \
-    {MESO_OPTION_OUTPUT, 'o', "output", "FILE", "write the product there; - is standard output", \
-     &(tool).output, 0, 0, 0, 0},                                                             \
-    {MESO_OPTION_OUTPUT_OPT | MESO_OPTION_SILENT, 0, "json", "FILE",                          \
-     "report what was done as JSON (default: standard output)", &(tool).json, 0, 0, 0, 0},    \
-    {MESO_OPTION_CHOICE | MESO_OPTION_SILENT, 0, "provenance", "HOW",                         \
-     "in products: names (no folders, default), full (the command as typed) or none",         \
-     &(tool).detail, 0, 0, 0, "names|full|none"},                                             \
-    {MESO_OPTION_SEED, 0, "seed", "N", "seed of every random choice (default 0)",             \
-     &(tool).seed, 0, 0, 0, 0},                                                               \
-    {MESO_OPTION_COUNT | MESO_OPTION_SILENT, 0, "threads", "N",                               \
-     "threads; 0 for all cores (default); no effect on the bytes",                            \
-     &(tool).threads, 0, 0, 1024, 0},                                                         \
-    {MESO_OPTION_CHOICE | MESO_OPTION_SILENT, 0, "progress", "HOW", "auto, none or json lines on standard error",  \
-     &(tool).progress_mode, 0, 0, 0, "auto|none|json"},                                       \
-    {MESO_OPTION_FLAG | MESO_OPTION_SILENT, 'q', "quiet", 0, "say nothing but errors",        \
-     &(tool).quiet, 0, 0, 0, 0},                                                              \
-    {MESO_OPTION_FLAG | MESO_OPTION_SILENT, 'v', "verbose", 0, "say more, timings too",       \
-     &(tool).verbose, 0, 0, 0, 0},                                                            \
-    {MESO_OPTION_FLAG, 'h', "help", 0, "this text", &(tool).help, 0, 0, 0, 0},                \
-    {MESO_OPTION_FLAG, 0, "version", 0, "name and version", &(tool).version, 0, 0, 0, 0},     \
-    {MESO_OPTION_FLAG, 0, "list-options", 0, 0, &(tool).list_options, 0, 0, 0, 0}
+    MESO_GROUP("Common options"), \
+    MESO_OUTPUT_FILE('o', "output", "FILE", "write the product there; - is standard output", &(tool).output), \
+    MESO_OUTPUT_FILE_OPT(0, "json", "FILE", "report what was done as JSON (default: standard output)", \
+                         &(tool).json, .more = MESO_OPTION_SILENT), \
+    MESO_CHOICE(0, "provenance", "HOW", \
+                "in products: names (no folders, default), full (the command as typed) or none", \
+                &(tool).detail, "names|full|none", .more = MESO_OPTION_SILENT), \
+    MESO_SEED(0, "seed", "N", "seed of every random choice (default 0)", &(tool).seed), \
+    MESO_COUNT(0, "threads", "N", "threads; 0 for all cores (default); no effect on the bytes", \
+               &(tool).threads, 0, 1024, .more = MESO_OPTION_SILENT), \
+    MESO_CHOICE(0, "progress", "HOW", "auto, none or json lines on standard error", &(tool).progress_mode, \
+                "auto|none|json", .more = MESO_OPTION_SILENT), \
+    MESO_FLAG('q', "quiet", "say nothing but errors", &(tool).quiet, .more = MESO_OPTION_SILENT), \
+    MESO_FLAG('v', "verbose", "say more, timings too", &(tool).verbose, .more = MESO_OPTION_SILENT), \
+    MESO_FLAG('h', "help", "this text", &(tool).help), \
+    MESO_FLAG(0, "version", "name and version", &(tool).version), \
+    MESO_FLAG(0, "list-options", 0, &(tool).list_options)
 
 /*
  * Parses, refuses outputs that are inputs or written twice, installs the signal handlers (SIGTERM, SIGINT, SIGHUP, SIGQUIT,

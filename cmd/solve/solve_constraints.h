@@ -12,12 +12,12 @@ typedef struct MesoControlArguments {
 } MesoControlArguments;
 
 #define MESO_CONTROL_OPTIONS(control)                                                             \
-    {MESO_OPTION_INPUT, 0, "constraints", "FILE", "pins, regions, weights, border rules and quotas (JSON)", \
-     &(control).constraints, 0, 0, 0, 0},                                                         \
-    {MESO_OPTION_TEXT, 0, "strands", "RULES", "connected, acyclic, no-loops, max-length=N, or several", \
-     &(control).strands, 0, 0, 0, 0},                                                             \
-    {MESO_OPTION_INPUT, 0, "keep", "OLD.slots", "change as few slots of this assignment as possible", \
-     &(control).keep, 0, 0, 0, 0}
+    MESO_INPUT_FILE(0, "constraints", "FILE", "pins, regions, weights, border rules and quotas (JSON)", \
+                    &(control).constraints), \
+    MESO_TEXT(0, "strands", "RULES", "connected, acyclic, no-loops, max-length=N, or several", \
+              &(control).strands), \
+    MESO_INPUT_FILE(0, "keep", "OLD.slots", "change as few slots of this assignment as possible", \
+                    &(control).keep)
 
 /*
  * Reads what the arguments name, and notes the files in the provenance.

@@ -17,16 +17,17 @@ typedef struct MesoEngineArguments {
 #define MESO_ENGINE_DEFAULTS {"auto", 0, MESO_SOLVE_CONFLICTS, 0, NULL}
 
 #define MESO_ENGINE_OPTIONS(arguments)                                                            \
-    {MESO_OPTION_CHOICE, 0, "engine", "NAME", "auto, wfc (search alone) or exact (no search)",    \
-     &(arguments).engine, 0, 0, 0, "auto|wfc|exact"},                                             \
-    {MESO_OPTION_COUNT, 0, "observations", "N", "choices of the search before giving up (default: no limit)", \
-     &(arguments).observations, 0, 1, 4294967295.0, 0},                                           \
-    {MESO_OPTION_COUNT, 0, "conflicts", "N", "conflicts of the exact engine before giving up (default 2000000)", \
-     &(arguments).conflicts, 0, 1, 4294967295.0, 0},                                              \
-    {MESO_OPTION_NUMBER, 0, "budget", "SECONDS", "time before giving up (default: no limit)",     \
-     &(arguments).budget, 0, 0.001, 1e9, 0},                                                      \
-    {MESO_OPTION_OUTPUT, 0, "proof", "FILE", "write the exact engine's proof (DRAT), and its formula to FILE.cnf", \
-     &(arguments).proof, 0, 0, 0, 0}
+    MESO_CHOICE(0, "engine", "NAME", "auto, wfc (search alone) or exact (no search)", &(arguments).engine, \
+                "auto|wfc|exact"), \
+    MESO_COUNT(0, "observations", "N", "choices of the search before giving up (default: no limit)", \
+               &(arguments).observations, 1, 4294967295.0), \
+    MESO_COUNT(0, "conflicts", "N", "conflicts of the exact engine before giving up (default 2000000)", \
+               &(arguments).conflicts, 1, 4294967295.0), \
+    MESO_NUMBER(0, "budget", "SECONDS", "time before giving up (default: no limit)", &(arguments).budget, \
+                0.001, 1e9), \
+    MESO_OUTPUT_FILE(0, "proof", "FILE", \
+                     "write the exact engine's proof (DRAT), and its formula to FILE.cnf", \
+                     &(arguments).proof)
 
 /* Sets engine and budgets but that of time, which is no part of what a result depends on. */
 void meso_engine_choose(const MesoEngineArguments *arguments, MesoSolveOptions *options);

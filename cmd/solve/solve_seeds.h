@@ -9,15 +9,18 @@ typedef struct MesoSeedOptions {
 } MesoSeedOptions;
 
 #define MESO_SEED_OPTIONS(o)                                                                  \
-    {MESO_OPTION_GROUP, 0, "Many seeds", 0, 0, 0, 0, 0, 0, 0},                                \
-    {MESO_OPTION_TEXT, 0, "seeds", "A-B[xK],...", "solve for the seeds A to B, with K attempts each, and write a JSON line " \
-     "each to -o or standard output", &(o).seeds, 0, 0, 0, 0},                                \
-    {MESO_OPTION_PATTERN, 0, "each", "PATTERN", "write each assignment too, to PATTERN with the seed for its %d", \
-     &(o).each, 0, 0, 0, 0},                                                                  \
-    {MESO_OPTION_INPUT | MESO_OPTION_OUTWARD, 0, "resume", "FILE", "take the lines that FILE has of these seeds instead of solving them again", \
-     &(o).resume, 0, 0, 0, 0},                                                                \
-    {MESO_OPTION_TEXT | MESO_OPTION_OUTWARD, 0, "best", "METRIC[=FILE]", "say which seed is best by attempts, balance or loops, and write its " \
-     "assignment to FILE", &(o).best, 0, 0, 0, 0}
+    MESO_GROUP("Many seeds"), \
+    MESO_TEXT(0, "seeds", "A-B[xK],...", \
+              "solve for the seeds A to B, with K attempts each, and write a JSON line each to -o or " \
+              "standard output", &(o).seeds), \
+    MESO_PATTERN(0, "each", "PATTERN", "write each assignment too, to PATTERN with the seed for its %d", \
+                 &(o).each), \
+    MESO_INPUT_FILE(0, "resume", "FILE", \
+                    "take the lines that FILE has of these seeds instead of solving them again", \
+                    &(o).resume, .more = MESO_OPTION_OUTWARD), \
+    MESO_TEXT(0, "best", "METRIC[=FILE]", \
+              "say which seed is best by attempts, balance or loops, and write its assignment to FILE", \
+              &(o).best, .more = MESO_OPTION_OUTWARD)
 
 /* Checks the options among each other and with the tool's. MESO_ERR_USAGE. */
 MesoStatus meso_seed_options_check(const MesoSeedOptions *options, const MesoTool *tool, bool attempts_given,

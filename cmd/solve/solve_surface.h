@@ -15,9 +15,10 @@ typedef struct MesoOrientArguments {
 #define MESO_ORIENT_DEFAULTS {"file", false}
 
 #define MESO_ORIENT_OPTION(orient)                                                            \
-    {MESO_OPTION_TEXT, 0, "orient", "HOW", "which side of a slot is direction 0: file (the first of its face, " \
-     "default), comb (as the neighbours), field=ATTRIBUTE (along a vector attribute of a PLY), u,v (along u)", \
-     &(orient).how, &(orient).given, 0, 0, 0}
+    MESO_TEXT(0, "orient", "HOW", \
+              "which side of a slot is direction 0: file (the first of its face, default), comb (as the " \
+              "neighbours), field=ATTRIBUTE (along a vector attribute of a PLY), u,v (along u)", \
+              &(orient).how, .given = &(orient).given)
 
 /* Singular corners that a report lists. */
 enum { MESO_REPORT_SINGULAR = 1000 };

@@ -132,8 +132,8 @@ int meso_tile_check(int argc, char **argv)
     MesoTool tool = {0};
     Findings findings = {.tool = &tool};
     MesoOption options[] = {
-        {MESO_OPTION_GROUP, 0, "Check", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_FLAG, 0, "strict", 0, "warnings count as errors", &findings.strict, 0, 0, 0, 0},
+        MESO_GROUP("Check"),
+        MESO_FLAG(0, "strict", "warnings count as errors", &findings.strict),
         MESO_TOOL_OPTIONS(tool),
         {0},
     };
