@@ -10,7 +10,9 @@
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
 #include "formats/mesh/surface_read.h"
+#include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
+#include "formats/model/model_scene.h"
 #include "formats/scene/mesh_file.h"
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
@@ -270,37 +272,64 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
 }
 
 /* What is not given on the command line stays as the model has it. */
-static MesoMapOptions merge_options(const MapArguments *a, MesoMapOptions of_model)
+static void merge_options(void *context, MesoMapOptions *options)
 {
-    MesoMapOptions merged = of_model;
+    const MapArguments *a = context;
     if (a->given.thickness)
-        merged.thickness = a->options.thickness;
+        options->thickness = a->options.thickness;
     if (a->given.offset)
-        merged.offset = a->options.offset;
+        options->offset = a->options.offset;
     if (a->given.section_scale)
-        merged.section_scale = a->options.section_scale;
+        options->section_scale = a->options.section_scale;
     if (a->given.tangent_scale)
-        merged.tangent_scale = a->options.tangent_scale;
+        options->tangent_scale = a->options.tangent_scale;
     if (a->given.divisions)
-        merged.divisions = a->options.divisions;
+        options->divisions = a->options.divisions;
     if (a->given.section_step)
-        merged.section_step = a->options.section_step;
-    return merged;
+        options->section_step = a->options.section_step;
 }
 
-/* `inputs` stay open: the model may point into them. */
-static MesoStatus read_model(MapArguments *a, Inputs *inputs, MesoModel *model, MesoError *error)
+/* A model of tiles, expanded; or the scene of another one, with `tiling` NULL. `inputs` stay open: both may point into them. */
+typedef struct Mapped {
+    const MesoModel *tiling;
+    MesoScene scene;
+    MesoSceneParts parts;
+} Mapped;
+
+/* Mapping options mean nothing to what was not mapped. */
+static MesoStatus check_mapping(const MapArguments *a, const MesoInput *input, const MesoModel *tiling,
+                                MesoError *error)
 {
-    MesoStatus status;
-    if (a->tool.operand_count == 1) {
-        status = meso_tool_open_place(&a->tool, &inputs->tiles, a->tool.operands[0], &MESO_PLACE_MODEL);
-        if (status == MESO_OK)
-            status = meso_model_read(model, NULL, &a->tool.arena, &inputs->tiles, error);
-        model->options = merge_options(a, model->options);
-    } else {
-        status = read_parts(a, inputs, model, error);
-    }
+    const bool given[] = {a->given.thickness, a->given.offset, a->given.section_scale, a->given.tangent_scale,
+                          a->given.divisions, a->given.section_step};
+    for (size_t i = 0; !tiling && i < sizeof given / sizeof *given; i++)
+        if (given[i])
+            return meso_fail(error, MESO_ERR_USAGE, "mapping options are for models of tiles; '%s' holds a mesh",
+                             input->path);
+    return MESO_OK;
+}
+
+static MesoStatus read_model(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
+{
+    MesoSceneReading reading = {.thread_count = a->tool.threads, .remap = merge_options, .context = a};
+    MesoStatus status = meso_tool_open_place(&a->tool, &inputs->tiles, a->tool.operands[0], &MESO_PLACE_MODEL);
+    if (status == MESO_OK)
+        status = meso_scene_read(&mapped->scene, &a->tool.arena, &inputs->tiles, &reading, error);
+    mapped->tiling = reading.tiling;
+    return status == MESO_OK ? check_mapping(a, &inputs->tiles, reading.tiling, error) : status;
+}
+
+static MesoStatus make_model(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
+{
+    MesoModel *model = MESO_NEW(&a->tool.arena, MesoModel, 1, error);
+    MesoStatus status = model ? read_parts(a, inputs, model, error) : MESO_ERR_MEMORY;
+    if (status != MESO_OK)
+        return status;
     model->options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    mapped->tiling = model;
+    status = meso_model_expand(&mapped->scene, NULL, &a->tool.arena, model, a->tool.threads, error);
+    if (status == MESO_ERR_INPUT)       /* what the shell refuses lies in the surface */
+        meso_fail_prefix(error, inputs->surface.path);
     return status;
 }
 
@@ -314,8 +343,13 @@ static void close_inputs(Inputs *inputs)
 
 /* ---- products ---- */
 
-static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const MesoModel *model,
-                                const MesoSceneParts *parts, MesoError *error)
+static MesoStatus write_model(const MesoTool *tool, const Mapped *mapped, MesoOutput *output, MesoError *error)
+{
+    return mapped->tiling ? meso_model_write(mapped->tiling, &tool->provenance, output, error)
+                          : meso_body_write(&mapped->scene, &tool->provenance, output, error);
+}
+
+static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const Mapped *mapped, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     MesoMeshWriteOptions options = {
@@ -324,7 +358,7 @@ static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const M
         .normal_bits = a->normal_bits,
         .speed = a->speed,
         .provenance = &tool->provenance,
-        .smaller = kind->smaller,
+        .smaller = mapped->tiling ? kind->smaller : NULL,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };
@@ -333,8 +367,8 @@ static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const M
     if (status != MESO_OK)
         return status;
     meso_tool_progress_begin(tool, "writing", kind->draco ? "triangles" : "vertices");
-    status = kind->write ? kind->write(parts, &options, output, error)
-                         : meso_model_write(model, &tool->provenance, output, error);
+    status = kind->write ? kind->write(&mapped->parts, &options, output, error)
+                         : write_model(tool, mapped, output, error);
     if (status == MESO_OK)
         return meso_output_commit(output, error);
     meso_output_discard(output);
@@ -359,23 +393,11 @@ static void report_product(MesoTool *tool, const OutputKind *kind, const MesoSce
                       (unsigned long long)parts->triangle_count);
 }
 
-/* What the shell refuses lies in the surface. */
-static MesoStatus expand(MapArguments *a, const MesoModel *model, MesoScene *scene, MesoError *error)
-{
-    MesoTool *tool = &a->tool;
-    MesoStatus status = meso_model_expand(scene, NULL, &tool->arena, model, tool->threads, error);
-    if (status == MESO_ERR_INPUT)
-        meso_fail_prefix(error, tool->operands[tool->operand_count == 1 ? 0 : 1]);
-    return status;
-}
-
 static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     const OutputKind *kind;
-    MesoModel model = {0};
-    MesoScene scene;
-    MesoSceneParts parts;
+    Mapped mapped;
     if (!tool->output)
         tool->output = "-";
     MesoStatus status = choose_kind(a, &kind, error);
@@ -384,15 +406,13 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     if (status == MESO_OK)
         status = forget_defaults(a, error);
     if (status == MESO_OK)
-        status = read_model(a, inputs, &model, error);
+        status = (tool->operand_count == 1 ? read_model : make_model)(a, inputs, &mapped, error);
     if (status == MESO_OK)
-        status = expand(a, &model, &scene, error);
+        status = meso_scene_parts_init(&mapped.parts, &tool->arena, &mapped.scene, error);
     if (status == MESO_OK)
-        status = meso_scene_parts_init(&parts, &tool->arena, &scene, error);
+        status = write_product(a, kind, &mapped, error);
     if (status == MESO_OK)
-        status = write_product(a, kind, &model, &parts, error);
-    if (status == MESO_OK)
-        report_product(tool, kind, &parts);
+        report_product(tool, kind, &mapped.parts);
     return status;
 }
 

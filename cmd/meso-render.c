@@ -10,10 +10,9 @@
 #include "cmd/common/tool.h"
 #include "formats/image/image_file.h"
 #include "formats/json/json_text.h"
-#include "formats/model/model_file.h"
+#include "formats/model/model_scene.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
-#include "libcore/tiling/strand/expansion.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
@@ -155,19 +154,13 @@ static MesoStatus write_images(const RenderArguments *a, const MesoImage *image,
     return status;
 }
 
-static MesoStatus render(RenderArguments *a, const MesoModel *model, double start, MesoError *error)
+static MesoStatus render(RenderArguments *a, const MesoScene *scene, double start, MesoError *error)
 {
     MesoTool *tool = &a->tool;
-    MesoScene scene;
     MesoPicture *picture;
-    double at[5] = {start};
+    double at[5] = {start, meso_seconds()};
 
-    MesoStatus status = meso_model_expand(&scene, NULL, &tool->arena, model, tool->threads, error);
-    at[1] = meso_seconds();
-    if (status == MESO_ERR_INPUT)
-        meso_fail_prefix(error, tool->operands[0]);
-    if (!status)
-        status = draw(a, &picture, &scene, error);
+    MesoStatus status = draw(a, &picture, scene, error);
     if (status)
         return status;
     at[2] = picture->context_made;
@@ -175,7 +168,7 @@ static MesoStatus render(RenderArguments *a, const MesoModel *model, double star
     status = write_images(a, &picture->image, error);
     at[4] = meso_seconds();
     if (!status) {
-        report_image(tool, &picture->image, &scene, picture->renderer);
+        report_image(tool, &picture->image, scene, picture->renderer);
         say_times(tool, at);
     }
     meso_picture_release(picture);
@@ -186,7 +179,8 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     MesoInput input;
-    MesoModel model;
+    MesoScene scene;
+    MesoSceneReading reading = {.thread_count = tool->threads};
     double start = meso_seconds();
     MesoStatus status = choose_product(a, error);
     if (!status)
@@ -195,9 +189,9 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
         status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_MODEL);
     if (status)
         return status;
-    status = meso_model_read(&model, NULL, &tool->arena, &input, error);
+    status = meso_scene_read(&scene, &tool->arena, &input, &reading, error);
     if (!status)
-        status = render(a, &model, start, error);
+        status = render(a, &scene, start, error);
     meso_input_close(&input);
     return status;
 }

@@ -5,10 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cmd/common/scene_report.h"
 #include "formats/json/json_text.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/surface_read.h"
+#include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
+#include "formats/model/model_scene.h"
 #include "formats/tiling/constraints/constraints_file.h"
 #include "formats/tiling/result/report_file.h"
 #include "formats/tiling/result/seed_lines.h"
@@ -16,6 +19,7 @@
 #include "formats/tiling/tiles/prototype_json.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/mesh/slot_graph.h"
+#include "libcore/scene/parts.h"
 
 static MesoStatus memory_if(int failed, MesoError *error)
 {
@@ -266,8 +270,33 @@ static int put_inners(json_t *facts, const MesoModel *model)
     return failed | json_object_set_new(facts, "inner_meshes", object);
 }
 
+static MesoStatus put_body_model(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
+{
+    MesoScene scene;
+    MesoSceneParts parts;
+    MesoSceneReading reading = {0};
+    MesoStatus status = meso_scene_read(&scene, arena, input, &reading, error);
+    if (status == MESO_OK)
+        status = meso_scene_parts_init(&parts, arena, &scene, error);
+    if (status != MESO_OK)
+        return status;
+    const MesoVec3 ends[2] = {scene.box.low, scene.box.high};
+    int failed = put_provenance(facts, reading.provenance);
+    meso_scene_report_ids(facts, &scene);
+    failed |= put_count(facts, "bodies", parts.part_count);
+    failed |= put_count(facts, "materials", scene.material_count);
+    failed |= put_count(facts, "vertices", parts.vertex_begin[parts.part_count]);
+    failed |= put_count(facts, "faces", parts.face_begin[parts.part_count]);
+    failed |= put_count(facts, "triangles", parts.triangle_count);
+    failed |= put_bounds(facts, parts.part_count ? 2 : 0, ends);
+    return memory_if(failed, error);
+}
+
+/* Of tiles, or of another method: the second has its own facts. */
 MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
+    if (meso_model_has_body(input))
+        return put_body_model(facts, arena, input, error);
     MesoModel model;
     MesoSlotGraph graph;
     const char *provenance;

@@ -9,7 +9,7 @@
 #include "libcore/mesh/slot_graph.h"
 #include "libcore/tiling/tile/tile_set_check.h"
 
-enum { MAJOR = 1, MINOR = 0 };
+enum { MINOR = 0 };
 
 /* How options lie in the file. */
 typedef struct StoredOptions {
@@ -74,7 +74,7 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
     const uint64_t faces = surface->face_count, vector = sizeof(MesoVec3), index = sizeof(uint32_t);
     StoredOptions options = store_options(model);
 
-    MesoContainer file = {.kind = "model", .major = MAJOR, .minor = MINOR};
+    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, .minor = MINOR};
     meso_container_add(&file, "prov", provenance, strlen(provenance));
     meso_container_add(&file, "tiles", tiles, strlen(tiles));
     meso_container_add(&file, "options", &options, sizeof options);
@@ -114,7 +114,7 @@ MesoStatus meso_model_write(const MesoModel *model, const MesoProvenance *proven
 /* What the reader's steps share. */
 typedef struct Reading {
     MesoModel *model;
-    MesoContainer file;
+    const MesoContainer *file;
     MesoArena *arena;
     const char *path;
 } Reading;
@@ -123,12 +123,12 @@ typedef struct Reading {
 static MesoStatus read_text(const Reading *in, const char *name, MesoInput *text, MesoError *error)
 {
     uint64_t size;
-    if (!meso_container_require(&in->file, in->path, name, 0, 0, error))
+    if (!meso_container_require(in->file, in->path, name, 0, 0, error))
         return MESO_ERR_INPUT;
     const char *shown = meso_arena_print(in->arena, error, "chunk '%s'", name);
     if (!shown)
         return MESO_ERR_MEMORY;
-    const void *data = meso_container_find(&in->file, name, &size);
+    const void *data = meso_container_find(in->file, name, &size);
     meso_input_wrap(text, shown, data, size);
     return MESO_OK;
 }
@@ -146,7 +146,7 @@ static MesoStatus read_tiles(const Reading *in, MesoError *error)
 /* Zero is a value that stands for a default; a model has none of these left. */
 static MesoStatus read_options(const Reading *in, MesoError *error)
 {
-    const StoredOptions *o = meso_container_require(&in->file, in->path, "options", 1, sizeof *o, error);
+    const StoredOptions *o = meso_container_require(in->file, in->path, "options", 1, sizeof *o, error);
     if (!o)
         return MESO_ERR_INPUT;
     const MesoMapOptions options = {
@@ -165,14 +165,14 @@ static const void *take_elements(const Reading *in, const char *name, uint64_t e
                                  uint32_t most, uint32_t *count, MesoError *error)
 {
     uint64_t size;
-    meso_container_find(&in->file, name, &size);
+    meso_container_find(in->file, name, &size);
     uint64_t number = size / element_size;
     if (number > most) {
         meso_fail(error, MESO_ERR_INPUT, "%s: chunk '%s' has over %u elements", in->path, name, most);
         return NULL;
     }
     *count = (uint32_t)number;
-    return meso_container_require(&in->file, in->path, name, number, element_size, error);
+    return meso_container_require(in->file, in->path, name, number, element_size, error);
 }
 
 static MesoStatus read_surface(const Reading *in, MesoError *error)
@@ -186,7 +186,7 @@ static MesoStatus read_surface(const Reading *in, MesoError *error)
     const uint32_t *faces = !normals ? NULL
         : take_elements(in, "face", corners, UINT32_MAX / 4, &face_count, error);
     const uint32_t *face_normals = !faces ? NULL
-        : meso_container_require(&in->file, in->path, "facenorm", face_count, corners, error);
+        : meso_container_require(in->file, in->path, "facenorm", face_count, corners, error);
     if (!face_normals)
         return MESO_ERR_INPUT;
 
@@ -210,10 +210,10 @@ static MesoStatus read_assignment(const Reading *in, MesoError *error)
     MesoModel *model = in->model;
     MesoAssignment *out = &model->assignment;
     uint32_t count = model->surface.face_count;
-    const void *tiles = meso_container_require(&in->file, in->path, "tile", count,
+    const void *tiles = meso_container_require(in->file, in->path, "tile", count,
                                                sizeof *out->tile, error);
     const void *transforms = !tiles ? NULL
-        : meso_container_require(&in->file, in->path, "xform", count, sizeof *out->transform, error);
+        : meso_container_require(in->file, in->path, "xform", count, sizeof *out->transform, error);
     if (!transforms)
         return MESO_ERR_INPUT;
     out->slot_count = count;
@@ -248,7 +248,7 @@ static MesoStatus find_inners(const Reading *in, const uint32_t *counts, InnerAr
     }
     for (int i = 0; i < 3; i++) {
         uint64_t count = i < 2 ? all->vertex_count : all->triangle_count;
-        data[i] = meso_container_require(&in->file, in->path, names[i], count,
+        data[i] = meso_container_require(in->file, in->path, names[i], count,
                                          i < 2 ? sizeof(MesoVec3) : 3 * sizeof(uint32_t), error);
         if (!data[i])
             return MESO_ERR_INPUT;
@@ -289,7 +289,7 @@ static MesoStatus check_inner(const Reading *in, uint32_t inner, const MesoTrian
 static MesoStatus read_inners(const Reading *in, MesoError *error)
 {
     uint32_t count = in->model->tile_set.inner_count;
-    const uint32_t *counts = meso_container_require(&in->file, in->path, "inner", count,
+    const uint32_t *counts = meso_container_require(in->file, in->path, "inner", count,
                                                     2 * sizeof *counts, error);
     if (!counts)
         return MESO_ERR_INPUT;
@@ -312,28 +312,22 @@ static MesoStatus read_inners(const Reading *in, MesoError *error)
     return status;
 }
 
-static MesoStatus read_provenance(const Reading *in, const char **provenance, MesoError *error)
+MesoStatus meso_model_provenance(const char **provenance, MesoArena *arena, const MesoContainer *container,
+                                 const char *path, MesoError *error)
 {
-    MesoInput text;
-    const char *copy;
-    MesoStatus status = read_text(in, "prov", &text, error);
-    if (status == MESO_OK)
-        status = meso_provenance_copy(&copy, text.data, text.size, in->path, in->arena, error);
-    if (status == MESO_OK && provenance)
-        *provenance = copy;
-    return status;
+    uint64_t size;
+    if (!meso_container_require(container, path, "prov", 0, 0, error))
+        return MESO_ERR_INPUT;
+    const void *text = meso_container_find(container, "prov", &size);
+    return meso_provenance_copy(provenance, text, size, path, arena, error);
 }
 
-MesoStatus meso_model_read(MesoModel *model, const char **provenance, MesoArena *arena,
-                           const MesoInput *input, MesoError *error)
+MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContainer *container, const char *path,
+                           MesoError *error)
 {
-    Reading in = {.model = model, .arena = arena, .path = input->path};
+    Reading in = {.model = model, .file = container, .arena = arena, .path = path};
     *model = (MesoModel){0};
-    MesoStatus status = meso_container_read(&in.file, input, "model", MAJOR, error);
-    if (status == MESO_OK)
-        status = read_provenance(&in, provenance, error);
-    if (status == MESO_OK)
-        status = read_tiles(&in, error);
+    MesoStatus status = read_tiles(&in, error);
     if (status == MESO_OK)
         status = read_options(&in, error);
     if (status == MESO_OK)
@@ -343,4 +337,17 @@ MesoStatus meso_model_read(MesoModel *model, const char **provenance, MesoArena 
     if (status == MESO_OK)
         status = read_inners(&in, error);
     return status;
+}
+
+MesoStatus meso_model_read(MesoModel *model, const char **provenance, MesoArena *arena,
+                           const MesoInput *input, MesoError *error)
+{
+    MesoContainer file;
+    const char *text;
+    MesoStatus status = meso_container_read(&file, input, "model", MESO_MODEL_MAJOR, error);
+    if (status == MESO_OK)
+        status = meso_model_provenance(&text, arena, &file, input->path, error);
+    if (status == MESO_OK && provenance)
+        *provenance = text;
+    return status == MESO_OK ? meso_model_take(model, arena, &file, input->path, error) : status;
 }

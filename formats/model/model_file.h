@@ -1,5 +1,5 @@
 /*
- * Model files (.meso), version 1.0: all that a renderer needs. Chunks:
+ * Models of tiles in model files (.meso), version 1.0: all that a renderer needs. Chunks:
  *
  *     prov      provenance, JSON text
  *     tiles     tile set, JSON text as in .tiles.json
@@ -19,11 +19,20 @@
 #include "formats/product/provenance.h"
 #include "libcore/tiling/strand/model.h"
 
+/* The newest version of .meso, whatever is in it. */
+enum { MESO_MODEL_MAJOR = 1 };
+
 MesoStatus meso_model_write(const MesoModel *model, const MesoProvenance *provenance,
                             MesoOutput *output, MesoError *error);
 
 /* Reads and checks everything: mesh, tile set, assignment against both. `provenance` may be NULL. */
 MesoStatus meso_model_read(MesoModel *model, const char **provenance, MesoArena *arena,
                            const MesoInput *input, MesoError *error);
+
+/* The same in two parts, of a container that is open. `path` is for messages. */
+MesoStatus meso_model_provenance(const char **provenance, MesoArena *arena, const MesoContainer *container,
+                                 const char *path, MesoError *error);
+MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContainer *container, const char *path,
+                           MesoError *error);
 
 #endif

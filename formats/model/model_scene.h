@@ -1,0 +1,28 @@
+/*
+ * Models (.meso) as scenes: an envelope with the provenance and the chunks of one method, known by a chunk of
+ * its own: 'tiles' (model_file.h) or 'body' (model_body.h).
+ */
+#ifndef MESO_MODEL_SCENE_H
+#define MESO_MODEL_SCENE_H
+
+#include "formats/file/input.h"
+#include "libcore/scene/scene.h"
+#include "libcore/tiling/strand/model.h"
+
+typedef struct MesoSceneReading {
+    uint32_t thread_count;
+    /* May change the mapping options that a tiling was stored with; NULL: they stay. */
+    void (*remap)(void *context, MesoMapOptions *options);
+    void *context;
+    const MesoModel *tiling;    /* gets the model, in the arena, where it is one of tiles; else NULL */
+    const char *provenance;     /* gets the provenance, in the arena */
+} MesoSceneReading;
+
+/*
+ * Reads, checks and expands a model of any method. The scene points into `arena` and into `input`, which must
+ * stay open. MESO_ERR_INPUT with the file's name, also where it holds no method that is known here.
+ */
+MesoStatus meso_scene_read(MesoScene *scene, MesoArena *arena, const MesoInput *input, MesoSceneReading *reading,
+                           MesoError *error);
+
+#endif
