@@ -208,6 +208,49 @@ static void test_far(MesoArena *arena, const MesoImage *expected)
     CHECK(covered > 2000);      /* the bar reaches over most of the width */
 }
 
+/* A square of two units in the plane z = 0: red on its left, green on its right; its colours times the material's. */
+static void test_colors(MesoArena *arena)
+{
+    static const MesoVec3 positions[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    static const MesoVec3 normals[4] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    static const MesoMeshColor colors[4] = {{255, 0, 51}, {0, 255, 51}, {0, 255, 51}, {255, 0, 51}};
+    static const uint32_t corners[4] = {0, 1, 2, 3};
+    Bar bar;
+    make_bar(&bar);
+    MesoBody body = {4, 1, 4, positions, normals, NULL, colors, corners};
+    MesoPlacedBody placed = {.material = 0, .ids = 1};
+    bar.scene.kind_count = bar.scene.sweep_count = 0;
+    bar.scene.body_count = bar.scene.placed_count = 1;
+    bar.scene.bodies = &body;
+    bar.scene.placed = &placed;
+    meso_scene_measure(&bar.scene);
+    for (uint32_t samples = 1; samples <= 4; samples += 3) {
+        MesoRenderOptions options = look(samples);
+        MesoImage image = draw(arena, &bar.scene, &options, "osmesa", 0);
+        size_t covered = 0;
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            size_t i = (size_t)(HEIGHT / 2) * WIDTH + x;
+            float share = ((float)x + 0.5f - 40) / 80;
+            if (!image.ids[0][i])
+                continue;
+            covered++;
+            CHECK(image.ids[0][i] == 42 && image.ids[1][i] == 9 && fabsf(image.depth[i] - 10) < 1e-4f);
+            CHECK(fabsf(image.albedo[3 * i] - 0.75f * (1 - share)) < 2e-3f);
+            CHECK(fabsf(image.albedo[3 * i + 1] - 0.25f * share) < 2e-3f);
+            CHECK(fabsf(image.albedo[3 * i + 2] - 0.125f * 0.2f) < 1e-4f);
+        }
+        CHECK(covered == 80);
+        size_t left = (size_t)(HEIGHT / 2) * WIDTH + 45, right = left + 70;
+        CHECK(image.color[4 * left] > image.color[4 * right] && image.color[4 * left + 1] < image.color[4 * right + 1]);
+    }
+
+    /* A scene without channels is drawn as well. */
+    bar.scene.channel_count = 0;
+    MesoRenderOptions options = look(1);
+    MesoImage image = draw(arena, &bar.scene, &options, "osmesa", 0);
+    CHECK(image.channel_count == 0 && !isinf(image.depth[(size_t)(HEIGHT / 2) * WIDTH + WIDTH / 2]));
+}
+
 static void test_nothing(MesoArena *arena)
 {
     Bar bar;
@@ -282,6 +325,7 @@ int main(void)
     test_detail(&arena);
     test_windows(&arena);
     test_far(&arena, &one);
+    test_colors(&arena);
     test_nothing(&arena);
     test_refusals(&arena);
     meso_arena_release(&arena);
