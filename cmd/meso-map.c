@@ -6,13 +6,13 @@
 
 #include "cmd/common/input_kind.h"
 #include "cmd/common/mesh_path.h"
+#include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
 #include "formats/mesh/surface_read.h"
 #include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
-#include "formats/model/model_scene.h"
 #include "formats/scene/mesh_file.h"
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
@@ -22,11 +22,12 @@
 static const MesoToolInfo MAP_TOOL = {
     .name = "meso-map",
     .synopsis = "meso-map [options] TILES SURFACE SLOTS -o OUT.meso|.ply|.obj|.glb|.drc\n"
-                "meso-map [options] MODEL.meso -o OUT.meso|.ply|.obj|.glb|.drc",
-    .purpose = "Grow the geometry of an assignment and write it as a model or a mesh.",
+                "meso-map [options] MODEL -o OUT.meso|.ply|.obj|.glb|.drc",
+    .purpose = "Write what an assignment, a model or a mesh is as a model or a mesh.",
     .examples = "meso-map vase.tiles.json vase.obj vase.slots -o vase.meso\n"
                 "meso-map --divisions 24 vase.meso -o vase.glb\n"
-                "meso-map --to ply vase.meso -o - | gzip > vase.ply.gz",
+                "meso-map --to ply vase.meso -o - | gzip > vase.ply.gz\n"
+                "meso-map vase.obj -o surface.glb",
     .words = "1 .json .meso\n"
              "2 .obj .ply .off\n"
              "3 .slots .csv .json\n"
@@ -304,7 +305,7 @@ static MesoStatus check_mapping(const MapArguments *a, const MesoInput *input, c
                           a->given.divisions, a->given.section_step};
     for (size_t i = 0; !tiling && i < sizeof given / sizeof *given; i++)
         if (given[i])
-            return meso_fail(error, MESO_ERR_USAGE, "mapping options are for models of tiles; '%s' holds a mesh",
+            return meso_fail(error, MESO_ERR_USAGE, "mapping options are for models of tiles; '%s' is a mesh",
                              input->path);
     return MESO_OK;
 }
@@ -312,9 +313,7 @@ static MesoStatus check_mapping(const MapArguments *a, const MesoInput *input, c
 static MesoStatus read_model(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
 {
     MesoSceneReading reading = {.thread_count = a->tool.threads, .remap = merge_options, .context = a};
-    MesoStatus status = meso_tool_open_place(&a->tool, &inputs->tiles, a->tool.operands[0], &MESO_PLACE_MODEL);
-    if (status == MESO_OK)
-        status = meso_scene_read(&mapped->scene, &a->tool.arena, &inputs->tiles, &reading, error);
+    MesoStatus status = meso_tool_read_scene(&a->tool, &mapped->scene, &inputs->tiles, a->tool.operands[0], &reading);
     mapped->tiling = reading.tiling;
     return status == MESO_OK ? check_mapping(a, &inputs->tiles, reading.tiling, error) : status;
 }

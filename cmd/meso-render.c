@@ -5,19 +5,18 @@
 #include <strings.h>
 
 #include "cmd/common/camera_options.h"
-#include "cmd/common/input_kind.h"
+#include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
 #include "cmd/common/tool.h"
 #include "formats/image/image_file.h"
 #include "formats/json/json_text.h"
-#include "formats/model/model_scene.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
-    .synopsis = "meso-render [options] MODEL.meso -o OUT.exr|.png",
-    .purpose = "Draw a model to an image: colour, depth, normals, albedo, slot and tile ids.",
+    .synopsis = "meso-render [options] MODEL -o OUT.exr|.png",
+    .purpose = "Draw a model or a mesh to an image: colour, depth, normals, albedo, ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
                 "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png",
     .words = "1 .meso\n"
@@ -186,12 +185,10 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
     if (!status)
         status = parse_background(a, error);
     if (!status)
-        status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_MODEL);
+        status = meso_tool_read_scene(tool, &scene, &input, tool->operands[0], &reading);
     if (status)
         return status;
-    status = meso_scene_read(&scene, &tool->arena, &input, &reading, error);
-    if (!status)
-        status = render(a, &scene, start, error);
+    status = render(a, &scene, start, error);
     meso_input_close(&input);
     return status;
 }

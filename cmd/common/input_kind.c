@@ -13,7 +13,9 @@ const MesoInputPlace MESO_PLACE_SLOTS = {"SLOTS", "an assignment (.slots)", "slo
                                          MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
 const MesoInputPlace MESO_PLACE_KEEP = {"--keep", "an assignment (.slots)", "keep",
                                         MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
-const MesoInputPlace MESO_PLACE_MODEL = {"MODEL", "a model (.meso)", "model", MESO_FILE_MODEL};
+const MesoInputPlace MESO_PLACE_MODEL = {
+    "MODEL", "a model (.meso) or a mesh (OBJ, PLY or OFF)", "model",
+    MESO_FILE_MODEL | MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF};
 const MesoInputPlace MESO_PLACE_REPORT = {"REPORT", "a report of meso-solve", "report", MESO_FILE_REPORT | MESO_FILE_JSON};
 const MesoInputPlace MESO_PLACE_CONSTRAINTS = {"--constraints", "a file of constraints", "constraints",
                                                MESO_FILE_CONSTRAINTS | MESO_FILE_JSON};

@@ -17,7 +17,7 @@ try meso-suggest gap.json gap.tiles.json -o x.json
 try meso-suggest --surface gap.json gap.tiles.json -o x.json
 try meso-map vase.slots vase.obj vase.tiles.json -o x.meso
 try meso-map vase.tiles.json vase.slots vase.obj -o x.meso
-try meso-map vase.obj -o x.meso
+try meso-map vase.tiles.json -o x.meso
 try meso-render vase.slots -o x.png
 try meso-tile check vase.obj
 try meso-tile list gap.json
