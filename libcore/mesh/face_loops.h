@@ -1,0 +1,28 @@
+/*
+ * Faces whose vertices have become others, or that no reader has checked: none
+ * may have a vertex twice.
+ */
+#ifndef MESO_FACE_LOOPS_H
+#define MESO_FACE_LOOPS_H
+
+#include "libcore/mesh/origins.h"
+
+/* Working arrays for all faces of a mesh. */
+typedef struct MesoFaceLoops {
+    const MesoPolygonMesh *from;
+    uint32_t *place;            /* [new vertices] in the stack, where the stack has the vertex there */
+    uint32_t *vertices, *sources;   /* [largest face] the stack: new vertex and old corner */
+    uint32_t depth;
+} MesoFaceLoops;
+
+MesoStatus meso_face_loops_init(MesoFaceLoops *loops, MesoArena *scratch, const MesoPolygonMesh *from,
+                                uint32_t new_vertex_count, MesoError *error);
+
+/*
+ * Adds face `face` to `copies`, with vertex vertex_of[v] (NULL: v) for v. A face that comes back to a vertex falls into the
+ * loops between, of which those with three corners or more become faces: repeated corners and spurs vanish. Returns how many
+ * it has become. O(sides).
+ */
+uint32_t meso_face_loops_add(MesoFaceLoops *loops, MesoMeshCopies *copies, const uint32_t *vertex_of, uint32_t face);
+
+#endif
