@@ -6,6 +6,10 @@
 #include <exception>
 #include <new>
 
+/* GCC 12 loses sight of the default arguments of add_property(). */
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/QuadricT.hh>      /* needs what the mesh includes */
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>

@@ -395,6 +395,11 @@ static MesoStatus count_result(MesoPolygonMesh *result, const Level *level, Meso
     return status;
 }
 
+static bool gives_triangles(const MesoPolygonMesh *mesh, MesoScheme scheme)
+{
+    return scheme == MESO_LOOP || (scheme == MESO_LINEAR && mesh->side_count == 3);
+}
+
 /* `creases` are those of `from`, and then those of `mesh`, in `arena`. */
 static MesoStatus subdivide_once(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoScheme scheme,
                                  uint64_t **creases, uint32_t thread_count, MesoError *error)
@@ -402,9 +407,8 @@ static MesoStatus subdivide_once(MesoPolygonMesh *mesh, MesoArena *arena, const 
     MesoArena scratch;
     Split split;
     MesoMeshOrigins origins = {0};
-    bool triangles = scheme == MESO_LOOP || (scheme == MESO_LINEAR && from->side_count == 3);
     meso_arena_init(&scratch);
-    Level level = {.mesh = from, .scheme = scheme, .triangles = triangles, .creases = *creases, .scratch = &scratch};
+    Level level = {.mesh = from, .scheme = scheme, .triangles = gives_triangles(from, scheme), .creases = *creases, .scratch = &scratch};
     MesoStatus status = init_level(&level, thread_count, error);
     if (!status)
         status = count_result(mesh, &level, error);
@@ -454,6 +458,17 @@ static MesoStatus require_triangles(const MesoPolygonMesh *mesh, MesoError *erro
     return MESO_OK;
 }
 
+/* Before any work: the corners that there will be. */
+static MesoStatus check_levels(const MesoPolygonMesh *mesh, bool triangles, uint32_t level_count, MesoError *error)
+{
+    uint64_t faces = mesh->face_count, corners = mesh->corner_count;
+    for (uint32_t i = 0; i < level_count && corners > 0 && corners < UINT32_MAX; i++) {
+        faces = triangles ? 4 * faces : corners;
+        corners = (triangles ? 3 : 4) * faces;
+    }
+    return meso_mesh_counts_check("subdividing", 0, faces, corners, error);
+}
+
 /* Levels but the last lie in two arenas in turn; names and whole numbers that they share are those of `from`. */
 MesoStatus meso_mesh_subdivide(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoScheme scheme,
                                uint32_t level_count, double crease, uint32_t thread_count, MesoError *error)
@@ -465,6 +480,8 @@ MesoStatus meso_mesh_subdivide(MesoPolygonMesh *mesh, MesoArena *arena, const Me
     meso_arena_init(&turns[1]);
     *mesh = *from;
     MesoStatus status = scheme == MESO_LOOP ? require_triangles(from, error) : MESO_OK;
+    if (!status)
+        status = check_levels(from, gives_triangles(from, scheme), level_count, error);
     if (!status && crease <= 180)
         status = find_creases(&creases, &turns[1], from, crease, thread_count, error);
     for (uint32_t i = 0; i < level_count && !status; i++) {

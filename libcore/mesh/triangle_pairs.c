@@ -68,7 +68,7 @@ static bool is_convex(const MesoPolygonMesh *mesh, const uint32_t quad[4])
 
 static MesoStatus add_pair(MesoMeshCopies *copies, const MesoPolygonMesh *mesh, uint32_t t, uint32_t *face, MesoError *error)
 {
-    uint32_t quad[4];
+    uint32_t quad[4] = {0};
     MesoStatus status = join_corners(quad, mesh, t, face, error);
     if (status)
         return status;
