@@ -174,26 +174,49 @@ static void find_bounds(const Finding *finding)
     }
 }
 
-static MesoStatus count_welded(uint32_t *count, Finding *finding, double distance, MesoError *error)
+static MesoStatus find_borders(bool **on_border, Finding *finding, MesoError *error)
+{
+    const MesoPolygonMesh *mesh = finding->mesh;
+    *on_border = MESO_NEW(&finding->scratch, bool, mesh->vertex_count, error);
+    if (!*on_border)
+        return MESO_ERR_MEMORY;
+    for (uint32_t f = 0; f < mesh->face_count; f++) {
+        uint32_t begin = meso_polygon_begin(mesh, f), end = begin + meso_polygon_sides(mesh, f);
+        for (uint32_t h = begin; h < end; h++)
+            if (finding->edges.twin[h] == MESO_NO_INDEX)
+                (*on_border)[mesh->corners[h]] = (*on_border)[mesh->corners[h + 1 < end ? h + 1 : begin]] = true;
+    }
+    return MESO_OK;
+}
+
+/* Vertices that would be welded to one before, and those of them where both are on borders. */
+static MesoStatus count_welded(uint32_t *count, uint32_t *borders, Finding *finding, const bool *on_border, double distance,
+                               MesoError *error)
 {
     uint32_t *first = MESO_NEW(&finding->scratch, uint32_t, finding->mesh->vertex_count, error);
     MesoStatus status = first ? meso_mesh_weld_map(first, finding->mesh, distance, error) : MESO_ERR_MEMORY;
-    *count = 0;
-    for (uint32_t v = 0; v < finding->mesh->vertex_count && !status; v++)
+    *count = *borders = 0;
+    for (uint32_t v = 0; v < finding->mesh->vertex_count && !status; v++) {
         *count += first[v] != v;
+        *borders += first[v] != v && on_border[v] && on_border[first[v]];
+    }
     return status;
 }
 
 static MesoStatus find_places(Finding *finding, MesoError *error)
 {
+    bool *on_border = NULL;
     MesoMeshFacts *facts = finding->facts;
     find_bounds(finding);
     facts->near_distance = facts->mean_edge * MESO_NEAR_VERTICES;
-    MesoStatus status = count_welded(&facts->coinciding_vertices, finding, 0, error);
-    if (!status && facts->near_distance > 1e-30)
-        status = count_welded(&facts->near_vertices, finding, facts->near_distance, error);
-    if (!status && facts->near_vertices)
-        facts->near_vertices -= facts->coinciding_vertices;
+    MesoStatus status = find_borders(&on_border, finding, error);
+    if (!status)
+        status = count_welded(&facts->coinciding_vertices, &facts->coinciding_borders, finding, on_border, 0, error);
+    if (status || facts->near_distance <= 1e-30)
+        return status;
+    status = count_welded(&facts->near_vertices, &facts->near_borders, finding, on_border, facts->near_distance, error);
+    facts->near_vertices -= facts->coinciding_vertices;
+    facts->near_borders -= facts->coinciding_borders < facts->near_borders ? facts->coinciding_borders : facts->near_borders;
     return status;
 }
 

@@ -24,6 +24,7 @@ typedef struct MesoMeshFacts {
     uint32_t pinched_vertices;          /* in which faces meet that are not neighbours around it */
     uint32_t coinciding_vertices;       /* in the same place as one before */
     uint32_t near_vertices;             /* besides, nearer than `near_distance` to one before */
+    uint32_t coinciding_borders, near_borders;  /* those of them that lie, with the one before, on borders: gaps to weld */
     double near_distance;
     uint32_t flat_faces, double_faces;
     MesoVec3 low, high;                 /* of all vertices */

@@ -43,7 +43,7 @@ static void test_faults(void)
     MesoPolygonMesh mesh = {.vertex_count = 11, .face_count = 4, .corner_count = 15, .positions = positions,
                             .face_begin = face_begin, .corners = corners};
     MesoMeshFacts facts = facts_of(&mesh);
-    CHECK(facts.coinciding_vertices == 2 && facts.near_vertices == 1 && facts.double_faces == 1 && facts.flat_faces == 1);
+    CHECK(facts.coinciding_vertices == 2 && facts.near_vertices == 1 && facts.coinciding_borders == 2 && facts.near_borders == 0 && facts.double_faces == 1 && facts.flat_faces == 1);
     CHECK(facts.valences[0] == 2 && facts.components == 2 && facts.triangles == 1 && facts.quads == 3);
 }
 

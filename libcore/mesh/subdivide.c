@@ -21,6 +21,11 @@ typedef struct Level {
     MesoArena *scratch;
 } Level;
 
+static bool is_linear(const Level *level)
+{
+    return level->scheme == MESO_LINEAR || level->scheme == MESO_LINEAR_QUADS;
+}
+
 static bool is_crease(const Level *level, uint32_t h)
 {
     uint32_t twin = level->edges.twin[h];
@@ -85,14 +90,14 @@ typedef enum Rule { STAYS, CURVE, SMOOTH } Rule;
 static Rule rule_of(const Level *level, uint32_t v)
 {
     uint32_t creases = level->creases_at[v];
-    if (level->scheme == MESO_LINEAR || level->edges_at[v] == 0 || creases > 2)
+    if (is_linear(level) || level->edges_at[v] == 0 || creases > 2)
         return STAYS;
     return creases == 2 ? CURVE : SMOOTH;
 }
 
 static bool edge_is_middle(const Level *level, uint32_t h)
 {
-    return level->scheme == MESO_LINEAR || is_crease(level, h);
+    return is_linear(level) || is_crease(level, h);
 }
 
 static void put(MesoOrigins *origins, uint64_t *at, uint32_t source, double weight)

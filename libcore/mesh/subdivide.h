@@ -7,7 +7,8 @@
 typedef enum MesoScheme {
     MESO_CATMULL_CLARK,         /* Catmull and Clark, 1978: polygons of any size become quads */
     MESO_LOOP,                  /* Loop, 1987: a triangle becomes four */
-    MESO_LINEAR                 /* the shape stays: triangles become four each where all faces are triangles, else all become quads */
+    MESO_LINEAR,                /* the shape stays: triangles become four each where all faces are triangles, else all become quads */
+    MESO_LINEAR_QUADS           /* the shape stays, and all become quads */
 } MesoScheme;
 
 /* An angle that no edge has: without creases. */

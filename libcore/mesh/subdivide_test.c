@@ -85,6 +85,8 @@ static void test_counts(void)
     mesh = subdivide(&triangles, MESO_LINEAR, 1, MESO_NO_CREASE);
     CHECK(mesh.side_count == 3 && mesh.face_count == 4 * triangles.face_count);
     CHECK(fabs(area(&mesh) - area(&triangles)) < 1e-4 && fabs(volume(&mesh) - volume(&triangles)) < 1e-4);
+    mesh = subdivide(&triangles, MESO_LINEAR_QUADS, 1, MESO_NO_CREASE);
+    CHECK(mesh.side_count == 4 && mesh.face_count == triangles.corner_count && fabs(volume(&mesh) - volume(&triangles)) < 1e-4);
     mesh = subdivide(&triangles, MESO_LINEAR, 0, MESO_NO_CREASE);
     CHECK(mesh.corners == triangles.corners);
 }

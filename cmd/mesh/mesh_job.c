@@ -1,0 +1,200 @@
+#include "cmd/mesh/mesh_job.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cmd/mesh/mesh_steps.h"
+#include "formats/mesh/mesh_write.h"
+#include "formats/mesh_scan.h"
+
+typedef struct Job {
+    MesoTool *tool;
+    MesoMeshWork work;
+    MesoMeshStep *steps;        /* [step_count] */
+    uint32_t step_count;
+    MesoMeshKind kind;          /* of the output */
+    json_t *report;             /* array of steps */
+} Job;
+
+/* ---- before the work ---- */
+
+static bool is_stream(const char *path)
+{
+    return path && (*path == 0 || strcmp(path, "-") == 0);
+}
+
+static bool has_step(const Job *job, const char *word)
+{
+    for (uint32_t i = 0; i < job->step_count; i++)
+        if (strcmp(job->steps[i].kind->word, word) == 0)
+            return true;
+    return false;
+}
+
+static MesoStatus parse_steps(Job *job)
+{
+    MesoTool *tool = job->tool;
+    job->step_count = tool->operand_count - 1;
+    job->steps = MESO_NEW(&tool->arena, MesoMeshStep, job->step_count, &tool->error);
+    MesoStatus status = job->steps ? MESO_OK : MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < job->step_count && !status; i++)
+        status = meso_mesh_step_parse(&job->steps[i], tool->operands[i], &tool->error);
+    return status;
+}
+
+static MesoStatus check_output(Job *job)
+{
+    MesoTool *tool = job->tool;
+    bool info = has_step(job, "info");
+    if (!tool->output && !info)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "nothing would come of it: give -o FILE, or the step info");
+    if (info && !tool->json && is_stream(tool->output))
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "the product and what info says cannot both go to standard output; use "
+                         "--json=FILE or -o FILE");
+    job->kind = tool->output ? meso_mesh_kind_of(tool->output) : MESO_MESH_KINDS;
+    if (tool->output && job->kind == MESO_MESH_KINDS)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "-o: the extension of '%s' is not %s", tool->output,
+                         meso_mesh_kind_names());
+    return MESO_OK;
+}
+
+/* ---- reading ---- */
+
+/* What the scan of a mesh file knows: positions, faces, normals of corners. */
+static MesoStatus take_scan(MesoPolygonMesh *mesh, MesoArena *arena, const MesoMeshScan *scan, MesoError *error)
+{
+    *mesh = (MesoPolygonMesh){.vertex_count = scan->vertex_count, .face_count = scan->face_count,
+                              .corner_count = scan->corner_count, .positions = scan->positions,
+                              .corners = scan->corner_vertices};
+    mesh->face_begin = MESO_NEW(arena, uint32_t, (size_t)scan->face_count + 1, error);
+    mesh->attributes = MESO_NEW(arena, MesoAttribute, 1, error);
+    if (!mesh->face_begin || !mesh->attributes)
+        return MESO_ERR_MEMORY;
+    memcpy(mesh->face_begin + 1, scan->face_ends, scan->face_count * sizeof *scan->face_ends);
+    if (scan->normal_count)
+        mesh->attributes[mesh->attribute_count++] = (MesoAttribute){
+            .name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = scan->normal_count,
+            .values = scan->normals, .entry_of = scan->corner_normals};
+    return MESO_OK;
+}
+
+static MesoStatus read_mesh(Job *job)
+{
+    MesoInput input;
+    MesoMeshScan scan;
+    MesoTool *tool = job->tool;
+    const char *path = tool->operands[tool->operand_count - 1];
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "surface");
+    if (status)
+        return status;
+    status = meso_mesh_scan_file(&scan, NULL, &tool->arena, &input, &tool->error);
+    if (!status)
+        status = take_scan(&job->work.mesh, &tool->arena, &scan, &tool->error);
+    if (!status && meso_polygon_mesh_check(&job->work.mesh, tool->threads, NULL, &tool->error))
+        status = meso_fail_prefix(&tool->error, path);
+    meso_input_close(&input);
+    return status;
+}
+
+/* ---- steps ---- */
+
+/* "weld=0.1: vertices gone 4, faces gone 0; 12 vertices, 5 faces" */
+static void say_step(const Job *job, const MesoMeshStep *step)
+{
+    char line[400];
+    int used = 0;
+    const MesoMeshWork *work = &job->work;
+    for (uint32_t i = 0; i < work->count_count; i++) {
+        used += snprintf(line + used, sizeof line - (size_t)used, "%s%s %u", i ? ", " : "", work->counts[i].name,
+                         work->counts[i].count);
+    }
+    for (char *c = line; c < line + used; c++)
+        *c = *c == '_' ? ' ' : *c;
+    if (strcmp(step->kind->word, "info") != 0 && strcmp(step->kind->word, "convert") != 0)
+        meso_tool_say(job->tool, "%s: %.*s%s%u vertices, %u faces", step->text, used, line, used ? "; " : "",
+                      work->mesh.vertex_count, work->mesh.face_count);
+}
+
+static MesoStatus report_step(const Job *job, const MesoMeshStep *step)
+{
+    const MesoMeshWork *work = &job->work;
+    json_t *item = json_pack("{sssIsI}", "step", step->text, "vertices", (json_int_t)work->mesh.vertex_count, "faces",
+                             (json_int_t)work->mesh.face_count);
+    int failed = item == NULL;
+    for (uint32_t i = 0; i < work->count_count && !failed; i++)
+        failed |= json_object_set_new(item, work->counts[i].name, json_integer(work->counts[i].count));
+    failed |= json_array_append_new(job->report, item);
+    return failed ? meso_fail(&job->tool->error, MESO_ERR_MEMORY, "out of memory for the report") : MESO_OK;
+}
+
+static MesoStatus run_step(Job *job, const MesoMeshStep *step)
+{
+    MesoPolygonMesh result;
+    job->work.count_count = 0;
+    MesoStatus status = step->kind->run(step, &job->work, &result);
+    if (status)
+        return meso_fail_prefix(&job->tool->error, step->text);
+    job->work.mesh = result;
+    say_step(job, step);
+    return report_step(job, step);
+}
+
+/* ---- writing ---- */
+
+static void say_left_out(const Job *job)
+{
+    const MesoPolygonMesh *mesh = &job->work.mesh;
+    for (uint32_t i = 0; i < mesh->attribute_count; i++)
+        if (!meso_mesh_kind_holds(job->kind, mesh, &mesh->attributes[i]))
+            meso_tool_say(job->tool, "%s: left out the attribute '%s', which such a file does not hold", job->tool->output,
+                          mesh->attributes[i].name);
+}
+
+static MesoStatus write_mesh(Job *job)
+{
+    MesoOutput *output = NULL;
+    MesoTool *tool = job->tool;
+    MesoPolygonMesh *mesh = &job->work.mesh;
+    if (mesh->face_count == 0)
+        return meso_fail(&tool->error, MESO_ERR_INPUT, "no face is left; nothing was written");
+    MesoStatus status = meso_polygon_mesh_check(mesh, tool->threads, NULL, &tool->error);
+    if (!status)
+        status = meso_output_open(&output, tool->output, &tool->error);
+    if (status)
+        return status;
+    say_left_out(job);
+    status = meso_polygon_mesh_write(mesh, job->kind, &tool->provenance, output, &tool->error);
+    if (!status)
+        return meso_output_commit(output, &tool->error);
+    meso_output_discard(output);
+    return status;
+}
+
+/* ---- all together ---- */
+
+static MesoStatus begin_report(Job *job)
+{
+    MesoTool *tool = job->tool;
+    job->report = json_array();
+    job->work.infos = json_array();
+    int failed = json_object_set_new(tool->report, "steps", job->report);
+    failed |= json_object_set_new(tool->report, "info", job->work.infos);
+    return failed ? meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report") : MESO_OK;
+}
+
+MesoStatus meso_mesh_job_run(MesoMeshArguments *arguments)
+{
+    Job job = {.tool = &arguments->tool, .work = {.tool = &arguments->tool, .crease = (double)arguments->crease}};
+    MesoStatus status = parse_steps(&job);
+    if (!status)
+        status = check_output(&job);
+    if (!status)
+        status = begin_report(&job);
+    if (!status)
+        status = read_mesh(&job);
+    for (uint32_t i = 0; i < job.step_count && !status; i++)
+        status = run_step(&job, &job.steps[i]);
+    if (!status && arguments->tool.output)
+        status = write_mesh(&job);
+    return status;
+}

@@ -1,0 +1,18 @@
+/* The work of meso-mesh: a surface is read, steps are done, the result is written. */
+#ifndef MESO_MESH_JOB_H
+#define MESO_MESH_JOB_H
+
+#include "cmd/tool.h"
+
+typedef struct MesoMeshArguments {
+    MesoTool tool;
+    float crease;               /* degrees */
+} MesoMeshArguments;
+
+/*
+ * Operands are steps, and then the surface. All of them are checked before it is read. The mesh after each step is kept until the end:
+ * memory is that of all of them together, and of the largest step.
+ */
+MesoStatus meso_mesh_job_run(MesoMeshArguments *arguments);
+
+#endif
