@@ -56,7 +56,7 @@ static bool is_inside_out(const MesoMeshFacts *facts)
 }
 
 /* In the order in which they are best done. */
-static json_t *mending(const MesoMeshFacts *facts)
+static json_t *mending(const MesoMeshWork *work, const MesoMeshFacts *facts)
 {
     char weld[40];
     snprintf(weld, sizeof weld, "weld=%.3g", facts->near_distance);
@@ -66,7 +66,7 @@ static json_t *mending(const MesoMeshFacts *facts)
     } steps[] = {
         {facts->near_borders > 0, weld},
         {facts->near_borders == 0 && facts->coinciding_borders > 0, "weld"},
-        {facts->flat_faces > 0 || facts->double_faces > 0 || facts->valences[0] > 0, "clean"},
+        {work->looped > 0 || facts->flat_faces > 0 || facts->double_faces > 0 || facts->valences[0] > 0, "clean"},
         {facts->crowded_edges > 0 || facts->pinched_vertices > 0, "separate"},
         {(facts->disagreeing_edges > 0 && facts->orientable) || is_inside_out(facts), "orient"},
         {facts->triangles > 0 || facts->larger > 0, "quads"},
@@ -85,8 +85,9 @@ static json_t *mending(const MesoMeshFacts *facts)
 /* ---- all together ---- */
 
 /* Sets numbers of `facts` under their names; not 0 where memory is out. */
-static int set_counts(json_t *info, const MesoPolygonMesh *mesh, const MesoMeshFacts *facts)
+static int set_counts(json_t *info, const MesoMeshWork *work, const MesoMeshFacts *facts)
 {
+    const MesoPolygonMesh *mesh = &work->mesh;
     const struct {
         const char *name;
         uint32_t count;
@@ -98,7 +99,7 @@ static int set_counts(json_t *info, const MesoPolygonMesh *mesh, const MesoMeshF
         {"disagreeing_edges", facts->disagreeing_edges}, {"crowded_edges", facts->crowded_edges},
         {"pinched_vertices", facts->pinched_vertices}, {"coinciding_vertices", facts->coinciding_vertices},
         {"near_vertices", facts->near_vertices}, {"unused_vertices", facts->valences[0]},
-        {"flat_faces", facts->flat_faces}, {"double_faces", facts->double_faces},
+        {"looped_faces", work->looped}, {"flat_faces", facts->flat_faces}, {"double_faces", facts->double_faces},
     };
     int failed = 0;
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
@@ -106,10 +107,10 @@ static int set_counts(json_t *info, const MesoPolygonMesh *mesh, const MesoMeshF
     return failed;
 }
 
-static json_t *describe(const MesoPolygonMesh *mesh, const MesoMeshFacts *facts)
+static json_t *describe(const MesoMeshWork *work, const MesoMeshFacts *facts)
 {
     json_t *info = json_object();
-    int failed = set_counts(info, mesh, facts);
+    int failed = set_counts(info, work, facts);
     failed |= json_object_set_new(info, "near_distance", json_real(facts->near_distance));
     failed |= json_object_set_new(info, "closed", json_boolean(facts->closed));
     failed |= json_object_set_new(info, "orientable", json_boolean(facts->orientable));
@@ -123,8 +124,8 @@ static json_t *describe(const MesoPolygonMesh *mesh, const MesoMeshFacts *facts)
     failed |= json_object_set_new(info, "high", point(facts->high));
     failed |= json_object_set_new(info, "area", json_real(facts->area));
     failed |= json_object_set_new(info, "volume", number_or_null(facts->volume));
-    failed |= json_object_set_new(info, "attributes", attributes(mesh));
-    failed |= json_object_set_new(info, "mend", mending(facts));
+    failed |= json_object_set_new(info, "attributes", attributes(&work->mesh));
+    failed |= json_object_set_new(info, "mend", mending(work, facts));
     if (!failed)
         return info;
     json_decref(info);
@@ -152,7 +153,7 @@ MesoStatus meso_mesh_run_info(const MesoMeshStep *step, MesoMeshWork *work, Meso
     MesoStatus status = meso_mesh_find_facts(&facts, &work->mesh, tool->threads, &tool->error);
     if (status)
         return status;
-    json_t *info = describe(&work->mesh, &facts);
+    json_t *info = describe(work, &facts);
     if (!info)
         return meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the facts of the mesh");
     if (!tool->json)

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "cmd/mesh/mesh_steps.h"
+#include "formats/mesh/mesh_read.h"
 #include "formats/mesh/mesh_write.h"
-#include "formats/mesh_scan.h"
 
 typedef struct Job {
     MesoTool *tool;
@@ -60,38 +60,27 @@ static MesoStatus check_output(Job *job)
 
 /* ---- reading ---- */
 
-/* What the scan of a mesh file knows: positions, faces, normals of corners. */
-static MesoStatus take_scan(MesoPolygonMesh *mesh, MesoArena *arena, const MesoMeshScan *scan, MesoError *error)
+/* Faces that no other tool would take are read where clean is the first to change anything. */
+static bool is_to_be_cleaned(const Job *job)
 {
-    *mesh = (MesoPolygonMesh){.vertex_count = scan->vertex_count, .face_count = scan->face_count,
-                              .corner_count = scan->corner_count, .positions = scan->positions,
-                              .corners = scan->corner_vertices};
-    mesh->face_begin = MESO_NEW(arena, uint32_t, (size_t)scan->face_count + 1, error);
-    mesh->attributes = MESO_NEW(arena, MesoAttribute, 1, error);
-    if (!mesh->face_begin || !mesh->attributes)
-        return MESO_ERR_MEMORY;
-    memcpy(mesh->face_begin + 1, scan->face_ends, scan->face_count * sizeof *scan->face_ends);
-    if (scan->normal_count)
-        mesh->attributes[mesh->attribute_count++] = (MesoAttribute){
-            .name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = scan->normal_count,
-            .values = scan->normals, .entry_of = scan->corner_normals};
-    return MESO_OK;
+    uint32_t i = 0;
+    while (i < job->step_count && strcmp(job->steps[i].kind->word, "info") == 0)
+        i++;
+    return i == job->step_count ? !job->tool->output : strcmp(job->steps[i].kind->word, "clean") == 0;
 }
 
 static MesoStatus read_mesh(Job *job)
 {
     MesoInput input;
-    MesoMeshScan scan;
     MesoTool *tool = job->tool;
-    const char *path = tool->operands[tool->operand_count - 1];
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "surface");
+    MesoMeshWork *work = &job->work;
+    MesoStatus status = meso_tool_open_input(tool, &input, tool->operands[tool->operand_count - 1], "surface");
     if (status)
         return status;
-    status = meso_mesh_scan_file(&scan, NULL, &tool->arena, &input, &tool->error);
-    if (!status)
-        status = take_scan(&job->work.mesh, &tool->arena, &scan, &tool->error);
-    if (!status && meso_polygon_mesh_check(&job->work.mesh, tool->threads, NULL, &tool->error))
-        status = meso_fail_prefix(&tool->error, path);
+    if (is_to_be_cleaned(job))
+        status = meso_polygon_mesh_read_loops(&work->mesh, &work->looped, &tool->arena, &input, tool->threads, &tool->error);
+    else
+        status = meso_polygon_mesh_read(&work->mesh, &tool->arena, &input, tool->threads, &tool->error);
     meso_input_close(&input);
     return status;
 }

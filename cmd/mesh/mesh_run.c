@@ -31,7 +31,8 @@ MesoStatus meso_mesh_run_clean(const MesoMeshStep *step, MesoMeshWork *work, Mes
     MesoTool *tool = work->tool;
     (void)step;
     MesoStatus status = meso_mesh_clean(result, &tool->arena, &work->mesh, &counts, &tool->error);
-    count(work, "looped_faces", counts.faces_looped);
+    count(work, "looped_faces", work->looped + counts.faces_looped);
+    work->looped = 0;
     count(work, "flat_faces", counts.faces_flat);
     count(work, "double_faces", counts.faces_double);
     count(work, "unused_vertices", counts.vertices_unused);

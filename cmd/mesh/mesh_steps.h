@@ -19,6 +19,7 @@ typedef struct MesoMeshStep MesoMeshStep;
 typedef struct MesoMeshWork {
     MesoTool *tool;
     MesoPolygonMesh mesh;       /* as the last step left it; in the tool's arena */
+    uint32_t looped;            /* faces that were read as their loops, until clean has counted them */
     double crease;              /* --crease */
     json_t *infos;              /* array, for the report */
     MesoStepCount counts[MESO_STEP_COUNTS];     /* of the last step */

@@ -6,6 +6,7 @@
 #include "formats/mesh/gltf_read_adapter.h"
 #include "formats/mesh/mesh_kinds.h"
 #include "formats/product/file_kind.h"
+#include "libcore/mesh/face_loops.h"
 
 /* Says whether a glTF is sound before it says that it is of no use. */
 static MesoStatus refuse_gltf(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
@@ -100,19 +101,56 @@ static MesoStatus check(const MesoPolygonMesh *mesh, const MesoInput *input, uin
     return status;
 }
 
-MesoStatus meso_polygon_mesh_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input,
-                                  uint32_t thread_count, MesoError *error)
+static MesoStatus read_unchecked(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
+                                 MesoError *error)
 {
-    MesoError ignored;
-    error = error ? error : &ignored;
     *mesh = (MesoPolygonMesh){0};
     if (input->size == 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: empty file", input->path);
     const MeshKind *kind = kind_of(input);
     if (!kind)
         return meso_fail(error, MESO_ERR_INPUT, "%s: not a mesh; OBJ, PLY and OFF are read", input->path);
-    MesoStatus status = kind->read(mesh, arena, input, thread_count, error);
+    return kind->read(mesh, arena, input, thread_count, error);
+}
+
+MesoStatus meso_polygon_mesh_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input,
+                                  uint32_t thread_count, MesoError *error)
+{
+    MesoError ignored;
+    error = error ? error : &ignored;
+    MesoStatus status = read_unchecked(mesh, arena, input, thread_count, error);
     return status ? status : check(mesh, input, thread_count, error);
+}
+
+static bool has_vertices_at_corners(const MesoPolygonMesh *mesh)
+{
+    for (uint32_t c = 0; c < mesh->corner_count; c++)
+        if (mesh->corners[c] >= mesh->vertex_count)
+            return false;
+    return true;
+}
+
+/* Where the loops do not help either, the error is that of the mesh as it is. */
+MesoStatus meso_polygon_mesh_read_loops(MesoPolygonMesh *mesh, uint32_t *looped, MesoArena *arena, const MesoInput *input,
+                                        uint32_t thread_count, MesoError *error)
+{
+    MesoPolygonMesh cut;
+    MesoError as_it_is;
+    *looped = 0;
+    MesoStatus status = read_unchecked(mesh, arena, input, thread_count, error);
+    if (status)
+        return status;
+    status = check(mesh, input, thread_count, error);
+    if (status != MESO_ERR_INPUT || !has_vertices_at_corners(mesh))
+        return status;
+    as_it_is = *error;
+    status = meso_mesh_cut_loops(&cut, arena, mesh, looped, error);
+    if (!status)
+        status = check(&cut, input, thread_count, error);
+    if (status == MESO_ERR_INPUT)
+        *error = as_it_is;
+    *mesh = status ? *mesh : cut;
+    return status;
 }
 
 MesoStatus meso_mesh_texture_problem(const MesoInput *input, uint32_t thread_count, MesoError *error)

@@ -16,6 +16,13 @@ MesoStatus meso_polygon_mesh_read(MesoPolygonMesh *mesh, MesoArena *arena, const
                                   uint32_t thread_count, MesoError *error);
 
 /*
+ * The same for meshes that are to be mended: a face that comes back to a vertex falls into the loops between, and what has fewer
+ * than three corners goes, as meso_mesh_cut_loops() says. `looped` is the number of such faces.
+ */
+MesoStatus meso_polygon_mesh_read_loops(MesoPolygonMesh *mesh, uint32_t *looped, MesoArena *arena, const MesoInput *input,
+                                        uint32_t thread_count, MesoError *error);
+
+/*
  * Puts "PATH:LINE: ", or "PATH: " where a face has no line, before the message of `error`, which is about `face` (from 0;
  * MESO_NO_INDEX: about none) of a mesh that was read from `input`. Returns its status. O(size).
  */

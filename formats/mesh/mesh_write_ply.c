@@ -251,9 +251,70 @@ static void put_faces(MesoMeshSink *sink, const MesoPolygonMesh *mesh)
     }
 }
 
+/* ---- corners that agree ---- */
+
+static bool same_bytes(const MesoAttribute *a, uint32_t i, uint32_t j)
+{
+    size_t size = (size_t)a->width * meso_scalar_size(a->scalar);
+    if (i == j || i == MESO_NO_INDEX || j == MESO_NO_INDEX || a->width == 0)
+        return i == j;
+    return memcmp((const char *)a->values + size * i, (const char *)a->values + size * j, size) == 0;
+}
+
+/* entry_of[v] [vertex_count] becomes that of all corners at v; false where two of them differ. */
+static bool agree_at_vertices(uint32_t *entry_of, const MesoPolygonMesh *mesh, const MesoAttribute *a, bool *met)
+{
+    memset(entry_of, 0xff, mesh->vertex_count * sizeof *entry_of);
+    memset(met, 0, mesh->vertex_count);
+    for (uint32_t c = 0; c < mesh->corner_count; c++) {
+        uint32_t v = mesh->corners[c], entry = meso_attribute_entry(a, c);
+        if (met[v] && !same_bytes(a, entry_of[v], entry))
+            return false;
+        if (!met[v])
+            entry_of[v] = entry;
+        met[v] = true;
+    }
+    return true;
+}
+
+/*
+ * Few readers know lists of corners, and all know numbers of vertices: what is the same all around each vertex is written there,
+ * unless vertices have one of its name.
+ */
+static bool move_to_vertices(MesoPolygonMesh *moved, MesoMeshSink *sink, const MesoPolygonMesh *mesh)
+{
+    bool *met = MESO_NEW(sink->scratch, bool, mesh->vertex_count, sink->error);
+    *moved = *mesh;
+    moved->attributes = MESO_NEW(sink->scratch, MesoAttribute, mesh->attribute_count, sink->error);
+    if (!met || !moved->attributes)
+        return false;
+    for (uint32_t i = 0; i < mesh->attribute_count; i++) {
+        MesoAttribute *a = &moved->attributes[i];
+        *a = mesh->attributes[i];
+        if (a->domain != MESO_ON_CORNERS || meso_polygon_attribute_on(mesh, a->name, MESO_ON_VERTICES))
+            continue;
+        MesoArenaMark mark = meso_arena_mark(sink->scratch);
+        uint32_t *entry_of = MESO_NEW(sink->scratch, uint32_t, mesh->vertex_count, sink->error);
+        if (!entry_of)
+            return false;
+        if (agree_at_vertices(entry_of, mesh, a, met)) {
+            a->domain = MESO_ON_VERTICES;
+            a->entry_of = entry_of;
+        } else {
+            meso_arena_rewind(sink->scratch, mark);
+        }
+    }
+    return true;
+}
+
 void meso_mesh_write_ply(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const MesoProvenance *provenance)
 {
-    put_header(sink, mesh, provenance);
-    put_vertices(sink, mesh);
-    put_faces(sink, mesh);
+    MesoPolygonMesh moved;
+    if (!move_to_vertices(&moved, sink, mesh)) {
+        sink->status = MESO_ERR_MEMORY;
+        return;
+    }
+    put_header(sink, &moved, provenance);
+    put_vertices(sink, &moved);
+    put_faces(sink, &moved);
 }

@@ -42,3 +42,32 @@ uint32_t meso_face_loops_add(MesoFaceLoops *loops, MesoMeshCopies *copies, const
     }
     return count + take_loop(loops, copies, face, 0);
 }
+
+static MesoStatus add_faces(MesoMeshCopies *copies, MesoArena *scratch, const MesoPolygonMesh *from, uint32_t *looped,
+                            MesoError *error)
+{
+    MesoFaceLoops loops;
+    MesoStatus status = meso_mesh_copies_init(copies, scratch, (uint64_t)from->face_count + from->corner_count / 3,
+                                              from->corner_count, error);
+    if (!status)
+        status = meso_face_loops_init(&loops, scratch, from, from->vertex_count, error);
+    for (uint32_t f = 0; f < from->face_count && !status; f++) {
+        uint32_t before = copies->corner_count, faces = meso_face_loops_add(&loops, copies, NULL, f);
+        *looped += faces != 1 || copies->corner_count - before != meso_polygon_sides(from, f);
+    }
+    return status;
+}
+
+MesoStatus meso_mesh_cut_loops(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, uint32_t *looped,
+                               MesoError *error)
+{
+    MesoArena scratch;
+    MesoMeshCopies copies;
+    *looped = 0;
+    meso_arena_init(&scratch);
+    MesoStatus status = add_faces(&copies, &scratch, from, looped, error);
+    if (!status)
+        status = meso_mesh_copies_build(mesh, arena, from, &copies, error);
+    meso_arena_release(&scratch);
+    return status;
+}

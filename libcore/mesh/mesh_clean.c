@@ -56,22 +56,6 @@ MesoStatus meso_mesh_find_doubles(uint32_t *doubles, const MesoPolygonMesh *mesh
 
 /* ---- cleaning ---- */
 
-static MesoStatus cut_loops(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoCleanCounts *counts,
-                            MesoError *error)
-{
-    MesoMeshCopies copies;
-    MesoFaceLoops loops;
-    MesoStatus status = meso_mesh_copies_init(&copies, arena, (uint64_t)from->face_count + from->corner_count / 3,
-                                              from->corner_count, error);
-    if (!status)
-        status = meso_face_loops_init(&loops, arena, from, from->vertex_count, error);
-    for (uint32_t f = 0; f < from->face_count && !status; f++) {
-        uint32_t before = copies.corner_count, faces = meso_face_loops_add(&loops, &copies, NULL, f);
-        counts->faces_looped += faces != 1 || copies.corner_count - before != meso_polygon_sides(from, f);
-    }
-    return status ? status : meso_mesh_copies_build(mesh, arena, from, &copies, error);
-}
-
 /* vertex_of[v] becomes the new number of v, or MESO_NO_INDEX. */
 static uint32_t number_used(uint32_t *vertex_of, uint32_t *sources, uint32_t vertex_count)
 {
@@ -125,7 +109,7 @@ MesoStatus meso_mesh_clean(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPo
     counts = counts ? counts : &ignored;
     *counts = (MesoCleanCounts){0};
     meso_arena_init(&scratch);
-    MesoStatus status = cut_loops(&loops, &scratch, from, counts, error);
+    MesoStatus status = meso_mesh_cut_loops(&loops, &scratch, from, &counts->faces_looped, error);
     if (!status)
         status = meso_mesh_copies_init(&copies, &scratch, loops.face_count, loops.corner_count, error);
     if (!status)

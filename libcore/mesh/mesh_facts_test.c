@@ -34,7 +34,7 @@ static void test_torus(void)
     CHECK(facts.border_loops == 2 && facts.border_edges == 10 && facts.genus == 1 && !facts.closed && facts.euler == -2);
 }
 
-/* Two quads and a triangle, apart in numbers but not in place, one twice; one flat; one vertex unused, one near. */
+/* Two quads and a triangle, apart in numbers but not in place, one twice, so that it has no border; one flat; one vertex unused, one near. */
 static void test_faults(void)
 {
     MesoVec3 positions[11] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0},
@@ -43,7 +43,7 @@ static void test_faults(void)
     MesoPolygonMesh mesh = {.vertex_count = 11, .face_count = 4, .corner_count = 15, .positions = positions,
                             .face_begin = face_begin, .corners = corners};
     MesoMeshFacts facts = facts_of(&mesh);
-    CHECK(facts.coinciding_vertices == 2 && facts.near_vertices == 1 && facts.coinciding_borders == 2 && facts.near_borders == 0 && facts.double_faces == 1 && facts.flat_faces == 1);
+    CHECK(facts.coinciding_vertices == 2 && facts.near_vertices == 1 && facts.coinciding_borders == 0 && facts.near_borders == 0 && facts.double_faces == 1 && facts.flat_faces == 1);
     CHECK(facts.valences[0] == 2 && facts.components == 2 && facts.triangles == 1 && facts.quads == 3);
 }
 

@@ -41,6 +41,7 @@ cube | backwards 1 >inside-out.obj
 grid 4 4 | awk '/^f/ { print "f", $2, $3, $4; print "f", $2, $4, $5; next } { print }' >triangles.obj
 { printf 'v %s\n' '0 0 0' '2 0 0' '3 2 0' '2 4 0' '0 4 0' '-1 2 0' '5 2 0' '5 0 0'; echo f 1 2 3 4 5 6; echo f 2 8 7 3; } >polygons.obj
 { grid 4 4; printf 'v 1 1 1\nv 2 1 1\nf 7 8 27 26\n'; } >fin.obj
+cube | awk '/^f/ { print $0, $5; print "f", $2, $3; print "f", $2, $4, $2; next } { print }' >twice.obj
 torus 12 8 | awk '/^v / && NR % 7 == 0 { $2 += 0.00001 } { print }' >near.obj
 
 mend() {    # FILE STEP...: the steps are those that info asks for
@@ -60,8 +61,16 @@ mend inside-out.obj orient subdivide
 mend double.obj clean
 mend flat.obj clean
 mend unused.obj clean
+mend twice.obj clean
 mend triangles.obj quads
 mend triangles.obj pair
 mend polygons.obj quads
 mend fin.obj separate
 mend near.obj weld=1e-4
+{ cat fin.obj; echo f 1 7 13 13; } >both.obj
+mend both.obj clean separate
+
+# Faces that no tool takes are read for clean alone; and the texture keeps its seam where the surface has none.
+meso-mesh orient twice.obj -o refused.obj || echo "status $?"
+meso-mesh -q weld seam.obj -o whole.obj
+grep -c '^vt' seam.obj whole.obj
