@@ -16,6 +16,10 @@ static const MesoToolInfo info = {
     .examples = "meso-mesh info vase.obj\n"
                 "meso-mesh weld orient subdivide=catmull-clark,2 vase.obj -o fine.ply\n"
                 "meso-mesh help subdivide",
+    .words = "1 help info weld weld= clean separate orient triangulate pair quads quads=linear subdivide "
+             "subdivide=catmull-clark, subdivide=loop, subdivide=linear, decimate= convert .obj .ply .off\n"
+             "--output .ply .obj .off\n"
+             "--json .json",
     .operands_low = 1,
     .operands_high = UINT32_MAX,
 };
@@ -25,6 +29,7 @@ static const MesoToolInfo help_info = {
     .synopsis = "meso-mesh help [STEP]",
     .purpose = "Says what the steps do.",
     .examples = "meso-mesh help weld",
+    .words = "1 info weld clean separate orient triangulate pair quads subdivide decimate convert",
     .operands_low = 0,
     .operands_high = 1,
 };

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "formats/product/provenance.h"
-#include "formats/scene/float_text.h"
+#include "formats/file/float_text.h"
 
 static const char *float_text(float value, MesoArena *arena, MesoError *error)
 {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "cmd/mesh/mesh_steps.h"
-#include "formats/json_text.h"
+#include "formats/json/json_text.h"
 #include "libcore/mesh/mesh_facts.h"
 
 static json_t *number_or_null(double number)

@@ -135,8 +135,7 @@ static void say_left_out(const Job *job)
     const MesoPolygonMesh *mesh = &job->work.mesh;
     for (uint32_t i = 0; i < mesh->attribute_count; i++)
         if (!meso_mesh_kind_holds(job->kind, mesh, &mesh->attributes[i]))
-            meso_tool_say(job->tool, "%s: left out the attribute '%s', which such a file does not hold", job->tool->output,
-                          mesh->attributes[i].name);
+            meso_tool_say(job->tool, "left out the attribute '%s', which such a file does not hold", mesh->attributes[i].name);
 }
 
 static MesoStatus write_mesh(Job *job)

@@ -2,7 +2,7 @@
 #ifndef MESO_MESH_JOB_H
 #define MESO_MESH_JOB_H
 
-#include "cmd/tool.h"
+#include "cmd/common/tool.h"
 
 typedef struct MesoMeshArguments {
     MesoTool tool;

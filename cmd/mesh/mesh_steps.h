@@ -2,7 +2,7 @@
 #ifndef MESO_MESH_STEPS_H
 #define MESO_MESH_STEPS_H
 
-#include "cmd/tool.h"
+#include "cmd/common/tool.h"
 #include "libcore/mesh/subdivide.h"
 
 /* Counts that a step gives, in words as the report has them: "vertices_gone". */

@@ -1,11 +1,12 @@
-/* What writers of meshes write to: bytes gathered up before they go out. For the writers alone. */
+/* What writers of meshes write to: bytes gathered up before they go out. */
 #ifndef MESO_MESH_SINK_H
 #define MESO_MESH_SINK_H
 
 #include <string.h>
 
-#include "formats/float_text.h"
-#include "formats/mesh/mesh_write.h"
+#include "formats/file/float_text.h"
+#include "formats/file/output.h"
+#include "formats/product/provenance.h"
 
 enum { MESO_SINK_BYTES = 1 << 18, MESO_SINK_WORD = 64 };
 
@@ -53,12 +54,5 @@ void meso_mesh_sink_name(MesoMeshSink *sink, const char *name, char blank);
 
 /* The provenance in comments, each line beginning with `mark`. */
 void meso_mesh_sink_provenance(MesoMeshSink *sink, const MesoProvenance *provenance, const char *mark);
-
-/* The writers. */
-void meso_mesh_write_ply(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const MesoProvenance *provenance);
-void meso_mesh_write_obj(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const MesoProvenance *provenance);
-void meso_mesh_write_off(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const MesoProvenance *provenance);
-bool meso_mesh_ply_holds(const MesoPolygonMesh *mesh, const MesoAttribute *attribute);
-bool meso_mesh_obj_holds(const MesoPolygonMesh *mesh, const MesoAttribute *attribute);
 
 #endif

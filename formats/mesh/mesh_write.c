@@ -1,91 +1,8 @@
 #include "formats/mesh/mesh_write.h"
 
-#include <stdlib.h>
 #include <strings.h>
 
-#include "formats/mesh/mesh_sink.h"
-#include "formats/mesh_window.h"
-
-/* ---- sinks ---- */
-
-void meso_mesh_sink_flush(MesoMeshSink *sink)
-{
-    if (!sink->status && sink->used)
-        sink->status = meso_output_write(sink->output, sink->bytes, sink->used, sink->error);
-    sink->used = 0;
-}
-
-void meso_mesh_sink_put(MesoMeshSink *sink, const void *data, size_t size)
-{
-    const char *from = data;
-    while (size > 0) {
-        if (sink->used >= MESO_SINK_BYTES)
-            meso_mesh_sink_flush(sink);
-        size_t piece = size < MESO_SINK_BYTES - sink->used ? size : MESO_SINK_BYTES - sink->used;
-        memcpy(sink->bytes + sink->used, from, piece);
-        sink->used += piece;
-        from += piece;
-        size -= piece;
-    }
-}
-
-void meso_mesh_sink_number(MesoMeshSink *sink, uint64_t number)
-{
-    char digits[20], *out = meso_mesh_sink_room(sink);
-    size_t count = 0;
-    do
-        digits[count++] = (char)('0' + number % 10);
-    while ((number /= 10) > 0);
-    sink->used += count;
-    while (count > 0)
-        *out++ = digits[--count];
-}
-
-void meso_mesh_sink_name(MesoMeshSink *sink, const char *name, char blank)
-{
-    for (; *name; name++) {
-        unsigned char c = (unsigned char)*name;
-        meso_mesh_sink_character(sink, c == ' ' ? blank : c < 0x20 || c == 0x7f ? '?' : *name);
-    }
-}
-
-void meso_mesh_sink_provenance(MesoMeshSink *sink, const MesoProvenance *provenance, const char *mark)
-{
-    MesoMeshWriteOptions options = {.provenance = provenance};
-    const char *lines = meso_mesh_provenance_lines(&options, mark, sink->scratch, sink->error);
-    if (lines)
-        meso_mesh_sink_text(sink, lines);
-    else
-        sink->status = MESO_ERR_MEMORY;
-}
-
-/* ---- OFF ---- */
-
-void meso_mesh_write_off(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const MesoProvenance *provenance)
-{
-    meso_mesh_sink_text(sink, "OFF\n");
-    meso_mesh_sink_provenance(sink, provenance, "# ");
-    meso_mesh_sink_number(sink, mesh->vertex_count);
-    meso_mesh_sink_character(sink, ' ');
-    meso_mesh_sink_number(sink, mesh->face_count);
-    meso_mesh_sink_text(sink, " 0\n");
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        float p[3] = {mesh->positions[v].x, mesh->positions[v].y, mesh->positions[v].z};
-        for (int k = 0; k < 3; k++) {
-            meso_mesh_sink_float(sink, p[k]);
-            meso_mesh_sink_character(sink, k < 2 ? ' ' : '\n');
-        }
-    }
-    for (uint32_t f = 0; f < mesh->face_count; f++) {
-        uint32_t begin = meso_polygon_begin(mesh, f), end = begin + meso_polygon_sides(mesh, f);
-        meso_mesh_sink_number(sink, end - begin);
-        for (uint32_t c = begin; c < end; c++) {
-            meso_mesh_sink_character(sink, ' ');
-            meso_mesh_sink_number(sink, mesh->corners[c]);
-        }
-        meso_mesh_sink_character(sink, '\n');
-    }
-}
+#include "formats/mesh/mesh_writers.h"
 
 static bool off_holds(const MesoPolygonMesh *mesh, const MesoAttribute *attribute)
 {
@@ -93,8 +10,6 @@ static bool off_holds(const MesoPolygonMesh *mesh, const MesoAttribute *attribut
     (void)attribute;
     return false;
 }
-
-/* ---- kinds ---- */
 
 static const struct {
     const char *extension;

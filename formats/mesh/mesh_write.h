@@ -5,8 +5,8 @@
 #ifndef MESO_MESH_WRITE_H
 #define MESO_MESH_WRITE_H
 
-#include "formats/output.h"
-#include "formats/provenance.h"
+#include "formats/file/output.h"
+#include "formats/product/provenance.h"
 #include "libcore/mesh/polygon_mesh.h"
 
 /* Others that hold a mesh of polygons, or of triangles, find their place here and in the table of mesh_write.c. */

@@ -1,7 +1,7 @@
 /* Wavefront OBJ: all vertices, all texture coordinates, all normals, then the faces, each with its own numbers. */
 #include <string.h>
 
-#include "formats/mesh/mesh_sink.h"
+#include "formats/mesh/mesh_writers.h"
 
 /* An attribute whose entries have numbers of their own, from 1, in the order of the first use. */
 typedef struct Numbered {

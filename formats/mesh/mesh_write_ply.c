@@ -1,7 +1,7 @@
 /* Binary PLY: rows of vertices, then of faces, with each attribute's bytes as they lie in memory. */
 #include <string.h>
 
-#include "formats/mesh/mesh_sink.h"
+#include "formats/mesh/mesh_writers.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows are written as they lie in memory");
 

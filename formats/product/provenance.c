@@ -213,6 +213,26 @@ const char *meso_provenance_text(const MesoProvenance *provenance, MesoArena *ar
     return copy;
 }
 
+/* Some readers of PLY and OBJ take no line over 1023 bytes. */
+enum { PIECE = 960 };
+
+const char *meso_provenance_lines(const MesoProvenance *provenance, const char *mark, MesoArena *arena, MesoError *error)
+{
+    const char *text = provenance ? meso_provenance_text(provenance, arena, error) : "";
+    size_t left = text ? strlen(text) : 0, count = left / (PIECE - 3) + 1;
+    char *lines = text ? MESO_NEW(arena, char, left + count * (strlen(mark) + 16) + 1, error) : NULL;
+    char *out = lines;
+    for (bool first = true; lines && left > 0; first = false) {
+        size_t size = left < PIECE ? left : PIECE;
+        while (size < left && ((unsigned char)text[size] & 0xc0) == 0x80 && size > PIECE - 3)
+            size--;     /* characters stay whole */
+        out += sprintf(out, "%sprovenance%s %.*s\n", mark, first ? "" : "+", (int)size, text);
+        text += size;
+        left -= size;
+    }
+    return lines;
+}
+
 MesoStatus meso_provenance_copy(const char **text, const void *data, uint64_t size,
                                 const char *path, MesoArena *arena, MesoError *error)
 {

@@ -66,6 +66,12 @@ json_t *meso_provenance_json(const MesoProvenance *provenance);
 /* The same as one line of text, in `arena`; for comments and string attributes. */
 const char *meso_provenance_text(const MesoProvenance *provenance, MesoArena *arena, MesoError *error);
 
+/*
+ * The same as comment lines that begin with `mark` and "provenance ", or, where readers of
+ * short lines need it in pieces, "provenance+ " from the second on; "" for no provenance, NULL.
+ */
+const char *meso_provenance_lines(const MesoProvenance *provenance, const char *mark, MesoArena *arena, MesoError *error);
+
 /* Copies the `size` bytes of a provenance chunk as text to `arena`. MESO_ERR_INPUT where they are
  * not one JSON object. `path` is for messages. */
 MesoStatus meso_provenance_copy(const char **text, const void *data, uint64_t size,

@@ -254,24 +254,3 @@ const char *meso_mesh_provenance(const MesoMeshWriteOptions *options, MesoArena 
 {
     return options->provenance ? meso_provenance_text(options->provenance, arena, error) : "";
 }
-
-/* Some readers of PLY and OBJ take no line over 1023 bytes. */
-enum { PIECE = 960 };
-
-const char *meso_mesh_provenance_lines(const MesoMeshWriteOptions *options, const char *mark, MesoArena *arena,
-                                       MesoError *error)
-{
-    const char *text = meso_mesh_provenance(options, arena, error);
-    size_t left = text ? strlen(text) : 0, count = left / (PIECE - 3) + 1;
-    char *lines = text ? MESO_NEW(arena, char, left + count * (strlen(mark) + 16) + 1, error) : NULL;
-    char *out = lines;
-    for (bool first = true; lines && left > 0; first = false) {
-        size_t size = left < PIECE ? left : PIECE;
-        while (size < left && ((unsigned char)text[size] & 0xc0) == 0x80 && size > PIECE - 3)
-            size--;     /* characters stay whole */
-        out += sprintf(out, "%sprovenance%s %.*s\n", mark, first ? "" : "+", (int)size, text);
-        text += size;
-        left -= size;
-    }
-    return lines;
-}

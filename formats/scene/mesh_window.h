@@ -61,13 +61,6 @@ const char *meso_mesh_material_names(const MesoScene *scene, MesoArena *arena, M
 /* What files call the names of a channel: "tiles". NULL with `error` filled. */
 const char *meso_mesh_names_key(const MesoIdChannel *channel, MesoArena *arena, MesoError *error);
 
-/*
- * The provenance as comment lines that begin with `mark` and "provenance ", or, where readers of
- * short lines need it in pieces, "provenance+ " from the second on; "" where the options have none.
- */
-const char *meso_mesh_provenance_lines(const MesoMeshWriteOptions *options, const char *mark, MesoArena *arena,
-                                       MesoError *error);
-
 /* The provenance as one line; "" where the options have none. */
 const char *meso_mesh_provenance(const MesoMeshWriteOptions *options, MesoArena *arena,
                                  MesoError *error);

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "formats/scene/float_text.h"
+#include "formats/file/float_text.h"
 #include "formats/scene/mesh_file.h"
 #include "formats/scene/mesh_window.h"
 
@@ -185,7 +185,7 @@ static size_t format_parts(const void *context, const MesoSceneParts *parts, uin
 
 static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
-    const char *text = meso_mesh_provenance_lines(stream->options, "# ", arena, error);
+    const char *text = meso_provenance_lines(stream->options->provenance, "# ", arena, error);
     if (!text)
         return MESO_ERR_MEMORY;
     stream->offset = strlen(text);

@@ -153,7 +153,7 @@ static MesoStatus put_elements(MesoMeshStream *stream, bool colored, MesoArena *
 
 static MesoStatus put_header(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
 {
-    const char *provenance = meso_mesh_provenance_lines(stream->options, "comment ", arena, error);
+    const char *provenance = meso_provenance_lines(stream->options->provenance, "comment ", arena, error);
     if (!provenance)
         return MESO_ERR_MEMORY;
     MesoStatus status = put(stream, "ply\nformat binary_little_endian 1.0\n", error);

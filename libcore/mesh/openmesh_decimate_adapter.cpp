@@ -16,7 +16,7 @@
 #include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 namespace {
 

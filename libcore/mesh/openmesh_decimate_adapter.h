@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "libcore/base/error.h"
-#include "libcore/base/vec.h"
+#include "libcore/math/vec.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,5 +1,5 @@
 # What the shells' completions offer.
-for tool in meso-tile meso-solve meso-suggest meso-map meso-render meso-info; do
+for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-render meso-info; do
     "$scripts/make-completion" bash "$(command -v $tool)" >$tool.bash
     for shell in zsh fish; do
         "$scripts/make-completion" $shell "$(command -v $tool)" >$tool.$shell
@@ -35,6 +35,9 @@ offer meso-solve --keep ''
 offer meso-solve --keep d
 offer meso-solve --orient ''
 offer meso-solve --best ''
+offer meso-mesh ''
+offer meso-mesh weld sub
+offer meso-mesh weld b.obj -o ''
 offer meso-map a.tiles.json b.obj ''
 offer meso-map -q --to
 offer meso-map --to g

@@ -79,6 +79,8 @@ each meso-map -q --threads 1 quad.tiles.json cube.obj cube.slots -o out/cube.mes
 for kind in ply obj glb drc; do
     each meso-map -q --threads 1 cube.meso -o out/cube.$kind
 done
+each meso-mesh -q --threads 1 weld=0.1 clean separate orient subdivide=2 info cube.obj -o out/cube.obj --json=out/cube.json
+each meso-mesh -q --threads 1 subdivide=linear,2 decimate=50% cube.obj -o out/cube.ply
 for file in quad.tiles.json cube.obj cube.slots cube.meso cube.glb; do
     each meso-info $file
 done

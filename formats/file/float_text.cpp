@@ -1,4 +1,4 @@
-#include "formats/scene/float_text.h"
+#include "formats/file/float_text.h"
 
 #include <charconv>
 #include <cmath>
