@@ -48,9 +48,9 @@ int main(int argc, char **argv)
     MesoMeshArguments a = {.crease = (float)MESO_NO_CREASE};
     MesoTool *tool = &a.tool;
     MesoOption options[] = {
-        {MESO_OPTION_GROUP, 0, "Steps", 0, 0, 0, 0, 0, 0, 0},
-        {MESO_OPTION_NUMBER, 0, "crease", "DEGREES", "subdivide and quads keep edges sharp whose faces' normals enclose more",
-         &a.crease, 0, 0, 180, 0},
+        MESO_GROUP("Steps"),
+        MESO_NUMBER(0, "crease", "DEGREES", "subdivide and quads keep edges sharp whose faces' normals enclose more",
+                    &a.crease, 0, 180),
         MESO_TOOL_OPTIONS(*tool),
         {0},
     };

@@ -3,8 +3,8 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "formats/product/provenance.h"
 #include "formats/file/float_text.h"
+#include "formats/product/provenance.h"
 
 static const char *float_text(float value, MesoArena *arena, MesoError *error)
 {

@@ -4,7 +4,7 @@
 
 #include "cmd/mesh/mesh_steps.h"
 #include "formats/json/json_text.h"
-#include "libcore/mesh/mesh_facts.h"
+#include "libcore/mesh/edit/mesh_facts.h"
 
 static json_t *number_or_null(double number)
 {

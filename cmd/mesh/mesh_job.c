@@ -5,7 +5,7 @@
 
 #include "cmd/mesh/mesh_steps.h"
 #include "formats/mesh/mesh_read.h"
-#include "formats/mesh/mesh_write.h"
+#include "formats/mesh/write/mesh_write.h"
 
 typedef struct Job {
     MesoTool *tool;

@@ -2,12 +2,12 @@
 #include <string.h>
 
 #include "cmd/mesh/mesh_steps.h"
-#include "libcore/mesh/ear_clip.h"
-#include "libcore/mesh/mesh_clean.h"
-#include "libcore/mesh/mesh_decimate.h"
-#include "libcore/mesh/mesh_orient.h"
-#include "libcore/mesh/mesh_weld.h"
-#include "libcore/mesh/triangle_pairs.h"
+#include "libcore/mesh/edit/ear_clip.h"
+#include "libcore/mesh/edit/mesh_clean.h"
+#include "libcore/mesh/edit/mesh_orient.h"
+#include "libcore/mesh/edit/mesh_weld.h"
+#include "libcore/mesh/edit/triangle_pairs.h"
+#include "libcore/mesh/refine/mesh_decimate.h"
 
 static void count(MesoMeshWork *work, const char *name, uint32_t number)
 {

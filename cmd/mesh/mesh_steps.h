@@ -3,7 +3,7 @@
 #define MESO_MESH_STEPS_H
 
 #include "cmd/common/tool.h"
-#include "libcore/mesh/subdivide.h"
+#include "libcore/mesh/refine/subdivide.h"
 
 /* Counts that a step gives, in words as the report has them: "vertices_gone". */
 enum { MESO_STEP_COUNTS = 4 };

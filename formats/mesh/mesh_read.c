@@ -6,7 +6,7 @@
 #include "formats/mesh/gltf_read_adapter.h"
 #include "formats/mesh/mesh_kinds.h"
 #include "formats/product/file_kind.h"
-#include "libcore/mesh/face_loops.h"
+#include "libcore/mesh/edit/face_loops.h"
 
 /* Says whether a glTF is sound before it says that it is of no use. */
 static MesoStatus refuse_gltf(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
