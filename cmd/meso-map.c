@@ -215,18 +215,17 @@ static void warn_of_other_inputs(const MesoTool *tool, const MesoSlotsFile *slot
                       surface ? "" : "the surface");
 }
 
-/* The model keeps corners in the order that they were solved in; `graph` follows. */
-static MesoStatus turn_surface(MesoTool *tool, MesoModel *model, MesoSlotGraph *graph, const uint8_t *quarters,
-                               MesoError *error)
+/* The model keeps corners in the order that they were solved in. */
+static MesoStatus turn_surface(MesoTool *tool, MesoModel *model, const uint8_t *quarters, MesoError *error)
 {
     if (!quarters)
         return MESO_OK;
     MesoStatus status = meso_orientation_turn_mesh(&model->surface, &tool->arena, quarters, error);
-    return status ? status : meso_orientation_turn_graph(graph, &tool->arena, quarters, error);
+    return status ? status : meso_orientation_turn_graph(&model->graph, &tool->arena, quarters, error);
 }
 
-static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotGraph *graph, MesoSlotsFile *slots,
-                             const Inputs *inputs, MesoError *error)
+static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *slots, const Inputs *inputs,
+                             MesoError *error)
 {
     MesoTool *tool = &a->tool;
     if (slots->assignment.slot_count != model->surface.face_count)
@@ -236,13 +235,13 @@ static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotGraph *g
                          model->surface.face_count);
     if (meso_slots_bind(slots, &model->tile_set, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
-    if (turn_surface(tool, model, graph, slots->quarters, error) != MESO_OK)
+    if (turn_surface(tool, model, slots->quarters, error) != MESO_OK)
         return MESO_ERR_MEMORY;
     model->assignment = slots->assignment;
-    if (meso_assignment_check(&model->assignment, &model->tile_set, graph, error) != MESO_OK)
+    if (meso_assignment_check(&model->assignment, &model->tile_set, &model->graph, error) != MESO_OK)
         return meso_fail_prefix(error, inputs->slots.path);
     warn_of_other_inputs(tool, slots, inputs);
-    const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = graph,
+    const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = &model->graph,
                                     .strict = a->strict};
     return meso_tool_judge_surface(tool, &judge);
 }
@@ -260,12 +259,13 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     if (status == MESO_OK)
         status = meso_quad_surface_read(&surface, &tool->arena, &inputs->surface, tool->threads, error);
     model->surface = surface.mesh;
+    model->graph = surface.graph;
     if (status == MESO_OK)
         status = meso_tool_open_place(tool, &inputs->slots, tool->operands[2], &MESO_PLACE_SLOTS);
     if (status == MESO_OK)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
     if (status == MESO_OK)
-        status = bind_slots(a, model, &surface.graph, &slots, inputs, error);
+        status = bind_slots(a, model, &slots, inputs, error);
     if (status == MESO_OK)
         status = read_inners(a, model, error);
     model->options = a->options;

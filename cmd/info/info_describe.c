@@ -298,7 +298,6 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
     if (meso_model_has_body(input))
         return put_body_model(facts, arena, input, error);
     MesoModel model;
-    MesoSlotGraph graph;
     const char *provenance;
     MesoStatus status = meso_model_read(&model, &provenance, arena, input, error);
     if (status != MESO_OK)
@@ -317,9 +316,7 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
     failed |= put_inners(facts, &model);
     status = memory_if(failed, error);
     if (status == MESO_OK)
-        status = meso_slot_graph_build(&graph, arena, &model.surface, error);
-    if (status == MESO_OK)
-        status = put_surface(surface, arena, &model.surface, &graph, error);
+        status = put_surface(surface, arena, &model.surface, &model.graph, error);
     if (status == MESO_OK)
         status = put_histograms(facts, arena, &model.assignment, model.tile_set.tile_count, names, error);
     return status ? status : put_tile_set(facts, arena, &model.tile_set, error);

@@ -224,12 +224,9 @@ static MesoStatus read_assignment(const Reading *in, MesoError *error)
     memcpy(out->tile, tiles, count * sizeof *out->tile);
     memcpy(out->transform, transforms, count * sizeof *out->transform);
 
-    MesoArenaMark mark = meso_arena_mark(in->arena);
-    MesoSlotGraph graph;
-    MesoStatus status = meso_slot_graph_build(&graph, in->arena, &model->surface, error);
+    MesoStatus status = meso_slot_graph_build(&model->graph, in->arena, &model->surface, error);
     if (status == MESO_OK)
-        status = meso_assignment_check(out, &model->tile_set, &graph, error);
-    meso_arena_rewind(in->arena, mark);
+        status = meso_assignment_check(out, &model->tile_set, &model->graph, error);
     if (status != MESO_OK)
         meso_fail_prefix(error, in->path);
     return status;

@@ -50,6 +50,7 @@ static inline MesoModel model_fixture(MesoArena *arena)
     MesoModel model = {.options = {.offset = 0.25f, .divisions = 7}};
     model_fixture_tile_set(&model.tile_set, arena);
     model_fixture_surface(&model.surface, arena);
+    CHECK(meso_slot_graph_build(&model.graph, arena, &model.surface, NULL) == MESO_OK);
     model.assignment = (MesoAssignment){2, tiles, transforms};
     model.inner_meshes = MESO_NEW(arena, MesoTriangleMesh, 1, NULL);
     CHECK(model.inner_meshes);

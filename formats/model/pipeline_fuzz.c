@@ -54,11 +54,10 @@ static bool solve(MesoModel *model, const MesoVariantSet *variants, MesoArena *a
 {
     const MesoSolveOptions options = {.seed = 1, .max_attempts = 2, .max_observations = 1000, .max_conflicts = 100,
                                       .max_dead_ends = 1};
-    MesoSlotGraph graph;
     MesoSolveResult result;
     MesoError error;
-    CHECK(meso_slot_graph_build(&graph, arena, &model->surface, &error) == MESO_OK);
-    MesoStatus status = meso_solve(&result, arena, &(MesoTilingProblem){&model->tile_set, variants, &graph, NULL},
+    CHECK(meso_slot_graph_build(&model->graph, arena, &model->surface, &error) == MESO_OK);
+    MesoStatus status = meso_solve(&result, arena, &(MesoTilingProblem){&model->tile_set, variants, &model->graph, NULL},
                                    &options, &error);
     CHECK(status == MESO_OK || status == MESO_ERR_LIMIT);
     if (status != MESO_OK || result.verdict != MESO_VERDICT_SOLVED)

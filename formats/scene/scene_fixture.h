@@ -86,6 +86,7 @@ static inline void scene_fixture_surface(SceneFixture *s, uint32_t n)
     }
     CHECK(meso_quad_mesh_build(&s->model.surface, &s->arena, w * w, positions, 0, NULL, n * n, corners,
                                NULL, &error) == MESO_OK);
+    CHECK(meso_slot_graph_build(&s->model.graph, &s->arena, &s->model.surface, &error) == MESO_OK);
     s->model.assignment = (MesoAssignment){n * n, tile, transform};
 }
 

@@ -93,9 +93,8 @@ static void load_assignment(Reference *r)
                 die(&error);
             }
     }
-    MesoSlotGraph graph;
-    if (meso_slot_graph_build(&graph, &r->arena, &r->model.surface, &error) ||
-        meso_assignment_check(a, &r->model.tile_set, &graph, &error))
+    if (meso_slot_graph_build(&r->model.graph, &r->arena, &r->model.surface, &error) ||
+        meso_assignment_check(a, &r->model.tile_set, &r->model.graph, &error))
         die(&error);
 }
 

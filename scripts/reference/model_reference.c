@@ -163,13 +163,10 @@ static void show_ends(const MesoSceneParts *t, const MesoModel *model, const Mes
 
 static MesoStatus look(MesoArena *arena, const MesoModel *model, Counts *counts, MesoError *error)
 {
-    MesoSlotGraph graph;
     MesoScene scene;
     MesoExpansion expansion;
     MesoSceneParts t;
-    MesoStatus status = meso_slot_graph_build(&graph, arena, &model->surface, error);
-    if (!status)
-        status = meso_model_expand(&scene, &expansion, arena, model, 0, error);
+    MesoStatus status = meso_model_expand(&scene, &expansion, arena, model, 0, error);
     if (!status)
         status = meso_scene_parts_init(&t, arena, &scene, error);
     if (status)
@@ -196,7 +193,7 @@ static MesoStatus look(MesoArena *arena, const MesoModel *model, Counts *counts,
         if (part < scene.sweep_count)
             show_ends(&t, model, &expansion, part, v, scratch, shown, &shown_count);
     }
-    compare_across(shown, unique_shown(shown, shown_count), &graph, counts);
+    compare_across(shown, unique_shown(shown, shown_count), &model->graph, counts);
     return MESO_OK;
 }
 

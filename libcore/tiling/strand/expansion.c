@@ -343,12 +343,9 @@ static MesoStatus make_ids(Builder *b, MesoArena *arena, MesoError *error)
 static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint32_t thread_count,
                          MesoError *error)
 {
-    MesoSlotGraph graph;
     MesoProfileSet profiles;
-    MesoStatus status = meso_slot_graph_build(&graph, scratch, &b->model->surface, error);
-    if (!status)
-        status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours,
-                                        b->options.divisions, error);
+    MesoStatus status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours,
+                                               b->options.divisions, error);
     if (!status)
         status = fill_buckets(b, scratch, error);
     if (!status)
@@ -356,7 +353,7 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
     if (status)
         return status;
 
-    b->shell = meso_shell_make(&b->model->surface, &graph, b->options.offset, b->options.thickness);
+    b->shell = meso_shell_make(&b->model->surface, &b->model->graph, b->options.offset, b->options.thickness);
     status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)
         status = make_instances(b, thread_count, error);

@@ -98,6 +98,7 @@ static void make_grid(Case *s, MesoArena *arena, uint32_t n, uint32_t *tile, Mes
     }
     CHECK(meso_quad_mesh_build(&s->model.surface, arena, w * w, positions, 0, NULL, n * n, corners, NULL,
                                &error) == MESO_OK);
+    CHECK(meso_slot_graph_build(&s->model.graph, arena, &s->model.surface, NULL) == MESO_OK);
     s->model.tile_set = s->set;
     s->model.assignment = (MesoAssignment){n * n, tile, transform};
     s->model.inner_meshes = &s->inner_mesh;
@@ -340,6 +341,7 @@ static void test_volumes(MesoArena *arena)
     make_grid(&s, arena, 1, tile, transform);
     s.model.options = (MesoMapOptions){.divisions = 400, .section_step = 0.02f};
     CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, &error) == MESO_OK);
+    CHECK(meso_slot_graph_build(&s.model.graph, arena, &s.model.surface, NULL) == MESO_OK);
     MesoExpansion expansion;
     MesoScene scene = expand(&s.model, &expansion, arena);
     MesoSceneParts t;
@@ -380,6 +382,7 @@ static void test_far_inner(MesoArena *arena)
     make_tile_set(&s);
     make_grid(&s, arena, 1, tile, transform);
     CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, &error) == MESO_OK);
+    CHECK(meso_slot_graph_build(&s.model.graph, arena, &s.model.surface, NULL) == MESO_OK);
     s.inners[0] = (MesoInnerMesh){"x", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0}, GREY};
     s.inner_positions[1] = (MesoVec3){MESO_INNER_LIMIT, MESO_INNER_LIMIT, MESO_INNER_LIMIT};
     scene = expand(&s.model, NULL, arena);
@@ -437,6 +440,7 @@ static void test_lids(MesoArena *arena)
         uint32_t corners[4] = {0, 1, 2, 3}, normals[4] = {0, 0, 0, 0};
         make_grid(&s, arena, 1, tile, &transform);
         CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, NULL) == MESO_OK);
+        CHECK(meso_slot_graph_build(&s.model.graph, arena, &s.model.surface, NULL) == MESO_OK);
         MesoExpansion expansion;
         MesoScene scene = expand(&s.model, &expansion, arena);
         for (uint32_t i = 0; i < scene.sweep_count; i++) {
@@ -464,6 +468,7 @@ static void test_scales(MesoArena *arena)
         make_tile_set(&s);
         make_grid(&s, arena, 1, tile, transform);
         CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 0, NULL, 1, corners, NULL, NULL) == MESO_OK);
+        CHECK(meso_slot_graph_build(&s.model.graph, arena, &s.model.surface, NULL) == MESO_OK);
         MesoScene scene = expand(&s.model, NULL, arena);
         MesoSceneParts t;
         MesoMeshFace *faces;

@@ -7,6 +7,7 @@
 #define MESO_MODEL_H
 
 #include "libcore/mesh/quad_mesh.h"
+#include "libcore/mesh/slot_graph.h"
 #include "libcore/mesh/triangle_mesh.h"
 #include "libcore/tiling/problem/assignment.h"
 #include "libcore/tiling/tile/tile_set.h"
@@ -24,6 +25,7 @@ typedef struct MesoMapOptions {
 typedef struct MesoModel {
     MesoTileSet tile_set;
     MesoQuadMesh surface;
+    MesoSlotGraph graph;                /* of the surface */
     MesoAssignment assignment;
     MesoMapOptions options;
     MesoTriangleMesh *inner_meshes;     /* [tile_set.inner_count], empty where there is none */
