@@ -18,7 +18,7 @@ static const MesoToolInfo info = {
                 "meso-mesh help subdivide",
     .words = "1 help info weld weld= clean separate orient triangulate pair quads quads=linear subdivide "
              "subdivide=catmull-clark, subdivide=loop, subdivide=linear, decimate= convert .obj .ply .off\n"
-             "--output .ply .obj .off\n"
+             "--output .ply .obj .off .glb .drc\n"
              "--json .json",
     .operands_low = 1,
     .operands_high = UINT32_MAX,

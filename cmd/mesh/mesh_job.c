@@ -2,17 +2,24 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cmd/mesh/mesh_steps.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/write/mesh_write.h"
+#include "formats/model/scene_of_mesh.h"
+#include "formats/scene/mesh_file.h"
+
+typedef MesoStatus WriteScene(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoOutput *output,
+                              MesoError *error);
 
 typedef struct Job {
     MesoTool *tool;
     MesoMeshWork work;
     MesoMeshStep *steps;        /* [step_count] */
     uint32_t step_count;
-    MesoMeshKind kind;          /* of the output */
+    MesoMeshKind kind;          /* of the output; MESO_MESH_KINDS: as a scene, or none */
+    WriteScene *write_scene;    /* what only scenes are written as; NULL for others */
     json_t *report;             /* array of steps */
 } Job;
 
@@ -42,6 +49,15 @@ static MesoStatus parse_steps(Job *job)
     return status;
 }
 
+/* By the extension; NULL for others. */
+static WriteScene *scene_writer(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    if (dot && strcasecmp(dot, ".glb") == 0)
+        return meso_glb_write;
+    return dot && strcasecmp(dot, ".drc") == 0 ? meso_drc_write : NULL;
+}
+
 static MesoStatus check_output(Job *job)
 {
     MesoTool *tool = job->tool;
@@ -53,7 +69,9 @@ static MesoStatus check_output(Job *job)
                          "--json=FILE or -o FILE");
     job->kind = tool->output ? meso_mesh_kind_of(tool->output) : MESO_MESH_KINDS;
     if (tool->output && job->kind == MESO_MESH_KINDS)
-        return meso_fail(&tool->error, MESO_ERR_USAGE, "-o: the extension of '%s' is not %s", tool->output,
+        job->write_scene = scene_writer(tool->output);
+    if (tool->output && job->kind == MESO_MESH_KINDS && !job->write_scene)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "-o: the extension of '%s' is not %s, glb or drc", tool->output,
                          meso_mesh_kind_names());
     return MESO_OK;
 }
@@ -138,6 +156,27 @@ static void say_left_out(const Job *job)
             meso_tool_say(job->tool, "left out the attribute '%s', which such a file does not hold", mesh->attributes[i].name);
 }
 
+/* Triangles and quads; what files of scenes hold of the attributes. */
+static MesoStatus write_as_scene(Job *job, MesoOutput *output)
+{
+    MesoTool *tool = job->tool;
+    MesoScene scene;
+    MesoSceneParts parts;
+    const MesoMeshWriteOptions options = {.thread_count = tool->threads, .speed = 7, .provenance = &tool->provenance,
+                                          .progress = meso_tool_progress, .progress_context = tool};
+    MesoStatus status = meso_scene_of_mesh(&scene, &tool->arena, &job->work.mesh, &tool->error);
+    if (!status)
+        status = meso_scene_parts_init(&parts, &tool->arena, &scene, &tool->error);
+    meso_tool_progress_begin(tool, "writing", "triangles");
+    return status ? status : job->write_scene(&parts, &options, output, &tool->error);
+}
+
+static MesoStatus write_polygons(Job *job, MesoOutput *output)
+{
+    say_left_out(job);
+    return meso_polygon_mesh_write(&job->work.mesh, job->kind, &job->tool->provenance, output, &job->tool->error);
+}
+
 static MesoStatus write_mesh(Job *job)
 {
     MesoOutput *output = NULL;
@@ -150,8 +189,7 @@ static MesoStatus write_mesh(Job *job)
         status = meso_output_open(&output, tool->output, &tool->error);
     if (status)
         return status;
-    say_left_out(job);
-    status = meso_polygon_mesh_write(mesh, job->kind, &tool->provenance, output, &tool->error);
+    status = job->write_scene ? write_as_scene(job, output) : write_polygons(job, output);
     if (!status)
         return meso_output_commit(output, &tool->error);
     meso_output_discard(output);

@@ -67,3 +67,7 @@ printf 'v %s\n' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '0 0 1' '1 0 1' '0 1 1' '1 1 1' 
 printf 'f %s\n' '1 3 4 2' '5 6 8 7' '1 2 6 5' '3 7 8 4' '1 5 7 3' '2 4 8 6' >>cube.obj
 meso-mesh -q subdivide=3 info cube.obj | grep -o '"volume": ......'
 meso-mesh -q --crease 60 subdivide=3 info cube.obj | grep -o '"volume": ......'
+# As scenes: what only those are written as.
+meso-mesh -q triangulate "$fixtures/vase.obj" -o vase.glb
+meso-mesh -q convert "$fixtures/vase.obj" -o vase.drc
+meso-info vase.glb vase.drc | grep '"kind"\|"triangles"\|"faces"'

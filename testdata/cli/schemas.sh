@@ -1,6 +1,8 @@
 # What the tools write is what the installed JSON Schemas say, and other things are not.
 cp "$fixtures"/* .
-schemas=$(dirname "$scripts")/formats
+schemas=$PWD/schemas
+mkdir schemas
+cp $(find "$(dirname "$scripts")/formats" -name "*.schema.json") schemas
 
 # Reports of every tool and of every status that a run can have.
 report() {

@@ -23,7 +23,7 @@ static const struct {
 
 const char *meso_mesh_kind_names(void)
 {
-    return "ply, obj or off";
+    return "ply, obj, off";
 }
 
 MesoMeshKind meso_mesh_kind_of(const char *path)

@@ -15,7 +15,7 @@ typedef enum MesoMeshKind { MESO_MESH_PLY, MESO_MESH_OBJ, MESO_MESH_OFF, MESO_ME
 /* By the extension of a path; MESO_MESH_KINDS for others. "-", standard output, is PLY. */
 MesoMeshKind meso_mesh_kind_of(const char *path);
 
-/* "ply, obj or off", for messages. */
+/* "ply, obj, off", for messages. */
 const char *meso_mesh_kind_names(void);
 
 /*
