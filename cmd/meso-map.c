@@ -46,6 +46,7 @@ typedef struct MapArguments {
     const char *kind;           /* --to */
     const char *mesh_path;
     bool strict;
+    bool pairs;                 /* --quads-from-triangles */
     uint32_t position_bits, normal_bits, speed;
     bool draco_given[3];        /* of these three */
 } MapArguments;
@@ -257,7 +258,8 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     if (status == MESO_OK)
         status = meso_tool_open_place(tool, &inputs->surface, tool->operands[1], &MESO_PLACE_SURFACE);
     if (status == MESO_OK)
-        status = meso_quad_surface_read(&surface, &tool->arena, &inputs->surface, tool->threads, error);
+        status = (a->pairs ? meso_quad_surface_read_pairs : meso_quad_surface_read)(
+            &surface, &tool->arena, &inputs->surface, tool->threads, error);
     model->surface = surface.mesh;
     model->graph = surface.graph;
     if (status == MESO_OK)
@@ -443,6 +445,7 @@ int main(int argc, char **argv)
         MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
                     &a.mesh_path, .more = MESO_OPTION_OUTWARD),
         MESO_STRICT_OPTION(a.strict),
+        MESO_PAIRS_OPTION(a.pairs),
         MESO_GROUP("Draco (.drc, .glb)"),
         MESO_COUNT(0, "position-bits", "N", "precision of positions (default 14)", &a.position_bits, 4, 24,
                    .given = &a.draco_given[0]),

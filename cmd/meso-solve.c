@@ -9,7 +9,7 @@
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts;
-    bool attempts_given, strict;
+    bool attempts_given, strict, pairs;
     const char *report;
     MesoOrientArguments orient;
     MesoControlArguments control;
@@ -95,7 +95,7 @@ static MesoStatus check_arguments(Arguments *a)
 static MesoStatus read_inputs(Arguments *a, Problem *p)
 {
     const MesoSurfaceWish wish = {.path = a->tool.operands[1], .orient = a->orient, .set = &p->set,
-                                  .strict = a->strict};
+                                  .strict = a->strict, .pairs = a->pairs};
     MesoStatus status = meso_tool_read_tiles(&a->tool, a->tool.operands[0], &p->set, p->tiles_hash);
     if (!status)
         status = meso_tool_read_surface(&a->tool, &wish, &p->surface);
@@ -236,6 +236,7 @@ int main(int argc, char **argv)
                    .given = &a.attempts_given),
         MESO_ORIENT_OPTION(a.orient),
         MESO_STRICT_OPTION(a.strict),
+        MESO_PAIRS_OPTION(a.pairs),
         MESO_OUTPUT_FILE(0, "report", "FILE", "write verdict, statistics and dead ends as JSON", &a.report),
         MESO_ENGINE_OPTIONS(a.engine),
         MESO_CONTROL_OPTIONS(a.control),

@@ -14,7 +14,7 @@
 typedef struct Arguments {
     MesoTool tool;
     uint32_t attempts, until_solved;
-    bool until_given, strict;
+    bool until_given, strict, pairs;
     const char *surface;
     MesoOrientArguments orient;
 } Arguments;
@@ -153,7 +153,8 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
     MesoSolveSurface surface;
     MesoVariantSet variants;
     MesoSolveResult result;
-    const MesoSurfaceWish wish = {.path = a->surface, .orient = a->orient, .set = set, .strict = a->strict};
+    const MesoSurfaceWish wish = {.path = a->surface, .orient = a->orient, .set = set,
+                                  .strict = a->strict, .pairs = a->pairs};
     MesoStatus status = meso_tool_read_surface(tool, &wish, &surface);
     for (uint32_t added = 0; !status; added++) {
         if (added == 1 && !a->until_given)
@@ -224,6 +225,7 @@ int main(int argc, char **argv)
                         &a.surface),
         MESO_ORIENT_OPTION(a.orient),
         MESO_STRICT_OPTION(a.strict),
+        MESO_PAIRS_OPTION(a.pairs),
         MESO_COUNT(0, "attempts", "N", "restarts of each solve (default 20)", &a.attempts, 1, 1e9),
         MESO_COUNT(0, "until-solved", "N", "add up to N tiles, until the surface is solved",
                    &a.until_solved, 1, 1000, .given = &a.until_given),

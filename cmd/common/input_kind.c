@@ -7,15 +7,15 @@ enum { TILE_SETS = MESO_FILE_TILES | MESO_FILE_PROTOTYPE | MESO_FILE_JSON };
 const MesoInputPlace MESO_PLACE_TILES = {"TILES", "a tile set", "tiles", TILE_SETS};
 const MesoInputPlace MESO_PLACE_TILE_FILE = {"FILE", "a tile set", "tiles", TILE_SETS};
 const MesoInputPlace MESO_PLACE_SURFACE = {
-    "SURFACE", "a surface (OBJ, PLY or OFF)", "surface",
-    MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF};
+    "SURFACE", "a surface (OBJ, PLY, OFF, glTF or Draco)", "surface",
+    MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF | MESO_FILE_DRC};
 const MesoInputPlace MESO_PLACE_SLOTS = {"SLOTS", "an assignment (.slots)", "slots",
                                          MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
 const MesoInputPlace MESO_PLACE_KEEP = {"--keep", "an assignment (.slots)", "keep",
                                         MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
 const MesoInputPlace MESO_PLACE_MODEL = {
-    "MODEL", "a model (.meso) or a mesh (OBJ, PLY or OFF)", "model",
-    MESO_FILE_MODEL | MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF};
+    "MODEL", "a model (.meso) or a mesh (OBJ, PLY, OFF, glTF or Draco)", "model",
+    MESO_FILE_MODEL | MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF | MESO_FILE_DRC};
 const MesoInputPlace MESO_PLACE_REPORT = {"REPORT", "a report of meso-solve", "report", MESO_FILE_REPORT | MESO_FILE_JSON};
 const MesoInputPlace MESO_PLACE_CONSTRAINTS = {"--constraints", "a file of constraints", "constraints",
                                                MESO_FILE_CONSTRAINTS | MESO_FILE_JSON};

@@ -10,6 +10,10 @@
     MESO_FLAG(0, "strict", "what is only warned of in a surface is an error", &(strict), \
               .more = MESO_OPTION_SILENT)
 
+#define MESO_PAIRS_OPTION(pairs)                                                              \
+    MESO_FLAG(0, "quads-from-triangles", "two triangles in a row of the surface are a quad, as exporters of glTF " \
+              "write them", &(pairs))
+
 typedef struct MesoSurfaceJudge {
     const char *path;           /* of the surface, as given */
     const MesoQuadMesh *mesh;

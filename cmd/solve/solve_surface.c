@@ -127,7 +127,8 @@ MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, M
     if (status)
         return status;
     memcpy(surface->hash, input.hash, sizeof surface->hash);
-    status = meso_quad_surface_read(&quads, &tool->arena, &input, tool->threads, &tool->error);
+    status = (wish->pairs ? meso_quad_surface_read_pairs : meso_quad_surface_read)(&quads, &tool->arena, &input,
+                                                                                   tool->threads, &tool->error);
     if (!status) {
         surface->file = quads.surface;
         surface->mesh = quads.mesh;

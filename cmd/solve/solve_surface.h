@@ -39,6 +39,7 @@ typedef struct MesoSurfaceWish {
     MesoOrientArguments orient;
     const MesoTileSet *set;     /* that will be grown on it */
     bool strict;                /* see surface_judge.h */
+    bool pairs;                 /* two triangles in a row are a quad */
 } MesoSurfaceWish;
 
 /*

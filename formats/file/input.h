@@ -7,6 +7,10 @@
 
 #include "libcore/base/error.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct MesoInput {
     const char *path;       /* as given; must outlive the input */
     const uint8_t *data;    /* [size] page-aligned, never NULL */
@@ -34,5 +38,9 @@ void meso_input_close(MesoInput *input);
 
 /* Path of the open input whose mapping holds `address`, or NULL. Async-signal-safe. */
 const char *meso_input_mapped_at(const void *address);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,10 @@
 #include "formats/file/input.h"
 #include "libcore/mesh/polygon_mesh.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The most elements of a kind that a mesh may have. */
 #define MESO_MESH_LIMIT (UINT32_MAX - 1)
 
@@ -35,5 +39,34 @@ MesoStatus meso_obj_read_strictly(MesoPolygonMesh *mesh, MesoArena *arena, const
 uint32_t meso_obj_face_line(MesoArena *scratch, const MesoInput *input, uint32_t face);
 uint32_t meso_ply_face_line(MesoArena *scratch, const MesoInput *input, uint32_t face);
 uint32_t meso_off_face_line(MesoArena *scratch, const MesoInput *input, uint32_t face);
+
+/* The most corners of a mesh for each byte of the file and of the buffers that it names: nodes may repeat meshes. */
+enum { MESO_GLTF_CORNERS_A_BYTE = 64 };
+
+/*
+ * All triangles (strips and fans among them) of a .glb, or of a .gltf if its bytes do not begin like a .glb, in the order
+ * of the nodes of its scene, where these place them; a mesh that several nodes show comes as often. Points and lines are
+ * passed over. Vertices are those of the file, primitive by primitive: exporters split them at seams.
+ *
+ *     "normal"    NORMAL, turned with the node         "uv", "uv1" ...    TEXCOORD_0, TEXCOORD_1 ...
+ *     "color"     COLOR_0 times the material's base colour, where one of them is there and not white
+ *     "name"      _NAME: floats, or whole numbers; two of 16 bits are the halves of one of 32, low first. Whole numbers
+ *                 that all corners of each face agree on are of faces
+ *     "object"    names of nodes, or else of meshes     "material"    names of materials
+ *
+ * Sparse, strided and quantized accessors, KHR_draco_mesh_compression, data URIs, and buffers in files beside a .gltf are
+ * read; images are not. MESO_ERR_INPUT says what is broken, or not known and required; MESO_ERR_LIMIT past
+ * MESO_GLTF_CORNERS_A_BYTE. Memory in proportion to the mesh, some 100 bytes a corner.
+ */
+MesoStatus meso_gltf_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
+                          MesoError *error);
+
+/* The mesh of a .drc: positions, normals, texture coordinates, colours, and generic attributes by the name in their metadata. */
+MesoStatus meso_draco_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
+                           MesoError *error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,23 +3,9 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "formats/mesh/gltf_read_adapter.h"
 #include "formats/mesh/mesh_kinds.h"
 #include "formats/product/file_kind.h"
 #include "libcore/mesh/edit/face_loops.h"
-
-/* Says whether a glTF is sound before it says that it is of no use. */
-static MesoStatus refuse_gltf(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
-                              MesoError *error)
-{
-    uint32_t mesh_count;
-    MesoStatus status = meso_gltf_parse(input, &mesh_count, error);
-    (void)mesh, (void)arena, (void)thread_count;
-    if (status)
-        return status;
-    return meso_fail(error, MESO_ERR_INPUT, "%s: glTF holds triangles, which cannot be used yet: a macrosurface "
-                     "needs quads; export OBJ, PLY or OFF", input->path);
-}
 
 typedef struct MeshKind {
     const char *extensions[2];
@@ -33,7 +19,8 @@ static const MeshKind kinds[] = {
     {{".obj", NULL}, MESO_FILE_OBJ, meso_obj_read, meso_obj_face_line},
     {{".ply", NULL}, MESO_FILE_PLY, meso_ply_read, meso_ply_face_line},
     {{".off", NULL}, MESO_FILE_OFF, meso_off_read, meso_off_face_line},
-    {{".glb", ".gltf"}, MESO_FILE_GLB | MESO_FILE_GLTF, refuse_gltf, NULL},
+    {{".glb", ".gltf"}, MESO_FILE_GLB | MESO_FILE_GLTF, meso_gltf_read, NULL},
+    {{".drc", NULL}, MESO_FILE_DRC, meso_draco_read, NULL},
 };
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
@@ -109,7 +96,7 @@ static MesoStatus read_unchecked(MesoPolygonMesh *mesh, MesoArena *arena, const 
         return meso_fail(error, MESO_ERR_INPUT, "%s: empty file", input->path);
     const MeshKind *kind = kind_of(input);
     if (!kind)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: not a mesh; OBJ, PLY and OFF are read", input->path);
+        return meso_fail(error, MESO_ERR_INPUT, "%s: not a mesh; OBJ, PLY, OFF, glTF and Draco are read", input->path);
     return kind->read(mesh, arena, input, thread_count, error);
 }
 

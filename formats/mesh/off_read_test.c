@@ -82,7 +82,7 @@ static void test_refused(void)
     check_message("OFF\n4 1 0\n" VERTICES "4 0 1 2 -1\n", "t.off:7: face corner '-1' is not the index of a vertex");
     check_message("OFF\n4 1 0\n" VERTICES "4 0 1 2 1\n", "t.off:7: face 1 uses vertex 2 twice");
     check_message("OFF\n4 1 0\n" VERTICES "3 0 1 2\n",
-                  "t.off:7: face 1 has 3 sides; every face of a macrosurface must be a quad");
+                  "t.off:7: face 1 has 3 sides; every face of a macrosurface must be a quad: meso-mesh quads makes them");
     check_message(SQUARE "4 0 1 2 3\n", "t.off:8: more lines than the header counts");
     check_message("OFF\n4 0 0\n" VERTICES, "t.off: mesh has no faces");
 }

@@ -1,6 +1,7 @@
 #include "formats/mesh/surface_read.h"
 
 #include "formats/mesh/mesh_read.h"
+#include "libcore/mesh/edit/triangle_pairs.h"
 
 static MesoStatus require(const MesoSurface *surface, const MesoInput *input, unsigned needs, MesoError *error)
 {
@@ -47,6 +48,20 @@ MesoStatus meso_quad_surface_read(MesoQuadSurface *surface, MesoArena *arena, co
     MesoPolygonMesh mesh;
     MesoStatus status = meso_polygon_mesh_read(&mesh, arena, input, thread_count, error);
     return status ? status : meso_quad_surface_make(surface, arena, &mesh, input, thread_count, error);
+}
+
+MesoStatus meso_quad_surface_read_pairs(MesoQuadSurface *surface, MesoArena *arena, const MesoInput *input,
+                                        uint32_t thread_count, MesoError *error)
+{
+    MesoPolygonMesh triangles, quads;
+    uint32_t face;
+    MesoStatus status = meso_polygon_mesh_read(&triangles, arena, input, thread_count, error);
+    if (status)
+        return status;
+    status = meso_mesh_pair_triangles(&quads, arena, &triangles, &face, error);
+    if (status == MESO_ERR_INPUT)
+        return meso_mesh_fail_at_face(input, face, error);
+    return status ? status : meso_quad_surface_make(surface, arena, &quads, input, thread_count, error);
 }
 
 MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, const MesoInput *input,

@@ -24,6 +24,10 @@ typedef struct MesoQuadSurface {
 MesoStatus meso_quad_surface_read(MesoQuadSurface *surface, MesoArena *arena, const MesoInput *input,
                                   uint32_t thread_count, MesoError *error);
 
+/* The same of triangles of which two in a row are a quad (triangle_pairs.h). */
+MesoStatus meso_quad_surface_read_pairs(MesoQuadSurface *surface, MesoArena *arena, const MesoInput *input,
+                                        uint32_t thread_count, MesoError *error);
+
 /* The same of a mesh that was read from `input`, whose arrays the surface goes on to use. */
 MesoStatus meso_quad_surface_make(MesoQuadSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh,
                                   const MesoInput *input, uint32_t thread_count, MesoError *error);

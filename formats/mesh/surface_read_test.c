@@ -52,10 +52,10 @@ static void test_kinds(void)
     CHECK(read("a.Off", OFF) == MESO_OK && read("obj.d/a", OFF) == MESO_OK);
     CHECK(read(".ply", PLY) == MESO_OK && read("/dev/fd/63", PLY) == MESO_OK);
     CHECK(read("a.obj", PLY) == MESO_ERR_INPUT && read("a.ply", OBJ) == MESO_ERR_INPUT);
-    check_message("a.stl", "solid\nfacet\n", "a.stl: not a mesh; OBJ, PLY and OFF are read");
+    check_message("a.stl", "solid\nfacet\n", "a.stl: not a mesh; OBJ, PLY, OFF, glTF and Draco are read");
     check_message("a.obj", "", "a.obj: empty file");
     check_message("a", "", "a: empty file");
-    check_message("a", "\n\n", "a: not a mesh; OBJ, PLY and OFF are read");
+    check_message("a", "\n\n", "a: not a mesh; OBJ, PLY, OFF, glTF and Draco are read");
 }
 
 /* `text` with a byte order mark, or with line ends as they once were; in a buffer of its own. */
@@ -121,7 +121,7 @@ static void test_binary_ply_returns(void)
     CHECK(mesh.face_count == 1 && mesh.positions[0].z == odd && mesh.positions[1].x == 1);
 }
 
-#define REFUSAL ": glTF holds triangles, which cannot be used yet: a macrosurface needs quads; export OBJ, PLY or OFF"
+#define REFUSAL ": mesh has no faces"
 
 /* Header, length, then a JSON chunk of 28 bytes. */
 static const unsigned char glb[] =

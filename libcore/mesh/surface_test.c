@@ -34,7 +34,7 @@ static void test_triangles(void)
     CHECK(fabsf(surface.mean_edge_length - (4 + 2 * sqrtf(2)) / 6) < 1e-6f);
     CHECK(meso_surface_require(&surface, MESO_NEEDS_TRIANGLES | MESO_NEEDS_MANIFOLD | MESO_NEEDS_ORIENTED, NULL, &error) ==
           MESO_OK);
-    expect(MESO_NEEDS_QUADS, 0, "face 1 has 3 sides; every face of a macrosurface must be a quad");
+    expect(MESO_NEEDS_QUADS, 0, "face 1 has 3 sides; every face of a macrosurface must be a quad: meso-mesh quads makes them");
     build(2, (uint32_t[]){0, 1, 2, 2, 0, 3});
     CHECK(surface.edges.reversed_count == 1 && surface.edges.twin[2] == 3);
     expect(MESO_NEEDS_TRIANGLES | MESO_NEEDS_ORIENTED, 0, "face 1 is wound against its neighbour, face 2");

@@ -92,9 +92,9 @@ static void test_normals(void)
 
 static void test_refused(void)
 {
-    check_message(SQUARE "f 1 2 3\n", "t.obj:5: face 1 has 3 sides; every face of a macrosurface must be a quad");
+    check_message(SQUARE "f 1 2 3\n", "t.obj:5: face 1 has 3 sides; every face of a macrosurface must be a quad: meso-mesh quads makes them");
     check_message(SQUARE "v 2 2 2\nf 1 2 3 4\n\nf 1 2 3 4 5\n",
-                  "t.obj:8: face 2 has 5 sides; every face of a macrosurface must be a quad");
+                  "t.obj:8: face 2 has 5 sides; every face of a macrosurface must be a quad: meso-mesh quads makes them");
     check_message(SQUARE "f 1 2\n", "t.obj:5: face 1 has 2 sides; a face has at least 3");
     check_message(SQUARE "f\n", "t.obj:5: face 1 has 0 sides; a face has at least 3");
     check_message(SQUARE "f 1 2 3 5\n", "t.obj:5: face 1 uses vertex 5 of 4");

@@ -203,7 +203,7 @@ static void test_body(void)
     check_message(HEADER "0 0 0\n", "t.ply:11: file ends before vertex 2 of 6");
     check_message(HEADER VERTICES "4 0 1 2 3\n", "t.ply:17: file ends before face 2 of 2");
     check_message(HEADER VERTICES "4 0 1 2 3\n3 0 1 2\n",
-                  "t.ply:17: face 2 has 3 sides; every face of a macrosurface must be a quad");
+                  "t.ply:17: face 2 has 3 sides; every face of a macrosurface must be a quad: meso-mesh quads makes them");
     check_message(HEADER VERTICES "4 0 1 2 -3\n", "t.ply:16: face 1 has a negative vertex index");
     check_message(HEADER VERTICES "4 0 1 2 1.5\n", "t.ply:16: value '1.5' is not an integer");
     check_message(HEADER VERTICES "4 0 1 2 6\n4 1 4 5 2\n", "t.ply:16: face 1 uses vertex 7 of 6");
