@@ -109,19 +109,6 @@ static int put_file(json_t *facts, const MesoInput *input)
     return failed | json_object_set_new(facts, "xxh3_128", json_string(hash));
 }
 
-static MesoStatus print(MesoTool *tool, const json_t *facts, MesoError *error)
-{
-    MesoOutput *output;
-    MesoStatus status = meso_output_open(&output, tool->output ? tool->output : "-", error);
-    if (status != MESO_OK)
-        return status;
-    status = meso_json_write(facts, output, error);
-    if (status == MESO_OK)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
-    return status;
-}
-
 /* The report names the first files alone where there are more than a provenance holds. */
 static MesoStatus open_file(MesoTool *tool, MesoInput *input, const char *path)
 {
@@ -151,7 +138,7 @@ static MesoStatus inform_of_one(MesoTool *tool, MesoError *error)
     json_t *facts = json_object();
     MesoStatus status = inform(tool, facts, tool->operands[0], error);
     if (status == MESO_OK)
-        status = print(tool, facts, error);
+        status = meso_json_write_file(facts, tool->output, error);
     json_decref(facts);
     return status;
 }
@@ -199,7 +186,7 @@ static MesoStatus inform_of_several(MesoTool *tool, MesoError *error)
         }
     }
     if (status == MESO_OK)
-        status = print(tool, list, error);
+        status = meso_json_write_file(list, tool->output, error);
     json_decref(list);
     if (status == MESO_OK && bad > 0)
         return meso_fail(error, MESO_ERR_INPUT, "%u of %u files are no good", bad, tool->operand_count);
@@ -221,15 +208,10 @@ static MesoStatus write_listing(const InfoArguments *a, const MesoSlotsFile *slo
         }
     }
     MesoStatus status = meso_output_open(&output, a->tool.output ? a->tool.output : "-", error);
-    if (status == MESO_OK) {
+    if (status == MESO_OK)
         status = csv ? meso_slots_write_csv(slots, output, error) : meso_json_write(root, output, error);
-        if (status == MESO_OK)
-            status = meso_output_commit(output, error);
-        else
-            meso_output_discard(output);
-    }
     json_decref(root);
-    return status;
+    return meso_output_finish(output, status, error);
 }
 
 static MesoStatus list_slots(InfoArguments *a, MesoError *error)

@@ -86,15 +86,11 @@ static MesoStatus write_image(const RenderArguments *a, const char *path, bool e
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path, error);
-    if (status)
-        return status;
-    status = exr ? meso_exr_write(image, &a->tool.provenance, a->tool.threads, output, error)
-                 : meso_png_write(image, a->transparent ? NULL : a->background, &a->tool.provenance,
-                                  output, error);
     if (!status)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
-    return status;
+        status = exr ? meso_exr_write(image, &a->tool.provenance, a->tool.threads, output, error)
+                     : meso_png_write(image, a->transparent ? NULL : a->background, &a->tool.provenance,
+                                      output, error);
+    return meso_output_finish(output, status, error);
 }
 
 static json_t *point_json(MesoVec3 p)

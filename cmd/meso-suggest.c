@@ -7,6 +7,7 @@
 #include "cmd/common/mesh_path.h"
 #include "cmd/solve/solve_inputs.h"
 #include "cmd/solve/solve_surface.h"
+#include "formats/json/json_text.h"
 #include "formats/tiling/result/report_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/tiling/solve/suggest.h"
@@ -184,21 +185,13 @@ static MesoStatus extend_by_surface(Arguments *a, MesoTileSet *set)
 
 static MesoStatus write_set(MesoTool *tool, const MesoTileSet *set)
 {
-    MesoOutput *output = NULL;
     json_t *root = meso_tiles_to_json(set);
     if (root && json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance))) {
         json_decref(root);
         root = NULL;
     }
-    MesoStatus status = meso_output_open(&output, tool->output ? tool->output : "-", &tool->error);
-    if (status) {
-        json_decref(root);
-        return status;
-    }
-    status = meso_tool_write_json(root, output, &tool->error);
-    if (!status)
-        return meso_output_commit(output, &tool->error);
-    meso_output_discard(output);
+    MesoStatus status = meso_json_write_file(root, tool->output, &tool->error);
+    json_decref(root);
     return status;
 }
 

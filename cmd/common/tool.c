@@ -13,7 +13,6 @@
 #include "cmd/common/command_line.h"
 #include "cmd/common/progress.h"
 #include "formats/file/memory_watch.h"
-#include "formats/file/output.h"
 #include "formats/file/temporary.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
@@ -365,14 +364,7 @@ static json_t *make_report(const MesoTool *tool)
 static MesoStatus write_report(const MesoTool *tool, MesoError *error)
 {
     json_t *root = make_report(tool);
-    MesoOutput *output = NULL;
-    MesoStatus status = meso_output_open(&output, *tool->json ? tool->json : "-", error);
-    if (status == MESO_OK)
-        status = meso_json_write(root, output, error);
-    if (status == MESO_OK)
-        status = meso_output_commit(output, error);
-    else
-        meso_output_discard(output);
+    MesoStatus status = meso_json_write_file(root, *tool->json ? tool->json : NULL, error);
     json_decref(root);
     return status;
 }

@@ -132,18 +132,6 @@ static json_t *describe(const MesoMeshWork *work, const MesoMeshFacts *facts)
     return NULL;
 }
 
-static MesoStatus print(json_t *info, MesoError *error)
-{
-    MesoOutput *output = NULL;
-    MesoStatus status = meso_output_open(&output, "-", error);
-    if (!status)
-        status = meso_json_write(info, output, error);
-    if (!status)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
-    return status;
-}
-
 MesoStatus meso_mesh_run_info(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
     MesoMeshFacts facts;
@@ -157,7 +145,7 @@ MesoStatus meso_mesh_run_info(const MesoMeshStep *step, MesoMeshWork *work, Meso
     if (!info)
         return meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the facts of the mesh");
     if (!tool->json)
-        status = print(info, &tool->error);
+        status = meso_json_write_file(info, NULL, &tool->error);
     if (json_array_append_new(work->infos, info) != 0 && !status)
         status = meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report");
     return status;

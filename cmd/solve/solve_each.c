@@ -79,10 +79,7 @@ MesoStatus meso_each_write_to(const MesoSeedEach *each, uint64_t seed, const Mes
     if (!status)
         status = meso_slots_write(assignment, p->tiling->set, p->surface->quarters, p->tiles_hash, p->surface->hash,
                                   provenance, output, error);
-    if (!status)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
-    return status;
+    return meso_output_finish(output, status, error);
 }
 
 MesoStatus meso_each_write(const MesoSeedEach *each, uint64_t seed, const MesoAssignment *assignment, MesoError *error)

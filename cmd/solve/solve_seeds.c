@@ -269,6 +269,20 @@ static bool is_same_file(const char *a, const char *b)
            first.st_ino == second.st_ino;
 }
 
+/* Those that are there. */
+static MesoStatus write_lines(const Seeds *seeds, MesoOutput *output, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < seeds->list.seed_count && !status; i++) {
+        const char *text = seeds->lines[i].text;
+        if (text)
+            status = meso_output_write(output, text, strlen(text), error);
+        if (text && !status)
+            status = meso_output_write(output, "\n", 1, error);
+    }
+    return status;
+}
+
 /* Begins FILE.partial with the lines that are there; none is kept for devices and pipes. */
 static MesoStatus open_journal(Seeds *seeds, MesoError *error)
 {
@@ -284,18 +298,9 @@ static MesoStatus open_journal(Seeds *seeds, MesoError *error)
                          "'%s', or remove it", path, path);
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path, error);
-    if (status)
-        return status;
-    for (uint32_t i = 0; i < seeds->list.seed_count && !status; i++)
-        if (seeds->lines[i].text) {
-            status = meso_output_write(output, seeds->lines[i].text, strlen(seeds->lines[i].text), error);
-            if (!status)
-                status = meso_output_write(output, "\n", 1, error);
-        }
-    if (status)
-        meso_output_discard(output);
-    else
-        status = meso_output_commit(output, error);
+    if (!status)
+        status = write_lines(seeds, output, error);
+    status = meso_output_finish(output, status, error);
     if (!status)
         status = meso_line_file_open(&seeds->journal, path, error);
     seeds->partial = status ? NULL : path;
@@ -354,22 +359,13 @@ static MesoStatus sweep(Seeds *seeds, MesoError *error)
 }
 
 /* -o FILE: all lines, whole or not at all. */
-static MesoStatus write_lines(const Seeds *seeds, MesoError *error)
+static MesoStatus write_product(const Seeds *seeds, MesoError *error)
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, seeds->tool->output, error);
-    if (status)
-        return status;
-    for (uint32_t i = 0; i < seeds->list.seed_count && !status; i++) {
-        status = meso_output_write(output, seeds->lines[i].text, strlen(seeds->lines[i].text), error);
-        if (!status)
-            status = meso_output_write(output, "\n", 1, error);
-    }
-    if (status) {
-        meso_output_discard(output);
-        return status;
-    }
-    status = meso_output_commit(output, error);
+    if (!status)
+        status = write_lines(seeds, output, error);
+    status = meso_output_finish(output, status, error);
     if (!status && seeds->partial)
         unlink(seeds->partial);
     return status;
@@ -526,7 +522,7 @@ MesoStatus meso_solve_seeds(MesoTool *tool, const MesoSeedOptions *options, cons
     if (!status)
         status = sweep(&seeds, error);
     if (!status && !streams)
-        status = write_lines(&seeds, error);
+        status = write_product(&seeds, error);
     if (!status && options->best)
         status = keep_best(&seeds, error);
     mtx_destroy(&seeds.lock);

@@ -37,10 +37,7 @@ MesoStatus meso_tile_text_finish(MesoTileText *text, const char *path, MesoStatu
         status = meso_output_open(&output, path ? path : "-", error);
     if (status == MESO_OK)
         status = meso_output_write(output, text->bytes, text->size, error);
-    if (status == MESO_OK)
-        status = meso_output_commit(output, error);
-    else
-        meso_output_discard(output);
+    status = meso_output_finish(output, status, error);
     free(text->bytes);
     *text = (MesoTileText){0};
     return status;

@@ -4,7 +4,6 @@
 #include "cmd/common/input_kind.h"
 #include "cmd/common/mesh_path.h"
 #include "cmd/tile/tile_command.h"
-#include "formats/file/output.h"
 #include "formats/json/json_field.h"
 #include "formats/json/json_text.h"
 #include "formats/tiling/tiles/tiles_file.h"
@@ -76,20 +75,13 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set, json_t *notes)
 
 static MesoStatus write_set(const MesoTool *tool, const MesoTileSet *set, json_t *notes, MesoError *error)
 {
-    MesoOutput *output = NULL;
     json_t *root = meso_tiles_to_json(set);
     if (!root || json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance)) != 0 ||
         json_object_update(root, notes) != 0) {
         json_decref(root);
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     }
-    MesoStatus status = meso_output_open(&output, tool->output ? tool->output : "-", error);
-    if (status == MESO_OK)
-        status = meso_json_write(root, output, error);
-    if (status == MESO_OK)
-        status = meso_output_commit(output, error);
-    else
-        meso_output_discard(output);
+    MesoStatus status = meso_json_write_file(root, tool->output, error);
     json_decref(root);
     return status;
 }

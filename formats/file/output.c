@@ -346,3 +346,11 @@ void meso_output_discard(MesoOutput *output)
     if (output)
         release(output);
 }
+
+MesoStatus meso_output_finish(MesoOutput *output, MesoStatus status, MesoError *error)
+{
+    if (!status)
+        return meso_output_commit(output, error);
+    meso_output_discard(output);
+    return status;
+}

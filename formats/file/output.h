@@ -35,4 +35,15 @@ MesoStatus meso_output_commit(MesoOutput *output, MesoError *error);
 /* Removes what was written. Frees `output`; NULL is allowed. */
 void meso_output_discard(MesoOutput *output);
 
+/*
+ * Ends what was begun by meso_output_open(), which may have failed: commits where `status` is MESO_OK,
+ * discards elsewhere. Returns `status`, or that of the commit. So that a file is written by
+ *
+ *     MesoStatus status = meso_output_open(&output, path, error);
+ *     if (!status)
+ *         status = thing_write(thing, output, error);
+ *     return meso_output_finish(output, status, error);
+ */
+MesoStatus meso_output_finish(MesoOutput *output, MesoStatus status, MesoError *error);
+
 #endif

@@ -73,6 +73,25 @@ static void test_appears_on_commit(const TestFolder *folder)
     unlink(path);
 }
 
+static void test_finish(const TestFolder *folder)
+{
+    MesoOutput *output;
+    MesoError error;
+    CHECK(meso_output_open(&output, test_path(folder, "finished"), &error) == MESO_OK);
+    CHECK(meso_output_write(output, "abc", 3, &error) == MESO_OK);
+    CHECK(meso_output_finish(output, MESO_OK, &error) == MESO_OK);
+    CHECK(test_file_is(test_path(folder, "finished"), "abc", 3) && test_folder_count(folder) == 1);
+
+    CHECK(meso_output_open(&output, test_path(folder, "finished"), &error) == MESO_OK);
+    CHECK(meso_output_write(output, "xyz", 3, &error) == MESO_OK);
+    CHECK(meso_output_finish(output, MESO_ERR_LIMIT, &error) == MESO_ERR_LIMIT);
+    CHECK(test_file_is(test_path(folder, "finished"), "abc", 3) && test_folder_count(folder) == 1);
+
+    MesoStatus status = meso_output_open(&output, test_path(folder, "none/such"), &error);
+    CHECK(status == MESO_ERR_OUTPUT && meso_output_finish(output, status, &error) == MESO_ERR_OUTPUT);
+    unlink(test_path(folder, "finished"));
+}
+
 static void test_modes_and_links(const TestFolder *folder)
 {
     struct stat status;
@@ -253,6 +272,7 @@ int main(void)
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     test_appears_on_commit(&folder);
+    test_finish(&folder);
     test_modes_and_links(&folder);
     test_bad_targets(&folder);
     test_permissions(&folder);

@@ -317,6 +317,15 @@ MesoStatus meso_json_write(const json_t *value, MesoOutput *output, MesoError *e
     return status == MESO_OK ? write_text(output, "\n", error) : status;
 }
 
+MesoStatus meso_json_write_file(const json_t *value, const char *path, MesoError *error)
+{
+    MesoOutput *output;
+    MesoStatus status = meso_output_open(&output, path ? path : "-", error);
+    if (status == MESO_OK)
+        status = meso_json_write(value, output, error);
+    return meso_output_finish(output, status, error);
+}
+
 MesoStatus meso_json_check_format(const json_t *root, const char *path, const char *format,
                                   int newest_version, MesoError *error)
 {

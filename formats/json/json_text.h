@@ -29,6 +29,9 @@ json_t *meso_json_string(const char *text);
  */
 MesoStatus meso_json_write(const json_t *value, MesoOutput *output, MesoError *error);
 
+/* The same as a whole file; NULL is standard output. */
+MesoStatus meso_json_write_file(const json_t *value, const char *path, MesoError *error);
+
 /* "format" and "version" of one of our files: refuses another format and a newer version. */
 MesoStatus meso_json_check_format(const json_t *root, const char *path, const char *format,
                                   int newest_version, MesoError *error);
