@@ -1,19 +1,15 @@
 /* meso-map: grows the geometry of an assignment, and writes it as a model or as a mesh. */
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 #include "cmd/common/input_kind.h"
 #include "cmd/common/mesh_path.h"
 #include "cmd/common/scene_input.h"
-#include "cmd/common/scene_report.h"
+#include "cmd/common/scene_output.h"
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
 #include "formats/mesh/surface_read.h"
-#include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
-#include "formats/scene/mesh_file.h"
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/mesh/orientation.h"
@@ -21,8 +17,8 @@
 
 static const MesoToolInfo MAP_TOOL = {
     .name = "meso-map",
-    .synopsis = "meso-map [options] TILES SURFACE SLOTS -o OUT.meso|.ply|.obj|.glb|.drc\n"
-                "meso-map [options] MODEL -o OUT.meso|.ply|.obj|.glb|.drc",
+    .synopsis = "meso-map [options] TILES SURFACE SLOTS -o " MESO_SCENE_OUTPUT_NAMES "\n"
+                "meso-map [options] MODEL -o " MESO_SCENE_OUTPUT_NAMES,
     .purpose = "Write what an assignment, a model or a mesh is as a model or a mesh.",
     .examples = "meso-map vase.tiles.json vase.obj vase.slots -o vase.meso\n"
                 "meso-map --divisions 24 vase.meso -o vase.glb\n"
@@ -31,7 +27,7 @@ static const MesoToolInfo MAP_TOOL = {
     .words = "1 .json .meso\n"
              "2 .obj .ply .off\n"
              "3 .slots .csv .json\n"
-             "--output .meso .ply .obj .glb .drc\n"
+             MESO_SCENE_OUTPUT_WORDS
              "--json .json",
     .operands_low = 1,
     .operands_high = 3,
@@ -43,65 +39,14 @@ typedef struct MapArguments {
     struct {
         bool thickness, offset, section_scale, tangent_scale, divisions, section_step;
     } given;
-    const char *kind;           /* --to */
     const char *mesh_path;
     bool strict;
     bool pairs;                 /* --quads-from-triangles */
-    uint32_t position_bits, normal_bits, speed;
-    bool draco_given[3];        /* of these three */
+    MesoSceneOutput output;
 } MapArguments;
 
-typedef MesoStatus WriteMesh(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
-                             MesoOutput *output, MesoError *error);
-
-typedef struct OutputKind {
-    const char *name;           /* and extension */
-    WriteMesh *write;           /* NULL: a model */
-    bool draco;
-    const char *smaller;        /* what helps where the product is too large */
-} OutputKind;
-
-static const OutputKind OUTPUT_KINDS[] = {
-    {"meso", NULL, false, NULL},
-    {"ply", meso_ply_write, false, "lower --divisions or raise --section-step"},
-    {"obj", meso_obj_write, false, "lower --divisions or raise --section-step"},
-    {"glb", meso_glb_write, true, "lower --divisions, raise --section-step or write .ply"},
-    {"drc", meso_drc_write, true, "lower --divisions, raise --section-step or write .glb"},
-};
-enum { OUTPUT_KIND_COUNT = sizeof OUTPUT_KINDS / sizeof *OUTPUT_KINDS };
-
-static const OutputKind *find_kind(const char *name)
+static MesoStatus check_operands(const MapArguments *a, MesoError *error)
 {
-    for (uint32_t i = 0; i < OUTPUT_KIND_COUNT; i++)
-        if (strcasecmp(OUTPUT_KINDS[i].name, name) == 0)
-            return &OUTPUT_KINDS[i];
-    return NULL;
-}
-
-static MesoStatus choose_kind(const MapArguments *a, const OutputKind **kind, MesoError *error)
-{
-    const char *output = a->tool.output;
-    const char *slash = strrchr(output, '/');
-    const char *dot = strrchr(slash ? slash : output, '.');
-    if (a->kind)
-        *kind = find_kind(a->kind);
-    else
-        *kind = dot ? find_kind(dot + 1) : NULL;
-    if (*kind)
-        return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE,
-                     "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb or "
-                     ".drc, or give --to", output);
-}
-
-/* An option that would change nothing was meant for something else. */
-static MesoStatus check_options(const MapArguments *a, const OutputKind *kind, MesoError *error)
-{
-    static const char *const draco_options[] = {"position-bits", "normal-bits", "speed"};
-    for (int i = 0; i < 3; i++)
-        if (a->draco_given[i] && !kind->draco)
-            return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .%s",
-                             draco_options[i], kind->name);
     if (a->tool.operand_count == 2)
         return meso_fail(error, MESO_ERR_USAGE, "2 operands: give TILES SURFACE SLOTS, or MODEL alone");
     if (a->mesh_path && a->tool.operand_count == 1)
@@ -296,7 +241,6 @@ static void merge_options(void *context, MesoMapOptions *options)
 typedef struct Mapped {
     const MesoModel *tiling;
     MesoScene scene;
-    MesoSceneParts parts;
 } Mapped;
 
 /* Mapping options mean nothing to what was not mapped. */
@@ -344,86 +288,41 @@ static void close_inputs(Inputs *inputs)
 
 /* ---- products ---- */
 
-static MesoStatus write_model(const MesoTool *tool, const Mapped *mapped, MesoOutput *output, MesoError *error)
+static MesoStatus write_tiling(const void *model, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
 {
-    return mapped->tiling ? meso_model_write(mapped->tiling, &tool->provenance, output, error)
-                          : meso_body_write(&mapped->scene, &tool->provenance, output, error);
+    return meso_model_write(model, provenance, output, error);
 }
 
-static MesoStatus write_product(MapArguments *a, const OutputKind *kind, const Mapped *mapped, MesoError *error)
+static MesoStatus write_product(MapArguments *a, const Mapped *mapped)
 {
-    MesoTool *tool = &a->tool;
-    MesoMeshWriteOptions options = {
-        .thread_count = tool->threads,
-        .position_bits = a->position_bits,
-        .normal_bits = a->normal_bits,
-        .speed = a->speed,
-        .provenance = &tool->provenance,
-        .smaller = mapped->tiling ? kind->smaller : NULL,
-        .progress = meso_tool_progress,
-        .progress_context = tool,
-    };
-    MesoOutput *output;
-    MesoStatus status = meso_output_open(&output, tool->output, error);
-    if (status != MESO_OK)
-        return status;
-    meso_tool_progress_begin(tool, "writing", kind->draco ? "triangles" : "vertices");
-    status = kind->write ? kind->write(&mapped->parts, &options, output, error)
-                         : write_model(tool, mapped, output, error);
-    if (status == MESO_OK)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
-    return status;
-}
-
-static void report_product(MesoTool *tool, const OutputKind *kind, const MesoSceneParts *parts)
-{
-    struct stat file;
-    json_t *report = tool->report;
-    json_object_set_new(report, "kind", json_string(kind->name));
-    meso_scene_report_ids(report, parts->scene);
-    json_object_set_new(report, "parts", json_integer(parts->part_count));
-    json_object_set_new(report, "vertices", json_integer((json_int_t)parts->vertex_begin[parts->part_count]));
-    json_object_set_new(report, "faces", json_integer((json_int_t)parts->face_begin[parts->part_count]));
-    json_object_set_new(report, "triangles", json_integer((json_int_t)parts->triangle_count));
-    if (stat(tool->output, &file) == 0 && S_ISREG(file.st_mode))
-        json_object_set_new(report, "bytes", json_integer((json_int_t)file.st_size));
-    if (tool->verbose)
-        meso_tool_say(tool, "%u parts, %llu vertices, %llu triangles", parts->part_count,
-                      (unsigned long long)parts->vertex_begin[parts->part_count],
-                      (unsigned long long)parts->triangle_count);
+    MesoSceneProduct product = {.scene = &mapped->scene};
+    if (mapped->tiling) {
+        product.write_model = write_tiling;
+        product.model = mapped->tiling;
+        product.smaller = "lower --divisions or raise --section-step";
+    }
+    return meso_tool_write_scene(&a->tool, &a->output, &product);
 }
 
 static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
-    MesoTool *tool = &a->tool;
-    const OutputKind *kind;
     Mapped mapped;
-    if (!tool->output)
-        tool->output = "-";
-    MesoStatus status = choose_kind(a, &kind, error);
+    MesoStatus status = meso_tool_choose_scene_kind(&a->tool, &a->output);
     if (status == MESO_OK)
-        status = check_options(a, kind, error);
+        status = check_operands(a, error);
     if (status == MESO_OK)
         status = forget_defaults(a, error);
     if (status == MESO_OK)
-        status = (tool->operand_count == 1 ? read_model : make_model)(a, inputs, &mapped, error);
-    if (status == MESO_OK)
-        status = meso_scene_parts_init(&mapped.parts, &tool->arena, &mapped.scene, error);
-    if (status == MESO_OK)
-        status = write_product(a, kind, &mapped, error);
-    if (status == MESO_OK)
-        report_product(tool, kind, &mapped.parts);
-    return status;
+        status = (a->tool.operand_count == 1 ? read_model : make_model)(a, inputs, &mapped, error);
+    return status == MESO_OK ? write_product(a, &mapped) : status;
 }
 
 int main(int argc, char **argv)
 {
-    MapArguments a = {.options = DEFAULTS, .position_bits = 14, .normal_bits = 10, .speed = 7};
+    MapArguments a = {.options = DEFAULTS, .output = MESO_SCENE_OUTPUT_DEFAULTS};
     Inputs inputs = {0};
     const MesoOption options[] = {
-        MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.kind,
-                    "meso|ply|obj|glb|drc", .more = MESO_OPTION_OUTWARD),
+        MESO_SCENE_KIND_OPTION(a.output),
         MESO_GROUP("Mapping, lengths in scene units"),
         MESO_NUMBER(0, "thickness", "T", "twice the height of the shell (default: the mean edge length)",
                     &a.options.thickness, 1e-12, 1e12, .given = &a.given.thickness,
@@ -446,13 +345,7 @@ int main(int argc, char **argv)
                     &a.mesh_path, .more = MESO_OPTION_OUTWARD),
         MESO_STRICT_OPTION(a.strict),
         MESO_PAIRS_OPTION(a.pairs),
-        MESO_GROUP("Draco (.drc, .glb)"),
-        MESO_COUNT(0, "position-bits", "N", "precision of positions (default 14)", &a.position_bits, 4, 24,
-                   .given = &a.draco_given[0]),
-        MESO_COUNT(0, "normal-bits", "N", "precision of normals (default 10)", &a.normal_bits, 4, 16,
-                   .given = &a.draco_given[1]),
-        MESO_COUNT(0, "speed", "N", "0 smallest to 10 fastest (default 7)", &a.speed, 0, 10,
-                   .given = &a.draco_given[2]),
+        MESO_DRACO_OPTIONS(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -2,16 +2,12 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
+#include "cmd/common/scene_output.h"
 #include "cmd/mesh/mesh_steps.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/write/mesh_write.h"
 #include "formats/model/scene_of_mesh.h"
-#include "formats/scene/mesh_file.h"
-
-typedef MesoStatus WriteScene(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoOutput *output,
-                              MesoError *error);
 
 typedef struct Job {
     MesoTool *tool;
@@ -19,7 +15,7 @@ typedef struct Job {
     MesoMeshStep *steps;        /* [step_count] */
     uint32_t step_count;
     MesoMeshKind kind;          /* of the output; MESO_MESH_KINDS: as a scene, or none */
-    WriteScene *write_scene;    /* what only scenes are written as; NULL for others */
+    const MesoSceneKind *scene_kind;    /* what only scenes are written as; NULL for others */
     json_t *report;             /* array of steps */
 } Job;
 
@@ -50,12 +46,11 @@ static MesoStatus parse_steps(Job *job)
 }
 
 /* By the extension; NULL for others. */
-static WriteScene *scene_writer(const char *path)
+static const MesoSceneKind *scene_kind(const char *path)
 {
     const char *dot = strrchr(path, '.');
-    if (dot && strcasecmp(dot, ".glb") == 0)
-        return meso_glb_write;
-    return dot && strcasecmp(dot, ".drc") == 0 ? meso_drc_write : NULL;
+    const MesoSceneKind *kind = dot ? meso_scene_kind_named(dot + 1) : NULL;
+    return kind && kind->draco ? kind : NULL;
 }
 
 static MesoStatus check_output(Job *job)
@@ -69,8 +64,8 @@ static MesoStatus check_output(Job *job)
                          "--json=FILE or -o FILE");
     job->kind = tool->output ? meso_mesh_kind_of(tool->output) : MESO_MESH_KINDS;
     if (tool->output && job->kind == MESO_MESH_KINDS)
-        job->write_scene = scene_writer(tool->output);
-    if (tool->output && job->kind == MESO_MESH_KINDS && !job->write_scene)
+        job->scene_kind = scene_kind(tool->output);
+    if (tool->output && job->kind == MESO_MESH_KINDS && !job->scene_kind)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "-o: the extension of '%s' is not %s, glb or drc", tool->output,
                          meso_mesh_kind_names());
     return MESO_OK;
@@ -157,43 +152,37 @@ static void say_left_out(const Job *job)
 }
 
 /* Triangles and quads; what files of scenes hold of the attributes. */
-static MesoStatus write_as_scene(Job *job, MesoOutput *output)
+static MesoStatus write_as_scene(Job *job)
 {
     MesoTool *tool = job->tool;
     MesoScene scene;
-    MesoSceneParts parts;
-    const MesoMeshWriteOptions options = {.thread_count = tool->threads, .speed = 7, .provenance = &tool->provenance,
-                                          .progress = meso_tool_progress, .progress_context = tool};
+    MesoSceneOutput output = MESO_SCENE_OUTPUT_DEFAULTS;
+    output.kind = job->scene_kind;
     MesoStatus status = meso_scene_of_mesh(&scene, &tool->arena, &job->work.mesh, &tool->error);
-    if (!status)
-        status = meso_scene_parts_init(&parts, &tool->arena, &scene, &tool->error);
-    meso_tool_progress_begin(tool, "writing", "triangles");
-    return status ? status : job->write_scene(&parts, &options, output, &tool->error);
+    return status ? status : meso_tool_write_scene(tool, &output, &(MesoSceneProduct){.scene = &scene});
 }
 
-static MesoStatus write_polygons(Job *job, MesoOutput *output)
+static MesoStatus write_polygons(Job *job)
 {
+    MesoOutput *output;
+    MesoTool *tool = job->tool;
     say_left_out(job);
-    return meso_polygon_mesh_write(&job->work.mesh, job->kind, &job->tool->provenance, output, &job->tool->error);
+    MesoStatus status = meso_output_open(&output, tool->output, &tool->error);
+    if (!status)
+        status = meso_polygon_mesh_write(&job->work.mesh, job->kind, &tool->provenance, output, &tool->error);
+    return meso_output_finish(output, status, &tool->error);
 }
 
 static MesoStatus write_mesh(Job *job)
 {
-    MesoOutput *output = NULL;
     MesoTool *tool = job->tool;
     MesoPolygonMesh *mesh = &job->work.mesh;
     if (mesh->face_count == 0)
         return meso_fail(&tool->error, MESO_ERR_INPUT, "no face is left; nothing was written");
     MesoStatus status = meso_polygon_mesh_check(mesh, tool->threads, NULL, &tool->error);
-    if (!status)
-        status = meso_output_open(&output, tool->output, &tool->error);
     if (status)
         return status;
-    status = job->write_scene ? write_as_scene(job, output) : write_polygons(job, output);
-    if (!status)
-        return meso_output_commit(output, &tool->error);
-    meso_output_discard(output);
-    return status;
+    return job->scene_kind ? write_as_scene(job) : write_polygons(job);
 }
 
 /* ---- all together ---- */

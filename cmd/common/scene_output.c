@@ -1,0 +1,119 @@
+#include "cmd/common/scene_output.h"
+
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "cmd/common/scene_report.h"
+#include "formats/model/model_body.h"
+
+static const MesoSceneKind KINDS[] = {
+    {"meso", NULL, false, NULL},
+    {"ply", meso_ply_write, false, NULL},
+    {"obj", meso_obj_write, false, NULL},
+    {"glb", meso_glb_write, true, "write .ply"},
+    {"drc", meso_drc_write, true, "write .glb"},
+};
+
+const MesoSceneKind *meso_scene_kind_named(const char *name)
+{
+    for (size_t i = 0; i < sizeof KINDS / sizeof *KINDS; i++)
+        if (strcasecmp(KINDS[i].name, name) == 0)
+            return &KINDS[i];
+    return NULL;
+}
+
+/* An option that would change nothing was meant for something else. */
+static MesoStatus check_draco_options(const MesoSceneOutput *output, MesoError *error)
+{
+    const char *given = output->given.speed ? "speed" : NULL;
+    given = output->given.normal_bits ? "normal-bits" : given;
+    given = output->given.position_bits ? "position-bits" : given;
+    if (!given || output->kind->draco)
+        return MESO_OK;
+    return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .%s", given, output->kind->name);
+}
+
+MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
+{
+    if (!tool->output)
+        tool->output = "-";
+    const char *slash = strrchr(tool->output, '/');
+    const char *dot = strrchr(slash ? slash : tool->output, '.');
+    const char *name = output->to ? output->to : dot ? dot + 1 : "";
+    output->kind = meso_scene_kind_named(name);
+    if (output->kind)
+        return check_draco_options(output, &tool->error);
+    return meso_fail(&tool->error, MESO_ERR_USAGE,
+                     "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb or "
+                     ".drc, or give --to", tool->output);
+}
+
+/* "lower --divisions, or write .ply"; `text` gets NULL where nothing helps. */
+static MesoStatus advise(const char **text, MesoTool *tool, const char *smaller, const char *instead)
+{
+    *text = smaller ? smaller : instead;
+    if (!smaller || !instead)
+        return MESO_OK;
+    *text = meso_arena_print(&tool->arena, &tool->error, "%s, or %s", smaller, instead);
+    return *text ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneParts *parts,
+                             const char *smaller, MesoOutput *file)
+{
+    MesoMeshWriteOptions options = {
+        .thread_count = tool->threads,
+        .position_bits = output->position_bits,
+        .normal_bits = output->normal_bits,
+        .speed = output->speed,
+        .provenance = &tool->provenance,
+        .progress = meso_tool_progress,
+        .progress_context = tool,
+    };
+    MesoStatus status = advise(&options.smaller, tool, smaller, output->kind->instead);
+    return status ? status : output->kind->write(parts, &options, file, &tool->error);
+}
+
+static MesoStatus write_model(MesoTool *tool, const MesoSceneProduct *product, MesoOutput *file)
+{
+    return product->write_model ? product->write_model(product->model, &tool->provenance, file, &tool->error)
+                                : meso_body_write(product->scene, &tool->provenance, file, &tool->error);
+}
+
+static void report(MesoTool *tool, const MesoSceneKind *kind, const MesoSceneParts *parts)
+{
+    struct stat file;
+    json_t *root = tool->report;
+    uint64_t vertex_count = parts->vertex_begin[parts->part_count];
+    json_object_set_new(root, "kind", json_string(kind->name));
+    meso_scene_report_ids(root, parts->scene);
+    json_object_set_new(root, "parts", json_integer(parts->part_count));
+    json_object_set_new(root, "vertices", json_integer((json_int_t)vertex_count));
+    json_object_set_new(root, "faces", json_integer((json_int_t)parts->face_begin[parts->part_count]));
+    json_object_set_new(root, "triangles", json_integer((json_int_t)parts->triangle_count));
+    if (stat(tool->output, &file) == 0 && S_ISREG(file.st_mode))
+        json_object_set_new(root, "bytes", json_integer((json_int_t)file.st_size));
+    if (tool->verbose)
+        meso_tool_say(tool, "%u parts, %llu vertices, %llu triangles", parts->part_count,
+                      (unsigned long long)vertex_count, (unsigned long long)parts->triangle_count);
+}
+
+MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product)
+{
+    MesoOutput *file;
+    MesoSceneParts parts;
+    MesoStatus status = meso_scene_parts_init(&parts, &tool->arena, product->scene, &tool->error);
+    if (status)
+        return status;
+    status = meso_output_open(&file, tool->output, &tool->error);
+    if (!status) {
+        meso_tool_progress_begin(tool, "writing", output->kind->draco ? "triangles" : "vertices");
+        status = output->kind->write ? write_mesh(tool, output, &parts, product->smaller, file)
+                                     : write_model(tool, product, file);
+    }
+    status = meso_output_finish(file, status, &tool->error);
+    if (!status)
+        report(tool, output->kind, &parts);
+    return status;
+}

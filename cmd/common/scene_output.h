@@ -1,0 +1,79 @@
+/*
+ * Scenes out: what every tool does whose work ends in a scene. The kinds of its product, with --to and the extension of
+ * -o, the options of the writers, the file that appears whole or not at all, and the report.
+ *
+ *     MyArguments a = {.output = MESO_SCENE_OUTPUT_DEFAULTS};
+ *     MesoOption options[] = {MESO_SCENE_KIND_OPTION(a.output), ..., MESO_DRACO_OPTIONS(a.output),
+ *                             MESO_TOOL_OPTIONS(a.tool), {0}};
+ *     ...
+ *     status = meso_tool_choose_scene_kind(tool, &a.output);      before the work
+ *     ...
+ *     status = meso_tool_write_scene(tool, &a.output, &(MesoSceneProduct){.scene = &scene});
+ */
+#ifndef MESO_SCENE_OUTPUT_H
+#define MESO_SCENE_OUTPUT_H
+
+#include "cmd/common/tool.h"
+#include "formats/scene/mesh_file.h"
+
+/* For the synopsis, and for the words of MesoToolInfo. */
+#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|.ply|.obj|.glb|.drc"
+#define MESO_SCENE_OUTPUT_WORDS "--output .meso .ply .obj .glb .drc\n"
+
+typedef struct MesoSceneKind {
+    const char *name;           /* and extension */
+    MesoStatus (*write)(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoOutput *output,
+                        MesoError *error);      /* NULL: a model */
+    bool draco;
+    const char *instead;        /* what helps where the product is too large for the kind; NULL: nothing */
+} MesoSceneKind;
+
+typedef struct MesoSceneOutput {
+    const MesoSceneKind *kind;  /* found by meso_tool_choose_scene_kind() */
+    const char *to;             /* --to */
+    uint32_t position_bits, normal_bits, speed;
+    struct {
+        bool position_bits, normal_bits, speed;
+    } given;
+} MesoSceneOutput;
+
+#define MESO_SCENE_OUTPUT_DEFAULTS {.position_bits = 14, .normal_bits = 10, .speed = 7}
+
+#define MESO_SCENE_KIND_OPTION(o)                                                             \
+    MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &(o).to, \
+                "meso|ply|obj|glb|drc", .more = MESO_OPTION_OUTWARD)
+
+#define MESO_DRACO_OPTIONS(o)                                                                 \
+    MESO_GROUP("Draco (.drc, .glb)"), \
+    MESO_COUNT(0, "position-bits", "N", "precision of positions (default 14)", &(o).position_bits, 4, 24, \
+               .given = &(o).given.position_bits), \
+    MESO_COUNT(0, "normal-bits", "N", "precision of normals (default 10)", &(o).normal_bits, 4, 16, \
+               .given = &(o).given.normal_bits), \
+    MESO_COUNT(0, "speed", "N", "0 smallest to 10 fastest (default 7)", &(o).speed, 0, 10, \
+               .given = &(o).given.speed)
+
+/* The kind by its name, "glb", in either case; NULL for others. */
+const MesoSceneKind *meso_scene_kind_named(const char *name);
+
+/*
+ * The kind that --to or else the extension of -o names; without -o the product goes to standard output, which then
+ * tool->output says. MESO_ERR_USAGE where neither names one, and where an option is given that its writer has not.
+ */
+MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output);
+
+typedef struct MesoSceneProduct {
+    const MesoScene *scene;
+    /* Writes the scene as a model (.meso) of the tool's own method; NULL: as bodies, and the scene has no sweeps. */
+    MesoStatus (*write_model)(const void *model, const MesoProvenance *provenance, MesoOutput *output,
+                              MesoError *error);
+    const void *model;          /* for `write_model` */
+    const char *smaller;        /* options of the tool that make less of it, for messages; NULL: it has none */
+} MesoSceneProduct;
+
+/*
+ * Writes a scene to tool->output, with progress, and puts into the report: the kind, how many ids there are, parts,
+ * vertices, faces, triangles, and bytes. Errors as those of the writers.
+ */
+MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product);
+
+#endif
