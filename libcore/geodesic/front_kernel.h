@@ -1,0 +1,135 @@
+/*
+ * The step of a front at a vertex u of known distance: what it tells the
+ * vertices at the ends of up to eight spokes, for the triangles between
+ * spokes that follow each other. Written twice, in plain C and for vectors of
+ * eight; operations and their order are the same, and so are the results.
+ *
+ * Side u-i of a triangle u, i, p lies in the plane from (0,0) to (l,0), and p
+ * at (px,py) above. The front that has reached u and i comes
+ *
+ *  - from a source at (sx,-sy) below, d(u) from u and d(i) from i, if it is
+ *    circular: d(p) = |p - s|;
+ *  - as a line with the gradient (gx,gy), where gx = (d(i) - d(u)) / l, if it
+ *    is planar: d(p) = d(u) + gx px + gy py.
+ *
+ * Both count only if what reaches p has crossed the side between u and i;
+ * where d(u) and d(i) differ by more than l, they belong to no common front.
+ * And p is never farther away than d(u) and its spoke.
+ */
+#ifndef MESO_FRONT_KERNEL_H
+#define MESO_FRONT_KERNEL_H
+
+#include "libcore/geodesic/geodesic_solver.h"
+
+typedef struct MesoFrontStep {
+    const MesoGeodesicRow *rows;
+    uint32_t vertex;
+    const uint32_t *spokes;     /* [count]; MESO_RING_SLACK vertices of the mesh may be read from any of them on */
+    uint32_t count;             /* 2 to 8 */
+    bool closed;                /* a triangle stands between the last and the first, too */
+    float floor;                /* nothing that comes through a triangle is nearer */
+} MesoFrontStep;
+
+typedef struct MesoFrontSide {
+    float l, inverse;
+    float sx, sy, gx, gy;
+    bool valid, planar;
+} MesoFrontSide;
+
+static inline MesoFrontSide meso_front_side(float du, float di, float l, float squared, bool planar)
+{
+    MesoFrontSide side = {.l = l, .inverse = 1 / l, .planar = planar};
+    float difference = du - di, sum = du + di;
+    side.valid = __builtin_fabsf(difference) <= l;
+    if (planar) {
+        side.gx = -difference * side.inverse;
+        float rest = 1 - side.gx * side.gx;
+        side.gy = __builtin_sqrtf(rest > 0 ? rest : 0);
+    } else {
+        side.sx = (squared + difference * sum) * (0.5f * side.inverse);
+        float rest = (du - side.sx) * (du + side.sx);
+        side.sy = __builtin_sqrtf(rest > 0 ? rest : 0);
+    }
+    return side;
+}
+
+/* Distance of the corner that faces a side, or INFINITY. `dot` and `area` are of the spokes to i and to p. */
+static inline float meso_front_across(const MesoFrontSide *side, float du, float dot, float area, float least)
+{
+    float px = dot * side->inverse, py = area * side->inverse, t, whole, found;
+    if (side->planar) {
+        t = side->gy * px - side->gx * py;
+        whole = side->l * side->gy;
+        found = (du + side->gx * px) + side->gy * py;
+    } else {
+        float x = px - side->sx, y = py + side->sy;
+        t = side->sx * py + px * side->sy;
+        whole = side->l * y;
+        found = __builtin_sqrtf(x * x + y * y);
+    }
+    found = found > least ? found : least;
+    return side->valid && 0 <= t && t <= whole ? found : INFINITY;
+}
+
+/*
+ * Distances that are told to the ends of the spokes, planar ones with their sign bit set, to `found` [8]; returns a
+ * bit for each that is lower than the one that it has.
+ */
+static inline uint32_t meso_front_step_plain(const MesoFrontStep *step, float *found)
+{
+    const MesoGeodesicRow *u = &step->rows[step->vertex];
+    uint32_t n = step->count, lower = 0;
+    float x[8], y[8], z[8], squared[8], told[8];
+    float du = __builtin_fabsf(u->distance);
+    bool planar_u = __builtin_signbit(u->distance), planar[8];
+    for (uint32_t i = 0; i < n; i++) {
+        const MesoGeodesicRow *row = &step->rows[step->spokes[i]];
+        x[i] = row->x - u->x;
+        y[i] = row->y - u->y;
+        z[i] = row->z - u->z;
+        squared[i] = (x[i] * x[i] + y[i] * y[i]) + z[i] * z[i];
+        told[i] = row->distance;
+    }
+    float l[8], best[8];
+    for (uint32_t i = 0; i < n; i++) {
+        l[i] = __builtin_sqrtf(squared[i]);
+        best[i] = du + l[i];
+        planar[i] = planar_u;
+    }
+    uint32_t sides = step->closed ? n : n - 1;
+    float dot[8], area[8];
+    for (uint32_t i = 0; i < sides; i++) {
+        uint32_t k = i + 1 < n ? i + 1 : 0;
+        float cx = y[i] * z[k] - z[i] * y[k], cy = z[i] * x[k] - x[i] * z[k], cz = x[i] * y[k] - y[i] * x[k];
+        dot[i] = (x[i] * x[k] + y[i] * y[k]) + z[i] * z[k];
+        area[i] = __builtin_sqrtf((cx * cx + cy * cy) + cz * cz);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        float di = __builtin_fabsf(told[i]);
+        if (!(__builtin_fabsf(du - di) <= l[i]))
+            continue;
+        MesoFrontSide side = meso_front_side(du, di, l[i], squared[i], planar_u || __builtin_signbit(told[i]));
+        uint32_t next = i + 1 < n ? i + 1 : 0, before = i > 0 ? i - 1 : n - 1;
+        if (i < sides) {
+            float across = meso_front_across(&side, du, dot[i], area[i], step->floor);
+            if (across < best[next]) {
+                best[next] = across;
+                planar[next] = side.planar;
+            }
+        }
+        if (before < sides) {
+            float across = meso_front_across(&side, du, dot[before], area[before], step->floor);
+            if (across < best[before]) {
+                best[before] = across;
+                planar[before] = side.planar;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        lower |= (uint32_t)(best[i] < __builtin_fabsf(told[i])) << i;
+        found[i] = planar[i] ? -best[i] : best[i];
+    }
+    return lower;
+}
+
+#endif

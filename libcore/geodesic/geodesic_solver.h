@@ -1,0 +1,66 @@
+/* What the engines of geodesic.h share; for this folder, its tests and its benchmark. */
+#ifndef MESO_GEODESIC_SOLVER_H
+#define MESO_GEODESIC_SOLVER_H
+
+#include "libcore/geodesic/buckets.h"
+#include "libcore/geodesic/geodesic.h"
+#include "libcore/geodesic/one_rings.h"
+
+/*
+ * A vertex. `distance` is INFINITY where this solve has not been, and with its sign bit set where the front that has
+ * come is planar; all are INFINITY between solves.
+ */
+typedef struct MesoGeodesicRow {
+    float x, y, z, distance;
+} MesoGeodesicRow;
+
+enum {
+    MESO_VERTEX_QUEUED = 1,     /* due */
+    MESO_VERTEX_WALLED = 2,     /* has a side that is a wall */
+    MESO_VERTEX_MARKED = 4      /* its ring is to be made again */
+};
+
+/* Single precision squares what is between 1e-19 and 1e19 alone: rows are scaled by a power of two to a size near 1. */
+struct MesoGeodesicSolver {
+    const MesoTriangulation *mesh;
+    MesoGeodesicEngine engine;
+    bool plain;                 /* without vector instructions: for tests, and to compare */
+    uint32_t vertex_count, vertex_room;
+    float scale;                /* rows are that times the scene; a power of two */
+    MesoGeodesicRow *rows;      /* [vertex_room] */
+    uint8_t *states;            /* [vertex_room] MESO_VERTEX_... */
+    uint32_t *touched;          /* [vertex_room] those whose row has a distance */
+    uint32_t touched_count;
+    MesoOneRings rings;
+    MesoBuckets buckets;
+};
+
+/* One solve, in the rows' units. */
+typedef struct MesoGeodesicRun {
+    MesoGeodesicSolver *solver;
+    const MesoGeodesicQuery *query;
+    float limit;                /* INFINITY: none */
+    const float *kept;          /* [vertex_count] in scene units: what must be lowered; NULL: nothing */
+} MesoGeodesicRun;
+
+/*
+ * Whether a row may be lowered to `distance`, whose sign bit says that it is planar. NaN is never lower. Lists the
+ * vertex when it is met first.
+ */
+static inline bool meso_geodesic_lowers(const MesoGeodesicRun *run, uint32_t vertex, float distance)
+{
+    MesoGeodesicSolver *solver = run->solver;
+    float length = __builtin_fabsf(distance), before = __builtin_fabsf(solver->rows[vertex].distance);
+    if (!(length < before) || !(length <= run->limit))
+        return false;
+    if (run->kept && !(length < run->kept[vertex] * solver->scale))
+        return false;
+    if (before == INFINITY)
+        solver->touched[solver->touched_count++] = vertex;
+    return true;
+}
+
+/* Fills the rows' distances from the seeds in them. False where memory is out. */
+bool meso_fronts_run(const MesoGeodesicRun *run);
+
+#endif
