@@ -33,14 +33,13 @@ typedef struct MesoFrontStep {
 typedef struct MesoFrontSide {
     float l, inverse;
     float sx, sy, gx, gy;
-    bool valid, planar;
+    bool planar;
 } MesoFrontSide;
 
 static inline MesoFrontSide meso_front_side(float du, float di, float l, float squared, bool planar)
 {
     MesoFrontSide side = {.l = l, .inverse = 1 / l, .planar = planar};
     float difference = du - di, sum = du + di;
-    side.valid = __builtin_fabsf(difference) <= l;
     if (planar) {
         side.gx = -difference * side.inverse;
         float rest = 1 - side.gx * side.gx;
@@ -68,7 +67,7 @@ static inline float meso_front_across(const MesoFrontSide *side, float du, float
         found = __builtin_sqrtf(x * x + y * y);
     }
     found = found > least ? found : least;
-    return side->valid && 0 <= t && t <= whole ? found : INFINITY;
+    return 0 <= t && t <= whole ? found : INFINITY;
 }
 
 /*
@@ -81,7 +80,7 @@ static inline uint32_t meso_front_step_plain(const MesoFrontStep *step, float *f
     uint32_t n = step->count, lower = 0;
     float x[8], y[8], z[8], squared[8], told[8];
     float du = __builtin_fabsf(u->distance);
-    bool planar_u = __builtin_signbit(u->distance), planar[8];
+    bool planar_u = __builtin_signbit(u->distance);
     for (uint32_t i = 0; i < n; i++) {
         const MesoGeodesicRow *row = &step->rows[step->spokes[i]];
         x[i] = row->x - u->x;
@@ -90,14 +89,8 @@ static inline uint32_t meso_front_step_plain(const MesoFrontStep *step, float *f
         squared[i] = (x[i] * x[i] + y[i] * y[i]) + z[i] * z[i];
         told[i] = row->distance;
     }
-    float l[8], best[8];
-    for (uint32_t i = 0; i < n; i++) {
-        l[i] = __builtin_sqrtf(squared[i]);
-        best[i] = du + l[i];
-        planar[i] = planar_u;
-    }
     uint32_t sides = step->closed ? n : n - 1;
-    float dot[8], area[8];
+    float dot[8], area[8], l[8], from_before[8], from_next[8];
     for (uint32_t i = 0; i < sides; i++) {
         uint32_t k = i + 1 < n ? i + 1 : 0;
         float cx = y[i] * z[k] - z[i] * y[k], cy = z[i] * x[k] - x[i] * z[k], cz = x[i] * y[k] - y[i] * x[k];
@@ -105,29 +98,32 @@ static inline uint32_t meso_front_step_plain(const MesoFrontStep *step, float *f
         area[i] = __builtin_sqrtf((cx * cx + cy * cy) + cz * cz);
     }
     for (uint32_t i = 0; i < n; i++) {
+        uint32_t next = i + 1 < n ? i + 1 : 0, before = i > 0 ? i - 1 : n - 1;
         float di = __builtin_fabsf(told[i]);
+        l[i] = __builtin_sqrtf(squared[i]);
+        from_before[next] = from_next[before] = INFINITY;
         if (!(__builtin_fabsf(du - di) <= l[i]))
             continue;
         MesoFrontSide side = meso_front_side(du, di, l[i], squared[i], planar_u || __builtin_signbit(told[i]));
-        uint32_t next = i + 1 < n ? i + 1 : 0, before = i > 0 ? i - 1 : n - 1;
-        if (i < sides) {
-            float across = meso_front_across(&side, du, dot[i], area[i], step->floor);
-            if (across < best[next]) {
-                best[next] = across;
-                planar[next] = side.planar;
-            }
-        }
-        if (before < sides) {
-            float across = meso_front_across(&side, du, dot[before], area[before], step->floor);
-            if (across < best[before]) {
-                best[before] = across;
-                planar[before] = side.planar;
-            }
-        }
+        if (i < sides)
+            from_before[next] = meso_front_across(&side, du, dot[i], area[i], step->floor);
+        if (before < sides)
+            from_next[before] = meso_front_across(&side, du, dot[before], area[before], step->floor);
     }
     for (uint32_t i = 0; i < n; i++) {
-        lower |= (uint32_t)(best[i] < __builtin_fabsf(told[i])) << i;
-        found[i] = planar[i] ? -best[i] : best[i];
+        uint32_t next = i + 1 < n ? i + 1 : 0, before = i > 0 ? i - 1 : n - 1;
+        float best = du + l[i];
+        bool planar = planar_u;
+        if (from_before[i] < best) {
+            best = from_before[i];
+            planar = planar_u || __builtin_signbit(told[before]);
+        }
+        if (from_next[i] < best) {
+            best = from_next[i];
+            planar = planar_u || __builtin_signbit(told[next]);
+        }
+        lower |= (uint32_t)(best < __builtin_fabsf(told[i])) << i;
+        found[i] = planar ? -best : best;
     }
     return lower;
 }

@@ -1,4 +1,5 @@
 #include "libcore/geodesic/front_kernel.h"
+#include "libcore/geodesic/front_kernel_avx2.h"
 
 /*
  * Nothing but rounding can make a vertex lower another and then be lowered by it; should that go on, what comes
@@ -191,6 +192,28 @@ static void propagate_plain(Fronts *fronts, bool everywhere)
     propagate(fronts, everywhere, meso_front_step_plain);
 }
 
+#ifdef MESO_HAS_FRONT_STEP_AVX2
+__attribute__((target("avx2"))) static void propagate_avx2(Fronts *fronts, bool everywhere)
+{
+    propagate(fronts, everywhere, meso_front_step_avx2);
+}
+
+static bool machine_has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2");
+}
+#else
+static void propagate_avx2(Fronts *fronts, bool everywhere)
+{
+    propagate_plain(fronts, everywhere);
+}
+
+static bool machine_has_avx2(void)
+{
+    return false;
+}
+#endif
+
 /* Of seeds at one vertex the nearest counts, and a line before a point. */
 static void plant_seeds(const MesoGeodesicRun *run)
 {
@@ -214,6 +237,9 @@ bool meso_fronts_run(const MesoGeodesicRun *run)
     bool everywhere = !domain || !domain->member;
     meso_buckets_clear(&run->solver->buckets);
     plant_seeds(run);
-    propagate_plain(&fronts, everywhere);
+    if (run->solver->plain || !machine_has_avx2())
+        propagate_plain(&fronts, everywhere);
+    else
+        propagate_avx2(&fronts, everywhere);
     return !run->solver->buckets.out_of_memory;
 }

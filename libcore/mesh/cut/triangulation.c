@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/mesh/cut/locality.h"
+
 /* ---- room ---- */
 
 /* Half-edges are numbers of 32 bits, and MESO_NO_INDEX is none of them. */
@@ -35,8 +37,10 @@ static MesoStatus reserve_vertices(MesoTriangulation *mesh, uint64_t count, Meso
     room = room < count ? count : room > UINT32_MAX - 1 ? UINT32_MAX - 1 : room;
     if (!enlarge((void **)&mesh->positions, room, sizeof *mesh->positions) ||
         !enlarge((void **)&mesh->vertex_corner, room, sizeof *mesh->vertex_corner) ||
+        !enlarge((void **)&mesh->origins, room, sizeof *mesh->origins) ||
         !enlarge((void **)&mesh->vertex_values, room, mesh->vertex_width * sizeof *mesh->vertex_values))
         return out_of_memory(count, "vertices", error);
+    memset(mesh->origins + mesh->vertex_room, 0xff, (room - mesh->vertex_room) * sizeof *mesh->origins);
     mesh->vertex_room = (uint32_t)room;
     return MESO_OK;
 }
@@ -72,6 +76,7 @@ void meso_triangulation_release(MesoTriangulation *mesh)
 {
     free(mesh->positions);
     free(mesh->vertex_corner);
+    free(mesh->origins);
     free(mesh->vertex_values);
     free(mesh->corners);
     free(mesh->twins);
@@ -131,6 +136,7 @@ static MesoStatus separate_fans(MesoTriangulation *mesh, MesoError *error)
             if (status)
                 break;
             mesh->positions[mesh->vertex_count] = mesh->positions[vertex];
+            mesh->origins[mesh->vertex_count] = mesh->origins[vertex];
             vertex = mesh->vertex_count++;
         }
         mesh->vertex_corner[vertex] = c;
@@ -142,23 +148,64 @@ static MesoStatus separate_fans(MesoTriangulation *mesh, MesoError *error)
 
 /* ---- building ---- */
 
-static void copy_surface(MesoTriangulation *mesh, const MesoSurface *surface)
+/* Places of the surface's elements in the triangulation. */
+typedef struct Places {
+    uint32_t *of_vertex, *of_triangle;
+} Places;
+
+/* Orders vertices and triangles into `origins` and `faces`, and says where each has gone. */
+static MesoStatus find_places(MesoTriangulation *mesh, const MesoPolygonMesh *from, Places *places, MesoError *error)
+{
+    places->of_vertex = malloc(((size_t)from->vertex_count + 1) * sizeof(uint32_t));
+    places->of_triangle = malloc(((size_t)from->face_count + 1) * sizeof(uint32_t));
+    if (!places->of_vertex || !places->of_triangle)
+        return out_of_memory(from->vertex_count, "vertices", error);
+    for (uint32_t v = 0; v < from->vertex_count; v++)
+        mesh->origins[v] = v;
+    for (uint32_t t = 0; t < from->face_count; t++)
+        mesh->faces[t] = t;
+    MesoStatus status = MESO_OK;
+    if (from->vertex_count >= MESO_LOCALITY_LEAST)
+        status = meso_locality_order(from->positions, from->vertex_count, from->corners, from->face_count,
+                                     mesh->origins, mesh->faces, error);
+    for (uint32_t v = 0; v < from->vertex_count && !status; v++)
+        places->of_vertex[mesh->origins[v]] = v;
+    for (uint32_t t = 0; t < from->face_count && !status; t++)
+        places->of_triangle[mesh->faces[t]] = t;
+    return status;
+}
+
+static void copy_triangle(MesoTriangulation *mesh, const MesoSurface *surface, const Places *places, uint32_t t)
+{
+    size_t from = 3 * (size_t)mesh->faces[t], to = 3 * (size_t)t;
+    mesh->labels[t] = 0;
+    mesh->walls[t] = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t twin = surface->edges.twin[from + k];
+        mesh->corners[to + k] = places->of_vertex[surface->mesh.corners[from + k]];
+        mesh->twins[to + k] = twin == MESO_NO_INDEX ? twin : 3 * places->of_triangle[twin / 3] + twin % 3;
+        if (twin == MESO_NO_INDEX)
+            mesh->walls[t] |= (uint8_t)(1u << k);
+    }
+}
+
+static MesoStatus copy_surface(MesoTriangulation *mesh, const MesoSurface *surface, MesoError *error)
 {
     const MesoPolygonMesh *from = &surface->mesh;
+    Places places = {0};
     mesh->vertex_count = from->vertex_count;
     mesh->triangle_count = from->face_count;
-    memcpy(mesh->positions, from->positions, from->vertex_count * sizeof *mesh->positions);
-    memset(mesh->vertex_corner, 0xff, from->vertex_count * sizeof *mesh->vertex_corner);
-    memcpy(mesh->corners, from->corners, from->corner_count * sizeof *mesh->corners);
-    memcpy(mesh->twins, surface->edges.twin, from->corner_count * sizeof *mesh->twins);
-    for (uint32_t t = 0; t < from->face_count; t++) {
-        mesh->labels[t] = 0;
-        mesh->faces[t] = t;
-        mesh->walls[t] = 0;
-        for (uint32_t k = 0; k < 3; k++)
-            if (mesh->twins[3 * t + k] == MESO_NO_INDEX)
-                mesh->walls[t] |= (uint8_t)(1u << k);
+    MesoStatus status = find_places(mesh, from, &places, error);
+    if (!status) {
+        for (uint32_t v = 0; v < from->vertex_count; v++)
+            mesh->positions[v] = from->positions[mesh->origins[v]];
+        memset(mesh->vertex_corner, 0xff, from->vertex_count * sizeof *mesh->vertex_corner);
+        for (uint32_t t = 0; t < from->face_count; t++)
+            copy_triangle(mesh, surface, &places, t);
     }
+    free(places.of_vertex);
+    free(places.of_triangle);
+    return status;
 }
 
 MesoStatus meso_triangulation_init(MesoTriangulation *mesh, const MesoSurface *surface, uint32_t vertex_width,
@@ -169,10 +216,10 @@ MesoStatus meso_triangulation_init(MesoTriangulation *mesh, const MesoSurface *s
     if (!status)
         status = meso_triangulation_reserve(mesh, (uint64_t)surface->mesh.vertex_count + 1,
                                             (uint64_t)surface->mesh.face_count + 1, error);
-    if (!status) {
-        copy_surface(mesh, surface);
+    if (!status)
+        status = copy_surface(mesh, surface, error);
+    if (!status)
         status = separate_fans(mesh, error);
-    }
     if (status) {
         meso_triangulation_release(mesh);
         return status;

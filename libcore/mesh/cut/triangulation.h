@@ -19,6 +19,7 @@ typedef struct MesoTriangulation {
     uint32_t vertex_room, triangle_room;    /* what the arrays have room for */
     MesoVec3 *positions;        /* [vertex_count] */
     uint32_t *vertex_corner;    /* [vertex_count] a corner at the vertex; MESO_NO_INDEX where no triangle has it */
+    uint32_t *origins;          /* [vertex_count] vertex of the surface that it is; MESO_NO_INDEX: a cut has made it */
     uint32_t *corners;          /* [3 * triangle_count] vertices */
     uint32_t *twins;            /* [3 * triangle_count] half-edge across, or MESO_NO_INDEX at a border */
     uint32_t *labels;           /* [triangle_count] region */
@@ -33,8 +34,9 @@ typedef struct MesoTriangulation {
 
 /*
  * From a surface of triangles in which each edge has at most two; all labels 0, borders are walls. Vertices at which
- * several fans of triangles touch become several vertices, behind the others. Values are zero. O(corners).
- * MESO_ERR_INPUT by place, MESO_ERR_LIMIT, MESO_ERR_MEMORY.
+ * several fans of triangles touch become several vertices, behind the others. Values are zero. Large meshes are numbered
+ * again (locality.h); `origins` and `faces` say what was what. O(corners). MESO_ERR_INPUT by place, MESO_ERR_LIMIT,
+ * MESO_ERR_MEMORY.
  */
 MesoStatus meso_triangulation_init(MesoTriangulation *mesh, const MesoSurface *surface, uint32_t vertex_width,
                                    uint32_t corner_width, MesoError *error);
@@ -43,7 +45,7 @@ void meso_triangulation_release(MesoTriangulation *mesh);
 
 /*
  * Makes room for so many vertices and triangles in all; half as much again where arrays must move. New elements are not
- * set. MESO_ERR_LIMIT beyond what half-edges can count, MESO_ERR_MEMORY; the mesh is as before then.
+ * set, but for `origins`. MESO_ERR_LIMIT beyond what half-edges can count, MESO_ERR_MEMORY; the mesh is as before then.
  */
 MesoStatus meso_triangulation_reserve(MesoTriangulation *mesh, uint64_t vertex_count, uint64_t triangle_count,
                                       MesoError *error);

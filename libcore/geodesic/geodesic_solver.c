@@ -1,9 +1,8 @@
-#include "libcore/geodesic/geodesic.h"
+#include "libcore/geodesic/geodesic_solver.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcore/geodesic/geodesic_solver.h"
 #include "libcore/mesh/cut/mesh_cut.h"
 
 /* ---- room ---- */
