@@ -1,10 +1,11 @@
-/* Arena, errors, random numbers, bit sets, parallel loops. */
+/* Arena, errors, random numbers, bit sets, maps of numbers, parallel loops. */
 #include <stdint.h>
 #include <string.h>
 
 #include "libcore/base/arena.h"
 #include "libcore/base/bits.h"
 #include "libcore/base/check.h"
+#include "libcore/base/index_map.h"
 #include "libcore/base/parallel.h"
 #include "libcore/base/random.h"
 
@@ -82,6 +83,26 @@ static void test_bits(void)
     CHECK(meso_bits_rank(bits, 130) == 0 && meso_bits_rank(bits, 131) == 1 && meso_bits_rank(bits, 191) == 1);
 }
 
+static void test_index_map(void)
+{
+    MesoArena arena;
+    MesoIndexMap map = {0};
+    meso_arena_init(&arena);
+    CHECK(meso_index_map_find(&map, 7) == MESO_NO_INDEX);
+    for (uint32_t i = 0; i < 5000; i++) {    /* the last key is MESO_NO_INDEX - 1 */
+        uint32_t *value = meso_index_map_at(&map, &arena, MESO_NO_INDEX - 1 - i * i * 160, NULL);
+        CHECK(value && *value == MESO_NO_INDEX);
+        *value = i;
+    }
+    CHECK(map.count == 5000 && map.room == 16384);
+    for (uint32_t i = 0; i < 5000; i++) {
+        CHECK(meso_index_map_find(&map, MESO_NO_INDEX - 1 - i * i * 160) == i);
+        CHECK(meso_index_map_find(&map, MESO_NO_INDEX - 2 - i * i * 160) == MESO_NO_INDEX);
+    }
+    CHECK(*meso_index_map_at(&map, &arena, MESO_NO_INDEX - 1 - 160, NULL) == 1 && map.count == 5000);
+    meso_arena_release(&arena);
+}
+
 static void add_range(void *context, uint64_t begin, uint64_t end)
 {
     uint8_t *touched = context;
@@ -106,6 +127,7 @@ int main(void)
     test_error();
     test_random();
     test_bits();
+    test_index_map();
     test_parallel();
     return 0;
 }

@@ -1,0 +1,46 @@
+/* Lines and points on a sphere of a million triangles. */
+#include "libcore/base/clock.h"
+#include "libcore/geodesic/isoline.h"
+#include "libcore/geodesic/sphere_fixture.h"
+
+enum { RINGS = 354, ROUNDS = 5, LEVELS = 100 };
+
+static float *distances_from(const MesoTriangulation *mesh, MesoVec3 pole)
+{
+    float *field = malloc(mesh->vertex_count * sizeof *field);
+    CHECK(field);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        field[v] = acosf(fminf(1, fmaxf(-1, meso_vec3_dot(mesh->positions[v], pole))));
+    return field;
+}
+
+static void bench_isolines(const MesoTriangulation *mesh)
+{
+    float *field = distances_from(mesh, (MesoVec3){0.48f, 0.6f, 0.64f}), levels[LEVELS];
+    MesoIsolineQuery query = {NULL, field, levels, LEVELS};
+    double best = 1e9;
+    uint32_t segment_count = 0;
+    for (uint32_t l = 0; l < LEVELS; l++)
+        levels[l] = (float)MESO_PI * ((float)l + 0.5f) / LEVELS;
+    for (int i = 0; i < ROUNDS; i++) {
+        MesoArena arena;
+        MesoCutLines lines = {0};
+        meso_arena_init(&arena);
+        double start = meso_seconds();
+        CHECK(meso_isolines_trace(&lines, &arena, mesh, &query, NULL) == MESO_OK);
+        best = fmin(best, meso_seconds() - start);
+        segment_count = lines.segment_count;
+        meso_arena_release(&arena);
+    }
+    printf("isolines, %d levels on %u triangles: %.1f ms (%u segments)\n", LEVELS, mesh->triangle_count, 1e3 * best,
+           segment_count);
+    free(field);
+}
+
+int main(void)
+{
+    MesoTriangulation mesh = meso_fixture_sphere(RINGS);
+    bench_isolines(&mesh);
+    meso_triangulation_release(&mesh);
+    return 0;
+}
