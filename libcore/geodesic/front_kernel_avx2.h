@@ -58,12 +58,13 @@ MESO_AVX2 __m256 meso_front_pair(const MesoGeodesicRow *low, const MesoGeodesicR
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&low->x)), _mm_loadu_ps(&high->x), 1);
 }
 
-MESO_AVX2 MesoFrontLanes meso_front_gather(const MesoGeodesicRow *rows, const uint32_t *spokes)
+/* What stands behind the last spoke would be far away in memory: lanes that are often empty take the first again. */
+MESO_AVX2 MesoFrontLanes meso_front_gather(const MesoGeodesicRow *rows, const uint32_t *spokes, uint32_t count)
 {
-    __m256 a = meso_front_pair(&rows[spokes[0]], &rows[spokes[4]]);
-    __m256 b = meso_front_pair(&rows[spokes[1]], &rows[spokes[5]]);
-    __m256 c = meso_front_pair(&rows[spokes[2]], &rows[spokes[6]]);
-    __m256 d = meso_front_pair(&rows[spokes[3]], &rows[spokes[7]]);
+    __m256 a = meso_front_pair(&rows[spokes[0]], &rows[spokes[count > 4 ? 4 : 0]]);
+    __m256 b = meso_front_pair(&rows[spokes[1]], &rows[spokes[count > 5 ? 5 : 0]]);
+    __m256 c = meso_front_pair(&rows[spokes[2]], &rows[spokes[count > 6 ? 6 : 0]]);
+    __m256 d = meso_front_pair(&rows[spokes[3]], &rows[spokes[count > 7 ? 7 : 0]]);
     __m256 ab_xy = _mm256_unpacklo_ps(a, b), cd_xy = _mm256_unpacklo_ps(c, d);
     __m256 ab_zd = _mm256_unpackhi_ps(a, b), cd_zd = _mm256_unpackhi_ps(c, d);
     return (MesoFrontLanes){
@@ -127,7 +128,7 @@ MESO_AVX2 MesoFrontFound meso_front_across_avx2(const MesoFrontSides *side, __m2
 MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
 {
     const MesoGeodesicRow *u = &step->rows[step->vertex];
-    MesoFrontLanes ring = meso_front_gather(step->rows, step->spokes);
+    MesoFrontLanes ring = meso_front_gather(step->rows, step->spokes, step->count);
     __m256 sign = _mm256_set1_ps(-0.0f), own = _mm256_set1_ps(u->distance);
     __m256 x = _mm256_sub_ps(ring.x, _mm256_set1_ps(u->x));
     __m256 y = _mm256_sub_ps(ring.y, _mm256_set1_ps(u->y));

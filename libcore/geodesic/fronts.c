@@ -115,6 +115,31 @@ ALWAYS_INLINE void tell(Fronts *fronts, uint32_t vertex, bool everywhere, FrontS
         tell_long_ring(fronts, vertex, ring, step);
 }
 
+/*
+ * Most of the time goes by waiting for memory unless that is asked for early: first a vertex and where its ring lies,
+ * then the ring, then what most rings have at the least of the vertices in it.
+ */
+enum { VERTEX_AHEAD = 12, RING_AHEAD = 6, SPOKES_AHEAD = 3, SPOKES_MOSTLY = 6 };
+
+ALWAYS_INLINE void look_ahead(const MesoGeodesicSolver *solver, const MesoBucket *bucket, uint32_t i)
+{
+    const MesoOneRings *rings = &solver->rings;
+    if (i + VERTEX_AHEAD < bucket->count) {
+        uint32_t vertex = bucket->vertices[i + VERTEX_AHEAD];
+        __builtin_prefetch(&rings->begins[vertex]);
+        __builtin_prefetch(&rings->sizes[vertex]);
+        __builtin_prefetch(&solver->rows[vertex]);
+        __builtin_prefetch(&solver->states[vertex]);
+    }
+    if (i + RING_AHEAD < bucket->count)
+        __builtin_prefetch(&rings->pool[rings->begins[bucket->vertices[i + RING_AHEAD]]]);
+    if (i + SPOKES_AHEAD < bucket->count) {
+        const uint32_t *spokes = &rings->pool[rings->begins[bucket->vertices[i + SPOKES_AHEAD]]];
+        for (uint32_t k = 0; k < SPOKES_MOSTLY; k++)
+            __builtin_prefetch(&solver->rows[spokes[k]]);
+    }
+}
+
 /* Vertices that come into the bucket meanwhile are behind the others. */
 ALWAYS_INLINE void empty_bucket(Fronts *fronts, bool everywhere, FrontStep step)
 {
@@ -122,6 +147,7 @@ ALWAYS_INLINE void empty_bucket(Fronts *fronts, bool everywhere, FrontStep step)
     MesoBucket *bucket = &solver->buckets.open[solver->buckets.current % MESO_BUCKET_COUNT];
     for (uint32_t i = 0; i < bucket->count; i++) {
         uint32_t vertex = bucket->vertices[i];
+        look_ahead(solver, bucket, i);
         if (!(solver->states[vertex] & MESO_VERTEX_QUEUED))
             continue;
         solver->states[vertex] &= (uint8_t)~MESO_VERTEX_QUEUED;

@@ -180,11 +180,6 @@ MesoStatus meso_geodesic_update(MesoGeodesicSolver *solver, const MesoCutReport 
 
 static void clear_distances(const MesoTriangulation *mesh, const MesoDomain *domain, float *distance)
 {
-    if (!domain || !domain->member) {
-        for (uint32_t v = 0; v < mesh->vertex_count; v++)
-            distance[v] = INFINITY;
-        return;
-    }
     uint32_t count = domain->triangles ? domain->triangle_count : mesh->triangle_count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t t = domain->triangles ? domain->triangles[i] : i;
@@ -194,16 +189,24 @@ static void clear_distances(const MesoTriangulation *mesh, const MesoDomain *dom
     }
 }
 
-/* Hands the distances out, and leaves the rows as they were. */
-static void take_distances(MesoGeodesicSolver *solver, float *distance)
+static void take_distance(MesoGeodesicSolver *solver, uint32_t vertex, float unit, float *distance)
+{
+    distance[vertex] = fabsf(solver->rows[vertex].distance) * unit;
+    solver->rows[vertex].distance = INFINITY;
+    solver->states[vertex] &= (uint8_t)~MESO_VERTEX_QUEUED;
+}
+
+/* Hands the distances out, and leaves the rows as they were. `all`: of vertices without distance, too. */
+static void take_distances(MesoGeodesicSolver *solver, bool all, float *distance)
 {
     float unit = 1 / solver->scale;
-    for (uint32_t i = 0; i < solver->touched_count; i++) {
-        uint32_t v = solver->touched[i];
-        distance[v] = fabsf(solver->rows[v].distance) * unit;
-        solver->rows[v].distance = INFINITY;
-        solver->states[v] &= (uint8_t)~MESO_VERTEX_QUEUED;
-    }
+    uint32_t count = all ? solver->vertex_count : solver->touched_count;
+    if (all)
+        for (uint32_t v = 0; v < count; v++)
+            take_distance(solver, v, unit, distance);
+    else
+        for (uint32_t i = 0; i < count; i++)
+            take_distance(solver, solver->touched[i], unit, distance);
 }
 
 MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQuery *query, float *distance,
@@ -212,11 +215,12 @@ MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQue
     MesoGeodesicRun run = {solver, query, INFINITY, query->keep ? distance : NULL};
     if (query->limit > 0)
         run.limit = query->limit * solver->scale;
-    if (!query->keep)
+    bool all = !query->keep && (!query->domain || !query->domain->member);
+    if (!query->keep && !all)
         clear_distances(solver->mesh, query->domain, distance);
     solver->touched_count = 0;
     bool done = meso_fronts_run(&run);
-    take_distances(solver, distance);
+    take_distances(solver, all, distance);
     if (touched) {
         *touched = solver->touched;
         *touched_count = solver->touched_count;
