@@ -79,20 +79,26 @@ $(OUT)/obj/%.cpp.o: %.cpp
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
 
+# $(call embed,NAME,FILE) writes a text as the string NAME.
+embed = echo "extern const char $(1)[];"; echo "const char $(1)[] ="; \
+        sed 's/\\/\\\\/g; s/"/\\"/g; s/^/    "/; s/$$/\\n"/' $(2); echo "    \"\";"
+
 # Each shaders/NAME.glsl becomes the string meso_shader_NAME.
 $(OUT)/shaders.c: $(SHADERS) Makefile
 	@mkdir -p $(@D)
 	@{ for f in $(SHADERS); do n=$$(basename $$f .glsl | tr -- '-.' '__'); \
-	     echo "extern const char meso_shader_$$n[];"; echo "const char meso_shader_$$n[] ="; \
-	     sed 's/\\/\\\\/g; s/"/\\"/g; s/^/    "/; s/$$/\\n"/' $$f; echo "    \"\";"; done; \
+	     $(call embed,meso_shader_$$n,$$f); done; \
 	   echo "extern int meso_shaders_embedded; int meso_shaders_embedded = 1;"; } > $@
-$(OUT)/obj/shaders.o: $(OUT)/shaders.c
+$(OUT)/builtin_macros.c: formats/decor/macros.json Makefile
+	@mkdir -p $(@D)
+	@{ $(call embed,meso_builtin_macros,$<); } > $@
+$(OUT)/obj/%.o: $(OUT)/%.c
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
 objects = $(patsubst %,$(OUT)/obj/%.o,$(filter $(1)/%,$(LIBRARY)))
 $(OUT)/cmd.a: $(call objects,cmd)
-$(OUT)/formats.a: $(call objects,formats)
+$(OUT)/formats.a: $(call objects,formats) $(OUT)/obj/builtin_macros.o
 $(OUT)/libcore.a: $(call objects,libcore) $(OUT)/obj/shaders.o
 $(LIBS):
 	@rm -f $@

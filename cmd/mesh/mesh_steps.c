@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/nearest.h"
+
 /* ---- arguments ---- */
 
 static bool parse_number(const char *text, double *number)
@@ -114,41 +116,6 @@ const MesoMeshStepKind meso_mesh_step_kinds[] = {
     {0},
 };
 
-/* Levenshtein's distance of short words, by one row of his table. */
-static size_t word_distance(const char *a, size_t a_length, const char *b)
-{
-    size_t row[33], b_length = strlen(b);
-    if (a_length > 32 || b_length > 32)
-        return SIZE_MAX;
-    for (size_t j = 0; j <= b_length; j++)
-        row[j] = j;
-    for (size_t i = 1; i <= a_length; i++) {
-        size_t corner = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= b_length; j++) {
-            size_t changed = corner + (a[i - 1] != b[j - 1]), longer = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            corner = row[j];
-            row[j] = changed < longer ? changed : longer;
-        }
-    }
-    return row[b_length];
-}
-
-/* A word that `text` begins, or the nearest, where less than half of it is another. */
-static const char *nearest_word(const char *text, size_t length)
-{
-    const char *best = NULL;
-    size_t least = length / 2 + 1;
-    for (const MesoMeshStepKind *kind = meso_mesh_step_kinds; kind->word; kind++) {
-        size_t distance = length >= 2 && strncmp(kind->word, text, length) == 0 ? 0 : word_distance(text, length, kind->word);
-        if (distance < least) {
-            least = distance;
-            best = kind->word;
-        }
-    }
-    return best;
-}
-
 static const MesoMeshStepKind *find_kind(const char *text, size_t length)
 {
     for (const MesoMeshStepKind *kind = meso_mesh_step_kinds; kind->word; kind++)
@@ -159,10 +126,12 @@ static const MesoMeshStepKind *find_kind(const char *text, size_t length)
 
 static MesoStatus refuse_word(const char *text, size_t length, MesoError *error)
 {
-    const char *nearest = nearest_word(text, length);
+    MesoNearest nearest = meso_nearest(text, length);
     int shown = (int)(length < 80 ? length : 80);
-    if (nearest)
-        return meso_fail(error, MESO_ERR_USAGE, "no step '%.*s'; did you mean '%s'?", shown, text, nearest);
+    for (const MesoMeshStepKind *kind = meso_mesh_step_kinds; kind->word; kind++)
+        meso_nearest_try(&nearest, kind->word);
+    if (nearest.best)
+        return meso_fail(error, MESO_ERR_USAGE, "no step '%.*s'; did you mean '%s'?", shown, text, nearest.best);
     return meso_fail(error, MESO_ERR_USAGE, "no step '%.*s'; steps come first, and one surface last: see meso-mesh help", shown,
                      text);
 }

@@ -77,12 +77,16 @@ MesoStatus meso_mesh_fail_at_face(const MesoInput *input, uint32_t face, MesoErr
     return meso_fail(error, error->status, "%s:%u: %s", input->path, line, message);
 }
 
-static MesoStatus check(const MesoPolygonMesh *mesh, const MesoInput *input, uint32_t thread_count, MesoError *error)
+static MesoStatus check_elements(const MesoPolygonMesh *mesh, const MesoInput *input, uint32_t thread_count, MesoError *error)
 {
     uint32_t face;
     MesoStatus status = meso_polygon_mesh_check(mesh, thread_count, &face, error);
-    if (status == MESO_ERR_INPUT)
-        return meso_mesh_fail_at_face(input, face, error);
+    return status == MESO_ERR_INPUT ? meso_mesh_fail_at_face(input, face, error) : status;
+}
+
+static MesoStatus check(const MesoPolygonMesh *mesh, const MesoInput *input, uint32_t thread_count, MesoError *error)
+{
+    MesoStatus status = check_elements(mesh, input, thread_count, error);
     if (!status && mesh->face_count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no faces", input->path);
     return status;
@@ -107,6 +111,13 @@ MesoStatus meso_polygon_mesh_read(MesoPolygonMesh *mesh, MesoArena *arena, const
     error = error ? error : &ignored;
     MesoStatus status = read_unchecked(mesh, arena, input, thread_count, error);
     return status ? status : check(mesh, input, thread_count, error);
+}
+
+MesoStatus meso_polygon_mesh_read_vertices(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input,
+                                           uint32_t thread_count, MesoError *error)
+{
+    MesoStatus status = read_unchecked(mesh, arena, input, thread_count, error);
+    return status ? status : check_elements(mesh, input, thread_count, error);
 }
 
 static bool has_vertices_at_corners(const MesoPolygonMesh *mesh)

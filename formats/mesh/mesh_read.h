@@ -22,6 +22,10 @@ MesoStatus meso_polygon_mesh_read(MesoPolygonMesh *mesh, MesoArena *arena, const
 MesoStatus meso_polygon_mesh_read_loops(MesoPolygonMesh *mesh, uint32_t *looped, MesoArena *arena, const MesoInput *input,
                                         uint32_t thread_count, MesoError *error);
 
+/* The same for files of which the vertices matter: there may be no faces. */
+MesoStatus meso_polygon_mesh_read_vertices(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input,
+                                           uint32_t thread_count, MesoError *error);
+
 /*
  * Puts "PATH:LINE: ", or "PATH: " where a face has no line, before the message of `error`, which is about `face` (from 0;
  * MESO_NO_INDEX: about none) of a mesh that was read from `input`. Returns its status. O(size).

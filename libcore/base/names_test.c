@@ -7,6 +7,7 @@
 #include "libcore/base/check.h"
 #include "libcore/base/disjoint_sets.h"
 #include "libcore/base/grow.h"
+#include "libcore/base/nearest.h"
 #include "libcore/base/random.h"
 
 /* The first of equal names counts; names may be parts of others, empty, or hold zero bytes. */
@@ -83,8 +84,27 @@ static void test_grow(void)
     meso_arena_release(&arena);
 }
 
+static const char *nearest(const char *text)
+{
+    static const char *const words[] = {"contour", "stream", "voronoi", "polyline", "count"};
+    MesoNearest found = meso_nearest(text, strlen(text));
+    for (int i = 0; i < 5; i++)
+        meso_nearest_try(&found, words[i]);
+    return found.best ? found.best : "";
+}
+
+static void test_nearest(void)
+{
+    CHECK(strcmp(nearest("countour"), "contour") == 0 && strcmp(nearest("co"), "contour") == 0);
+    CHECK(strcmp(nearest("poly"), "polyline") == 0 && strcmp(nearest("veronoi"), "voronoi") == 0);
+    CHECK(strcmp(nearest("counts"), "count") == 0 && strcmp(nearest("steam"), "stream") == 0);
+    CHECK(!*nearest("") && !*nearest("c") && !*nearest("paint"));
+    CHECK(!*nearest("a word that is much too long to be any of these"));
+}
+
 int main(void)
 {
+    test_nearest();
     test_names();
     test_disjoint_sets();
     test_grow();

@@ -32,7 +32,7 @@ typedef enum MesoSelectLevel {
 
 /* All of its conditions hold; the filters by number come last, in this order. */
 typedef struct MesoSelector {
-    const char *path;       /* names joined by '/', '*' any one, '**' any number; NULL: everything in the scope */
+    const char *path;       /* names joined by '/', '*' any one, '**' any number, "." the scope itself; NULL: everything in it */
     const char **tags;      /* [tag_count] any of these; 0: any tag */
     uint32_t tag_count;
     MesoSelectLevel level;
@@ -89,6 +89,7 @@ typedef struct MesoNoise {
     MesoNoiseOf of;
     float gain;             /* largest shift, in scene units; of a field, in its own */
     float frequency;        /* cells a scene unit */
+    bool relative;          /* of the metric: units are the root of the region's area instead; of a field, its largest value */
     uint64_t seed;
 } MesoNoise;
 
@@ -142,7 +143,7 @@ typedef enum MesoPaintBy {
     MESO_PAINT_RAMP         /* between them, by the field's mean over the region when it was made */
 } MesoPaintBy;
 
-/* What a tag's children get right after a split: painting, name, displacement. */
+/* What a tag's children get right after a split: painting, name, displacement. Of several that fit, the last counts alone. */
 typedef struct MesoAfterSplit {
     const char *tag;        /* NULL: all */
     const char *name;       /* NULL: the tag's */
