@@ -76,9 +76,9 @@ static VertexLevels levels_at(const MesoIsolineQuery *query, float value, Vertex
 {
     if (!isfinite(value))
         return (VertexLevels){query->level_count, query->level_count};
-    float top = value + MESO_ISOLINE_SNAP * reach.up;
+    float top = value + MESO_CUT_SNAP * reach.up;
     VertexLevels found;
-    found.first = found.end = level_from(query, value - MESO_ISOLINE_SNAP * reach.down);
+    found.first = found.end = level_from(query, value - MESO_CUT_SNAP * reach.down);
     while (found.end < query->level_count && query->levels[found.end] <= top)
         found.end++;
     return found;

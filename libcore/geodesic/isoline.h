@@ -12,16 +12,14 @@
  *   - an edge on the level is part of the line where one triangle is above, or a plateau, and the other below;
  *     a ridge, a valley, and the domain's border are not
  *
- * A vertex is on every level whose line would cross one of its edges within MESO_ISOLINE_SNAP of the edge's length: the
+ * A vertex is on every level whose line would cross one of its edges within MESO_CUT_SNAP of the edge's length: the
  * line goes through the vertex then, in all its triangles alike. A vertex without a finite value (no path leads to it)
  * is above all levels, and a line that passes between it and a vertex below goes half-way.
  */
 #ifndef MESO_ISOLINE_H
 #define MESO_ISOLINE_H
 
-#include "libcore/mesh/cut/cut_lines.h"
-
-#define MESO_ISOLINE_SNAP 0.004f
+#include "libcore/mesh/cut/mesh_cut.h"
 
 typedef struct MesoIsolineQuery {
     const MesoDomain *domain;   /* NULL: everywhere */

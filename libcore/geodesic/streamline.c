@@ -142,10 +142,10 @@ static bool at_border(const Walker *walker, const Place *place)
 static Place arrival(const Walker *walker, uint32_t half_edge, double share, double height)
 {
     const uint32_t *corners = walker->mesh->corners;
-    if (share < MESO_STREAM_SNAP && (share <= 0 || height_at(walker, corners[half_edge]) > height))
+    if (share < MESO_CUT_SNAP && (share <= 0 || height_at(walker, corners[half_edge]) > height))
         return vertex_place(walker, corners[half_edge]);
     uint32_t end = corners[meso_next_corner(half_edge)];
-    if (share > 1 - MESO_STREAM_SNAP && (share >= 1 || height_at(walker, end) > height))
+    if (share > 1 - MESO_CUT_SNAP && (share >= 1 || height_at(walker, end) > height))
         return vertex_place(walker, end);
     return edge_place(walker, half_edge, share);
 }

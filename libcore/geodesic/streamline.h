@@ -4,7 +4,7 @@
  *
  * Where the gradients on both sides of an edge point into it, a ridge, the curve follows the edge to its higher end; where both
  * point out of it, it goes to the steeper side. From a vertex it goes where the field rises most steeply, inside a
- * triangle or along an edge. A curve that leaves a triangle within MESO_STREAM_SNAP of the side's end goes through the
+ * triangle or along an edge. A curve that leaves a triangle within MESO_CUT_SNAP of the side's end goes through the
  * vertex, unless that lies lower than where it came in: the field rises from node to node, and so no curve is closed.
  *
  * All of this holds with up and down changed where a curve goes down.
@@ -12,9 +12,7 @@
 #ifndef MESO_STREAMLINE_H
 #define MESO_STREAMLINE_H
 
-#include "libcore/mesh/cut/cut_lines.h"
-
-#define MESO_STREAM_SNAP 0.004f
+#include "libcore/mesh/cut/mesh_cut.h"
 
 typedef enum MesoStreamStop {
     MESO_STREAM_BORDER,     /* of the domain, or of where the field has finite values; a vertex there is enough */

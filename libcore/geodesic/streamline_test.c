@@ -1,4 +1,4 @@
-#include "libcore/geodesic/sphere_fixture.h"
+#include "libcore/geodesic/geodesic_fixture.h"
 #include "libcore/geodesic/streamline.h"
 #include "libcore/mesh/cut/border_loops.h"
 #include "libcore/mesh/cut/chain_samples.h"
@@ -199,7 +199,7 @@ static void test_right_angles(void)
     MesoMeshPoint starts[COUNT];
     MesoStreamReport report;
     for (uint32_t sphere = 0; sphere < 2; sphere++) {
-        MesoTriangulation mesh = sphere ? meso_fixture_sphere(60) : meso_fixture_sheet(100, 100, 0.02f);
+        MesoTriangulation mesh = sphere ? meso_fixture_sphere(40, 0.3f, 1) : meso_fixture_sheet(100, 100, 0.02f);
         MesoVec3 pole = sphere ? (MesoVec3){0.48f, 0.6f, 0.64f} : (MesoVec3){0.9731f, 1.0617f, 0};
         float *field = MESO_NEW(&arena, float, mesh.vertex_count, NULL);
         uint32_t count = 0;
@@ -232,7 +232,7 @@ static void test_blend(void)
     MesoDomain domain = {member, 0, triangles};
     MesoTriangulation mesh = meso_fixture_sheet(32, 32, 1);
     for (uint32_t v = 0; v < 33 * 33; v++) {
-        float x = (float)(v % 33), y = (float)(v / 33), left = x - 8 - sinf(y / 4), right = 24 - x;
+        float x = (float)(v % 33), y = (float)(v / 33), left = x - 8 + cosf(y * (float)MESO_PI / 16), right = 24 - x;
         field[v] = left / (left + right);
     }
     for (uint32_t t = 0; t < mesh.triangle_count; t++) {
