@@ -1,6 +1,7 @@
 /* Decimation: topology, shape and borders stay; vertices keep what they have. */
 #include "libcore/mesh/refine/mesh_decimate.h"
 
+#include "libcore/mesh/edit/mesh_clean.h"
 #include "libcore/mesh/edit/mesh_fixture.h"
 
 static MesoArena arena;
@@ -40,6 +41,27 @@ static void test_square(void)
     CHECK(meso_mesh_decimate(&mesh, &arena, &square, 1000, 1, &error) == MESO_OK && mesh.face_count == 128);
 }
 
+/* As few triangles as can be are still a surface of the same kind: closed, or a sheet whose border the collapses met. */
+static void test_to_the_end(void)
+{
+    MesoRandom random;
+    meso_random_init(&random, 7, 0);
+    for (uint32_t round = 0; round < 40; round++) {
+        MesoPolygonMesh mesh, torus = make_torus(&arena, 5 + round % 7, 5 + round % 5, &random);
+        move_randomly(&torus, &random, 0.01 * round);
+        MesoPolygonMesh part = round % 2 ? take_faces(torus, torus.face_count / 2) : torus;
+        CHECK(meso_mesh_decimate(&mesh, &arena, &part, 1, 1, &error) == MESO_OK && is_checked(&mesh));
+        MesoHalfEdges edges = join(&arena, &mesh), before = join(&arena, &part);
+        uint32_t *fans = MESO_NEW(&arena, uint32_t, mesh.corner_count, &error), fan_count = 0;
+        CHECK(meso_mesh_find_fans(fans, &mesh, &edges, &error) == MESO_OK);
+        for (uint32_t c = 0; c < mesh.corner_count; c++)
+            fan_count += fans[c] == c;
+        CHECK(edges.reversed_count == 0 && edges.crowded_count == 0 && fan_count == mesh.vertex_count);
+        CHECK((edges.border_count > 0) == (before.border_count > 0));
+        CHECK(mesh.face_count < 2 * part.face_count && (round % 2 || euler(&arena, &mesh) == 0));
+    }
+}
+
 static void test_refusals(void)
 {
     MesoPolygonMesh mesh, torus = make_torus(&arena, 5, 5, NULL);
@@ -53,6 +75,7 @@ int main(void)
     meso_arena_init(&arena);
     test_torus();
     test_square();
+    test_to_the_end();
     test_refusals();
     meso_arena_release(&arena);
     return 0;
