@@ -91,9 +91,9 @@ static MesoStatus read_mesh(Job *job)
     if (status)
         return status;
     if (is_to_be_cleaned(job))
-        status = meso_polygon_mesh_read_loops(&work->mesh, &work->looped, &tool->arena, &input, tool->threads, &tool->error);
+        status = meso_polygon_mesh_read_loops(&work->mesh, &work->looped, &work->arena, &input, tool->threads, &tool->error);
     else
-        status = meso_polygon_mesh_read(&work->mesh, &tool->arena, &input, tool->threads, &tool->error);
+        status = meso_polygon_mesh_read(&work->mesh, &work->arena, &input, tool->threads, &tool->error);
     meso_input_close(&input);
     return status;
 }
@@ -131,12 +131,9 @@ static MesoStatus report_step(const Job *job, const MesoMeshStep *step)
 
 static MesoStatus run_step(Job *job, const MesoMeshStep *step)
 {
-    MesoPolygonMesh result;
-    job->work.count_count = 0;
-    MesoStatus status = step->kind->run(step, &job->work, &result);
+    MesoStatus status = meso_mesh_step_run(step, &job->work);
     if (status)
-        return meso_fail_prefix(&job->tool->error, step->text);
-    job->work.mesh = result;
+        return status;
     say_step(job, step);
     return report_step(job, step);
 }
@@ -211,5 +208,6 @@ MesoStatus meso_mesh_job_run(MesoMeshArguments *arguments)
         status = run_step(&job, &job.steps[i]);
     if (!status && arguments->tool.output)
         status = write_mesh(&job);
+    meso_mesh_work_release(&job.work);
     return status;
 }

@@ -18,7 +18,7 @@ MesoStatus meso_mesh_run_weld(const MesoMeshStep *step, MesoMeshWork *work, Meso
 {
     MesoWeldCounts counts;
     MesoTool *tool = work->tool;
-    MesoStatus status = meso_mesh_weld(result, &tool->arena, &work->mesh, step->number, &counts, &tool->error);
+    MesoStatus status = meso_mesh_weld(result, &work->next, &work->mesh, step->number, &counts, &tool->error);
     count(work, "vertices_gone", counts.vertices_gone);
     count(work, "faces_gone", counts.faces_gone);
     count(work, "attributes_moved", counts.attributes_moved);
@@ -30,7 +30,7 @@ MesoStatus meso_mesh_run_clean(const MesoMeshStep *step, MesoMeshWork *work, Mes
     MesoCleanCounts counts;
     MesoTool *tool = work->tool;
     (void)step;
-    MesoStatus status = meso_mesh_clean(result, &tool->arena, &work->mesh, &counts, &tool->error);
+    MesoStatus status = meso_mesh_clean(result, &work->next, &work->mesh, &counts, &tool->error);
     count(work, "looped_faces", work->looped + counts.faces_looped);
     work->looped = 0;
     count(work, "flat_faces", counts.faces_flat);
@@ -39,34 +39,40 @@ MesoStatus meso_mesh_run_clean(const MesoMeshStep *step, MesoMeshWork *work, Mes
     return status;
 }
 
-static MesoStatus join(MesoHalfEdges *edges, MesoMeshWork *work)
+static MesoStatus join(MesoHalfEdges *edges, MesoArena *scratch, MesoMeshWork *work)
 {
     MesoTool *tool = work->tool;
-    return meso_half_edges_join(edges, &tool->arena, &work->mesh, tool->threads, &tool->error);
+    return meso_half_edges_join(edges, scratch, &work->mesh, tool->threads, &tool->error);
 }
 
 MesoStatus meso_mesh_run_separate(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
+    MesoArena scratch;
     MesoHalfEdges edges;
     uint32_t added = 0;
     MesoTool *tool = work->tool;
     (void)step;
-    MesoStatus status = join(&edges, work);
+    meso_arena_init(&scratch);
+    MesoStatus status = join(&edges, &scratch, work);
     if (!status)
-        status = meso_mesh_separate(result, &tool->arena, &work->mesh, &edges, &added, &tool->error);
+        status = meso_mesh_separate(result, &work->next, &work->mesh, &edges, &added, &tool->error);
+    meso_arena_release(&scratch);
     count(work, "vertices_added", added);
     return status;
 }
 
 MesoStatus meso_mesh_run_orient(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
+    MesoArena scratch;
     MesoHalfEdges edges;
     MesoOrientCounts counts = {0};
     MesoTool *tool = work->tool;
     (void)step;
-    MesoStatus status = join(&edges, work);
+    meso_arena_init(&scratch);
+    MesoStatus status = join(&edges, &scratch, work);
     if (!status)
-        status = meso_mesh_orient(result, &tool->arena, &work->mesh, &edges, &counts, &tool->error);
+        status = meso_mesh_orient(result, &work->next, &work->mesh, &edges, &counts, &tool->error);
+    meso_arena_release(&scratch);
     if (!status && counts.disagreeing)
         meso_tool_say(tool, "orient: what hangs together with face %u has one side only", counts.one_sided + 1);
     count(work, "faces_turned", counts.faces_turned);
@@ -78,19 +84,19 @@ MesoStatus meso_mesh_run_orient(const MesoMeshStep *step, MesoMeshWork *work, Me
 MesoStatus meso_mesh_run_triangulate(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
     (void)step;
-    return meso_mesh_cut_faces(result, &work->tool->arena, &work->mesh, &work->tool->error);
+    return meso_mesh_cut_faces(result, &work->next, &work->mesh, &work->tool->error);
 }
 
 MesoStatus meso_mesh_run_pair(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
     (void)step;
-    return meso_mesh_pair_triangles(result, &work->tool->arena, &work->mesh, NULL, &work->tool->error);
+    return meso_mesh_pair_triangles(result, &work->next, &work->mesh, NULL, &work->tool->error);
 }
 
 MesoStatus meso_mesh_run_subdivide(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
     MesoTool *tool = work->tool;
-    return meso_mesh_subdivide(result, &tool->arena, &work->mesh, step->scheme, step->level_count, work->crease, tool->threads,
+    return meso_mesh_subdivide(result, &work->next, &work->mesh, step->scheme, step->level_count, work->crease, tool->threads,
                                &tool->error);
 }
 
@@ -104,7 +110,7 @@ MesoStatus meso_mesh_run_decimate(const MesoMeshStep *step, MesoMeshWork *work, 
 {
     MesoTool *tool = work->tool;
     double target = step->percent ? step->number / 100 * (double)triangle_count(&work->mesh) : step->number;
-    MesoStatus status = meso_mesh_decimate(result, &tool->arena, &work->mesh, (uint32_t)target, tool->threads, &tool->error);
+    MesoStatus status = meso_mesh_decimate(result, &work->next, &work->mesh, (uint32_t)target, tool->threads, &tool->error);
     if (!status && (double)result->face_count > target)
         meso_tool_say(tool, "decimate: no more edges can go without folding the surface or changing what it is");
     return status;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "libcore/base/nearest.h"
+#include "libcore/mesh/edit/origins.h"
 
 /* ---- arguments ---- */
 
@@ -143,6 +144,32 @@ MesoStatus meso_mesh_step_parse(MesoMeshStep *step, const char *text, MesoError 
     if (!step->kind)
         return refuse_word(text, length, error);
     return step->kind->parse(step, text[length] ? text + length + 1 : NULL, error);
+}
+
+/* ---- work ---- */
+
+MesoStatus meso_mesh_step_run(const MesoMeshStep *step, MesoMeshWork *work)
+{
+    MesoPolygonMesh result;
+    MesoError *error = &work->tool->error;
+    work->count_count = 0;
+    if (step->kind->run(step, work, &result))
+        return meso_fail_prefix(error, step->text);
+    if (result.corners == work->mesh.corners)
+        return MESO_OK;
+    if (meso_mesh_detach(&result, &work->next, &work->mesh, error))
+        return MESO_ERR_MEMORY;
+    meso_arena_release(&work->arena);
+    work->arena = work->next;
+    meso_arena_init(&work->next);
+    work->mesh = result;
+    return MESO_OK;
+}
+
+void meso_mesh_work_release(MesoMeshWork *work)
+{
+    meso_arena_release(&work->arena);
+    meso_arena_release(&work->next);
 }
 
 /* ---- help ---- */

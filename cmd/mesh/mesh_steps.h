@@ -18,7 +18,9 @@ typedef struct MesoMeshStep MesoMeshStep;
 /* What steps work on. */
 typedef struct MesoMeshWork {
     MesoTool *tool;
-    MesoPolygonMesh mesh;       /* as the last step left it; in the tool's arena */
+    MesoPolygonMesh mesh;       /* as the last step left it */
+    MesoArena arena;            /* of `mesh` and nothing else */
+    MesoArena next;             /* for the result of the step under way */
     uint32_t looped;            /* faces that were read as their loops, until clean has counted them */
     double crease;              /* --crease */
     json_t *infos;              /* array, for the report */
@@ -52,7 +54,16 @@ MesoStatus meso_mesh_step_parse(MesoMeshStep *step, const char *text, MesoError 
 /* Prints what all steps do, or what the one called `word` does; MESO_ERR_USAGE where there is none. */
 MesoStatus meso_mesh_steps_help(const char *word, MesoError *error);
 
-/* What each step does; results go to the tool's arena. */
+/*
+ * Does a step on work->mesh, which its result takes the place of: what was there goes, but for steps that change nothing.
+ * The error is the tool's.
+ */
+MesoStatus meso_mesh_step_run(const MesoMeshStep *step, MesoMeshWork *work);
+
+/* Frees the mesh, and what a failed step left. */
+void meso_mesh_work_release(MesoMeshWork *work);
+
+/* What each step does; results go to work->next, or are work->mesh. */
 MesoStatus meso_mesh_run_info(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result);
 MesoStatus meso_mesh_run_weld(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result);
 MesoStatus meso_mesh_run_clean(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result);

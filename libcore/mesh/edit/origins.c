@@ -214,6 +214,54 @@ MesoStatus meso_mesh_carry(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPo
     return status;
 }
 
+/* ---- detaching ---- */
+
+static void *copy_of(const void *data, size_t size, MesoArena *arena, MesoError *error)
+{
+    void *copy = meso_arena_alloc(arena, size, 1, error);
+    return copy ? memcpy(copy, data, size) : NULL;
+}
+
+/* All in one piece. NULL when memory is out. */
+static const char **copy_names(const char *const *names, uint32_t count, MesoArena *arena, MesoError *error)
+{
+    size_t size = 0;
+    for (uint32_t i = 0; i < count; i++)
+        size += names[i] ? strlen(names[i]) + 1 : 0;
+    const char **copies = MESO_NEW(arena, const char *, count, error);
+    char *text = MESO_NEW(arena, char, size, error);
+    for (uint32_t i = 0; copies && text && i < count; i++) {
+        size_t length = names[i] ? strlen(names[i]) + 1 : 0;
+        copies[i] = names[i] ? memcpy(text, names[i], length) : NULL;
+        text += length;
+    }
+    return text ? copies : NULL;
+}
+
+static MesoStatus detach_attribute(MesoAttribute *a, MesoArena *arena, const MesoAttribute *from, MesoError *error)
+{
+    bool good = true;
+    if (a->name == from->name)
+        good = (a->name = meso_arena_copy_text(arena, a->name, error)) != NULL;
+    if (good && a->components && a->components == from->components)
+        good = (a->components = copy_names(a->components, a->width, arena, error)) != NULL;
+    if (good && a->names && a->names == from->names)
+        good = (a->names = copy_names(a->names, a->entry_count, arena, error)) != NULL;
+    if (good && a->values && a->values == from->values)
+        good = (a->values = copy_of(a->values, (size_t)a->entry_count * a->width * meso_scalar_size(a->scalar), arena,
+                                    error)) != NULL;
+    return good ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_mesh_detach(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoError *error)
+{
+    assert(mesh->attribute_count == from->attribute_count && mesh->corners != from->corners);
+    MesoStatus status = MESO_OK;
+    for (uint32_t a = 0; a < mesh->attribute_count && !status; a++)
+        status = detach_attribute(&mesh->attributes[a], arena, &from->attributes[a], error);
+    return status;
+}
+
 /* ---- copies of all ---- */
 
 MesoStatus meso_mesh_counts_check(const char *what, uint64_t vertices, uint64_t faces, uint64_t corners,

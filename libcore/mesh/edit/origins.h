@@ -34,6 +34,12 @@ MesoStatus meso_mesh_carry(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPo
                            const MesoMeshOrigins *origins, MesoError *error);
 
 /*
+ * Copies to `arena`, where `mesh` is, what it shares with `from`, which it was made of as above: then `from` may go.
+ * O(what is shared). MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_mesh_detach(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoError *error);
+
+/*
  * A new mesh whose elements are all copies: filled face by face by whoever makes it, in arrays with room
  * for what may come.
  */

@@ -69,6 +69,33 @@ static void test_missing(void)
     CHECK(carry(&a).attributes[0].entry_of[2] == MESO_NO_INDEX);
 }
 
+/* Nothing is left of the mesh before. */
+static void test_detaching(void)
+{
+    char name[] = "uv", u[] = "u", v[] = "v", iron[] = "iron", *none = NULL;
+    const char *components[2] = {u, v}, *names[2] = {none, iron};
+    float values[2] = {3, 4};
+    uint32_t entry_of[2] = {0, 0};
+    MesoAttribute old[2] = {{.name = name, .components = components, .width = 2, .entry_count = 1, .values = values,
+                             .entry_of = entry_of},
+                            {.name = name, .entry_count = 2, .names = names, .entry_of = entry_of}};
+    MesoPolygonMesh from = {.vertex_count = 2, .positions = (MesoVec3[2]){{0, 0, 0}, {1, 0, 0}}, .attribute_count = 2,
+                            .attributes = old};
+    MesoPolygonMesh mesh = {.vertex_count = 2, .side_count = 3, .corners = entry_of};
+    CHECK(meso_mesh_carry(&mesh, &arena, &from, &(MesoMeshOrigins){0}, &error) == MESO_OK);
+    const MesoAttribute *a = mesh.attributes;
+    CHECK(a[0].values == values && meso_mesh_detach(&mesh, &arena, &from, &error) == MESO_OK);
+    memset(name, 'x', 2);
+    memset(u, 'x', 1);
+    memset(v, 'x', 1);
+    memset(iron, 'x', 4);
+    memset(values, 0, sizeof values);
+    components[0] = components[1] = names[0] = names[1] = NULL;
+    CHECK(strcmp(a[0].name, "uv") == 0 && strcmp(a[0].components[1], "v") == 0 && strcmp(a[1].name, "uv") == 0);
+    CHECK(((float *)a[0].values)[1] == 4 && !a[1].names[0] && strcmp(a[1].names[1], "iron") == 0);
+    CHECK(strcmp(a[0].components[0], "u") == 0);
+}
+
 static void test_sides(void)
 {
     uint32_t face_begin[3] = {0, 4, 8}, corners[8] = {0, 1, 0, 1, 0, 1, 0, 1};
@@ -86,6 +113,7 @@ int main(void)
     test_integers();
     test_names();
     test_missing();
+    test_detaching();
     test_sides();
     CHECK(meso_mesh_counts_check("x", UINT32_MAX, 0, 0, &error) == MESO_ERR_LIMIT);
     CHECK(meso_mesh_counts_check("x", UINT32_MAX - 1, 0, 0, &error) == MESO_OK);
