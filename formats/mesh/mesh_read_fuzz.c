@@ -62,7 +62,8 @@ static void use_as_quads(MesoArena *arena, const MesoPolygonMesh *mesh, const Me
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const char *const paths[] = {"a.obj", "a.ply", "a.off", "a.glb", "a"};
+    static const char *const paths[] = {"a.obj", "a.ply", "a.off", "a.glb", "a.gltf", "a.drc", "a"};
+    enum { PATH_COUNT = sizeof paths / sizeof *paths };
     if (size == 0)
         return 0;
     MesoArena arena;
@@ -72,7 +73,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     MesoTriangleMesh triangles;
     MesoError error;
     meso_arena_init(&arena);
-    meso_input_wrap(&input, paths[data[0] % 5], data + 1, size - 1);
+    meso_input_wrap(&input, paths[data[0] % PATH_COUNT], data + 1, size - 1);
     MesoStatus status = meso_polygon_mesh_read(&mesh, &arena, &input, 1, &error);
     compare(status, &mesh, &error, &input);
     if (status == MESO_OK) {
