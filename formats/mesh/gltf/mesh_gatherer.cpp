@@ -2,7 +2,15 @@
 
 #include <cstring>
 
+#include "formats/mesh/mesh_kinds.h"
+
 namespace meso {
+
+std::size_t most_corners(std::size_t bytes)
+{
+    std::size_t most = bytes * MESO_GLTF_CORNERS_A_BYTE;
+    return most < UINT32_MAX / 2 ? most : UINT32_MAX / 2;
+}
 
 void NameColumn::add_faces(const std::string &name, std::size_t face_count)
 {

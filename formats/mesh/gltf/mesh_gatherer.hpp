@@ -29,6 +29,9 @@ struct NameColumn {
     void add_faces(const std::string &name, std::size_t face_count);
 };
 
+/* The most vertices, and corners, of a mesh from so many bytes: MESO_GLTF_CORNERS_A_BYTE. */
+std::size_t most_corners(std::size_t bytes);
+
 class MeshGatherer {
 public:
     std::vector<MesoVec3> positions;

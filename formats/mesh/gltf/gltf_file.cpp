@@ -1,0 +1,195 @@
+#include "formats/mesh/gltf/gltf_file.hpp"
+
+#include <algorithm>
+#include <climits>
+#include <cstring>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/mesh/gltf/gltf_accessor.hpp"
+
+namespace meso {
+
+namespace {
+
+/* Buffers lie beside the file, or below its folder: a file is not to make us read any other. */
+struct Folder {
+    std::string path;           /* with a slash at its end, or empty */
+    std::set<std::string> read; /* names of files */
+    std::size_t bytes;          /* of the file and of those beside it */
+};
+
+bool file_exists(const std::string &, void *) { return true; }
+std::string expand_path(const std::string &path, void *) { return path; }
+
+bool lies_beside(const std::string &file)
+{
+    return !file.empty() && file[0] != '/' && file.find("..") == std::string::npos && file.find('\\') == std::string::npos &&
+           file.find(':') == std::string::npos;
+}
+
+/* Each once: a small file could name a large one a thousand times. */
+bool read_beside(std::vector<unsigned char> *bytes, std::string *error, const std::string &name, void *user)
+{
+    auto *folder = static_cast<Folder *>(user);
+    std::string file = name.compare(0, 2, "./") == 0 ? name.substr(2) : name;
+    if (!lies_beside(file)) {
+        *error += "the buffer '" + file + "' does not lie beside the file";
+        return false;
+    }
+    if (!folder->read.insert(file).second) {
+        *error += "the buffer '" + file + "' is named twice";
+        return false;
+    }
+    MesoInput input;
+    MesoError failure;
+    std::string path = folder->path + file;
+    if (meso_input_open(&input, path.c_str(), &failure)) {
+        *error += failure.message;
+        return false;
+    }
+    bytes->assign(input.data, input.data + input.size);
+    folder->bytes += input.size;
+    meso_input_close(&input);
+    return true;
+}
+
+bool write_no_file(std::string *, const std::string &, const std::vector<unsigned char> &, void *) { return false; }
+
+bool skip_image(tinygltf::Image *, const int, std::string *, std::string *, int, int, const unsigned char *, int, void *)
+{
+    return true;
+}
+
+struct Bytes {
+    const unsigned char *begin, *end;
+};
+
+/* The JSON of a .gltf, or of a .glb's first chunk, as far as there is one. */
+Bytes json_of(const MesoInput *input, bool binary)
+{
+    Bytes all = {input->data, input->data + input->size};
+    const std::size_t header = 20;
+    if (!binary)
+        return all;
+    if (input->size < header)
+        return {all.end, all.end};
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; i++)
+        length |= static_cast<std::size_t>(input->data[12 + i]) << 8 * i;
+    return {all.begin + header, length < input->size - header ? all.begin + header + length : all.end};
+}
+
+/* tinygltf copies extras and extensions recursively: without a limit, brackets exhaust the stack. */
+bool too_deep(Bytes json)
+{
+    const int limit = 200;
+    int depth = 0;
+    bool quoted = false;
+    for (const unsigned char *at = json.begin; at < json.end; at++) {
+        if (quoted && *at == '\\')
+            at++;
+        else if (*at == '"')
+            quoted = !quoted;
+        else if (!quoted && (*at == '[' || *at == '{') && ++depth > limit)
+            return true;
+        else if (!quoted && (*at == ']' || *at == '}'))
+            depth--;
+    }
+    return false;
+}
+
+/*
+ * tinygltf refuses indices without a buffer view, as compressed ones (it is built without Draco) and wholly sparse ones have
+ * none. The file with them hidden; empty where there are none.
+ */
+std::vector<unsigned char> with_hidden_indices(const MesoInput *input, bool binary)
+{
+    static const char *const signs[] = {"KHR_draco_mesh_compression", "\"sparse\""};
+    Bytes text = json_of(input, binary);
+    bool any = false;
+    for (const char *sign : signs)
+        any = any || std::search(text.begin, text.end, sign, sign + std::strlen(sign)) != text.end;
+    auto json = any ? nlohmann::json::parse(text.begin, text.end, nullptr, false) : nlohmann::json();
+    if (!json.is_object() || !json.contains("meshes") || !json["meshes"].is_array())
+        return {};
+    const auto accessors = json.value("accessors", nlohmann::json::array());
+    for (auto &mesh : json["meshes"])
+        for (auto &primitive : mesh.is_object() && mesh.contains("primitives") ? mesh["primitives"] : mesh) {
+            if (!primitive.is_object() || !primitive.contains("indices") || !primitive["indices"].is_number_unsigned() ||
+                !primitive.contains("attributes") || !primitive["attributes"].is_object())
+                continue;
+            std::size_t index = primitive["indices"];
+            if (index < accessors.size() && accessors[index].is_object() && !accessors[index].contains("bufferView")) {
+                primitive["attributes"][hidden_indices] = index;
+                primitive.erase("indices");
+            }
+        }
+    std::string plain = json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    if (!binary)
+        return std::vector<unsigned char>(plain.begin(), plain.end());
+    plain.resize((plain.size() + 3) / 4 * 4, ' ');
+    std::vector<unsigned char> out(input->data, text.begin);
+    out.insert(out.end(), plain.begin(), plain.end());
+    out.insert(out.end(), text.end, static_cast<const unsigned char *>(input->data + input->size));
+    for (std::size_t i = 0; i < 4; i++) {
+        out[8 + i] = static_cast<unsigned char>(out.size() >> 8 * i);
+        out[12 + i] = static_cast<unsigned char>(plain.size() >> 8 * i);
+    }
+    return out;
+}
+
+/* tinygltf ends each of its lines with a line end; one line is enough. */
+std::string first_line(const std::string &text)
+{
+    return text.empty() ? "no reason given" : text.substr(0, text.find('\n'));
+}
+
+void check_extensions(const tinygltf::Model &model)
+{
+    for (const std::string &name : model.extensionsRequired)
+        if (name != "KHR_draco_mesh_compression" && name != "KHR_mesh_quantization" && name != "KHR_texture_transform" &&
+            name != "KHR_texture_basisu" && name.compare(0, 14, "KHR_materials_") != 0)
+            throw BrokenGltf("it requires the extension " + name + ", which is not read");
+}
+
+std::string folder_of(const char *path)
+{
+    const char *slash = std::strrchr(path, '/');
+    return slash ? std::string(path, slash + 1) : std::string();
+}
+
+void load(tinygltf::Model *model, Folder *folder, const MesoInput *input)
+{
+    tinygltf::TinyGLTF reader;
+    std::string failure, warning;
+    reader.SetFsCallbacks({file_exists, expand_path, read_beside, write_no_file, folder});
+    reader.SetImageLoader(skip_image, nullptr);
+    auto size = static_cast<unsigned int>(input->size);
+    bool binary = input->size >= 4 && std::memcmp(input->data, "glTF", 4) == 0;
+    if (too_deep(json_of(input, binary)))
+        throw BrokenGltf("nested more than 200 deep");
+    std::vector<unsigned char> plain = with_hidden_indices(input, binary);
+    const unsigned char *bytes = plain.empty() ? input->data : plain.data();
+    size = plain.empty() ? size : static_cast<unsigned int>(plain.size());
+    bool read = binary
+        ? reader.LoadBinaryFromMemory(model, &failure, &warning, bytes, size, "", 0)
+        : reader.LoadASCIIFromString(model, &failure, &warning, reinterpret_cast<const char *>(bytes), size, "", 0);
+    if (!read)
+        throw BrokenGltf(first_line(failure));
+}
+
+}
+
+void load_gltf(tinygltf::Model *model, std::size_t *size, const MesoInput *input)
+{
+    Folder folder = {folder_of(input->path), {}, input->size};
+    if (input->size > INT_MAX)
+        throw BrokenGltf("over 2 GiB of it are not read");
+    load(model, &folder, input);
+    check_extensions(*model);
+    *size = folder.bytes;
+}
+
+}
