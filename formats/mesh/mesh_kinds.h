@@ -49,10 +49,14 @@ enum { MESO_GLTF_CORNERS_A_BYTE = 64 };
  * passed over. Vertices are those of the file, primitive by primitive: exporters split them at seams.
  *
  *     "normal"    NORMAL, turned with the node         "uv", "uv1" ...    TEXCOORD_0, TEXCOORD_1 ...
- *     "color"     COLOR_0 times the material's base colour, where one of them is there and not white
+ *     "color"     COLOR_0, without the material's
  *     "name"      _NAME: floats, or whole numbers; two of 16 bits are the halves of one of 32, low first. Whole numbers
  *                 that all corners of each face agree on are of faces
- *     "object"    names of nodes, or else of meshes     "material"    names of materials
+ *     "object"    names of nodes, or else of meshes     "material"    names of materials, one for each of the file's
+ *     "albedo", "roughness", "metallic"     the factors of the material
+ *
+ * Where the asset's extras have a list "tiles" that names all numbers of _TILE, and _TILE is of faces, "tile" has the names,
+ * and so has any other.
  *
  * Sparse, strided and quantized accessors, KHR_draco_mesh_compression, data URIs, and buffers in files beside a .gltf are
  * read; images are not. MESO_ERR_INPUT says what is broken, or not known and required; MESO_ERR_LIMIT past
@@ -61,7 +65,10 @@ enum { MESO_GLTF_CORNERS_A_BYTE = 64 };
 MesoStatus meso_gltf_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
                           MesoError *error);
 
-/* The mesh of a .drc: positions, normals, texture coordinates, colours, and generic attributes by the name in their metadata. */
+/*
+ * The mesh of a .drc: positions, normals, texture coordinates, colours, and generic attributes by the name in their metadata;
+ * numbers of faces have names as in glTF where the metadata of the mesh has "tiles" as JSON.
+ */
 MesoStatus meso_draco_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
                            MesoError *error);
 

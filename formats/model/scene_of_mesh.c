@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/json/json_text.h"
+
 static const char *const CHANNEL_NAMES[] = {"slot", "tile", "strand", "region", "element", "detail"};
 enum { CHANNEL_NAME_COUNT = sizeof CHANNEL_NAMES / sizeof *CHANNEL_NAMES };
 
@@ -28,6 +30,7 @@ typedef struct Builder {
     MesoScene *scene;
     MesoArena *arena, *scratch;
     const MesoAttribute *normal, *uv, *color, *material;
+    const MesoAttribute *albedo, *roughness, *metallic;
     const MesoAttribute *ids[MESO_ID_CHANNELS];
     FaceKey *keys;          /* [face_count] sorted */
     MesoVec3 *areas;        /* [vertex_count] sums of the areas' vectors; NULL until they are wanted */
@@ -62,6 +65,13 @@ static const MesoAttribute *find_numbers(const MesoPolygonMesh *mesh, const char
     return NULL;
 }
 
+/* Of faces, with as many numbers. */
+static const MesoAttribute *find_look(const MesoPolygonMesh *mesh, const char *name, uint32_t width)
+{
+    const MesoAttribute *attribute = meso_polygon_attribute_on(mesh, name, MESO_ON_FACES);
+    return attribute && attribute->width == width ? attribute : NULL;
+}
+
 static void find_attributes(Builder *b)
 {
     const MesoAttribute *material = meso_polygon_attribute_on(b->mesh, "material", MESO_ON_FACES);
@@ -69,9 +79,12 @@ static void find_attributes(Builder *b)
     b->uv = find_numbers(b->mesh, "uv", 2);
     b->color = find_numbers(b->mesh, "color", 3);
     b->material = material && (material->width == 0 || (material->width == 1 && is_whole(material))) ? material : NULL;
+    b->albedo = find_look(b->mesh, "albedo", 3);
+    b->roughness = find_look(b->mesh, "roughness", 1);
+    b->metallic = find_look(b->mesh, "metallic", 1);
     for (int i = 0; i < CHANNEL_NAME_COUNT && b->scene->channel_count < MESO_ID_CHANNELS; i++) {
         const MesoAttribute *ids = meso_polygon_attribute_on(b->mesh, CHANNEL_NAMES[i], MESO_ON_FACES);
-        if (!ids || ids->width != 1 || !is_whole(ids))
+        if (!ids || (ids->width && (ids->width != 1 || !is_whole(ids))))
             continue;
         b->ids[b->scene->channel_count] = ids;
         b->scene->channels[b->scene->channel_count++] = (MesoIdChannel){CHANNEL_NAMES[i], 0, NULL};
@@ -127,11 +140,44 @@ static MesoStatus number_materials(const Builder *b, uint32_t *at, uint32_t *cou
     return MESO_OK;
 }
 
+/* Names of a scene are UTF-8, those of files need not be. */
+static const char *copy_name(MesoArena *arena, const char *name, MesoError *error)
+{
+    json_t *text = meso_json_string(name);
+    const char *copy = NULL;
+    if (text)
+        copy = meso_arena_copy_text(arena, json_string_value(text), error);
+    else
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    json_decref(text);
+    return copy;
+}
+
 static const char *material_name(const Builder *b, uint32_t material, MesoError *error)
 {
     if (b->material->width == 0)
-        return meso_arena_copy_text(b->arena, b->material->names[material], error);
+        return copy_name(b->arena, b->material->names[material], error);
     return meso_arena_print(b->arena, error, "material %u", material);
+}
+
+/* A number in [0, 1] that a face has; `otherwise` where it has none. */
+static float look_number(const MesoAttribute *attribute, uint32_t face, uint32_t component, float otherwise)
+{
+    uint32_t entry = attribute ? meso_attribute_entry(attribute, face) : MESO_NO_INDEX;
+    if (entry == MESO_NO_INDEX)
+        return otherwise;
+    double x = meso_attribute_number(attribute, entry, component);
+    return x > 0 ? (float)fmin(x, 1) : 0;
+}
+
+static MesoMaterial look_of(const Builder *b, uint32_t face)
+{
+    MesoMaterial look = b->color ? WHITE : GREY;
+    for (uint32_t c = 0; c < 3; c++)
+        look.albedo[c] = look_number(b->albedo, face, c, look.albedo[c]);
+    look.roughness = look_number(b->roughness, face, 0, look.roughness);
+    look.metallic = look_number(b->metallic, face, 0, look.metallic);
+    return look;
 }
 
 /* Materials that faces use, in the order of their numbers, and "none" for faces without. */
@@ -148,13 +194,13 @@ static MesoStatus make_materials(Builder *b, MesoError *error)
     scene->material_names = MESO_NEW(b->arena, const char *, (size_t)count + 1, error);
     if (!dense || !scene->materials || !scene->material_names)
         return MESO_ERR_MEMORY;
-    for (uint32_t f = 0; f < faces; f++)
-        dense[at[f] == MESO_NO_INDEX ? count : at[f]] = 1;
+    for (uint32_t f = faces; f-- > 0;)
+        dense[at[f] == MESO_NO_INDEX ? count : at[f]] = f + 1;      /* the first at last */
     for (uint32_t m = 0; m <= count; m++) {
         if (!dense[m])
             continue;
+        scene->materials[scene->material_count] = look_of(b, dense[m] - 1);
         dense[m] = scene->material_count;
-        scene->materials[scene->material_count] = b->color ? WHITE : GREY;
         const char *name = m < count ? material_name(b, m, error) : "none";
         if (!name)
             return MESO_ERR_MEMORY;
@@ -165,6 +211,21 @@ static MesoStatus make_materials(Builder *b, MesoError *error)
     return MESO_OK;
 }
 
+/* Names are kept where 16 bits are enough for all. */
+static MesoStatus name_channel(Builder *b, uint32_t c, MesoError *error)
+{
+    MesoIdChannel *channel = &b->scene->channels[c];
+    const MesoAttribute *ids = b->ids[c];
+    if (ids->width || ids->entry_count == 0 || ids->entry_count > UINT16_MAX + 1)
+        return MESO_OK;
+    channel->count = ids->entry_count;
+    channel->names = MESO_NEW(b->arena, const char *, channel->count, error);
+    for (uint32_t i = 0; channel->names && i < channel->count; i++)
+        if (!(channel->names[i] = copy_name(b->arena, ids->names[i], error)))
+            return MESO_ERR_MEMORY;
+    return channel->names ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 /* A face without an id has 0. */
 static MesoStatus read_ids(Builder *b, MesoError *error)
 {
@@ -172,14 +233,19 @@ static MesoStatus read_ids(Builder *b, MesoError *error)
         for (uint32_t c = 0; c < b->scene->channel_count; c++) {
             MesoIdChannel *channel = &b->scene->channels[c];
             uint32_t entry = meso_attribute_entry(b->ids[c], f);
-            double value = entry == MESO_NO_INDEX ? 0 : meso_attribute_number(b->ids[c], entry, 0);
+            double value = entry == MESO_NO_INDEX ? 0
+                         : b->ids[c]->width       ? meso_attribute_number(b->ids[c], entry, 0)
+                                                  : (double)entry;
             if (!(value >= 0 && value < UINT32_MAX - 1))
                 return meso_fail(error, MESO_ERR_INPUT, "face %u: its %s is %.0f", f + 1, channel->name, value);
             b->keys[f].ids[c] = (uint32_t)value;
             if (channel->count <= (uint32_t)value)
                 channel->count = (uint32_t)value + 1;
         }
-    return MESO_OK;
+    MesoStatus status = MESO_OK;
+    for (uint32_t c = 0; c < b->scene->channel_count && !status; c++)
+        status = name_channel(b, c, error);
+    return status;
 }
 
 static int compare_kinds(const FaceKey *x, const FaceKey *y)

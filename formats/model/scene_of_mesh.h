@@ -17,12 +17,13 @@
  *                 +Z where that vanishes
  *     uv          its first two numbers
  *     color       as MesoMeshColor; whole numbers of 8 and 16 bits stand for [0, 1], normalized or not
- *     material    names, or numbers, which become names; materials of any name look the same, white where the
- *                 mesh has colours
- *     slot, tile, strand, region, element, detail     whole numbers of faces: channels of ids, at most
+ *     material    names, or numbers, which become names
+ *     albedo, roughness, metallic     of faces: what a material looks like, by its first face. Without them all look the
+ *                 same, white where the mesh has colours
+ *     slot, tile, strand, region, element, detail     whole numbers of faces, or names: channels of ids, at most
  *                 MESO_ID_CHANNELS of them
  *
- * Everything is copied to `arena`. MESO_ERR_INPUT for negative ids; MESO_ERR_LIMIT for over 2^16 - 1 materials.
+ * Everything is copied to `arena`; bytes of names that are not UTF-8 become '?'. MESO_ERR_INPUT for negative ids; MESO_ERR_LIMIT for over 2^16 - 1 materials.
  * O(corners + faces log faces).
  */
 MesoStatus meso_scene_of_mesh(MesoScene *scene, MesoArena *arena, const MesoPolygonMesh *mesh, MesoError *error);

@@ -133,6 +133,38 @@ static void test_bodies(void)
     CHECK(scene.bodies[1].vertex_count == 7);
 }
 
+/* What the first face of a material says; and names of ids, in UTF-8. */
+static void test_looks_and_names(void)
+{
+    const char *names[2] = {"same", "same"}, *tiles[3] = {"plain", "unused", "caf\xe9"};
+    uint32_t material_of[3] = {1, 0, 1}, tile_of[3] = {2, 0, MESO_NO_INDEX}, look_of[3] = {0, MESO_NO_INDEX, 1};
+    float albedo[2][3] = {{0.25f, 0.5f, NAN}, {1, 1, 1}}, roughness[2] = {0.125f, 0}, metallic[2] = {3, 0};
+    MesoAttribute attributes[5] = {
+        {.name = "material", .domain = MESO_ON_FACES, .entry_count = 2, .names = names, .entry_of = material_of},
+        {.name = "tile", .domain = MESO_ON_FACES, .entry_count = 3, .names = tiles, .entry_of = tile_of},
+        {.name = "albedo", .domain = MESO_ON_FACES, .width = 3, .entry_count = 2, .values = albedo, .entry_of = look_of},
+        {.name = "roughness", .domain = MESO_ON_FACES, .width = 1, .entry_count = 2, .values = roughness, .entry_of = look_of},
+        {.name = "metallic", .domain = MESO_ON_FACES, .width = 1, .entry_count = 2, .values = metallic, .entry_of = look_of},
+    };
+    MesoScene scene = expect_scene(5, attributes);
+    CHECK(scene.material_count == 2 && strcmp(scene.material_names[0], "same") == 0 && strcmp(scene.material_names[1], "same") == 0);
+    const MesoMaterial *bare = &scene.materials[0], *said = &scene.materials[1];
+    CHECK(bare->albedo[0] == 0.8f && bare->roughness == 0.5f && bare->metallic == 0);
+    CHECK(said->albedo[0] == 0.25f && said->albedo[1] == 0.5f && said->albedo[2] == 0);
+    CHECK(said->roughness == 0.125f && said->metallic == 1);
+
+    const MesoIdChannel *tile = &scene.channels[0];
+    CHECK(scene.channel_count == 1 && tile->count == 3 && strcmp(tile->names[0], "plain") == 0);
+    CHECK(strcmp(tile->names[2], "caf?") == 0 && tile->names[0] != tiles[0]);
+    CHECK(scene.body_count == 3 && meso_scene_id(&scene, scene.placed[1].ids, 0) == 0 &&
+          meso_scene_id(&scene, scene.placed[2].ids, 0) == 2);
+
+    attributes[1].entry_count = 0;      /* no name, and no face that has one */
+    tile_of[0] = tile_of[1] = MESO_NO_INDEX;
+    scene = expect_scene(5, attributes);
+    CHECK(scene.channels[0].count == 1 && !scene.channels[0].names);
+}
+
 static void test_refusals(void)
 {
     int32_t slots[3] = {0, 5, -1};
@@ -157,6 +189,7 @@ int main(void)
     test_plain();
     test_splits();
     test_bodies();
+    test_looks_and_names();
     test_refusals();
     meso_arena_release(&arena);
     return 0;

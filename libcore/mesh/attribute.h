@@ -23,6 +23,7 @@ typedef enum MesoScalar {
  *     "uv"        2 (or 3)                        vt; s t, u v, texture_u texture_v; TEXCOORD_0
  *     "color"     3 or 4, linear where a file says so     red green blue alpha; COLOR_0
  *     "group", "object", "material"               names: g, o, usemtl; materials of glTF
+ *     "albedo", "roughness", "metallic"           3, 1 and 1 numbers of faces, as in material.h: what materials look like
  *
  * Everything else keeps the name that the file gives it.
  */

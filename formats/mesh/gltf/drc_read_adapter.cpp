@@ -4,6 +4,8 @@
 #include <exception>
 #include <new>
 
+#include <nlohmann/json.hpp>
+
 #include "formats/mesh/gltf/draco_mesh_decoder.hpp"
 #include "formats/mesh/gltf/mesh_gatherer.hpp"
 
@@ -28,6 +30,24 @@ std::string draco_name(const draco::Mesh &mesh, const draco::PointAttribute &att
     }
 }
 
+/* "tiles" in the metadata of the mesh, as we write them: a list of JSON, that names the numbers of "tile". */
+void gather_names(meso::MeshGatherer &gatherer, const draco::Mesh &mesh)
+{
+    if (!mesh.GetMetadata())
+        return;
+    for (const auto &column : gatherer.columns) {
+        std::string text;
+        if (!column.second.whole || !mesh.GetMetadata()->GetEntryString(column.first + "s", &text))
+            continue;
+        auto json = nlohmann::json::parse(text, nullptr, false);
+        std::vector<std::string> names;
+        for (std::size_t i = 0; json.is_array() && i < json.size() && json[i].is_string(); i++)
+            names.push_back(json[i]);
+        if (!names.empty() && names.size() == json.size())
+            gatherer.names[column.first] = names;
+    }
+}
+
 void gather_draco(meso::MeshGatherer &gatherer, const draco::Mesh &mesh)
 {
     const draco::PointAttribute *place = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
@@ -48,6 +68,7 @@ void gather_draco(meso::MeshGatherer &gatherer, const draco::Mesh &mesh)
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
         gatherer.positions.push_back(MesoVec3{positions[i], positions[i + 1], positions[i + 2]});
     gatherer.end_vertices();
+    gather_names(gatherer, mesh);
     gatherer.corners = meso::draco_corners(mesh);
 }
 

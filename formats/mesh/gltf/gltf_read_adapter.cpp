@@ -33,24 +33,46 @@ std::string plain_name(const std::string &name, std::size_t skip)
     return out;
 }
 
-void add_colors(Reading &reading, const Primitive &primitive, int material)
+void add_colors(Reading &reading, const Primitive &primitive)
 {
-    float base[4] = {1, 1, 1, 1};
-    if (material >= 0) {
-        const auto &factor = meso::at(reading.model.materials, material, "material").pbrMetallicRoughness.baseColorFactor;
-        for (std::size_t i = 0; i < 4 && factor.size() == 4; i++)
-            base[i] = static_cast<float>(factor[i]);
+    if (primitive.has("COLOR_0") && (primitive.width("COLOR_0") == 3 || primitive.width("COLOR_0") == 4))
+        reading.gatherer.add_floats("color", primitive.width("COLOR_0"), primitive.floats("COLOR_0"));
+}
+
+/* A factor as it should be: a broken one is 0. */
+float share(double x)
+{
+    return x > 0 ? static_cast<float>(std::fmin(x, 1)) : 0;
+}
+
+void add_materials(Reading &reading)
+{
+    for (const tinygltf::Material &from : reading.model.materials) {
+        const tinygltf::PbrMetallicRoughness &look = from.pbrMetallicRoughness;
+        meso::Material material = {from.name, {1, 1, 1}, share(look.roughnessFactor), share(look.metallicFactor)};
+        if (material.name.empty())
+            material.name = "material " + std::to_string(reading.gatherer.materials.size());
+        for (std::size_t i = 0; i < 3 && look.baseColorFactor.size() >= 3; i++)
+            material.albedo[i] = share(look.baseColorFactor[i]);
+        reading.gatherer.materials.push_back(material);
     }
-    bool colored = primitive.has("COLOR_0") && (primitive.width("COLOR_0") == 3 || primitive.width("COLOR_0") == 4);
-    if (!colored && base[0] == 1 && base[1] == 1 && base[2] == 1)
+}
+
+/* "tiles" in the asset's extras, as we write them, names the numbers of _TILE. */
+void add_names(Reading &reading)
+{
+    const tinygltf::Value &extras = reading.model.asset.extras;
+    if (!extras.IsObject())
         return;
-    std::size_t count = primitive.vertex_count(), width = colored ? primitive.width("COLOR_0") : 0;
-    std::vector<float> given = colored ? primitive.floats("COLOR_0") : std::vector<float>();
-    std::vector<float> out(4 * count);
-    for (std::size_t i = 0; i < count; i++)
-        for (std::size_t k = 0; k < 4; k++)
-            out[4 * i + k] = base[k] * (k < width ? given[width * i + k] : 1);
-    reading.gatherer.add_floats("color", 4, out);
+    for (const std::string &key : extras.Keys()) {
+        const tinygltf::Value &values = extras.Get(key);
+        std::vector<std::string> names;
+        for (std::size_t i = 0; values.IsArray() && i < values.ArrayLen(); i++)
+            if (values.Get(static_cast<int>(i)).IsString())
+                names.push_back(values.Get(static_cast<int>(i)).Get<std::string>());
+        if (!key.empty() && key.back() == 's' && !names.empty() && names.size() == values.ArrayLen())
+            reading.gatherer.names[key.substr(0, key.size() - 1)] = names;
+    }
 }
 
 void add_named(Reading &reading, const Primitive &primitive, const std::string &name)
@@ -111,7 +133,7 @@ void add_primitive(Reading &reading, const tinygltf::Primitive &from, const Matr
     Turn turn = meso::turn_of(world);
 
     add_normals(reading, primitive, turn);
-    add_colors(reading, primitive, from.material);
+    add_colors(reading, primitive);
     for (const auto &attribute : from.attributes) {
         const std::string &name = attribute.first;
         if (name.compare(0, 9, "TEXCOORD_") == 0 && primitive.width(name) == 2)
@@ -135,10 +157,11 @@ void add_primitive(Reading &reading, const tinygltf::Primitive &from, const Matr
                 throw BrokenGltf("an index names vertex " + std::to_string(corner) + " of " + std::to_string(count));
             gatherer.corners.push_back(static_cast<uint32_t>(first) + corner);
         }
-    std::string material = from.material < 0 ? "none" : meso::at(reading.model.materials, from.material, "material").name;
+    if (from.material >= 0)
+        meso::at(reading.model.materials, from.material, "material");
     gatherer.objects.add_faces(object, corners.size() / 3);
-    gatherer.materials.add_faces(material.empty() ? "material " + std::to_string(from.material) : material,
-                                 corners.size() / 3);
+    gatherer.material_of.insert(gatherer.material_of.end(), corners.size() / 3,
+                                from.material < 0 ? MESO_NO_INDEX : static_cast<uint32_t>(from.material));
 }
 
 /* All nodes below the roots, each once, parents first and children in their order. */
@@ -199,6 +222,8 @@ try {
     std::size_t size = 0;
     meso::load_gltf(&model, &size, input);
     Reading reading = {model, meso::most_corners(size), {}};
+    add_materials(reading);
+    add_names(reading);
     add_nodes(reading, roots_of(model));
     return reading.gatherer.finish(mesh, arena, error);
 } catch (const std::bad_alloc &) {

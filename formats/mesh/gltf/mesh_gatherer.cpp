@@ -100,19 +100,70 @@ static MesoStatus finish_numbers(MesoAttribute *out, MesoArena *arena, const std
     return out->name && out->values && (direct || out->entry_of) ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static MesoStatus finish_names(MesoAttribute *out, MesoArena *arena, const char *name, const NameColumn &column,
-                               MesoError *error)
+static MesoStatus finish_names(MesoAttribute *out, MesoArena *arena, const char *name, const std::vector<std::string> &names,
+                               const std::vector<uint32_t> &of_face, MesoError *error)
+{
+    *out = MesoAttribute{};
+    out->name = name;
+    out->domain = MESO_ON_FACES;
+    out->entry_count = static_cast<uint32_t>(names.size());
+    out->names = static_cast<const char **>(meso_arena_alloc(arena, names.size(), sizeof *out->names, error));
+    out->entry_of = copy(arena, of_face, error);
+    if (!out->names || !out->entry_of)
+        return MESO_ERR_MEMORY;
+    for (std::size_t i = 0; i < names.size(); i++)
+        if (!(out->names[i] = meso_arena_copy_text(arena, names[i].c_str(), error)))
+            return MESO_ERR_MEMORY;
+    return MESO_OK;
+}
+
+/* Whole numbers of faces that all have names become these; others stay numbers. */
+static MesoStatus name_numbers(MesoAttribute *out, MesoArena *arena, const std::vector<std::string> &names,
+                               std::size_t face_count, MesoError *error)
+{
+    if (out->domain != MESO_ON_FACES || out->scalar != MESO_SCALAR_UINT32 || out->width != 1)
+        return MESO_OK;
+    std::vector<uint32_t> of_face(out->entry_of, out->entry_of + face_count);
+    for (uint32_t &entry : of_face) {
+        if (entry == MESO_NO_INDEX)
+            continue;
+        entry = static_cast<const uint32_t *>(out->values)[entry];
+        if (entry >= names.size())
+            return MESO_OK;
+    }
+    return finish_names(out, arena, out->name, names, of_face, error);
+}
+
+/* One number, or three, of each material, on the faces. */
+static MesoStatus finish_look(MesoAttribute *out, MesoArena *arena, const char *name, uint32_t width,
+                              const std::vector<float> &values, const std::vector<uint32_t> &of_face, MesoError *error)
 {
     out->name = name;
     out->domain = MESO_ON_FACES;
-    out->entry_count = static_cast<uint32_t>(column.names.size());
-    out->names = static_cast<const char **>(meso_arena_alloc(arena, column.names.size(), sizeof *out->names, error));
-    out->entry_of = copy(arena, column.of_face, error);
-    if (!out->names || !out->entry_of)
+    out->width = width;
+    out->entry_count = static_cast<uint32_t>(values.size() / width);
+    out->values = copy(arena, values, error);
+    out->entry_of = copy(arena, of_face, error);
+    return out->values && out->entry_of ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* Four attributes. */
+static MesoStatus finish_materials(MesoAttribute *out, MesoArena *arena, const std::vector<Material> &materials,
+                                   const std::vector<uint32_t> &of_face, MesoError *error)
+{
+    std::vector<std::string> names;
+    std::vector<float> albedo, roughness, metallic;
+    for (const Material &material : materials) {
+        names.push_back(material.name);
+        albedo.insert(albedo.end(), material.albedo, material.albedo + 3);
+        roughness.push_back(material.roughness);
+        metallic.push_back(material.metallic);
+    }
+    if (finish_names(&out[0], arena, "material", names, of_face, error) ||
+        finish_look(&out[1], arena, "albedo", 3, albedo, of_face, error) ||
+        finish_look(&out[2], arena, "roughness", 1, roughness, of_face, error) ||
+        finish_look(&out[3], arena, "metallic", 1, metallic, of_face, error))
         return MESO_ERR_MEMORY;
-    for (std::size_t i = 0; i < column.names.size(); i++)
-        if (!(out->names[i] = meso_arena_copy_text(arena, column.names[i].c_str(), error)))
-            return MESO_ERR_MEMORY;
     return MESO_OK;
 }
 
@@ -127,19 +178,26 @@ MesoStatus MeshGatherer::finish(MesoPolygonMesh *mesh, MesoArena *arena, MesoErr
     mesh->positions = copy(arena, positions, error);
     mesh->corners = copy(arena, corners, error);
     mesh->attributes = static_cast<MesoAttribute *>(
-        meso_arena_alloc(arena, columns.size() + 2, sizeof *mesh->attributes, error));
+        meso_arena_alloc(arena, columns.size() + 5, sizeof *mesh->attributes, error));
     if (!mesh->positions || !mesh->corners || !mesh->attributes)
         return MESO_ERR_MEMORY;
-    for (const auto &named : columns)
-        if (named.second.width && finish_numbers(&mesh->attributes[attribute_count++], arena, named.first, named.second,
-                                                 corners, error))
+    if (face_count && objects.of_face.size() == face_count &&
+        finish_names(&mesh->attributes[attribute_count++], arena, "object", objects.names, objects.of_face, error))
+        return MESO_ERR_MEMORY;
+    if (face_count && !materials.empty()) {
+        if (finish_materials(&mesh->attributes[attribute_count], arena, materials, material_of, error))
             return MESO_ERR_MEMORY;
-    const NameColumn *names[2] = {&objects, &materials};
-    const char *const keys[2] = {"object", "material"};
-    for (int i = 0; i < 2; i++)
-        if (names[i]->of_face.size() == face_count && face_count &&
-            finish_names(&mesh->attributes[attribute_count++], arena, keys[i], *names[i], error))
+        attribute_count += 4;
+    }
+    for (const auto &named : columns) {
+        if (!named.second.width)
+            continue;
+        MesoAttribute *attribute = &mesh->attributes[attribute_count++];
+        auto of_numbers = names.find(named.first);
+        if (finish_numbers(attribute, arena, named.first, named.second, corners, error) ||
+            (of_numbers != names.end() && name_numbers(attribute, arena, of_numbers->second, face_count, error)))
             return MESO_ERR_MEMORY;
+    }
     mesh->attribute_count = static_cast<uint32_t>(attribute_count);
     return MESO_OK;
 }

@@ -29,6 +29,12 @@ struct NameColumn {
     void add_faces(const std::string &name, std::size_t face_count);
 };
 
+/* What glTF says of a material, but for its textures. */
+struct Material {
+    std::string name;
+    float albedo[3], roughness, metallic;
+};
+
 /* The most vertices, and corners, of a mesh from so many bytes: MESO_GLTF_CORNERS_A_BYTE. */
 std::size_t most_corners(std::size_t bytes);
 
@@ -37,7 +43,10 @@ public:
     std::vector<MesoVec3> positions;
     std::vector<uint32_t> corners;
     std::map<std::string, Column> columns;
-    NameColumn objects, materials;
+    NameColumn objects;
+    std::vector<Material> materials;
+    std::vector<uint32_t> material_of;      /* by face; or MESO_NO_INDEX; empty where no face can have one */
+    std::map<std::string, std::vector<std::string>> names;     /* of the whole numbers of a column, from 0 */
 
     /* The values of the next `count` vertices, whose positions are added behind: `width` numbers each. Under a name that
      * has other numbers already they are left out. */
