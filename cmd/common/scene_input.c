@@ -24,7 +24,6 @@ static MesoStatus read_mesh(MesoTool *tool, MesoScene *scene, const MesoInput *i
     MesoArena polygons;
     MesoPolygonMesh mesh;
     meso_arena_init(&polygons);
-    tool->provenance.inputs[tool->provenance.input_count - 1].role = "mesh";
     reading->tiling = NULL;
     reading->provenance = NULL;
     MesoStatus status = meso_polygon_mesh_read(&mesh, &polygons, input, reading->thread_count, &tool->error);
@@ -37,9 +36,12 @@ static MesoStatus read_mesh(MesoTool *tool, MesoScene *scene, const MesoInput *i
 MesoStatus meso_tool_read_scene(MesoTool *tool, MesoScene *scene, MesoInput *input, const char *path,
                                 MesoSceneReading *reading)
 {
+    uint32_t number = tool->provenance.input_count;
     MesoStatus status = meso_tool_open_place(tool, input, path, &MESO_PLACE_MODEL);
     if (status)
         return status;
+    if (is_mesh(input))
+        tool->provenance.inputs[number].role = "mesh";
     status = is_mesh(input) ? read_mesh(tool, scene, input, reading)
                             : meso_scene_read(scene, &tool->arena, input, reading, &tool->error);
     if (status) {

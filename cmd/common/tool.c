@@ -15,6 +15,8 @@
 #include "formats/file/memory_watch.h"
 #include "formats/file/temporary.h"
 #include "formats/json/json_text.h"
+#include "formats/mesh/mesh_kinds.h"
+#include "formats/product/file_kind.h"
 #include "libcore/base/clock.h"
 
 static const char *tool_name;      /* for those who die on the spot */
@@ -145,7 +147,7 @@ static MesoStatus add_input(MesoTool *tool, const char *path)
     return keep_report_off(tool, meso_paths_add_input(&tool->paths, path, &tool->arena, &tool->error));
 }
 
-MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *path, const char *role)
+static MesoStatus note_input(MesoTool *tool, MesoInput *input, const char *path, const char *role)
 {
     MesoStatus status = add_input(tool, path);
     if (status == MESO_OK)
@@ -155,6 +157,36 @@ MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *pa
     status = meso_provenance_add(&tool->provenance, role, input, &tool->arena, &tool->error);
     if (status != MESO_OK)
         meso_input_close(input);
+    return status;
+}
+
+/* Whether one is missing is left to who reads the file. */
+static MesoStatus note_buffers(MesoTool *tool, const MesoInput *input)
+{
+    const char *const *paths;
+    uint32_t count = 0;
+    if (!(meso_file_kind(input) & (MESO_FILE_GLTF | MESO_FILE_GLB)))
+        return MESO_OK;
+    MesoStatus status = meso_gltf_buffers(&paths, &count, &tool->arena, input, &tool->error);
+    for (uint32_t i = 0; i < count && !status; i++) {
+        MesoInput buffer;
+        if (tool->provenance.input_count == MESO_PROVENANCE_INPUTS)
+            return meso_fail(&tool->error, MESO_ERR_LIMIT, "%s: more than %d files are read", input->path, MESO_PROVENANCE_INPUTS);
+        status = note_input(tool, &buffer, paths[i], "buffer");
+        if (!status)
+            meso_input_close(&buffer);
+        status = status == MESO_ERR_INPUT ? MESO_OK : status;
+    }
+    return status;
+}
+
+MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *path, const char *role)
+{
+    MesoStatus status = note_input(tool, input, path, role);
+    if (status == MESO_OK && note_buffers(tool, input) != MESO_OK) {
+        status = tool->error.status;
+        meso_input_close(input);
+    }
     return status;
 }
 

@@ -105,8 +105,8 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
 int meso_tool_finish(MesoTool *tool);
 
 /*
- * Opens a file that is read, and notes it in the provenance as `role`, with its own. The
- * caller closes it where this gives MESO_OK. Errors of meso_input_open(), and MESO_ERR_USAGE
+ * Opens a file that is read, and notes it in the provenance as `role`, with its own; behind it, as "buffer", the
+ * files that glTF has beside it. The caller closes it where this gives MESO_OK. Errors of meso_input_open(), and MESO_ERR_USAGE
  * where an output would go over it. `path` must outlive the tool.
  */
 MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *path, const char *role);

@@ -66,6 +66,13 @@ MesoStatus meso_gltf_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInp
                           MesoError *error);
 
 /*
+ * Paths of the files beside `input` that it names as buffers, each once, in its order; none where that cannot be told. [count]
+ * in `arena`. MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_gltf_buffers(const char *const **paths, uint32_t *count, MesoArena *arena, const MesoInput *input,
+                             MesoError *error);
+
+/*
  * The mesh of a .drc: positions, normals, texture coordinates, colours, and generic attributes by the name in their metadata;
  * numbers of faces have names as in glTF where the metadata of the mesh has "tiles" as JSON.
  */

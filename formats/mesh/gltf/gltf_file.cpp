@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/mesh/gltf/gltf_accessor.hpp"
+#include "formats/mesh/mesh_kinds.h"
 
 namespace meso {
 
@@ -23,6 +24,11 @@ struct Folder {
 bool file_exists(const std::string &, void *) { return true; }
 std::string expand_path(const std::string &path, void *) { return path; }
 
+std::string without_dot(const std::string &file)
+{
+    return file.compare(0, 2, "./") == 0 ? file.substr(2) : file;
+}
+
 bool lies_beside(const std::string &file)
 {
     return !file.empty() && file[0] != '/' && file.find("..") == std::string::npos && file.find('\\') == std::string::npos &&
@@ -33,7 +39,7 @@ bool lies_beside(const std::string &file)
 bool read_beside(std::vector<unsigned char> *bytes, std::string *error, const std::string &name, void *user)
 {
     auto *folder = static_cast<Folder *>(user);
-    std::string file = name.compare(0, 2, "./") == 0 ? name.substr(2) : name;
+    std::string file = without_dot(name);
     if (!lies_beside(file)) {
         *error += "the buffer '" + file + "' does not lie beside the file";
         return false;
@@ -65,6 +71,11 @@ bool skip_image(tinygltf::Image *, const int, std::string *, std::string *, int,
 struct Bytes {
     const unsigned char *begin, *end;
 };
+
+bool is_binary(const MesoInput *input)
+{
+    return input->size >= 4 && std::memcmp(input->data, "glTF", 4) == 0;
+}
 
 /* The JSON of a .gltf, or of a .glb's first chunk, as far as there is one. */
 Bytes json_of(const MesoInput *input, bool binary)
@@ -160,6 +171,45 @@ std::string folder_of(const char *path)
     return slash ? std::string(path, slash + 1) : std::string();
 }
 
+int digit(char c)
+{
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : 0;
+}
+
+/* As tinygltf does it, blanks for plus signs too. */
+std::string decoded(const std::string &uri)
+{
+    std::string out;
+    for (std::size_t i = 0; i < uri.size(); i++) {
+        bool code = uri[i] == '%' && i + 2 < uri.size();
+        out += code ? static_cast<char>(digit(uri[i + 1]) << 4 | digit(uri[i + 2])) : uri[i] == '+' ? ' ' : uri[i];
+        i += code ? 2 : 0;
+    }
+    return out;
+}
+
+/* Names of the buffers beside a file, each once. */
+std::vector<std::string> buffer_names(const MesoInput *input)
+{
+    static const char sign[] = "\"uri\"";
+    Bytes text = json_of(input, is_binary(input));
+    std::vector<std::string> out;
+    if (std::search(text.begin, text.end, sign, sign + sizeof sign - 1) == text.end)
+        return out;
+    auto json = nlohmann::json::parse(text.begin, text.end, nullptr, false);
+    if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array())
+        return out;
+    std::set<std::string> known;
+    for (const auto &buffer : json["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string())
+            continue;
+        std::string file = without_dot(decoded(buffer["uri"]));
+        if (lies_beside(file) && known.insert(file).second)
+            out.push_back(file);
+    }
+    return out;
+}
+
 void load(tinygltf::Model *model, Folder *folder, const MesoInput *input)
 {
     tinygltf::TinyGLTF reader;
@@ -167,7 +217,7 @@ void load(tinygltf::Model *model, Folder *folder, const MesoInput *input)
     reader.SetFsCallbacks({file_exists, expand_path, read_beside, write_no_file, folder});
     reader.SetImageLoader(skip_image, nullptr);
     auto size = static_cast<unsigned int>(input->size);
-    bool binary = input->size >= 4 && std::memcmp(input->data, "glTF", 4) == 0;
+    bool binary = is_binary(input);
     if (too_deep(json_of(input, binary)))
         throw BrokenGltf("nested more than 200 deep");
     std::vector<unsigned char> plain = with_hidden_indices(input, binary);
@@ -192,4 +242,22 @@ void load_gltf(tinygltf::Model *model, std::size_t *size, const MesoInput *input
     *size = folder.bytes;
 }
 
+}
+
+extern "C" MesoStatus meso_gltf_buffers(const char *const **paths, uint32_t *count, MesoArena *arena, const MesoInput *input,
+                                        MesoError *error)
+try {
+    std::vector<std::string> names = meso::buffer_names(input);
+    std::string folder = meso::folder_of(input->path);
+    auto **out = static_cast<const char **>(meso_arena_alloc(arena, names.size(), sizeof(char *), error));
+    if (!out)
+        return MESO_ERR_MEMORY;
+    for (std::size_t i = 0; i < names.size(); i++)
+        if (!(out[i] = meso_arena_copy_text(arena, (folder + names[i]).c_str(), error)))
+            return MESO_ERR_MEMORY;
+    *paths = out;
+    *count = static_cast<uint32_t>(names.size());
+    return MESO_OK;
+} catch (...) {
+    return meso_fail(error, MESO_ERR_MEMORY, "%s: out of memory for its buffers", input->path);
 }
