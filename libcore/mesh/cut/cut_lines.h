@@ -9,6 +9,9 @@
 
 #include "libcore/mesh/cut/triangulation.h"
 
+/* Shares of an edge below this are none: a node nearer to an end than that becomes that vertex. */
+#define MESO_CUT_SNAP 0.00390625f   /* 2^-8 */
+
 typedef enum MesoNodeKind { MESO_AT_VERTEX, MESO_ON_EDGE, MESO_IN_TRIANGLE } MesoNodeKind;
 
 typedef struct MesoCutNode {

@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "libcore/mesh/cut/mesh_cut.h"
 #include "libcore/mesh/cut/triangle_split.h"
 
 enum { ONE = MESO_SPLIT_ONE, APART = MESO_SPLIT_APART };

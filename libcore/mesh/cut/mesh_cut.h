@@ -17,8 +17,6 @@
 
 #include "libcore/mesh/cut/cut_lines.h"
 
-#define MESO_CUT_SNAP 0.00390625f   /* 2^-8 */
-
 /* A triangle after the cut that is part of one before; those of one parent stand together. */
 typedef struct MesoCutPart {
     uint32_t triangle;
