@@ -142,6 +142,7 @@ static inline MesoTriangulation meso_fixture_copy_mesh(const MesoTriangulation *
     copy.labels = meso_fixture_copy(mesh->labels, mesh->triangle_count, sizeof *mesh->labels);
     copy.faces = meso_fixture_copy(mesh->faces, mesh->triangle_count, sizeof *mesh->faces);
     copy.walls = meso_fixture_copy(mesh->walls, mesh->triangle_count, sizeof *mesh->walls);
+    copy.origins = meso_fixture_copy(mesh->origins, mesh->vertex_count, sizeof *mesh->origins);
     copy.vertex_values = meso_fixture_copy(mesh->vertex_values, (size_t)mesh->vertex_width * mesh->vertex_count,
                                            sizeof *mesh->vertex_values);
     copy.corner_values = meso_fixture_copy(mesh->corner_values, mesh->corner_width * corner_count,
