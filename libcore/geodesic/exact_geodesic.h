@@ -1,0 +1,82 @@
+/*
+ * Exact geodesic distances of the polyhedron that a triangulation is: "The
+ * Discrete Geodesic Problem" (Mitchell, Mount and Papadimitriou 1987), with
+ * windows in place of intervals of optimality as in "Fast Exact and
+ * Approximate Geodesics on Meshes" (Surazhsky et al. 2005). A window is a part
+ * of a side that is seen from one source through a chain of unfolded
+ * triangles. Windows of a side cut each other off where one is nearer; what
+ * survives crosses the next triangle. Vertices where paths may bend, saddles
+ * and those of borders, become sources when the front arrives. Lines of seeds
+ * are exact too: windows with a linear distance ("Accurate Computation of
+ * Geodesic Distance Fields for Polygonal Curves on Triangle Meshes", Bommes
+ * and Kobbelt 2007).
+ *
+ * Slow beside the engines of geodesic.h, and their oracle.
+ */
+#ifndef MESO_EXACT_GEODESIC_H
+#define MESO_EXACT_GEODESIC_H
+
+#include "libcore/base/arena.h"
+#include "libcore/geodesic/geodesic.h"
+
+/* A seed anywhere on the surface. */
+typedef struct MesoExactPoint {
+    MesoMeshPoint at;
+    double distance;        /* that it starts with, >= 0 */
+} MesoExactPoint;
+
+typedef struct MesoExactQuery {
+    const MesoDomain *domain;           /* paths stay in it; NULL: everywhere */
+    const MesoGeodesicSeed *seeds;
+    uint32_t seed_count;
+    const MesoExactPoint *points;       /* more seeds, in triangles of the domain */
+    uint32_t point_count;
+    double limit;                       /* vertices farther away are without distance; 0: no limit */
+    uint32_t target;                    /* ends once this vertex is final; MESO_NO_INDEX: none */
+    bool keep;                          /* distances in `distance` stand, and are only lowered */
+    bool trace;                         /* origins are wanted */
+    uint32_t window_limit;              /* windows at a time, 64 bytes each; 0: 32 million */
+} MesoExactQuery;
+
+typedef enum MesoExactSource { MESO_FROM_VERTEX, MESO_FROM_POINT, MESO_FROM_LINE, MESO_FROM_NOTHING } MesoExactSource;
+
+/* The last straight part of the shortest path to a vertex. */
+typedef struct MesoExactOrigin {
+    MesoExactSource source; /* of a seed: nothing */
+    uint32_t from;          /* where it begins: vertex, number of the query's point, or half-edge of a line */
+    uint32_t side;          /* half-edge opposite the vertex, by which it enters the last triangle; MESO_NO_INDEX: it
+                               runs along an edge */
+    double crossing;        /* where it enters: length along `side` */
+    double x, y;            /* the source, along `side` and behind it; from a line, the unit direction of travel */
+} MesoExactOrigin;
+
+typedef struct MesoExactField {
+    uint32_t *touched;          /* [touched_count] vertices whose distance was lowered, nearest first */
+    uint32_t touched_count;
+    MesoExactOrigin *origins;   /* [vertex_count] set at touched vertices; NULL without `trace` */
+    uint64_t window_count;      /* windows made, in all */
+    uint32_t window_peak;       /* and at a time */
+} MesoExactField;
+
+/*
+ * Distances from the nearest seed, by paths in the domain.
+ *
+ * A line of seeds is made of the edges between seeds that say so; in a triangle with three of them (a line that turns
+ * there) only the sides that are walls count. Distances along an edge of a line run linearly from one end's to the
+ * other's. Paths pass walls inside the domain, borders they do not.
+ *
+ * positions  [vertex_count] that lengths are measured with; NULL: the mesh's
+ * distance   [vertex_count] INFINITY where no path leads; only vertices of the domain's triangles are written
+ *            (without a domain: all)
+ * arena      holds what is in `field`
+ *
+ * What is written is final, whatever ends the search: to 1e-9 of the distance where triangles are no slivers, and never
+ * too short but for rounding. Triangles without area and sides without length are passed; coordinates that are not
+ * finite make their triangles impassable. O(n^2 log n) and O(n^2) windows for n triangles at worst, about O(n^1.5) as a
+ * rule; windows behind the front are given back. MESO_ERR_LIMIT beyond `window_limit` windows at a time,
+ * MESO_ERR_MEMORY; `distance` holds no field then.
+ */
+MesoStatus meso_exact_solve(const MesoTriangulation *mesh, const MesoVec3 *positions, const MesoExactQuery *query,
+                            MesoArena *arena, double *distance, MesoExactField *field, MesoError *error);
+
+#endif

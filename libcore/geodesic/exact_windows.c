@@ -1,0 +1,285 @@
+#include "libcore/geodesic/exact_windows.h"
+
+#include <assert.h>
+
+#include "libcore/base/grow.h"
+
+/* ---- the queue ---- */
+
+static bool comes_before(const MesoEvent *a, const MesoEvent *b)
+{
+    return a->key < b->key;
+}
+
+MesoStatus meso_push_event(MesoWindowStore *store, MesoEvent event, MesoError *error)
+{
+    store->events = MESO_GROW(store->arena, store->events, store->event_count, store->event_room, 4096, error);
+    if (!store->events)
+        return MESO_ERR_MEMORY;
+    uint32_t i = store->event_count++;
+    for (uint32_t up; i > 0 && comes_before(&event, &store->events[up = (i - 1) / 4]); i = up)
+        store->events[i] = store->events[up];
+    store->events[i] = event;
+    return MESO_OK;
+}
+
+MesoEvent meso_pop_event(MesoWindowStore *store)
+{
+    MesoEvent *events = store->events, least = events[0], last = events[--store->event_count];
+    uint32_t count = store->event_count, i = 0;
+    for (uint32_t down; (down = 4 * i + 1) < count; i = down) {
+        uint32_t end = down + 4 < count ? down + 4 : count;
+        for (uint32_t k = down + 1; k < end; k++)
+            down = comes_before(&events[k], &events[down]) ? k : down;
+        if (!comes_before(&events[down], &last))
+            break;
+        events[i] = events[down];
+    }
+    events[i] = last;
+    return least;
+}
+
+/* ---- windows ---- */
+
+static MesoStatus new_chunk(MesoWindowStore *store, MesoError *error)
+{
+    store->chunks = MESO_GROW(store->arena, store->chunks, store->chunk_count, store->chunk_room, 64, error);
+    if (!store->chunks)
+        return MESO_ERR_MEMORY;
+    MesoWindow *chunk = MESO_NEW(store->arena, MesoWindow, MESO_WINDOW_CHUNK, error);
+    if (!chunk)
+        return MESO_ERR_MEMORY;
+    store->chunks[store->chunk_count++] = chunk;
+    return MESO_OK;
+}
+
+/* A copy of `like`, from `begin` to `end`, that waits in the queue if it says so. */
+static MesoStatus make_window(MesoWindowStore *store, const MesoWindow *like, double begin, double end, uint32_t *made,
+                              MesoError *error)
+{
+    uint32_t w = store->unused;
+    if (store->count >= store->limit)
+        return meso_fail(error, MESO_ERR_LIMIT, "exact distances need more than %u windows at a time", store->limit);
+    if (w != MESO_NO_INDEX) {
+        store->unused = meso_window(store, w)->next;
+    } else {
+        MesoStatus status = store->used == store->chunk_count * MESO_WINDOW_CHUNK ? new_chunk(store, error) : MESO_OK;
+        if (status)
+            return status;
+        w = store->used++;
+    }
+    store->count++;
+    store->made++;
+    store->peak = store->count > store->peak ? store->count : store->peak;
+    MesoWindow *window = meso_window(store, w);
+    *window = *like;
+    window->begin = begin;
+    window->end = end;
+    window->listed = 1;
+    *made = w;
+    if (!window->pending)
+        return MESO_OK;
+    return meso_push_event(store, (MesoEvent){meso_front_least(&window->front, begin, end), w, MESO_EVENT_WINDOW},
+                           error);
+}
+
+static void give_back(MesoWindowStore *store, uint32_t w)
+{
+    MesoWindow *window = meso_window(store, w);
+    if (window->pending || window->listed)
+        return;
+    window->next = store->unused;
+    store->unused = w;
+    store->count--;
+}
+
+static void unlist(MesoWindowStore *store, uint32_t w)
+{
+    meso_window(store, w)->listed = 0;
+    give_back(store, w);
+}
+
+void meso_window_settle(MesoWindowStore *store, uint32_t w)
+{
+    meso_window(store, w)->pending = 0;
+    give_back(store, w);
+}
+
+void meso_window_clear(MesoWindowStore *store, uint32_t *head)
+{
+    while (*head != MESO_NO_INDEX) {
+        uint32_t w = *head;
+        *head = meso_window(store, w)->next;
+        unlist(store, w);
+    }
+}
+
+/* ---- distance functions ---- */
+
+double meso_front_least(const MesoFront *front, double begin, double end)
+{
+    double t = front->source == MESO_FROM_LINE ? (front->x > 0 ? begin : end)
+                                               : fmin(fmax(front->x, begin), end);
+    return meso_front_value(front, t);
+}
+
+/* Real roots of a*t*t - 2*b*t + c, given s, the square root of b*b - a*c: each without loss of digits. */
+static uint32_t stable_roots(double a, double b, double c, double s, double root[2])
+{
+    double q = b < 0 ? b - s : b + s;
+    root[0] = q / a;
+    root[1] = c / q;
+    return 2;
+}
+
+/* Both from points; t counts from p's foot. The discriminant is in factors, or equal sigmas would lose half the digits. */
+static uint32_t point_point_ties(const MesoFront *p, const MesoFront *q, double root[2])
+{
+    double a = q->x - p->x, delta = q->sigma - p->sigma;
+    double m = (p->y - q->y) * (p->y + q->y) - (a - delta) * (a + delta);
+    double l = (a - delta) * (a + delta);
+    double s = m * m + 4 * p->y * p->y * l;
+    if (!(s >= 0))
+        return 0;
+    /* 4*(delta^2-a^2) t^2 - 4*a*m t + 4*delta^2*y^2 - m^2 = 0 */
+    double c = (2 * delta * p->y - m) * (2 * delta * p->y + m);
+    return stable_roots(-4 * l, 2 * a * m, c, 2 * fabs(delta) * sqrt(s), root);
+}
+
+static uint32_t point_line_ties(const MesoFront *p, const MesoFront *line, double root[2])
+{
+    double c = line->sigma - p->sigma + line->x * p->x;
+    double g = (1 - line->x) * (1 + line->x);
+    double s = c * c - p->y * p->y * g;
+    if (!(s >= 0))
+        return 0;
+    /* t^2 + y^2 = (c + x*t)^2 */
+    return stable_roots(g, c * line->x, (p->y - c) * (p->y + c), sqrt(s), root);
+}
+
+/* Where two fronts may be equal, ascending between `begin` and `end`; places where they are not do no harm. */
+static uint32_t find_ties(const MesoFront *p, const MesoFront *q, double begin, double end, double tie[2])
+{
+    double root[2];
+    uint32_t count = 1, kept = 0;
+    double foot = p->source == MESO_FROM_LINE ? q->x : p->x;
+    if (p->source == MESO_FROM_LINE && q->source == MESO_FROM_LINE) {
+        foot = 0;
+        root[0] = (q->sigma - p->sigma) / (p->x - q->x);
+    } else if (p->source == MESO_FROM_LINE) {
+        count = point_line_ties(q, p, root);
+    } else if (q->source == MESO_FROM_LINE) {
+        count = point_line_ties(p, q, root);
+    } else {
+        count = point_point_ties(p, q, root);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (root[i] + foot > begin && root[i] + foot < end)
+            tie[kept++] = root[i] + foot;
+    if (kept == 2 && tie[0] > tie[1]) {
+        double first = tie[1];
+        tie[1] = tie[0];
+        tie[0] = first;
+    }
+    return kept;
+}
+
+/* ---- the windows of an edge ---- */
+
+/* An edge's windows while one is added: the list up to `link` is done. */
+typedef struct Merge {
+    MesoWindowStore *store;
+    uint32_t *link;
+    const MesoWindow *added;
+    double run;             /* what of `added` lies before this is decided */
+    double tiny;
+    MesoError *error;
+} Merge;
+
+static void append(Merge *merge, uint32_t w)
+{
+    *merge->link = w;
+    merge->link = &meso_window(merge->store, w)->next;
+}
+
+static MesoStatus append_copy(Merge *merge, const MesoWindow *like, double begin, double end)
+{
+    uint32_t w = MESO_NO_INDEX;
+    if (!(end - begin > merge->tiny))
+        return MESO_OK;
+    MesoStatus status = make_window(merge->store, like, begin, end, &w, merge->error);
+    if (!status)
+        append(merge, w);
+    return status;
+}
+
+/* What is left of `w`, a part at a time: the first keeps the window. */
+static MesoStatus append_rest(Merge *merge, uint32_t w, const MesoWindow *whole, bool *kept, double begin, double end)
+{
+    if (*kept)
+        return append_copy(merge, whole, begin, end);
+    if (!(end - begin > merge->tiny))
+        return MESO_OK;
+    MesoWindow *window = meso_window(merge->store, w);
+    window->begin = begin;
+    window->end = end;
+    append(merge, w);
+    *kept = true;
+    return MESO_OK;
+}
+
+/* Whoever came first stays where the difference may be rounding: else equal windows cut each other to pieces. */
+static bool is_nearer(const MesoFront *added, const MesoFront *old, double t)
+{
+    return meso_front_value(added, t) < meso_front_value(old, t) * (1 - 1e-13);
+}
+
+/* Decides between `added` and the window `w`, which overlap. */
+static MesoStatus contend(Merge *merge, uint32_t w)
+{
+    const MesoWindow old = *meso_window(merge->store, w), *added = merge->added;
+    double cut[4] = {fmax(old.begin, added->begin)}, last = fmin(old.end, added->end), rest = old.begin;
+    uint32_t cuts = 1 + find_ties(&added->front, &old.front, cut[0], last, cut + 1);
+    bool kept = false;
+    MesoStatus status = MESO_OK;
+    cut[cuts] = last;
+    for (uint32_t i = 0; i < cuts && !status; i++) {
+        if (is_nearer(&added->front, &old.front, 0.5 * (cut[i] + cut[i + 1]))) {
+            status = append_rest(merge, w, &old, &kept, rest, cut[i]);
+            rest = cut[i + 1];
+        } else {
+            status = append_copy(merge, added, merge->run, cut[i]);
+            merge->run = cut[i + 1];
+        }
+    }
+    if (!status && rest == last && old.end > last) {
+        status = append_copy(merge, added, merge->run, last);
+        merge->run = last;
+    }
+    if (!status)
+        status = append_rest(merge, w, &old, &kept, rest, old.end);
+    if (!status && !kept)
+        unlist(merge->store, w);
+    return status;
+}
+
+MesoStatus meso_window_insert(MesoWindowStore *store, uint32_t *head, const MesoWindow *added, double tiny,
+                              MesoError *error)
+{
+    Merge merge = {store, head, added, added->begin, tiny, error};
+    uint32_t next = *head;
+    MesoStatus status = MESO_OK;
+    while (next != MESO_NO_INDEX && meso_window(store, next)->end <= added->begin + tiny) {
+        merge.link = &meso_window(store, next)->next;
+        next = *merge.link;
+    }
+    while (next != MESO_NO_INDEX && meso_window(store, next)->begin < added->end - tiny && !status) {
+        uint32_t w = next;
+        next = meso_window(store, w)->next;
+        status = contend(&merge, w);
+    }
+    if (!status)
+        status = append_copy(&merge, added, merge.run, added->end);
+    *merge.link = next;
+    return status;
+}

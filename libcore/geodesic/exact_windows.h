@@ -1,0 +1,89 @@
+/*
+ * Windows of the exact solver: the distance functions along a side, the
+ * windows that a side has, and the queue of what happens next.
+ */
+#ifndef MESO_EXACT_WINDOWS_H
+#define MESO_EXACT_WINDOWS_H
+
+#include "libcore/geodesic/exact_geodesic.h"
+
+/*
+ * Distance along a straight line, the first axis of a plane. From a point at (x, -y): sigma + |(t,0) - (x,-y)|. From a
+ * line far behind, in direction (x, y) of unit length: sigma + t * x. y is not negative.
+ */
+typedef struct MesoFront {
+    double x, y, sigma;
+    uint32_t from;              /* as in MesoExactOrigin */
+    uint8_t source;             /* MesoExactSource; from a line: linear */
+    uint8_t skips;              /* sides crossed with the source as good as on them */
+} MesoFront;
+
+typedef struct MesoWindow {
+    MesoFront front;
+    double begin, end;          /* along the edge's first half-edge, the one with the smaller number */
+    uint32_t next;              /* of the edge, by `begin` */
+    uint32_t edge;              /* first half-edge */
+    uint32_t into;              /* half-edge of the triangle that is entered */
+    uint8_t pending, listed;    /* whether the queue, and the edge, still have it */
+} MesoWindow;
+
+typedef enum MesoEventKind { MESO_EVENT_WINDOW, MESO_EVENT_VERTEX, MESO_EVENT_EDGE } MesoEventKind;
+
+typedef struct MesoEvent {
+    double key;
+    uint32_t item;
+    MesoEventKind kind;
+} MesoEvent;
+
+typedef struct MesoWindowStore {
+    MesoArena *arena;
+    MesoWindow **chunks;
+    uint32_t chunk_count, chunk_room;
+    uint32_t used, unused;      /* windows ever handed out; first of those given back */
+    uint32_t count, limit, peak;
+    uint64_t made;
+    MesoEvent *events;          /* heap, four below each */
+    uint32_t event_count, event_room;
+} MesoWindowStore;
+
+enum { MESO_WINDOW_CHUNK = 1 << 12 };
+
+static inline MesoWindow *meso_window(const MesoWindowStore *store, uint32_t w)
+{
+    return &store->chunks[w / MESO_WINDOW_CHUNK][w % MESO_WINDOW_CHUNK];
+}
+
+static inline double meso_front_value(const MesoFront *front, double t)
+{
+    double dx = t - front->x;
+    return front->source == MESO_FROM_LINE ? front->sigma + t * front->x
+                                           : front->sigma + sqrt(dx * dx + front->y * front->y);
+}
+
+/* The least value from `begin` to `end`. */
+double meso_front_least(const MesoFront *front, double begin, double end);
+
+/* Puts an event into the queue. MESO_ERR_MEMORY alone. */
+MesoStatus meso_push_event(MesoWindowStore *store, MesoEvent event, MesoError *error);
+
+/* Takes the one with the least key; there must be one. Equal keys come in an order that depends on nothing else. */
+MesoEvent meso_pop_event(MesoWindowStore *store);
+
+/*
+ * Gives an edge what of a window is nearer than the windows it has, and these lose that part; new ones are put into the
+ * queue. Parts shorter than `tiny` are left out.
+ *
+ * head  the edge's first window
+ *
+ * O(windows of the edge). MESO_ERR_LIMIT, MESO_ERR_MEMORY.
+ */
+MesoStatus meso_window_insert(MesoWindowStore *store, uint32_t *head, const MesoWindow *added, double tiny,
+                              MesoError *error);
+
+/* After its event: the window waits no more; the store has it back if its edge has lost it meanwhile. */
+void meso_window_settle(MesoWindowStore *store, uint32_t w);
+
+/* The edge has no windows any more. */
+void meso_window_clear(MesoWindowStore *store, uint32_t *head);
+
+#endif
