@@ -18,13 +18,7 @@ static uint32_t read_material(MesoPatternParser *parser, const MesoJsonField *fi
     uint32_t number = meso_names_find(&parser->material_numbers, name, strlen(name));
     if (number != MESO_NO_INDEX)
         return number;
-    MesoNearest nearest = meso_nearest(name, strlen(name));
-    for (uint32_t i = 0; i < parser->material_count; i++)
-        meso_nearest_try(&nearest, parser->material_names[i]);
-    if (nearest.best)
-        meso_json_wrong(field, "no material '%.80s'; did you mean '%.80s'?", name, nearest.best);
-    else
-        meso_json_wrong(field, "no material '%.80s'; \"materials\" of the pattern has none of this name", name);
+    meso_pattern_refuse(field, "material", name, parser->material_names);
     return 0;
 }
 
@@ -57,7 +51,7 @@ static void read_paint(MesoPatternParser *parser, const MesoJsonField *field, Me
         return;
     meso_json_require(&materials);
     read_materials(parser, &materials, after);
-    after->by = (MesoPaintBy)meso_pattern_word(&by, ways, after->by);
+    after->by = (MesoPaintBy)meso_pattern_word(&by, "way to paint", ways, after->by);
     if (after->by == MESO_PAINT_RAMP && after->material_count < 2)
         meso_json_wrong(&materials, "a ramp is between two materials or more");
 }
@@ -84,7 +78,7 @@ static void read_displacement(MesoPatternParser *parser, const MesoJsonField *fi
         return;
     meso_json_require(&height);
     d->height = meso_json_float(&height, 0);
-    d->relative = meso_pattern_word(&unit, units, 1) == 1;
+    d->relative = meso_pattern_word(&unit, "unit", units, 1) == 1;
     d->bias = meso_pattern_float(&bias, 0, 1, true, 0.5f);
     d->gain = meso_pattern_float(&gain, 0, 1, true, 0.5f);
     d->jitter = meso_pattern_float(&jitter, 0, 1, false, 0);
@@ -111,7 +105,7 @@ typedef struct Part {
 
 enum { PART_COUNT = 3 };
 
-static const char *const paint_keys[] = {"by", "materials", NULL}, *const displacement_keys[] = {"height", NULL};
+static const char *const paint_keys[] = {"by", "materials", NULL}, *const displacement_keys[] = {"height", "unit", "bias", "gain", "jitter", NULL};
 static const Part parts[PART_COUNT] = {
     {"paint", paint_keys, read_paint}, {"displace", displacement_keys, read_displacement}, {"names", NULL, read_name}};
 
@@ -129,16 +123,11 @@ static void check_tags(const MesoJsonField *table, const char *const *tags)
     const char *key;
     json_t *value;
     json_object_foreach((json_t *)table->value, key, value) {
-        MesoNearest nearest = meso_nearest(key, strlen(key));
         const char *const *tag = tags;
-        for (; *tag && strcmp(*tag, key) != 0; tag++)
-            meso_nearest_try(&nearest, *tag);
-        if (*tag || strcmp(key, "*") == 0 || meso_json_is_note(key))
-            continue;
-        if (nearest.best)
-            meso_json_wrong(table, "no tag '%.40s' here; did you mean '%s'?", key, nearest.best);
-        else
-            meso_json_wrong(table, "no tag '%.40s' here; the first that this step gives is '%s'", key, tags[0]);
+        while (*tag && strcmp(*tag, key) != 0)
+            tag++;
+        if (!*tag && strcmp(key, "*") != 0 && !meso_json_is_note(key))
+            meso_pattern_refuse(table, "tag", key, tags);
     }
 }
 

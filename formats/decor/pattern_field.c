@@ -15,10 +15,10 @@ static void read_noise(const MesoJsonField *field, MesoNoise *noise)
     MesoJsonField which = meso_json_key(field, "of"), gain = meso_json_key(field, "gain");
     MesoJsonField frequency = meso_json_key(field, "frequency"), seed = meso_json_key(field, "seed");
     MesoJsonField unit = meso_json_key(field, "unit");
-    noise->of = meso_pattern_word(&which, of, 0) == 0 ? MESO_NOISE_OF_METRIC : MESO_NOISE_OF_FIELD;
+    noise->of = meso_pattern_word(&which, "kind of noise", of, 0) == 0 ? MESO_NOISE_OF_METRIC : MESO_NOISE_OF_FIELD;
     noise->gain = meso_pattern_float(&gain, 0, INFINITY, false, 0.02f);
     noise->frequency = meso_pattern_float(&frequency, 0, INFINITY, true, 8);
-    noise->relative = meso_pattern_word(&unit, units, 1) == 1;
+    noise->relative = meso_pattern_word(&unit, "unit", units, 1) == 1;
     noise->seed = (uint64_t)meso_json_whole(&seed, 0, INT64_MAX, 0);
 }
 
@@ -64,11 +64,13 @@ void meso_pattern_levels(MesoPatternParser *parser, const MesoJsonField *object,
     MesoJsonField at = meso_json_key(object, "at"), count = meso_json_key(object, "count");
     MesoJsonField every = meso_json_key(object, "every"), unit = meso_json_key(object, "unit");
     bool blend = meso_pattern_has(object, "blend");
-    levels->unit = (MesoLevelUnit)meso_pattern_word(&unit, units, blend ? MESO_LEVEL_SCENE : MESO_LEVEL_SHARE);
+    levels->unit = (MesoLevelUnit)meso_pattern_word(&unit, "unit", units, blend ? MESO_LEVEL_SCENE : MESO_LEVEL_SHARE);
     if (blend && levels->unit == MESO_LEVEL_SIZE)
         meso_json_wrong(&unit, "a blend is no length; \"share\" is possible");
     if (!!at.value + !!count.value + !!every.value > 1)
         meso_json_wrong(object, "one of \"at\", \"count\" and \"every\" is possible");
+    if (unit.value && !at.value && !every.value)
+        meso_json_wrong(&unit, "it goes with \"at\" and \"every\"");
     float most = blend || levels->unit == MESO_LEVEL_SHARE ? 1 : INFINITY;
     if (at.value) {
         read_values(parser, &at, most, levels);

@@ -110,7 +110,7 @@ void meso_pattern_materials(MesoPatternParser *parser, const MesoJsonField *fiel
         meso_json_wrong(field, "%zu materials; at most %d are possible", size, MOST_MATERIALS);
     uint32_t count = size && meso_json_good(field) ? (uint32_t)size : 1;
     MesoMaterial *materials = MESO_PATTERN_NEW(parser, MesoMaterial, count);
-    parser->material_names = MESO_PATTERN_NEW(parser, const char *, count);
+    parser->material_names = MESO_PATTERN_NEW(parser, const char *, (uint64_t)count + 1);
     if (!materials || !parser->material_names)
         return;
     materials[0] = plain;

@@ -41,25 +41,34 @@ static void list_words(const char *const *words, char *list, size_t size)
     }
 }
 
-uint32_t meso_pattern_word(const MesoJsonField *field, const char *const *words, uint32_t fallback)
+void meso_pattern_refuse(const MesoJsonField *field, const char *what, const char *text, const char *const *words)
+{
+    char list[200];
+    MesoNearest nearest = meso_nearest(text, strlen(text));
+    for (const char *const *word = words; *word; word++)
+        meso_nearest_try(&nearest, *word);
+    list_words(words, list, sizeof list);
+    if (nearest.best)
+        meso_json_wrong(field, "no %s '%.40s'; did you mean '%.80s'?", what, text, nearest.best);
+    else
+        meso_json_wrong(field, "no %s '%.40s'; there are %s", what, text, list);
+}
+
+uint32_t meso_pattern_word(const MesoJsonField *field, const char *what, const char *const *words, uint32_t fallback)
 {
     if (!field->value || !meso_json_good(field))
         return fallback;
     const char *text = json_string_value(field->value);
-    MesoNearest nearest = meso_nearest(text ? text : "", text ? strlen(text) : 0);
-    for (uint32_t i = 0; text && words[i]; i++) {
+    for (uint32_t i = 0; text && words[i]; i++)
         if (strcmp(text, words[i]) == 0)
             return i;
-        meso_nearest_try(&nearest, words[i]);
+    if (text) {
+        meso_pattern_refuse(field, what, text, words);
+        return fallback;
     }
     char list[200];
     list_words(words, list, sizeof list);
-    if (!text)
-        meso_json_wrong(field, "one of %s is needed here", list);
-    else if (nearest.best)
-        meso_json_wrong(field, "no '%.40s'; did you mean '%s'?", text, nearest.best);
-    else
-        meso_json_wrong(field, "no '%.40s'; there are %s", text, list);
+    meso_json_wrong(field, "a %s is needed here, one of %s", what, list);
     return fallback;
 }
 

@@ -32,7 +32,7 @@ typedef struct MesoPatternParser {
     const char *calls[MESO_PATTERN_NESTING];    /* [call_count] macros that are being written out */
     uint32_t call_count;
     uint32_t step_count, value_count, seed_count;   /* so far */
-    const char **material_names;    /* [material_count] */
+    const char **material_names;    /* [material_count], and NULL */
     MesoNames material_numbers;
     uint32_t material_count;
     MesoPatternPoints *points;      /* [point_file_count] */
@@ -47,8 +47,11 @@ void *meso_pattern_allocate(MesoPatternParser *parser, uint64_t count, size_t si
 /* The file behind the name at `field`, or NULL, told there. */
 const MesoInput *meso_pattern_open(MesoPatternParser *parser, const MesoJsonField *field);
 
-/* Number among `words`, ended by NULL, of the text at `field`; the nearest is named where it is none. */
-uint32_t meso_pattern_word(const MesoJsonField *field, const char *const *words, uint32_t fallback);
+/* Says that `text` is none of `words`, ended by NULL, which one it may be meant to be, and otherwise which there are. */
+void meso_pattern_refuse(const MesoJsonField *field, const char *what, const char *text, const char *const *words);
+
+/* Number among `words` of the text at `field`; refused where it is none. */
+uint32_t meso_pattern_word(const MesoJsonField *field, const char *what, const char *const *words, uint32_t fallback);
 
 /* Text of 1 to `most` bytes in the arena; "" where that is wrong. */
 const char *meso_pattern_text(const MesoJsonField *field, size_t most);

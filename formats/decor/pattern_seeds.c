@@ -29,7 +29,7 @@ bool meso_pattern_is_seed(const json_t *value)
 
 static void read_word(const MesoJsonField *field, MesoSeedSpec *spec)
 {
-    spec->kind = (MesoSeedKind)meso_pattern_word(field, words, 0);
+    spec->kind = (MesoSeedKind)meso_pattern_word(field, "seed", words, 0);
 }
 
 static void read_loop(const MesoJsonField *field, MesoSeedSpec *spec)
@@ -107,7 +107,7 @@ static void read_spacing(const MesoJsonField *object, const char *key, MesoSeedS
 {
     MesoJsonField spacing = meso_json_key(object, key), unit = meso_json_key(object, "unit");
     spec->spacing = meso_pattern_float(&spacing, 0, INFINITY, true, 0);
-    spec->relative = spacing.value && meso_pattern_word(&unit, units, 1) == 1;
+    spec->relative = spacing.value && meso_pattern_word(&unit, "unit", units, 1) == 1;
     if (unit.value && !spacing.value)
         meso_json_wrong(object, "\"unit\" goes with \"%s\"", key);
 }
@@ -156,8 +156,8 @@ static void read_poisson(const MesoJsonField *field, MesoSeedSpec *spec)
     read_spacing(&object, "radius", spec);
     if (!count.value && !radius.value)
         meso_json_wrong(&object, "\"count\" or \"radius\" is needed");
-    spec->on_border = meso_pattern_word(&on, places, 0) == 1;
-    spec->from_border = meso_pattern_word(&start, starts, spec->on_border) == 0;
+    spec->on_border = meso_pattern_word(&on, "place", places, 0) == 1;
+    spec->from_border = meso_pattern_word(&start, "start", starts, spec->on_border) == 0;
     if (spec->on_border && spec->from_border)
         meso_json_wrong(&start, "samples of the border cannot start away from it; \"any\" is possible");
 }
@@ -231,6 +231,17 @@ static void read_file_of_points(MesoPatternParser *parser, const MesoJsonField *
     }
 }
 
+static void refuse_object(const MesoJsonField *field)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)field->value, key, value)
+        if (!meso_json_is_note(key))
+            meso_pattern_refuse(field, "seed", key, kinds);
+    meso_json_wrong(field, "a seed is needed here: \"borders\", \"outer\", \"inner\" or an object with one of \"side\", \"loop\", "
+                    "\"point\", \"points\", \"face\", \"along\", \"poisson\", \"file\"");
+}
+
 /* `count` seeds of an object. */
 static void read_object(MesoPatternParser *parser, const MesoJsonField *field, MesoSeedSpec *specs, uint32_t count)
 {
@@ -258,8 +269,7 @@ static void read_object(MesoPatternParser *parser, const MesoJsonField *field, M
         read_file_of_points(parser, field, specs, count);
         return;
     case NO_KIND:
-        meso_json_wrong(field, "no seed; there are \"loop\", \"side\", \"point\", \"points\", \"face\", \"along\", \"poisson\" "
-                        "and \"file\"");
+        refuse_object(field);
     }
 }
 

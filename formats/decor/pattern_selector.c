@@ -44,7 +44,7 @@ static const char *read_path(const MesoJsonField *field)
 
 static const char *read_tag(const MesoJsonField *field)
 {
-    return meso_pattern_tags[meso_pattern_word(field, meso_pattern_tags, 0)];
+    return meso_pattern_tags[meso_pattern_word(field, "tag", meso_pattern_tags, 0)];
 }
 
 static void read_tags(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector)
@@ -140,7 +140,7 @@ static void read_object(MesoPatternParser *parser, const MesoJsonField *object, 
     MesoJsonField path = meso_json_key(object, "path"), level = meso_json_key(object, "level");
     MesoJsonField point = meso_json_key(object, "point");
     selector->path = read_path(&path);
-    selector->level = (MesoSelectLevel)meso_pattern_word(&level, levels, MESO_SELECT_DEFAULT);
+    selector->level = (MesoSelectLevel)meso_pattern_word(&level, "level", levels, MESO_SELECT_DEFAULT);
     read_shape(parser, object, selector);
     selector->has_point = point.value != NULL;
     selector->point = meso_pattern_point(&point);

@@ -92,6 +92,15 @@ static void read_rule(MesoPatternParser *parser, const MesoJsonField *field, Mes
     read_macro(parser, field, &rule->macro);
 }
 
+static void check_weights(const MesoJsonField *field, const MesoGrowth *growth)
+{
+    double sum = (double)growth->rest;
+    for (uint32_t i = 0; i < growth->rule_count; i++)
+        sum += (double)growth->rules[i].weight;
+    if (sum == 0)
+        meso_json_wrong(field, "no rule has a weight above 0");
+}
+
 static void read_grow(MesoPatternParser *parser, const MesoJsonField *field, MesoGrowth *growth)
 {
     static const char *const keys[] = {"rules", "depth", "smallest", "group", "cycle", "rest", NULL};
@@ -111,11 +120,12 @@ static void read_grow(MesoPatternParser *parser, const MesoJsonField *field, Mes
     growth->rule_count = rules ? count : 0;
     growth->depth = (uint32_t)meso_json_whole(&depth, 1, MOST_ROUNDS, 3);
     growth->smallest = meso_pattern_float(&smallest, 0, 1, false, 0.001f);
-    growth->grouping = (MesoGrouping)meso_pattern_word(&group, groups, MESO_GROUP_TYPE);
+    growth->grouping = (MesoGrouping)meso_pattern_word(&group, "grouping", groups, MESO_GROUP_TYPE);
     growth->cycle = (uint32_t)meso_json_whole(&cycle, 1, MOST_CYCLE, 2);
     if (cycle.value && growth->grouping != MESO_GROUP_CYCLIC)
         meso_json_wrong(&cycle, "it goes with \"group\": \"cyclic\"");
     growth->rest = meso_pattern_float(&rest, 0, INFINITY, false, 0);
+    check_weights(field, growth);
 }
 
 /* ---- steps ---- */
@@ -135,32 +145,27 @@ static Does find_out(const MesoJsonField *field)
     return (Does)does;
 }
 
-/* Unknown keys are told of with the nearest one, or, where the step is nothing yet, with what steps there are. */
+/* Its first key that could be what it does is told of with the nearest there is. */
 static void refuse_nothing(const MesoJsonField *field)
 {
-    const char *key = "";
+    const char *key;
     json_t *value;
-    if (!json_is_object(field->value) || !meso_json_good(field))
-        return;
-    json_object_foreach((json_t *)field->value, key, value) {
-        MesoNearest nearest = meso_nearest(key, strlen(key));
-        for (uint32_t i = 0; i < DOES_COUNT; i++)
-            meso_nearest_try(&nearest, does_keys[i]);
-        if (nearest.best && strcmp(key, "on") != 0) {
-            meso_json_wrong(field, "no step '%.40s'; did you mean \"%s\"?", key, nearest.best);
-            return;
-        }
-    }
-    meso_json_wrong(field, "a step does one of \"contour\", \"stream\", \"voronoi\", \"polyline\", \"paint\", \"displace\", "
-                    "\"macro\", \"steps\" and \"grow\"");
+    json_object_foreach((json_t *)field->value, key, value)
+        if (strcmp(key, "on") != 0 && strcmp(key, "names") != 0 && !meso_json_is_note(key))
+            meso_pattern_refuse(field, "step", key, does_keys);
+    meso_json_wrong(field, "a step does something; there are \"contour\", \"stream\", \"voronoi\", \"polyline\", \"paint\", "
+                    "\"displace\", \"macro\", \"steps\" and \"grow\"");
 }
 
 static bool check_keys(const MesoJsonField *field, Does does)
 {
-    static const char *const split[] = {"on", "paint", "displace", "names", NULL};
+    static const char *const rule_keys[] = {"weight", "most"}, *const split[] = {"on", "paint", "displace", "names", NULL};
     const char *keys[6] = {does_keys[does], "on"};
+    for (uint32_t i = 0; does == MACRO && i < 2; i++)
+        if (meso_pattern_has(field, rule_keys[i]))
+            meso_json_wrong(field, "\"%s\" is a key of rules of growth", rule_keys[i]);
     if (does == MACRO)
-        return meso_json_object(field, NULL);
+        return meso_json_good(field);
     if (does <= POLYLINE)
         memcpy(keys + 1, split, sizeof split);
     return meso_json_object(field, keys);

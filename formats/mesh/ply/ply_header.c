@@ -213,7 +213,7 @@ static MesoStatus read_property(HeaderReader *reader)
 static MesoStatus check_header(const MesoPly *ply, MesoError *error)
 {
     const uint32_t position = 1u << MESO_PLY_X | 1u << MESO_PLY_Y | 1u << MESO_PLY_Z;
-    bool vertices = false, faces = false;
+    bool vertices = false;
     if (ply->form == MESO_PLY_NONE)
         return meso_fail(error, MESO_ERR_INPUT, "%s: header has no format line", ply->path);
     for (uint32_t e = 0; e < ply->element_count; e++) {
@@ -225,10 +225,9 @@ static MesoStatus check_header(const MesoPly *ply, MesoError *error)
         if (element->kind == MESO_PLY_FACES && !(element->roles & 1u << MESO_PLY_INDICES))
             return meso_fail(error, MESO_ERR_INPUT, "%s: faces lack the list vertex_indices", ply->path);
         vertices |= element->kind == MESO_PLY_VERTICES;
-        faces |= element->kind == MESO_PLY_FACES;
     }
-    if (!vertices || !faces)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no element '%s'", ply->path, vertices ? "face" : "vertex");
+    if (!vertices)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: mesh has no element 'vertex'", ply->path);
     return MESO_OK;
 }
 

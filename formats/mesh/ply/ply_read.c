@@ -41,7 +41,7 @@ uint32_t meso_ply_face_line(MesoArena *scratch, const MesoInput *input, uint32_t
     MesoPly *ply = MESO_NEW(scratch, MesoPly, 1, NULL);
     if (!ply || meso_ply_header_read(ply, scratch, input, NULL) || ply->form != MESO_PLY_ASCII)
         return 0;
-    for (uint32_t e = 0; ply->elements[e].kind != MESO_PLY_FACES; e++)
+    for (uint32_t e = 0; e < ply->element_count && ply->elements[e].kind != MESO_PLY_FACES; e++)
         line += ply->elements[e].count;
     return find_line(scratch, input, ply->body, line);
 }

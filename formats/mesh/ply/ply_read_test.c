@@ -169,7 +169,8 @@ static void test_header(void)
     check_message(ASCII "format ascii 1.0\n", "t.ply:3: format comes twice");
     check_message(ASCII VERTEX FACE, "t.ply:9: file ends in the header");
     check_message("ply\n" VERTEX FACE "end_header\n", "t.ply: header has no format line");
-    check_message(ASCII VERTEX "end_header\n", "t.ply: mesh has no element 'face'");
+    check_message(ASCII "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n",
+                  "t.ply: mesh has no faces");
     check_message(ASCII FACE "end_header\n", "t.ply: mesh has no element 'vertex'");
     check_message(ASCII VERTEX VERTEX, "t.ply:7: element 'vertex' comes twice");
     check_message(ASCII "element vertex -1\n", "t.ply:3: count '-1' of the element is not a number of items");
