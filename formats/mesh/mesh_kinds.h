@@ -21,7 +21,8 @@ extern "C" {
  *
  * OBJ  v with colours, vn, vt, f, g, o, usemtl; lines, points and what says nothing about the shape of faces is passed
  *      over; anything else is refused
- * PLY  ASCII and binary of either byte order, with every number that is not part of a list
+ * PLY  ASCII and binary of either byte order, with every number that is not part of a list; "comment tile 2 ribbon" names
+ *      the number 2 of the faces' property "tile" (see ply_names.h)
  * OFF  ASCII, with normals; colours and texture coordinates are passed over
  */
 MesoStatus meso_obj_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,

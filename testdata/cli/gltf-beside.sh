@@ -67,3 +67,9 @@ materials vase.glb >materials
 materials again.glb | diff - materials && echo "the same materials"
 strings again.ply | grep -c '^comment tile'
 meso-mesh info again.drc | grep '"tile"'
+meso-map -q again.ply -o named.glb
+materials named.glb | grep -o '"name":[^,]*' >named
+grep -o '"name":[^,]*' materials | diff - named && echo "the same names through PLY"
+meso-mesh -q convert vase.glb -o again.ply
+meso-map -q again.ply -o again.glb
+materials again.glb | diff - materials && echo "the same materials through PLY"

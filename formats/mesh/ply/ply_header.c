@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "formats/mesh/mesh_text.h"
+#include "libcore/base/grow.h"
 
 static const char *const type_names[MESO_SCALAR_KINDS][2] = {
     [MESO_SCALAR_INT8] = {"char", "int8"},     [MESO_SCALAR_UINT8] = {"uchar", "uint8"},
@@ -209,6 +210,35 @@ static MesoStatus read_property(HeaderReader *reader)
     return set_role(reader, element, property, word);
 }
 
+static const char *copy_range(MesoArena *arena, const char *begin, const char *end, MesoError *error)
+{
+    char *copy = MESO_NEW(arena, char, (size_t)(end - begin) + 1, error);
+    if (copy)
+        memcpy(copy, begin, (size_t)(end - begin));
+    return copy;
+}
+
+/* What is behind the number and one blank, blanks among it; other comments are passed over. */
+static MesoStatus read_comment(HeaderReader *reader)
+{
+    MesoPly *ply = reader->ply;
+    MesoTextLine *line = &reader->line;
+    MesoWord property, number;
+    int64_t value;
+    if (!meso_text_word(line, &property) || !meso_text_word(line, &number) || !read_count(number, &value) || value < 0 ||
+        value >= UINT32_MAX)
+        return MESO_OK;
+    const char *begin = line->at < line->end ? line->at + 1 : line->end, *end = line->end;
+    end -= end > begin && end[-1] == '\r';
+    MesoPlyName name = {.number = (uint32_t)value, .name = copy_range(reader->arena, begin, end, reader->error)};
+    name.property = copy_range(reader->arena, property.text, property.text + property.size, reader->error);
+    ply->names = MESO_GROW(reader->arena, ply->names, ply->name_count, ply->name_room, 16, reader->error);
+    if (!name.name || !name.property || !ply->names)
+        return MESO_ERR_MEMORY;
+    ply->names[ply->name_count++] = name;
+    return MESO_OK;
+}
+
 /* An element without properties takes no bytes: any count would fit any file. */
 static MesoStatus check_header(const MesoPly *ply, MesoError *error)
 {
@@ -238,11 +268,13 @@ static MesoStatus read_statements(HeaderReader *reader)
         return fail(reader, "not a PLY file: the first line is not 'ply'");
     while (next_line(reader)) {
         MesoStatus status = MESO_OK;
-        if (!meso_text_word(&reader->line, &word) || meso_word_is(word, "comment") || meso_word_is(word, "obj_info"))
+        if (!meso_text_word(&reader->line, &word) || meso_word_is(word, "obj_info"))
             continue;
         if (meso_word_is(word, "end_header"))
             return check_header(reader->ply, reader->error);
-        if (meso_word_is(word, "format"))
+        if (meso_word_is(word, "comment"))
+            status = read_comment(reader);
+        else if (meso_word_is(word, "format"))
             status = read_form(reader);
         else if (meso_word_is(word, "element"))
             status = read_element(reader);

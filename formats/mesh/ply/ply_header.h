@@ -38,12 +38,20 @@ typedef struct MesoPlyElement {
     uint32_t size;              /* bytes of an item of a binary file, but for lists */
 } MesoPlyElement;
 
+/* A comment "tile 2 ribbon", as our writers name the number 2 of the property "tile". */
+typedef struct MesoPlyName {
+    const char *property, *name;
+    uint32_t number;
+} MesoPlyName;
+
 typedef struct MesoPly {
     const char *path;
     MesoPlyForm form;
     uint32_t element_count, property_count;
     MesoPlyElement elements[MESO_PLY_ELEMENTS];
     MesoPlyProperty properties[MESO_PLY_PROPERTIES];
+    uint32_t name_count, name_room;
+    MesoPlyName *names;         /* [name_count] in the order of the file */
     size_t body;                /* where the header ends */
 } MesoPly;
 

@@ -2,6 +2,7 @@
 #include "formats/mesh/mesh_text.h"
 #include "formats/mesh/ply/ply_body.h"
 #include "formats/mesh/ply/ply_layout.h"
+#include "formats/mesh/ply/ply_names.h"
 
 MesoStatus meso_ply_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
                          MesoError *error)
@@ -16,6 +17,8 @@ MesoStatus meso_ply_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInpu
     if (!status)
         status = ply->form == MESO_PLY_ASCII ? meso_ply_read_ascii(ply, mesh, arena, input, thread_count, error)
                                              : meso_ply_read_binary(ply, mesh, arena, input, thread_count, error);
+    if (!status)
+        status = meso_ply_name_numbers(ply, mesh, arena, error);
     meso_arena_release(&scratch);
     return status;
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "formats/mesh/mesh_kinds.h"
 #include "formats/mesh/surface_read.h"
 #include "libcore/base/check.h"
 
@@ -216,6 +217,25 @@ static void test_body(void)
                   "t.ply:10: file ends before vertex 1 of 4000000000");
 }
 
+/* All of "kind" have names, one of them none; not all of "part"; "x y" is no property. */
+static const char *named =
+    "ply\r\nformat ascii 1.0\r\ncomment kind 0 left side\r\ncomment part 0 p\r\ncomment kind 2 later\r\ncomment kind 1 \r\n"
+    "comment x y z\r\ncomment kind\r\ncomment kind 99999999999 z\r\nelement vertex 4\r\nproperty float x\r\nproperty float y\r\n"
+    "property float z\r\nelement face 3\r\nproperty list uchar int vertex_indices\r\nproperty int kind\r\nproperty int part\r\n"
+    "end_header\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n3 0 1 2 1 0\r\n3 0 2 3 0 1\r\n3 2 1 0 -1 0\r\n";
+
+static void test_names(void)
+{
+    MesoPolygonMesh polygons;
+    MesoInput input;
+    meso_input_wrap(&input, "t.ply", named, strlen(named));
+    CHECK(meso_ply_read(&polygons, &arena, &input, 1, &error) == MESO_OK);
+    const MesoAttribute *kind = meso_polygon_attribute(&polygons, "kind"), *part = meso_polygon_attribute(&polygons, "part");
+    CHECK(kind && kind->width == 0 && kind->entry_count == 2 && strcmp(kind->names[0], "left side") == 0);
+    CHECK(strcmp(kind->names[kind->entry_of[0]], "") == 0 && kind->entry_of[1] == 0 && kind->entry_of[2] == MESO_NO_INDEX);
+    CHECK(part && part->width == 1 && meso_attribute_number(part, 1, 0) == 1);
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -226,6 +246,7 @@ int main(void)
     test_not_finite();
     test_header();
     test_body();
+    test_names();
     meso_arena_release(&arena);
     return 0;
 }

@@ -111,7 +111,8 @@ static void test_ply(void)
     check_numbers(&attributes[2], meso_polygon_attribute_on(&read, "color", MESO_ON_VERTICES), 6, true);
     check_numbers(&attributes[3], meso_polygon_attribute_on(&read, "height", MESO_ON_FACES), 2, true);
     const MesoAttribute *material = meso_polygon_attribute_on(&read, "material", MESO_ON_FACES);
-    CHECK(material && meso_attribute_number(material, 0, 0) == 1 && meso_attribute_number(material, 1, 0) == 0);
+    CHECK(material && material->width == 0 && strcmp(material->names[meso_attribute_entry(material, 0)], "iron") == 0);
+    CHECK(strcmp(material->names[meso_attribute_entry(material, 1)], "red oak") == 0);
     CHECK(strstr(text, "\ncomment material 0 red oak\ncomment material 1 iron\n"));
     CHECK(strstr(text, "\nproperty list uchar float texcoord\n") && strstr(text, "\nproperty list uchar float normal\n"));
 }
