@@ -53,7 +53,7 @@ static MesoStatus describe_container(json_t *facts, MesoArena *arena, const Meso
 {
     bool model = input->size >= 16 && memcmp(input->data + 8, "model\0\0", 8) == 0;
     MesoStatus status = put_kind(facts, model ? "model" : "slots", error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     return model ? meso_info_model(facts, arena, input, error)
                  : meso_info_slots(facts, arena, input, error);
@@ -63,7 +63,7 @@ static MesoStatus describe_product(json_t *facts, MesoProductKind kind, MesoAren
                                    const MesoInput *input, MesoError *error)
 {
     MesoStatus status = meso_product_describe(facts, kind, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     /* A mesh that none of our tools made is a surface to grow on, or may be one. */
     bool mesh = kind == MESO_PRODUCT_PLY || kind == MESO_PRODUCT_OBJ;
@@ -121,12 +121,12 @@ static MesoStatus inform(MesoTool *tool, json_t *facts, const char *path, MesoEr
 {
     MesoInput input;
     MesoStatus status = open_file(tool, &input, path);
-    if (status != MESO_OK)
+    if (status)
         return status;
     MesoArenaMark mark = meso_arena_mark(&tool->arena);
     if (put_file(facts, &input) != 0)
         status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
-    if (status == MESO_OK)
+    if (!status)
         status = describe(facts, &tool->arena, &input, error);
     meso_arena_rewind(&tool->arena, mark);
     meso_input_close(&input);
@@ -137,7 +137,7 @@ static MesoStatus inform_of_one(MesoTool *tool, MesoError *error)
 {
     json_t *facts = json_object();
     MesoStatus status = inform(tool, facts, tool->operands[0], error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_json_write_file(facts, tool->output, error);
     json_decref(facts);
     return status;
@@ -161,7 +161,7 @@ static MesoStatus append_facts(MesoTool *tool, json_t *list, const char *path, M
 {
     json_t *facts = json_object();
     MesoStatus status = inform(tool, facts, path, error);
-    if (status != MESO_OK) {
+    if (status) {
         json_decref(facts);
         facts = failed_facts(path, error);
     }
@@ -178,17 +178,17 @@ static MesoStatus inform_of_several(MesoTool *tool, MesoError *error)
     json_t *list = json_array();
     MesoStatus status = list ? MESO_OK : meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     uint32_t bad = 0;
-    for (uint32_t i = 0; i < tool->operand_count && status == MESO_OK; i++) {
+    for (uint32_t i = 0; i < tool->operand_count && !status; i++) {
         status = append_facts(tool, list, tool->operands[i], error);
         if (status == MESO_ERR_INPUT) {
             bad++;
             status = MESO_OK;
         }
     }
-    if (status == MESO_OK)
+    if (!status)
         status = meso_json_write_file(list, tool->output, error);
     json_decref(list);
-    if (status == MESO_OK && bad > 0)
+    if (!status && bad > 0)
         return meso_fail(error, MESO_ERR_INPUT, "%u of %u files are no good", bad, tool->operand_count);
     return status;
 }
@@ -208,7 +208,7 @@ static MesoStatus write_listing(const InfoArguments *a, const MesoSlotsFile *slo
         }
     }
     MesoStatus status = meso_output_open(&output, a->tool.output ? a->tool.output : "-", error);
-    if (status == MESO_OK)
+    if (!status)
         status = csv ? meso_slots_write_csv(slots, output, error) : meso_json_write(root, output, error);
     json_decref(root);
     return meso_output_finish(output, status, error);
@@ -222,10 +222,10 @@ static MesoStatus list_slots(InfoArguments *a, MesoError *error)
     if (tool->operand_count > 1)
         return meso_fail(error, MESO_ERR_USAGE, "--slots lists one file; %u are given", tool->operand_count);
     MesoStatus status = open_file(tool, &input, tool->operands[0]);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_slots_read(&slots, &tool->arena, &input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = write_listing(a, &slots, error);
     meso_input_close(&input);
     return status;

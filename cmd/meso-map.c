@@ -114,7 +114,7 @@ static MesoStatus read_inner(MapArguments *a, const MesoTileSet *set, uint32_t i
         return meso_fail(error, MESO_ERR_LIMIT, "too many meshes in tiles: at most %d different files",
                          MESO_PROVENANCE_INPUTS - 3);
     MesoStatus status = meso_tool_open_input(tool, &input, path, "mesh");
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_triangle_mesh_read(mesh, &tool->arena, &input, tool->threads, error);
     meso_input_close(&input);
@@ -139,7 +139,7 @@ static MesoStatus read_inners(MapArguments *a, MesoModel *model, MesoError *erro
             continue;
         }
         MesoStatus status = read_inner(a, set, i, &model->inner_meshes[i], error);
-        if (status != MESO_OK)
+        if (status)
             return status;
     }
     return MESO_OK;
@@ -179,12 +179,12 @@ static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *s
                          "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another surface",
                          inputs->slots.path, slots->assignment.slot_count, inputs->surface.path,
                          model->surface.face_count);
-    if (meso_slots_bind(slots, &model->tile_set, error) != MESO_OK)
+    if (meso_slots_bind(slots, &model->tile_set, error))
         return meso_fail_prefix(error, inputs->slots.path);
-    if (turn_surface(tool, model, slots->quarters, error) != MESO_OK)
+    if (turn_surface(tool, model, slots->quarters, error))
         return MESO_ERR_MEMORY;
     model->assignment = slots->assignment;
-    if (meso_assignment_check(&model->assignment, &model->tile_set, &model->graph, error) != MESO_OK)
+    if (meso_assignment_check(&model->assignment, &model->tile_set, &model->graph, error))
         return meso_fail_prefix(error, inputs->slots.path);
     warn_of_other_inputs(tool, slots, inputs);
     const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = &model->graph,
@@ -198,22 +198,22 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     MesoSlotsFile slots;
     MesoQuadSurface surface = {0};
     MesoStatus status = meso_tool_open_place(tool, &inputs->tiles, tool->operands[0], &MESO_PLACE_TILES);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tiles_read(&model->tile_set, &tool->arena, &inputs->tiles, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tool_open_place(tool, &inputs->surface, tool->operands[1], &MESO_PLACE_SURFACE);
-    if (status == MESO_OK)
+    if (!status)
         status = (a->pairs ? meso_quad_surface_read_pairs : meso_quad_surface_read)(
             &surface, &tool->arena, &inputs->surface, tool->threads, error);
     model->surface = surface.mesh;
     model->graph = surface.graph;
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tool_open_place(tool, &inputs->slots, tool->operands[2], &MESO_PLACE_SLOTS);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
-    if (status == MESO_OK)
+    if (!status)
         status = bind_slots(a, model, &slots, inputs, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_inners(a, model, error);
     model->options = a->options;
     return status;
@@ -261,14 +261,14 @@ static MesoStatus read_model(MapArguments *a, Inputs *inputs, Mapped *mapped, Me
     MesoSceneReading reading = {.thread_count = a->tool.threads, .remap = merge_options, .context = a};
     MesoStatus status = meso_tool_read_scene(&a->tool, &mapped->scene, &inputs->tiles, a->tool.operands[0], &reading);
     mapped->tiling = reading.tiling;
-    return status == MESO_OK ? check_mapping(a, &inputs->tiles, reading.tiling, error) : status;
+    return status ? status : check_mapping(a, &inputs->tiles, reading.tiling, error);
 }
 
 static MesoStatus make_model(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
 {
     MesoModel *model = MESO_NEW(&a->tool.arena, MesoModel, 1, error);
     MesoStatus status = model ? read_parts(a, inputs, model, error) : MESO_ERR_MEMORY;
-    if (status != MESO_OK)
+    if (status)
         return status;
     model->options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
     mapped->tiling = model;
@@ -308,13 +308,13 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
     Mapped mapped;
     MesoStatus status = meso_tool_choose_scene_kind(&a->tool, &a->output);
-    if (status == MESO_OK)
+    if (!status)
         status = check_operands(a, error);
-    if (status == MESO_OK)
+    if (!status)
         status = forget_defaults(a, error);
-    if (status == MESO_OK)
+    if (!status)
         status = (a->tool.operand_count == 1 ? read_model : make_model)(a, inputs, &mapped, error);
-    return status == MESO_OK ? write_product(a, &mapped) : status;
+    return status ? status : write_product(a, &mapped);
 }
 
 int main(int argc, char **argv)

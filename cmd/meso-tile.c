@@ -85,7 +85,7 @@ int main(int argc, char **argv)
     MesoOption options[] = {MESO_TOOL_OPTIONS(tool), {0}};
     if (meso_tool_start(&tool, &info, options, argc, argv))
         tool.status = refuse(&tool);
-    else if (tool.list_options && tool.status == MESO_OK)
+    else if (tool.list_options && !tool.status)
         tool.status = list_commands(&tool);
     return meso_tool_finish(&tool);
 }

@@ -332,10 +332,10 @@ MesoStatus meso_options_parse(const MesoOption *options, int argc, char **argv,
         else if (item.kind == ITEM_OPTION && set_value(item.option, item.text, &failure) == MESO_OK &&
                  item.option->given)
             *item.option->given = true;
-        if (failure.status != MESO_OK && first.status == MESO_OK)
+        if (failure.status && !first.status)
             first = failure;
     }
-    return first.status == MESO_OK ? MESO_OK : meso_fail(error, first.status, "%s", first.message);
+    return first.status ? meso_fail(error, first.status, "%s", first.message) : MESO_OK;
 }
 
 char *meso_options_quote(MesoArena *arena, const char *text, MesoError *error)

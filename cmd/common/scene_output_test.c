@@ -36,7 +36,7 @@ static const char *kind_of(Frame *frame, const char *path, const char *to)
     frame->output.to = to;
     MesoStatus status = meso_tool_choose_scene_kind(&frame->tool, &frame->output);
     CHECK(status == MESO_OK || status == MESO_ERR_USAGE);
-    return status == MESO_OK ? frame->output.kind->name : "";
+    return status ? "" : frame->output.kind->name;
 }
 
 static void test_kinds(void)

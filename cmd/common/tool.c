@@ -150,12 +150,12 @@ static MesoStatus add_input(MesoTool *tool, const char *path)
 static MesoStatus note_input(MesoTool *tool, MesoInput *input, const char *path, const char *role)
 {
     MesoStatus status = add_input(tool, path);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_input_open(input, path, &tool->error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_provenance_add(&tool->provenance, role, input, &tool->arena, &tool->error);
-    if (status != MESO_OK)
+    if (status)
         meso_input_close(input);
     return status;
 }
@@ -183,7 +183,7 @@ static MesoStatus note_buffers(MesoTool *tool, const MesoInput *input)
 MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *path, const char *role)
 {
     MesoStatus status = note_input(tool, input, path, role);
-    if (status == MESO_OK && note_buffers(tool, input) != MESO_OK) {
+    if (!status && note_buffers(tool, input)) {
         status = tool->error.status;
         meso_input_close(input);
     }
@@ -215,12 +215,12 @@ static MesoStatus add_paths(MesoTool *tool, MesoError *error)
             return MESO_ERR_MEMORY;
     for (const MesoOption *option = tool->options; !meso_option_is_last(option); option++) {
         MesoStatus added = add_option_path(tool, option);
-        if (added != MESO_OK && status == MESO_OK) {
+        if (added && !status) {
             status = added;
             first = *error;
         }
     }
-    if (status != MESO_OK)
+    if (status)
         *error = first;
     return status;
 }
@@ -233,9 +233,9 @@ static MesoStatus parse_words(MesoTool *tool)
                                            &tool->operand_count, error);
     if (tool->help || tool->version || tool->list_options)
         return MESO_OK;
-    if (status == MESO_OK)
+    if (!status)
         status = check_operands(tool->info, tool->operand_count, error);
-    return status == MESO_OK ? check_streams(tool, error) : status;
+    return status ? status : check_streams(tool, error);
 }
 
 char *meso_tool_command(const MesoTool *tool, const MesoOptionChange *changes, MesoArena *arena, MesoError *error)
@@ -270,7 +270,7 @@ static MesoStatus parse(MesoTool *tool)
         return MESO_OK;
     MesoError first = *error;
     MesoStatus paths = add_paths(tool, error);
-    if (status != MESO_OK) {
+    if (status) {
         *error = first;
         return status;
     }
@@ -342,7 +342,7 @@ bool meso_tool_start(MesoTool *tool, const MesoToolInfo *info, const MesoOption 
     tool->argv = argv;
     tool->status = parse(tool);
     meso_progress_init(tool->progress, tool->progress_mode, tool->quiet);
-    if (tool->status != MESO_OK)
+    if (tool->status)
         return false;
     if (!tool->help && !tool->version && !tool->list_options)
         return true;
@@ -380,7 +380,7 @@ static json_t *make_report(const MesoTool *tool)
     failed |= json_object_set_new(root, "tool", json_string(tool->info->name));
     failed |= json_object_set_new(root, "status", json_string(status_name(tool->status)));
     failed |= json_object_set_new(root, "exit", json_integer(tool->status));
-    if (tool->status != MESO_OK)
+    if (tool->status)
         failed |= json_object_set_new(root, "message", meso_json_string(tool->error.message));
     failed |= json_object_set_new(root, "provenance", meso_provenance_json(&tool->provenance));
     failed |= json_object_update(root, tool->report);
@@ -449,16 +449,16 @@ int meso_tool_finish(MesoTool *tool)
 {
     if (tool->progress)
         meso_progress_end(tool->progress);
-    if (tool->status != MESO_OK) {
+    if (tool->status) {
         tool->error.status = tool->status;
         print_error(tool, &tool->error);
     }
     if (tool->json && tool->report) {
         MesoError error = {0};
         MesoStatus status = write_report(tool, &error);
-        if (status != MESO_OK)
+        if (status)
             print_error(tool, &error);
-        if (tool->status == MESO_OK)
+        if (!tool->status)
             tool->status = status;
     }
     json_decref(tool->report);

@@ -23,7 +23,7 @@ static MesoStatus read_cut(MesoError *error)
 {
     MesoInput input;
     MesoStatus status = meso_input_open(&input, "cut", error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     CHECK(truncate("cut", 4096) == 0);
     volatile uint8_t last = input.data[input.size - 1];
@@ -44,7 +44,7 @@ static MesoStatus run(MesoTool *tool, MesoError *error)
         return MESO_OK;
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, tool->output, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_output_write(output, "product\n", 8, error);
     if (strcmp(what, "cut") == 0)

@@ -119,7 +119,7 @@ MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *inp
 {
     MesoSlotsFile slots;
     MesoStatus status = meso_slots_read(&slots, arena, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     bool listing = !meso_container_recognise(input);
     json_t *inputs = json_object();
@@ -189,7 +189,7 @@ static MesoStatus put_tile_set(json_t *facts, MesoArena *arena, const MesoTileSe
     MesoArenaMark mark = meso_arena_mark(arena);
     MesoStatus status = meso_variant_set_build(&variants, arena, set, error);
     meso_arena_rewind(arena, mark);
-    if (status != MESO_OK)
+    if (status)
         return status;
     json_t *summary = json_object(), *interfaces = json_array(), *tiles = json_array();
     int failed = put_count(summary, "sections", set->section_count);
@@ -276,9 +276,9 @@ static MesoStatus put_body_model(json_t *facts, MesoArena *arena, const MesoInpu
     MesoSceneParts parts;
     MesoSceneReading reading = {0};
     MesoStatus status = meso_scene_read(&scene, arena, input, &reading, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_scene_parts_init(&parts, arena, &scene, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     const MesoVec3 ends[2] = {scene.box.low, scene.box.high};
     int failed = put_provenance(facts, reading.provenance);
@@ -300,7 +300,7 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
     MesoModel model;
     const char *provenance;
     MesoStatus status = meso_model_read(&model, &provenance, arena, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     const char **names = MESO_NEW(arena, const char *, model.tile_set.tile_count, error);
     if (!names)
@@ -315,9 +315,9 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
     failed |= json_object_set_new(facts, "surface", surface);
     failed |= put_inners(facts, &model);
     status = memory_if(failed, error);
-    if (status == MESO_OK)
+    if (!status)
         status = put_surface(surface, arena, &model.surface, &model.graph, error);
-    if (status == MESO_OK)
+    if (!status)
         status = put_histograms(facts, arena, &model.assignment, model.tile_set.tile_count, names, error);
     return status ? status : put_tile_set(facts, arena, &model.tile_set, error);
 }
@@ -329,14 +329,14 @@ MesoStatus meso_info_mesh(json_t *facts, MesoArena *arena, const MesoInput *inpu
     MesoQuadSurface quads;
     MesoTriangleMesh triangles;
     MesoStatus status = meso_polygon_mesh_read(&mesh, arena, input, 0, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_quad_surface_make(&quads, arena, &mesh, input, 0, error);
-    if (status == MESO_OK) {
+    if (!status) {
         int failed = json_object_set_new(facts, "kind", json_string("surface"));
         return failed ? memory_if(failed, error) : put_surface(facts, arena, &quads.mesh, &quads.graph, error);
     }
-    if (status == MESO_ERR_MEMORY || meso_polygon_triangulate(&triangles, arena, &mesh, NULL) != MESO_OK)
+    if (status == MESO_ERR_MEMORY || meso_polygon_triangulate(&triangles, arena, &mesh, NULL))
         return status;
     int failed = json_object_set_new(facts, "kind", json_string("mesh"));
     failed |= json_object_set_new(facts, "surface", json_false());
@@ -350,7 +350,7 @@ MesoStatus meso_info_mesh(json_t *facts, MesoArena *arena, const MesoInput *inpu
 static MesoStatus put_report(json_t *facts, json_t *root, const char *path, MesoError *error)
 {
     MesoStatus status = meso_json_check_format(root, path, "meso-report", 1, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     if (!json_is_string(json_object_get(root, "tool")))
         return meso_fail(error, MESO_ERR_INPUT, "%s: the report names no \"tool\"", path);
@@ -364,7 +364,7 @@ static MesoStatus put_constraints(json_t *facts, MesoArena *arena, json_t *root,
 {
     MesoConstraintOutline outline;
     MesoStatus status = meso_constraints_outline(&outline, arena, root, path, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     json_t *provenance = json_object_get(root, "provenance");
     int failed = json_object_set_new(facts, "kind", json_string("constraints"));
@@ -387,7 +387,7 @@ static MesoStatus put_tiles(json_t *facts, MesoArena *arena, const json_t *root,
     json_t *provenance = json_object_get(root, "provenance");
     const char *origin = meso_prototype_recognise(root) ? "prototype" : "meso";
     MesoStatus status = meso_tiles_read(&set, arena, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     int failed = json_object_set_new(facts, "kind", json_string("tiles"));
     failed |= json_object_set_new(facts, "origin", json_string(origin));
@@ -400,7 +400,7 @@ MesoStatus meso_info_json(json_t *facts, MesoArena *arena, const MesoInput *inpu
 {
     json_t *root;
     MesoStatus status = meso_json_parse(&root, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     const char *format = json_string_value(json_object_get(root, "format"));
     if (format && strcmp(format, "meso-report") == 0)

@@ -114,7 +114,7 @@ MesoStatus meso_each_find(bool *there, const MesoSeedEach *each, const MesoSeedL
     *there = false;
     if (!path)
         return MESO_ERR_MEMORY;
-    if (access(path, F_OK) != 0 || meso_input_open(&input, path, NULL) != MESO_OK)
+    if (access(path, F_OK) != 0 || meso_input_open(&input, path, NULL))
         return MESO_OK;
     MesoStatus status = meso_slots_read(&slots, arena, &input, NULL);
     meso_input_close(&input);

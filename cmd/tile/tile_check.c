@@ -68,7 +68,7 @@ static MesoStatus find_empty_drawings(const MesoTileSet *set, Findings *findings
     MesoTool *tool = findings->tool;
     MesoContourSet contours;
     MesoStatus status = meso_contour_set_build(&contours, &tool->arena, set, AREA_STEP, &tool->error);
-    for (uint32_t s = 0; status == MESO_OK && s < set->section_count; s++) {
+    for (uint32_t s = 0; !status && s < set->section_count; s++) {
         const MesoSection *section = &set->sections[s];
         if (contours.section_begin[s + 1] > contours.section_begin[s])
             continue;
@@ -89,20 +89,20 @@ static MesoStatus look(Findings *findings)
     MesoTileSet set;
     MesoInput input;
     MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILE_FILE);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_tiles_survey(&set, &tool->arena, &input, add_finding, findings, error);
     meso_input_close(&input);
-    if (status != MESO_OK)  /* of a file that can be read at all, the findings are the answer */
+    if (status)  /* of a file that can be read at all, the findings are the answer */
         return status == MESO_ERR_INPUT && findings->errors ? MESO_OK : status;
     status = meso_tile_report_counts(tool, &set, NULL);
     uint32_t error_count = 0;
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tile_set_check(&error_count, &set, add_finding, findings, error);
-    if (status != MESO_OK || error_count > 0)
+    if (status || error_count > 0)
         return status;
     status = find_empty_drawings(&set, findings);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tile_find_meshes(&set, input.path, &tool->arena, add_finding, findings, error);
     return status;
 }
@@ -113,12 +113,12 @@ static MesoStatus run(Findings *findings)
     MesoStatus status = meso_tile_text_init(&findings->text, &tool->error);
     findings->list = json_array();
     findings->failed = json_object_set_new(tool->report, "findings", findings->list) != 0;
-    if (status == MESO_OK)
+    if (!status)
         status = look(findings);
-    if (status == MESO_OK && findings->failed)
+    if (!status && findings->failed)
         status = meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report");
     status = meso_tile_text_finish(&findings->text, tool->output, status, &tool->error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     if (findings->errors + (findings->strict ? findings->warnings : 0) == 0)
         return MESO_OK;

@@ -30,12 +30,12 @@ MesoStatus meso_tile_text_finish(MesoTileText *text, const char *path, MesoStatu
     /* A stream in memory that cannot grow says so on the way; its close may not, and leave no bytes. */
     bool whole = fflush(text->stream) == 0 && !ferror(text->stream);
     whole &= fclose(text->stream) == 0;
-    if ((!whole || !text->bytes) && status == MESO_OK)
+    if ((!whole || !text->bytes) && !status)
         status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     MesoOutput *output = NULL;
-    if (status == MESO_OK)
+    if (!status)
         status = meso_output_open(&output, path ? path : "-", error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_output_write(output, text->bytes, text->size, error);
     status = meso_output_finish(output, status, error);
     free(text->bytes);

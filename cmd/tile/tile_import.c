@@ -51,21 +51,21 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set, json_t *notes)
     MesoInput input;
     json_t *root = NULL;
     MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILE_FILE);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_json_parse(&root, &input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tiles_import(set, &tool->arena, root, input.path, say_problem, tool, error);
-    if (status == MESO_OK && keep_notes(notes, root) != 0)
+    if (!status && keep_notes(notes, root) != 0)
         status = meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     json_decref(root);
     meso_input_close(&input);
-    if (status != MESO_OK)
+    if (status)
         return status;
 
     uint32_t errors;
     status = meso_tile_set_check(&errors, set, say_error, tool, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     if (errors > 0)
         return meso_fail(error, MESO_ERR_INPUT, "%s: %u error%s; nothing was written",
@@ -90,17 +90,17 @@ static MesoStatus run(MesoTool *tool, json_t *notes)
 {
     MesoTileSet set;
     MesoStatus status = meso_tile_refuse_clash(tool);
-    if (status == MESO_OK)
+    if (!status)
         status = read_set(tool, &set, notes);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tile_report_counts(tool, &set, NULL);
-    if (status == MESO_OK && tool->output)
+    if (!status && tool->output)
         status = meso_mesh_paths_move(&set, tool->operands[0], tool->output, &tool->arena, &tool->error);
-    if (status == MESO_OK)
+    if (!status)
         status = write_set(tool, &set, notes, &tool->error);
-    if (status == MESO_OK && tool->output && strcmp(tool->output, "-") != 0)
+    if (!status && tool->output && strcmp(tool->output, "-") != 0)
         status = meso_tile_find_meshes(&set, tool->output, &tool->arena, say_problem, tool, &tool->error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     meso_tool_say_of(tool, tool->operands[0], "%u interfaces, %u cross-sections, %u tiles, %u sweeps, %u inner meshes",
                      set.interface_count, set.section_count, set.tile_count, set.sweep_count, set.inner_count);

@@ -157,7 +157,7 @@ static MesoStatus read_set(MesoTool *tool, MesoTileSet *set)
 {
     MesoInput input;
     MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILE_FILE);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_tiles_read(set, &tool->arena, &input, &tool->error);
     meso_input_close(&input);
@@ -171,13 +171,13 @@ static MesoStatus run(MesoTool *tool)
     MesoTileSet set;
     MesoVariantSet variants;
     MesoStatus status = meso_tile_refuse_clash(tool);
-    if (status == MESO_OK)
+    if (!status)
         status = read_set(tool, &set);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_variant_set_build(&variants, arena, &set, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tile_report_counts(tool, &set, &variants.count);
-    if (status != MESO_OK)
+    if (status)
         return status;
     uint32_t *variant_counts = MESO_NEW(arena, uint32_t, set.tile_count, error);
     if (!variant_counts)
@@ -187,11 +187,11 @@ static MesoStatus run(MesoTool *tool)
 
     MesoTileText text;
     status = meso_tile_text_init(&text, error);
-    if (status == MESO_OK)
+    if (!status)
         status = list_interfaces(&set, text.stream, arena, error);
-    if (status == MESO_OK)
+    if (!status)
         fputc('\n', text.stream);
-    if (status == MESO_OK)
+    if (!status)
         status = list_tiles(&set, variant_counts, text.stream, arena, error);
     return meso_tile_text_finish(&text, tool->output, status, error);
 }

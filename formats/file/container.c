@@ -79,11 +79,11 @@ MesoStatus meso_container_write(const MesoContainer *container, MesoOutput *outp
     uint64_t end = HEADER_SIZE + (uint64_t)container->chunk_count * ENTRY_SIZE;
 
     MesoStatus status = meso_output_write(output, &header, sizeof header, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_output_write(output, table, end - HEADER_SIZE, error);
-    for (uint32_t i = 0; i < container->chunk_count && status == MESO_OK; i++) {
+    for (uint32_t i = 0; i < container->chunk_count && !status; i++) {
         status = meso_output_write(output, zeros, table[i].offset - end, error);
-        if (status == MESO_OK && table[i].size > 0)
+        if (!status && table[i].size > 0)
             status = meso_output_write(output, container->chunks[i].data, table[i].size, error);
         end = table[i].offset + table[i].size;
     }
@@ -219,17 +219,17 @@ MesoStatus meso_container_read(MesoContainer *container, const MesoInput *input,
     Header header;
     Entry table[MESO_CONTAINER_CHUNKS];
     MesoStatus status = read_header(&header, input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = check_kind(&header, input, kind, newest_major, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_table(table, &header, input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = check_table(table, &header, input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = check_file_size(table, &header, input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = check_chunks(table, &header, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
 
     assert((uintptr_t)input->data % sizeof(uint64_t) == 0);
@@ -249,8 +249,8 @@ const void *meso_container_peek(const MesoInput *input, const char *name, uint64
 {
     Header header;
     Entry table[MESO_CONTAINER_CHUNKS];
-    if (read_header(&header, input, NULL) != MESO_OK || read_table(table, &header, input, NULL) != MESO_OK ||
-        check_table(table, &header, input, NULL) != MESO_OK)
+    if (read_header(&header, input, NULL) || read_table(table, &header, input, NULL) ||
+        check_table(table, &header, input, NULL))
         return NULL;
     for (uint32_t i = 0; i < header.chunk_count; i++) {
         const uint8_t *data = input->data + table[i].offset;

@@ -33,7 +33,7 @@ struct MesoOutput {
 /* What failed once fails for good: the file has a hole where the bytes should be. */
 static MesoStatus refuse_after_failure(const MesoOutput *output, MesoError *error)
 {
-    if (output->failure.status == MESO_OK)
+    if (!output->failure.status)
         return MESO_OK;
     return meso_fail(error, output->failure.status, "%s", output->failure.message);
 }
@@ -203,7 +203,7 @@ MesoStatus meso_output_open(MesoOutput **result, const char *path, MesoError *er
     snprintf(output->shown, size, standard ? "standard output" : "'%s'", path);
 
     MesoStatus status = open_target(output, path, error);
-    if (status != MESO_OK) {
+    if (status) {
         release(output);
         return status;
     }
@@ -238,9 +238,9 @@ static MesoStatus flush(MesoOutput *output, MesoError *error)
 MesoStatus meso_output_write(MesoOutput *output, const void *data, size_t size, MesoError *error)
 {
     MesoStatus status = refuse_after_failure(output, error);
-    if (status == MESO_OK && size > BUFFER_SIZE - output->buffered)
+    if (!status && size > BUFFER_SIZE - output->buffered)
         status = flush(output, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
 
     if (size >= BUFFER_SIZE) {
@@ -258,9 +258,9 @@ MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void 
                                 MesoError *error)
 {
     MesoStatus status = refuse_after_failure(output, error);
-    if (status == MESO_OK)
+    if (!status)
         status = flush(output, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     if (offset > INT64_MAX - size)
         return fail_errno(output, EFBIG, error);
@@ -333,9 +333,9 @@ static MesoStatus commit_copy(MesoOutput *output, MesoError *error)
 MesoStatus meso_output_commit(MesoOutput *output, MesoError *error)
 {
     MesoStatus status = refuse_after_failure(output, error);
-    if (status == MESO_OK)
+    if (!status)
         status = flush(output, error);
-    if (status == MESO_OK)
+    if (!status)
         status = output->target ? commit_rename(output, error) : commit_copy(output, error);
     meso_output_discard(output);
     return status;

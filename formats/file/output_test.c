@@ -25,14 +25,14 @@ static MesoStatus try_write(const char *path, size_t size, MesoError *error)
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path, error);
-    if (status != MESO_OK) {
+    if (status) {
         CHECK(output == NULL);
         return status;
     }
     char *zeros = calloc(1, size);
     CHECK(zeros != NULL);
     status = meso_output_write(output, zeros, size, error);
-    if (status != MESO_OK) {    /* it stays failed */
+    if (status) {    /* it stays failed */
         CHECK(meso_output_write(output, zeros, 1, NULL) == status);
         CHECK(meso_output_write_at(output, 0, zeros, 1, NULL) == status);
     }

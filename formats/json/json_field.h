@@ -48,7 +48,7 @@ void meso_json_place(const MesoJsonField *field, char *place, size_t size);
 
 static inline bool meso_json_good(const MesoJsonField *field)
 {
-    return field->reader->status == MESO_OK;
+    return !field->reader->status;
 }
 
 /* "$schema", "comment", "extras": may stand in every object, hold anything, and mean nothing to us. */

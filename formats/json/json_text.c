@@ -55,7 +55,7 @@ static MesoStatus parse(json_t **root, const Text *text, MesoError *error)
 {
     *root = NULL;
     MesoStatus status = check_text(text, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
 
     json_error_t where;
@@ -233,7 +233,7 @@ static MesoStatus write_text(MesoOutput *output, const char *text, MesoError *er
 static MesoStatus write_break(MesoOutput *output, uint32_t level, MesoError *error)
 {
     MesoStatus status = write_text(output, "\n", error);
-    for (uint32_t i = 0; i < level && status == MESO_OK; i++)
+    for (uint32_t i = 0; i < level && !status; i++)
         status = write_text(output, "  ", error);
     return status;
 }
@@ -250,20 +250,20 @@ static MesoStatus write_item(const char *key, const json_t *item, bool first, ui
                              MesoOutput *output, MesoError *error)
 {
     MesoStatus status = first ? MESO_OK : write_text(output, ",", error);
-    if (status == MESO_OK)
+    if (!status)
         status = write_break(output, level, error);
     size_t column = 2 * (size_t)level;
-    if (status == MESO_OK && key) {
+    if (!status && key) {
         char *quoted = format_key(key);
         if (!quoted)
             return memory_is_out(error);
         column += strlen(quoted) + 2;
         status = write_text(output, quoted, error);
-        if (status == MESO_OK)
+        if (!status)
             status = write_text(output, ": ", error);
         free(quoted);
     }
-    return status == MESO_OK ? write_value(item, level, column, output, error) : status;
+    return status ? status : write_value(item, level, column, output, error);
 }
 
 static MesoStatus write_container(const json_t *value, uint32_t level, size_t column,
@@ -282,19 +282,19 @@ static MesoStatus write_container(const json_t *value, uint32_t level, size_t co
     json_t *item;
     if (array)
         json_array_foreach(value, index, item) {
-            if (status == MESO_OK)
+            if (!status)
                 status = write_item(NULL, item, first, level + 1, output, error);
             first = false;
         }
     else
         json_object_foreach((json_t *)value, key, item) {
-            if (status == MESO_OK)
+            if (!status)
                 status = write_item(key, item, first, level + 1, output, error);
             first = false;
         }
-    if (status == MESO_OK)
+    if (!status)
         status = write_break(output, level, error);
-    return status == MESO_OK ? write_text(output, array ? "]" : "}", error) : status;
+    return status ? status : write_text(output, array ? "]" : "}", error);
 }
 
 static MesoStatus write_value(const json_t *value, uint32_t level, size_t column,
@@ -314,14 +314,14 @@ MesoStatus meso_json_write(const json_t *value, MesoOutput *output, MesoError *e
     if (!value)
         return memory_is_out(error);
     MesoStatus status = write_value(value, 0, 0, output, error);
-    return status == MESO_OK ? write_text(output, "\n", error) : status;
+    return status ? status : write_text(output, "\n", error);
 }
 
 MesoStatus meso_json_write_file(const json_t *value, const char *path, MesoError *error)
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path ? path : "-", error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_json_write(value, output, error);
     return meso_output_finish(output, status, error);
 }

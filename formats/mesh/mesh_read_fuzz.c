@@ -76,7 +76,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     meso_input_wrap(&input, paths[data[0] % PATH_COUNT], data + 1, size - 1);
     MesoStatus status = meso_polygon_mesh_read(&mesh, &arena, &input, 1, &error);
     compare(status, &mesh, &error, &input);
-    if (status == MESO_OK) {
+    if (!status) {
         look_at(&mesh);
         use_as_quads(&arena, &mesh, &input);
         CHECK(meso_surface_build(&surface, &arena, &mesh, 1, &error) == MESO_OK);

@@ -243,12 +243,12 @@ static MesoStatus read_description(const Reading *in, MesoError *error)
     const void *data = meso_container_find(in->file, "bodydesc", &size);
     meso_input_wrap(&text, "chunk 'bodydesc'", data, size);
     MesoStatus status = meso_json_parse(&root, &text, error);
-    if (status == MESO_OK) {
+    if (!status) {
         MesoJsonReader reader = {.path = text.path, .arena = in->arena, .error = error};
         status = read_fields(in, &reader, root);
     }
     json_decref(root);
-    if (status != MESO_OK)
+    if (status)
         meso_fail_prefix(error, in->path);
     return status;
 }

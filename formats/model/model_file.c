@@ -68,7 +68,7 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
 {
     InnerArrays inner;
     MesoStatus status = join_inners(&inner, model, arena, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     const MesoQuadMesh *surface = &model->surface;
     const uint64_t faces = surface->face_count, vector = sizeof(MesoVec3), index = sizeof(uint32_t);
@@ -137,10 +137,10 @@ static MesoStatus read_tiles(const Reading *in, MesoError *error)
 {
     MesoInput text;
     MesoStatus status = read_text(in, "tiles", &text, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     status = meso_tiles_read(&in->model->tile_set, in->arena, &text, error);
-    return status == MESO_OK ? MESO_OK : meso_fail_prefix(error, in->path);
+    return status ? meso_fail_prefix(error, in->path) : MESO_OK;
 }
 
 /* Zero is a value that stands for a default; a model has none of these left. */
@@ -193,7 +193,7 @@ static MesoStatus read_surface(const Reading *in, MesoError *error)
     MesoQuadMesh *mesh = &in->model->surface;
     MesoStatus status = meso_quad_mesh_build(mesh, in->arena, vertex_count, positions, normal_count,
                                              normals, face_count, faces, face_normals, error);
-    if (status != MESO_OK) {
+    if (status) {
         meso_fail_prefix(error, in->path);
         return status;
     }
@@ -225,9 +225,9 @@ static MesoStatus read_assignment(const Reading *in, MesoError *error)
     memcpy(out->transform, transforms, count * sizeof *out->transform);
 
     MesoStatus status = meso_slot_graph_build(&model->graph, in->arena, &model->surface, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_assignment_check(out, &model->tile_set, &model->graph, error);
-    if (status != MESO_OK)
+    if (status)
         meso_fail_prefix(error, in->path);
     return status;
 }
@@ -292,12 +292,12 @@ static MesoStatus read_inners(const Reading *in, MesoError *error)
         return MESO_ERR_INPUT;
     InnerArrays all;
     MesoStatus status = find_inners(in, counts, &all, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     MesoTriangleMesh *meshes = MESO_NEW(in->arena, MesoTriangleMesh, count, error);
     if (!meshes)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < count && status == MESO_OK; i++) {
+    for (uint32_t i = 0; i < count && !status; i++) {
         meshes[i] = (MesoTriangleMesh){counts[2 * i], counts[2 * i + 1], all.positions, all.normals,
                                        all.triangles};
         status = check_inner(in, i, &meshes[i], error);
@@ -325,13 +325,13 @@ MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContain
     Reading in = {.model = model, .file = container, .arena = arena, .path = path};
     *model = (MesoModel){0};
     MesoStatus status = read_tiles(&in, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_options(&in, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_surface(&in, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_assignment(&in, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_inners(&in, error);
     return status;
 }
@@ -342,9 +342,9 @@ MesoStatus meso_model_read(MesoModel *model, const char **provenance, MesoArena 
     MesoContainer file;
     const char *text;
     MesoStatus status = meso_container_read(&file, input, "model", MESO_MODEL_MAJOR, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_model_provenance(&text, arena, &file, input->path, error);
-    if (status == MESO_OK && provenance)
+    if (!status && provenance)
         *provenance = text;
-    return status == MESO_OK ? meso_model_take(model, arena, &file, input->path, error) : status;
+    return status ? status : meso_model_take(model, arena, &file, input->path, error);
 }

@@ -60,7 +60,7 @@ static bool solve(MesoModel *model, const MesoVariantSet *variants, MesoArena *a
     MesoStatus status = meso_solve(&result, arena, &(MesoTilingProblem){&model->tile_set, variants, &model->graph, NULL},
                                    &options, &error);
     CHECK(status == MESO_OK || status == MESO_ERR_LIMIT);
-    if (status != MESO_OK || result.verdict != MESO_VERDICT_SOLVED)
+    if (status || result.verdict != MESO_VERDICT_SOLVED)
         return false;
     model->assignment = result.assignment;
     return true;
@@ -100,7 +100,7 @@ static void grow(const MesoTileSet *set, const MesoVariantSet *variants, bool to
     if (solve(&model, variants, &arena)) {
         MesoStatus status = meso_model_expand(&scene, NULL, &arena, &model, 1, &error);
         CHECK(status == MESO_OK || status == MESO_ERR_INPUT || status == MESO_ERR_LIMIT);
-        if (status == MESO_OK && meso_scene_parts_init(&parts, &arena, &scene, &error) == MESO_OK &&
+        if (!status && meso_scene_parts_init(&parts, &arena, &scene, &error) == MESO_OK &&
             parts.vertex_begin[parts.part_count] <= MOST_VERTICES)
             write_mesh(&parts, &arena);
     }

@@ -88,7 +88,7 @@ static int put_provenance(json_t *facts, const void *text, size_t size)
     json_t *root;
     meso_input_wrap(&input, "provenance", text, size);
     MesoStatus status = meso_json_parse(&root, &input, NULL);
-    if (status != MESO_OK)
+    if (status)
         return status == MESO_ERR_MEMORY;
     if (json_is_string(json_object_get(root, "tool")))
         return json_object_set_new(facts, "provenance", root);
@@ -202,7 +202,7 @@ static MesoStatus describe_glb(json_t *facts, Cursor *cursor, const char *path, 
     json_t *root;
     meso_input_wrap(&input, path, text, size);
     MesoStatus status = meso_json_parse(&root, &input, error);
-    if (status == MESO_OK)
+    if (!status)
         *failed |= describe_gltf(facts, root);
     json_decref(root);
     return status;
@@ -370,7 +370,7 @@ MesoStatus meso_product_describe(json_t *facts, MesoProductKind kind, const Meso
     case MESO_PRODUCT_OBJ: failed = describe_obj(facts, &cursor); break;
     case MESO_PRODUCT_NONE: break;
     }
-    if (status != MESO_OK)
+    if (status)
         return status;
     if (cursor.broken)
         return meso_fail(error, MESO_ERR_INPUT, "%s: truncated or broken: its header does not end",

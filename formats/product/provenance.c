@@ -78,7 +78,7 @@ MesoStatus meso_provenance_find(json_t **found, const MesoInput *input, MesoErro
         status = meso_product_provenance(found, kind, input);
     else if (begins_json(input))
         status = find_in_json(found, input);
-    if (status != MESO_OK)
+    if (status)
         return meso_fail(error, status, "out of memory for the provenance of '%s'", input->path);
     if (json_is_string(json_object_get(*found, "tool")))
         return MESO_OK;
@@ -112,7 +112,7 @@ static MesoStatus nested_text(const char **text, const MesoProvenance *provenanc
     json_t *found;
     MesoStatus status = meso_provenance_find(&found, input, error);
     *text = NULL;
-    if (status != MESO_OK || !found || is_deeper(found, MESO_PROVENANCE_LEVELS)) {
+    if (status || !found || is_deeper(found, MESO_PROVENANCE_LEVELS)) {
         json_decref(found);
         return status;
     }
@@ -140,7 +140,7 @@ MesoStatus meso_provenance_add(MesoProvenance *provenance, const char *role, con
     MesoStatus status = provenance->detail == MESO_PROVENANCE_NONE
                             ? MESO_OK
                             : nested_text(&nested, provenance, input, arena, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     provenance->inputs[i].role = role;
     memcpy(provenance->inputs[i].hash, input->hash, sizeof input->hash);
@@ -240,10 +240,10 @@ MesoStatus meso_provenance_copy(const char **text, const void *data, uint64_t si
     json_t *root = NULL;
     meso_input_wrap(&input, "chunk 'prov'", data, size);
     MesoStatus status = meso_json_parse(&root, &input, error);
-    if (status == MESO_OK && !json_is_object(root))
+    if (!status && !json_is_object(root))
         status = meso_fail(error, MESO_ERR_INPUT, "chunk 'prov': is not an object");
     json_decref(root);
-    if (status != MESO_OK) {
+    if (status) {
         meso_fail_prefix(error, path);
         return status;
     }

@@ -16,7 +16,7 @@ MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoSceneParts
                              scene->channels[c].name, scene->channels[c].count, MESO_DRACO_ID_LIMIT);
     MesoBox box;
     MesoStatus status = meso_scene_parts_box(parts, options->thread_count, &box, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     *draco = (MesoDracoOptions){
         .position_bits = options->position_bits ? options->position_bits : POSITION_BITS,
@@ -86,7 +86,7 @@ MesoStatus meso_draco_encode_parts(const MesoSceneParts *parts, uint32_t range_c
     meso_arena_init(&arena);
     PartArrays arrays;
     MesoStatus status = allocate(&arrays, &arena, parts, range_count, ranges, draco->colored, error);
-    if (status == MESO_OK) {
+    if (!status) {
         MesoDracoMesh mesh = fill(&arrays, parts, range_count, ranges, draco->colored);
         status = meso_draco_encode(&mesh, draco, result, error);
     }

@@ -8,7 +8,7 @@
 static MesoStatus check(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoError *error)
 {
     MesoStatus status = meso_mesh_check_counts(parts, options, "a Draco file", error);
-    if (status == MESO_OK && parts->triangle_count > MESO_DRACO_TRIANGLES)
+    if (!status && parts->triangle_count > MESO_DRACO_TRIANGLES)
         return meso_fail(error, MESO_ERR_LIMIT, "too large for one Draco mesh: %llu triangles, at most %u%s%s",
                          (unsigned long long)parts->triangle_count, MESO_DRACO_TRIANGLES,
                          MESO_MESH_SMALLER(options));
@@ -48,9 +48,9 @@ static MesoStatus encode(const MesoSceneParts *parts, const MesoMeshWriteOptions
     MesoDracoText texts[MESO_ID_CHANNELS + 2];
     uint32_t text_count;
     MesoStatus status = make_texts(texts, &text_count, parts->scene, options, arena, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_draco_options_make(&draco, parts, options, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     draco.texts = texts;
     draco.text_count = text_count;
@@ -66,9 +66,9 @@ MesoStatus meso_drc_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     meso_arena_init(&arena);
     report(options, 0, parts->triangle_count);
     MesoStatus status = check(parts, options, error);
-    if (status == MESO_OK)
+    if (!status)
         status = encode(parts, options, &arena, &result, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_output_write(output, result.data, result.size, error);
     report(options, parts->triangle_count, parts->triangle_count);
     meso_draco_result_release(&result);

@@ -151,7 +151,7 @@ static MesoStatus encode_all(Encoding *encoding, MesoArena *arena, MesoError *er
     encoding->results = results;
     meso_parallel_for(encoding->options->thread_count, count, 1, encode_pieces, encoding);
     for (uint32_t i = 0; i < count; i++)
-        if (encoding->status[i] != MESO_OK) {
+        if (encoding->status[i]) {
             if (error)
                 *error = encoding->errors[i];
             return encoding->status[i];
@@ -223,19 +223,19 @@ static MesoStatus run(Encoding *encoding, MesoArena *arena, MesoOutput *output, 
 {
     MesoGltfScene scene = {0};
     MesoStatus status = make_pieces(encoding, arena, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_draco_options_make(&encoding->draco, encoding->parts, encoding->options, error);
     encoding->draco.for_gltf = true;
-    if (status == MESO_OK)
+    if (!status)
         status = encode_all(encoding, arena, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     drop_empty(encoding);
     scene.pieces = encoding->results;
     status = make_meshes(encoding, &scene, arena, error);
-    if (status == MESO_OK)
+    if (!status)
         status = make_asset(encoding, &scene, arena, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     if (scene.mesh_count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no geometry to write: all triangles are degenerate");
@@ -249,7 +249,7 @@ MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     Encoding encoding = {.parts = parts, .options = options, .reporting = ATOMIC_FLAG_INIT};
     meso_arena_init(&arena);
     MesoStatus status = meso_mesh_check_counts(parts, options, "a GLB file", error);
-    if (status == MESO_OK)
+    if (!status)
         status = run(&encoding, &arena, output, error);
     for (uint32_t i = 0; encoding.results && i < encoding.piece_count; i++)
         meso_draco_result_release(&encoding.results[i]);

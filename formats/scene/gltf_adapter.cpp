@@ -28,9 +28,9 @@ public:
 protected:
     std::streamsize xsputn(const char *data, std::streamsize size) override
     {
-        if (status_ == MESO_OK)
+        if (!status_)
             status_ = sink_(context_, data, static_cast<size_t>(size), error_);
-        return status_ == MESO_OK ? size : 0;
+        return status_ ? 0 : size;
     }
     int_type overflow(int_type c) override
     {
@@ -217,7 +217,7 @@ MesoStatus write(const MesoGltfScene &scene, MesoGltfSink *sink, void *context, 
     SinkBuffer buffer(sink, context, error);
     std::ostream stream(&buffer);
     const bool written = tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-    if (buffer.status() != MESO_OK)
+    if (buffer.status())
         return buffer.status();
     if (!written || !stream)
         return meso_fail(error, MESO_ERR_INTERNAL, "tinygltf cannot write the scene");

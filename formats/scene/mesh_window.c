@@ -67,7 +67,7 @@ static void run_item(void *context, uint64_t begin, uint64_t end)
             assert(chunk->size <= text);
             continue;
         }
-        for (uint32_t i = 0; i < run->full->chunk_count && run->status == MESO_OK; i++) {
+        for (uint32_t i = 0; i < run->full->chunk_count && !run->status; i++) {
             const Chunk *chunk = &run->full->chunks[i];
             run->status = meso_output_write_at(run->stream->output, run->stream->offset,
                                                chunk->data, chunk->size, &run->error);
@@ -139,7 +139,7 @@ static MesoStatus run_windows(Run *run, Window windows[2], uint32_t chunk_capaci
         run->filling = run->full;
         run->full = full;
         report(run->stream, work, part);
-    } while (run->status == MESO_OK && run->full->chunk_count > 0);
+    } while (!run->status && run->full->chunk_count > 0);
     return run->status;
 }
 
@@ -157,11 +157,11 @@ MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass
     Window windows[2];
     Run run = {.stream = stream, .pass = pass};
     MesoStatus status = make_window(&windows[0], &arena, chunk_capacity, capacity, error);
-    if (status == MESO_OK)
+    if (!status)
         status = make_window(&windows[1], &arena, chunk_capacity, capacity, error);
-    if (status == MESO_OK) {
+    if (!status) {
         status = run_windows(&run, windows, chunk_capacity, capacity, work);
-        if (status != MESO_OK && error)
+        if (status && error)
             *error = run.error;
     }
     meso_arena_release(&arena);

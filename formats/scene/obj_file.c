@@ -228,9 +228,9 @@ MesoStatus meso_obj_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     MesoArena arena;
     meso_arena_init(&arena);
     MesoStatus status = meso_mesh_check_counts(parts, options, "an OBJ file", error);
-    if (status == MESO_OK)
+    if (!status)
         status = put_header(&stream, &arena, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_mesh_stream_run(&stream, &pass, vertex_count, error);
     meso_arena_release(&arena);
     return status;

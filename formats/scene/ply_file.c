@@ -110,10 +110,10 @@ static MesoStatus put_names(MesoMeshStream *stream, MesoArena *arena, MesoError 
     MesoStatus status = MESO_OK;
     for (uint32_t c = 0; c < scene->channel_count; c++) {
         const MesoIdChannel *channel = &scene->channels[c];
-        for (uint32_t i = 0; status == MESO_OK && channel->names && i < channel->count; i++)
+        for (uint32_t i = 0; !status && channel->names && i < channel->count; i++)
             status = put(stream, comment(arena, channel->name, i, channel->names[i], error), error);
     }
-    for (uint32_t i = 0; status == MESO_OK && i < scene->material_count; i++) {
+    for (uint32_t i = 0; !status && i < scene->material_count; i++) {
         char name[MESO_MESH_NAME];
         meso_mesh_material_name(scene, i, name);
         status = put(stream, comment(arena, "material", i, name, error), error);
@@ -125,11 +125,11 @@ static MesoStatus put_face_properties(MesoMeshStream *stream, MesoArena *arena, 
 {
     const MesoScene *scene = stream->parts->scene;
     MesoStatus status = MESO_OK;
-    for (uint32_t c = 0; status == MESO_OK && c < scene->channel_count; c++)
+    for (uint32_t c = 0; !status && c < scene->channel_count; c++)
         status = put(stream, meso_arena_print(arena, error, "property %s %s\n",
                                               scene->channels[c].names ? "ushort" : "uint",
                                               scene->channels[c].name), error);
-    return status == MESO_OK ? put(stream, "property ushort material\n", error) : status;
+    return status ? status : put(stream, "property ushort material\n", error);
 }
 
 static MesoStatus put_elements(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
@@ -146,9 +146,9 @@ static MesoStatus put_elements(MesoMeshStream *stream, bool colored, MesoArena *
                                         (unsigned long long)parts->vertex_begin[parts->part_count], colors,
                                         (unsigned long long)parts->face_begin[parts->part_count]);
     MesoStatus status = put(stream, text, error);
-    if (status == MESO_OK)
+    if (!status)
         status = put_face_properties(stream, arena, error);
-    return status == MESO_OK ? put(stream, "end_header\n", error) : status;
+    return status ? status : put(stream, "end_header\n", error);
 }
 
 static MesoStatus put_header(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
@@ -157,11 +157,11 @@ static MesoStatus put_header(MesoMeshStream *stream, bool colored, MesoArena *ar
     if (!provenance)
         return MESO_ERR_MEMORY;
     MesoStatus status = put(stream, "ply\nformat binary_little_endian 1.0\n", error);
-    if (status == MESO_OK)
+    if (!status)
         status = put(stream, provenance, error);
-    if (status == MESO_OK)
+    if (!status)
         status = put_names(stream, arena, error);
-    return status == MESO_OK ? put_elements(stream, colored, arena, error) : status;
+    return status ? status : put_elements(stream, colored, arena, error);
 }
 
 MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
@@ -180,11 +180,11 @@ MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     MesoArena arena;
     meso_arena_init(&arena);
     MesoStatus status = meso_mesh_check_counts(parts, options, "a PLY file", error);
-    if (status == MESO_OK)
+    if (!status)
         status = put_header(&stream, has_colors, &arena, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_mesh_stream_run(&stream, has_colors ? &colored : &plain, vertex_count, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_mesh_stream_run(&stream, &faces, face_count, error);
     meso_arena_release(&arena);
     return status;

@@ -85,7 +85,7 @@ static MesoStatus join_boxes(const Bounds *bounds, uint32_t count, MesoBox *box,
 {
     *box = meso_box_empty();
     for (uint32_t i = 0; i < count; i++) {
-        if (bounds->status[i] != MESO_OK)
+        if (bounds->status[i])
             return meso_fail(error, bounds->status[i], "out of memory");
         if (bounds->bad_part[i] != MESO_NO_INDEX)
             return refuse_part(bounds->parts, bounds->bad_part[i], error);

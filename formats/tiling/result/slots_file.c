@@ -89,7 +89,7 @@ static MesoStatus check_unique(const MesoSlotsFile *slots, MesoArena *arena, con
         sorted[i] = (NamedTile){slots->tile_names[i], i};
     qsort(sorted, slots->tile_count, sizeof *sorted, compare_names);
     MesoStatus status = MESO_OK;
-    for (uint32_t i = 1; i < slots->tile_count && status == MESO_OK; i++)
+    for (uint32_t i = 1; i < slots->tile_count && !status; i++)
         if (strcmp(sorted[i - 1].name, sorted[i].name) == 0)
             status = meso_fail(error, MESO_ERR_INPUT, "%s: names the tile '%s' twice", path,
                                sorted[i].name);
@@ -188,7 +188,7 @@ MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInp
     if (!meso_container_recognise(input))
         return meso_slots_text_read(slots, arena, input, error);
     MesoStatus status = meso_container_read(&container, input, "slots", MAJOR_ORIENTED, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
 
     *slots = (MesoSlotsFile){0};
@@ -205,11 +205,11 @@ MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInp
         return MESO_ERR_INPUT;
     meso_container_find(&container, "prov", &size);
     status = meso_provenance_copy(&slots->provenance, text, size, input->path, arena, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_names(slots, &container, arena, input->path, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_assignment(slots, &container, arena, input->path, error);
-    return status == MESO_OK ? read_orientation(slots, &container, arena, input->path, error) : status;
+    return status ? status : read_orientation(slots, &container, arena, input->path, error);
 }
 
 /* map[tile of the file] = tile of the set; missing ones, which matter only
@@ -238,7 +238,7 @@ static MesoStatus bind_with(MesoSlotsFile *slots, const MesoTileSet *set, MesoAr
     if (!map)
         return MESO_ERR_MEMORY;
     MesoStatus status = map_names(map, slots, set, arena, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     const uint32_t *tile = slots->assignment.tile;
     for (uint32_t i = 0; i < slots->assignment.slot_count; i++)

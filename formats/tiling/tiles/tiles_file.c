@@ -29,7 +29,7 @@ static const char *const shape_names[] = {
 
 static void out_of_memory(MesoJsonReader *reader)
 {
-    if (reader->status == MESO_OK)
+    if (!reader->status)
         reader->status = meso_fail(reader->error, MESO_ERR_MEMORY, "%s: out of memory", reader->path);
 }
 
@@ -405,7 +405,7 @@ static void parse_ours(MesoTileSet *set, MesoJsonReader *reader, const json_t *r
 {
     reader->status = meso_json_check_format(root, reader->path, "meso-tiles", MESO_TILES_VERSION,
                                             reader->error);
-    if (reader->status != MESO_OK)
+    if (reader->status)
         return;
     Parser parser = {
         .set = set,
@@ -454,7 +454,7 @@ MesoStatus meso_tiles_parse(MesoTileSet *set, MesoArena *arena, const MesoInput 
 {
     json_t *root;
     MesoStatus status = meso_json_parse(&root, input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = meso_tiles_from_json(set, arena, root, input->path, error);
     json_decref(root);
     return status;
@@ -467,9 +467,9 @@ MesoStatus meso_tiles_survey(MesoTileSet *set, MesoArena *arena, const MesoInput
     MesoJsonReader reader = {.path = input->path, .arena = arena, .error = error,
                              .report = report, .report_context = context};
     MesoStatus status = meso_json_parse(&root, input, error);
-    if (status == MESO_OK)
+    if (!status)
         status = read_any(set, &reader, root, report, context);
-    if (status == MESO_OK && reader.reported)
+    if (!status && reader.reported)
         status = meso_fail(error, MESO_ERR_INPUT, "%s", "");
     json_decref(root);
     return status;
@@ -494,10 +494,10 @@ static void keep_first(void *context, const char *severity, const char *where, c
 MesoStatus meso_tiles_read(MesoTileSet *set, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
     MesoStatus status = meso_tiles_parse(set, arena, input, error);
-    if (status != MESO_OK)
+    if (status)
         return status;
     uint32_t error_count;
     FirstError first = {.path = input->path, .error = error};
     status = meso_tile_set_check(&error_count, set, keep_first, &first, error);
-    return status == MESO_OK && error_count > 0 ? MESO_ERR_INPUT : status;
+    return !status && error_count > 0 ? MESO_ERR_INPUT : status;
 }

@@ -74,10 +74,10 @@ MesoStatus meso_assignment_check(const MesoAssignment *assignment, const MesoTil
                          assignment->slot_count, graph->slot_count);
 
     MesoStatus status = MESO_OK;
-    for (uint32_t slot = 0; slot < graph->slot_count && status == MESO_OK; slot++)
+    for (uint32_t slot = 0; slot < graph->slot_count && !status; slot++)
         status = check_tile(assignment, set, slot, error);
 
-    for (uint32_t h = 0; h < 4 * graph->slot_count && status == MESO_OK; h++) {
+    for (uint32_t h = 0; h < 4 * graph->slot_count && !status; h++) {
         int32_t label = label_at(assignment, set, h);
         uint32_t twin = graph->twin[h];
         if (twin == MESO_NO_INDEX)
