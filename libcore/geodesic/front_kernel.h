@@ -12,9 +12,14 @@
  *  - as a line with the gradient (gx,gy), where gx = (d(i) - d(u)) / l, if it
  *    is planar: d(p) = d(u) + gx px + gy py.
  *
- * Both count only if what reaches p has crossed the side between u and i;
- * where d(u) and d(i) differ by more than l, they belong to no common front.
- * And p is never farther away than d(u) and its spoke.
+ * Both count only if what reaches p has crossed the side between u and i, t of
+ * the way from u. d(u), d(i) and l have to make a triangle, or u and i belong
+ * to no common source; of a planar front, to no common line. And p is never
+ * farther away than d(u) and its spoke.
+ *
+ * A front is planar if either of u and i has it so, and p has what the nearer
+ * of them has to where it has crossed: so the front from an end of a line is
+ * circular beyond it, and both parts keep to themselves.
  */
 #ifndef MESO_FRONT_KERNEL_H
 #define MESO_FRONT_KERNEL_H
@@ -31,16 +36,30 @@ typedef struct MesoFrontStep {
 } MesoFrontStep;
 
 typedef struct MesoFrontSide {
-    float l, inverse;
+    float du, l, inverse;
     float sx, sy, gx, gy;
-    bool planar;
+    bool planar_u, planar_i;
 } MesoFrontSide;
 
-static inline MesoFrontSide meso_front_side(float du, float di, float l, float squared, bool planar)
+/* What reaches a vertex: INFINITY where nothing does. */
+typedef struct MesoFrontArrival {
+    float distance;
+    bool planar;
+} MesoFrontArrival;
+
+/* Seeds inside a side are allowed to be a little too near to both of its ends. */
+#define MESO_FRONT_SLACK 0.9999f
+
+static inline bool meso_front_is_common(float du, float di, float l, bool planar)
 {
-    MesoFrontSide side = {.l = l, .inverse = 1 / l, .planar = planar};
+    return __builtin_fabsf(du - di) <= l && (planar || l * MESO_FRONT_SLACK <= du + di);
+}
+
+static inline MesoFrontSide meso_front_side(float du, bool planar_u, float di, bool planar_i, float l, float squared)
+{
+    MesoFrontSide side = {.du = du, .l = l, .inverse = 1 / l, .planar_u = planar_u, .planar_i = planar_i};
     float difference = du - di, sum = du + di;
-    if (planar) {
+    if (planar_u || planar_i) {
         side.gx = -difference * side.inverse;
         float rest = 1 - side.gx * side.gx;
         side.gy = __builtin_sqrtf(rest > 0 ? rest : 0);
@@ -52,22 +71,24 @@ static inline MesoFrontSide meso_front_side(float du, float di, float l, float s
     return side;
 }
 
-/* Distance of the corner that faces a side, or INFINITY. `dot` and `area` are of the spokes to i and to p. */
-static inline float meso_front_across(const MesoFrontSide *side, float du, float dot, float area, float least)
+/* At the corner that faces a side; `dot` and `area` are of the spokes to i and to that corner. */
+static inline MesoFrontArrival meso_front_across(const MesoFrontSide *side, float dot, float area, float least)
 {
-    float px = dot * side->inverse, py = area * side->inverse, t, whole, found;
-    if (side->planar) {
+    float px = dot * side->inverse, py = area * side->inverse, t, whole;
+    MesoFrontArrival found = {0, false};
+    if (side->planar_u || side->planar_i) {
         t = side->gy * px - side->gx * py;
         whole = side->l * side->gy;
-        found = (du + side->gx * px) + side->gy * py;
+        found.distance = (side->du + side->gx * px) + side->gy * py;
+        found.planar = t < 0.5f * whole ? side->planar_u : side->planar_i;
     } else {
         float x = px - side->sx, y = py + side->sy;
         t = side->sx * py + px * side->sy;
         whole = side->l * y;
-        found = __builtin_sqrtf(x * x + y * y);
+        found.distance = __builtin_sqrtf(x * x + y * y);
     }
-    found = found > least ? found : least;
-    return 0 <= t && t <= whole ? found : INFINITY;
+    found.distance = found.distance > least ? found.distance : least;
+    return 0 <= t && t <= whole ? found : (MesoFrontArrival){INFINITY, false};
 }
 
 /*
@@ -90,7 +111,8 @@ static inline uint32_t meso_front_step_plain(const MesoFrontStep *step, float *f
         told[i] = row->distance;
     }
     uint32_t sides = step->closed ? n : n - 1;
-    float dot[8], area[8], l[8], from_before[8], from_next[8];
+    float dot[8], area[8], l[8];
+    MesoFrontArrival from_before[8], from_next[8];
     for (uint32_t i = 0; i < sides; i++) {
         uint32_t k = i + 1 < n ? i + 1 : 0;
         float cx = y[i] * z[k] - z[i] * y[k], cy = z[i] * x[k] - x[i] * z[k], cz = x[i] * y[k] - y[i] * x[k];
@@ -100,30 +122,25 @@ static inline uint32_t meso_front_step_plain(const MesoFrontStep *step, float *f
     for (uint32_t i = 0; i < n; i++) {
         uint32_t next = i + 1 < n ? i + 1 : 0, before = i > 0 ? i - 1 : n - 1;
         float di = __builtin_fabsf(told[i]);
+        bool planar_i = __builtin_signbit(told[i]);
         l[i] = __builtin_sqrtf(squared[i]);
-        from_before[next] = from_next[before] = INFINITY;
-        if (!(__builtin_fabsf(du - di) <= l[i]))
+        from_before[next].distance = from_next[before].distance = INFINITY;
+        if (!meso_front_is_common(du, di, l[i], planar_u || planar_i))
             continue;
-        MesoFrontSide side = meso_front_side(du, di, l[i], squared[i], planar_u || __builtin_signbit(told[i]));
+        MesoFrontSide side = meso_front_side(du, planar_u, di, planar_i, l[i], squared[i]);
         if (i < sides)
-            from_before[next] = meso_front_across(&side, du, dot[i], area[i], step->floor);
+            from_before[next] = meso_front_across(&side, dot[i], area[i], step->floor);
         if (before < sides)
-            from_next[before] = meso_front_across(&side, du, dot[before], area[before], step->floor);
+            from_next[before] = meso_front_across(&side, dot[before], area[before], step->floor);
     }
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t next = i + 1 < n ? i + 1 : 0, before = i > 0 ? i - 1 : n - 1;
-        float best = du + l[i];
-        bool planar = planar_u;
-        if (from_before[i] < best) {
+        MesoFrontArrival best = {du + l[i], planar_u};
+        if (from_before[i].distance < best.distance)
             best = from_before[i];
-            planar = planar_u || __builtin_signbit(told[before]);
-        }
-        if (from_next[i] < best) {
+        if (from_next[i].distance < best.distance)
             best = from_next[i];
-            planar = planar_u || __builtin_signbit(told[next]);
-        }
-        lower |= (uint32_t)(best < __builtin_fabsf(told[i])) << i;
-        found[i] = planar ? -best : best;
+        lower |= (uint32_t)(best.distance < __builtin_fabsf(told[i])) << i;
+        found[i] = best.planar ? -best.distance : best.distance;
     }
     return lower;
 }

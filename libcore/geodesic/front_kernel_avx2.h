@@ -41,11 +41,13 @@ typedef struct MesoFrontLanes {
 /* What stands on both sides of each spoke's side of triangles. */
 typedef struct MesoFrontSides {
     __m256 du, l, inverse, sx, sy, gx, gy;
+    __m256 planar_u, planar_i;      /* sign bits */
 } MesoFrontSides;
 
-/* What the corners that face the sides are told, and whether that has crossed the side. */
+/* What reaches the corners that face the sides, and whether it has crossed the side. */
 typedef struct MesoFrontFound {
     __m256 distance, crosses;
+    __m256 planar;                  /* sign bits */
 } MesoFrontFound;
 
 MESO_AVX2 __m256 meso_front_absolute(__m256 a)
@@ -99,20 +101,21 @@ MESO_AVX2 MesoFrontFound meso_front_circular(const MesoFrontSides *side, __m256 
     __m256 x = _mm256_sub_ps(px, side->sx), y = _mm256_add_ps(py, side->sy);
     __m256 t = _mm256_add_ps(_mm256_mul_ps(side->sx, py), _mm256_mul_ps(px, side->sy));
     __m256 squared = _mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y));
-    return (MesoFrontFound){_mm256_sqrt_ps(squared), meso_front_between(t, _mm256_mul_ps(side->l, y))};
+    return (MesoFrontFound){_mm256_sqrt_ps(squared), meso_front_between(t, _mm256_mul_ps(side->l, y)),
+                            _mm256_setzero_ps()};
 }
 
 MESO_AVX2 MesoFrontFound meso_front_planar(const MesoFrontSides *side, __m256 px, __m256 py)
 {
-    __m256 t = meso_front_minor(side->gy, px, side->gx, py);
+    __m256 t = meso_front_minor(side->gy, px, side->gx, py), whole = _mm256_mul_ps(side->l, side->gy);
     __m256 along = _mm256_add_ps(side->du, _mm256_mul_ps(side->gx, px));
-    return (MesoFrontFound){_mm256_add_ps(along, _mm256_mul_ps(side->gy, py)),
-                            meso_front_between(t, _mm256_mul_ps(side->l, side->gy))};
+    __m256 nearer_u = _mm256_cmp_ps(t, _mm256_mul_ps(_mm256_set1_ps(0.5f), whole), _CMP_LT_OQ);
+    return (MesoFrontFound){_mm256_add_ps(along, _mm256_mul_ps(side->gy, py)), meso_front_between(t, whole),
+                            _mm256_blendv_ps(side->planar_i, side->planar_u, nearer_u)};
 }
 
-/* `planar`: lanes of planar fronts. Most vertices have all of them or none, and go without the other half. */
-MESO_AVX2 MesoFrontFound meso_front_across_avx2(const MesoFrontSides *side, __m256 dot, __m256 area, __m256 planar,
-                                                int planar_lanes)
+/* `planar_lanes`: a bit for each. Most vertices have all of them or none, and go without the other half. */
+MESO_AVX2 MesoFrontFound meso_front_across_avx2(const MesoFrontSides *side, __m256 dot, __m256 area, int planar_lanes)
 {
     __m256 px = _mm256_mul_ps(dot, side->inverse), py = _mm256_mul_ps(area, side->inverse);
     if (planar_lanes == 0)
@@ -121,8 +124,10 @@ MESO_AVX2 MesoFrontFound meso_front_across_avx2(const MesoFrontSides *side, __m2
     if (planar_lanes == 255)
         return front;
     MesoFrontFound circular = meso_front_circular(side, px, py);
+    __m256 planar = _mm256_or_ps(side->planar_u, side->planar_i);
     return (MesoFrontFound){_mm256_blendv_ps(circular.distance, front.distance, planar),
-                            _mm256_blendv_ps(circular.crosses, front.crosses, planar)};
+                            _mm256_blendv_ps(circular.crosses, front.crosses, planar),
+                            _mm256_and_ps(front.planar, planar)};
 }
 
 MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
@@ -135,7 +140,7 @@ MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
     __m256 z = _mm256_sub_ps(ring.z, _mm256_set1_ps(u->z));
     __m256 squared = meso_front_dot(x, y, z, x, y, z);
     __m256 di = meso_front_absolute(ring.told);
-    __m256 planar = _mm256_and_ps(_mm256_or_ps(ring.told, own), sign);
+    __m256 planar = _mm256_or_ps(ring.told, own);
     int planar_lanes = _mm256_movemask_ps(planar);
 
     __m256i next = _mm256_load_si256((const __m256i *)meso_front_next[step->count]);
@@ -146,12 +151,14 @@ MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
     __m256 dot = meso_front_dot(x, y, z, nx, ny, nz);
     __m256 area = _mm256_sqrt_ps(meso_front_dot(cx, cy, cz, cx, cy, cz));
 
-    MesoFrontSides side = {0};
+    MesoFrontSides side = {.planar_u = _mm256_and_ps(own, sign), .planar_i = _mm256_and_ps(ring.told, sign)};
     side.du = meso_front_absolute(own);
     side.l = _mm256_sqrt_ps(squared);
     side.inverse = _mm256_div_ps(_mm256_set1_ps(1), side.l);
     __m256 difference = _mm256_sub_ps(side.du, di), sum = _mm256_add_ps(side.du, di);
     __m256 valid = _mm256_cmp_ps(meso_front_absolute(difference), side.l, _CMP_LE_OQ);
+    __m256 meets = _mm256_cmp_ps(_mm256_mul_ps(side.l, _mm256_set1_ps(MESO_FRONT_SLACK)), sum, _CMP_LE_OQ);
+    valid = _mm256_and_ps(valid, _mm256_or_ps(meets, planar));
     if (planar_lanes != 255) {
         __m256 doubled = _mm256_add_ps(squared, _mm256_mul_ps(difference, sum));
         side.sx = _mm256_mul_ps(doubled, _mm256_mul_ps(_mm256_set1_ps(0.5f), side.inverse));
@@ -165,9 +172,9 @@ MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
     uint32_t sides = step->closed ? step->count : step->count - 1;
     __m256 has_ahead = _mm256_castsi256_ps(_mm256_load_si256((const __m256i *)meso_front_sides[sides]));
     __m256 has_behind = _mm256_permutevar8x32_ps(has_ahead, before);
-    MesoFrontFound ahead = meso_front_across_avx2(&side, dot, area, planar, planar_lanes);
+    MesoFrontFound ahead = meso_front_across_avx2(&side, dot, area, planar_lanes);
     MesoFrontFound behind = meso_front_across_avx2(&side, _mm256_permutevar8x32_ps(dot, before),
-                                                   _mm256_permutevar8x32_ps(area, before), planar, planar_lanes);
+                                                   _mm256_permutevar8x32_ps(area, before), planar_lanes);
     __m256 none = _mm256_set1_ps(INFINITY), least = _mm256_set1_ps(step->floor);
     __m256 ahead_counts = _mm256_and_ps(_mm256_and_ps(ahead.crosses, valid), has_ahead);
     __m256 behind_counts = _mm256_and_ps(_mm256_and_ps(behind.crosses, valid), has_behind);
@@ -176,13 +183,13 @@ MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
     from_before = _mm256_permutevar8x32_ps(from_before, before);
     from_next = _mm256_permutevar8x32_ps(from_next, next);
 
-    __m256 best = _mm256_add_ps(side.du, side.l), best_planar = _mm256_and_ps(own, sign);
+    __m256 best = _mm256_add_ps(side.du, side.l), best_planar = side.planar_u;
     __m256 nearer = _mm256_cmp_ps(from_before, best, _CMP_LT_OQ);
     best = _mm256_blendv_ps(best, from_before, nearer);
-    best_planar = _mm256_blendv_ps(best_planar, _mm256_permutevar8x32_ps(planar, before), nearer);
+    best_planar = _mm256_blendv_ps(best_planar, _mm256_permutevar8x32_ps(ahead.planar, before), nearer);
     nearer = _mm256_cmp_ps(from_next, best, _CMP_LT_OQ);
     best = _mm256_blendv_ps(best, from_next, nearer);
-    best_planar = _mm256_blendv_ps(best_planar, _mm256_permutevar8x32_ps(planar, next), nearer);
+    best_planar = _mm256_blendv_ps(best_planar, _mm256_permutevar8x32_ps(behind.planar, next), nearer);
     _mm256_storeu_ps(found, _mm256_or_ps(best, best_planar));
     return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(best, di, _CMP_LT_OQ)) & ((1u << step->count) - 1);
 }

@@ -114,6 +114,49 @@ static inline void meso_fixture_flip_sides(MesoTriangulation *mesh, uint64_t see
     }
 }
 
+/* ---- sheets ---- */
+
+typedef struct MesoFixtureSheet {
+    uint32_t columns, rows;
+    bool wraps;                 /* the last column is joined to the first */
+    float jitter_x, jitter_y;   /* of a square's side, up to which inner vertices move; rows 0 and `rows` stay */
+    uint64_t seed;
+    MesoVec3 (*place)(float column, float row, const void *context);
+    const void *context;
+} MesoFixtureSheet;
+
+/* Squares with random diagonals; vertex row * width + column, width = columns + 1, or columns where it wraps. */
+static inline MesoTriangulation meso_fixture_place_sheet(const MesoFixtureSheet *sheet)
+{
+    uint32_t width = sheet->columns + !sheet->wraps, vertex_count = width * (sheet->rows + 1), n = 0;
+    MesoVec3 *positions = malloc(vertex_count * sizeof *positions);
+    uint32_t *corners = malloc(6 * sizeof *corners * sheet->columns * sheet->rows);
+    CHECK(positions && corners);
+    MesoRandom random;
+    meso_random_init(&random, sheet->seed, 2);
+    for (uint32_t v = 0; v < vertex_count; v++) {
+        uint32_t c = v % width, r = v / width;
+        float x = sheet->jitter_x * meso_fixture_signed(&random), y = sheet->jitter_y * meso_fixture_signed(&random);
+        if (!sheet->wraps && (c == 0 || c == sheet->columns))
+            x = 0;
+        if (r == 0 || r == sheet->rows)
+            y = 0;
+        positions[v] = sheet->place((float)c + x, (float)r + y, sheet->context);
+    }
+    for (uint32_t r = 0; r < sheet->rows; r++)
+        for (uint32_t c = 0; c < sheet->columns; c++) {
+            uint32_t right = (c + 1) % width;
+            uint32_t q[4] = {r * width + c, r * width + right, (r + 1) * width + right, (r + 1) * width + c};
+            uint32_t turn = meso_random_below(&random, 2);
+            for (uint32_t k = 0; k < 6; k++)
+                corners[n++] = q[((k < 3 ? k : k == 3 ? 0 : k - 2) + turn) % 4];
+        }
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, vertex_count, corners, n / 3);
+    free(positions);
+    free(corners);
+    return mesh;
+}
+
 /* ---- spheres ---- */
 
 typedef struct MesoFixtureIcosahedron {
