@@ -311,6 +311,42 @@ static void test_ply_attributes(void)
     CHECK(strcmp(error.message, "a.ply:11: value '256' is beyond its type") == 0);
 }
 
+/* Lists of as many numbers for each corner are corners'; others are passed over. */
+static void test_ply_lists(void)
+{
+    CHECK(read_text("a.ply", PLY_HEAD "element face 2\nproperty list uchar uchar before\nproperty list uchar int vertex_indices\n"
+                    "property list uchar short pair\nproperty list int float other\nproperty uchar age\n"
+                    "property list uchar uchar color\nproperty list uchar float empty\nend_header\n0 0 0\n1 0 0\n1 1 0\n"
+                    "3 7 8 9 3 0 1 2 6 1 2 3 4 5 -6 3 1 1 1 33 9 255 0 0 0 255 0 0 0 255 0\n"
+                    "3 4 5 6 3 0 2 1 6 7 8 9 10 11 12 1 1 44 9 0 0 0 0 0 0 0 0 51 0\n") == MESO_OK);
+    const MesoAttribute *before = meso_polygon_attribute(&mesh, "before"), *pair = meso_polygon_attribute(&mesh, "pair");
+    const MesoAttribute *color = meso_polygon_attribute(&mesh, "color"), *age = meso_polygon_attribute(&mesh, "age");
+    CHECK(before && before->domain == MESO_ON_CORNERS && before->width == 1 && !before->normalized && mesh.attribute_count == 4);
+    CHECK(meso_attribute_number(before, 0, 0) == 7 && meso_attribute_number(before, 5, 0) == 6);
+    CHECK(pair->width == 2 && meso_attribute_number(pair, 2, 1) == -6 && meso_attribute_number(pair, 3, 0) == 7);
+    CHECK(color->width == 3 && color->normalized && meso_attribute_number(color, 5, 2) == 51 * (1.0 / 255));
+    CHECK(age->domain == MESO_ON_FACES && meso_attribute_number(age, 1, 0) == 44);
+}
+
+#define BINARY_HEAD "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty char x\nproperty char y\n" \
+    "property char z\nelement face 2\nproperty list uchar uchar vertex_indices\nproperty list uchar short pair\n" \
+    "property list uchar uchar other\nend_header\n\0\0\0\1\0\0\1\1\0\0\1\0"
+
+/* The same in binary, with faces of one size, and of two. */
+static void test_binary_lists(void)
+{
+    static const char same[] = BINARY_HEAD "\3\0\1\2" "\6\1\0\2\0\3\0\4\0\5\0\6\0" "\0"
+                               "\3\0\2\3" "\6\7\0\10\0\11\0\12\0\13\0\14\0" "\0";
+    static const char mixed[] = BINARY_HEAD "\3\0\1\2" "\3\1\0\2\0\3\0" "\0" "\4\0\1\2\3" "\4\4\0\5\0\6\0\7\0" "\1\1";
+    CHECK(read_bytes("a.ply", same, sizeof same - 1, 1) == MESO_OK && mesh.side_count == 3 && mesh.attribute_count == 1);
+    const MesoAttribute *pair = mesh.attributes;
+    CHECK(pair->width == 2 && meso_attribute_number(pair, 2, 1) == 6 && meso_attribute_number(pair, 5, 0) == 11);
+    CHECK(read_bytes("a.ply", mixed, sizeof mixed - 1, 1) == MESO_OK && mesh.side_count == 0 && mesh.attribute_count == 1);
+    pair = mesh.attributes;
+    CHECK(pair->domain == MESO_ON_CORNERS && pair->width == 1 && pair->entry_count == 7);
+    CHECK(meso_attribute_number(pair, 2, 0) == 3 && meso_attribute_number(pair, 6, 0) == 7);
+}
+
 /* Numbers of items that the header cannot mean, negative lists, indices and normals that cannot be. */
 static void test_binary_refusals(void)
 {
@@ -351,6 +387,8 @@ int main(void)
     meso_arena_init(&arena);
     test_obj_attributes();
     test_ply_attributes();
+    test_ply_lists();
+    test_binary_lists();
     test_binary_refusals();
     test_large_obj();
     test_large_text();

@@ -13,7 +13,7 @@ typedef struct AsciiPiece {
     uint64_t lines, lines_before;       /* with words: each is an item */
     uint64_t corners, corners_before;
     uint32_t least_sides, most_sides;
-    bool wrong_texcoord;
+    uint32_t *widths;                   /* [properties] of lists of corners; see ply_layout.h */
 } AsciiPiece;
 
 typedef struct Ascii {
@@ -77,15 +77,15 @@ static uint32_t list_length(MesoTextLine *line)
 
 static void count_face(const MesoPlyElement *element, MesoTextLine line, AsciiPiece *piece)
 {
-    uint32_t sides = 0, coordinates = MESO_NO_INDEX;
+    uint32_t sides = 0, counts[MESO_PLY_PROPERTIES];
+    bool more = element->roles & (1u << MESO_PLY_TEXCOORD | 1u << MESO_PLY_CORNERS);
     for (const MesoPlyProperty *p = element->properties; p < element->properties_end; p++) {
         MesoWord word;
         uint32_t count = p->list ? list_length(&line) : 1;
+        counts[p - element->properties] = count;
         if (p->role == MESO_PLY_INDICES)
             sides = count;
-        if (p->role == MESO_PLY_TEXCOORD)
-            coordinates = count;
-        if (p->role == MESO_PLY_INDICES && !(element->roles & 1u << MESO_PLY_TEXCOORD))
+        if (p->role == MESO_PLY_INDICES && !more)
             break;
         while (count > 0 && meso_text_word(&line, &word))
             count--;
@@ -93,7 +93,8 @@ static void count_face(const MesoPlyElement *element, MesoTextLine line, AsciiPi
     piece->corners += sides;
     piece->least_sides = sides < piece->least_sides ? sides : piece->least_sides;
     piece->most_sides = sides > piece->most_sides ? sides : piece->most_sides;
-    piece->wrong_texcoord |= coordinates != MESO_NO_INDEX && coordinates != 2 * (uint64_t)sides;
+    if (more)
+        meso_ply_note_widths(piece->widths, element, counts);
 }
 
 static void count_corners(void *context, uint64_t begin, uint64_t end)
@@ -117,6 +118,9 @@ static MesoStatus count(Ascii *ascii, uint32_t thread_count, MesoArena *scratch,
 {
     uint64_t corners = 0;
     ascii->pieces = MESO_NEW(scratch, AsciiPiece, ascii->text.piece_count, error);
+    for (uint32_t p = 0; ascii->pieces && p < ascii->text.piece_count; p++)
+        if (!(ascii->pieces[p].widths = MESO_NEW(scratch, uint32_t, ascii->ply->property_count, error)))
+            return MESO_ERR_MEMORY;
     if (!ascii->pieces)
         return MESO_ERR_MEMORY;
     meso_mesh_text_for(&ascii->text, thread_count, count_lines, ascii);
@@ -147,12 +151,12 @@ static uint32_t common_sides(const Ascii *ascii)
     return least == most ? most : 0;
 }
 
-static bool has_wrong_texcoord(const Ascii *ascii)
+/* Of all faces, in the first piece's. */
+static const uint32_t *common_widths(const Ascii *ascii, const MesoPlyElement *faces)
 {
-    for (uint32_t p = 0; p < ascii->text.piece_count; p++)
-        if (ascii->pieces[p].wrong_texcoord)
-            return true;
-    return false;
+    for (uint32_t p = 1; p < ascii->text.piece_count; p++)
+        meso_ply_join_widths(ascii->pieces[0].widths, ascii->pieces[p].widths, faces);
+    return ascii->pieces[0].widths;
 }
 
 /* For as many items as there are lines. */
@@ -167,7 +171,8 @@ static MesoStatus make_room(Ascii *ascii, MesoArena *arena, MesoError *error)
         if (element->kind == MESO_PLY_VERTICES)
             status = meso_ply_make_vertices(element, mesh, arena, items, error);
         if (element->kind == MESO_PLY_FACES)
-            status = meso_ply_make_faces(element, mesh, arena, items, mesh->corner_count, common_sides(ascii), error);
+            status = meso_ply_make_faces(element, mesh, arena, items, mesh->corner_count, common_sides(ascii),
+                                         common_widths(ascii, element), error);
         rest -= items;
     }
     if (!status && mesh->face_begin)
@@ -302,7 +307,7 @@ static MesoStatus read_list(AsciiFill *fill, const MesoPlyProperty *property, ui
             status = read_index(fill, counted);
             continue;
         }
-        size_t at = (size_t)first_corner * property->stride + (size_t)i * (property->stride / 2);
+        size_t at = (size_t)first_corner * property->stride + (size_t)i * meso_scalar_size(property->to);
         status = read_number(fill, property, property->out && counted ? property->out + at : NULL);
     }
     return status;
@@ -364,12 +369,6 @@ static MesoStatus read_ascii(Ascii *ascii, MesoArena *arena, MesoArena *scratch,
         status = make_room(ascii, arena, error);
     if (status)
         return status;
-    if (has_wrong_texcoord(ascii)) {
-        meso_ply_drop_texcoord(ascii->mesh);
-        for (uint32_t p = 0; p < ascii->ply->property_count; p++)
-            if (ascii->ply->properties[p].role == MESO_PLY_TEXCOORD)
-                ascii->ply->properties[p].out = NULL;
-    }
     meso_mesh_text_for(&ascii->text, thread_count, fill_piece, ascii);
     status = meso_mesh_text_status(&ascii->text, error);
     return status ? status : check_end(ascii, error);

@@ -34,7 +34,7 @@ typedef struct Reading {
     uint64_t corner_count;
     uint32_t least_sides, most_sides;
     bool negative;                  /* the item behind them has a list of negative length; else the file ends in it */
-    bool wrong_texcoord;
+    uint32_t *widths;               /* [properties] of lists of corners; see ply_layout.h */
     MesoPlyItems *items;            /* where all items are as long as the first */
     uint32_t *list_counts;          /* [properties] of the first item */
     Block *blocks;                  /* else */
@@ -94,14 +94,6 @@ static uint32_t indices_of(const MesoPlyElement *element, const uint32_t *counts
     return 0;
 }
 
-static uint32_t texcoords_of(const MesoPlyElement *element, const uint32_t *counts)
-{
-    for (const MesoPlyProperty *p = element->properties; p < element->properties_end; p++)
-        if (p->role == MESO_PLY_TEXCOORD)
-            return counts[p - element->properties];
-    return 2 * indices_of(element, counts);
-}
-
 /* Whether the lists of items have the lengths that those of the first have: then all of them lie where its do. */
 static void compare_lists(void *context, uint64_t begin, uint64_t end)
 {
@@ -139,7 +131,7 @@ static MesoStatus walk_items(Reading *reading)
         if (i % GRAIN == 0)
             reading->blocks[i / GRAIN] = (Block){(size_t)(at - reading->data), (uint32_t)reading->corner_count};
         uint32_t sides = indices_of(element, counts);
-        reading->wrong_texcoord |= texcoords_of(element, counts) != 2 * (uint64_t)sides;
+        meso_ply_note_widths(reading->widths, element, counts);
         reading->least_sides = sides < reading->least_sides ? sides : reading->least_sides;
         reading->most_sides = sides > reading->most_sides ? sides : reading->most_sides;
         reading->corner_count += sides;
@@ -156,7 +148,8 @@ static MesoStatus find_items(Reading *reading)
     bool negative = false;
     reading->items = MESO_NEW(reading->scratch, MesoPlyItems, 1, reading->error);
     reading->list_counts = MESO_NEW(reading->scratch, uint32_t, MESO_PLY_PROPERTIES, reading->error);
-    if (!reading->items || !reading->list_counts)
+    reading->widths = MESO_NEW(reading->scratch, uint32_t, MESO_PLY_PROPERTIES, reading->error);
+    if (!reading->items || !reading->list_counts || !reading->widths)
         return MESO_ERR_MEMORY;
     reading->items->data = reading->data;
     reading->items->big = reading->big;
@@ -177,7 +170,7 @@ static MesoStatus find_items(Reading *reading)
     }
     uint32_t sides = indices_of(element, reading->list_counts);
     reading->least_sides = reading->most_sides = sides;
-    reading->wrong_texcoord = texcoords_of(element, reading->list_counts) != 2 * (uint64_t)sides;
+    meso_ply_note_widths(reading->widths, element, reading->list_counts);
     reading->corner_count = (uint64_t)sides * reading->item_count;
     reading->used = reading->item_count * reading->items->stride;
     return MESO_OK;
@@ -204,7 +197,7 @@ static const unsigned char *copy_item(const Reading *reading, const unsigned cha
 {
     for (const MesoPlyProperty *p = reading->element->properties; p < reading->element->properties_end; p++) {
         uint32_t count = 1, size = meso_scalar_size(p->type);
-        size_t first = p->list ? corner : item, step = p->list && p->role == MESO_PLY_TEXCOORD ? p->stride / 2 : p->stride;
+        size_t first = p->list ? corner : item, step = meso_scalar_size(p->to);
         if (p->list) {
             count = (uint32_t)meso_ply_integer(p->count_type, at, reading->big);
             at += meso_scalar_size(p->count_type);
@@ -340,12 +333,9 @@ static MesoStatus make_room(Reading *reading)
         return meso_fail(reading->error, MESO_ERR_LIMIT, "mesh has more than %u elements of a kind", MESO_MESH_LIMIT);
     uint32_t side_count = reading->least_sides == reading->most_sides ? reading->most_sides : 0;
     MesoStatus status = meso_ply_make_faces(reading->element, mesh, reading->arena, reading->item_count,
-                                            (uint32_t)reading->corner_count, side_count, reading->error);
+                                            (uint32_t)reading->corner_count, side_count, reading->widths, reading->error);
     if (!status && mesh->face_begin)
         mesh->face_begin[mesh->face_count] = mesh->corner_count;
-    for (MesoPlyProperty *p = reading->element->properties; p < reading->element->properties_end; p++)
-        if (p->role == MESO_PLY_TEXCOORD && reading->wrong_texcoord)
-            p->out = NULL;
     return status;
 }
 
@@ -359,8 +349,6 @@ static MesoStatus read_items(Reading *reading)
     meso_parallel_for(reading->thread_count, reading->item_count, GRAIN, copy_range, reading);
     if (reading->element->kind == MESO_PLY_FACES)
         meso_parallel_for(reading->thread_count, reading->item_count, GRAIN, check_range, reading);
-    if (reading->wrong_texcoord)
-        meso_ply_drop_texcoord(reading->mesh);
     uint32_t wrong = (uint32_t)atomic_load(&reading->wrong);
     return wrong == MESO_NO_INDEX ? MESO_OK : fail_wrong(reading, wrong);
 }

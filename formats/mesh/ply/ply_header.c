@@ -154,7 +154,11 @@ static MesoStatus set_role(HeaderReader *reader, MesoPlyElement *element, MesoPl
     if (property->role == MESO_PLY_TEXCOORD &&
         (!property->list || is_integer(property->type) || element->roles & 1u << MESO_PLY_TEXCOORD))
         property->role = MESO_PLY_OTHER;
-    if (property->role == MESO_PLY_OTHER)
+    if (property->role == MESO_PLY_OTHER && property->list && element->kind == MESO_PLY_FACES) {
+        property->role = MESO_PLY_CORNERS;
+        element->roles |= 1u << MESO_PLY_CORNERS;
+    }
+    if (property->role >= MESO_PLY_CORNERS)
         return MESO_OK;
     if (element->roles & 1u << property->role)
         return fail(reader, "property '%.*s' comes twice", MESO_WORD_ARGUMENTS(name));

@@ -12,6 +12,7 @@ typedef enum MesoPlyForm { MESO_PLY_NONE, MESO_PLY_ASCII, MESO_PLY_LITTLE, MESO_
 /* What a property is for; the first three in the order of a position's numbers. */
 typedef enum MesoPlyRole {
     MESO_PLY_X, MESO_PLY_Y, MESO_PLY_Z, MESO_PLY_NX, MESO_PLY_NY, MESO_PLY_NZ, MESO_PLY_INDICES, MESO_PLY_TEXCOORD,
+    MESO_PLY_CORNERS,           /* any other list of faces: perhaps of so many numbers for each corner */
     MESO_PLY_OTHER
 } MesoPlyRole;
 
@@ -54,6 +55,12 @@ typedef struct MesoPly {
     MesoPlyName *names;         /* [name_count] in the order of the file */
     size_t body;                /* where the header ends */
 } MesoPly;
+
+/* Whether the numbers of a property may be corners'. */
+static inline bool meso_ply_is_of_corners(const MesoPlyProperty *property)
+{
+    return property->role == MESO_PLY_TEXCOORD || property->role == MESO_PLY_CORNERS;
+}
 
 /* Reads the header; names go to `arena`. MESO_ERR_INPUT with the line. */
 MesoStatus meso_ply_header_read(MesoPly *ply, MesoArena *arena, const MesoInput *input, MesoError *error);

@@ -115,6 +115,20 @@ static MesoStatus plan_others(Planner *planner)
     return status;
 }
 
+/* Of corners, as far as the header tells. */
+static void plan_lists(Planner *planner)
+{
+    for (MesoPlyProperty *p = planner->element->properties; p < planner->element->properties_end; p++) {
+        if (!meso_ply_is_of_corners(p))
+            continue;
+        const char *name = p->role == MESO_PLY_TEXCOORD ? "uv" : p->name;
+        bool bytes = p->type == MESO_SCALAR_UINT8 || p->type == MESO_SCALAR_UINT16;
+        planner->mesh->attributes[planner->mesh->attribute_count++] = (MesoAttribute){
+            .name = name, .domain = MESO_ON_CORNERS, .scalar = p->type, .normalized = bytes && strcmp(name, "color") == 0};
+        p->stride = planner->mesh->attribute_count;
+    }
+}
+
 MesoStatus meso_ply_plan(MesoPly *ply, MesoPolygonMesh *mesh, MesoArena *arena, MesoError *error)
 {
     MesoStatus status = MESO_OK;
@@ -128,9 +142,7 @@ MesoStatus meso_ply_plan(MesoPly *ply, MesoPolygonMesh *mesh, MesoArena *arena, 
         status = plan_known(&planner);
         if (!status)
             status = plan_others(&planner);
-        if (planner.element->roles & 1u << MESO_PLY_TEXCOORD)
-            mesh->attributes[mesh->attribute_count++] = (MesoAttribute){
-                .name = "uv", .domain = MESO_ON_CORNERS, .width = 2};
+        plan_lists(&planner);
     }
     return status;
 }
@@ -182,16 +194,58 @@ MesoStatus meso_ply_make_vertices(MesoPlyElement *element, MesoPolygonMesh *mesh
     return aim_scalars(element, mesh, arena, count, error);
 }
 
-static MesoAttribute *find_texcoord(MesoPolygonMesh *mesh)
+void meso_ply_note_widths(uint32_t *widths, const MesoPlyElement *element, const uint32_t *counts)
 {
-    MesoAttribute *attribute = mesh->attributes;
-    while (attribute->domain != MESO_ON_CORNERS)
-        attribute++;
-    return attribute;
+    uint32_t sides = 0;
+    for (const MesoPlyProperty *p = element->properties; p < element->properties_end; p++)
+        if (p->role == MESO_PLY_INDICES)
+            sides = counts[p - element->properties];
+    for (const MesoPlyProperty *p = element->properties; p < element->properties_end; p++) {
+        uint32_t *width = &widths[p - element->properties], count = counts[p - element->properties];
+        if (!meso_ply_is_of_corners(p))
+            continue;
+        if (*width == 0 && sides > 0)
+            *width = count > 0 ? count / sides : MESO_NO_INDEX;
+        if (count != (uint64_t)*width * sides)
+            *width = MESO_NO_INDEX;
+    }
+}
+
+void meso_ply_join_widths(uint32_t *widths, const uint32_t *others, const MesoPlyElement *element)
+{
+    for (uint32_t i = 0; i < element->properties_end - element->properties; i++) {
+        if (widths[i] == 0)
+            widths[i] = others[i];
+        else if (others[i] != 0 && others[i] != widths[i])
+            widths[i] = MESO_NO_INDEX;
+    }
+}
+
+static MesoStatus aim_list(MesoPlyProperty *property, MesoPolygonMesh *mesh, MesoArena *arena, uint32_t width, MesoError *error)
+{
+    MesoAttribute *attribute = &mesh->attributes[property->stride - 1];
+    if (width == 0 || width == MESO_NO_INDEX || (property->role == MESO_PLY_TEXCOORD && width != 2))
+        return MESO_OK;
+    attribute->width = width;
+    if (make_attribute(attribute, arena, mesh->corner_count, error))
+        return MESO_ERR_MEMORY;
+    aim(property, attribute->values, width * meso_scalar_size(property->type), property->type);
+    return MESO_OK;
+}
+
+/* Lists that turned out to be of something else. */
+static void drop_empty(MesoPolygonMesh *mesh)
+{
+    uint32_t kept = 0;
+    for (uint32_t a = 0; a < mesh->attribute_count; a++)
+        if (mesh->attributes[a].domain != MESO_ON_CORNERS || mesh->attributes[a].width > 0)
+            mesh->attributes[kept++] = mesh->attributes[a];
+    mesh->attribute_count = kept;
 }
 
 MesoStatus meso_ply_make_faces(MesoPlyElement *element, MesoPolygonMesh *mesh, MesoArena *arena,
-                               uint32_t count, uint32_t corner_count, uint32_t side_count, MesoError *error)
+                               uint32_t count, uint32_t corner_count, uint32_t side_count, const uint32_t *widths,
+                               MesoError *error)
 {
     mesh->face_count = count;
     mesh->corner_count = corner_count;
@@ -203,19 +257,10 @@ MesoStatus meso_ply_make_faces(MesoPlyElement *element, MesoPolygonMesh *mesh, M
     for (MesoPlyProperty *p = element->properties; p < element->properties_end; p++) {
         if (p->role == MESO_PLY_INDICES)
             aim(p, mesh->corners, sizeof *mesh->corners, MESO_SCALAR_UINT32);
-        if (p->role != MESO_PLY_TEXCOORD)
-            continue;
-        MesoAttribute *uv = find_texcoord(mesh);
-        uv->scalar = p->type;
-        if (make_attribute(uv, arena, corner_count, error))
+        if (meso_ply_is_of_corners(p) && aim_list(p, mesh, arena, widths[p - element->properties], error))
             return MESO_ERR_MEMORY;
-        aim(p, uv->values, 2 * meso_scalar_size(p->type), p->type);
     }
-    return aim_scalars(element, mesh, arena, count, error);
-}
-
-void meso_ply_drop_texcoord(MesoPolygonMesh *mesh)
-{
-    MesoAttribute *uv = find_texcoord(mesh), *last = &mesh->attributes[--mesh->attribute_count];
-    memmove(uv, uv + 1, (size_t)(last - uv) * sizeof *uv);
+    MesoStatus status = aim_scalars(element, mesh, arena, count, error);
+    drop_empty(mesh);
+    return status;
 }

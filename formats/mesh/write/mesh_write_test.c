@@ -110,6 +110,7 @@ static void test_ply(void)
     check_numbers(&attributes[1], meso_polygon_attribute_on(&read, "uv", MESO_ON_CORNERS), 8, true);
     check_numbers(&attributes[2], meso_polygon_attribute_on(&read, "color", MESO_ON_VERTICES), 6, true);
     check_numbers(&attributes[3], meso_polygon_attribute_on(&read, "height", MESO_ON_FACES), 2, true);
+    check_numbers(&attributes[5], meso_polygon_attribute_on(&read, "normal", MESO_ON_CORNERS), 8, true);
     const MesoAttribute *material = meso_polygon_attribute_on(&read, "material", MESO_ON_FACES);
     CHECK(material && material->width == 0 && strcmp(material->names[meso_attribute_entry(material, 0)], "iron") == 0);
     CHECK(strcmp(material->names[meso_attribute_entry(material, 1)], "red oak") == 0);
