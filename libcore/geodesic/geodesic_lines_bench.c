@@ -2,6 +2,7 @@
 #include <time.h>
 
 #include "libcore/geodesic/isoline.h"
+#include "libcore/geodesic/voronoi.h"
 #include "libcore/geodesic/geodesic_fixture.h"
 
 enum { DIVISIONS = 224, ROUNDS = 5, LEVELS = 100 };
@@ -46,10 +47,38 @@ static void bench_isolines(const MesoTriangulation *mesh)
     free(field);
 }
 
+static void bench_cells(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, uint32_t seed_count)
+{
+    MesoRandom random;
+    MesoMeshPoint *seeds = malloc(seed_count * sizeof *seeds);
+    MesoVoronoiQuery query = {.seed_count = seed_count, .seeds = seeds};
+    double best = 1e9;
+    CHECK(seeds);
+    meso_random_init(&random, 1, 0);
+    for (uint32_t i = 0; i < seed_count; i++)
+        seeds[i] = (MesoMeshPoint){meso_random_below(&random, mesh->triangle_count), {0.25f, 0.25f, 0.5f}};
+    for (int i = 0; i < ROUNDS; i++) {
+        MesoArena arena;
+        MesoCutLines lines = {0};
+        meso_arena_init(&arena);
+        double start = cpu_seconds();
+        CHECK(meso_voronoi_trace(&lines, NULL, NULL, &arena, mesh, solver, &query, NULL) == MESO_OK);
+        best = fmin(best, cpu_seconds() - start);
+        meso_arena_release(&arena);
+    }
+    printf("Voronoi cells, %u on %u triangles: %.1f ms\n", seed_count, mesh->triangle_count, 1e3 * best);
+    free(seeds);
+}
+
 int main(void)
 {
     MesoTriangulation mesh = meso_fixture_sphere(DIVISIONS, 0.3f, 7);
+    MesoGeodesicSolver *solver;
+    CHECK(meso_geodesic_init(&solver, &mesh, MESO_GEODESIC_FRONTS, NULL) == MESO_OK);
     bench_isolines(&mesh);
+    for (uint32_t count = 10; count <= 100000; count *= 10)
+        bench_cells(&mesh, solver, count);
+    meso_geodesic_release(solver);
     meso_triangulation_release(&mesh);
     return 0;
 }

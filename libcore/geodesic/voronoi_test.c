@@ -1,0 +1,241 @@
+#include "libcore/geodesic/voronoi.h"
+
+#include <string.h>
+
+#include "libcore/geodesic/geodesic_fixture.h"
+#include "libcore/geodesic/geodesic_solver.h"
+#include "libcore/mesh/cut/mesh_domain.h"
+
+static MesoArena arena;
+
+static MesoGeodesicSolver *solver_of(const MesoTriangulation *mesh)
+{
+    MesoGeodesicSolver *solver;
+    CHECK(meso_geodesic_init(&solver, mesh, MESO_GEODESIC_FRONTS, NULL) == MESO_OK);
+    return solver;
+}
+
+static MesoMeshPoint random_point(const MesoTriangulation *mesh, MesoRandom *random)
+{
+    float a = 0.5f + 0.5f * meso_fixture_signed(random), b = 0.5f + 0.5f * meso_fixture_signed(random);
+    if (a + b > 1)
+        a = 1 - a, b = 1 - b;
+    return (MesoMeshPoint){meso_random_below(random, mesh->triangle_count), {fmaxf(0, 1 - a - b), a, b}};
+}
+
+static MesoMeshPoint vertex_point(const MesoTriangulation *mesh, uint32_t vertex)
+{
+    uint32_t corner = mesh->vertex_corner[vertex];
+    MesoMeshPoint point = {corner / 3, {0, 0, 0}};
+    point.weight[corner % 3] = 1;
+    return point;
+}
+
+/* A solve of its own for a seed: as the fronts plant it. */
+static void solve_alone(MesoGeodesicSolver *solver, const MesoDomain *domain, const MesoMeshPoint *point, float *distance)
+{
+    const uint32_t *corners = solver->mesh->corners + 3 * (size_t)point->triangle;
+    MesoGeodesicSeed seeds[3];
+    MesoGeodesicQuery query = {.domain = domain, .seeds = seeds, .target = MESO_NO_INDEX};
+    MesoVec3 place = {0, 0, 0};
+    for (uint32_t k = 0; k < 3; k++)
+        place = meso_vec3_mad(place, point->weight[k], solver->mesh->positions[corners[k]]);
+    for (uint32_t k = 0; k < 3; k++)
+        if (point->weight[k] == 1) {
+            seeds[0] = (MesoGeodesicSeed){corners[k], 0, false};
+            query.seed_count = 1;
+        }
+    for (uint32_t k = 0; k < 3 && query.seed_count != 1; k++)
+        seeds[k] = (MesoGeodesicSeed){
+            corners[k], meso_vec3_length(meso_vec3_sub(solver->mesh->positions[corners[k]], place)), false};
+    query.seed_count = query.seed_count ? 1 : 3;
+    CHECK(meso_geodesic_solve(solver, &query, distance, NULL, NULL, NULL) == MESO_OK);
+}
+
+/* Cells and distances are those of separate solves, to the last bit. */
+static void check_cells(MesoGeodesicSolver *solver, const MesoDomain *domain, const MesoMeshPoint *seeds,
+                        uint32_t seed_count, const uint32_t *cell, const float *distance)
+{
+    uint32_t n = solver->mesh->vertex_count;
+    float *alone = malloc(n * sizeof *alone), *least = malloc(n * sizeof *least);
+    uint32_t *nearest = malloc(n * sizeof *nearest);
+    CHECK(alone && least && nearest);
+    for (uint32_t v = 0; v < n; v++) {
+        alone[v] = least[v] = INFINITY;
+        nearest[v] = MESO_NO_INDEX;
+    }
+    for (uint32_t i = 0; i < seed_count; i++) {
+        solve_alone(solver, domain, &seeds[i], alone);
+        for (uint32_t v = 0; v < n; v++)
+            if (alone[v] < least[v]) {
+                least[v] = alone[v];
+                nearest[v] = i;
+            }
+    }
+    for (uint32_t v = 0; v < n; v++)
+        CHECK(nearest[v] == cell[v] && least[v] == distance[v]);
+    free(alone);
+    free(least);
+    free(nearest);
+}
+
+/* Two seeds at the ends of a strip: one straight border half-way, its nodes one a side. */
+static void test_two(void)
+{
+    uint32_t cell[7 * 3];
+    float distance[7 * 3];
+    MesoCutLines lines = {0};
+    MesoTriangulation mesh = meso_fixture_sheet(6, 2, 1);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    MesoMeshPoint seeds[2] = {vertex_point(&mesh, 8), vertex_point(&mesh, 13)};
+    MesoVoronoiQuery query = {.seed_count = 2, .seeds = seeds};
+    CHECK(meso_voronoi_trace(&lines, cell, distance, &arena, &mesh, solver, &query, NULL) == MESO_OK);
+    for (uint32_t v = 0; v < 21; v++)
+        CHECK(cell[v] == (v % 7 > 3));
+    CHECK(distance[8] == 0 && distance[13] == 0 && fabsf(distance[10] - 2) < 1e-6f);
+    CHECK(lines.node_count == 5 && lines.segment_count == 4);
+    for (uint32_t n = 0; n < 5; n++) {
+        MesoVec3 p = meso_cut_node_position(&mesh, &lines.nodes[n]);
+        CHECK(lines.nodes[n].kind == MESO_ON_EDGE && fabsf(p.x - 3.5f) < 0.05f);
+    }
+    for (uint32_t s = 0; s < 4; s++)
+        CHECK(lines.segments[s].line == 0);
+    meso_geodesic_release(solver);
+    meso_triangulation_release(&mesh);
+}
+
+/* Three cells of a triangle meet in the middle; no seed, no cell. */
+static void test_three(void)
+{
+    const MesoVec3 positions[3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+    const uint32_t corners[3] = {0, 1, 2};
+    uint32_t cell[3];
+    MesoCutLines lines = {0};
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, 3, corners, 1);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    MesoMeshPoint seeds[3] = {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}};
+    MesoVoronoiQuery query = {.seed_count = 3, .seeds = seeds};
+    CHECK(meso_voronoi_trace(&lines, cell, NULL, &arena, &mesh, solver, &query, NULL) == MESO_OK);
+    CHECK(cell[0] == 0 && cell[1] == 1 && cell[2] == 2);
+    CHECK(lines.node_count == 4 && lines.segment_count == 3 && lines.nodes[3].kind == MESO_IN_TRIANGLE);
+    for (uint32_t n = 0; n < 3; n++)
+        CHECK(lines.nodes[n].kind == MESO_ON_EDGE && fabsf(lines.nodes[n].share[0] - 0.5f) < 1e-6f);
+    query.seed_count = 0;
+    CHECK(meso_voronoi_trace(&lines, cell, NULL, &arena, &mesh, solver, &query, NULL) == MESO_OK);
+    CHECK(lines.segment_count == 3 && cell[0] == MESO_NO_INDEX);
+    meso_geodesic_release(solver);
+    meso_triangulation_release(&mesh);
+}
+
+/* Every node of a side has as many segments as the side has triangles in the domain. */
+static void check_no_gaps(const MesoTriangulation *mesh, const MesoDomain *domain, const MesoCutLines *lines)
+{
+    uint32_t *degree = calloc(lines->node_count + 1, sizeof *degree);
+    CHECK(degree);
+    for (uint32_t s = 0; s < lines->segment_count; s++)
+        for (uint32_t k = 0; k < 2; k++)
+            degree[lines->segments[s].node[k]]++;
+    for (uint32_t n = 0; n < lines->node_count; n++) {
+        const MesoCutNode *node = &lines->nodes[n];
+        if (node->kind == MESO_IN_TRIANGLE) {
+            CHECK(degree[n] >= 3 && node->share[0] >= 0 && node->share[1] >= 0 && node->share[0] + node->share[1] < 1.00001f);
+            continue;
+        }
+        uint32_t across = mesh->twins[node->element];
+        uint32_t sides = meso_domain_holds(domain, mesh, node->element / 3);
+        sides += across != MESO_NO_INDEX && meso_domain_holds(domain, mesh, across / 3);
+        CHECK(node->kind == MESO_ON_EDGE && node->share[0] >= 0 && node->share[0] <= 1 && degree[n] == sides);
+    }
+    free(degree);
+}
+
+/* Nowhere two triangles disagree, and nothing is written outside of the domain. */
+static void check_round(MesoGeodesicSolver *solver, const MesoDomain *domain, const MesoMeshPoint *seeds,
+                        uint32_t seed_count)
+{
+    const MesoTriangulation *mesh = solver->mesh;
+    uint32_t *cell = malloc(mesh->vertex_count * sizeof *cell);
+    float *distance = malloc(mesh->vertex_count * sizeof *distance);
+    MesoVoronoiQuery query = {domain, seed_count, seeds};
+    MesoCutLines lines = {0};
+    CHECK(cell && distance);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        cell[v] = MESO_NO_INDEX;
+        distance[v] = INFINITY;
+    }
+    CHECK(meso_voronoi_trace(&lines, cell, distance, &arena, mesh, solver, &query, NULL) == MESO_OK);
+    check_no_gaps(mesh, domain, &lines);
+    check_cells(solver, domain, seeds, seed_count, cell, distance);
+    free(cell);
+    free(distance);
+}
+
+/* Against separate solves on a sphere: at vertices and inside triangles, down to few triangles a cell. */
+static void test_brute_force(void)
+{
+    const uint32_t counts[4] = {2, 20, 100, 400};
+    MesoRandom random;
+    MesoMeshPoint seeds[400];
+    MesoTriangulation mesh = meso_fixture_sphere(16, 0.3f, 3);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    meso_random_init(&random, 5, 0);
+    for (uint32_t round = 0; round < 8; round++) {
+        solver->plain = round % 4 > 1;
+        for (uint32_t i = 0; i < counts[round / 2]; i++)
+            seeds[i] = round % 2 ? random_point(&mesh, &random)
+                                 : vertex_point(&mesh, meso_random_below(&random, mesh.vertex_count));
+        check_round(solver, NULL, seeds, counts[round / 2]);
+    }
+    meso_geodesic_release(solver);
+    meso_triangulation_release(&mesh);
+}
+
+/* In a domain of two pieces, in one of which there is no seed, and one that is small. */
+static void test_domain(void)
+{
+    MesoRandom random;
+    const uint8_t member[3] = {0, 1, 1};
+    MesoMeshPoint seeds[60];
+    uint32_t count = 0;
+    MesoTriangulation mesh = meso_fixture_sphere(24, 0.3f, 3);
+    uint32_t *triangles = malloc(mesh.triangle_count * sizeof *triangles);
+    MesoDomain domain = {member, 0, triangles};
+    CHECK(triangles);
+    meso_random_init(&random, 6, 0);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        MesoVec3 p = mesh.positions[mesh.corners[3 * t]];
+        mesh.labels[t] = p.z > 0.9f ? 1 : p.z < -0.2f && p.z > -0.6f && p.x > -0.3f ? 2 : 0;
+        if (mesh.labels[t])
+            triangles[domain.triangle_count++] = t;
+        if (mesh.labels[t] == 2 && count < 60 && meso_random_below(&random, 20) == 0)
+            seeds[count++] = (MesoMeshPoint){t, {0.25f, 0.25f, 0.5f}};
+    }
+    for (uint32_t h = 0; h < 3 * mesh.triangle_count; h++)
+        if (mesh.labels[h / 3] != mesh.labels[mesh.twins[h] / 3])
+            mesh.walls[h / 3] |= (uint8_t)(1u << h % 3);
+    CHECK(meso_triangulation_check(&mesh, NULL) == MESO_OK && count > 20);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    check_round(solver, &domain, seeds, count);
+    domain.member = (const uint8_t[3]){0, 1, 0};
+    domain.triangle_count = 0;
+    for (uint32_t t = 0; t < mesh.triangle_count; t++)
+        if (mesh.labels[t] == 1)
+            triangles[domain.triangle_count++] = t;
+    seeds[0].triangle = triangles[0];
+    seeds[1].triangle = triangles[domain.triangle_count / 2];
+    check_round(solver, &domain, seeds, 2);
+    free(triangles);
+    meso_geodesic_release(solver);
+    meso_triangulation_release(&mesh);
+}
+
+int main(void)
+{
+    meso_arena_init(&arena);
+    test_two();
+    test_three();
+    test_brute_force();
+    test_domain();
+    meso_arena_release(&arena);
+    return 0;
+}
