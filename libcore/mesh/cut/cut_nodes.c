@@ -2,79 +2,33 @@
 
 #include <string.h>
 
+#include "libcore/mesh/cut/cut_keys.h"
 #include "libcore/mesh/cut/triangle_split.h"
 
 enum { ONE = MESO_SPLIT_ONE, APART = MESO_SPLIT_APART };
 
-_Static_assert(MESO_CUT_SNAP * MESO_SPLIT_ONE == MESO_SPLIT_APART, "one bound, said twice");
-
-/* ---- sorting ---- */
-
-enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS, FEW = 64 };
-
-static void sort_few(MesoCutKey *keys, uint32_t count)
-{
-    for (uint32_t i = 1; i < count; i++) {
-        MesoCutKey moved = keys[i];
-        uint32_t j = i;
-        for (; j > 0 && keys[j - 1].key > moved.key; j--)
-            keys[j] = keys[j - 1];
-        keys[j] = moved;
-    }
-}
-
-static void sort_by_digit(MesoCutKey *to, const MesoCutKey *from, uint32_t count, uint32_t shift)
-{
-    uint32_t begin[DIGITS + 1] = {0};
-    for (uint32_t i = 0; i < count; i++)
-        begin[(from[i].key >> shift) % DIGITS + 1]++;
-    for (uint32_t d = 0; d < DIGITS; d++)
-        begin[d + 1] += begin[d];
-    for (uint32_t i = 0; i < count; i++)
-        to[begin[(from[i].key >> shift) % DIGITS]++] = from[i];
-}
-
-void meso_cut_sort(MesoCutKey *keys, MesoCutKey *spare, uint32_t count)
-{
-    uint64_t all = 0;
-    bool sorted = true;
-    for (uint32_t i = 0; i < count; i++) {
-        all |= keys[i].key;
-        sorted = sorted && (i == 0 || keys[i - 1].key <= keys[i].key);
-    }
-    if (sorted)
-        return;
-    if (count <= FEW) {
-        sort_few(keys, count);
-        return;
-    }
-    MesoCutKey *from = keys, *to = spare;
-    for (uint32_t shift = 0; shift < 64 && all >> shift; shift += DIGIT_BITS) {
-        if ((all >> shift) % DIGITS == 0)
-            continue;
-        sort_by_digit(to, from, count, shift);
-        MesoCutKey *swapped = from;
-        from = to;
-        to = swapped;
-    }
-    if (from != keys)
-        memcpy(keys, from, count * sizeof *keys);
-}
-
 /* ---- one node ---- */
+
+static double largest_coordinate(MesoVec3 p)
+{
+    double x = fabs((double)p.x), y = fabs((double)p.y), z = fabs((double)p.z);
+    x = y > x ? y : x;
+    return z > x ? z : x;
+}
 
 /*
  * How near nodes of an edge may be to each other and to its ends. Where an edge is so short for its place that
- * coordinates would hardly tell the new vertices from the old ones, more than MESO_CUT_SNAP: 64 times their rounding.
+ * coordinates would hardly tell the new vertices from the old ones, more than MESO_CUT_SNAP: 64 times their rounding
+ * or twice that.
  */
 static int32_t apart_on(const MesoTriangulation *mesh, uint32_t half_edge)
 {
     MesoVec3 a = mesh->positions[mesh->corners[half_edge]];
     MesoVec3 b = mesh->positions[mesh->corners[meso_next_corner(half_edge)]];
-    float size = fmaxf(fmaxf(fmaxf(fabsf(a.x), fabsf(a.y)), fabsf(a.z)), fmaxf(fmaxf(fabsf(b.x), fabsf(b.y)), fabsf(b.z)));
     double x = (double)b.x - a.x, y = (double)b.y - a.y, z = (double)b.z - a.z;
-    double least = 0x1p-18 * (double)size, length = sqrt(x * x + y * y + z * z);
-    if (length * MESO_CUT_SNAP >= least)
+    double size = largest_coordinate(a) + largest_coordinate(b), least = 0x1p-18 * size;
+    double length = sqrt(x * x + y * y + z * z);
+    if (length * APART >= least * ONE)
         return APART;
     return length > 2 * least ? (int32_t)(ONE * (least / length)) : ONE;
 }
@@ -93,7 +47,7 @@ static bool to_grid(float share, int32_t *whole)
     return true;
 }
 
-/* At `share` of an edge, by either half-edge: x is the share along the lower one, element that, until it is numbered. */
+/* At `share` along either half-edge. Until shares are numbered, x is that along the lower one, and element that. */
 static MesoCutPlace place_on_edge(const MesoTriangulation *mesh, uint32_t half_edge, int32_t share)
 {
     uint32_t lower = meso_cut_lower(mesh, half_edge);
@@ -106,15 +60,21 @@ static MesoCutPlace place_on_edge(const MesoTriangulation *mesh, uint32_t half_e
     return (MesoCutPlace){MESO_AT_VERTEX, mesh->corners[end], 0, 0};
 }
 
+/* Onto a side where that is near; as near as nodes on sides may not be, where coordinates hold no more. */
 static MesoCutPlace place_in_triangle(const MesoTriangulation *mesh, uint32_t triangle, int32_t x, int32_t y)
 {
-    int32_t weight[3] = {ONE - x - y, x, y};
+    int32_t weight[3] = {ONE - x - y, x, y}, apart = 0;
     uint32_t least = weight[1] < weight[0] ? 1 : 0;
     least = weight[2] < weight[least] ? 2 : least;
-    if (weight[least] >= APART)
+    for (uint32_t h = 3 * triangle; h < 3 * triangle + 3; h++) {
+        int32_t on_side = apart_on(mesh, meso_cut_lower(mesh, h));
+        apart = on_side > apart ? on_side : apart;
+    }
+    if (weight[least] >= apart)
         return (MesoCutPlace){MESO_IN_TRIANGLE, triangle, x, y};
     int64_t begin = weight[(least + 1) % 3], end = weight[(least + 2) % 3];
-    return place_on_edge(mesh, 3 * triangle + (least + 1) % 3, (int32_t)((end * ONE + (begin + end) / 2) / (begin + end)));
+    int64_t share = (end * ONE + (begin + end) / 2) / (begin + end);
+    return place_on_edge(mesh, 3 * triangle + (least + 1) % 3, (int32_t)share);
 }
 
 static bool place_node(MesoCutPlace *place, const MesoTriangulation *mesh, const MesoCutNode *node)
@@ -149,13 +109,19 @@ static uint32_t place_all(MesoCutNodes *placed, const MesoTriangulation *mesh, c
     return lines->node_count;
 }
 
-static uint32_t list_on_edges(MesoCutKey *keys, const MesoCutPlace *places, uint32_t node_count)
+static uint32_t count_on_edges(const MesoCutPlace *places, uint32_t node_count)
 {
     uint32_t count = 0;
     for (uint32_t n = 0; n < node_count; n++)
-        if (places[n].kind == MESO_ON_EDGE)
-            keys[count++] = (MesoCutKey){(uint64_t)places[n].element << 25 | (uint32_t)places[n].x, n};
+        count += places[n].kind == MESO_ON_EDGE;
     return count;
+}
+
+static void list_on_edges(MesoCutKey *keys, const MesoCutPlace *places, uint32_t node_count)
+{
+    for (uint32_t n = 0; n < node_count; n++)
+        if (places[n].kind == MESO_ON_EDGE)
+            *keys++ = (MesoCutKey){(uint64_t)places[n].element << 25 | (uint32_t)places[n].x, n};
 }
 
 /* Goes along each edge: a node near to the last that stands becomes one with it. */
@@ -181,19 +147,22 @@ MesoStatus meso_cut_nodes_place(MesoCutNodes *placed, const MesoTriangulation *m
                                 MesoArena *arena, MesoError *error)
 {
     *placed = (MesoCutNodes){.places = MESO_NEW(arena, MesoCutPlace, lines->node_count, error)};
-    MesoCutKey *keys = MESO_NEW(arena, MesoCutKey, lines->node_count, error);
-    MesoCutKey *spare = MESO_NEW(arena, MesoCutKey, lines->node_count, error);
-    if (!placed->places || !keys || !spare)
+    if (!placed->places)
         return MESO_ERR_MEMORY;
     uint32_t bad = place_all(placed, mesh, lines);
     if (bad < lines->node_count)
         return meso_fail(error, MESO_ERR_INTERNAL, "node %u of the lines has no place on the mesh", bad);
-    uint32_t count = list_on_edges(keys, placed->places, lines->node_count);
+    uint32_t count = count_on_edges(placed->places, lines->node_count);
     placed->edges = MESO_NEW(arena, MesoCutEdge, count, error);
     placed->shares = MESO_NEW(arena, int32_t, count, error);
-    if (!placed->edges || !placed->shares)
+    MesoArenaMark mark = meso_arena_mark(arena);
+    MesoCutKey *keys = MESO_NEW(arena, MesoCutKey, count, error);
+    MesoCutKey *spare = MESO_NEW(arena, MesoCutKey, count, error);
+    if (!placed->edges || !placed->shares || !keys || !spare)
         return MESO_ERR_MEMORY;
+    list_on_edges(keys, placed->places, lines->node_count);
     meso_cut_sort(keys, spare, count);
     number_on_edges(placed, mesh, keys, count);
+    meso_arena_rewind(arena, mark);
     return MESO_OK;
 }

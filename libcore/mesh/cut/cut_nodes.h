@@ -45,12 +45,4 @@ static inline bool meso_cut_runs_against(const MesoTriangulation *mesh, uint32_t
     return half_edge != across && mesh->corners[half_edge] != mesh->corners[across];
 }
 
-typedef struct MesoCutKey {
-    uint64_t key;
-    uint32_t value;
-} MesoCutKey;
-
-/* Sorts by keys; equal ones keep their order. `spare` [count] is scratch. O(count), but for the bits of the keys. */
-void meso_cut_sort(MesoCutKey *keys, MesoCutKey *spare, uint32_t count);
-
 #endif

@@ -4,14 +4,8 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
-#include "libcore/mesh/cut/cut_nodes.h"
+#include "libcore/mesh/cut/cut_work.h"
 #include "libcore/mesh/cut/triangle_split.h"
-
-/* A list sorted by triangles or half-edges, and how far it is done. */
-typedef struct Queue {
-    MesoCutKey *keys;
-    uint32_t count, done;
-} Queue;
 
 /* A triangle that is cut: `whole` are the new numbers of its sides without nodes, MESO_NO_INDEX of those with. */
 typedef struct CutTriangle {
@@ -36,7 +30,7 @@ typedef struct Cut {
     MesoArena *arena;
     MesoCutReport *report;
     MesoCutNodes nodes;
-    Queue sides, segments, inner;
+    MesoCutWork work;
     MesoTriangleSplit split;
     uint32_t *node_point;           /* [node_count] of nodes inside triangles: point in the split */
 
@@ -53,99 +47,13 @@ typedef struct Cut {
     uint32_t *wall_sides;           /* new numbers of sides without nodes that become walls */
 } Cut;
 
-/* ---- what there is to do, by triangles ---- */
-
-static bool same_place(const MesoCutPlace *a, const MesoCutPlace *b)
-{
-    return a->kind == b->kind && a->kind != MESO_IN_TRIANGLE && a->element == b->element;
-}
-
-static MesoStatus sort_queue(Queue *queue, MesoArena *arena, MesoError *error)
-{
-    MesoCutKey *spare = MESO_NEW(arena, MesoCutKey, queue->count, error);
-    if (!spare)
-        return MESO_ERR_MEMORY;
-    meso_cut_sort(queue->keys, spare, queue->count);
-    return MESO_OK;
-}
-
-static MesoStatus list_sides(Cut *cut, MesoError *error)
-{
-    cut->sides.keys = MESO_NEW(cut->arena, MesoCutKey, 2 * (size_t)cut->nodes.edge_count, error);
-    if (!cut->sides.keys)
-        return MESO_ERR_MEMORY;
-    for (uint32_t e = 0; e < cut->nodes.edge_count; e++) {
-        uint32_t h = cut->nodes.edges[e].half_edge;
-        cut->sides.keys[cut->sides.count++] = (MesoCutKey){h, e};
-        if (cut->mesh->twins[h] != MESO_NO_INDEX)
-            cut->sides.keys[cut->sides.count++] = (MesoCutKey){cut->mesh->twins[h], e};
-    }
-    return sort_queue(&cut->sides, cut->arena, error);
-}
-
-/* The triangle on the other side of the segment, where that is a side of its triangle; MESO_NO_INDEX otherwise. */
-static uint32_t triangle_across(const Cut *cut, const MesoCutSegment *segment)
-{
-    const MesoCutPlace *a = &cut->nodes.places[segment->node[0]], *b = &cut->nodes.places[segment->node[1]];
-    if (a->kind != MESO_AT_VERTEX || b->kind != MESO_AT_VERTEX)
-        return MESO_NO_INDEX;
-    for (uint32_t h = 3 * segment->triangle; h < 3 * segment->triangle + 3; h++) {
-        uint32_t begin = cut->mesh->corners[h], end = cut->mesh->corners[meso_next_corner(h)];
-        if ((begin == a->element && end == b->element) || (begin == b->element && end == a->element))
-            return cut->mesh->twins[h] == MESO_NO_INDEX ? MESO_NO_INDEX : cut->mesh->twins[h] / 3;
-    }
-    return MESO_NO_INDEX;
-}
-
-/* Segments by triangle; and nodes inside, with triangles that have no more than a wall on a side coming to them. */
-static MesoStatus list_segments_and_nodes(Cut *cut, MesoError *error)
-{
-    const MesoCutLines *lines = cut->lines;
-    const MesoCutPlace *places = cut->nodes.places;
-    cut->segments.keys = MESO_NEW(cut->arena, MesoCutKey, lines->segment_count, error);
-    cut->inner.keys = MESO_NEW(cut->arena, MesoCutKey, (size_t)lines->node_count + lines->segment_count, error);
-    if (!cut->segments.keys || !cut->inner.keys)
-        return MESO_ERR_MEMORY;
-    for (uint32_t n = 0; n < lines->node_count; n++)
-        if (places[n].kind == MESO_IN_TRIANGLE)
-            cut->inner.keys[cut->inner.count++] = (MesoCutKey){places[n].element, n};
-    for (uint32_t s = 0; s < lines->segment_count; s++) {
-        const MesoCutSegment *segment = &lines->segments[s];
-        if (segment->triangle >= cut->mesh->triangle_count || segment->node[0] >= lines->node_count ||
-            segment->node[1] >= lines->node_count)
-            return meso_fail(error, MESO_ERR_INTERNAL, "segment %u has no triangle or no ends", s);
-        if (same_place(&places[segment->node[0]], &places[segment->node[1]]))
-            continue;
-        cut->segments.keys[cut->segments.count++] = (MesoCutKey){segment->triangle, s};
-        uint32_t across = triangle_across(cut, segment);
-        if (across != MESO_NO_INDEX)
-            cut->inner.keys[cut->inner.count++] = (MesoCutKey){across, MESO_NO_INDEX};
-    }
-    MesoStatus status = sort_queue(&cut->segments, cut->arena, error);
-    return status ? status : sort_queue(&cut->inner, cut->arena, error);
-}
-
-static uint64_t next_key(const Queue *queue)
-{
-    return queue->done < queue->count ? queue->keys[queue->done].key : UINT64_MAX;
-}
-
-/* The value of the next entry, if that is for `key`. */
-static bool take(Queue *queue, uint64_t key, uint32_t *value)
-{
-    if (next_key(queue) != key)
-        return false;
-    *value = queue->keys[queue->done++].value;
-    return true;
-}
-
 /* ---- one triangle ---- */
 
 static MesoStatus add_side(Cut *cut, Side *side, uint32_t half_edge, MesoError *error)
 {
     uint32_t e;
     *side = (Side){.half_edge = half_edge, .first_point = cut->split.point_count};
-    if (!take(&cut->sides, half_edge, &e))
+    if (!meso_cut_take(&cut->work.sides, half_edge, &e))
         return MESO_OK;
     side->edge = &cut->nodes.edges[e];
     side->count = side->edge->count;
@@ -165,7 +73,7 @@ static MesoStatus add_side(Cut *cut, Side *side, uint32_t half_edge, MesoError *
 static MesoStatus add_inner(Cut *cut, uint32_t triangle, MesoError *error)
 {
     uint32_t node;
-    while (take(&cut->inner, triangle, &node)) {
+    while (meso_cut_take(&cut->work.inner, triangle, &node)) {
         if (node == MESO_NO_INDEX)
             continue;
         const MesoCutPlace *place = &cut->nodes.places[node];
@@ -200,7 +108,7 @@ static uint32_t point_of(const Cut *cut, const Side sides[3], uint32_t node)
 static MesoStatus draw_segments(Cut *cut, const Side sides[3], MesoError *error)
 {
     uint32_t triangle = sides[0].half_edge / 3, s;
-    while (take(&cut->segments, triangle, &s)) {
+    while (meso_cut_take(&cut->work.segments, triangle, &s)) {
         const MesoCutSegment *segment = &cut->lines->segments[s];
         uint32_t a = point_of(cut, sides, segment->node[0]), b = point_of(cut, sides, segment->node[1]);
         if (a == MESO_NO_INDEX || b == MESO_NO_INDEX)
@@ -260,13 +168,20 @@ static MesoStatus add_origins(Cut *cut, uint32_t triangle, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus reserve_parts(Cut *cut, uint32_t more, MesoError *error)
+/* Of all triangles together where no segments cross: a point on a side makes one more, one inside two. */
+static uint64_t expected_parts(const Cut *cut)
 {
-    uint32_t count = cut->report->part_count;
-    size_t room = cut->part_room ? 2 * (size_t)cut->part_room : 256, width = 3 * (size_t)cut->mesh->corner_width;
-    if (count + (size_t)more <= cut->part_room)
+    return (uint64_t)meso_cut_work_count(&cut->work) + 2 * (uint64_t)cut->nodes.share_count +
+           2 * (uint64_t)cut->work.inner.count + 1;
+}
+
+static MesoStatus reserve_parts(Cut *cut, uint64_t more, MesoError *error)
+{
+    uint64_t count = cut->report->part_count, room = 2 * (uint64_t)cut->part_room;
+    size_t width = 3 * (size_t)cut->mesh->corner_width;
+    if (count + more <= cut->part_room)
         return MESO_OK;
-    room = room < count + (size_t)more ? count + (size_t)more : room;
+    room = room < count + more ? count + more : room;
     if (room > UINT32_MAX)
         return meso_fail(error, MESO_ERR_LIMIT, "lines cut a mesh into more than %u triangles", UINT32_MAX);
     MesoCutPart *parts = meso_arena_enlarge(cut->arena, cut->report->parts, count, room, sizeof *parts, error);
@@ -375,28 +290,20 @@ static MesoStatus add_parts(Cut *cut, const Side sides[3], uint64_t next, MesoEr
     return status;
 }
 
-static uint64_t lower(uint64_t a, uint64_t b)
-{
-    return a < b ? a : b;
-}
-
 /* Works out all parts; says how many triangles there are to be. */
 static MesoStatus split_triangles(Cut *cut, uint64_t *triangle_count, MesoError *error)
 {
-    for (;;) {
-        uint64_t side = next_key(&cut->sides);
-        uint64_t triangle = side == UINT64_MAX ? side : side / 3;
-        triangle = lower(triangle, lower(next_key(&cut->segments), next_key(&cut->inner)));
-        if (triangle == UINT64_MAX)
-            return MESO_OK;
+    uint32_t triangle;
+    while (meso_cut_work_next(&cut->work, &triangle)) {
         Side sides[3];
-        MesoStatus status = split_triangle(cut, (uint32_t)triangle, sides, error);
+        MesoStatus status = split_triangle(cut, triangle, sides, error);
         if (!status)
             status = add_parts(cut, sides, *triangle_count, error);
         if (status)
             return status;
         *triangle_count += cut->split.half_edge_count / 3 - 1;
     }
+    return MESO_OK;
 }
 
 /* ---- the mesh ---- */
@@ -510,8 +417,8 @@ static MesoStatus begin(Cut *cut, MesoError *error)
         return MESO_ERR_MEMORY;
     cut->origin_room = (uint32_t)share_count;
     memset(cut->pieces, 0xff, piece_count * sizeof *cut->pieces);
-    status = list_sides(cut, error);
-    return status ? status : list_segments_and_nodes(cut, error);
+    status = meso_cut_work_list(&cut->work, cut->mesh, cut->lines, &cut->nodes, cut->arena, error);
+    return status ? status : reserve_parts(cut, expected_parts(cut), error);
 }
 
 /* Vertices of nodes at vertices and on edges, and origins of the latter. */
@@ -546,7 +453,8 @@ MesoStatus meso_mesh_cut(MesoTriangulation *mesh, const MesoCutLines *lines, Mes
     number_places(&cut);
     status = split_triangles(&cut, &triangle_count, error);
     if (!status)
-        status = meso_triangulation_reserve(mesh, (uint64_t)mesh->vertex_count + cut.origin_count, triangle_count, error);
+        status = meso_triangulation_reserve(mesh, (uint64_t)mesh->vertex_count + cut.origin_count, triangle_count,
+                                            error);
     if (!status)
         apply(mesh, &cut, (uint32_t)triangle_count);
     return status;

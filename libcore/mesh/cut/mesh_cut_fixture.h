@@ -68,7 +68,8 @@ static inline void meso_choose_lines(MesoCutLines *lines, MesoArena *arena, Meso
 {
     *lines = (MesoCutLines){0};
     for (uint32_t i = 0; i < triangle_count; i++) {
-        uint32_t t = meso_choose(choices, mesh->triangle_count), count = 1 + meso_choose(choices, 8), last = 0, first = 0;
+        uint32_t t = meso_choose(choices, mesh->triangle_count), count = 1 + meso_choose(choices, 8);
+        uint32_t last = 0, first = 0;
         for (uint32_t n = 0; n < count; n++) {
             uint32_t node;
             CHECK(meso_cut_add_node(lines, arena, meso_choose_node(choices, t, mesh), &node, NULL) == MESO_OK);
@@ -110,8 +111,8 @@ static inline MesoTriangulation meso_fixture_crumpled(MesoChoices *choices, uint
         MesoVec3 *p = &mesh.positions[v];
         if (how == 0)
             *p = mesh.positions[other];
-        else if (how == 1)
-            *p = meso_vec3_lerp(mesh.positions[v ? v - 1 : 0], mesh.positions[v + 1 < mesh.vertex_count ? v + 1 : v], 0.5f);
+        else if (how == 1 && v > 0 && v + 1 < mesh.vertex_count)
+            *p = meso_vec3_lerp(mesh.positions[v - 1], mesh.positions[v + 1], 0.5f);
         else if (how == 2)
             p->y = 1e-7f * (float)other;
         else if (how == 3)
@@ -192,6 +193,40 @@ static inline void meso_fixture_weights(const MesoTriangulation *before, const M
     CHECK(sum == 1 << 24);
 }
 
+/* Twice the area, as a vector. */
+static inline void meso_fixture_area(const MesoTriangulation *mesh, uint32_t triangle, double area[3])
+{
+    double p[3][3];
+    for (uint32_t k = 0; k < 3; k++) {
+        MesoVec3 at = mesh->positions[mesh->corners[3 * triangle + k]];
+        p[k][0] = at.x;
+        p[k][1] = at.y;
+        p[k][2] = at.z;
+    }
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t a = (k + 1) % 3, b = (k + 2) % 3;
+        area[k] = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) - (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
+    }
+}
+
+/* The part, `share` of its parent, faces where that does, as far as rounded coordinates can tell. */
+static inline void meso_fixture_check_facing(const MesoTriangulation *before, const MesoTriangulation *mesh,
+                                             const MesoCutPart *part, double share)
+{
+    double old[3], new[3], size = 0, length = 0;
+    meso_fixture_area(before, part->parent, old);
+    meso_fixture_area(mesh, part->triangle, new);
+    for (uint32_t k = 0; k < 3; k++) {
+        MesoVec3 a = mesh->positions[mesh->corners[3 * part->triangle + k]];
+        MesoVec3 b = mesh->positions[mesh->corners[3 * part->triangle + (k + 1) % 3]];
+        size = fmax(size, fabs((double)a.x) + fabs((double)a.y) + fabs((double)a.z));
+        length = fmax(length, (double)meso_vec3_length(meso_vec3_sub(b, a)));
+    }
+    double area = sqrt(old[0] * old[0] + old[1] * old[1] + old[2] * old[2]);
+    if (area * share > 1e-6 * size * length)
+        CHECK(old[0] * new[0] + old[1] * new[1] + old[2] * new[2] > 0);
+}
+
 /* Twice the part's area as a share of its parent's, times 2^48; and that centre and what is inherited are right. */
 static inline int64_t meso_fixture_check_part(const MesoTriangulation *before, const MesoTriangulation *mesh,
                                               const MesoCutReport *report, const MesoCutPart *part)
@@ -201,6 +236,7 @@ static inline int64_t meso_fixture_check_part(const MesoTriangulation *before, c
         meso_fixture_weights(before, report, part->parent, mesh->corners[3 * part->triangle + k], w[k]);
     int64_t area = (w[1][1] - w[0][1]) * (w[2][2] - w[0][2]) - (w[1][2] - w[0][2]) * (w[2][1] - w[0][1]);
     CHECK(area > 0);
+    meso_fixture_check_facing(before, mesh, part, (double)area / 0x1p48);
     for (uint32_t k = 0; k < 3; k++)
         CHECK(fabs(part->centre[k] - (double)(w[0][k] + w[1][k] + w[2][k]) / (3 << 24)) < 1e-6);
     CHECK(mesh->labels[part->triangle] == before->labels[part->parent]);

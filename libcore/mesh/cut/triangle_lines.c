@@ -109,7 +109,8 @@ static void turn_at_farthest(MesoTriangleSplit *split, uint32_t a, uint32_t b)
     for (uint32_t i = 0; i < 2 * split->passed_count; i++) {
         uint32_t edge = split->passed[i / 2], p = split->corners[i % 2 ? meso_next_corner(edge) : edge];
         int64_t d = meso_split_turn(split, a, b, p);
-        int64_t s = (int64_t)(points[b].x - points[a].x) * points[p].x + (int64_t)(points[b].y - points[a].y) * points[p].y;
+        int64_t s = (int64_t)(points[b].x - points[a].x) * points[p].x +
+                    (int64_t)(points[b].y - points[a].y) * points[p].y;
         d = d < 0 ? -d : d;
         if (d > distance || (d == distance && s < along)) {
             farthest = p;
@@ -181,7 +182,8 @@ static MesoStatus draw_through(MesoTriangleSplit *split, uint32_t a, uint32_t b,
 }
 
 /* Where a-b and u-v cross, rounded to the grid; inside the triangle. */
-static void find_crossing(const MesoTriangleSplit *split, uint32_t a, uint32_t b, uint32_t u, uint32_t v, int32_t at[2])
+static void find_crossing(const MesoTriangleSplit *split, uint32_t a, uint32_t b, uint32_t u, uint32_t v,
+                          int32_t at[2])
 {
     const MesoSplitPoint *p = &split->points[a], *q = &split->points[b];
     double to_a = (double)meso_split_turn(split, u, v, a), to_b = (double)meso_split_turn(split, u, v, b);
@@ -207,17 +209,17 @@ static MesoStatus find_meeting(MesoTriangleSplit *split, const uint32_t ends[4],
 {
     int32_t at[2];
     find_crossing(split, ends[0], ends[1], ends[2], ends[3], at);
-    for (uint32_t i = 0; i < 4; i++)
-        if (meso_split_stands_near(split->points[ends[i]], at[0], at[1]) && may_meet_in(split, ends, ends[i])) {
-            *w = ends[i];
+    uint32_t near = meso_split_find(split, 0, at[0], at[1], MESO_SPLIT_APART);
+    for (uint32_t i = 0; i < 4 && near != MESO_NO_INDEX; i++) {
+        *w = ends[i];
+        if (meso_split_stands_near(&split->points[*w], at[0], at[1], MESO_SPLIT_APART) && may_meet_in(split, ends, *w))
             return MESO_OK;
-        }
-    *w = meso_split_find_near(split, 0, at[0], at[1]);
-    if (*w != MESO_NO_INDEX && may_meet_in(split, ends, *w))
+    }
+    *w = near;
+    if (near != MESO_NO_INDEX && may_meet_in(split, ends, near))
         return MESO_OK;
-    for (uint32_t p = 0; p < split->point_count; p++)
-        if (split->points[p].x == at[0] && split->points[p].y == at[1])
-            return meso_fail(error, MESO_ERR_INTERNAL, "segments cross in a point that they cannot meet in");
+    if (meso_split_find(split, 0, at[0], at[1], 1) != MESO_NO_INDEX)
+        return meso_fail(error, MESO_ERR_INTERNAL, "segments cross in a point that they cannot meet in");
     return meso_split_insert(split, at[0], at[1], w, error);
 }
 

@@ -2,6 +2,7 @@
 
 #include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcore/base/grow.h"
 #include "libcore/mesh/cut/triangulation.h"
@@ -87,15 +88,14 @@ static void measure(double metric[3], const MesoVec3 corner[3])
 
 MesoStatus meso_split_begin(MesoTriangleSplit *split, const MesoVec3 corner[3], MesoError *error)
 {
-    split->point_count = split->half_edge_count = split->pending_count = 0;
-    while (split->point_room < 3)
-        if (reserve_points(split, error))
-            return MESO_ERR_MEMORY;
-    if (reserve_triangles(split, error))
+    split->point_count = split->half_edge_count = split->pending_count = split->listed_count = 0;
+    if (!split->cells)
+        split->cells = MESO_NEW(split->arena, uint32_t, MESO_SPLIT_CELLS, error);
+    if (!split->cells || reserve_points(split, error) || reserve_triangles(split, error))
         return MESO_ERR_MEMORY;
-    split->points[0] = (MesoSplitPoint){0, 0, 0, 0};
-    split->points[1] = (MesoSplitPoint){MESO_SPLIT_ONE, 0, 1, 0};
-    split->points[2] = (MesoSplitPoint){0, MESO_SPLIT_ONE, 2, 0};
+    split->points[0] = (MesoSplitPoint){.out = 0};
+    split->points[1] = (MesoSplitPoint){.x = MESO_SPLIT_ONE, .out = 1};
+    split->points[2] = (MesoSplitPoint){.y = MESO_SPLIT_ONE, .out = 2};
     split->point_count = split->border_count = 3;
     for (uint32_t k = 0; k < 3; k++)
         set_edge(split, k, k, MESO_NO_INDEX, 0);
@@ -119,8 +119,8 @@ MesoStatus meso_split_add_on_side(MesoTriangleSplit *split, uint32_t side, int32
     uint32_t n = split->point_count++, b = split->half_edge_count;
     split->border_count = split->point_count;
     split->half_edge_count += 3;
-    split->points[n] = (MesoSplitPoint){side == 0 ? share : side == 1 ? left : 0,
-                                        side == 0 ? 0 : side == 1 ? share : left, b, 0};
+    split->points[n] = (MesoSplitPoint){
+        .x = side == 0 ? share : side == 1 ? left : 0, .y = side == 0 ? 0 : side == 1 ? share : left, .out = b};
     uint32_t hn = meso_next_corner(h), c = split->corners[hn], x = split->corners[meso_next_corner(hn)];
     set_edge(split, b + 1, c, split->twins[hn], split->lines[hn]);
     set_edge(split, b, n, MESO_NO_INDEX, 0);
@@ -219,11 +219,9 @@ static uint32_t locate(const MesoTriangleSplit *split, int32_t x, int32_t y)
         if (h == MESO_NO_INDEX)
             break;
     }
-    for (h = 0; h < split->half_edge_count; h += 3)
-        if (side_towards(split, h, x, y) == MESO_NO_INDEX)
-            return h;
-    assert(!"no triangle has the place");
-    return 0;
+    for (h = 0; side_towards(split, h, x, y) != MESO_NO_INDEX; h += 3)
+        assert(h + 3 < split->half_edge_count);
+    return h;
 }
 
 /* From (a, b, c) to (a, b, n), (b, c, n) and (c, a, n). */
@@ -258,7 +256,7 @@ MesoStatus meso_split_insert(MesoTriangleSplit *split, int32_t x, int32_t y, uin
     if (reserve_points(split, error) || reserve_triangles(split, error))
         return MESO_ERR_MEMORY;
     uint32_t n = *point = split->point_count++, h = locate(split, x, y);
-    split->points[n] = (MesoSplitPoint){x, y, MESO_NO_INDEX, 0};
+    split->points[n] = (MesoSplitPoint){.x = x, .y = y, .out = MESO_NO_INDEX};
     uint32_t on = MESO_NO_INDEX;
     for (uint32_t k = 0; k < 3; k++)
         if (turn_to(split, h - h % 3 + k, x, y) == 0)
@@ -271,16 +269,51 @@ MesoStatus meso_split_insert(MesoTriangleSplit *split, int32_t x, int32_t y, uin
     return MESO_OK;
 }
 
-uint32_t meso_split_find_near(const MesoTriangleSplit *split, uint32_t first, int32_t x, int32_t y)
+/* ---- points near a place ---- */
+
+/* Lists of points by cells of the grid, several cells a list; a side of a cell is MESO_SPLIT_APART. */
+static uint32_t *cell_list(const MesoTriangleSplit *split, int32_t column, int32_t row)
 {
-    for (uint32_t p = first; p < split->point_count; p++)
-        if (meso_split_stands_near(split->points[p], x, y))
-            return p;
-    return MESO_NO_INDEX;
+    return &split->cells[((uint32_t)column * 89 + (uint32_t)row) % MESO_SPLIT_CELLS];
+}
+
+static void list_point(MesoTriangleSplit *split, uint32_t p)
+{
+    MesoSplitPoint *point = &split->points[p];
+    uint32_t *list = cell_list(split, point->x / MESO_SPLIT_APART, point->y / MESO_SPLIT_APART);
+    point->next_in_cell = *list;
+    *list = p;
+}
+
+/* Lists the points that are not listed yet. */
+static void list_points(MesoTriangleSplit *split)
+{
+    if (split->listed_count == 0)
+        memset(split->cells, 0xff, MESO_SPLIT_CELLS * sizeof *split->cells);
+    while (split->listed_count < split->point_count)
+        list_point(split, split->listed_count++);
+}
+
+uint32_t meso_split_find(MesoTriangleSplit *split, uint32_t first, int32_t x, int32_t y, int32_t apart)
+{
+    enum { FEW = 24 };      /* as many are looked at sooner than lists of them are made */
+    uint32_t found = MESO_NO_INDEX;
+    if (split->point_count <= FEW) {
+        for (uint32_t p = first; p < split->point_count && found == MESO_NO_INDEX; p++)
+            found = meso_split_stands_near(&split->points[p], x, y, apart) ? p : found;
+        return found;
+    }
+    list_points(split);
+    for (int32_t column = x / MESO_SPLIT_APART - 1; column <= x / MESO_SPLIT_APART + 1; column++)
+        for (int32_t row = y / MESO_SPLIT_APART - 1; row <= y / MESO_SPLIT_APART + 1; row++)
+            for (uint32_t p = *cell_list(split, column, row); p != MESO_NO_INDEX; p = split->points[p].next_in_cell)
+                if (p >= first && p < found && meso_split_stands_near(&split->points[p], x, y, apart))
+                    found = p;
+    return found;
 }
 
 MesoStatus meso_split_add_inside(MesoTriangleSplit *split, int32_t x, int32_t y, uint32_t *point, MesoError *error)
 {
-    *point = meso_split_find_near(split, split->border_count, x, y);
+    *point = meso_split_find(split, split->border_count, x, y, MESO_SPLIT_APART);
     return *point != MESO_NO_INDEX ? MESO_OK : meso_split_insert(split, x, y, point, error);
 }

@@ -7,20 +7,21 @@
 #ifndef MESO_TRIANGLE_SPLIT_H
 #define MESO_TRIANGLE_SPLIT_H
 
-#include <stdlib.h>
-
 #include "libcore/base/arena.h"
 #include "libcore/math/vec.h"
 
 /* The weight 1. A float holds such weights exactly. */
 #define MESO_SPLIT_ONE (1 << 24)
 
-/* Points stand at least so far apart, by the largest difference of weights. */
+/* Points stand at least so far apart, by the largest difference of weights: MESO_CUT_SNAP on the grid. */
 #define MESO_SPLIT_APART (1 << 16)
+
+enum { MESO_SPLIT_CELLS = 4096 };
 
 typedef struct MesoSplitPoint {
     int32_t x, y;   /* weights of the second and third corner */
     uint32_t out;   /* a half-edge that begins here; on the border, the one along it */
+    uint32_t next_in_cell;
     uint32_t vertex;    /* the caller's */
 } MesoSplitPoint;
 
@@ -39,7 +40,9 @@ typedef struct MesoTriangleSplit {
     uint32_t (*pending)[2];         /* segments to be drawn yet */
     uint32_t passed_count, passed_room;
     uint32_t *passed;               /* half-edges that a segment crosses */
-    double metric[3];               /* products of the sides from corner 0: first by itself, by second, second by itself */
+    uint32_t listed_count;          /* points that are in the lists */
+    uint32_t *cells;                /* [MESO_SPLIT_CELLS] first points of lists by place; made where there are many */
+    double metric[3];               /* products of the sides a, b from corner 0: aa, ab, bb */
 } MesoTriangleSplit;
 
 /* The whole triangle, with these positions. `split` is zero but for its arena, or of an earlier triangle. */
@@ -74,20 +77,20 @@ static inline void meso_split_mark(MesoTriangleSplit *split, uint32_t h, uint8_t
         split->lines[split->twins[h]] = line;
 }
 
-/* Turns an edge within its two triangles: p-q becomes s-r, where r, the apex of h's triangle, stays that of none. */
+/* Turns an edge within its two triangles: p-q becomes s-r, from the apex across to that of h's triangle. */
 void meso_split_flip(MesoTriangleSplit *split, uint32_t h);
 
 /* Whether the two triangles at an edge make a strictly convex quadrangle, so that it can be turned. */
 bool meso_split_can_flip(const MesoTriangleSplit *split, uint32_t h);
 
-static inline bool meso_split_stands_near(MesoSplitPoint p, int32_t x, int32_t y)
+static inline bool meso_split_stands_near(const MesoSplitPoint *p, int32_t x, int32_t y, int32_t apart)
 {
-    int32_t dx = abs(p.x - x), dy = abs(p.y - y), dz = abs(p.x + p.y - x - y);
-    return dx < MESO_SPLIT_APART && dy < MESO_SPLIT_APART && dz < MESO_SPLIT_APART;
+    int32_t dx = p->x - x, dy = p->y - y, dz = dx + dy;
+    return dx < apart && -dx < apart && dy < apart && -dy < apart && dz < apart && -dz < apart;
 }
 
-/* The first point from `first` on that stands near the place; MESO_NO_INDEX where none does. */
-uint32_t meso_split_find_near(const MesoTriangleSplit *split, uint32_t first, int32_t x, int32_t y);
+/* The first point from `first` on that stands nearer to the place than `apart`; MESO_NO_INDEX where none does. */
+uint32_t meso_split_find(MesoTriangleSplit *split, uint32_t first, int32_t x, int32_t y, int32_t apart);
 
 /* Puts a point inside, at a place where no point is. */
 MesoStatus meso_split_insert(MesoTriangleSplit *split, int32_t x, int32_t y, uint32_t *point, MesoError *error);

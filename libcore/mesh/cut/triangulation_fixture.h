@@ -19,7 +19,8 @@ static inline MesoTriangulation meso_fixture_triangulation(const MesoVec3 *posit
     };
     polygons.positions = MESO_NEW(&arena, MesoVec3, vertex_count, &error);
     polygons.corners = MESO_NEW(&arena, uint32_t, 3 * (size_t)triangle_count, &error);
-    CHECK(polygons.positions && polygons.corners);
+    polygons.attributes = MESO_NEW(&arena, MesoAttribute, 0, &error);
+    CHECK(polygons.positions && polygons.corners && polygons.attributes);
     for (uint32_t v = 0; v < vertex_count; v++)
         polygons.positions[v] = positions[v];
     for (uint32_t c = 0; c < 3 * triangle_count; c++)
