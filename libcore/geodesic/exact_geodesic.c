@@ -1,7 +1,5 @@
 #include "libcore/geodesic/exact_geodesic.h"
 
-#include <string.h>
-
 #include "libcore/geodesic/exact_windows.h"
 
 enum { DEFAULT_WINDOW_LIMIT = 1 << 25 };
@@ -26,7 +24,7 @@ typedef struct Solve {
     const MesoExactQuery *query;
     double limit;
     Side *sides;            /* [3 * triangle_count] */
-    uint32_t *heads;        /* [3 * triangle_count] an edge's first window, at its first half-edge */
+    MesoWindowList *lists;  /* [3 * triangle_count] an edge's windows, at its first half-edge */
     uint8_t *flags;         /* [vertex_count] */
     double *starts;         /* [vertex_count] what seeds on lines start with; NULL without them */
     double *distance;
@@ -160,7 +158,7 @@ static void reverse_window(MesoWindow *window, double length)
     double begin = window->begin;
     window->begin = length - window->end;
     window->end = length - begin;
-    if (window->front.source == MESO_FROM_LINE) {
+    if (window->front.linear) {
         window->front.sigma += window->front.x * length;
         window->front.x = -window->front.x;
     } else {
@@ -175,7 +173,7 @@ static const double ON_SIDE = 1e-6;
 
 static bool is_on_side(const MesoFront *front, double length)
 {
-    return front->source != MESO_FROM_LINE && front->y < ON_SIDE * length && front->x > -ON_SIDE * length &&
+    return !front->linear && front->y < ON_SIDE * length && front->x > -ON_SIDE * length &&
            front->x < (1 + ON_SIDE) * length;
 }
 
@@ -201,21 +199,21 @@ static MesoStatus see_side(Solve *solve, uint32_t h, MesoFront front, double beg
     if (side->across == MESO_NO_INDEX || !(end - begin > tiny))
         return MESO_OK;
     uint32_t first = h < side->across ? h : side->across;
-    MesoWindow window = {front, begin, end, MESO_NO_INDEX, first, side->across, 1, 1};
+    MesoWindow window = {front, begin, end, first, side->across, 1, 1};
     if (!run_alike(solve, first, h))
         reverse_window(&window, side->length);
     if (comes_too_late(solve, &window, side->length))
         return MESO_OK;
     if (is_on_side(&front, side->length))
         return skip_side(solve, &window, side->length);
-    return meso_window_insert(&solve->store, &solve->heads[first], &window, tiny, solve->error);
+    return meso_window_insert(&solve->store, &solve->lists[first], &window, tiny, solve->error);
 }
 
 /* The front in the frame of a half-edge that begins at (ox,oy) in the present one and has direction (ex,ey). */
 static MesoFront turn_front(const MesoFront *front, double ox, double oy, double ex, double ey)
 {
     MesoFront turned = *front;
-    if (front->source == MESO_FROM_LINE) {
+    if (front->linear) {
         turned.x = ex * front->x + ey * front->y;
         turned.y = fmax(ey * front->x - ex * front->y, 0);
         turned.sigma += ox * front->x + oy * front->y;
@@ -234,7 +232,7 @@ typedef struct Ray {
 
 static Ray ray_through(const MesoFront *front, double t, const Side *side)
 {
-    double x = front->source == MESO_FROM_LINE ? front->x : t - front->x;
+    double x = front->linear ? front->x : t - front->x;
     return (Ray){front->y, x * side->y + front->y * (t - side->x)};
 }
 
@@ -259,7 +257,7 @@ static MesoStatus reach_corner(Solve *solve, uint32_t g, const MesoFront *front,
         origin.crossing = first.left > 0 ? begin : end;
         double dx = side->x - origin.crossing;
         distance = meso_front_value(front, origin.crossing) + sqrt(dx * dx + side->y * side->y);
-    } else if (front->source == MESO_FROM_LINE) {
+    } else if (front->linear) {
         origin.crossing = side->x - front->x * side->y / front->y;
         distance = front->sigma + front->x * side->x + front->y * side->y;
     } else {
@@ -334,7 +332,7 @@ static MesoStatus leave_corner(Solve *solve, uint32_t corner)
         status = retire_edge_later(solve, previous);
     if (status || !(solve->flags[vertex] & EMITS))
         return status;
-    MesoFront front = {opposite->x, opposite->y, distance, vertex, MESO_FROM_VERTEX, 0};
+    MesoFront front = {opposite->x, opposite->y, distance, vertex, MESO_FROM_VERTEX, false, 0};
     return see_side(solve, next, front, 0, opposite->length);
 }
 
@@ -363,7 +361,7 @@ static MesoStatus run_events(Solve *solve)
         if (event.kind == MESO_EVENT_WINDOW) {
             status = advance_window(solve, event.item);
         } else if (event.kind == MESO_EVENT_EDGE) {
-            meso_window_clear(&solve->store, &solve->heads[event.item]);
+            meso_window_clear(&solve->store, &solve->lists[event.item]);
         } else if (event.key == solve->distance[event.item]) {
             status = settle_vertex(solve, event.item);
             if (event.item == solve->query->target)
@@ -417,12 +415,12 @@ static MesoStatus start_line(Solve *solve, uint32_t h)
     double slope = (end - begin) / side->length;
     if (!(fabs(slope) <= 1))    /* one end is the source of the other */
         return MESO_OK;
-    MesoFront front = {slope, sqrt((1 - slope) * (1 + slope)), begin, h, MESO_FROM_LINE, 0};
+    MesoFront front = {slope, sqrt((1 - slope) * (1 + slope)), begin, h, MESO_FROM_LINE, true, 0};
     MesoStatus status = cross_triangle(solve, h, &front, 0, side->length);
     if (status || side->across < h || side->across == MESO_NO_INDEX)
         return status;
-    MesoWindow window = {front, 0, side->length, MESO_NO_INDEX, h, h, 0, 1};
-    return meso_window_insert(&solve->store, &solve->heads[h], &window, 1e-12 * side->length, solve->error);
+    MesoWindow window = {front, 0, side->length, h, h, 0, 1};
+    return meso_window_insert(&solve->store, &solve->lists[h], &window, 1e-12 * side->length, solve->error);
 }
 
 static MesoStatus start_lines(Solve *solve)
@@ -446,7 +444,7 @@ static MesoStatus start_point(Solve *solve, uint32_t i)
     for (uint32_t k = 0; k < 3 && !status; k++) {
         const Side *side = &solve->sides[first + k];
         double w1 = point->at.weight[(k + 1) % 3], w2 = point->at.weight[(k + 2) % 3];
-        MesoFront front = {w1 * side->length + w2 * side->x, w2 * side->y, point->distance, i, MESO_FROM_POINT, 0};
+        MesoFront front = {w1 * side->length + w2 * side->x, w2 * side->y, point->distance, i, MESO_FROM_POINT, false, 0};
         uint32_t vertex = solve->mesh->corners[first + k];
         if (!(w1 > ON_SIDE) || !(w2 > ON_SIDE))
             solve->flags[vertex] |= EMITS;
@@ -492,15 +490,14 @@ static MesoStatus solve_in(Solve *solve, MesoArena *arena)
     size_t side_count = 3 * (size_t)solve->mesh->triangle_count;
     double *angles = MESO_NEW(arena, double, vertex_count, solve->error);
     solve->sides = MESO_NEW(arena, Side, side_count, solve->error);
-    solve->heads = MESO_NEW(arena, uint32_t, side_count, solve->error);
+    solve->lists = MESO_NEW(arena, MesoWindowList, side_count, solve->error);
     solve->flags = MESO_NEW(arena, uint8_t, vertex_count, solve->error);
     solve->reached = MESO_NEW(arena, Reached, vertex_count, solve->error);
     if (has_lines(solve->query))
         solve->starts = MESO_NEW(arena, double, vertex_count, solve->error);
-    if (!angles || !solve->sides || !solve->heads || !solve->flags || !solve->reached ||
+    if (!angles || !solve->sides || !solve->lists || !solve->flags || !solve->reached ||
         (has_lines(solve->query) && !solve->starts))
         return MESO_ERR_MEMORY;
-    memset(solve->heads, 0xff, side_count * sizeof *solve->heads);
     measure_domain(solve, angles);
     MesoStatus status = start(solve);
     if (!status)

@@ -61,7 +61,7 @@ static MesoStatus make_window(MesoWindowStore *store, const MesoWindow *like, do
     if (store->count >= store->limit)
         return meso_fail(error, MESO_ERR_LIMIT, "exact distances need more than %u windows at a time", store->limit);
     if (w != MESO_NO_INDEX) {
-        store->unused = meso_window(store, w)->next;
+        store->unused = meso_window(store, w)->edge;
     } else {
         MesoStatus status = store->used == store->chunk_count * MESO_WINDOW_CHUNK ? new_chunk(store, error) : MESO_OK;
         if (status)
@@ -88,7 +88,7 @@ static void give_back(MesoWindowStore *store, uint32_t w)
     MesoWindow *window = meso_window(store, w);
     if (window->pending || window->listed)
         return;
-    window->next = store->unused;
+    window->edge = store->unused;
     store->unused = w;
     store->count--;
 }
@@ -105,20 +105,11 @@ void meso_window_settle(MesoWindowStore *store, uint32_t w)
     give_back(store, w);
 }
 
-void meso_window_clear(MesoWindowStore *store, uint32_t *head)
-{
-    while (*head != MESO_NO_INDEX) {
-        uint32_t w = *head;
-        *head = meso_window(store, w)->next;
-        unlist(store, w);
-    }
-}
-
 /* ---- distance functions ---- */
 
 double meso_front_least(const MesoFront *front, double begin, double end)
 {
-    double t = front->source == MESO_FROM_LINE ? (front->x > 0 ? begin : end)
+    double t = front->linear ? (front->x > 0 ? begin : end)
                                                : fmin(fmax(front->x, begin), end);
     return meso_front_value(front, t);
 }
@@ -162,13 +153,13 @@ static uint32_t find_ties(const MesoFront *p, const MesoFront *q, double begin, 
 {
     double root[2];
     uint32_t count = 1, kept = 0;
-    double foot = p->source == MESO_FROM_LINE ? q->x : p->x;
-    if (p->source == MESO_FROM_LINE && q->source == MESO_FROM_LINE) {
+    double foot = p->linear ? q->x : p->x;
+    if (p->linear && q->linear) {
         foot = 0;
         root[0] = (q->sigma - p->sigma) / (p->x - q->x);
-    } else if (p->source == MESO_FROM_LINE) {
+    } else if (p->linear) {
         count = point_line_ties(q, p, root);
-    } else if (q->source == MESO_FROM_LINE) {
+    } else if (q->linear) {
         count = point_line_ties(p, q, root);
     } else {
         count = point_point_ties(p, q, root);
@@ -186,20 +177,92 @@ static uint32_t find_ties(const MesoFront *p, const MesoFront *q, double begin, 
 
 /* ---- the windows of an edge ---- */
 
-/* An edge's windows while one is added: the list up to `link` is done. */
+enum { LEAST_SIZE = 2 };
+
+static void free_places(MesoWindowStore *store, MesoWindowList *list)
+{
+    if (!list->places)
+        return;
+    memcpy(list->places, &store->rooms[list->size], sizeof(MesoWindowPlace *));
+    store->rooms[list->size] = list->places;
+    *list = (MesoWindowList){0};
+}
+
+/* Empty, with room for so many. */
+static MesoStatus new_places(MesoWindowStore *store, uint32_t count, MesoWindowList *list, MesoError *error)
+{
+    uint32_t size = LEAST_SIZE;
+    while (UINT32_C(1) << size < count)
+        size++;
+    *list = (MesoWindowList){store->rooms[size], 0, size};
+    if (list->places)
+        memcpy(&store->rooms[size], list->places, sizeof(MesoWindowPlace *));
+    else
+        list->places = MESO_NEW(store->arena, MesoWindowPlace, (size_t)1 << size, error);
+    return list->places ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* The merged places in the stead of those from `begin` to `end`. */
+static MesoStatus replace_places(MesoWindowStore *store, MesoWindowList *list, uint32_t begin, uint32_t end,
+                                 MesoError *error)
+{
+    uint32_t behind = list->count - end, count = begin + store->merged_count + behind;
+    MesoWindowList old = *list;
+    if (!list->places || count > UINT32_C(1) << list->size) {
+        MesoStatus status = new_places(store, count, list, error);
+        if (status)
+            return status;
+        if (begin)
+            memcpy(list->places, old.places, begin * sizeof *list->places);
+    }
+    if (behind)
+        memmove(list->places + count - behind, old.places + end, behind * sizeof *list->places);
+    if (store->merged_count)
+        memcpy(list->places + begin, store->merged, store->merged_count * sizeof *list->places);
+    list->count = count;
+    if (old.places != list->places)
+        free_places(store, &old);
+    return MESO_OK;
+}
+
+void meso_window_clear(MesoWindowStore *store, MesoWindowList *list)
+{
+    for (uint32_t i = 0; i < list->count; i++)
+        unlist(store, list->places[i].window);
+    free_places(store, list);
+}
+
+/* The first that ends behind t. */
+static uint32_t find_place(const MesoWindowList *list, double t)
+{
+    uint32_t low = 0, high = list->count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (list->places[middle].end > t)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+/* An edge's windows while one is added. */
 typedef struct Merge {
     MesoWindowStore *store;
-    uint32_t *link;
     const MesoWindow *added;
     double run;             /* what of `added` lies before this is decided */
     double tiny;
     MesoError *error;
 } Merge;
 
-static void append(Merge *merge, uint32_t w)
+static MesoStatus append(Merge *merge, uint32_t w)
 {
-    *merge->link = w;
-    merge->link = &meso_window(merge->store, w)->next;
+    MesoWindowStore *store = merge->store;
+    store->merged = MESO_GROW(store->arena, store->merged, store->merged_count, store->merged_room, 64, merge->error);
+    if (!store->merged)
+        return MESO_ERR_MEMORY;
+    store->merged[store->merged_count++] = (MesoWindowPlace){meso_window(store, w)->end, w};
+    return MESO_OK;
 }
 
 static MesoStatus append_copy(Merge *merge, const MesoWindow *like, double begin, double end)
@@ -208,9 +271,7 @@ static MesoStatus append_copy(Merge *merge, const MesoWindow *like, double begin
     if (!(end - begin > merge->tiny))
         return MESO_OK;
     MesoStatus status = make_window(merge->store, like, begin, end, &w, merge->error);
-    if (!status)
-        append(merge, w);
-    return status;
+    return status ? status : append(merge, w);
 }
 
 /* What is left of `w`, a part at a time: the first keeps the window. */
@@ -223,9 +284,8 @@ static MesoStatus append_rest(Merge *merge, uint32_t w, const MesoWindow *whole,
     MesoWindow *window = meso_window(merge->store, w);
     window->begin = begin;
     window->end = end;
-    append(merge, w);
     *kept = true;
-    return MESO_OK;
+    return append(merge, w);
 }
 
 /* Whoever came first stays where the difference may be rounding: else equal windows cut each other to pieces. */
@@ -263,23 +323,16 @@ static MesoStatus contend(Merge *merge, uint32_t w)
     return status;
 }
 
-MesoStatus meso_window_insert(MesoWindowStore *store, uint32_t *head, const MesoWindow *added, double tiny,
+MesoStatus meso_window_insert(MesoWindowStore *store, MesoWindowList *list, const MesoWindow *added, double tiny,
                               MesoError *error)
 {
-    Merge merge = {store, head, added, added->begin, tiny, error};
-    uint32_t next = *head;
+    Merge merge = {store, added, added->begin, tiny, error};
+    uint32_t first = find_place(list, added->begin + tiny), next = first;
     MesoStatus status = MESO_OK;
-    while (next != MESO_NO_INDEX && meso_window(store, next)->end <= added->begin + tiny) {
-        merge.link = &meso_window(store, next)->next;
-        next = *merge.link;
-    }
-    while (next != MESO_NO_INDEX && meso_window(store, next)->begin < added->end - tiny && !status) {
-        uint32_t w = next;
-        next = meso_window(store, w)->next;
-        status = contend(&merge, w);
-    }
+    store->merged_count = 0;
+    while (next < list->count && meso_window(store, list->places[next].window)->begin < added->end - tiny && !status)
+        status = contend(&merge, list->places[next++].window);
     if (!status)
         status = append_copy(&merge, added, merge.run, added->end);
-    *merge.link = next;
-    return status;
+    return status ? status : replace_places(store, list, first, next, error);
 }
