@@ -1,7 +1,9 @@
 /* Lines and points on a sphere of a million triangles. */
 #include <time.h>
 
+#include "libcore/geodesic/geodesic_samples.h"
 #include "libcore/geodesic/isoline.h"
+#include "libcore/geodesic/streamline.h"
 #include "libcore/geodesic/voronoi.h"
 #include "libcore/geodesic/geodesic_fixture.h"
 
@@ -70,12 +72,61 @@ static void bench_cells(const MesoTriangulation *mesh, MesoGeodesicSolver *solve
     free(seeds);
 }
 
+static void bench_samples(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, uint32_t count)
+{
+    float *distance = malloc(mesh->vertex_count * sizeof *distance);
+    MesoSampleQuery query = {.start = MESO_NO_INDEX, .count = count};
+    double best = 1e9;
+    CHECK(distance);
+    for (int i = 0; i < ROUNDS; i++) {
+        MesoArena arena;
+        MesoSamples samples;
+        meso_arena_init(&arena);
+        double start = cpu_seconds();
+        CHECK(meso_geodesic_sample(&samples, distance, &arena, mesh, solver, &query, NULL) == MESO_OK);
+        best = fmin(best, cpu_seconds() - start);
+        meso_arena_release(&arena);
+    }
+    printf("farthest points, %u on %u triangles: %.1f ms\n", count, mesh->triangle_count, 1e3 * best);
+    free(distance);
+}
+
+static void bench_streams(const MesoTriangulation *mesh)
+{
+    enum { STREAMS = 1000 };
+    float *field = distances_from(mesh, (MesoVec3){0.48f, 0.6f, 0.64f});
+    MesoMeshPoint starts[STREAMS];
+    MesoStreamQuery query = {.field = field, .start_count = 0, .starts = starts};
+    double best = 1e9;
+    uint32_t segment_count = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count && query.start_count < STREAMS; t++)
+        if (field[mesh->corners[3 * t]] < 0.2f)
+            starts[query.start_count++] = (MesoMeshPoint){t, {0.3f, 0.3f, 0.4f}};
+    for (int i = 0; i < ROUNDS; i++) {
+        MesoArena arena;
+        MesoStreamReport report;
+        MesoCutLines lines = {0};
+        meso_arena_init(&arena);
+        double start = cpu_seconds();
+        CHECK(meso_streamlines_trace(&lines, &report, &arena, mesh, &query, NULL) == MESO_OK);
+        best = fmin(best, cpu_seconds() - start);
+        segment_count = lines.segment_count;
+        meso_arena_release(&arena);
+    }
+    printf("streamlines, %u on %u triangles: %.1f ms (%u segments)\n", query.start_count, mesh->triangle_count,
+           1e3 * best, segment_count);
+    free(field);
+}
+
 int main(void)
 {
     MesoTriangulation mesh = meso_fixture_sphere(DIVISIONS, 0.3f, 7);
     MesoGeodesicSolver *solver;
     CHECK(meso_geodesic_init(&solver, &mesh, MESO_GEODESIC_FRONTS, NULL) == MESO_OK);
     bench_isolines(&mesh);
+    bench_streams(&mesh);
+    for (uint32_t count = 10; count <= 10000; count *= 10)
+        bench_samples(&mesh, solver, count);
     for (uint32_t count = 10; count <= 100000; count *= 10)
         bench_cells(&mesh, solver, count);
     meso_geodesic_release(solver);
