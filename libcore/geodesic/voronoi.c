@@ -1,5 +1,7 @@
 #include "libcore/geodesic/voronoi.h"
 
+#include <stdlib.h>
+
 #include "libcore/base/grow.h"
 #include "libcore/base/index_map.h"
 #include "libcore/mesh/cut/mesh_domain.h"
@@ -124,15 +126,16 @@ static void find_bounds(Tracer *tracer)
         tracer->front[v] = tracer->bound[v] = tracer->front[v] + reach * sqrtf(tracer->bound[v]);
 }
 
-/* Seeds come in ascending order: of equal distances the lower number stays before. */
 static void put_slot(Slots *slots, uint32_t seed, float distance)
 {
     uint32_t k = SLOTS;
-    for (; k > 0 && distance < slots->distance[k - 1]; k--)
-        if (k < SLOTS) {
-            slots->distance[k] = slots->distance[k - 1];
-            slots->seed[k] = slots->seed[k - 1];
+    while (k > 0 && (distance < slots->distance[k - 1] || (distance == slots->distance[k - 1] && seed < slots->seed[k - 1]))) {
+        k--;
+        if (k + 1 < SLOTS) {
+            slots->distance[k + 1] = slots->distance[k];
+            slots->seed[k + 1] = slots->seed[k];
         }
+    }
     if (k < SLOTS) {
         slots->distance[k] = distance;
         slots->seed[k] = seed;
@@ -155,16 +158,42 @@ static MesoStatus solve_alone(Tracer *tracer, uint32_t seed)
     return status;
 }
 
+/* A seed and its triangle. */
+typedef struct SeedPlace {
+    uint32_t triangle, seed;
+} SeedPlace;
+
+static int by_triangle(const void *a, const void *b)
+{
+    const SeedPlace *p = a, *q = b;
+    return p->triangle != q->triangle ? (p->triangle < q->triangle ? -1 : 1) : (p->seed > q->seed) - (p->seed < q->seed);
+}
+
+/* One after another in the order of their triangles: what one has touched, the next finds in the caches. */
+static MesoStatus solve_each(Tracer *tracer)
+{
+    uint32_t count = tracer->query->seed_count;
+    SeedPlace *places = MESO_NEW(tracer->scratch, SeedPlace, count, tracer->error);
+    if (!places)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < count; i++)
+        places[i] = (SeedPlace){tracer->query->seeds[i].triangle, i};
+    qsort(places, count, sizeof *places, by_triangle);
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
+        status = solve_alone(tracer, places[i].seed);
+    return status;
+}
+
 static MesoStatus solve(Tracer *tracer)
 {
     MesoStatus status = make_room(tracer);
     if (!status)
         status = solve_together(tracer);
-    if (!status)
-        find_bounds(tracer);
-    for (uint32_t i = 0; i < tracer->query->seed_count && !status; i++)
-        status = solve_alone(tracer, i);
-    return status;
+    if (status)
+        return status;
+    find_bounds(tracer);
+    return solve_each(tracer);
 }
 
 /* ---- sides ---- */
