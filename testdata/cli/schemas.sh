@@ -49,6 +49,9 @@ sed 's/"status": "ok"/"status": "no"/' report-1.json >broken-3.json
 sed 's/"loops"/"rings"/' x.jsonl >broken.jsonl
 sed 's/2.5/-2.5/' no.json >broken-4.json
 
+sed 's/"#8f4a33"/"#8f4a3"/' "$testdata/patterns/contour-line.pattern.json" >broken-5.json
+sed 's/"parameters": {/"parameters": [{/; s/"heart": null}/"heart": null}]/' "$testdata/patterns/flowers.macros.json" >broken-6.json
+
 sed -n 's/.*"status": "\(.*\)",/\1/p' report-*.json | sort | uniq -c
 
 validate() {
@@ -62,9 +65,13 @@ if [ -d "$npm/node_modules/ajv" ]; then
     validate tiles vase.tiles.json x.tiles.json "$testdata/teapot.tiles.json"
     validate constraints no.json pin.json
     validate slots listing.json
+    validate pattern "$testdata"/patterns/*.pattern.json
+    validate macros "$testdata/patterns/flowers.macros.json" "$(dirname "$scripts")/formats/decor/macros.json"
     validate report broken-[123].json
     validate seeds broken.jsonl
     validate constraints broken-4.json
+    validate pattern broken-5.json
+    validate macros broken-6.json
 elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
     echo "ajv is not installed" >&2
 else
