@@ -1,6 +1,6 @@
 /*
- * Windows of the exact solver: the distance functions along a side, the
- * windows that a side has, and the queue of what happens next.
+ * Windows of the exact solver: the distance functions along a side, and the
+ * windows that a side has.
  */
 #ifndef MESO_EXACT_WINDOWS_H
 #define MESO_EXACT_WINDOWS_H
@@ -8,8 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "libcore/base/arena.h"
-#include "libcore/base/index.h"
+#include "libcore/geodesic/exact/event_queue.h"
 
 /*
  * Distance along a straight line, the first axis of a plane. From a point at (x, -y): sigma + |(t,0) - (x,-y)|. From a
@@ -17,8 +16,6 @@
  */
 typedef struct MesoFront {
     double x, y, sigma;
-    uint32_t from;              /* as in MesoExactOrigin */
-    uint8_t source;             /* MesoExactSource */
     bool linear;                /* from a line */
     uint8_t skips;              /* sides crossed with the source as good as on them */
 } MesoFront;
@@ -44,12 +41,6 @@ typedef struct MesoWindowList {
 
 typedef enum MesoEventKind { MESO_EVENT_WINDOW, MESO_EVENT_VERTEX, MESO_EVENT_EDGE } MesoEventKind;
 
-typedef struct MesoEvent {
-    double key;
-    uint32_t item;
-    MesoEventKind kind;
-} MesoEvent;
-
 typedef struct MesoWindowStore {
     MesoArena *arena;
     MesoWindow **chunks;
@@ -60,8 +51,7 @@ typedef struct MesoWindowStore {
     MesoWindowPlace *rooms[32]; /* by size: first of the places given back, which the first pointer in them links */
     uint32_t count, limit, peak;
     uint64_t made;
-    MesoEvent *events;          /* heap, four below each */
-    uint32_t event_count, event_room;
+    MesoEventQueue queue;
 } MesoWindowStore;
 
 enum { MESO_WINDOW_CHUNK = 1 << 12 };
@@ -80,12 +70,6 @@ static inline double meso_front_value(const MesoFront *front, double t)
 
 /* The least value from `begin` to `end`. */
 double meso_front_least(const MesoFront *front, double begin, double end);
-
-/* Puts an event into the queue. MESO_ERR_MEMORY alone. */
-MesoStatus meso_push_event(MesoWindowStore *store, MesoEvent event, MesoError *error);
-
-/* Takes the one with the least key; there must be one. Equal keys come in an order that depends on nothing else. */
-MesoEvent meso_pop_event(MesoWindowStore *store);
 
 /*
  * Gives an edge what of a window is nearer than the windows it has, and these lose that part; new ones are put into the

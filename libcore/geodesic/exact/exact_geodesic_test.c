@@ -1,5 +1,5 @@
 /* Exact distances against formulas. */
-#include "libcore/geodesic/exact_fixture.h"
+#include "libcore/geodesic/exact/exact_fixture.h"
 
 /* ---- surfaces that unfold ---- */
 
@@ -34,8 +34,8 @@ static void test_cube(void)
         CHECK(meso_is_near(distance[v], by_axes[(v & 1) + (v >> 1 & 1) + (v >> 2)], 1e-12));
     free(distance);
     /* from the middle of the bottom to the top's corners, across one side */
-    MesoExactPoint middle = {{0, {0, 0.5f, 0.5f}}, 0.25};
-    distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.points = &middle, .point_count = 1,
+    MesoExactGeodesicPoint middle = {{0, {0, 0.5f, 0.5f}}, 0.25};
+    distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.points = &middle, .point_count = 1,
                                                                  .target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < 8; v++)
         CHECK(meso_is_near(distance[v], 0.25 + (v < 4 ? sqrt(0.5) : sqrt(2.5)), 1e-12));
@@ -54,8 +54,8 @@ static void test_tetrahedron(void)
         CHECK(meso_is_near(distance[v], side, 1e-12));
     free(distance);
     /* from the middle of a side; the second point is too late everywhere */
-    MesoExactPoint points[2] = {{{0, {0, 0.5f, 0.5f}}, 0}, {{0, {0.25f, 0.375f, 0.375f}}, 10}};
-    distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.points = points, .point_count = 2,
+    MesoExactGeodesicPoint points[2] = {{{0, {0, 0.5f, 0.5f}}, 0}, {{0, {0.25f, 0.375f, 0.375f}}, 10}};
+    distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.points = points, .point_count = 2,
                                                                  .target = MESO_NO_INDEX});
     CHECK(meso_is_near(distance[0], side * sqrt(0.75), 1e-12) && meso_is_near(distance[3], side * sqrt(0.75), 1e-12));
     CHECK(meso_is_near(distance[1], side / 2, 1e-12) && meso_is_near(distance[2], side / 2, 1e-12));
@@ -208,13 +208,13 @@ static void test_line(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(12, 12, 1);
     MesoVec3 line[8];
-    MesoGeodesicSeed seeds[8];
+    MesoExactGeodesicSeed seeds[8];
     const uint32_t path[8] = {42, 43, 44, 58, 72, 85, 98, 99};
     for (uint32_t i = 0; i < 8; i++) {
-        seeds[i] = (MesoGeodesicSeed){path[i], 0.5f, true};
+        seeds[i] = (MesoExactGeodesicSeed){path[i], 0.5f, true};
         line[i] = mesh.positions[path[i]];
     }
-    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.seeds = seeds, .seed_count = 8,
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = seeds, .seed_count = 8,
                                                                          .target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
         CHECK(meso_is_near(distance[v], 0.5 + to_polyline(mesh.positions[v], line, 8), 1e-12));
@@ -227,14 +227,14 @@ static void test_border_line(void)
 {
     const uint32_t side = 9;
     MesoTriangulation mesh = meso_fixture_sheet(side, side, 1);
-    MesoGeodesicSeed seeds[100];
+    MesoExactGeodesicSeed seeds[100];
     uint32_t count = 0;
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {
         uint32_t x = v % (side + 1), y = v / (side + 1);
         if (x == 0 || y == 0 || x == side || y == side)
-            seeds[count++] = (MesoGeodesicSeed){v, 0, true};
+            seeds[count++] = (MesoExactGeodesicSeed){v, 0, true};
     }
-    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.seeds = seeds, .seed_count = count,
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = seeds, .seed_count = count,
                                                                          .target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {
         uint32_t x = v % (side + 1), y = v / (side + 1);
@@ -248,10 +248,10 @@ static void test_border_line(void)
 static void test_slanted_line(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(20, 10, 1);
-    MesoGeodesicSeed seeds[21];
+    MesoExactGeodesicSeed seeds[21];
     for (uint32_t i = 0; i <= 20; i++)
-        seeds[i] = (MesoGeodesicSeed){i, 0.625f * (float)i, true};
-    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.seeds = seeds, .seed_count = 21,
+        seeds[i] = (MesoExactGeodesicSeed){i, 0.625f * (float)i, true};
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = seeds, .seed_count = 21,
                                                                          .target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {
         double x = v % 21, y = (double)(v / 21), foot = x - y * 0.625 / sqrt(1 - 0.625 * 0.625);
@@ -268,11 +268,11 @@ static void test_slanted_line(void)
 static void test_points(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(9, 9, 1);
-    const MesoExactPoint points[4] = {
+    const MesoExactGeodesicPoint points[4] = {
         {{17, {0.25f, 0.25f, 0.5f}}, 0.5}, {{60, {0, 0.25f, 0.75f}}, 0}, {{100, {0.5f, 0, 0.5f}}, 0.25},
         {{140, {0, 1, 0}}, 1},
     };
-    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.points = points, .point_count = 4,
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.points = points, .point_count = 4,
                                                                          .target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {
         double least = INFINITY;
@@ -314,8 +314,8 @@ static void test_domain(void)
     const uint8_t member[2] = {0, 1};
     MesoDomain domain = {.member = member};
     MesoTriangulation mesh = make_u();
-    MesoGeodesicSeed seed = {91, 0, false};     /* (1,9) */
-    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.domain = &domain, .seeds = &seed,
+    MesoExactGeodesicSeed seed = {91, 0, false};     /* (1,9) */
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.domain = &domain, .seeds = &seed,
                                                                          .seed_count = 1, .target = MESO_NO_INDEX});
     CHECK(meso_is_near(distance[98], 2 * hypot(2, 6) + 3, 1e-12));         /* (8,9) */
     CHECK(meso_is_near(distance[36], hypot(2, 6) + 3, 1e-12));             /* (6,3) */
@@ -330,14 +330,14 @@ static void test_domain(void)
 static void test_ends(void)
 {
     MesoTriangulation mesh = meso_fixture_torus(24, 16, 0.4f);
-    MesoGeodesicSeed seed = {7, 0, false};
+    MesoExactGeodesicSeed seed = {7, 0, false};
     double *all = meso_fixture_exact(&mesh, 7);
-    double *some = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.seeds = &seed, .seed_count = 1, .limit = 0.8,
+    double *some = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = &seed, .seed_count = 1, .limit = 0.8,
                                                                      .target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
         CHECK(all[v] <= 0.8 ? some[v] == all[v] : some[v] == INFINITY);
     free(some);
-    some = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.seeds = &seed, .seed_count = 1, .target = 100});
+    some = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = &seed, .seed_count = 1, .target = 100});
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
         CHECK(all[v] < all[100] || v == 100 ? some[v] == all[v] : some[v] == INFINITY || some[v] == all[v]);
     free(some);
@@ -349,16 +349,16 @@ static void test_ends(void)
 static void test_keep(void)
 {
     MesoTriangulation mesh = meso_fixture_torus(24, 16, 0.4f);
-    MesoGeodesicSeed seeds[4] = {{7, 0, false}, {200, 0.125f, false}, {301, 0, false}, {9, 0.0625f, false}};
-    double *once = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.seeds = seeds, .seed_count = 4,
+    MesoExactGeodesicSeed seeds[4] = {{7, 0, false}, {200, 0.125f, false}, {301, 0, false}, {9, 0.0625f, false}};
+    double *once = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = seeds, .seed_count = 4,
                                                                      .target = MESO_NO_INDEX});
     double *kept = meso_fixture_exact(&mesh, 7);
     MesoArena arena;
-    MesoExactField field;
+    MesoExactGeodesicField field;
     meso_arena_init(&arena);
     for (uint32_t i = 1; i < 4; i++) {
-        MesoExactQuery query = {.seeds = &seeds[i], .seed_count = 1, .target = MESO_NO_INDEX, .keep = true};
-        CHECK(meso_exact_solve(&mesh, NULL, &query, &arena, kept, &field, NULL) == MESO_OK);
+        MesoExactGeodesicQuery query = {.seeds = &seeds[i], .seed_count = 1, .target = MESO_NO_INDEX, .keep = true};
+        CHECK(meso_exact_geodesic(&mesh, NULL, &query, &arena, kept, &field, NULL) == MESO_OK);
         CHECK(field.touched_count < mesh.vertex_count);
     }
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
@@ -374,14 +374,14 @@ static void test_keep(void)
 static void test_window_limit(void)
 {
     MesoTriangulation mesh = meso_fixture_torus(24, 16, 0.4f);
-    MesoGeodesicSeed seed = {7, 0, false};
+    MesoExactGeodesicSeed seed = {7, 0, false};
     MesoArena arena;
-    MesoExactField field;
+    MesoExactGeodesicField field;
     MesoError error;
     double *distance = malloc(mesh.vertex_count * sizeof *distance);
     meso_arena_init(&arena);
-    MesoExactQuery query = {.seeds = &seed, .seed_count = 1, .target = MESO_NO_INDEX, .window_limit = 20};
-    CHECK(distance && meso_exact_solve(&mesh, NULL, &query, &arena, distance, &field, &error) == MESO_ERR_LIMIT);
+    MesoExactGeodesicQuery query = {.seeds = &seed, .seed_count = 1, .target = MESO_NO_INDEX, .window_limit = 20};
+    CHECK(distance && meso_exact_geodesic(&mesh, NULL, &query, &arena, distance, &field, &error) == MESO_ERR_LIMIT);
     free(distance);
     meso_arena_release(&arena);
     meso_triangulation_release(&mesh);
@@ -420,7 +420,7 @@ static void test_not_finite(void)
 static void test_no_seeds(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(2, 2, 1);
-    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactQuery){.target = MESO_NO_INDEX});
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.target = MESO_NO_INDEX});
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
         CHECK(distance[v] == INFINITY);
     free(distance);

@@ -1,6 +1,6 @@
-#include "libcore/geodesic/exact_geodesic.h"
+#include "libcore/geodesic/exact/exact_geodesic.h"
 
-#include "libcore/geodesic/exact_windows.h"
+#include "libcore/geodesic/exact/exact_windows.h"
 
 enum { DEFAULT_WINDOW_LIMIT = 1 << 25 };
 
@@ -21,7 +21,7 @@ typedef struct Reached {
 typedef struct Solve {
     const MesoTriangulation *mesh;
     const MesoVec3 *positions;
-    const MesoExactQuery *query;
+    const MesoExactGeodesicQuery *query;
     double limit;
     Side *sides;            /* [3 * triangle_count] */
     MesoWindowList *lists;  /* [3 * triangle_count] an edge's windows, at its first half-edge */
@@ -30,7 +30,7 @@ typedef struct Solve {
     double *distance;
     Reached *reached;       /* [reached_count] */
     uint32_t reached_count;
-    MesoExactField *field;
+    MesoExactGeodesicField *field;
     MesoWindowStore store;
     MesoError *error;
 } Solve;
@@ -121,7 +121,12 @@ static void measure_domain(Solve *solve, double *angles)
 
 /* ---- propagation ---- */
 
-static MesoStatus reach(Solve *solve, uint32_t vertex, double distance, MesoExactOrigin origin)
+static MesoStatus push_event(Solve *solve, double key, uint32_t item, MesoEventKind kind)
+{
+    return meso_event_push(&solve->store.queue, solve->store.arena, (MesoEvent){key, item, kind}, solve->error);
+}
+
+static MesoStatus reach(Solve *solve, uint32_t vertex, double distance)
 {
     /* an improvement by rounding would start all over */
     if (!(solve->flags[vertex] & INSIDE) || !(distance < solve->distance[vertex] * (1 - 1e-14)) ||
@@ -131,9 +136,7 @@ static MesoStatus reach(Solve *solve, uint32_t vertex, double distance, MesoExac
         solve->reached[solve->reached_count++] = (Reached){vertex, solve->distance[vertex]};
     solve->flags[vertex] |= REACHED;
     solve->distance[vertex] = distance;
-    if (solve->field->origins)
-        solve->field->origins[vertex] = origin;
-    return meso_push_event(&solve->store, (MesoEvent){distance, vertex, MESO_EVENT_VERTEX}, solve->error);
+    return push_event(solve, distance, vertex, MESO_EVENT_VERTEX);
 }
 
 /* Whether paths along the edge from its ends, or just over it, are shorter than all that comes through the window. */
@@ -251,22 +254,17 @@ static MesoStatus reach_corner(Solve *solve, uint32_t g, const MesoFront *front,
                                Ray last)
 {
     const Side *side = &solve->sides[g];
-    MesoExactOrigin origin = {front->source, front->from, g, begin, front->x, front->y};
-    double distance;
+    double dx = side->x - front->x, dy = side->y + front->y, distance;
     if (first.left > 0 || last.left < 0) {
-        origin.crossing = first.left > 0 ? begin : end;
-        double dx = side->x - origin.crossing;
-        distance = meso_front_value(front, origin.crossing) + sqrt(dx * dx + side->y * side->y);
+        double around = first.left > 0 ? begin : end;
+        dx = side->x - around;
+        distance = meso_front_value(front, around) + sqrt(dx * dx + side->y * side->y);
     } else if (front->linear) {
-        origin.crossing = side->x - front->x * side->y / front->y;
         distance = front->sigma + front->x * side->x + front->y * side->y;
     } else {
-        double dx = side->x - front->x, dy = side->y + front->y;
-        origin.crossing = front->x + dx * front->y / dy;
         distance = front->sigma + sqrt(dx * dx + dy * dy);
     }
-    origin.crossing = fmin(fmax(origin.crossing, begin), end);
-    return reach(solve, solve->mesh->corners[meso_previous_corner(g)], distance, origin);
+    return reach(solve, solve->mesh->corners[meso_previous_corner(g)], distance);
 }
 
 /* A front enters the triangle of half-edge g between `begin` and `end`, and leaves by the other two sides. */
@@ -312,7 +310,7 @@ static MesoStatus retire_edge_later(Solve *solve, uint32_t h)
     double key = 0.5 * (solve->distance[corners[h]] + solve->distance[corners[meso_next_corner(h)]] + side->length);
     if (side->across == MESO_NO_INDEX || side->across < h || !(key < INFINITY))
         return MESO_OK;
-    return meso_push_event(&solve->store, (MesoEvent){key, h, MESO_EVENT_EDGE}, solve->error);
+    return push_event(solve, key, h, MESO_EVENT_EDGE);
 }
 
 /* From a vertex to the rest of one of its triangles. */
@@ -322,17 +320,16 @@ static MesoStatus leave_corner(Solve *solve, uint32_t corner)
     uint32_t next = meso_next_corner(corner), previous = meso_previous_corner(corner), vertex = corners[corner];
     const Side *opposite = &solve->sides[next];
     double distance = solve->distance[vertex];
-    MesoExactOrigin along = {MESO_FROM_VERTEX, vertex, MESO_NO_INDEX, 0, 0, 0};
-    MesoStatus status = reach(solve, corners[next], distance + solve->sides[corner].length, along);
+    MesoStatus status = reach(solve, corners[next], distance + solve->sides[corner].length);
     if (!status)
-        status = reach(solve, corners[previous], distance + solve->sides[previous].length, along);
+        status = reach(solve, corners[previous], distance + solve->sides[previous].length);
     if (!status)
         status = retire_edge_later(solve, corner);
     if (!status)
         status = retire_edge_later(solve, previous);
     if (status || !(solve->flags[vertex] & EMITS))
         return status;
-    MesoFront front = {opposite->x, opposite->y, distance, vertex, MESO_FROM_VERTEX, false, 0};
+    MesoFront front = {opposite->x, opposite->y, distance, false, 0};
     return see_side(solve, next, front, 0, opposite->length);
 }
 
@@ -356,8 +353,8 @@ static MesoStatus settle_vertex(Solve *solve, uint32_t vertex)
 static MesoStatus run_events(Solve *solve)
 {
     MesoStatus status = MESO_OK;
-    while (!status && solve->store.event_count > 0) {
-        MesoEvent event = meso_pop_event(&solve->store);
+    while (!status && solve->store.queue.count > 0) {
+        MesoEvent event = meso_event_pop(&solve->store.queue);
         if (event.kind == MESO_EVENT_WINDOW) {
             status = advance_window(solve, event.item);
         } else if (event.kind == MESO_EVENT_EDGE) {
@@ -377,15 +374,14 @@ static MesoStatus start_vertices(Solve *solve)
 {
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < solve->query->seed_count && !status; i++) {
-        const MesoGeodesicSeed *seed = &solve->query->seeds[i];
+        const MesoExactGeodesicSeed *seed = &solve->query->seeds[i];
         solve->flags[seed->vertex] |= EMITS;
         if (seed->line) {
             double *start = &solve->starts[seed->vertex];
             *start = solve->flags[seed->vertex] & ON_LINE ? fmin(*start, seed->distance) : seed->distance;
             solve->flags[seed->vertex] |= ON_LINE;
         }
-        status = reach(solve, seed->vertex, seed->distance,
-                       (MesoExactOrigin){MESO_FROM_NOTHING, MESO_NO_INDEX, MESO_NO_INDEX, 0, 0, 0});
+        status = reach(solve, seed->vertex, seed->distance);
     }
     return status;
 }
@@ -415,7 +411,7 @@ static MesoStatus start_line(Solve *solve, uint32_t h)
     double slope = (end - begin) / side->length;
     if (!(fabs(slope) <= 1))    /* one end is the source of the other */
         return MESO_OK;
-    MesoFront front = {slope, sqrt((1 - slope) * (1 + slope)), begin, h, MESO_FROM_LINE, true, 0};
+    MesoFront front = {slope, sqrt((1 - slope) * (1 + slope)), begin, true, 0};
     MesoStatus status = cross_triangle(solve, h, &front, 0, side->length);
     if (status || side->across < h || side->across == MESO_NO_INDEX)
         return status;
@@ -436,20 +432,18 @@ static MesoStatus start_lines(Solve *solve)
 }
 
 /* A point sees the three sides of its triangle; on a side, it sees the triangle across just as well. */
-static MesoStatus start_point(Solve *solve, uint32_t i)
+static MesoStatus start_point(Solve *solve, const MesoExactGeodesicPoint *point)
 {
-    const MesoExactPoint *point = &solve->query->points[i];
     uint32_t first = 3 * point->at.triangle;
     MesoStatus status = MESO_OK;
     for (uint32_t k = 0; k < 3 && !status; k++) {
         const Side *side = &solve->sides[first + k];
         double w1 = point->at.weight[(k + 1) % 3], w2 = point->at.weight[(k + 2) % 3];
-        MesoFront front = {w1 * side->length + w2 * side->x, w2 * side->y, point->distance, i, MESO_FROM_POINT, false, 0};
+        MesoFront front = {w1 * side->length + w2 * side->x, w2 * side->y, point->distance, false, 0};
         uint32_t vertex = solve->mesh->corners[first + k];
         if (!(w1 > ON_SIDE) || !(w2 > ON_SIDE))
             solve->flags[vertex] |= EMITS;
-        status = reach(solve, vertex, point->distance + sqrt(front.x * front.x + front.y * front.y),
-                       (MesoExactOrigin){MESO_FROM_POINT, i, MESO_NO_INDEX, 0, 0, 0});
+        status = reach(solve, vertex, point->distance + sqrt(front.x * front.x + front.y * front.y));
         if (!status)
             status = see_side(solve, first + k, front, 0, side->length);
     }
@@ -462,7 +456,7 @@ static MesoStatus start(Solve *solve)
     if (!status && solve->starts)
         status = start_lines(solve);
     for (uint32_t i = 0; i < solve->query->point_count && !status; i++)
-        status = start_point(solve, i);
+        status = start_point(solve, &solve->query->points[i]);
     return status;
 }
 
@@ -476,7 +470,7 @@ static void forget_bounds(Solve *solve)
             solve->distance[solve->reached[i].vertex] = solve->reached[i].before;
 }
 
-static bool has_lines(const MesoExactQuery *query)
+static bool has_lines(const MesoExactGeodesicQuery *query)
 {
     for (uint32_t i = 0; i < query->seed_count; i++)
         if (query->seeds[i].line)
@@ -507,13 +501,12 @@ static MesoStatus solve_in(Solve *solve, MesoArena *arena)
     return status;
 }
 
-MesoStatus meso_exact_solve(const MesoTriangulation *mesh, const MesoVec3 *positions, const MesoExactQuery *query,
-                            MesoArena *arena, double *distance, MesoExactField *field, MesoError *error)
+MesoStatus meso_exact_geodesic(const MesoTriangulation *mesh, const MesoVec3 *positions,
+                               const MesoExactGeodesicQuery *query, MesoArena *arena, double *distance,
+                               MesoExactGeodesicField *field, MesoError *error)
 {
-    *field = (MesoExactField){.touched = MESO_NEW(arena, uint32_t, mesh->vertex_count, error)};
-    if (query->trace)
-        field->origins = MESO_NEW(arena, MesoExactOrigin, mesh->vertex_count, error);
-    if (!field->touched || (query->trace && !field->origins))
+    *field = (MesoExactGeodesicField){.touched = MESO_NEW(arena, uint32_t, mesh->vertex_count, error)};
+    if (!field->touched)
         return MESO_ERR_MEMORY;
     for (uint32_t v = 0; v < mesh->vertex_count && !query->domain && !query->keep; v++)
         distance[v] = INFINITY;

@@ -11,52 +11,44 @@
  * Geodesic Distance Fields for Polygonal Curves on Triangle Meshes", Bommes
  * and Kobbelt 2007).
  *
- * Slow beside the engines of geodesic.h, and their oracle.
+ * Slow beside the other engines of geodesic.h, and their oracle.
  */
 #ifndef MESO_EXACT_GEODESIC_H
 #define MESO_EXACT_GEODESIC_H
 
 #include "libcore/base/arena.h"
-#include "libcore/geodesic/geodesic.h"
+#include "libcore/mesh/cut/triangulation.h"
+
+typedef struct MesoExactGeodesicSeed {
+    uint32_t vertex;
+    double distance;        /* that it starts with, >= 0 */
+    bool line;              /* part of a line of seeds: paths begin anywhere on it */
+} MesoExactGeodesicSeed;
 
 /* A seed anywhere on the surface. */
-typedef struct MesoExactPoint {
+typedef struct MesoExactGeodesicPoint {
     MesoMeshPoint at;
     double distance;        /* that it starts with, >= 0 */
-} MesoExactPoint;
+} MesoExactGeodesicPoint;
 
-typedef struct MesoExactQuery {
+typedef struct MesoExactGeodesicQuery {
     const MesoDomain *domain;           /* paths stay in it; NULL: everywhere */
-    const MesoGeodesicSeed *seeds;
+    const MesoExactGeodesicSeed *seeds;
     uint32_t seed_count;
-    const MesoExactPoint *points;       /* more seeds, in triangles of the domain */
+    const MesoExactGeodesicPoint *points;       /* more seeds, in triangles of the domain */
     uint32_t point_count;
     double limit;                       /* vertices farther away are without distance; 0: no limit */
     uint32_t target;                    /* ends once this vertex is final; MESO_NO_INDEX: none */
     bool keep;                          /* distances in `distance` stand, and are only lowered */
-    bool trace;                         /* origins are wanted */
     uint32_t window_limit;              /* windows at a time, 64 bytes each; 0: 32 million */
-} MesoExactQuery;
+} MesoExactGeodesicQuery;
 
-typedef enum MesoExactSource { MESO_FROM_VERTEX, MESO_FROM_POINT, MESO_FROM_LINE, MESO_FROM_NOTHING } MesoExactSource;
-
-/* The last straight part of the shortest path to a vertex. */
-typedef struct MesoExactOrigin {
-    MesoExactSource source; /* of a seed: nothing */
-    uint32_t from;          /* where it begins: vertex, number of the query's point, or half-edge of a line */
-    uint32_t side;          /* half-edge opposite the vertex, by which it enters the last triangle; MESO_NO_INDEX: it
-                               runs along an edge */
-    double crossing;        /* where it enters: length along `side` */
-    double x, y;            /* the source, along `side` and behind it; from a line, the unit direction of travel */
-} MesoExactOrigin;
-
-typedef struct MesoExactField {
+typedef struct MesoExactGeodesicField {
     uint32_t *touched;          /* [touched_count] vertices whose distance was lowered, nearest first */
     uint32_t touched_count;
-    MesoExactOrigin *origins;   /* [vertex_count] set at touched vertices; NULL without `trace` */
     uint64_t window_count;      /* windows made, in all */
     uint32_t window_peak;       /* and at a time */
-} MesoExactField;
+} MesoExactGeodesicField;
 
 /*
  * Distances from the nearest seed, by paths in the domain.
@@ -76,7 +68,8 @@ typedef struct MesoExactField {
  * rule; windows behind the front are given back. MESO_ERR_LIMIT beyond `window_limit` windows at a time,
  * MESO_ERR_MEMORY; `distance` holds no field then.
  */
-MesoStatus meso_exact_solve(const MesoTriangulation *mesh, const MesoVec3 *positions, const MesoExactQuery *query,
-                            MesoArena *arena, double *distance, MesoExactField *field, MesoError *error);
+MesoStatus meso_exact_geodesic(const MesoTriangulation *mesh, const MesoVec3 *positions,
+                               const MesoExactGeodesicQuery *query, MesoArena *arena, double *distance,
+                               MesoExactGeodesicField *field, MesoError *error);
 
 #endif

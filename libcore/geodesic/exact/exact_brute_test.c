@@ -1,6 +1,6 @@
 /* Exact distances of tiny random surfaces against all sequences of unfolded triangles. */
 #include "libcore/base/random.h"
-#include "libcore/geodesic/exact_fixture.h"
+#include "libcore/geodesic/exact/exact_fixture.h"
 
 /* ---- brute force ---- */
 
@@ -19,7 +19,7 @@ static double turn(Point a, Point b)
     return a.x * b.y - a.y * b.x;
 }
 
-/* Where the third corner comes to lie beyond side h that runs from a to b in the plane, on the other side than `behind`. */
+/* Where the third corner comes to lie beyond side h, from a to b in the plane, on the other side than `behind`. */
 static Point unfolded(const MesoTriangulation *mesh, uint32_t h, Point a, Point b, Point behind)
 {
     uint32_t va = mesh->corners[h], vb = mesh->corners[meso_next_corner(h)];
@@ -112,8 +112,8 @@ static void compare(const MesoTriangulation *mesh, const MesoDomain *domain)
     uint32_t n = mesh->vertex_count;
     double *all = brute_distances(mesh, domain);
     for (uint32_t s = 0; s < n; s++) {
-        MesoGeodesicSeed seed = {s, 0, false};
-        double *distance = meso_fixture_exact_query(mesh, &(MesoExactQuery){.domain = domain, .seeds = &seed,
+        MesoExactGeodesicSeed seed = {s, 0, false};
+        double *distance = meso_fixture_exact_query(mesh, &(MesoExactGeodesicQuery){.domain = domain, .seeds = &seed,
                                                                             .seed_count = 1,
                                                                             .target = MESO_NO_INDEX});
         for (uint32_t v = 0; v < n; v++)

@@ -1,43 +1,4 @@
-#include "libcore/geodesic/exact_windows.h"
-
-#include <assert.h>
-
-#include "libcore/base/grow.h"
-
-/* ---- the queue ---- */
-
-static bool comes_before(const MesoEvent *a, const MesoEvent *b)
-{
-    return a->key < b->key;
-}
-
-MesoStatus meso_push_event(MesoWindowStore *store, MesoEvent event, MesoError *error)
-{
-    store->events = MESO_GROW(store->arena, store->events, store->event_count, store->event_room, 4096, error);
-    if (!store->events)
-        return MESO_ERR_MEMORY;
-    uint32_t i = store->event_count++;
-    for (uint32_t up; i > 0 && comes_before(&event, &store->events[up = (i - 1) / 4]); i = up)
-        store->events[i] = store->events[up];
-    store->events[i] = event;
-    return MESO_OK;
-}
-
-MesoEvent meso_pop_event(MesoWindowStore *store)
-{
-    MesoEvent *events = store->events, least = events[0], last = events[--store->event_count];
-    uint32_t count = store->event_count, i = 0;
-    for (uint32_t down; (down = 4 * i + 1) < count; i = down) {
-        uint32_t end = down + 4 < count ? down + 4 : count;
-        for (uint32_t k = down + 1; k < end; k++)
-            down = comes_before(&events[k], &events[down]) ? k : down;
-        if (!comes_before(&events[down], &last))
-            break;
-        events[i] = events[down];
-    }
-    events[i] = last;
-    return least;
-}
+#include "libcore/geodesic/exact/exact_windows.h"
 
 /* ---- windows ---- */
 
@@ -79,8 +40,8 @@ static MesoStatus make_window(MesoWindowStore *store, const MesoWindow *like, do
     *made = w;
     if (!window->pending)
         return MESO_OK;
-    return meso_push_event(store, (MesoEvent){meso_front_least(&window->front, begin, end), w, MESO_EVENT_WINDOW},
-                           error);
+    MesoEvent event = {meso_front_least(&window->front, begin, end), w, MESO_EVENT_WINDOW};
+    return meso_event_push(&store->queue, store->arena, event, error);
 }
 
 static void give_back(MesoWindowStore *store, uint32_t w)
@@ -123,7 +84,7 @@ static uint32_t stable_roots(double a, double b, double c, double s, double root
     return 2;
 }
 
-/* Both from points; t counts from p's foot. The discriminant is in factors, or equal sigmas would lose half the digits. */
+/* Both from points; t counts from p's foot. The discriminant is in factors: equal sigmas would lose half the digits. */
 static uint32_t point_point_ties(const MesoFront *p, const MesoFront *q, double root[2])
 {
     double a = q->x - p->x, delta = q->sigma - p->sigma;

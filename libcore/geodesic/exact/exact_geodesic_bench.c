@@ -3,7 +3,7 @@
 
 #include "libcore/base/clock.h"
 #include "libcore/base/random.h"
-#include "libcore/geodesic/exact_geodesic.h"
+#include "libcore/geodesic/exact/exact_geodesic.h"
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
 /* Bumps, and vertices off their grid: half of them are saddles, and no two triangles alike. */
@@ -24,9 +24,9 @@ static void measure(uint32_t columns, uint32_t rows)
     MesoTriangulation mesh = meso_fixture_torus(columns, rows, 0.4f);
     MesoArena arena;
     MesoError error;
-    MesoExactField field;
-    MesoGeodesicSeed seed = {mesh.vertex_count / 3, 0, false};
-    MesoExactQuery query = {.seeds = &seed, .seed_count = 1, .target = MESO_NO_INDEX};
+    MesoExactGeodesicField field;
+    MesoExactGeodesicSeed seed = {mesh.vertex_count / 3, 0, false};
+    MesoExactGeodesicQuery query = {.seeds = &seed, .seed_count = 1, .target = MESO_NO_INDEX};
     double *distance = malloc(mesh.vertex_count * sizeof *distance), best = INFINITY;
     CHECK(distance);
     disturb(&mesh, 0.3f * 6.28f / (float)columns);
@@ -34,7 +34,7 @@ static void measure(uint32_t columns, uint32_t rows)
     for (int round = 0; round < 2; round++) {
         MesoArenaMark mark = meso_arena_mark(&arena);
         double start = meso_seconds();
-        CHECK(meso_exact_solve(&mesh, NULL, &query, &arena, distance, &field, &error) == MESO_OK);
+        CHECK(meso_exact_geodesic(&mesh, NULL, &query, &arena, distance, &field, &error) == MESO_OK);
         best = fmin(best, meso_seconds() - start);
         meso_arena_rewind(&arena, mark);
     }

@@ -2,21 +2,21 @@
 #ifndef MESO_EXACT_FIXTURE_H
 #define MESO_EXACT_FIXTURE_H
 
-#include "libcore/geodesic/exact_geodesic.h"
+#include "libcore/geodesic/exact/exact_geodesic.h"
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
 /* Solves, and stops the test where that fails; the caller frees. */
-static inline double *meso_fixture_exact_query(const MesoTriangulation *mesh, const MesoExactQuery *query)
+static inline double *meso_fixture_exact_query(const MesoTriangulation *mesh, const MesoExactGeodesicQuery *query)
 {
     MesoArena arena;
-    MesoExactField field;
+    MesoExactGeodesicField field;
     MesoError error;
     double *distance = malloc((mesh->vertex_count + 1) * sizeof *distance);
     CHECK(distance);
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         distance[v] = -1;
     meso_arena_init(&arena);
-    CHECK(meso_exact_solve(mesh, NULL, query, &arena, distance, &field, &error) == MESO_OK);
+    CHECK(meso_exact_geodesic(mesh, NULL, query, &arena, distance, &field, &error) == MESO_OK);
     for (uint32_t i = 1; i < field.touched_count; i++)
         CHECK(distance[field.touched[i - 1]] <= distance[field.touched[i]]);
     meso_arena_release(&arena);
@@ -26,8 +26,8 @@ static inline double *meso_fixture_exact_query(const MesoTriangulation *mesh, co
 /* From one vertex, in all of the mesh. */
 static inline double *meso_fixture_exact(const MesoTriangulation *mesh, uint32_t vertex)
 {
-    MesoGeodesicSeed seed = {vertex, 0, false};
-    return meso_fixture_exact_query(mesh, &(MesoExactQuery){.seeds = &seed, .seed_count = 1,
+    MesoExactGeodesicSeed seed = {vertex, 0, false};
+    return meso_fixture_exact_query(mesh, &(MesoExactGeodesicQuery){.seeds = &seed, .seed_count = 1,
                                                             .target = MESO_NO_INDEX});
 }
 
