@@ -79,23 +79,31 @@ static void take_positions(MesoGeodesicSolver *solver, const MesoVec3 *positions
     solver->buckets.inverse_width = side > 1e-30f && side < INFINITY ? 2 / side : 1;
 }
 
-/* A byte a triangle is read; few of them have walls. */
-static void note_walls(MesoGeodesicSolver *solver)
+static void note_walls(MesoGeodesicSolver *solver, uint32_t triangle)
 {
     const MesoTriangulation *mesh = solver->mesh;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        if (mesh->walls[t])
-            for (uint32_t k = 0; k < 3; k++)
-                if (mesh->walls[t] >> k & 1) {
-                    uint32_t side = 3 * t + k;
-                    solver->states[mesh->corners[side]] |= MESO_VERTEX_WALLED;
-                    solver->states[mesh->corners[meso_next_corner(side)]] |= MESO_VERTEX_WALLED;
-                }
+    for (uint32_t k = 0; k < 3 && mesh->walls[triangle]; k++) {
+        uint32_t side = 3 * triangle + k;
+        uint8_t *begin = &solver->states[mesh->corners[side]];
+        *begin |= MESO_VERTEX_NEAR_WALL;
+        if (meso_side_is_wall(mesh, side)) {
+            *begin |= MESO_VERTEX_WALLED;
+            solver->states[mesh->corners[meso_next_corner(side)]] |= MESO_VERTEX_WALLED;
+        }
+    }
+}
+
+/* It is made again when it is wanted. */
+static void drop_graph(MesoGeodesicSolver *solver)
+{
+    meso_geodesic_graph_release(solver->graph);
+    solver->graph = NULL;
 }
 
 MesoStatus meso_geodesic_set_positions(MesoGeodesicSolver *solver, const MesoVec3 *positions, MesoError *error)
 {
     (void)error;
+    drop_graph(solver);
     take_positions(solver, positions);
     return MESO_OK;
 }
@@ -120,7 +128,8 @@ MesoStatus meso_geodesic_init(MesoGeodesicSolver **made, const MesoTriangulation
     }
     solver->vertex_count = mesh->vertex_count;
     memset(solver->states, 0, solver->vertex_room);
-    note_walls(solver);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        note_walls(solver, t);
     take_positions(solver, mesh->positions);
     *made = solver;
     return MESO_OK;
@@ -130,6 +139,7 @@ void meso_geodesic_release(MesoGeodesicSolver *solver)
 {
     if (!solver)
         return;
+    meso_geodesic_graph_release(solver->graph);
     meso_buckets_release(&solver->buckets);
     meso_one_rings_release(&solver->rings);
     free(solver->rows);
@@ -151,9 +161,11 @@ static MesoStatus remake_ring(MesoGeodesicSolver *solver, uint32_t vertex, MesoE
 static MesoStatus remake_rings(MesoGeodesicSolver *solver, const MesoCutReport *report, MesoError *error)
 {
     const uint32_t *corners = solver->mesh->corners;
-    for (uint32_t p = 0; p < report->part_count; p++)
+    for (uint32_t p = 0; p < report->part_count; p++) {
+        note_walls(solver, report->parts[p].triangle);
         for (uint32_t k = 0; k < 3; k++)
             solver->states[corners[3 * report->parts[p].triangle + k]] |= MESO_VERTEX_MARKED;
+    }
     MesoStatus status = MESO_OK;
     for (uint32_t p = 0; p < report->part_count; p++)
         for (uint32_t k = 0; k < 3 && !status; k++)
@@ -172,7 +184,7 @@ MesoStatus meso_geodesic_update(MesoGeodesicSolver *solver, const MesoCutReport 
         solver->states[v] = 0;
     }
     solver->vertex_count = mesh->vertex_count;
-    note_walls(solver);
+    drop_graph(solver);
     return remake_rings(solver, report, error);
 }
 
@@ -209,6 +221,29 @@ static void take_distances(MesoGeodesicSolver *solver, bool all, float *distance
             take_distance(solver, solver->touched[i], unit, distance);
 }
 
+/* Lets the engine fill the rows. */
+static MesoStatus run_engine(const MesoGeodesicRun *run, MesoError *error)
+{
+    MesoGeodesicSolver *solver = run->solver;
+    MesoStatus status = MESO_OK;
+    switch (solver->engine) {
+    case MESO_GEODESIC_FRONTS:
+        if (!meso_fronts_run(run))
+            status = meso_fail(error, MESO_ERR_MEMORY, "out of memory: a front of %u vertices", solver->touched_count);
+        break;
+    case MESO_GEODESIC_GRAPH:
+        if (!solver->graph)
+            status = meso_geodesic_graph_make(solver, error);
+        if (!status)
+            meso_geodesic_graph_run(run);
+        break;
+    case MESO_GEODESIC_EXACT:
+        status = meso_fail(error, MESO_ERR_USAGE, "exact distances are not built in");
+        break;
+    }
+    return status;
+}
+
 MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQuery *query, float *distance,
                                const uint32_t **touched, uint32_t *touched_count, MesoError *error)
 {
@@ -219,12 +254,11 @@ MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQue
     if (!query->keep && !all)
         clear_distances(solver->mesh, query->domain, distance);
     solver->touched_count = 0;
-    bool done = meso_fronts_run(&run);
+    MesoStatus status = run_engine(&run, error);
     take_distances(solver, all, distance);
     if (touched) {
         *touched = solver->touched;
         *touched_count = solver->touched_count;
     }
-    return done ? MESO_OK : meso_fail(error, MESO_ERR_MEMORY, "out of memory: a front of %u vertices",
-                                      solver->touched_count);
+    return status;
 }

@@ -17,8 +17,11 @@ typedef struct MesoGeodesicRow {
 enum {
     MESO_VERTEX_QUEUED = 1,     /* due */
     MESO_VERTEX_WALLED = 2,     /* has a side that is a wall */
-    MESO_VERTEX_MARKED = 4      /* its ring is to be made again */
+    MESO_VERTEX_NEAR_WALL = 4,  /* corner of a triangle that has a wall */
+    MESO_VERTEX_MARKED = 8      /* its ring is to be made again */
 };
+
+typedef struct MesoGeodesicGraph MesoGeodesicGraph;
 
 /* Single precision squares what is between 1e-19 and 1e19 alone: rows are scaled by a power of two to a size near 1. */
 struct MesoGeodesicSolver {
@@ -33,6 +36,7 @@ struct MesoGeodesicSolver {
     uint32_t touched_count;
     MesoOneRings rings;
     MesoBuckets buckets;
+    MesoGeodesicGraph *graph;   /* of the graph engine; NULL: to be made before the next solve */
 };
 
 /* One solve, in the rows' units. */
@@ -62,5 +66,14 @@ static inline bool meso_geodesic_lowers(const MesoGeodesicRun *run, uint32_t ver
 
 /* Fills the rows' distances from the seeds in them. False where memory is out. */
 bool meso_fronts_run(const MesoGeodesicRun *run);
+
+/* The same by paths in the solver's graph, which has to be there. */
+void meso_geodesic_graph_run(const MesoGeodesicRun *run);
+
+/* Makes the solver's graph, for the lengths that its rows have. O(corners). MESO_ERR_LIMIT, MESO_ERR_MEMORY. */
+MesoStatus meso_geodesic_graph_make(MesoGeodesicSolver *solver, MesoError *error);
+
+/* NULL is left alone. */
+void meso_geodesic_graph_release(MesoGeodesicGraph *graph);
 
 #endif
