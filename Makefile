@@ -9,6 +9,7 @@
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
+#   bench-decor       distances on surfaces, beside the exact ones
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -148,6 +149,8 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
+bench-decor: $(OUT)/test/libcore/geodesic/geodesic_bench
+	@$<
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 fuzz-run: fuzzers all generators
@@ -162,7 +165,7 @@ install: all generators
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve demo \
+.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve bench-decor demo \
         fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

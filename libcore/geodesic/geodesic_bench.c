@@ -34,39 +34,52 @@ static uint32_t *random_order(uint32_t count, uint64_t stream)
     return order;
 }
 
-/* The same surface with its vertices and triangles in random order. */
-static void shuffle(const MesoTriangulation *mesh, MesoArena *arena, MesoPolygonMesh *polygons)
+/* The same surface, with its vertices and triangles in random order where asked. */
+static void copy_polygons(const MesoTriangulation *mesh, bool shuffled, MesoArena *arena, MesoPolygonMesh *polygons)
 {
-    uint32_t *vertex = random_order(mesh->vertex_count, 0), *triangle = random_order(mesh->triangle_count, 1);
+    uint32_t *vertex = random_order(shuffled ? mesh->vertex_count : 0, 0);
+    uint32_t *triangle = random_order(shuffled ? mesh->triangle_count : 0, 1);
     *polygons = (MesoPolygonMesh){.vertex_count = mesh->vertex_count, .face_count = mesh->triangle_count,
                                   .corner_count = 3 * mesh->triangle_count, .side_count = 3};
     polygons->positions = MESO_NEW(arena, MesoVec3, mesh->vertex_count, NULL);
     polygons->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)mesh->triangle_count, NULL);
     CHECK(polygons->positions && polygons->corners);
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
-        polygons->positions[vertex[v]] = mesh->positions[v];
+        polygons->positions[shuffled ? vertex[v] : v] = mesh->positions[v];
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        for (uint32_t k = 0; k < 3; k++)
-            polygons->corners[3 * (size_t)triangle[t] + k] = vertex[mesh->corners[3 * (size_t)t + k]];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t v = mesh->corners[3 * (size_t)t + k];
+            polygons->corners[3 * (size_t)(shuffled ? triangle[t] : t) + k] = shuffled ? vertex[v] : v;
+        }
     free(vertex);
     free(triangle);
 }
 
-static MesoTriangulation load(uint32_t divisions)
+/* A triangulation of the same surface, as from a file. */
+static MesoTriangulation reload(const MesoTriangulation *from, bool shuffled, const char *name)
 {
     MesoArena arena;
     MesoSurface surface;
     MesoPolygonMesh polygons;
-    MesoTriangulation mesh = meso_fixture_sphere(divisions, 0.3f, 7);
+    MesoTriangulation mesh;
     meso_arena_init(&arena);
-    shuffle(&mesh, &arena, &polygons);
-    meso_triangulation_release(&mesh);
+    copy_polygons(from, shuffled, &arena, &polygons);
     CHECK(meso_polygon_mesh_check(&polygons, 1, NULL, NULL) == MESO_OK);
     CHECK(meso_surface_build(&surface, &arena, &polygons, 1, NULL) == MESO_OK);
     double start = cpu_seconds();
     CHECK(meso_triangulation_init(&mesh, &surface, 0, 0, NULL) == MESO_OK);
-    printf("  triangulation, in order: %.3f s\n", cpu_seconds() - start);
+    printf("  triangulation, %s: %.3f s\n", name, cpu_seconds() - start);
     meso_arena_release(&arena);
+    return mesh;
+}
+
+static MesoTriangulation load(uint32_t divisions)
+{
+    MesoTriangulation made = meso_fixture_sphere(divisions, 0.3f, 7);
+    MesoTriangulation ordered = reload(&made, false, "from a file in some order");
+    meso_triangulation_release(&ordered);
+    MesoTriangulation mesh = reload(&made, true, "from a shuffled file");
+    meso_triangulation_release(&made);
     return mesh;
 }
 

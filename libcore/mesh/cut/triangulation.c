@@ -105,17 +105,37 @@ MesoFan meso_fan_first(const MesoTriangulation *mesh, uint32_t vertex)
     return rewound(mesh, mesh->vertex_corner[vertex]);
 }
 
-/* Gives the corners of the fan around `corner` to a vertex. */
-static void claim_fan(MesoTriangulation *mesh, uint8_t *claimed, uint32_t corner, uint32_t vertex)
+/* Marks a fan from one place on until it closes or ends; whether it has closed. */
+static bool claim_from(const MesoTriangulation *mesh, uint8_t *claimed, MesoFan fan)
 {
-    MesoFan fan = rewound(mesh, corner), next = fan;
     uint32_t first = fan.corner;
-    bool more = true;
-    while (more) {
-        more = meso_fan_next(mesh, &next) && next.corner != first;
-        mesh->corners[fan.corner] = vertex;
+    do {
         claimed[fan.corner] = 1;
-        fan = next;
+        if (!meso_fan_next(mesh, &fan))
+            return false;
+    } while (fan.corner != first);
+    return true;
+}
+
+/* Most fans close, and are walked once. */
+static void claim_fan(const MesoTriangulation *mesh, uint8_t *claimed, uint32_t corner)
+{
+    if (!claim_from(mesh, claimed, (MesoFan){corner, false}))
+        claim_from(mesh, claimed, (MesoFan){corner, true});
+}
+
+/* Gives a fan to a vertex. A walk looks at the vertex that it goes around: each corner is left before it changes. */
+static void move_fan(MesoTriangulation *mesh, uint32_t corner, uint32_t vertex)
+{
+    MesoFan fan = rewound(mesh, corner), end = fan;
+    uint32_t count = 1;
+    while (meso_fan_next(mesh, &end) && end.corner != fan.corner)
+        count++;
+    for (; count > 0; count--) {
+        uint32_t left = fan.corner;
+        if (count > 1)
+            meso_fan_next(mesh, &fan);
+        mesh->corners[left] = vertex;
     }
 }
 
@@ -138,9 +158,10 @@ static MesoStatus separate_fans(MesoTriangulation *mesh, MesoError *error)
             mesh->positions[mesh->vertex_count] = mesh->positions[vertex];
             mesh->origins[mesh->vertex_count] = mesh->origins[vertex];
             vertex = mesh->vertex_count++;
+            move_fan(mesh, c, vertex);
         }
         mesh->vertex_corner[vertex] = c;
-        claim_fan(mesh, claimed, c, vertex);
+        claim_fan(mesh, claimed, c);
     }
     free(claimed);
     return status;

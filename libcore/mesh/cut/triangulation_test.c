@@ -50,6 +50,18 @@ static void test_bow_tie(void)
     meso_triangulation_release(&mesh);
 }
 
+/* Two tetrahedra that touch in a vertex: fans that close are separated, too. */
+static void test_hourglass(void)
+{
+    const MesoVec3 positions[7] = {{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}};
+    const uint32_t corners[24] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2, 0, 5, 4, 0, 6, 5, 0, 4, 6, 4, 5, 6};
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, 7, corners, 8);
+    CHECK(mesh.vertex_count == 8 && mesh.origins[7] == 0);
+    for (uint32_t v = 0; v < 8; v++)
+        CHECK(fan_length(&mesh, v) == 3);
+    meso_triangulation_release(&mesh);
+}
+
 /* Five triangles around a band with one half turn: every vertex has a fan of three, across reversed edges too. */
 static void test_moebius(void)
 {
@@ -111,6 +123,7 @@ int main(void)
     test_sheet();
     test_torus();
     test_bow_tie();
+    test_hourglass();
     test_moebius();
     test_crowded();
     test_check();
