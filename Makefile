@@ -165,7 +165,7 @@ install: all generators
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve bench-decor demo \
-        fuzz-run fuzzers benches references install clean
+.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-reference bench bench-solve \
+        bench-decor demo fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

@@ -263,6 +263,7 @@ bool meso_fronts_run(const MesoGeodesicRun *run)
     bool everywhere = !domain || !domain->member;
     meso_buckets_clear(&run->solver->buckets);
     plant_seeds(run);
+    meso_geodesic_round_ends(run);
     if (run->solver->plain || !machine_has_avx2())
         propagate_plain(&fronts, everywhere);
     else

@@ -35,7 +35,7 @@ typedef struct MesoGeodesicSolver MesoGeodesicSolver;
 typedef struct MesoGeodesicSeed {
     uint32_t vertex;
     float distance;         /* that it starts with, >= 0 */
-    bool line;              /* part of a line of seeds: its front is planar */
+    bool line;              /* part of a line of seeds: its front is planar, and round where the line ends or turns */
 } MesoGeodesicSeed;
 
 typedef struct MesoGeodesicQuery {
@@ -80,7 +80,9 @@ MesoStatus meso_geodesic_set_positions(MesoGeodesicSolver *solver, const MesoVec
  *                until its next call
  * touched_count  how many; NULL with `touched`
  *
- * Never NaN. Neighbours differ by no more than their side is long, but for rounding. With a target, what lies beyond
+ * Never NaN. Neighbours differ by no more than their side is long, but for rounding. Fronts are exact in the plane but
+ * for rounding, from points and from lines; where a path bends (corners of domains, saddles), where a line is curved, and
+ * where fronts of several seeds meet, they are off by a fraction of a side. With a target, what lies beyond
  * the target's neighbours may be too far. Engines and machines differ in rounding at most; runs do not. O(n log n) of
  * the vertices that are reached, and O(domain) more unless `keep`. MESO_ERR_MEMORY alone.
  */

@@ -18,7 +18,7 @@ enum {
     MESO_VERTEX_QUEUED = 1,     /* due */
     MESO_VERTEX_WALLED = 2,     /* has a side that is a wall */
     MESO_VERTEX_NEAR_WALL = 4,  /* corner of a triangle that has a wall */
-    MESO_VERTEX_MARKED = 8      /* its ring is to be made again */
+    MESO_VERTEX_MARKED = 8      /* for a while: its ring is to be made again; its line ends here */
 };
 
 typedef struct MesoGeodesicGraph MesoGeodesicGraph;
@@ -63,6 +63,12 @@ static inline bool meso_geodesic_lowers(const MesoGeodesicRun *run, uint32_t ver
         solver->touched[solver->touched_count++] = vertex;
     return true;
 }
+
+/*
+ * Makes points of seeds where a line ends or turns sharply, before anything but seeds has a distance: what starts there
+ * is circular on the outer side. O(triangles at the seeds).
+ */
+void meso_geodesic_round_ends(const MesoGeodesicRun *run);
 
 /* Fills the rows' distances from the seeds in them. False where memory is out. */
 bool meso_fronts_run(const MesoGeodesicRun *run);

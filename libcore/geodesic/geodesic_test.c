@@ -110,19 +110,42 @@ static void test_borders(void)
     }
 }
 
-/* An open line in a plane whose ends are points: straight beside it, round beyond them. */
+/* Straight beside an open line, round beyond its ends. */
 static void test_open_line(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(60, 60, 1);
     MesoGeodesicSeed seeds[21];
     for (uint32_t i = 0; i < 21; i++)
-        seeds[i] = (MesoGeodesicSeed){30 * 61 + 20 + i, 0, i > 0 && i < 20};
+        seeds[i] = (MesoGeodesicSeed){30 * 61 + 20 + i, 0, true};
     float *distance = solve_everywhere(&mesh, MESO_GEODESIC_FRONTS, seeds, 21);
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {
         float x = mesh.positions[v].x, y = mesh.positions[v].y - 30;
         x = x < 20 ? 20 - x : x > 40 ? x - 40 : 0;
         float exact = sqrtf(x * x + y * y);
         CHECK(fabsf(distance[v] - exact) <= 2e-5f * exact);
+    }
+    free(distance);
+    meso_triangulation_release(&mesh);
+}
+
+/* A square, from its sides: the front is round beyond its corners. Their inner side has chords of the grid. */
+static void test_square(void)
+{
+    MesoTriangulation mesh = meso_fixture_sheet(60, 60, 1);
+    MesoGeodesicSeed seeds[80];
+    for (uint32_t i = 0; i < 20; i++) {
+        seeds[4 * i] = (MesoGeodesicSeed){20 * 61 + 20 + i, 0, true};
+        seeds[4 * i + 1] = (MesoGeodesicSeed){40 * 61 + 21 + i, 0, true};
+        seeds[4 * i + 2] = (MesoGeodesicSeed){(21 + i) * 61 + 20, 0, true};
+        seeds[4 * i + 3] = (MesoGeodesicSeed){(20 + i) * 61 + 40, 0, true};
+    }
+    float *distance = solve_everywhere(&mesh, MESO_GEODESIC_FRONTS, seeds, 80);
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        float x = mesh.positions[v].x, y = mesh.positions[v].y;
+        x = x < 20 ? 20 - x : x > 40 ? x - 40 : 0;
+        y = y < 20 ? 20 - y : y > 40 ? y - 40 : 0;
+        float exact = sqrtf(x * x + y * y);
+        CHECK((x == 0 && y == 0) || fabsf(distance[v] - exact) <= 2e-5f * exact);
     }
     free(distance);
     meso_triangulation_release(&mesh);
@@ -371,6 +394,7 @@ int main(void)
 {
     test_borders();
     test_open_line();
+    test_square();
     test_point_on_plane();
     test_point_on_sphere();
     test_point_on_cylinder();
