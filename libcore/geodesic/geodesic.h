@@ -81,10 +81,12 @@ MesoStatus meso_geodesic_set_positions(MesoGeodesicSolver *solver, const MesoVec
  * touched_count  how many; NULL with `touched`
  *
  * Never NaN. Neighbours differ by no more than their side is long, but for rounding. Fronts are exact in the plane but
- * for rounding, from points and from lines; where a path bends (corners of domains, saddles), where a line is curved, and
- * where fronts of several seeds meet, they are off by a fraction of a side. With a target, what lies beyond
- * the target's neighbours may be too far. Engines and machines differ in rounding at most; runs do not. O(n log n) of
- * the vertices that are reached, and O(domain) more unless `keep`. MESO_ERR_MEMORY alone.
+ * for rounding, from points and from lines; where a path bends (corners of domains, saddles), where a line is curved,
+ * and where fronts of several seeds meet, they are off by a fraction of a side. With a target, what lies beyond the
+ * target's neighbours may be too far. Engines and machines differ in rounding at most; runs do not. O(n log n) of
+ * the vertices that are reached, and O(domain) more unless `keep`; the exact engine's costs are in exact_geodesic.h, and
+ * the graph is made anew at the first solve after a change of the mesh. MESO_ERR_MEMORY; MESO_ERR_LIMIT of the graph
+ * and of the exact engine.
  */
 MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQuery *query, float *distance,
                                const uint32_t **touched, uint32_t *touched_count, MesoError *error);

@@ -2,9 +2,10 @@
  * Rates and errors of the distances from one vertex of an irregular sphere, whose vertices and triangles come in random
  * order. Times are of the process, of one core, the best of some; errors are relative, against r times the angle.
  *
- *   geodesic_bench [DIVISIONS...]      spheres of 20 n^2 triangles
+ *   geodesic_bench [--exact] [DIVISIONS...]    spheres of 20 n^2 triangles; with the exact engine, too
  */
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 #include "libcore/geodesic/geodesic_fixture.h"
@@ -211,7 +212,7 @@ static void time_update(MesoTriangulation *mesh, MesoGeodesicSolver *solver)
     meso_arena_release(&arena);
 }
 
-static void measure(uint32_t divisions)
+static void measure(uint32_t divisions, bool with_exact)
 {
     printf("sphere of %.2f M triangles\n", 20e-6 * divisions * divisions);
     MesoTriangulation mesh = load(divisions);
@@ -234,6 +235,12 @@ static void measure(uint32_t divisions)
     time_solver(&mesh, graph, "graph", 3);
     meso_geodesic_release(graph);
 
+    if (with_exact) {
+        MesoGeodesicSolver *exact;
+        CHECK(meso_geodesic_init(&exact, &mesh, MESO_GEODESIC_EXACT, NULL) == MESO_OK);
+        time_solver(&mesh, exact, "exact", 1);
+        meso_geodesic_release(exact);
+    }
     time_update(&mesh, solver);
     meso_geodesic_release(solver);
     meso_triangulation_release(&mesh);
@@ -242,7 +249,10 @@ static void measure(uint32_t divisions)
 int main(int argc, char **argv)
 {
     const uint32_t divisions[4] = {122, 224, 316, 600};
-    for (int i = 0; i < (argc > 1 ? argc - 1 : 4); i++)
-        measure(argc > 1 ? (uint32_t)atoi(argv[i + 1]) : divisions[i]);
+    bool with_exact = argc > 1 && strcmp(argv[1], "--exact") == 0;
+    for (int i = 1 + with_exact; i < argc; i++)
+        measure((uint32_t)atoi(argv[i]), with_exact);
+    for (int i = 0; i < 4 && argc == 1 + with_exact; i++)
+        measure(divisions[i], with_exact);
     return 0;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/geodesic/exact_geodesic.h"
 #include "libcore/mesh/cut/mesh_cut.h"
 
 /* ---- room ---- */
@@ -221,9 +222,44 @@ static void take_distances(MesoGeodesicSolver *solver, bool all, float *distance
             take_distance(solver, solver->touched[i], unit, distance);
 }
 
+/* The rows' positions without their scale, which as a power of two leaves no trace. */
+static MesoVec3 *row_positions(const MesoGeodesicSolver *solver, MesoArena *arena, MesoError *error)
+{
+    MesoVec3 *positions = MESO_NEW(arena, MesoVec3, solver->vertex_count, error);
+    float unit = 1 / solver->scale;
+    for (uint32_t v = 0; positions && v < solver->vertex_count; v++)
+        positions[v] = (MesoVec3){solver->rows[v].x * unit, solver->rows[v].y * unit, solver->rows[v].z * unit};
+    return positions;
+}
+
+/* Fills the rows with what the exact solver finds. */
+static MesoStatus run_exact(const MesoGeodesicRun *run, MesoArena *arena, MesoError *error)
+{
+    const MesoGeodesicQuery *query = run->query;
+    MesoGeodesicSolver *solver = run->solver;
+    MesoExactField field;
+    MesoVec3 *positions = row_positions(solver, arena, error);
+    double *distance = MESO_NEW(arena, double, solver->vertex_count, error);
+    if (!positions || !distance)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < solver->vertex_count; v++)
+        distance[v] = run->kept ? (double)run->kept[v] : INFINITY;
+    MesoExactQuery exact = {.domain = query->domain, .seeds = query->seeds, .seed_count = query->seed_count,
+                            .limit = (double)query->limit, .target = query->target, .keep = query->keep};
+    MesoStatus status = meso_exact_solve(solver->mesh, positions, &exact, arena, distance, &field, error);
+    for (uint32_t i = 0; i < field.touched_count && !status; i++) {
+        uint32_t v = field.touched[i];
+        float length = (float)(distance[v] * (double)solver->scale);
+        if (meso_geodesic_lowers(run, v, length))
+            solver->rows[v].distance = length;
+    }
+    return status;
+}
+
 /* Lets the engine fill the rows. */
 static MesoStatus run_engine(const MesoGeodesicRun *run, MesoError *error)
 {
+    MesoArena arena;
     MesoGeodesicSolver *solver = run->solver;
     MesoStatus status = MESO_OK;
     switch (solver->engine) {
@@ -238,7 +274,9 @@ static MesoStatus run_engine(const MesoGeodesicRun *run, MesoError *error)
             meso_geodesic_graph_run(run);
         break;
     case MESO_GEODESIC_EXACT:
-        status = meso_fail(error, MESO_ERR_USAGE, "exact distances are not built in");
+        meso_arena_init(&arena);
+        status = run_exact(run, &arena, error);
+        meso_arena_release(&arena);
         break;
     }
     return status;

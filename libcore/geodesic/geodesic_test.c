@@ -295,6 +295,27 @@ static void test_long_ring(void)
     meso_triangulation_release(&mesh);
 }
 
+/* The exact engine behind the same interface: fronts are near it, the graph is above it. */
+static void test_engines(void)
+{
+    MesoTriangulation mesh = meso_fixture_sphere(16, 0.3f, 9);
+    MesoGeodesicSeed seed = {50, 0, false};
+    float *exact = solve_everywhere(&mesh, MESO_GEODESIC_EXACT, &seed, 1);
+    float *fronts = solve_everywhere(&mesh, MESO_GEODESIC_FRONTS, &seed, 1);
+    float *graph = solve_everywhere(&mesh, MESO_GEODESIC_GRAPH, &seed, 1);
+    double sum = 0;
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        double off = exact[v] > 0 ? fronts[v] / (double)exact[v] - 1 : 0;
+        sum += off * off;
+        CHECK(graph[v] >= exact[v] * (1 - 1e-6f));
+    }
+    CHECK(sqrt(sum / mesh.vertex_count) < 0.005);
+    free(exact);
+    free(fronts);
+    free(graph);
+    meso_triangulation_release(&mesh);
+}
+
 /* ---- what comes out of files ---- */
 
 static void test_hard_meshes(void)
@@ -400,6 +421,7 @@ int main(void)
     test_point_on_cylinder();
     test_many_points();
     test_long_ring();
+    test_engines();
     test_hard_meshes();
     test_no_size();
     test_two_pieces();

@@ -138,7 +138,6 @@ static inline MesoTriangulation meso_fixture_copy_mesh(const MesoTriangulation *
     size_t corner_count = 3 * (size_t)mesh->triangle_count;
     copy.positions = meso_fixture_copy(mesh->positions, mesh->vertex_count, sizeof *mesh->positions);
     copy.vertex_corner = meso_fixture_copy(mesh->vertex_corner, mesh->vertex_count, sizeof *mesh->vertex_corner);
-    copy.origins = meso_fixture_copy(mesh->origins, mesh->vertex_count, sizeof *mesh->origins);
     copy.corners = meso_fixture_copy(mesh->corners, corner_count, sizeof *mesh->corners);
     copy.twins = meso_fixture_copy(mesh->twins, corner_count, sizeof *mesh->twins);
     copy.labels = meso_fixture_copy(mesh->labels, mesh->triangle_count, sizeof *mesh->labels);
