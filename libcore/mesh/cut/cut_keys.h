@@ -1,18 +1,15 @@
-/* Lists sorted by whole numbers, such as triangles or half-edges. */
+/* Lists of numbers by other numbers, such as nodes by triangles: the one in the upper half of a key is sorted by. */
 #ifndef MESO_CUT_KEYS_H
 #define MESO_CUT_KEYS_H
 
-#include <stdbool.h>
+#include <stdint.h>
 
-#include "libcore/base/arena.h"
-#include "libcore/base/index.h"
+static inline uint64_t meso_cut_key(uint32_t upper, uint32_t value)
+{
+    return (uint64_t)upper << 32 | value;
+}
 
-typedef struct MesoCutKey {
-    uint64_t key;
-    uint32_t value;
-} MesoCutKey;
-
-/* Sorts by keys; equal ones keep their order. `spare` [count] is scratch. O(count), but for the bits of the keys. */
-void meso_cut_sort(MesoCutKey *keys, MesoCutKey *spare, uint32_t count);
+/* Sorts by the upper halves; equal ones keep their order. `spare` [count] is scratch. O(count). */
+void meso_cut_sort(uint64_t *keys, uint64_t *spare, uint32_t count);
 
 #endif

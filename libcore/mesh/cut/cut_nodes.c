@@ -117,19 +117,25 @@ static uint32_t count_on_edges(const MesoCutPlace *places, uint32_t node_count)
     return count;
 }
 
-static void list_on_edges(MesoCutKey *keys, const MesoCutPlace *places, uint32_t node_count)
+/* Nodes on edges by edge, along each by share, and where that is equal by number. */
+static void list_on_edges(uint64_t *keys, uint64_t *spare, const MesoCutPlace *places, uint32_t node_count)
 {
+    uint32_t count = 0;
     for (uint32_t n = 0; n < node_count; n++)
         if (places[n].kind == MESO_ON_EDGE)
-            *keys++ = (MesoCutKey){(uint64_t)places[n].element << 25 | (uint32_t)places[n].x, n};
+            keys[count++] = meso_cut_key((uint32_t)places[n].x, n);
+    meso_cut_sort(keys, spare, count);
+    for (uint32_t i = 0; i < count; i++)
+        keys[i] = meso_cut_key(places[(uint32_t)keys[i]].element, (uint32_t)keys[i]);
+    meso_cut_sort(keys, spare, count);
 }
 
 /* Goes along each edge: a node near to the last that stands becomes one with it. */
-static void number_on_edges(MesoCutNodes *placed, const MesoTriangulation *mesh, const MesoCutKey *keys, uint32_t count)
+static void number_on_edges(MesoCutNodes *placed, const MesoTriangulation *mesh, const uint64_t *keys, uint32_t count)
 {
     int32_t apart = 0;
     for (uint32_t i = 0; i < count; i++) {
-        MesoCutPlace *place = &placed->places[keys[i].value];
+        MesoCutPlace *place = &placed->places[(uint32_t)keys[i]];
         bool is_first = placed->edge_count == 0 || placed->edges[placed->edge_count - 1].half_edge != place->element;
         if (is_first) {
             placed->edges[placed->edge_count++] = (MesoCutEdge){place->element, placed->share_count, 0};
@@ -156,12 +162,11 @@ MesoStatus meso_cut_nodes_place(MesoCutNodes *placed, const MesoTriangulation *m
     placed->edges = MESO_NEW(arena, MesoCutEdge, count, error);
     placed->shares = MESO_NEW(arena, int32_t, count, error);
     MesoArenaMark mark = meso_arena_mark(arena);
-    MesoCutKey *keys = MESO_NEW(arena, MesoCutKey, count, error);
-    MesoCutKey *spare = MESO_NEW(arena, MesoCutKey, count, error);
+    uint64_t *keys = MESO_NEW(arena, uint64_t, count, error);
+    uint64_t *spare = MESO_NEW(arena, uint64_t, count, error);
     if (!placed->edges || !placed->shares || !keys || !spare)
         return MESO_ERR_MEMORY;
-    list_on_edges(keys, placed->places, lines->node_count);
-    meso_cut_sort(keys, spare, count);
+    list_on_edges(keys, spare, placed->places, lines->node_count);
     number_on_edges(placed, mesh, keys, count);
     meso_arena_rewind(arena, mark);
     return MESO_OK;

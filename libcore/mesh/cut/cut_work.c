@@ -8,7 +8,7 @@ static bool same_place(const MesoCutPlace *a, const MesoCutPlace *b)
 static MesoStatus sort_queue(MesoCutQueue *queue, MesoArena *arena, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(arena);
-    MesoCutKey *spare = MESO_NEW(arena, MesoCutKey, queue->count, error);
+    uint64_t *spare = MESO_NEW(arena, uint64_t, queue->count, error);
     if (!spare)
         return MESO_ERR_MEMORY;
     meso_cut_sort(queue->keys, spare, queue->count);
@@ -19,14 +19,14 @@ static MesoStatus sort_queue(MesoCutQueue *queue, MesoArena *arena, MesoError *e
 static MesoStatus list_sides(MesoCutQueue *sides, const MesoTriangulation *mesh, const MesoCutNodes *nodes,
                              MesoArena *arena, MesoError *error)
 {
-    sides->keys = MESO_NEW(arena, MesoCutKey, 2 * (size_t)nodes->edge_count, error);
+    sides->keys = MESO_NEW(arena, uint64_t, 2 * (size_t)nodes->edge_count, error);
     if (!sides->keys)
         return MESO_ERR_MEMORY;
     for (uint32_t e = 0; e < nodes->edge_count; e++) {
         uint32_t h = nodes->edges[e].half_edge;
-        sides->keys[sides->count++] = (MesoCutKey){h, e};
+        sides->keys[sides->count++] = meso_cut_key(h, e);
         if (mesh->twins[h] != MESO_NO_INDEX)
-            sides->keys[sides->count++] = (MesoCutKey){mesh->twins[h], e};
+            sides->keys[sides->count++] = meso_cut_key(mesh->twins[h], e);
     }
     return sort_queue(sides, arena, error);
 }
@@ -55,10 +55,10 @@ static MesoStatus list_segments(MesoCutWork *work, const MesoTriangulation *mesh
             return meso_fail(error, MESO_ERR_INTERNAL, "segment %u of the lines has no triangle or no ends", s);
         if (same_place(&nodes->places[segment->node[0]], &nodes->places[segment->node[1]]))
             continue;
-        work->segments.keys[work->segments.count++] = (MesoCutKey){segment->triangle, s};
+        work->segments.keys[work->segments.count++] = meso_cut_key(segment->triangle, s);
         uint32_t across = triangle_across(mesh, nodes, segment);
         if (across != MESO_NO_INDEX)
-            work->inner.keys[work->inner.count++] = (MesoCutKey){across, MESO_NO_INDEX};
+            work->inner.keys[work->inner.count++] = meso_cut_key(across, MESO_NO_INDEX);
     }
     return MESO_OK;
 }
@@ -67,13 +67,13 @@ MesoStatus meso_cut_work_list(MesoCutWork *work, const MesoTriangulation *mesh, 
                               const MesoCutNodes *nodes, MesoArena *arena, MesoError *error)
 {
     *work = (MesoCutWork){0};
-    work->segments.keys = MESO_NEW(arena, MesoCutKey, lines->segment_count, error);
-    work->inner.keys = MESO_NEW(arena, MesoCutKey, (size_t)lines->node_count + lines->segment_count, error);
+    work->segments.keys = MESO_NEW(arena, uint64_t, lines->segment_count, error);
+    work->inner.keys = MESO_NEW(arena, uint64_t, (size_t)lines->node_count + lines->segment_count, error);
     if (!work->segments.keys || !work->inner.keys)
         return MESO_ERR_MEMORY;
     for (uint32_t n = 0; n < lines->node_count; n++)
         if (nodes->places[n].kind == MESO_IN_TRIANGLE)
-            work->inner.keys[work->inner.count++] = (MesoCutKey){nodes->places[n].element, n};
+            work->inner.keys[work->inner.count++] = meso_cut_key(nodes->places[n].element, n);
     MesoStatus status = list_segments(work, mesh, lines, nodes, error);
     if (!status)
         status = list_sides(&work->sides, mesh, nodes, arena, error);
@@ -84,19 +84,14 @@ MesoStatus meso_cut_work_list(MesoCutWork *work, const MesoTriangulation *mesh, 
 
 /* ---- going through it ---- */
 
-static uint64_t next_key(const MesoCutQueue *queue)
-{
-    return queue->done < queue->count ? queue->keys[queue->done].key : UINT64_MAX;
-}
-
 bool meso_cut_work_next(const MesoCutWork *work, uint32_t *triangle)
 {
-    uint64_t side = next_key(&work->sides), segment = next_key(&work->segments), inner = next_key(&work->inner);
-    uint64_t first = side == UINT64_MAX ? side : side / 3;
+    uint32_t side = meso_cut_next(&work->sides), segment = meso_cut_next(&work->segments);
+    uint32_t inner = meso_cut_next(&work->inner);
+    uint32_t first = side == MESO_NO_INDEX ? side : side / 3;
     first = segment < first ? segment : first;
-    first = inner < first ? inner : first;
-    *triangle = (uint32_t)first;
-    return first != UINT64_MAX;
+    *triangle = inner < first ? inner : first;
+    return *triangle != MESO_NO_INDEX;
 }
 
 uint32_t meso_cut_work_count(const MesoCutWork *work)
@@ -105,7 +100,7 @@ uint32_t meso_cut_work_count(const MesoCutWork *work)
     uint32_t count = 0, triangle, value;
     for (; meso_cut_work_next(&rest, &triangle); count++) {
         for (uint32_t k = 0; k < 3; k++)
-            meso_cut_take(&rest.sides, 3 * (uint64_t)triangle + k, &value);
+            meso_cut_take(&rest.sides, 3 * triangle + k, &value);
         while (meso_cut_take(&rest.segments, triangle, &value))
             continue;
         while (meso_cut_take(&rest.inner, triangle, &value))

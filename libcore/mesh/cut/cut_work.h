@@ -5,9 +5,9 @@
 #include "libcore/mesh/cut/cut_keys.h"
 #include "libcore/mesh/cut/cut_nodes.h"
 
-/* A sorted list, and how far it is done. */
+/* A sorted list of keys, and how far it is done. */
 typedef struct MesoCutQueue {
-    MesoCutKey *keys;
+    uint64_t *keys;
     uint32_t count, done;
 } MesoCutQueue;
 
@@ -27,12 +27,18 @@ bool meso_cut_work_next(const MesoCutWork *work, uint32_t *triangle);
 /* How many triangles there is work for. Leaves the queues as they are. O(work). */
 uint32_t meso_cut_work_count(const MesoCutWork *work);
 
-/* The value of a queue's next entry, if that has this key. */
-static inline bool meso_cut_take(MesoCutQueue *queue, uint64_t key, uint32_t *value)
+/* What a queue's next entry is sorted by; MESO_NO_INDEX at the end. */
+static inline uint32_t meso_cut_next(const MesoCutQueue *queue)
 {
-    if (queue->done == queue->count || queue->keys[queue->done].key != key)
+    return queue->done < queue->count ? (uint32_t)(queue->keys[queue->done] >> 32) : MESO_NO_INDEX;
+}
+
+/* The value of a queue's next entry, where that is for `upper`. */
+static inline bool meso_cut_take(MesoCutQueue *queue, uint32_t upper, uint32_t *value)
+{
+    if (meso_cut_next(queue) != upper)
         return false;
-    *value = queue->keys[queue->done++].value;
+    *value = (uint32_t)queue->keys[queue->done++];
     return true;
 }
 

@@ -34,8 +34,8 @@ typedef struct Cut {
     MesoTriangleSplit split;
     uint32_t *node_point;           /* [node_count] of nodes inside triangles: point in the split */
 
-    uint32_t triangle_count, triangle_room;
-    CutTriangle *triangles;
+    uint32_t triangle_count;
+    CutTriangle *triangles;         /* [triangle_count] with all that there is work for */
     uint32_t part_room;
     uint32_t *corners, *twins;      /* [3 * part_count] as they are to be; MESO_NO_INDEX across the parent's sides */
     uint8_t *walls;                 /* [part_count] */
@@ -168,13 +168,6 @@ static MesoStatus add_origins(Cut *cut, uint32_t triangle, MesoError *error)
     return MESO_OK;
 }
 
-/* Of all triangles together where no segments cross: a point on a side makes one more, one inside two. */
-static uint64_t expected_parts(const Cut *cut)
-{
-    return (uint64_t)meso_cut_work_count(&cut->work) + 2 * (uint64_t)cut->nodes.share_count +
-           2 * (uint64_t)cut->work.inner.count + 1;
-}
-
 static MesoStatus reserve_parts(Cut *cut, uint64_t more, MesoError *error)
 {
     uint64_t count = cut->report->part_count, room = 2 * (uint64_t)cut->part_room;
@@ -278,11 +271,6 @@ static MesoStatus add_parts(Cut *cut, const Side sides[3], uint64_t next, MesoEr
     MesoStatus status = reserve_parts(cut, count, error);
     if (!status)
         status = add_origins(cut, triangle, error);
-    if (status)
-        return status;
-    cut->triangles = MESO_GROW(cut->arena, cut->triangles, cut->triangle_count, cut->triangle_room, 256, error);
-    if (!cut->triangles)
-        return MESO_ERR_MEMORY;
     cut->triangles[cut->triangle_count++] = (CutTriangle){
         triangle, cut->report->part_count, count, {MESO_NO_INDEX, MESO_NO_INDEX, MESO_NO_INDEX}};
     for (uint32_t local = 0; local < count && !status; local++)
@@ -402,6 +390,16 @@ static void apply(MesoTriangulation *mesh, const Cut *cut, uint32_t triangle_cou
 
 /* ---- cutting ---- */
 
+/* Where no segments cross, a point on a side makes one part more in each triangle there, one inside two. */
+static MesoStatus expect_parts(Cut *cut, MesoError *error)
+{
+    uint32_t count = meso_cut_work_count(&cut->work);
+    cut->triangles = MESO_NEW(cut->arena, CutTriangle, count, error);
+    if (!cut->triangles)
+        return MESO_ERR_MEMORY;
+    return reserve_parts(cut, count + 2 * ((uint64_t)cut->nodes.share_count + cut->work.inner.count) + 1, error);
+}
+
 static MesoStatus begin(Cut *cut, MesoError *error)
 {
     MesoStatus status = meso_cut_nodes_place(&cut->nodes, cut->mesh, cut->lines, cut->arena, error);
@@ -418,7 +416,7 @@ static MesoStatus begin(Cut *cut, MesoError *error)
     cut->origin_room = (uint32_t)share_count;
     memset(cut->pieces, 0xff, piece_count * sizeof *cut->pieces);
     status = meso_cut_work_list(&cut->work, cut->mesh, cut->lines, &cut->nodes, cut->arena, error);
-    return status ? status : reserve_parts(cut, expected_parts(cut), error);
+    return status ? status : expect_parts(cut, error);
 }
 
 /* Vertices of nodes at vertices and on edges, and origins of the latter. */

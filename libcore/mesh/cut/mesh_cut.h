@@ -6,7 +6,8 @@
  * or a triangle alone. A node nearer to an end of its edge than MESO_CUT_SNAP of the edge becomes that vertex, and
  * nodes of an edge that near to each other become one. A node inside a triangle that near to a side, measured by its
  * weight, moves onto it; one that near to another joins it. A segment that passes a node of its triangle that closely
- * goes through it. Segments that cross meet in a vertex of their own. What lies along a side stays there.
+ * goes through it. Segments that cross meet in a vertex of their own. What lies along a side stays there. Where an edge
+ * is so short that coordinates would not tell its vertices apart any more, it is not cut: its nodes go to its ends.
  *
  * Each triangle is then split into triangles that have its nodes as vertices and its segments as sides. The splitting
  * sees weights of the triangle's corners alone, on a grid of whole numbers, and so works for flat triangles as well;
@@ -42,8 +43,8 @@ typedef struct MesoCutReport {
  * Cuts; segments become walls, on both sides. Parts keep label and face of their parents, new corners and vertices have
  * values between those of their parents, new vertices lie on the parents' edges and planes. No part is turned over, and
  * parts have positive area where their parent has. The result depends on the mesh, nodes and segments alone. The report
- * and scratch go to `arena`. O(s log s) for s nodes and segments, whatever the size of the mesh; in one triangle, its
- * nodes times the lines that pass them.
+ * and scratch go to `arena`. O(nodes + segments), whatever the size of the mesh; in one triangle, its nodes times the lines that
+ * pass between them.
  *
  * MESO_ERR_INTERNAL where a node has no place on the mesh or a segment does not lie in its triangle, MESO_ERR_LIMIT,
  * MESO_ERR_MEMORY; the mesh is as before then.
