@@ -43,8 +43,8 @@ typedef struct MesoCutReport {
  * Cuts; segments become walls, on both sides. Parts keep label and face of their parents, new corners and vertices have
  * values between those of their parents, new vertices lie on the parents' edges and planes. No part is turned over, and
  * parts have positive area where their parent has. The result depends on the mesh, nodes and segments alone. The report
- * and scratch go to `arena`. O(nodes + segments), whatever the size of the mesh; in one triangle, its nodes times the lines that
- * pass between them.
+ * and scratch go to `arena`. O(nodes + segments), whatever the size of the mesh; in one triangle, its nodes times the
+ * lines that pass between them.
  *
  * MESO_ERR_INTERNAL where a node has no place on the mesh or a segment does not lie in its triangle, MESO_ERR_LIMIT,
  * MESO_ERR_MEMORY; the mesh is as before then.

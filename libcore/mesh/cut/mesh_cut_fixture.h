@@ -102,6 +102,21 @@ static inline MesoTriangulation meso_fixture_moebius(uint32_t n)
     return meso_fixture_triangulation(positions, n, corners, n);
 }
 
+/* Spheres: an octahedron, and two triangles back to back, whose sides are all shared. */
+static inline MesoTriangulation meso_fixture_octahedron(void)
+{
+    const MesoVec3 positions[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const uint32_t corners[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    return meso_fixture_triangulation(positions, 6, corners, 8);
+}
+
+static inline MesoTriangulation meso_fixture_pillow(void)
+{
+    const MesoVec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const uint32_t corners[6] = {0, 1, 2, 0, 2, 1};
+    return meso_fixture_triangulation(positions, 3, corners, 2);
+}
+
 /* A sheet with what is hard to cut: vertices that coincide, triangles without area, needles, large coordinates. */
 static inline MesoTriangulation meso_fixture_crumpled(MesoChoices *choices, uint32_t side)
 {

@@ -7,11 +7,12 @@ enum { ROUNDS = 3, LARGEST = 3000 };
 
 static MesoTriangulation choose_mesh(MesoChoices *choices)
 {
-    switch (meso_choose(choices, 5)) {
+    switch (meso_choose(choices, 6)) {
     case 0: return meso_fixture_sheet(1, 1, 1);
     case 1: return meso_fixture_sheet(3, 2, 0.1f);
     case 2: return meso_fixture_torus(3 + meso_choose(choices, 2), 3, 0.4f);
     case 3: return meso_fixture_moebius(5 + 2 * meso_choose(choices, 3));
+    case 4: return meso_fixture_pillow();
     default: return meso_fixture_crumpled(choices, 2);
     }
 }

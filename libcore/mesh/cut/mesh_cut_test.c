@@ -353,10 +353,12 @@ static void set_values(MesoTriangulation *mesh, MesoChoices *choices)
 
 static MesoTriangulation random_mesh(MesoChoices *choices)
 {
-    switch (meso_choose(choices, 4)) {
+    switch (meso_choose(choices, 6)) {
     case 0: return meso_fixture_sheet(3, 3, 1);
     case 1: return meso_fixture_torus(4, 3, 0.4f);
     case 2: return meso_fixture_moebius(7);
+    case 3: return meso_fixture_octahedron();
+    case 4: return meso_fixture_pillow();
     default: return meso_fixture_crumpled(choices, 3);
     }
 }
@@ -374,6 +376,40 @@ static void test_random(void)
             meso_choose_lines(&c.lines, &c.arena, &choices, &c.mesh, 1 + meso_choose(&choices, 12));
             cut(&c);
         }
+        end(&c);
+    }
+}
+
+/* The cotangent of the angle that faces a half-edge. */
+static double facing_cotangent(const MesoTriangulation *mesh, uint32_t h)
+{
+    MesoVec3 apex = mesh->positions[mesh->corners[meso_previous_corner(h)]];
+    MesoVec3 a = meso_vec3_sub(mesh->positions[mesh->corners[h]], apex);
+    MesoVec3 b = meso_vec3_sub(mesh->positions[mesh->corners[meso_next_corner(h)]], apex);
+    return (double)meso_vec3_dot(a, b) / (double)meso_vec3_length(meso_vec3_cross(a, b));
+}
+
+/* No edge inside a triangle that is no line faces more than half a turn: turning it would make the angles worse. */
+static void test_angles(void)
+{
+    for (uint32_t seed = 0; seed < 200; seed++) {
+        Case c;
+        MesoChoices choices = {0};
+        meso_random_init(&choices.random, seed, 2);
+        begin(&c, meso_fixture_torus(4, 3, 0.4f));
+        meso_choose_lines(&c.lines, &c.arena, &choices, &c.mesh, 10);
+        cut(&c);
+        uint32_t *parent = malloc(c.mesh.triangle_count * sizeof *parent);
+        CHECK(parent);
+        memset(parent, 0xff, c.mesh.triangle_count * sizeof *parent);
+        for (uint32_t i = 0; i < c.report.part_count; i++)
+            parent[c.report.parts[i].triangle] = c.report.parts[i].parent;
+        for (uint32_t h = 0; h < 3 * c.mesh.triangle_count; h++) {
+            uint32_t twin = c.mesh.twins[h];
+            if (parent[h / 3] == parent[twin / 3] && parent[h / 3] != MESO_NO_INDEX && !meso_side_is_wall(&c.mesh, h))
+                CHECK(facing_cotangent(&c.mesh, h) + facing_cotangent(&c.mesh, twin) > -0.01);
+        }
+        free(parent);
         end(&c);
     }
 }
@@ -444,6 +480,7 @@ int main(void)
     test_nothing();
     test_dots();
     test_random();
+    test_angles();
     test_deep();
     return 0;
 }
