@@ -131,37 +131,49 @@ static void check_tags(const MesoJsonField *table, const char *const *tags)
     }
 }
 
-/* What the step says for `tag`, or for the tags that it does not name where that is NULL; true if that is anything of its own. */
+static bool has_table(const MesoJsonField *step)
+{
+    bool any = false;
+    for (uint32_t p = 0; p < PART_COUNT; p++)
+        any |= is_table(&parts[p], json_object_get(step->value, parts[p].key));
+    return any;
+}
+
+/* What the step says of `tag`, or of all where that is NULL; false if that is nothing. */
 static bool read_for_tag(MesoPatternParser *parser, const MesoJsonField *step, const char *tag, MesoAfterSplit *after)
 {
-    bool own = false;
+    bool any = false;
     *after = (MesoAfterSplit){.tag = tag};
     for (uint32_t p = 0; p < PART_COUNT; p++) {
         MesoJsonField part = meso_json_key(step, parts[p].key);
         bool table = is_table(&parts[p], part.value);
         MesoJsonField named = meso_json_key(&part, tag ? tag : "*"), others = meso_json_key(&part, "*");
         const MesoJsonField *field = !table ? &part : named.value ? &named : &others;
-        own |= field->value && (!tag || field == &named);
         if (field->value)
             parts[p].read(parser, field, after);
+        any |= field->value != NULL;
     }
-    return own;
+    return any;
 }
 
+/* One entry for all, or where tags differ one for each tag: no child is told of twice. */
 void meso_pattern_after_split(MesoPatternParser *parser, const MesoJsonField *step, const char *const *tags,
                               const MesoAfterSplit **after, uint32_t *count)
 {
     uint32_t tag_count = 0, done = 0;
     while (tags[tag_count])
         tag_count++;
-    MesoAfterSplit *entries = MESO_PATTERN_NEW(parser, MesoAfterSplit, tag_count + 1);
+    MesoAfterSplit *entries = MESO_PATTERN_NEW(parser, MesoAfterSplit, tag_count);
     for (uint32_t p = 0; p < PART_COUNT; p++) {
         MesoJsonField part = meso_json_key(step, parts[p].key);
         if (is_table(&parts[p], part.value))
             check_tags(&part, tags);
     }
-    for (uint32_t i = 0; entries && i <= tag_count; i++)
-        done += read_for_tag(parser, step, i ? tags[i - 1] : NULL, &entries[done]);
+    if (entries && !has_table(step))
+        done = read_for_tag(parser, step, NULL, entries);
+    else
+        for (uint32_t i = 0; entries && i < tag_count; i++)
+            done += read_for_tag(parser, step, tags[i], &entries[done]);
     *after = entries;
     *count = done;
 }

@@ -448,12 +448,14 @@ static void test_after_split(void)
     CHECK(!a->tag && !a->name && a->painted && !a->displaced);
     a = after("\"paint\": {\"dot\": \"blue\"}", 1);
     CHECK(is(a->tag, "dot") && a->painted && a->materials[0] == 1);
-    /* What is said of all tags holds for those with an entry of their own, too, and stands first. */
-    a = after("\"paint\": {\"*\": \"white\", \"inside\": \"blue\"}, \"displace\": {\"band\": 1}, \"names\": {\"band\": \"rim\"}", 3);
-    CHECK(!a[0].tag && a[0].painted && a[0].materials[0] == 0 && !a[0].displaced && !a[0].name);
-    CHECK(is(a[1].tag, "band") && is(a[1].name, "rim") && a[1].displaced && a[1].displacement.height == 1);
-    CHECK(a[1].painted && a[1].materials[0] == 0);
-    CHECK(is(a[2].tag, "inside") && a[2].materials[0] == 1 && !a[2].displaced && !a[2].name);
+    /* Where tags differ, each has one entry, with what is said of all others. */
+    a = after("\"paint\": {\"*\": \"white\", \"inside\": \"blue\"}, \"displace\": {\"band\": 1}, \"names\": {\"band\": \"rim\"}", 5);
+    CHECK(is(a[0].tag, "band") && is(a[0].name, "rim") && a[0].displaced && a[0].displacement.height == 1);
+    CHECK(a[0].painted && a[0].materials[0] == 0);
+    CHECK(is(a[1].tag, "inside") && a[1].materials[0] == 1 && !a[1].displaced && !a[1].name);
+    CHECK(is(a[2].tag, "dot") && is(a[4].tag, "stripe") && a[4].materials[0] == 0 && !a[4].displaced && !a[4].name);
+    a = after("\"paint\": {\"dot\": \"blue\"}, \"names\": \"all\"", 5);
+    CHECK(!a[0].painted && is(a[0].name, "all") && a[2].painted && is(a[2].name, "all"));
     a = after("\"names\": \"petal\", \"displace\": {\"height\": 0.5}", 1);
     CHECK(!a->tag && is(a->name, "petal") && a->displacement.height == 0.5f);
     after("\"paint\": {}, \"names\": {\"comment\": 1}", 0);
@@ -489,10 +491,11 @@ static void test_grow(void)
     refuse("{\"grow\": {\"rules\": []}}", ".grow.rules: 0 items; from 1 to 1024 are possible");
     refuse("{\"grow\": {\"rules\": [{}]}}", ".grow.rules[0].macro: missing");
     refuse("{\"grow\": {\"rules\": [{\"macro\": \"cell\"}]}}", ".grow.rules[0].macro: no macro 'cell'; did you mean 'cells'?");
-    refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"on\": \"body\"}]}}",
-           ".grow.rules[0].on: an object is needed here, not a string");
-    refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"on\": {\"path\": \"body\"}}]}}", ".grow.rules[0].on: unknown key \"path\"; "
-           "there are \"tag\", \"borders\", \"corners\", \"aspect\", \"area\", \"area_share\"");
+    refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"on\": 1}]}}",
+           ".grow.rules[0].on: a path or an object is needed here");
+    CHECK(is(step("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"on\": \"**/dot\"}]}}")->growth.rules[0].where.path, "**/dot"));
+    refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"on\": {\"every\": 2}}]}}", ".grow.rules[0].on: unknown key \"every\"; "
+           "there are \"path\", \"tag\", \"borders\", \"corners\", \"aspect\", \"area\", \"area_share\"");
     refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"weight\": -1}]}}", ".grow.rules[0].weight: -1; it must be 0 or more");
     refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\", \"weight\": 0}]}}", ".grow: no rule has a weight above 0");
     refuse("{\"grow\": {\"rules\": [{\"macro\": \"cells\"}], \"cycle\": 2}}", ".grow.cycle: it goes with \"group\": \"cyclic\"");

@@ -11,7 +11,7 @@ static const MesoRange any = {-INFINITY, INFINITY};
 static const char *const selector_keys[] = {"path", "tag", "level", "borders", "corners", "aspect", "area", "area_share",
                                             "point", "checkered", "colors", "color", "share", "every", "from",
                                             "largest", NULL};
-static const char *const rule_keys[] = {"tag", "borders", "corners", "aspect", "area", "area_share", NULL};
+static const char *const rule_keys[] = {"path", "tag", "borders", "corners", "aspect", "area", "area_share", NULL};
 
 /* Names and numbers with '/' between, "*" and "**"; or "." alone. */
 static void check_path(const MesoJsonField *field, const char *path)
@@ -147,7 +147,8 @@ static void read_object(MesoPatternParser *parser, const MesoJsonField *object, 
     read_numbers(object, selector);
 }
 
-void meso_pattern_selector(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector)
+static void read_selector(MesoPatternParser *parser, const MesoJsonField *field, const char *const *keys,
+                          MesoSelector *selector)
 {
     *selector = (MesoSelector){.borders = any, .corners = any, .aspect = any, .area = any, .area_share = any, .share = 1,
                                .every = 1};
@@ -157,14 +158,16 @@ void meso_pattern_selector(MesoPatternParser *parser, const MesoJsonField *field
         selector->path = read_path(field);
     else if (!json_is_object(field->value))
         meso_json_wrong(field, "a path or an object is needed here");
-    else if (meso_json_object(field, selector_keys))
+    else if (meso_json_object(field, keys))
         read_object(parser, field, selector);
+}
+
+void meso_pattern_selector(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector)
+{
+    read_selector(parser, field, selector_keys, selector);
 }
 
 void meso_pattern_rule_selector(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector)
 {
-    static const MesoJsonField none = {0};
-    meso_pattern_selector(parser, &none, selector);
-    if (field->value && meso_json_object(field, rule_keys))
-        read_shape(parser, field, selector);
+    read_selector(parser, field, rule_keys, selector);
 }

@@ -7,7 +7,7 @@
 /* A path or an object; missing, everything in the scope. */
 void meso_pattern_selector(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector);
 
-/* The same of a rule of growth, which looks at tags and shape alone. */
+/* The same of a rule of growth, which looks at path, tag and shape alone. */
 void meso_pattern_rule_selector(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector);
 
 /* Every tag that regions can have, ended by NULL. */

@@ -143,7 +143,7 @@ typedef enum MesoPaintBy {
     MESO_PAINT_RAMP         /* between them, by the field's mean over the region when it was made */
 } MesoPaintBy;
 
-/* What a tag's children get right after a split: painting, name, displacement. Of several that fit, the last counts alone. */
+/* What a tag's children get right after a split: painting, name, displacement. No child is told of twice. */
 typedef struct MesoAfterSplit {
     const char *tag;        /* NULL: all */
     const char *name;       /* NULL: the tag's */
