@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcore/geodesic/exact_geodesic.h"
+#include "libcore/geodesic/exact/exact_geodesic.h"
 #include "libcore/mesh/cut/mesh_cut.h"
 
 /* ---- room ---- */
@@ -237,16 +237,24 @@ static MesoStatus run_exact(const MesoGeodesicRun *run, MesoArena *arena, MesoEr
 {
     const MesoGeodesicQuery *query = run->query;
     MesoGeodesicSolver *solver = run->solver;
-    MesoExactField field;
+    MesoExactGeodesicField field;
     MesoVec3 *positions = row_positions(solver, arena, error);
     double *distance = MESO_NEW(arena, double, solver->vertex_count, error);
     if (!positions || !distance)
         return MESO_ERR_MEMORY;
     for (uint32_t v = 0; v < solver->vertex_count; v++)
         distance[v] = run->kept ? (double)run->kept[v] : INFINITY;
-    MesoExactQuery exact = {.domain = query->domain, .seeds = query->seeds, .seed_count = query->seed_count,
-                            .limit = (double)query->limit, .target = query->target, .keep = query->keep};
-    MesoStatus status = meso_exact_solve(solver->mesh, positions, &exact, arena, distance, &field, error);
+    MesoExactGeodesicSeed *seeds = MESO_NEW(arena, MesoExactGeodesicSeed, query->seed_count, error);
+    if (!seeds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < query->seed_count; i++)
+        seeds[i] = (MesoExactGeodesicSeed){query->seeds[i].vertex, (double)query->seeds[i].distance,
+                                           query->seeds[i].line};
+    const MesoExactGeodesicQuery exact = {
+        .domain = query->domain, .seeds = seeds, .seed_count = query->seed_count, .limit = (double)query->limit,
+        .target = query->target, .keep = query->keep,
+    };
+    MesoStatus status = meso_exact_geodesic(solver->mesh, positions, &exact, arena, distance, &field, error);
     for (uint32_t i = 0; i < field.touched_count && !status; i++) {
         uint32_t v = field.touched[i];
         float length = (float)(distance[v] * (double)solver->scale);
