@@ -2,6 +2,7 @@
 
 #include "libcore/geodesic/isoline.h"
 #include "libcore/geodesic/geodesic_fixture.h"
+#include "libcore/geodesic/regions_fixture.h"
 
 static MesoArena arena;
 
@@ -249,6 +250,33 @@ static void test_plateaus_everywhere(void)
     meso_triangulation_release(&mesh);
 }
 
+/* Cut along them, a sphere falls into one more band than there are levels, of the areas between circles. */
+static void test_cut(void)
+{
+    enum { LEVELS = 30, ROOM = 200000 };
+    float levels[LEVELS];
+    double area[LEVELS + 1] = {0};
+    MesoTriangulation mesh = meso_fixture_sphere(50, 0.3f, 1);
+    float *field = MESO_NEW(&arena, float, mesh.vertex_count, NULL);
+    uint32_t *region = MESO_NEW(&arena, uint32_t, ROOM, NULL);
+    const MesoVec3 pole = {0.48f, 0.6f, 0.64f};
+    for (uint32_t v = 0; v < mesh.vertex_count; v++)
+        field[v] = acosf(meso_vec3_dot(mesh.positions[v], pole));
+    for (uint32_t l = 0; l < LEVELS; l++)
+        levels[l] = 0.1f * (float)(l + 1);
+    MesoCutLines lines = trace(&mesh, NULL, field, levels, LEVELS);
+    CHECK(meso_fixture_cut(&mesh, &lines, region, ROOM) == LEVELS + 1);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++)
+        area[region[t]] += meso_fixture_area(&mesh, t);
+    for (uint32_t l = 0; l <= LEVELS; l++) {    /* regions are numbered in any order: by the nearest area */
+        double expected = 2 * MESO_PI * (cos(0.1 * l) - (l < LEVELS ? cos(0.1 * (l + 1)) : -1)), off = 1;
+        for (uint32_t r = 0; r <= LEVELS; r++)
+            off = fmin(off, fabs(area[r] / expected - 1));
+        CHECK(off < (l == 0 || l == LEVELS ? 0.02 : 0.001));    /* the caps have few triangles */
+    }
+    meso_triangulation_release(&mesh);
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -261,6 +289,7 @@ int main(void)
     test_domain();
     test_sphere();
     test_plateaus_everywhere();
+    test_cut();
     meso_arena_release(&arena);
     return 0;
 }

@@ -1,4 +1,7 @@
+#include "libcore/geodesic/geodesic.h"
 #include "libcore/geodesic/geodesic_fixture.h"
+#include "libcore/geodesic/isoline.h"
+#include "libcore/geodesic/regions_fixture.h"
 #include "libcore/geodesic/streamline.h"
 #include "libcore/mesh/cut/border_loops.h"
 #include "libcore/mesh/cut/chain_samples.h"
@@ -255,6 +258,70 @@ static void test_blend(void)
     meso_triangulation_release(&mesh);
 }
 
+static MesoGeodesicSeed *seeds_of(const MesoBorderLoops *loops, uint32_t loop)
+{
+    MesoGeodesicSeed *seeds = MESO_NEW(&arena, MesoGeodesicSeed, loops->loops[loop].count, NULL);
+    for (uint32_t i = 0; i < loops->loops[loop].count; i++)
+        seeds[i] = (MesoGeodesicSeed){loops->vertices[loops->loops[loop].first + i], 0, true};
+    return seeds;
+}
+
+/*
+ * A band around a sphere between two borders: lines of the blend of their distances lead from one to the other, and cut
+ * it into as many stripes of the same area.
+ */
+static void test_band(void)
+{
+    enum { COUNT = 16, ROOM = 200000 };
+    MesoBorderLoops loops;
+    MesoMeshPoint starts[COUNT];
+    MesoStreamReport report;
+    double area[COUNT + 2] = {0};
+    MesoTriangulation mesh = meso_fixture_sphere(48, 0.3f, 5);
+    uint32_t *triangles = MESO_NEW(&arena, uint32_t, ROOM, NULL), *region = MESO_NEW(&arena, uint32_t, ROOM, NULL);
+    float *height = MESO_NEW(&arena, float, mesh.vertex_count, NULL);
+    MesoDomain domain = {(const uint8_t[2]){0, 1}, 0, triangles};
+    for (uint32_t v = 0; v < mesh.vertex_count; v++)
+        height[v] = mesh.positions[v].z;
+    MesoIsolineQuery sides = {NULL, height, (const float[2]){-0.5f, 0.7f}, 2};
+    MesoCutLines lines = {0};
+    CHECK(meso_isolines_trace(&lines, &arena, &mesh, &sides, NULL) == MESO_OK);
+    CHECK(meso_fixture_cut(&mesh, &lines, region, ROOM) == 3);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        const uint32_t *corners = mesh.corners + 3 * (size_t)t;
+        float z = mesh.positions[corners[0]].z + mesh.positions[corners[1]].z + mesh.positions[corners[2]].z;
+        mesh.labels[t] = z > -1.5f && z < 2.1f;
+        if (mesh.labels[t])
+            triangles[domain.triangle_count++] = t;
+    }
+    CHECK(meso_triangulation_check(&mesh, NULL) == MESO_OK);
+    CHECK(meso_border_loops_find(&loops, &arena, &mesh, &domain, false, NULL) == MESO_OK && loops.loop_count == 2);
+    MesoGeodesicSolver *solver;
+    float *distance[2];
+    CHECK(meso_geodesic_init(&solver, &mesh, MESO_GEODESIC_FRONTS, NULL) == MESO_OK);
+    for (uint32_t i = 0; i < 2; i++) {
+        distance[i] = MESO_NEW(&arena, float, mesh.vertex_count, NULL);
+        MesoGeodesicQuery query = {.domain = &domain, .seeds = seeds_of(&loops, i), .target = MESO_NO_INDEX,
+                                   .seed_count = loops.loops[i].count};
+        CHECK(meso_geodesic_solve(solver, &query, distance[i], NULL, NULL, NULL) == MESO_OK);
+    }
+    meso_geodesic_release(solver);
+    for (uint32_t v = 0; v < mesh.vertex_count; v++)
+        distance[0][v] = distance[0][v] / (distance[0][v] + distance[1][v]);
+    MesoEdgeChain chain = {loops.loops[0].count, true, loops.half_edges, loops.vertices};
+    meso_chain_sample(&mesh, &chain, COUNT, 0.25, false, starts);
+    MesoStreamQuery query = {.domain = &domain, .field = distance[0], .join = true, .start_count = COUNT, .starts = starts};
+    lines = trace(&mesh, query, &report);
+    CHECK(report.counts[MESO_STREAM_BORDER] == COUNT);
+    CHECK(meso_fixture_cut(&mesh, &lines, region, ROOM) == COUNT + 2);     /* and the caps */
+    for (uint32_t t = 0; t < mesh.triangle_count; t++)
+        if (mesh.labels[t])
+            area[region[t]] += meso_fixture_area(&mesh, t);
+    for (uint32_t r = 0; r < COUNT + 2; r++)
+        CHECK(area[r] == 0 || fabs(area[r] * COUNT / (2 * MESO_PI * 1.2) - 1) < 0.02);
+    meso_triangulation_release(&mesh);
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -264,6 +331,7 @@ int main(void)
     test_rising();
     test_right_angles();
     test_blend();
+    test_band();
     meso_arena_release(&arena);
     return 0;
 }

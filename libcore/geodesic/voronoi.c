@@ -4,9 +4,10 @@
 
 #include "libcore/base/grow.h"
 #include "libcore/base/index_map.h"
+#include "libcore/mesh/cut/mesh_cut.h"
 #include "libcore/mesh/cut/mesh_domain.h"
 
-enum { SLOTS = 3, EDGE_SEEDS = 2 * SLOTS, EDGE_CHANGES = EDGE_SEEDS, OUTLINE_CHANGES = 3 * EDGE_CHANGES };
+enum { SLOTS = 3, EDGE_SEEDS = 2 * SLOTS, OUTLINE_CHANGES = 6 };
 
 /* The nearest seeds of a vertex, by distance and then by number; MESO_NO_INDEX where there are fewer. */
 typedef struct Slots {
@@ -14,11 +15,15 @@ typedef struct Slots {
     uint32_t seed[SLOTS];
 } Slots;
 
-/* A change from one cell to the next along a side or an outline. */
+/* The cells that an edge begins and ends in, along its lower half-edge. */
+typedef struct EdgeCells {
+    uint32_t seed[2];
+    uint32_t node;          /* between them; MESO_NO_INDEX where they are one */
+} EdgeCells;
+
+/* A change from one cell to the next along the outline of a triangle. */
 typedef struct Change {
-    uint32_t node;
-    uint32_t seed[2];       /* before and behind */
-    bool last;              /* of its side */
+    uint32_t node, before, behind;
 } Change;
 
 typedef struct Tracer {
@@ -29,9 +34,10 @@ typedef struct Tracer {
     Slots *slots;               /* [vertices.count] */
     float *bound;               /* [vertex_count] what distances from a seed have to be below to matter */
     float *front;               /* [vertex_count] those of a solve; as `bound` before and after it */
-    MesoIndexMap edges;         /* by the lower half-edge of an edge: its first of `changes` */
-    uint32_t change_count, change_room;
-    Change *changes;            /* [change_count] along the lower half-edges */
+    MesoIndexMap edges;         /* by the lower half-edge of an edge: its number among those that are known */
+    uint32_t edge_count, edge_room;
+    EdgeCells *edge_cells;      /* [edge_count] */
+    MesoIndexMap vertex_nodes;
     MesoCutLines *lines;
     MesoArena *arena, *scratch;
     MesoError *error;
@@ -185,6 +191,23 @@ static MesoStatus solve_each(Tracer *tracer)
     return status;
 }
 
+/*
+ * Seeds that are nearly as near as the nearest are as near: borders that would cross a side within MESO_CUT_SNAP of its
+ * length from the vertex go through the vertex then, in all of its triangles. Along a side of length l the distances
+ * of two seeds come nearer by 2 l at most, and bounds are a little more than that above the distance.
+ */
+static void level_slots(Tracer *tracer)
+{
+    for (uint32_t v = meso_domain_vertex_from(&tracer->vertices, 0); v != MESO_NO_INDEX;
+         v = meso_domain_vertex_from(&tracer->vertices, v + 1)) {
+        Slots *slots = slots_of(tracer, v);
+        float least = slots->distance[0], snap = MESO_CUT_SNAP * (tracer->bound[v] - least);
+        for (uint32_t k = 1; k < SLOTS; k++)
+            if (slots->distance[k] - least <= snap)
+                slots->distance[k] = least;
+    }
+}
+
 static MesoStatus solve(Tracer *tracer)
 {
     MesoStatus status = make_room(tracer);
@@ -193,7 +216,9 @@ static MesoStatus solve(Tracer *tracer)
     if (status)
         return status;
     find_bounds(tracer);
-    return solve_each(tracer);
+    status = solve_each(tracer);
+    level_slots(tracer);
+    return status;
 }
 
 /* ---- sides ---- */
@@ -212,117 +237,125 @@ typedef struct EndDistances {
     double at[2];
 } EndDistances;
 
-/* The seeds that both ends know, and each end's nearest, which is at most the side's length farther at the other. */
+/* The nearest seeds of both ends; they are at most the side's length farther at the other one. */
 static uint32_t seeds_of_side(const Slots *ends[2], double length, EndDistances found[EDGE_SEEDS])
 {
     uint32_t count = 0;
     for (uint32_t end = 0; end < 2; end++)
-        for (uint32_t k = 0; k < SLOTS; k++) {
-            uint32_t seed = ends[end]->seed[k];
-            double own = ends[end]->distance[k], other = slot_distance(ends[1 - end], seed);
-            if (seed == MESO_NO_INDEX || (other == INFINITY && k > 0) || (end == 1 && other < INFINITY))
-                continue;
+        for (uint32_t k = 0; k < SLOTS && ends[end]->distance[k] == ends[end]->distance[0]; k++) {
+            double own = ends[end]->distance[k], other = slot_distance(ends[1 - end], ends[end]->seed[k]);
             other = fmin(other, own + length);
-            found[count++] = (EndDistances){seed, {end == 0 ? own : other, end == 0 ? other : own}};
+            found[count++] = (EndDistances){ends[end]->seed[k], {end == 0 ? own : other, end == 0 ? other : own}};
         }
     return count;
 }
 
-/* Where along the side a seed becomes nearer than `now`; INFINITY where it does not. */
-static double overtakes(const EndDistances *now, const EndDistances *other)
+/*
+ * The nearest at one end, of several the one at the other end; where two are equal all along, the one at the corner
+ * that faces the side, so that the side belongs to the cell on one of its sides at least; and then the lowest.
+ */
+static const EndDistances *nearest_at(const EndDistances *seeds, uint32_t count, uint32_t end, const Slots *facing)
 {
-    double begin = other->at[0] - now->at[0], end = other->at[1] - now->at[1];
-    if (!(end < 0 || (end == 0 && other->seed < now->seed && begin > 0)))
-        return INFINITY;
-    return begin > 0 ? begin / (begin - end) : 0;
-}
-
-static const EndDistances *find_seed(const EndDistances *seeds, uint32_t count, uint32_t seed)
-{
-    for (uint32_t i = 0; i < count; i++)
-        if (seeds[i].seed == seed)
-            return &seeds[i];
-    return NULL;
-}
-
-/* The one that overtakes first, and goes on lowest of several. */
-static const EndDistances *next_seed(const EndDistances *seeds, uint32_t count, const EndDistances *now, double *share)
-{
-    const EndDistances *next = NULL;
-    double soonest = INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
-        double at = overtakes(now, &seeds[i]);
-        if (at < soonest || (next && at == soonest && seeds[i].at[1] < next->at[1])) {
-            soonest = at;
-            next = &seeds[i];
-        }
+    const EndDistances *nearest = &seeds[0];
+    for (uint32_t i = 1; i < count; i++) {
+        const EndDistances *other = &seeds[i];
+        double here = slot_distance(facing, nearest->seed), there = slot_distance(facing, other->seed);
+        if (other->at[end] != nearest->at[end]           ? other->at[end] < nearest->at[end]
+            : other->at[1 - end] != nearest->at[1 - end] ? other->at[1 - end] < nearest->at[1 - end]
+            : there != here                              ? there < here : other->seed < nearest->seed)
+            nearest = other;
     }
-    *share = soonest;
-    return next;
+    return nearest;
 }
 
-static MesoStatus add_change(Tracer *tracer, uint32_t half_edge, double share, Change change)
-{
-    tracer->changes = MESO_GROW(tracer->scratch, tracer->changes, tracer->change_count, tracer->change_room, 256,
-                                tracer->error);
-    if (!tracer->changes)
-        return MESO_ERR_MEMORY;
-    MesoCutNode node = {MESO_ON_EDGE, half_edge, {(float)share}};
-    MesoStatus status = meso_cut_add_node(tracer->lines, tracer->arena, node, &change.node, tracer->error);
-    tracer->changes[tracer->change_count++] = change;
-    return status;
-}
-
-/* The lower envelope of the distances along a side between two cells. */
-static MesoStatus change_along(Tracer *tracer, uint32_t half_edge)
+/*
+ * Seeds that are equally near at one end do not change places along the edge, and so there is one change at most; a
+ * third one that would come between is left out, for it would have an island there.
+ */
+static MesoStatus divide_edge(Tracer *tracer, uint32_t half_edge, EdgeCells *cells)
 {
     const MesoTriangulation *mesh = tracer->mesh;
     uint32_t a = mesh->corners[half_edge], b = mesh->corners[meso_next_corner(half_edge)];
     const Slots *ends[2] = {slots_of(tracer, a), slots_of(tracer, b)};
-    double length = meso_vec3_length(meso_vec3_sub(mesh->positions[a], mesh->positions[b])), share, along = 0;
     EndDistances seeds[EDGE_SEEDS];
-    uint32_t count = seeds_of_side(ends, length, seeds), last = ends[1]->seed[0];
-    const EndDistances *now = find_seed(seeds, count, ends[0]->seed[0]);
-    MesoStatus status = MESO_OK;
-    for (uint32_t i = 1; !status && now->seed != last; i++) {
-        const EndDistances *next = next_seed(seeds, count, now, &share);
-        if (!next || i == EDGE_CHANGES) {   /* of equal distances the lower number counts at the end */
-            next = find_seed(seeds, count, last);
-            share = fmin(share, 1);
-        }
-        along = fmax(along, share);
-        status = add_change(tracer, half_edge, along, (Change){.seed = {now->seed, next->seed}, .last = next->seed == last});
-        now = next;
-    }
-    return status;
+    uint32_t count = seeds_of_side(ends, meso_vec3_length(meso_vec3_sub(mesh->positions[a], mesh->positions[b])), seeds);
+    bool inside = meso_domain_holds(tracer->query->domain, mesh, half_edge / 3);
+    uint32_t facing = mesh->corners[meso_previous_corner(inside ? half_edge : mesh->twins[half_edge])];
+    const EndDistances *first = nearest_at(seeds, count, 0, slots_of(tracer, facing));
+    const EndDistances *last = nearest_at(seeds, count, 1, slots_of(tracer, facing));
+    *cells = (EdgeCells){{first->seed, last->seed}, MESO_NO_INDEX};
+    if (first->seed == last->seed)
+        return MESO_OK;
+    double begin = last->at[0] - first->at[0], end = first->at[1] - last->at[1];
+    MesoCutNode node = {MESO_ON_EDGE, half_edge, {(float)(begin / (begin + end))}};
+    return meso_cut_add_node(tracer->lines, tracer->arena, node, &cells->node, tracer->error);
 }
 
 /* ---- triangles ---- */
 
-/* Appends the changes of a side between two cells to those of the outline. */
-static MesoStatus add_side(Tracer *tracer, uint32_t half_edge, Change *outline, uint32_t *count)
+/* What an outline has come through. */
+typedef struct Outline {
+    uint32_t count;
+    Change changes[OUTLINE_CHANGES];
+    uint32_t first, seed;       /* the cells it has begun in, and come to; MESO_NO_INDEX at first */
+} Outline;
+
+static void change_to(Outline *outline, uint32_t node, uint32_t seed)
 {
-    uint32_t twin = tracer->mesh->twins[half_edge], edge = twin < half_edge ? twin : half_edge;
-    uint32_t *first = meso_index_map_at(&tracer->edges, tracer->scratch, edge, tracer->error);
-    if (!first)
+    outline->changes[outline->count++] = (Change){node, outline->seed, seed};
+    outline->seed = seed;
+}
+
+static MesoStatus change_at_vertex(Tracer *tracer, Outline *outline, uint32_t vertex, uint32_t seed)
+{
+    uint32_t *node = meso_index_map_at(&tracer->vertex_nodes, tracer->scratch, vertex, tracer->error);
+    if (!node)
         return MESO_ERR_MEMORY;
-    if (*first == MESO_NO_INDEX) {
-        *first = tracer->change_count;
-        MesoStatus status = change_along(tracer, edge);
-        if (status)
-            return status;
+    MesoStatus status = MESO_OK;
+    if (*node == MESO_NO_INDEX)
+        status = meso_cut_add_node(tracer->lines, tracer->arena, (MesoCutNode){MESO_AT_VERTEX, vertex, {0, 0}}, node,
+                                   tracer->error);
+    change_to(outline, *node, seed);
+    return status;
+}
+
+static MesoStatus find_edge(Tracer *tracer, uint32_t edge, EdgeCells *cells)
+{
+    uint32_t *number = meso_index_map_at(&tracer->edges, tracer->scratch, edge, tracer->error);
+    if (!number)
+        return MESO_ERR_MEMORY;
+    if (*number != MESO_NO_INDEX) {
+        *cells = tracer->edge_cells[*number];
+        return MESO_OK;
     }
-    bool same = tracer->mesh->corners[edge] == tracer->mesh->corners[half_edge];
-    uint32_t begin = *first, end = begin;
-    while (!tracer->changes[end++].last)
-        continue;
-    for (uint32_t i = 0; i < end - begin; i++) {
-        Change change = tracer->changes[same ? begin + i : end - 1 - i];
-        if (!same)
-            change = (Change){change.node, {change.seed[1], change.seed[0]}, false};
-        outline[(*count)++] = change;
-    }
-    return MESO_OK;
+    *number = tracer->edge_count;
+    tracer->edge_cells = MESO_GROW(tracer->scratch, tracer->edge_cells, tracer->edge_count, tracer->edge_room, 256,
+                                   tracer->error);
+    if (!tracer->edge_cells)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = divide_edge(tracer, edge, cells);
+    tracer->edge_cells[tracer->edge_count++] = *cells;
+    return status;
+}
+
+/* Goes on along a side, which may begin in another cell than the one before has ended in. */
+static MesoStatus add_side(Tracer *tracer, uint32_t half_edge, Outline *outline)
+{
+    const uint32_t *corners = tracer->mesh->corners;
+    uint32_t twin = tracer->mesh->twins[half_edge], edge = twin < half_edge ? twin : half_edge;
+    EdgeCells cells;
+    MesoStatus status = find_edge(tracer, edge, &cells);
+    if (status)
+        return status;
+    bool same = corners[edge] == corners[half_edge];
+    uint32_t begin = cells.seed[same ? 0 : 1], end = cells.seed[same ? 1 : 0];
+    if (outline->seed == MESO_NO_INDEX)
+        outline->first = outline->seed = begin;
+    else if (outline->seed != begin)
+        status = change_at_vertex(tracer, outline, corners[half_edge], begin);
+    if (begin != end)
+        change_to(outline, cells.node, end);
+    return status;
 }
 
 /* Weights of the point at which three seeds are equally far; false where it is not inside. */
@@ -331,9 +364,9 @@ static bool meeting_point(const Tracer *tracer, uint32_t triangle, const Change 
     double d[3][2];     /* by corner: how much farther the second and the third seed are than the first */
     for (uint32_t k = 0; k < 3; k++) {
         const Slots *slots = slots_of(tracer, tracer->mesh->corners[3 * (size_t)triangle + k]);
-        double first = slot_distance(slots, outline[0].seed[0]);
-        d[k][0] = slot_distance(slots, outline[1].seed[0]) - first;
-        d[k][1] = slot_distance(slots, outline[2].seed[0]) - first;
+        double first = slot_distance(slots, outline[0].before);
+        d[k][0] = slot_distance(slots, outline[1].before) - first;
+        d[k][1] = slot_distance(slots, outline[2].before) - first;
     }
     double sum = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -356,17 +389,20 @@ static void middle_of_changes(const Tracer *tracer, uint32_t triangle, const Cha
     weight[0] = weight[1] = weight[2] = 0;
     for (uint32_t i = 0; i < count; i++) {
         const MesoCutNode *node = &tracer->lines->nodes[outline[i].node];
-        uint32_t ends[2] = {corners[node->element], corners[meso_next_corner(node->element)]};
-        for (uint32_t k = 0; k < 3; k++)
-            for (uint32_t end = 0; end < 2; end++)
-                if (corners[3 * triangle + k] == ends[end])
-                    weight[k] += (end ? node->share[0] : 1.0 - node->share[0]) / count;
+        bool at_vertex = node->kind == MESO_AT_VERTEX;
+        uint32_t begin = at_vertex ? node->element : corners[node->element];
+        uint32_t end = at_vertex ? node->element : corners[meso_next_corner(node->element)];
+        double share = at_vertex ? 0 : node->share[0];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t corner = corners[3 * triangle + k];
+            weight[k] += (corner == begin ? 1 - share : corner == end ? share : 0) / count;
+        }
     }
 }
 
 static MesoStatus add_segment(Tracer *tracer, uint32_t triangle, const Change *from, uint32_t to)
 {
-    uint32_t line = from->seed[0] < from->seed[1] ? from->seed[0] : from->seed[1];
+    uint32_t line = from->before < from->behind ? from->before : from->behind;
     MesoCutSegment segment = {{from->node, to}, triangle, line};
     return meso_cut_add_segment(tracer->lines, tracer->arena, segment, tracer->error);
 }
@@ -376,8 +412,8 @@ static MesoStatus add_star(Tracer *tracer, uint32_t triangle, const Change *outl
 {
     double weight[3];
     uint32_t middle;
-    bool three = count == 3 && outline[0].seed[0] != outline[1].seed[0] && outline[1].seed[0] != outline[2].seed[0] &&
-                 outline[2].seed[0] != outline[0].seed[0];
+    bool three = count == 3 && outline[0].before != outline[1].before && outline[1].before != outline[2].before &&
+                 outline[2].before != outline[0].before;
     if (!three || !meeting_point(tracer, triangle, outline, weight))
         middle_of_changes(tracer, triangle, outline, count, weight);
     MesoCutNode node = {MESO_IN_TRIANGLE, triangle, {(float)weight[1], (float)weight[2]}};
@@ -387,24 +423,34 @@ static MesoStatus add_star(Tracer *tracer, uint32_t triangle, const Change *outl
     return status;
 }
 
+/* Whether all corners know the same one seed as the nearest, or one of them none at all. */
+static bool is_in_one_cell(const Slots *const slots[3])
+{
+    bool same = true;
+    for (uint32_t k = 0; k < 3; k++) {
+        if (slots[k]->seed[0] == MESO_NO_INDEX)
+            return true;
+        same = same && slots[k]->seed[0] == slots[0]->seed[0] && slots[k]->distance[1] > slots[k]->distance[0];
+    }
+    return same;
+}
+
 static MesoStatus trace_triangle(Tracer *tracer, uint32_t triangle)
 {
     const uint32_t *corners = tracer->mesh->corners + 3 * (size_t)triangle;
-    uint32_t seeds[3], count = 0;
-    for (uint32_t k = 0; k < 3; k++)
-        seeds[k] = slots_of(tracer, corners[k])->seed[0];
-    if ((seeds[0] == seeds[1] && seeds[1] == seeds[2]) || seeds[0] == MESO_NO_INDEX || seeds[1] == MESO_NO_INDEX ||
-        seeds[2] == MESO_NO_INDEX)
+    const Slots *slots[3] = {slots_of(tracer, corners[0]), slots_of(tracer, corners[1]), slots_of(tracer, corners[2])};
+    if (is_in_one_cell(slots))
         return MESO_OK;
-    Change outline[OUTLINE_CHANGES];
+    Outline outline = {.seed = MESO_NO_INDEX};
     MesoStatus status = MESO_OK;
     for (uint32_t k = 0; k < 3 && !status; k++)
-        if (seeds[k] != seeds[k == 2 ? 0 : k + 1])
-            status = add_side(tracer, 3 * triangle + k, outline, &count);
-    if (status)
+        status = add_side(tracer, 3 * triangle + k, &outline);
+    if (!status && outline.seed != outline.first)
+        status = change_at_vertex(tracer, &outline, corners[0], outline.first);
+    if (status || outline.count == 0)
         return status;
-    return count == 2 ? add_segment(tracer, triangle, &outline[0], outline[1].node)
-                      : add_star(tracer, triangle, outline, count);
+    return outline.count == 2 ? add_segment(tracer, triangle, &outline.changes[0], outline.changes[1].node)
+                              : add_star(tracer, triangle, outline.changes, outline.count);
 }
 
 /* ---- results ---- */

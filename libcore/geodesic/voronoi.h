@@ -3,11 +3,12 @@
  * from each seed are found at vertices, as far as they matter, and taken as linear between them; so are the borders between
  * cells.
  *
- * A side of a triangle changes from cell to cell where the distances of two seeds are equal, and that depends on the
- * side alone: both of its triangles agree. A triangle whose outline changes twice is crossed by a segment. Where it
- * changes more often, all changes are joined to a node inside: for three cells the point that is as far from all
- * three, and where that is outside, or for more, the middle of the changes. Cells that hold no vertex, and meet no
- * side between vertices, are lost.
+ * A side between vertices of two cells changes from one to the other where their distances are equal, and that depends on
+ * the side alone: both of its triangles agree. A vertex that is nearly as far from two seeds is on their border, which
+ * goes through it then: no change comes nearer to the end of a side than MESO_CUT_SNAP of its length. A triangle
+ * whose outline changes twice is crossed by a segment. Where it changes more often, all changes are joined to a node
+ * inside: for three cells the point that is as far from all three, and where that is outside, or for more, the middle
+ * of the changes. What a cell has between vertices of others is left to them.
  */
 #ifndef MESO_VORONOI_H
 #define MESO_VORONOI_H

@@ -4,6 +4,7 @@
 
 #include "libcore/geodesic/geodesic_fixture.h"
 #include "libcore/geodesic/geodesic_solver.h"
+#include "libcore/geodesic/regions_fixture.h"
 #include "libcore/mesh/cut/mesh_domain.h"
 
 static MesoArena arena;
@@ -127,7 +128,7 @@ static void test_three(void)
     meso_triangulation_release(&mesh);
 }
 
-/* Every node of a side has as many segments as the side has triangles in the domain. */
+/* Every node of a side is no nearer to its ends than the cut allows, and has a segment in each of its triangles. */
 static void check_no_gaps(const MesoTriangulation *mesh, const MesoDomain *domain, const MesoCutLines *lines)
 {
     uint32_t *degree = calloc(lines->node_count + 1, sizeof *degree);
@@ -141,10 +142,14 @@ static void check_no_gaps(const MesoTriangulation *mesh, const MesoDomain *domai
             CHECK(degree[n] >= 3 && node->share[0] >= 0 && node->share[1] >= 0 && node->share[0] + node->share[1] < 1.00001f);
             continue;
         }
+        if (node->kind == MESO_AT_VERTEX) {
+            CHECK(degree[n] >= 1);
+            continue;
+        }
         uint32_t across = mesh->twins[node->element];
         uint32_t sides = meso_domain_holds(domain, mesh, node->element / 3);
         sides += across != MESO_NO_INDEX && meso_domain_holds(domain, mesh, across / 3);
-        CHECK(node->kind == MESO_ON_EDGE && node->share[0] >= 0 && node->share[0] <= 1 && degree[n] == sides);
+        CHECK(node->share[0] >= MESO_CUT_SNAP && node->share[0] <= 1 - MESO_CUT_SNAP && degree[n] == sides);
     }
     free(degree);
 }
@@ -229,6 +234,57 @@ static void test_domain(void)
     meso_triangulation_release(&mesh);
 }
 
+static uint32_t nearest_pole(const MesoVec3 *poles, uint32_t count, MesoVec3 point)
+{
+    uint32_t nearest = 0;
+    for (uint32_t i = 1; i < count; i++)
+        if (meso_vec3_dot(poles[i], point) > meso_vec3_dot(poles[nearest], point))
+            nearest = i;
+    return nearest;
+}
+
+/* Cut along the borders, a sphere falls into one region a seed; 99.9 % of its area is in the right one. */
+static void test_area(void)
+{
+    enum { SEEDS = 30, ROOM = 200000 };
+    MesoRandom random;
+    MesoMeshPoint seeds[SEEDS];
+    MesoVec3 poles[SEEDS];
+    double area[SEEDS][SEEDS] = {0}, right = 0, all = 0;
+    MesoCutLines lines = {0};
+    MesoTriangulation mesh = meso_fixture_sphere(60, 0.3f, 3);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    uint32_t *region = MESO_NEW(&arena, uint32_t, ROOM, NULL);
+    meso_random_init(&random, 9, 0);
+    for (uint32_t i = 0; i < SEEDS; i++) {
+        seeds[i] = random_point(&mesh, &random);
+        poles[i] = (MesoVec3){0, 0, 0};
+        for (uint32_t k = 0; k < 3; k++)
+            poles[i] = meso_vec3_mad(poles[i], seeds[i].weight[k], mesh.positions[mesh.corners[3 * seeds[i].triangle + k]]);
+        poles[i] = meso_vec3_unit(poles[i], poles[i]);
+    }
+    MesoVoronoiQuery query = {.seed_count = SEEDS, .seeds = seeds};
+    CHECK(meso_voronoi_trace(&lines, NULL, NULL, &arena, &mesh, solver, &query, NULL) == MESO_OK);
+    meso_geodesic_release(solver);
+    CHECK(meso_fixture_cut(&mesh, &lines, region, ROOM) == SEEDS);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        const uint32_t *corners = mesh.corners + 3 * (size_t)t;
+        MesoVec3 sum = meso_vec3_add(mesh.positions[corners[0]], mesh.positions[corners[1]]);
+        uint32_t pole = nearest_pole(poles, SEEDS, meso_vec3_add(sum, mesh.positions[corners[2]]));
+        area[region[t]][pole] += meso_fixture_area(&mesh, t);
+    }
+    for (uint32_t r = 0; r < SEEDS; r++) {
+        double most = 0;
+        for (uint32_t i = 0; i < SEEDS; i++) {
+            most = fmax(most, area[r][i]);
+            all += area[r][i];
+        }
+        right += most;
+    }
+    CHECK(right > 0.999 * all);
+    meso_triangulation_release(&mesh);
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -236,6 +292,7 @@ int main(void)
     test_three();
     test_brute_force();
     test_domain();
+    test_area();
     meso_arena_release(&arena);
     return 0;
 }
