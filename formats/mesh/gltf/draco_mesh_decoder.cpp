@@ -3,8 +3,46 @@
 #include <stdexcept>
 
 #include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
 
 namespace meso {
+
+/* A count as the bitstream has it: four bytes before `compact`, fewer since. */
+static uint32_t read_count(draco::DecoderBuffer *buffer, uint16_t compact)
+{
+    uint32_t count = 0;
+    bool read = buffer->bitstream_version() < compact ? buffer->Decode(&count) : draco::DecodeVarint(&count, buffer);
+    if (!read)
+        throw std::runtime_error("Draco: the bitstream ends where it counts faces");
+    return count;
+}
+
+/*
+ * The larger one of the numbers of faces and vertices in the header, which Draco allocates for before it reads any of them. As
+ * MeshEdgebreakerDecoderImpl and MeshSequentialDecoder begin.
+ */
+static uint32_t claimed_size(draco::DecoderBuffer buffer)
+{
+    draco::DracoHeader header;
+    draco::GeometryMetadata metadata;
+    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok())
+        throw std::runtime_error("Draco: broken header");
+    buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+    bool described = buffer.bitstream_version() >= DRACO_BITSTREAM_VERSION(1, 3) && (header.flags & METADATA_FLAG_MASK);
+    if (described && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
+        throw std::runtime_error("Draco: broken metadata");
+    uint16_t compact = DRACO_BITSTREAM_VERSION(2, 2);
+    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+        buffer.Advance(1);      /* the kind of traversal */
+        if (buffer.bitstream_version() < compact)
+            read_count(&buffer, DRACO_BITSTREAM_VERSION(2, 0));     /* vertices that are new */
+        compact = DRACO_BITSTREAM_VERSION(2, 0);
+    }
+    uint32_t first = read_count(&buffer, compact), second = read_count(&buffer, compact);
+    return first > second ? first : second;
+}
 
 std::unique_ptr<draco::Mesh> decode_draco(const unsigned char *data, std::size_t size, std::size_t most_points)
 {
@@ -15,6 +53,8 @@ std::unique_ptr<draco::Mesh> decode_draco(const unsigned char *data, std::size_t
     if (!kind.ok() || kind.value() != draco::TRIANGULAR_MESH)
         throw std::runtime_error("what Draco compressed is no mesh of triangles");
     buffer.Init(reinterpret_cast<const char *>(data), size);
+    if (claimed_size(buffer) > most_points)
+        throw std::runtime_error("a mesh that Draco compressed is absurdly large for its file");
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
     if (!mesh.ok())
         throw std::runtime_error("Draco: " + mesh.status().error_msg_string());

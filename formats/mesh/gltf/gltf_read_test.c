@@ -192,6 +192,19 @@ static void test_broken(void)
     expect("{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":3}", "", "material 3 is not there");
 }
 
+/* A header alone, whose faces Draco would take 7 GB for. */
+static void test_draco_claims(void)
+{
+    static const unsigned char bytes[] = "DRACO\1\114\1\1\1\52\1s \377\377\377\377\377\15\15\15\15\15\15\15\15\15\15\15";
+    MesoInput input;
+    meso_input_wrap(&input, "a.drc", bytes, sizeof bytes);
+    CHECK(meso_draco_read(&mesh, &arena, &input, 1, &error) == MESO_ERR_INPUT);
+    CHECK(strcmp(error.message, "a.drc: broken .drc: a mesh that Draco compressed is absurdly large for its file") == 0);
+    meso_input_wrap(&input, "a.drc", bytes, 14);
+    CHECK(meso_draco_read(&mesh, &arena, &input, 1, &error) == MESO_ERR_INPUT);
+    CHECK(strcmp(error.message, "a.drc: broken .drc: Draco: the bitstream ends where it counts faces") == 0);
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -203,6 +216,7 @@ int main(void)
     test_sparse();
     test_modes();
     test_broken();
+    test_draco_claims();
     meso_arena_release(&arena);
     return 0;
 }
