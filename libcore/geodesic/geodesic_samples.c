@@ -7,7 +7,7 @@ enum { BLOCK = 1024 };
 
 /*
  * Candidates in blocks, and a tree of the blocks' farthest: node i is over 2 i and 2 i + 1, blocks are the leaves.
- * Distances only fall: what a block has on record bounds it, and is looked at again when it comes to be the farthest of all.
+ * Distances only fall: what a block has on record bounds it, and is looked at again when it is the farthest of all.
  */
 typedef struct Farthest {
     const float *distance;
@@ -120,7 +120,8 @@ static uint32_t find_farthest(Farthest *farthest, float *distance)
 
 /* ---- samples ---- */
 
-static MesoStatus solve_given(MesoGeodesicSolver *solver, const MesoSampleQuery *query, float *distance, MesoError *error)
+static MesoStatus solve_given(MesoGeodesicSolver *solver, const MesoSampleQuery *query, float *distance,
+                              MesoError *error)
 {
     MesoGeodesicQuery given = {.domain = query->domain, .seeds = query->given, .seed_count = query->given_count,
                                .target = MESO_NO_INDEX};

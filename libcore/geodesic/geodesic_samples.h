@@ -12,8 +12,8 @@ typedef struct MesoSampleQuery {
     const MesoDomain *domain;           /* NULL: everywhere */
     uint32_t given_count;
     const MesoGeodesicSeed *given;      /* [given_count] what samples keep away from, too: borders, seeds */
-    uint32_t start;                     /* vertex of the domain that is the first sample; MESO_NO_INDEX: the farthest from
-                                           what is given, or the domain's lowest where nothing is */
+    uint32_t start;                     /* vertex of the domain that is the first sample; MESO_NO_INDEX: the farthest
+                                           from what is given, or the domain's lowest where nothing is */
     bool border_only;                   /* samples are vertices of the domain's border */
     uint32_t count;                     /* at most so many */
     float radius;                       /* ends when no vertex is as far as this from all; 0: when all are samples */

@@ -14,7 +14,8 @@ static MesoGeodesicSolver *solver_of(const MesoTriangulation *mesh)
     return solver;
 }
 
-static MesoSamples sample(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, MesoSampleQuery query, float *distance)
+static MesoSamples sample(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, MesoSampleQuery query,
+                          float *distance)
 {
     MesoSamples samples;
     CHECK(meso_geodesic_sample(&samples, distance, &arena, mesh, solver, &query, NULL) == MESO_OK);

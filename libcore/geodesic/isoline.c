@@ -3,7 +3,7 @@
 #include "libcore/base/index_map.h"
 #include "libcore/mesh/cut/mesh_domain.h"
 
-/* Levels by number: those before `first` are below the vertex, those from `end` on above it, and it is on the others. */
+/* Levels by number: those before `first` are below the vertex, those from `end` on above; it is on the others. */
 typedef struct VertexLevels {
     uint32_t first, end;
 } VertexLevels;

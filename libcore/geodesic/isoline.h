@@ -29,8 +29,8 @@ typedef struct MesoIsolineQuery {
 } MesoIsolineQuery;
 
 /*
- * Adds the lines of all levels in one pass over the domain's triangles; a segment's `line` is the number of its level, and
- * what is above lies to the left of the way from its first node to its second, as its triangle is wound. A node is
+ * Adds the lines of all levels in one pass over the domain's triangles; a segment's `line` is the number of its level,
+ * and what is above lies to the left of the way from its first node to its second, as its triangle is wound. A node is
  * added once, and serves both triangles of its edge, or all levels at its vertex. Numbers depend on the input alone.
  * O(triangles + vertices of the domain * log levels + segments). MESO_ERR_MEMORY alone.
  */

@@ -7,7 +7,8 @@
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
 /* Cuts, and numbers the parts between walls in `region` [room]; returns how many there are. */
-static inline uint32_t meso_fixture_cut(MesoTriangulation *mesh, const MesoCutLines *lines, uint32_t *region, uint32_t room)
+static inline uint32_t meso_fixture_cut(MesoTriangulation *mesh, const MesoCutLines *lines, uint32_t *region,
+                                        uint32_t room)
 {
     MesoArena arena;
     MesoCutReport report;

@@ -208,7 +208,8 @@ static bool step_from_edge(const Walker *walker, const Place *place, Step *step)
 static void try_spoke(const Walker *walker, uint32_t vertex, uint32_t half_edge, double *steepest, Step *step)
 {
     const uint32_t *corners = walker->mesh->corners;
-    uint32_t next = meso_next_corner(half_edge), end = corners[half_edge] == vertex ? corners[next] : corners[half_edge];
+    uint32_t begin = corners[half_edge], end = corners[meso_next_corner(half_edge)];
+    end = begin == vertex ? end : begin;
     MesoVec3 along = meso_vec3_sub(walker->mesh->positions[end], walker->mesh->positions[vertex]);
     double rise = height_at(walker, end) - height_at(walker, vertex), square = dot(along, along);
     if (rise > 0 && rise * rise > *steepest * square) {

@@ -2,10 +2,11 @@
  * Integral curves of the gradient of a field that is given at vertices and linear between them: straight in each
  * triangle, and at a right angle to its isolines there.
  *
- * Where the gradients on both sides of an edge point into it, a ridge, the curve follows the edge to its higher end; where both
- * point out of it, it goes to the steeper side. From a vertex it goes where the field rises most steeply, inside a
- * triangle or along an edge. A curve that leaves a triangle within MESO_CUT_SNAP of the side's end goes through the
- * vertex, unless that lies lower than where it came in: the field rises from node to node, and so no curve is closed.
+ * Where the gradients on both sides of an edge point into it, a ridge, the curve follows the edge to its higher end;
+ * where both point out of it, it goes to the steeper side. From a vertex it goes where the field rises most steeply,
+ * inside a triangle or along an edge. A curve that leaves a triangle within MESO_CUT_SNAP of the side's end goes
+ * through the vertex, unless that lies lower than where it came in: the field rises from node to node, and so no curve
+ * is closed.
  *
  * All of this holds with up and down changed where a curve goes down.
  */
@@ -41,8 +42,8 @@ typedef struct MesoStreamReport {
 
 /*
  * Adds a line for each start that can be walked, in their order; a segment's `line` is the number of its start, and
- * segments lead from start to end, one after another. A vertex is one node for all lines of a call. The report goes to `arena`.
- * O(segments), and more by the triangles around vertices. MESO_ERR_MEMORY alone.
+ * segments lead from start to end, one after another. A vertex is one node for all lines of a call. The report goes to
+ * `arena`. O(segments), and more by the triangles around vertices. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_streamlines_trace(MesoCutLines *lines, MesoStreamReport *report, MesoArena *arena,
                                   const MesoTriangulation *mesh, const MesoStreamQuery *query, MesoError *error);

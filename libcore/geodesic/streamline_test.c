@@ -310,7 +310,8 @@ static void test_band(void)
         distance[0][v] = distance[0][v] / (distance[0][v] + distance[1][v]);
     MesoEdgeChain chain = {loops.loops[0].count, true, loops.half_edges, loops.vertices};
     meso_chain_sample(&mesh, &chain, COUNT, 0.25, false, starts);
-    MesoStreamQuery query = {.domain = &domain, .field = distance[0], .join = true, .start_count = COUNT, .starts = starts};
+    MesoStreamQuery query = {.domain = &domain, .field = distance[0], .join = true, .start_count = COUNT,
+                             .starts = starts};
     lines = trace(&mesh, query, &report);
     CHECK(report.counts[MESO_STREAM_BORDER] == COUNT);
     CHECK(meso_fixture_cut(&mesh, &lines, region, ROOM) == COUNT + 2);     /* and the caps */

@@ -92,7 +92,8 @@ static uint32_t plant(const MesoTriangulation *mesh, const MesoMeshPoint *point,
 static MesoStatus solve_together(Tracer *tracer)
 {
     const MesoVoronoiQuery *query = tracer->query;
-    MesoGeodesicSeed *planted = MESO_NEW(tracer->scratch, MesoGeodesicSeed, 3 * (size_t)query->seed_count, tracer->error);
+    size_t room = 3 * (size_t)query->seed_count;
+    MesoGeodesicSeed *planted = MESO_NEW(tracer->scratch, MesoGeodesicSeed, room, tracer->error);
     if (!planted)
         return MESO_ERR_MEMORY;
     MesoGeodesicQuery all = {.domain = query->domain, .seeds = planted, .target = MESO_NO_INDEX};
@@ -132,10 +133,15 @@ static void find_bounds(Tracer *tracer)
         tracer->front[v] = tracer->bound[v] = tracer->front[v] + reach * sqrtf(tracer->bound[v]);
 }
 
+static bool comes_before(float distance, uint32_t seed, const Slots *slots, uint32_t k)
+{
+    return distance < slots->distance[k] || (distance == slots->distance[k] && seed < slots->seed[k]);
+}
+
 static void put_slot(Slots *slots, uint32_t seed, float distance)
 {
     uint32_t k = SLOTS;
-    while (k > 0 && (distance < slots->distance[k - 1] || (distance == slots->distance[k - 1] && seed < slots->seed[k - 1]))) {
+    while (k > 0 && comes_before(distance, seed, slots, k - 1)) {
         k--;
         if (k + 1 < SLOTS) {
             slots->distance[k + 1] = slots->distance[k];
@@ -156,7 +162,8 @@ static MesoStatus solve_alone(Tracer *tracer, uint32_t seed)
     uint32_t touched_count;
     MesoGeodesicQuery one = {.domain = tracer->query->domain, .seeds = planted, .target = MESO_NO_INDEX, .keep = true};
     one.seed_count = plant(tracer->mesh, &tracer->query->seeds[seed], planted);
-    MesoStatus status = meso_geodesic_solve(tracer->solver, &one, tracer->front, &touched, &touched_count, tracer->error);
+    MesoStatus status = meso_geodesic_solve(tracer->solver, &one, tracer->front, &touched, &touched_count,
+                                            tracer->error);
     for (uint32_t i = 0; i < touched_count && !status; i++) {
         put_slot(slots_of(tracer, touched[i]), seed, tracer->front[touched[i]]);
         tracer->front[touched[i]] = tracer->bound[touched[i]];
@@ -172,7 +179,8 @@ typedef struct SeedPlace {
 static int by_triangle(const void *a, const void *b)
 {
     const SeedPlace *p = a, *q = b;
-    return p->triangle != q->triangle ? (p->triangle < q->triangle ? -1 : 1) : (p->seed > q->seed) - (p->seed < q->seed);
+    int order = (p->triangle > q->triangle) - (p->triangle < q->triangle);
+    return order ? order : (p->seed > q->seed) - (p->seed < q->seed);
 }
 
 /* One after another in the order of their triangles: what one has touched, the next finds in the caches. */
@@ -278,7 +286,8 @@ static MesoStatus divide_edge(Tracer *tracer, uint32_t half_edge, EdgeCells *cel
     uint32_t a = mesh->corners[half_edge], b = mesh->corners[meso_next_corner(half_edge)];
     const Slots *ends[2] = {slots_of(tracer, a), slots_of(tracer, b)};
     EndDistances seeds[EDGE_SEEDS];
-    uint32_t count = seeds_of_side(ends, meso_vec3_length(meso_vec3_sub(mesh->positions[a], mesh->positions[b])), seeds);
+    float length = meso_vec3_length(meso_vec3_sub(mesh->positions[a], mesh->positions[b]));
+    uint32_t count = seeds_of_side(ends, length, seeds);
     bool inside = meso_domain_holds(tracer->query->domain, mesh, half_edge / 3);
     uint32_t facing = mesh->corners[meso_previous_corner(inside ? half_edge : mesh->twins[half_edge])];
     const EndDistances *first = nearest_at(seeds, count, 0, slots_of(tracer, facing));

@@ -1,11 +1,11 @@
 /*
- * Geodesic Voronoi cells: each point of a domain belongs to the nearest of the seeds, by paths in the domain. Distances
- * from each seed are found at vertices, as far as they matter, and taken as linear between them; so are the borders between
- * cells.
+ * Geodesic Voronoi cells: each point of a domain belongs to the nearest of the seeds, by paths in the domain.
+ * Distances from each seed are found at vertices, as far as they matter, and taken as linear between them; so are the
+ * borders between cells.
  *
- * A side between vertices of two cells changes from one to the other where their distances are equal, and that depends on
- * the side alone: both of its triangles agree. A vertex that is nearly as far from two seeds is on their border, which
- * goes through it then: no change comes nearer to the end of a side than MESO_CUT_SNAP of its length. A triangle
+ * A side between vertices of two cells changes from one to the other where their distances are equal, and that depends
+ * on the side alone: both of its triangles agree. A vertex that is nearly as far from two seeds is on their border,
+ * which goes through it then: no change comes nearer to the end of a side than MESO_CUT_SNAP of its length. A triangle
  * whose outline changes twice is crossed by a segment. Where it changes more often, all changes are joined to a node
  * inside: for three cells the point that is as far from all three, and where that is outside, or for more, the middle
  * of the changes. What a cell has between vertices of others is left to them.
@@ -26,8 +26,8 @@ typedef struct MesoVoronoiQuery {
  * Adds the borders between cells; a segment's `line` is the lower of the two seeds that it is between.
  *
  * solver    of the mesh
- * cell      [vertex_count] nearest seed of each vertex, the lower of two; MESO_NO_INDEX where no path leads from any. Only
- *           those of the domain's triangles are written. May be NULL
+ * cell      [vertex_count] nearest seed of each vertex, the lower of two; MESO_NO_INDEX where no path leads from any.
+ *           Only those of the domain's triangles are written. May be NULL
  * distance  [vertex_count] from that seed, likewise; INFINITY where there is none
  *
  * A solve for all seeds, and one for each that goes little beyond its cell: cells are those of separate solves, to the

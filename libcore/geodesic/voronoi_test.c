@@ -33,7 +33,8 @@ static MesoMeshPoint vertex_point(const MesoTriangulation *mesh, uint32_t vertex
 }
 
 /* A solve of its own for a seed: as the fronts plant it. */
-static void solve_alone(MesoGeodesicSolver *solver, const MesoDomain *domain, const MesoMeshPoint *point, float *distance)
+static void solve_alone(MesoGeodesicSolver *solver, const MesoDomain *domain, const MesoMeshPoint *point,
+                        float *distance)
 {
     const uint32_t *corners = solver->mesh->corners + 3 * (size_t)point->triangle;
     MesoGeodesicSeed seeds[3];
@@ -139,7 +140,8 @@ static void check_no_gaps(const MesoTriangulation *mesh, const MesoDomain *domai
     for (uint32_t n = 0; n < lines->node_count; n++) {
         const MesoCutNode *node = &lines->nodes[n];
         if (node->kind == MESO_IN_TRIANGLE) {
-            CHECK(degree[n] >= 3 && node->share[0] >= 0 && node->share[1] >= 0 && node->share[0] + node->share[1] < 1.00001f);
+            CHECK(degree[n] >= 3 && node->share[0] >= 0 && node->share[1] >= 0);
+            CHECK(node->share[0] + node->share[1] < 1.00001f);
             continue;
         }
         if (node->kind == MESO_AT_VERTEX) {
@@ -260,7 +262,8 @@ static void test_area(void)
         seeds[i] = random_point(&mesh, &random);
         poles[i] = (MesoVec3){0, 0, 0};
         for (uint32_t k = 0; k < 3; k++)
-            poles[i] = meso_vec3_mad(poles[i], seeds[i].weight[k], mesh.positions[mesh.corners[3 * seeds[i].triangle + k]]);
+            poles[i] = meso_vec3_mad(poles[i], seeds[i].weight[k],
+                                     mesh.positions[mesh.corners[3 * seeds[i].triangle + k]]);
         poles[i] = meso_vec3_unit(poles[i], poles[i]);
     }
     MesoVoronoiQuery query = {.seed_count = SEEDS, .seeds = seeds};

@@ -23,10 +23,10 @@ typedef struct MesoBorderLoops {
 } MesoBorderLoops;
 
 /*
- * The border of `domain` (NULL: all of the mesh): sides of its triangles across which none of its triangles lies; and with
- * `slits` also walls that have one label on both sides, which are walked along twice, once on each. The part lies to
- * the left of its loops, as the triangle of each loop's first side is wound; a half-edge is walked against its
- * own direction where triangles are wound against each other.
+ * The border of `domain` (NULL: all of the mesh): sides of its triangles across which none of its triangles lies; and
+ * with `slits` also walls that have one label on both sides, which are walked along twice, once on each. The part lies
+ * to the left of its loops, as the triangle of each loop's first side is wound; a half-edge is walked against its own
+ * direction where triangles are wound against each other.
  *
  * At a corner not two but one, three or more edges meet that separate regions: those of the border, and outside the
  * part all between triangles of different labels, or where the mesh ends. A slit is such an edge where `slits` says
