@@ -237,7 +237,8 @@ static void merge_options(void *context, MesoMapOptions *options)
         options->section_step = a->options.section_step;
 }
 
-/* A model of tiles, expanded; or the scene of another one, with `tiling` NULL. `inputs` stay open: both may point into them. */
+/* A model of tiles, expanded; or the scene of another one, with `tiling` NULL. `inputs` stay open: both may point
+ * into them. */
 typedef struct Mapped {
     const MesoModel *tiling;
     MesoScene scene;
@@ -288,7 +289,8 @@ static void close_inputs(Inputs *inputs)
 
 /* ---- products ---- */
 
-static MesoStatus write_tiling(const void *model, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+static MesoStatus write_tiling(const void *model, const MesoProvenance *provenance, MesoOutput *output,
+                               MesoError *error)
 {
     return meso_model_write(model, provenance, output, error);
 }

@@ -16,7 +16,8 @@ const MesoInputPlace MESO_PLACE_KEEP = {"--keep", "an assignment (.slots)", "kee
 const MesoInputPlace MESO_PLACE_MODEL = {
     "MODEL", "a model (.meso) or a mesh (OBJ, PLY, OFF, glTF or Draco)", "model",
     MESO_FILE_MODEL | MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF | MESO_FILE_DRC};
-const MesoInputPlace MESO_PLACE_REPORT = {"REPORT", "a report of meso-solve", "report", MESO_FILE_REPORT | MESO_FILE_JSON};
+const MesoInputPlace MESO_PLACE_REPORT = {"REPORT", "a report of meso-solve", "report",
+                                          MESO_FILE_REPORT | MESO_FILE_JSON};
 const MesoInputPlace MESO_PLACE_CONSTRAINTS = {"--constraints", "a file of constraints", "constraints",
                                                MESO_FILE_CONSTRAINTS | MESO_FILE_JSON};
 

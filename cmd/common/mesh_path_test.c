@@ -67,7 +67,8 @@ int main(void)
     meso_arena_init(&arena);
     char folder[] = "mesh-path-XXXXXX";
     CHECK(mkdtemp(folder) && chdir(folder) == 0);
-    CHECK(mkdir("in", 0777) == 0 && mkdir("inner", 0777) == 0 && mkdir("out", 0777) == 0 && mkdir("out/deep", 0777) == 0);
+    CHECK(mkdir("in", 0777) == 0 && mkdir("inner", 0777) == 0 && mkdir("out", 0777) == 0 &&
+          mkdir("out/deep", 0777) == 0);
     CHECK(symlink("in", "link") == 0 && symlink("deep", "out/link") == 0);
     touch("in/knob.obj");
     touch("in/blank.obj ");

@@ -77,8 +77,8 @@ static void tell_walls(MesoTool *tool, const MesoSurfaceJudge *judge, const Wall
                       : judge->graph->reversed_count ? "faces wound against each other leave it no normal"
                                                      : "its normals are opposite or run along it";
     const char *step = collapsed ? "clean" : judge->graph->reversed_count ? "orient" : NULL;
-    tell(tool, judge, !some, "face%s %s: no strand can end at a side, as %s%s; %s%s%s%s%s", plural(walls->count), names, why,
-         some ? ", and meso-map will refuse what shows a cross-section there" : "",
+    tell(tool, judge, !some, "face%s %s: no strand can end at a side, as %s%s; %s%s%s%s%s", plural(walls->count), names,
+         why, some ? ", and meso-map will refuse what shows a cross-section there" : "",
          step ? "'meso-mesh " : "give it normals that point off the surface", step ? step : "", step ? " " : "",
          step ? judge->path : "", step ? " -o OUT.obj' mends that" : "");
 }
@@ -86,7 +86,8 @@ static void tell_walls(MesoTool *tool, const MesoSurfaceJudge *judge, const Wall
 static void tell_windings(MesoTool *tool, const MesoSurfaceJudge *judge, const MesoSurfaceFlaws *f)
 {
     if (f->one_sided_pieces > 0)
-        tell(tool, judge, f->blurred_edges > 0, "not orientable, %u piece%s one side only, like a Moebius band: faces %u "
+        tell(tool, judge, f->blurred_edges > 0,
+             "not orientable, %u piece%s one side only, like a Moebius band: faces %u "
              "and %u are wound against each other, and turning faces over only moves that; %s; cut it open there",
              f->one_sided_pieces, f->one_sided_pieces == 1 ? " has" : "s have",
              f->one_sided_faces[0] + 1, f->one_sided_faces[1] + 1,

@@ -171,7 +171,8 @@ static MesoStatus note_buffers(MesoTool *tool, const MesoInput *input)
     for (uint32_t i = 0; i < count && !status; i++) {
         MesoInput buffer;
         if (tool->provenance.input_count == MESO_PROVENANCE_INPUTS)
-            return meso_fail(&tool->error, MESO_ERR_LIMIT, "%s: more than %d files are read", input->path, MESO_PROVENANCE_INPUTS);
+            return meso_fail(&tool->error, MESO_ERR_LIMIT, "%s: more than %d files are read", input->path,
+                             MESO_PROVENANCE_INPUTS);
         status = note_input(tool, &buffer, paths[i], "buffer");
         if (!status)
             meso_input_close(&buffer);

@@ -85,8 +85,8 @@ typedef struct MesoTool {
     MESO_FLAG(0, "list-options", 0, &(tool).list_options)
 
 /*
- * Parses, refuses outputs that are inputs or written twice, installs the signal handlers (SIGTERM, SIGINT, SIGHUP, SIGQUIT,
- * SIGXCPU and crashes: remove temporary files, then die of the signal; an input that is cut while
+ * Parses, refuses outputs that are inputs or written twice, installs the signal handlers (SIGTERM, SIGINT, SIGHUP,
+ * SIGQUIT, SIGXCPU and crashes: remove temporary files, then die of the signal; an input that is cut while
  * it is read: exit code 4), ignores SIGPIPE, and ends the tool with code 33 where a library finds
  * no memory. `tool` must be zeroed, except for option values that are not the default here. Returns
  * false where there is nothing left to run: --help, --version, --list-options, or wrong usage.
@@ -106,8 +106,8 @@ int meso_tool_finish(MesoTool *tool);
 
 /*
  * Opens a file that is read, and notes it in the provenance as `role`, with its own; behind it, as "buffer", the
- * files that glTF has beside it. The caller closes it where this gives MESO_OK. Errors of meso_input_open(), and MESO_ERR_USAGE
- * where an output would go over it. `path` must outlive the tool.
+ * files that glTF has beside it. The caller closes it where this gives MESO_OK. Errors of meso_input_open(), and
+ * MESO_ERR_USAGE where an output would go over it. `path` must outlive the tool.
  */
 MesoStatus meso_tool_open_input(MesoTool *tool, MesoInput *input, const char *path, const char *role);
 

@@ -60,7 +60,8 @@ static MesoStatus check_output(Job *job)
     if (!tool->output && !info)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "nothing would come of it: give -o FILE, or the step info");
     if (info && !tool->json && is_stream(tool->output))
-        return meso_fail(&tool->error, MESO_ERR_USAGE, "the product and what info says cannot both go to standard output; use "
+        return meso_fail(&tool->error, MESO_ERR_USAGE,
+                         "the product and what info says cannot both go to standard output; use "
                          "--json=FILE or -o FILE");
     job->kind = tool->output ? meso_mesh_kind_of(tool->output) : MESO_MESH_KINDS;
     if (tool->output && job->kind == MESO_MESH_KINDS)
@@ -91,7 +92,8 @@ static MesoStatus read_mesh(Job *job)
     if (status)
         return status;
     if (is_to_be_cleaned(job))
-        status = meso_polygon_mesh_read_loops(&work->mesh, &work->looped, &work->arena, &input, tool->threads, &tool->error);
+        status = meso_polygon_mesh_read_loops(&work->mesh, &work->looped, &work->arena, &input, tool->threads,
+                                              &tool->error);
     else
         status = meso_polygon_mesh_read(&work->mesh, &work->arena, &input, tool->threads, &tool->error);
     meso_input_close(&input);
@@ -145,7 +147,8 @@ static void say_left_out(const Job *job)
     const MesoPolygonMesh *mesh = &job->work.mesh;
     for (uint32_t i = 0; i < mesh->attribute_count; i++)
         if (!meso_mesh_kind_holds(job->kind, mesh, &mesh->attributes[i]))
-            meso_tool_say(job->tool, "left out the attribute '%s', which such a file does not hold", mesh->attributes[i].name);
+            meso_tool_say(job->tool, "left out the attribute '%s', which such a file does not hold",
+                          mesh->attributes[i].name);
 }
 
 /* Triangles and quads; what files of scenes hold of the attributes. */

@@ -10,8 +10,8 @@ typedef struct MesoMeshArguments {
 } MesoMeshArguments;
 
 /*
- * Operands are steps, and then the surface. All of them are checked before it is read. Memory is that of the meshes before
- * and after a step, and of what the step needs: the largest of these sums.
+ * Operands are steps, and then the surface. All of them are checked before it is read. Memory is that of the meshes
+ * before and after a step, and of what the step needs: the largest of these sums.
  */
 MesoStatus meso_mesh_job_run(MesoMeshArguments *arguments);
 

@@ -96,8 +96,8 @@ MesoStatus meso_mesh_run_pair(const MesoMeshStep *step, MesoMeshWork *work, Meso
 MesoStatus meso_mesh_run_subdivide(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result)
 {
     MesoTool *tool = work->tool;
-    return meso_mesh_subdivide(result, &work->next, &work->mesh, step->scheme, step->level_count, work->crease, tool->threads,
-                               &tool->error);
+    return meso_mesh_subdivide(result, &work->next, &work->mesh, step->scheme, step->level_count, work->crease,
+                               tool->threads, &tool->error);
 }
 
 /* Triangles that faces would be cut into. */
@@ -110,7 +110,8 @@ MesoStatus meso_mesh_run_decimate(const MesoMeshStep *step, MesoMeshWork *work, 
 {
     MesoTool *tool = work->tool;
     double target = step->percent ? step->number / 100 * (double)triangle_count(&work->mesh) : step->number;
-    MesoStatus status = meso_mesh_decimate(result, &work->next, &work->mesh, (uint32_t)target, tool->threads, &tool->error);
+    MesoStatus status = meso_mesh_decimate(result, &work->next, &work->mesh, (uint32_t)target, tool->threads,
+                                           &tool->error);
     if (!status && (double)result->face_count > target)
         meso_tool_say(tool, "decimate: no more edges can go without folding the surface or changing what it is");
     return status;

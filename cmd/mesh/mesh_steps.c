@@ -43,7 +43,8 @@ static bool parse_levels(const char *text, uint32_t *count)
 
 static bool parse_scheme(const char *text, size_t length, MesoScheme *scheme)
 {
-    static const char *const names[] = {[MESO_CATMULL_CLARK] = "catmull-clark", [MESO_LOOP] = "loop", [MESO_LINEAR] = "linear"};
+    static const char *const names[] = {[MESO_CATMULL_CLARK] = "catmull-clark", [MESO_LOOP] = "loop",
+                                        [MESO_LINEAR] = "linear"};
     for (int i = 0; i < 3; i++)
         if (strlen(names[i]) == length && memcmp(names[i], text, length) == 0) {
             *scheme = (MesoScheme)i;
@@ -61,11 +62,13 @@ static MesoStatus parse_subdivision(MesoMeshStep *step, const char *argument, Me
         return MESO_OK;
     size_t length = strcspn(argument, ",");
     if (!parse_scheme(argument, length, &step->scheme))
-        return meso_fail(error, MESO_ERR_USAGE, "step 'subdivide': '%.*s' is not catmull-clark, loop, linear, or a number of times "
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "step 'subdivide': '%.*s' is not catmull-clark, loop, linear, or a number of times "
                          "from 1 to 16", (int)(length < 40 ? length : 40), argument);
     if (argument[length] == 0 || parse_levels(argument + length + 1, &step->level_count))
         return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE, "step 'subdivide': '%s' is no number of times from 1 to 16", argument + length + 1);
+    return meso_fail(error, MESO_ERR_USAGE, "step 'subdivide': '%s' is no number of times from 1 to 16",
+                     argument + length + 1);
 }
 
 static MesoStatus parse_quads(MesoMeshStep *step, const char *argument, MesoError *error)
@@ -83,7 +86,8 @@ static MesoStatus parse_target(MesoMeshStep *step, const char *argument, MesoErr
 {
     char number[40] = "";
     if (!argument)
-        return meso_fail(error, MESO_ERR_USAGE, "step 'decimate' needs a number of faces or a percentage, as in decimate=5000 or "
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "step 'decimate' needs a number of faces or a percentage, as in decimate=5000 or "
                          "decimate=50%%");
     size_t length = strlen(argument);
     step->percent = length > 0 && argument[length - 1] == '%';
@@ -92,16 +96,19 @@ static MesoStatus parse_target(MesoMeshStep *step, const char *argument, MesoErr
     if (length < 39 && parse_number(number, &step->number) && step->number > 0 && step->number <= high &&
         (step->percent || step->number == (double)(uint32_t)step->number))
         return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE, "step 'decimate': '%s' is no number of faces, nor a percentage up to 100%%", argument);
+    return meso_fail(error, MESO_ERR_USAGE, "step 'decimate': '%s' is no number of faces, nor a percentage up to 100%%",
+                     argument);
 }
 
 /* ---- the steps ---- */
 
 const MesoMeshStepKind meso_mesh_step_kinds[] = {
-    {"info", NULL, "print what the mesh is like now, and what is wrong with it, as JSON", parse_nothing, meso_mesh_run_info},
+    {"info", NULL, "print what the mesh is like now, and what is wrong with it, as JSON", parse_nothing,
+     meso_mesh_run_info},
     {"weld", "[=DISTANCE]", "make vertices in one place one, or those within a distance; what differs\n"
      "between them (texture seams, hard edges) stays at the corners", parse_distance, meso_mesh_run_weld},
-    {"clean", NULL, "drop repeated corners, flat and double faces, and unused vertices", parse_nothing, meso_mesh_run_clean},
+    {"clean", NULL, "drop repeated corners, flat and double faces, and unused vertices", parse_nothing,
+     meso_mesh_run_clean},
     {"separate", NULL, "take apart what meets in edges of three faces or more, or in a point", parse_nothing,
      meso_mesh_run_separate},
     {"orient", NULL, "wind neighbours alike, and closed pieces outward", parse_nothing, meso_mesh_run_orient},
@@ -112,7 +119,8 @@ const MesoMeshStepKind meso_mesh_step_kinds[] = {
      parse_quads, meso_mesh_run_subdivide},
     {"subdivide", "[=SCHEME][,N]", "subdivide N times (1): catmull-clark (default), loop, which wants\n"
      "triangles, or linear", parse_subdivision, meso_mesh_run_subdivide},
-    {"decimate", "=N|P%", "collapse edges until N triangles are left, or P percent", parse_target, meso_mesh_run_decimate},
+    {"decimate", "=N|P%", "collapse edges until N triangles are left, or P percent", parse_target,
+     meso_mesh_run_decimate},
     {"convert", NULL, "nothing: -o alone says what to write", parse_nothing, meso_mesh_run_convert},
     {0},
 };
@@ -133,8 +141,8 @@ static MesoStatus refuse_word(const char *text, size_t length, MesoError *error)
         meso_nearest_try(&nearest, kind->word);
     if (nearest.best)
         return meso_fail(error, MESO_ERR_USAGE, "no step '%.*s'; did you mean '%s'?", shown, text, nearest.best);
-    return meso_fail(error, MESO_ERR_USAGE, "no step '%.*s'; steps come first, and one surface last: see meso-mesh help", shown,
-                     text);
+    return meso_fail(error, MESO_ERR_USAGE,
+                     "no step '%.*s'; steps come first, and one surface last: see meso-mesh help", shown, text);
 }
 
 MesoStatus meso_mesh_step_parse(MesoMeshStep *step, const char *text, MesoError *error)

@@ -32,7 +32,8 @@ typedef struct MesoMeshStepKind {
     const char *word;
     const char *argument;       /* "DISTANCE", "[=SCHEME][,N]"; NULL: takes none */
     const char *help;           /* a line or more, each of at most 76 characters */
-    MesoStatus (*parse)(MesoMeshStep *step, const char *argument, MesoError *error);  /* `argument` is NULL without "=" */
+    MesoStatus (*parse)(MesoMeshStep *step, const char *argument,
+                        MesoError *error);  /* `argument` is NULL without "=" */
     MesoStatus (*run)(const MesoMeshStep *step, MesoMeshWork *work, MesoPolygonMesh *result);
 } MesoMeshStepKind;
 
@@ -55,8 +56,8 @@ MesoStatus meso_mesh_step_parse(MesoMeshStep *step, const char *text, MesoError 
 MesoStatus meso_mesh_steps_help(const char *word, MesoError *error);
 
 /*
- * Does a step on work->mesh, which its result takes the place of: what was there goes, but for steps that change nothing.
- * The error is the tool's.
+ * Does a step on work->mesh, which its result takes the place of: what was there goes, but for steps that change
+ * nothing. The error is the tool's.
  */
 MesoStatus meso_mesh_step_run(const MesoMeshStep *step, MesoMeshWork *work);
 

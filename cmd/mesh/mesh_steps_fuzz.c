@@ -1,4 +1,5 @@
-/* Small meshes of every kind that readers give, and steps in any order: what comes of each is a checked mesh, or an error. */
+/* Small meshes of every kind that readers give, and steps in any order: what comes of each is a checked mesh, or an
+ * error. */
 #include <string.h>
 
 #include "cmd/mesh/mesh_steps.h"
@@ -59,7 +60,8 @@ static MesoStatus make_mesh(MesoPolygonMesh *mesh, uint32_t *looped, MesoArena *
     return meso_mesh_cut_loops(mesh, arena, &raw, looped, error);
 }
 
-static MesoAttribute *add_attribute(MesoPolygonMesh *mesh, MesoArena *arena, MesoAttribute attribute, uint32_t entry_count)
+static MesoAttribute *add_attribute(MesoPolygonMesh *mesh, MesoArena *arena, MesoAttribute attribute,
+                                    uint32_t entry_count)
 {
     MesoAttribute *a = &mesh->attributes[mesh->attribute_count++];
     *a = attribute;
@@ -84,19 +86,23 @@ static void add_attributes(MesoPolygonMesh *mesh, MesoArena *arena)
     static const char *names[] = {"iron", "", "wood"};
     mesh->attributes = MESO_NEW(arena, MesoAttribute, 5, NULL);
     CHECK(mesh->attributes);
-    MesoAttribute *normal = add_attribute(mesh, arena, (MesoAttribute){.name = "normal", .domain = MESO_ON_VERTICES, .width = 3},
+    MesoAttribute *normal = add_attribute(mesh, arena,
+                                          (MesoAttribute){.name = "normal", .domain = MESO_ON_VERTICES, .width = 3},
                                           mesh->vertex_count);
     memcpy(normal->values, mesh->positions, mesh->vertex_count * sizeof *mesh->positions);
     MesoAttribute *color = add_attribute(mesh, arena, (MesoAttribute){.name = "color", .domain = MESO_ON_VERTICES,
                                          .scalar = MESO_SCALAR_UINT8, .normalized = true, .width = 4}, mesh->vertex_count);
     memcpy(color->values, mesh->positions, 4 * (size_t)mesh->vertex_count);
-    MesoAttribute *uv = add_attribute(mesh, arena, (MesoAttribute){.name = "uv", .domain = MESO_ON_CORNERS, .width = 2}, 3);
+    MesoAttribute *uv = add_attribute(mesh, arena, (MesoAttribute){.name = "uv", .domain = MESO_ON_CORNERS, .width = 2},
+                                      3);
     memcpy(uv->values, (float[6]){0, 1, 2, 3, -1e30f, 1e30f}, 6 * sizeof(float));
     uv->entry_of = some_entries(arena, mesh->corner_count, 3);
-    MesoAttribute *material = add_attribute(mesh, arena, (MesoAttribute){.name = "material", .domain = MESO_ON_FACES}, 3);
+    MesoAttribute *material = add_attribute(mesh, arena, (MesoAttribute){.name = "material", .domain = MESO_ON_FACES},
+                                            3);
     material->names = names;
     material->entry_of = some_entries(arena, mesh->face_count, 3);
-    add_attribute(mesh, arena, (MesoAttribute){.name = "id", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT16, .width = 1},
+    add_attribute(mesh, arena, (MesoAttribute){.name = "id", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT16,
+                                               .width = 1},
                   mesh->face_count);
 }
 

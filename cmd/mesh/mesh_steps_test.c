@@ -51,7 +51,8 @@ static void test_failure(void)
     work_init(&work, &tool);
     run(&work, "weld");
     CHECK(meso_mesh_step_parse(&step, "subdivide=loop", &tool.error) == MESO_OK);
-    CHECK(meso_mesh_step_run(&step, &work) == MESO_ERR_INPUT && strncmp(tool.error.message, "subdivide=loop: ", 16) == 0);
+    CHECK(meso_mesh_step_run(&step, &work) == MESO_ERR_INPUT &&
+          strncmp(tool.error.message, "subdivide=loop: ", 16) == 0);
     CHECK(work.mesh.face_count == 108 && is_checked(&work.mesh));
     run(&work, "triangulate");
     run(&work, "subdivide=linear,2");

@@ -43,7 +43,8 @@ static char *each_path(const char *pattern, uint64_t seed, MesoArena *arena, Mes
  * The command that writes the assignment of this seed alone, whatever shard it is of: with
  * --seed, the attempts where --seeds gave them, and what else was given.
  */
-static char *single_command(const MesoSeedEach *each, uint64_t seed, const char *path, MesoArena *arena, MesoError *error)
+static char *single_command(const MesoSeedEach *each, uint64_t seed, const char *path, MesoArena *arena,
+                            MesoError *error)
 {
     char number[32], attempts[32];
     snprintf(number, sizeof number, "%" PRIu64, seed);
@@ -57,8 +58,8 @@ static char *single_command(const MesoSeedEach *each, uint64_t seed, const char 
 }
 
 /* Of the assignment of this seed alone; NULL when memory is out. */
-static const MesoProvenance *single_provenance(const MesoSeedEach *each, uint64_t seed, const char *path, MesoArena *arena,
-                                               MesoError *error)
+static const MesoProvenance *single_provenance(const MesoSeedEach *each, uint64_t seed, const char *path,
+                                               MesoArena *arena, MesoError *error)
 {
     MesoProvenance *provenance = MESO_NEW(arena, MesoProvenance, 1, error);
     if (!provenance)
@@ -69,8 +70,8 @@ static const MesoProvenance *single_provenance(const MesoSeedEach *each, uint64_
     return provenance->command_line ? provenance : NULL;
 }
 
-MesoStatus meso_each_write_to(const MesoSeedEach *each, uint64_t seed, const MesoAssignment *assignment, const char *path,
-                              MesoArena *arena, MesoError *error)
+MesoStatus meso_each_write_to(const MesoSeedEach *each, uint64_t seed, const MesoAssignment *assignment,
+                              const char *path, MesoArena *arena, MesoError *error)
 {
     const MesoSeedProblem *p = each->problem;
     const MesoProvenance *provenance = single_provenance(each, seed, path, arena, error);

@@ -55,7 +55,8 @@ static MesoStatus parse_best(const Metric **metric, const char **file, const cha
             *metric = &metrics[i];
             return MESO_OK;
         }
-    return meso_fail(error, MESO_ERR_USAGE, "--best: '%s' is not attempts, balance or loops, with or without =FILE", text);
+    return meso_fail(error, MESO_ERR_USAGE, "--best: '%s' is not attempts, balance or loops, with or without =FILE",
+                     text);
 }
 
 static MesoStatus check_companions(const MesoSeedOptions *o, const MesoTool *tool, MesoError *error)
@@ -86,7 +87,8 @@ static MesoStatus check_list(const char *text, bool attempts_given, MesoError *e
     return status;
 }
 
-MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *tool, bool attempts_given, MesoError *error)
+MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *tool, bool attempts_given,
+                                   MesoError *error)
 {
     const Metric *metric;
     const char *file;
@@ -95,7 +97,8 @@ MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *too
         return status;
     status = check_list(o->seeds, attempts_given, error);
     if (!status && o->each && !meso_each_is_pattern(o->each))
-        return meso_fail(error, MESO_ERR_USAGE, "--each: '%s' must have one %%d, for the seed; %%%% stands for %%", o->each);
+        return meso_fail(error, MESO_ERR_USAGE, "--each: '%s' must have one %%d, for the seed; %%%% stands for %%",
+                         o->each);
     return status || !o->best ? status : parse_best(&metric, &file, o->best, error);
 }
 
@@ -182,8 +185,8 @@ static MesoStatus take_result(void *context, uint32_t index, const MesoSolveResu
     if (seeds->options->each && result->verdict == MESO_VERDICT_SOLVED)
         status = meso_each_write(&seeds->each, seed, &result->assignment, error);
     if (!status)
-        status = meso_seed_line_make(&line, &arena, seed, hash_of(seeds, seed), result, p->tiling->set, p->tiling->graph,
-                                     error);
+        status = meso_seed_line_make(&line, &arena, seed, hash_of(seeds, seed), result, p->tiling->set,
+                                     p->tiling->graph, error);
     if (!status) {
         mtx_lock(&seeds->lock);
         status = add_line(seeds, &line, error);
@@ -484,7 +487,8 @@ static MesoStatus hash_problem(Seeds *seeds, MesoError *error)
         const char *options = describe_options(&solve, p->others, &tool->arena, error);
         if (!options)
             return MESO_ERR_MEMORY;
-        meso_seed_problem(seeds->hashes[r], &tool->provenance, p->surface->quarters, p->surface->graph.slot_count, options);
+        meso_seed_problem(seeds->hashes[r], &tool->provenance, p->surface->quarters, p->surface->graph.slot_count,
+                          options);
     }
     return MESO_OK;
 }

@@ -86,8 +86,8 @@ static MesoStatus tell_orientation(const Orienting *o)
     const MesoSlotGraph *graph = &o->surface->graph;
     uint32_t singular, vertices[MESO_REPORT_SINGULAR];
     uint32_t disagreeing = meso_orientation_disagreeing(graph, o->surface->quarters);
-    MesoStatus status = meso_orientation_singular(&singular, vertices, MESO_REPORT_SINGULAR, &tool->arena, &o->surface->mesh,
-                                                  graph, &tool->error);
+    MesoStatus status = meso_orientation_singular(&singular, vertices, MESO_REPORT_SINGULAR, &tool->arena,
+                                                  &o->surface->mesh, graph, &tool->error);
     if (status)
         return status;
     char without[64] = "";

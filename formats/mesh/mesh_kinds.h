@@ -21,7 +21,8 @@ extern "C" {
  *
  * OBJ  v with colours, vn, vt, f, g, o, usemtl; lines, points and what says nothing about the shape of faces is passed
  *      over; anything else is refused
- * PLY  ASCII and binary of either byte order, with every number that is not part of a list; "comment tile 2 ribbon" names
+ * PLY  ASCII and binary of either byte order, with every number that is not part of a list; "comment tile 2 ribbon"
+ * names
  *      the number 2 of the faces' property "tile" (see ply_names.h)
  * OFF  ASCII, with normals; colours and texture coordinates are passed over
  */
@@ -45,9 +46,9 @@ uint32_t meso_off_face_line(MesoArena *scratch, const MesoInput *input, uint32_t
 enum { MESO_GLTF_CORNERS_A_BYTE = 64 };
 
 /*
- * All triangles (strips and fans among them) of a .glb, or of a .gltf if its bytes do not begin like a .glb, in the order
- * of the nodes of its scene, where these place them; a mesh that several nodes show comes as often. Points and lines are
- * passed over. Vertices are those of the file, primitive by primitive: exporters split them at seams.
+ * All triangles (strips and fans among them) of a .glb, or of a .gltf if its bytes do not begin like a .glb, in the
+ * order of the nodes of its scene, where these place them; a mesh that several nodes show comes as often. Points and
+ * lines are passed over. Vertices are those of the file, primitive by primitive: exporters split them at seams.
  *
  *     "normal"    NORMAL, turned with the node         "uv", "uv1" ...    TEXCOORD_0, TEXCOORD_1 ...
  *     "color"     COLOR_0, without the material's
@@ -56,26 +57,26 @@ enum { MESO_GLTF_CORNERS_A_BYTE = 64 };
  *     "object"    names of nodes, or else of meshes     "material"    names of materials, one for each of the file's
  *     "albedo", "roughness", "metallic"     the factors of the material
  *
- * Where the asset's extras have a list "tiles" that names all numbers of _TILE, and _TILE is of faces, "tile" has the names,
- * and so has any other.
+ * Where the asset's extras have a list "tiles" that names all numbers of _TILE, and _TILE is of faces, "tile" has the
+ * names, and so has any other.
  *
- * Sparse, strided and quantized accessors, KHR_draco_mesh_compression, data URIs, and buffers in files beside a .gltf are
- * read; images are not. MESO_ERR_INPUT says what is broken, or not known and required; MESO_ERR_LIMIT past
+ * Sparse, strided and quantized accessors, KHR_draco_mesh_compression, data URIs, and buffers in files beside a .gltf
+ * are read; images are not. MESO_ERR_INPUT says what is broken, or not known and required; MESO_ERR_LIMIT past
  * MESO_GLTF_CORNERS_A_BYTE. Memory in proportion to the mesh, some 100 bytes a corner.
  */
 MesoStatus meso_gltf_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
                           MesoError *error);
 
 /*
- * Paths of the files beside `input` that it names as buffers, each once, in its order; none where that cannot be told. [count]
- * in `arena`. MESO_ERR_MEMORY alone.
+ * Paths of the files beside `input` that it names as buffers, each once, in its order; none where that cannot be told.
+ * [count] in `arena`. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_gltf_buffers(const char *const **paths, uint32_t *count, MesoArena *arena, const MesoInput *input,
                              MesoError *error);
 
 /*
- * The mesh of a .drc: positions, normals, texture coordinates, colours, and generic attributes by the name in their metadata;
- * numbers of faces have names as in glTF where the metadata of the mesh has "tiles" as JSON.
+ * The mesh of a .drc: positions, normals, texture coordinates, colours, and generic attributes by the name in their
+ * metadata; numbers of faces have names as in glTF where the metadata of the mesh has "tiles" as JSON.
  */
 MesoStatus meso_draco_read(MesoPolygonMesh *mesh, MesoArena *arena, const MesoInput *input, uint32_t thread_count,
                            MesoError *error);

@@ -77,7 +77,8 @@ MesoStatus meso_mesh_fail_at_face(const MesoInput *input, uint32_t face, MesoErr
     return meso_fail(error, error->status, "%s:%u: %s", input->path, line, message);
 }
 
-static MesoStatus check_elements(const MesoPolygonMesh *mesh, const MesoInput *input, uint32_t thread_count, MesoError *error)
+static MesoStatus check_elements(const MesoPolygonMesh *mesh, const MesoInput *input, uint32_t thread_count,
+                                 MesoError *error)
 {
     uint32_t face;
     MesoStatus status = meso_polygon_mesh_check(mesh, thread_count, &face, error);
@@ -129,8 +130,8 @@ static bool has_vertices_at_corners(const MesoPolygonMesh *mesh)
 }
 
 /* Where the loops do not help either, the error is that of the mesh as it is. */
-MesoStatus meso_polygon_mesh_read_loops(MesoPolygonMesh *mesh, uint32_t *looped, MesoArena *arena, const MesoInput *input,
-                                        uint32_t thread_count, MesoError *error)
+MesoStatus meso_polygon_mesh_read_loops(MesoPolygonMesh *mesh, uint32_t *looped, MesoArena *arena,
+                                        const MesoInput *input, uint32_t thread_count, MesoError *error)
 {
     MesoPolygonMesh cut;
     MesoError as_it_is;

@@ -1,7 +1,7 @@
 /*
  * Rates of reading two million quads with normals and texture coordinates, from files in memory's own store: beside
- * counting lines, copying the bytes into fresh memory, and OpenMesh; and peak memory but for the file, beside what the mesh
- * holds, which it should be at most 1.3 times.
+ * counting lines, copying the bytes into fresh memory, and OpenMesh; and peak memory but for the file, beside what the
+ * mesh holds, which it should be at most 1.3 times.
  *
  *     mesh_read_bench [THREADS]
  */
@@ -83,8 +83,8 @@ static void write_off(FILE *file)
     fprintf(file, "NOFF\n%d %d 0\n", VERTICES, FACES);
     for (uint32_t i = 0; i < VERTICES; i++) {
         Vertex v = vertex(i);
-        fprintf(file, "%.6f %.6f %.6f %.4f %.4f %.4f\n", (double)v.x, (double)v.y, (double)v.z, (double)v.nx, (double)v.ny,
-                (double)v.nz);
+        fprintf(file, "%.6f %.6f %.6f %.4f %.4f %.4f\n", (double)v.x, (double)v.y, (double)v.z, (double)v.nx,
+                (double)v.ny, (double)v.nz);
     }
     for (uint32_t f = 0, c[4]; f < FACES; f++) {
         corners(f, c);
@@ -246,7 +246,8 @@ int main(int argc, char **argv)
         const char *name;
         void (*write)(FILE *file);
         MesoOpenMeshKind kind;
-    } rows[] = {{"obj", write_obj, MESO_OPENMESH_OBJ}, {"ply", write_ply, MESO_OPENMESH_PLY}, {"off", write_off, MESO_OPENMESH_OFF}};
+    } rows[] = {{"obj", write_obj, MESO_OPENMESH_OBJ}, {"ply", write_ply, MESO_OPENMESH_PLY},
+                {"off", write_off, MESO_OPENMESH_OFF}};
     threads = argc > 1 ? (uint32_t)atol(argv[1]) : 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char path[100];

@@ -62,7 +62,8 @@ static size_t write_obj(char *out)
             at += sprintf(at, "g part%u of\t%u\n", f / 500 % 7, f / 500 % 3);
         at += sprintf(at, "f");
         for (uint32_t k = 0; k < sides_of(f); k++)
-            at += sprintf(at, f % 9 ? " %d" : " %d/", f % 8 ? (int)corner_of(f, k) + 1 : (int)corner_of(f, k) - VERTICES);
+            at += sprintf(at, f % 9 ? " %d" : " %d/",
+                          f % 8 ? (int)corner_of(f, k) + 1 : (int)corner_of(f, k) - VERTICES);
         *at++ = '\n';
     }
     return (size_t)(at - out);
@@ -74,7 +75,8 @@ static size_t write_ply(char *out)
                              "property int number\nelement face %d\nproperty uchar part\nproperty list uchar int vertex_indices\n"
                              "end_header\n", VERTICES, FACES);
     for (uint32_t v = 0; v < VERTICES; v++)
-        at += sprintf(at, "%.9g %.9g %.9g %u\n", (double)coordinate(v, 0), (double)coordinate(v, 1), (double)coordinate(v, 2), v);
+        at += sprintf(at, "%.9g %.9g %.9g %u\n", (double)coordinate(v, 0), (double)coordinate(v, 1),
+                      (double)coordinate(v, 2), v);
     for (uint32_t f = 0; f < FACES; f++) {
         at += sprintf(at, "%u  %u", f % 250, sides_of(f));
         for (uint32_t k = 0; k < sides_of(f); k++)
@@ -88,7 +90,8 @@ static size_t write_off(char *out)
 {
     char *at = out + sprintf(out, "OFF\n%d %d 0\n", VERTICES, FACES);
     for (uint32_t v = 0; v < VERTICES; v++)
-        at += sprintf(at, "%.9g %.9g %.9g\n", (double)coordinate(v, 0), (double)coordinate(v, 1), (double)coordinate(v, 2));
+        at += sprintf(at, "%.9g %.9g %.9g\n", (double)coordinate(v, 0), (double)coordinate(v, 1),
+                      (double)coordinate(v, 2));
     for (uint32_t f = 0; f < FACES; f++) {
         at += sprintf(at, "%u", sides_of(f));
         for (uint32_t k = 0; k < sides_of(f); k++)
@@ -169,7 +172,8 @@ static void compare_vertex(void *context, float x, float y, float z)
 {
     Theirs *theirs = context;
     MesoVec3 p = mesh.positions[theirs->vertices++];
-    CHECK(fabsf(x - p.x) <= 1e-6f * fabsf(p.x) && fabsf(y - p.y) <= 1e-6f * fabsf(p.y) && fabsf(z - p.z) <= 1e-6f * fabsf(p.z));
+    CHECK(fabsf(x - p.x) <= 1e-6f * fabsf(p.x) && fabsf(y - p.y) <= 1e-6f * fabsf(p.y) &&
+          fabsf(z - p.z) <= 1e-6f * fabsf(p.z));
 }
 
 static void compare_face(void *context, const uint32_t *vertices, uint32_t count)
@@ -262,12 +266,15 @@ static void test_obj_attributes(void)
     CHECK(read_text("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 .5 .5 .5\nvt 0 0\nvt 1 0\nvt 1 1 0.5\n"
                     "vn 0 0 2\nusemtl moss\nf 1/1/1 2/2/1 3/3/-1\ng\no  top   side \nf 1/1 3//1 4\n") == MESO_OK);
     const MesoAttribute *normal = meso_polygon_normals(&mesh), *uv = meso_polygon_attribute(&mesh, "uv");
-    const MesoAttribute *color = meso_polygon_attribute(&mesh, "color"), *material = meso_polygon_attribute(&mesh, "material");
-    const MesoAttribute *object = meso_polygon_attribute(&mesh, "object"), *group = meso_polygon_attribute(&mesh, "group");
+    const MesoAttribute *color = meso_polygon_attribute(&mesh, "color");
+    const MesoAttribute *material = meso_polygon_attribute(&mesh, "material");
+    const MesoAttribute *object = meso_polygon_attribute(&mesh, "object");
+    const MesoAttribute *group = meso_polygon_attribute(&mesh, "group");
     CHECK(normal->domain == MESO_ON_CORNERS && normal->entry_count == 1 && normal->entry_of[4] == 0 &&
           normal->entry_of[5] == MESO_NO_INDEX && meso_attribute_vec3(normal, 0).z == 2);
     CHECK(uv->width == 2 && uv->entry_count == 3 && uv->entry_of[2] == 2 && uv->entry_of[4] == MESO_NO_INDEX);
-    CHECK(color->domain == MESO_ON_VERTICES && meso_attribute_number(color, 3, 1) == 0.5 && strcmp(color->components[2], "blue") == 0);
+    CHECK(color->domain == MESO_ON_VERTICES && meso_attribute_number(color, 3, 1) == 0.5 &&
+          strcmp(color->components[2], "blue") == 0);
     CHECK(strcmp(material->names[material->entry_of[1]], "moss") == 0);
     CHECK(object->entry_of[0] == MESO_NO_INDEX && strcmp(object->names[object->entry_of[1]], "top side") == 0);
     CHECK(group->entry_of[0] == MESO_NO_INDEX && strcmp(group->names[group->entry_of[1]], "") == 0);
@@ -295,9 +302,12 @@ static void test_ply_attributes(void)
     const MesoAttribute *color = meso_polygon_attribute(&mesh, "color"), *wind = meso_polygon_attribute(&mesh, "wind");
     const MesoAttribute *uv = meso_polygon_attribute_on(&mesh, "uv", MESO_ON_VERTICES), *field = meso_polygon_attribute(&mesh, "field");
     const MesoAttribute *corner = meso_polygon_attribute_on(&mesh, "uv", MESO_ON_CORNERS), *age = meso_polygon_attribute(&mesh, "age");
-    CHECK(color->width == 3 && color->normalized && color->scalar == MESO_SCALAR_UINT8 && meso_attribute_number(color, 0, 2) == 51 * (1.0 / 255));
-    CHECK(uv->scalar == MESO_SCALAR_DOUBLE && meso_attribute_number(uv, 0, 0) == 0.1 && strcmp(uv->components[1], "v") == 0);
-    CHECK(wind->scalar == MESO_SCALAR_INT16 && meso_attribute_number(wind, 0, 2) == -3 && strcmp(wind->components[0], "wind_x") == 0);
+    CHECK(color->width == 3 && color->normalized && color->scalar == MESO_SCALAR_UINT8 &&
+          meso_attribute_number(color, 0, 2) == 51 * (1.0 / 255));
+    CHECK(uv->scalar == MESO_SCALAR_DOUBLE && meso_attribute_number(uv, 0, 0) == 0.1 &&
+          strcmp(uv->components[1], "v") == 0);
+    CHECK(wind->scalar == MESO_SCALAR_INT16 && meso_attribute_number(wind, 0, 2) == -3 &&
+          strcmp(wind->components[0], "wind_x") == 0);
     CHECK(field->domain == MESO_ON_FACES && field->width == 3 && meso_attribute_number(field, 0, 1) == 8);
     CHECK(corner->entry_count == 3 && meso_attribute_vec2(corner, 2).y == 1 && corner->scalar == MESO_SCALAR_FLOAT);
     CHECK(age->scalar == MESO_SCALAR_INT8 && meso_attribute_number(age, 0, 0) == -128);
@@ -305,7 +315,8 @@ static void test_ply_attributes(void)
     CHECK(read_text("a.ply", PLY_HEAD "property char nx\nproperty float ny\nproperty double nz\nproperty float red\n" PLY_FACE
                     "property list uchar float texcoord\nend_header\n0 0 0 1 .5 .25 2\n1 0 0 0 0 1 2\n1 1 0 0 0 1 2\n3 0 1 2 4 0 0 1 0\n") ==
           MESO_OK);
-    CHECK(meso_polygon_normals(&mesh)->scalar == MESO_SCALAR_FLOAT && meso_attribute_vec3(meso_polygon_normals(&mesh), 0).z == 0.25f);
+    CHECK(meso_polygon_normals(&mesh)->scalar == MESO_SCALAR_FLOAT &&
+          meso_attribute_vec3(meso_polygon_normals(&mesh), 0).z == 0.25f);
     CHECK(!meso_polygon_attribute(&mesh, "uv") && meso_polygon_attribute(&mesh, "red")->width == 1);
     CHECK(read_text("a.ply", PLY_HEAD "property uchar a\n" PLY_FACE "end_header\n0 0 0 256\n1 0 0 0\n1 1 0 0\n3 0 1 2\n") == MESO_ERR_INPUT);
     CHECK(strcmp(error.message, "a.ply:11: value '256' is beyond its type") == 0);
@@ -319,9 +330,11 @@ static void test_ply_lists(void)
                     "property list uchar uchar color\nproperty list uchar float empty\nend_header\n0 0 0\n1 0 0\n1 1 0\n"
                     "3 7 8 9 3 0 1 2 6 1 2 3 4 5 -6 3 1 1 1 33 9 255 0 0 0 255 0 0 0 255 0\n"
                     "3 4 5 6 3 0 2 1 6 7 8 9 10 11 12 1 1 44 9 0 0 0 0 0 0 0 0 51 0\n") == MESO_OK);
-    const MesoAttribute *before = meso_polygon_attribute(&mesh, "before"), *pair = meso_polygon_attribute(&mesh, "pair");
+    const MesoAttribute *before = meso_polygon_attribute(&mesh, "before");
+    const MesoAttribute *pair = meso_polygon_attribute(&mesh, "pair");
     const MesoAttribute *color = meso_polygon_attribute(&mesh, "color"), *age = meso_polygon_attribute(&mesh, "age");
-    CHECK(before && before->domain == MESO_ON_CORNERS && before->width == 1 && !before->normalized && mesh.attribute_count == 4);
+    CHECK(before && before->domain == MESO_ON_CORNERS && before->width == 1 && !before->normalized &&
+          mesh.attribute_count == 4);
     CHECK(meso_attribute_number(before, 0, 0) == 7 && meso_attribute_number(before, 5, 0) == 6);
     CHECK(pair->width == 2 && meso_attribute_number(pair, 2, 1) == -6 && meso_attribute_number(pair, 3, 0) == 7);
     CHECK(color->width == 3 && color->normalized && meso_attribute_number(color, 5, 2) == 51 * (1.0 / 255));
@@ -338,10 +351,12 @@ static void test_binary_lists(void)
     static const char same[] = BINARY_HEAD "\3\0\1\2" "\6\1\0\2\0\3\0\4\0\5\0\6\0" "\0"
                                "\3\0\2\3" "\6\7\0\10\0\11\0\12\0\13\0\14\0" "\0";
     static const char mixed[] = BINARY_HEAD "\3\0\1\2" "\3\1\0\2\0\3\0" "\0" "\4\0\1\2\3" "\4\4\0\5\0\6\0\7\0" "\1\1";
-    CHECK(read_bytes("a.ply", same, sizeof same - 1, 1) == MESO_OK && mesh.side_count == 3 && mesh.attribute_count == 1);
+    CHECK(read_bytes("a.ply", same, sizeof same - 1, 1) == MESO_OK && mesh.side_count == 3 &&
+          mesh.attribute_count == 1);
     const MesoAttribute *pair = mesh.attributes;
     CHECK(pair->width == 2 && meso_attribute_number(pair, 2, 1) == 6 && meso_attribute_number(pair, 5, 0) == 11);
-    CHECK(read_bytes("a.ply", mixed, sizeof mixed - 1, 1) == MESO_OK && mesh.side_count == 0 && mesh.attribute_count == 1);
+    CHECK(read_bytes("a.ply", mixed, sizeof mixed - 1, 1) == MESO_OK && mesh.side_count == 0 &&
+          mesh.attribute_count == 1);
     pair = mesh.attributes;
     CHECK(pair->domain == MESO_ON_CORNERS && pair->width == 1 && pair->entry_count == 7);
     CHECK(meso_attribute_number(pair, 2, 0) == 3 && meso_attribute_number(pair, 6, 0) == 7);
@@ -362,7 +377,8 @@ static void test_binary_refusals(void)
         {"1", "char", "char", "\3\0\1\2", 4, NULL},
         {"1", "char", "char", "\3\0\1\377", 4, "a.ply: face 1 has a negative vertex index"},
         {"2", "char", "char", "\3\0\1\2\377", 5, "a.ply: face 2 has a list of negative length"},
-        {"1", "char", "uint", "\3\0\0\0\0\377\377\377\377\0\0\0\0", 13, "a.ply: face 1 has a vertex index that is too large"},
+        {"1", "char", "uint", "\3\0\0\0\0\377\377\377\377\0\0\0\0", 13,
+         "a.ply: face 1 has a vertex index that is too large"},
         {"4000000000", "uchar", "uchar", "\3\0\1\2\3\0", 6, "a.ply: file ends in face 2 of 4000000000"},
         {"1", "uint", "uchar", "\377\377\377\377\0", 5, "a.ply: file ends in face 1 of 1"},
         {"1", "uchar", "uchar", "\2\0\1", 3, "a.ply: face 1 has 2 sides; a face has at least 3"},
@@ -374,7 +390,8 @@ static void test_binary_refusals(void)
         MesoStatus status = read_bytes("a.ply", text, (size_t)(at - text) + sizeof vertices - 1 + rows[i].size, 2);
         if (rows[i].message && strcmp(rows[i].message, error.message) != 0)
             fprintf(stderr, "got '%s'\n", error.message);
-        CHECK(status == (rows[i].message ? MESO_ERR_INPUT : MESO_OK) && (!status || strcmp(error.message, rows[i].message) == 0));
+        CHECK(status == (rows[i].message ? MESO_ERR_INPUT : MESO_OK) &&
+              (!status || strcmp(error.message, rows[i].message) == 0));
         at[15 + 3] = 0x7f;
         at[15 + 4] = (char)0x80;
         CHECK(read_bytes("a.ply", text, (size_t)(at - text) + sizeof vertices - 1 + rows[i].size, 2) == MESO_ERR_INPUT);

@@ -109,13 +109,15 @@ static size_t next_border(const MesoMeshText *text, size_t at, size_t limit)
 static size_t last_border(const MesoMeshText *text, size_t begin, size_t at)
 {
     for (; at > begin; at--)
-        if (text->data[at - 1] == text->line_end && !(text->joined && joining_backslash(text->data, text->data + at - 1)))
+        if (text->data[at - 1] == text->line_end && !(text->joined &&
+                                                      joining_backslash(text->data, text->data + at - 1)))
             return at;
     return begin;
 }
 
 /* What may not be followed by padding, or has no line end, is copied: the last lines. */
-static MesoStatus copy_tail(const MesoMeshText *text, MesoArena *arena, size_t begin, MesoTextPiece *piece, MesoError *error)
+static MesoStatus copy_tail(const MesoMeshText *text, MesoArena *arena, size_t begin, MesoTextPiece *piece,
+                            MesoError *error)
 {
     size_t size = text->size - begin;
     char *copy = MESO_NEW(arena, char, size + 1 + MESO_TEXT_PADDING, error);
@@ -132,7 +134,8 @@ MesoStatus meso_mesh_text_init(MesoMeshText *text, MesoArena *arena, const MesoI
                                bool joined, MesoError *error)
 {
     const char *data = (const char *)input->data;
-    *text = (MesoMeshText){.path = input->path, .data = data, .size = input->size, .comment = comment, .joined = joined};
+    *text = (MesoMeshText){.path = input->path, .data = data, .size = input->size, .comment = comment,
+                           .joined = joined};
     text->line_end = memchr(data, '\n', input->size) || !memchr(data, '\r', input->size) ? '\n' : '\r';
     if (begin == 0 && input->size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0)
         begin = 3;
@@ -189,7 +192,8 @@ MesoStatus meso_mesh_text_status(const MesoMeshText *text, MesoError *error)
 
 /* ---- numbers ---- */
 
-MesoStatus meso_word_number(MesoTextPiece *piece, const MesoTextLine *line, MesoWord word, const char *what, float *number)
+MesoStatus meso_word_number(MesoTextPiece *piece, const MesoTextLine *line, MesoWord word, const char *what,
+                            float *number)
 {
     if (meso_text_float(word.text, number) != word.text + word.size)
         return meso_text_wrong(piece, line->begin, "%s '%.*s' is not a finite number", what, MESO_WORD_ARGUMENTS(word));

@@ -89,7 +89,8 @@ static void test_digits(uint32_t count)
     char text[1300];
     for (uint32_t i = 0; i < count; i++) {
         char *at = text;
-        uint32_t digits = 1 + meso_random_below(&source, i % 200 == 0 ? 1200 : 30), point = meso_random_below(&source, digits + 2);
+        uint32_t digits = 1 + meso_random_below(&source, i % 200 == 0 ? 1200 : 30);
+        uint32_t point = meso_random_below(&source, digits + 2);
         if (i % 2)
             *at++ = "+-"[i / 2 % 2];
         for (uint32_t d = 0; d < digits; d++) {

@@ -210,7 +210,8 @@ static MesoStatus make_room(Off *off, MesoArena *arena, MesoError *error)
     mesh->face_begin = mesh->side_count ? NULL : MESO_NEW(arena, uint32_t, (size_t)mesh->face_count + 1, error);
     off->normal_values = MESO_NEW(arena, MesoVec3, off->normals ? mesh->vertex_count : 0, error);
     mesh->attributes = MESO_NEW(arena, MesoAttribute, 1, error);
-    if (!mesh->positions || !mesh->corners || !(mesh->face_begin || mesh->side_count) || !off->normal_values || !mesh->attributes)
+    if (!mesh->positions || !mesh->corners || !(mesh->face_begin || mesh->side_count) || !off->normal_values ||
+        !mesh->attributes)
         return MESO_ERR_MEMORY;
     if (mesh->face_begin)
         mesh->face_begin[mesh->face_count] = mesh->corner_count;
@@ -242,7 +243,8 @@ static MesoStatus read_vertex(const Off *off, MesoTextPiece *piece, MesoTextLine
     return MESO_OK;
 }
 
-/* The number of corners, their vertices, and perhaps a colour. `*corner` is the face's first, and then the next face's. */
+/* The number of corners, their vertices, and perhaps a colour. `*corner` is the face's first, and then the next
+ * face's. */
 static MesoStatus read_face(const Off *off, MesoTextPiece *piece, MesoTextLine *line, uint32_t f, uint32_t *corner)
 {
     MesoWord number, word;

@@ -27,7 +27,8 @@ static bool find_vector(const MesoPolygonMesh *mesh, MesoArena *scratch, const c
     return true;
 }
 
-static double sum_over_face(const MesoPolygonMesh *mesh, const MesoAttribute *attribute, uint32_t component, uint32_t face)
+static double sum_over_face(const MesoPolygonMesh *mesh, const MesoAttribute *attribute, uint32_t component,
+                            uint32_t face)
 {
     double sum = 0;
     if (attribute->domain == MESO_ON_FACES)
@@ -52,7 +53,8 @@ static bool take_attribute(MesoVec3 *directions, const MesoPolygonMesh *mesh, Me
 {
     VectorAttribute vector;
     for (uint32_t choice = 0; choice < 4; choice++)
-        if (find_vector(mesh, scratch, name, choice % 2 ? "_" : "", choice < 2 ? MESO_ON_FACES : MESO_ON_VERTICES, &vector)) {
+        if (find_vector(mesh, scratch, name, choice % 2 ? "_" : "", choice < 2 ? MESO_ON_FACES : MESO_ON_VERTICES,
+                        &vector)) {
             add_up(directions, mesh, &vector);
             return true;
         }

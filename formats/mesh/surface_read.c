@@ -11,8 +11,8 @@ static MesoStatus require(const MesoSurface *surface, const MesoInput *input, un
 }
 
 /* Numbers of sides come first: they need no half-edges. */
-static MesoStatus make_surface(MesoSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh, const MesoInput *input,
-                               unsigned needs, uint32_t thread_count, MesoError *error)
+static MesoStatus make_surface(MesoSurface *surface, MesoArena *arena, const MesoPolygonMesh *mesh,
+                               const MesoInput *input, unsigned needs, uint32_t thread_count, MesoError *error)
 {
     const unsigned of_sides = MESO_NEEDS_QUADS | MESO_NEEDS_TRIANGLES;
     *surface = (MesoSurface){.mesh = *mesh};

@@ -8,8 +8,8 @@
 #include "libcore/mesh/triangle_mesh.h"
 
 /*
- * Reads a mesh (mesh_read.h), joins its half-edges, and asks for what `needs` says (of MesoSurfaceNeed; 0: nothing). Further
- * errors: those of meso_surface_require(), with file and line.
+ * Reads a mesh (mesh_read.h), joins its half-edges, and asks for what `needs` says (of MesoSurfaceNeed; 0: nothing).
+ * Further errors: those of meso_surface_require(), with file and line.
  */
 MesoStatus meso_surface_read(MesoSurface *surface, MesoArena *arena, const MesoInput *input, unsigned needs,
                              uint32_t thread_count, MesoError *error);

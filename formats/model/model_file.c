@@ -270,11 +270,12 @@ static MesoStatus check_inner(const Reading *in, uint32_t inner, const MesoTrian
             return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: vertex %u is not finite",
                              in->path, inner, v);
         if (fmaxf(fmaxf(fabsf(p.x), fabsf(p.y)), fabsf(p.z)) > MESO_COORDINATE_LIMIT)
-            return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: vertex %u lies beyond the largest coordinate, %g",
+            return meso_fail(error, MESO_ERR_INPUT,
+                             "%s: inner mesh %u: vertex %u lies beyond the largest coordinate, %g",
                              in->path, inner, v, (double)MESO_COORDINATE_LIMIT);
         if (!(fabsf(meso_vec3_length(mesh->normals[v]) - 1) < 1e-3f))
-            return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: normal %u is not of unit length", in->path, inner,
-                             v);
+            return meso_fail(error, MESO_ERR_INPUT, "%s: inner mesh %u: normal %u is not of unit length", in->path,
+                             inner, v);
     }
     for (uint64_t t = 0; t < 3 * (uint64_t)mesh->triangle_count; t++)
         if (mesh->triangles[t] >= mesh->vertex_count)

@@ -57,7 +57,8 @@ static bool solve(MesoModel *model, const MesoVariantSet *variants, MesoArena *a
     MesoSolveResult result;
     MesoError error;
     CHECK(meso_slot_graph_build(&model->graph, arena, &model->surface, &error) == MESO_OK);
-    MesoStatus status = meso_solve(&result, arena, &(MesoTilingProblem){&model->tile_set, variants, &model->graph, NULL},
+    MesoStatus status = meso_solve(&result, arena,
+                                   &(MesoTilingProblem){&model->tile_set, variants, &model->graph, NULL},
                                    &options, &error);
     CHECK(status == MESO_OK || status == MESO_ERR_LIMIT);
     if (status || result.verdict != MESO_VERDICT_SOLVED)

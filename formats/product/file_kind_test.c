@@ -34,7 +34,8 @@ static void test_json(void)
 {
     expect("{\"format\": \"meso-tiles\", \"version\": 1}", MESO_FILE_TILES);
     expect(" \n{ \"version\" : 1 , \"format\" :\n\"meso-constraints\"}", MESO_FILE_CONSTRAINTS);
-    expect("{\"a\": {\"format\": \"meso-tiles\"}, \"b\": \"\\\"}{\\\\\", \"format\": \"meso-report\"}", MESO_FILE_REPORT);
+    expect("{\"a\": {\"format\": \"meso-tiles\"}, \"b\": \"\\\"}{\\\\\", \"format\": \"meso-report\"}",
+           MESO_FILE_REPORT);
     expect("{\"edgeTypes\": [{\"tileTypes\": 1}], \"tileTypes\": []}", MESO_FILE_PROTOTYPE);
     expect("{\"seed\": 1, \"verdict\": \"solved\"}\n{\"seed\": 2, \"verdict\": \"solved\"}\n", MESO_FILE_SEED_LINES);
     expect("{\"format\": \"meso-slots\", \"slots\": []}", MESO_FILE_LISTING);

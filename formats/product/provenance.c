@@ -216,7 +216,8 @@ const char *meso_provenance_text(const MesoProvenance *provenance, MesoArena *ar
 /* Some readers of PLY and OBJ take no line over 1023 bytes. */
 enum { PIECE = 960 };
 
-const char *meso_provenance_lines(const MesoProvenance *provenance, const char *mark, MesoArena *arena, MesoError *error)
+const char *meso_provenance_lines(const MesoProvenance *provenance, const char *mark, MesoArena *arena,
+                                  MesoError *error)
 {
     const char *text = provenance ? meso_provenance_text(provenance, arena, error) : "";
     size_t left = text ? strlen(text) : 0, count = left / (PIECE - 3) + 1;

@@ -70,7 +70,8 @@ const char *meso_provenance_text(const MesoProvenance *provenance, MesoArena *ar
  * The same as comment lines that begin with `mark` and "provenance ", or, where readers of
  * short lines need it in pieces, "provenance+ " from the second on; "" for no provenance, NULL.
  */
-const char *meso_provenance_lines(const MesoProvenance *provenance, const char *mark, MesoArena *arena, MesoError *error);
+const char *meso_provenance_lines(const MesoProvenance *provenance, const char *mark, MesoArena *arena,
+                                  MesoError *error);
 
 /* Copies the `size` bytes of a provenance chunk as text to `arena`. MESO_ERR_INPUT where they are
  * not one JSON object. `path` is for messages. */

@@ -174,7 +174,8 @@ float decoded(float value, float low, const MesoDracoOptions &options)
 {
     const int32_t steps = static_cast<int32_t>((1u << options.position_bits) - 1);
     const float range = std::fmax(options.box.high.x - options.box.low.x,
-                                  std::fmax(options.box.high.y - options.box.low.y, options.box.high.z - options.box.low.z));
+                                  std::fmax(options.box.high.y - options.box.low.y,
+                                            options.box.high.z - options.box.low.z));
     draco::Quantizer quantizer;
     draco::Dequantizer dequantizer;
     quantizer.Init(range > 0 ? range : 1, steps);

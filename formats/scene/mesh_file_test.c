@@ -373,7 +373,8 @@ static uint64_t check_primitive(const json_t *root, const json_t *primitive, con
     size_t length = integer(view, "byteLength");
     CHECK(offset + length <= size && offset % 4 == 0);
     CHECK(json_object_size(json_object_get(draco, "attributes")) == json_object_size(attributes));
-    CHECK(integer(slot, "componentType") == 5123 && strcmp(json_string_value(json_object_get(slot, "type")), "VEC2") == 0);
+    CHECK(integer(slot, "componentType") == 5123 &&
+          strcmp(json_string_value(json_object_get(slot, "type")), "VEC2") == 0);
 
     const char *path = path_of("piece.drc");
     FILE *file = fopen(path, "wb");

@@ -21,7 +21,8 @@ static void test_scalars(void)
         {MESO_SCALAR_UINT32, 4, (const uint32_t[]){1, 4294967295}, 4294967295, 1},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        MesoAttribute attribute = {.scalar = rows[i].scalar, .width = 1, .entry_count = 2, .values = (void *)rows[i].values};
+        MesoAttribute attribute = {.scalar = rows[i].scalar, .width = 1, .entry_count = 2,
+                                   .values = (void *)rows[i].values};
         CHECK(meso_scalar_size(rows[i].scalar) == rows[i].size);
         CHECK(meso_attribute_number(&attribute, 1, 0) == rows[i].plain);
         attribute.normalized = true;
@@ -37,12 +38,14 @@ static void test_vectors(void)
     MesoAttribute attribute = {.name = "uv", .components = names, .width = 2, .entry_count = 2, .values = values};
     MesoVec3 v = meso_attribute_vec3(&attribute, 1);
     CHECK(v.x == 3 && v.y == 4 && v.z == 0 && meso_attribute_vec2(&attribute, 0).y == 2);
-    CHECK(meso_attribute_component(&attribute, "t") == 1 && meso_attribute_component(&attribute, "uv") == MESO_NO_INDEX);
+    CHECK(meso_attribute_component(&attribute, "t") == 1 &&
+          meso_attribute_component(&attribute, "uv") == MESO_NO_INDEX);
     CHECK(meso_attribute_entry(&attribute, 1) == 1);
     attribute.entry_of = entry_of;
     CHECK(meso_attribute_entry(&attribute, 0) == 1 && meso_attribute_entry(&attribute, 1) == MESO_NO_INDEX);
     attribute = (MesoAttribute){.name = "heat", .width = 1};
-    CHECK(meso_attribute_component(&attribute, "heat") == 0 && meso_attribute_component(&attribute, "s") == MESO_NO_INDEX);
+    CHECK(meso_attribute_component(&attribute, "heat") == 0 &&
+          meso_attribute_component(&attribute, "s") == MESO_NO_INDEX);
 }
 
 int main(void)

@@ -179,7 +179,8 @@ static void join_long_list(const Join *join, Counts *counts, uint32_t vertex, co
 }
 
 /* What ranges have left: vertices whose lists are not empty. */
-static MesoStatus join_long_lists(const Join *join, Counts *counts, uint32_t longest, MesoArena *arena, MesoError *error)
+static MesoStatus join_long_lists(const Join *join, Counts *counts, uint32_t longest, MesoArena *arena,
+                                  MesoError *error)
 {
     uint32_t vertex_count = join->mesh->vertex_count;
     LongLists scratch = {MESO_NEW(arena, uint32_t, longest, error), MESO_NEW(arena, uint32_t, vertex_count, error)};

@@ -244,7 +244,8 @@ MesoStatus meso_orientation_singular(uint32_t *count, uint32_t *vertices, uint32
 /* ---- application ---- */
 
 /* A copy of `from` [4 * count], each four of it started where `quarters` say; NULL: out of memory. */
-static uint32_t *turned(MesoArena *arena, const uint32_t *from, uint32_t count, const uint8_t *quarters, MesoError *error)
+static uint32_t *turned(MesoArena *arena, const uint32_t *from, uint32_t count, const uint8_t *quarters,
+                        MesoError *error)
 {
     uint32_t *to = MESO_NEW(arena, uint32_t, (size_t)count * 4, error);
     for (size_t i = 0; to && i < 4 * (size_t)count; i++)
@@ -259,7 +260,8 @@ MesoStatus meso_orientation_turn_mesh(MesoQuadMesh *mesh, MesoArena *arena, cons
     return mesh->face_vertices && mesh->face_normals ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-MesoStatus meso_orientation_turn_graph(MesoSlotGraph *graph, MesoArena *arena, const uint8_t *quarters, MesoError *error)
+MesoStatus meso_orientation_turn_graph(MesoSlotGraph *graph, MesoArena *arena, const uint8_t *quarters,
+                                       MesoError *error)
 {
     graph->twin = turned(arena, graph->twin, graph->slot_count, quarters, error);
     for (size_t h = 0; graph->twin && h < 4 * (size_t)graph->slot_count; h++) {

@@ -32,7 +32,8 @@ uint32_t meso_polygon_elements(const MesoPolygonMesh *mesh, MesoAttributeDomain 
 static const MesoAttributeDomain domains[] = {MESO_ON_FACES, MESO_ON_VERTICES, MESO_ON_CORNERS};
 enum { DOMAIN_COUNT = sizeof domains / sizeof *domains };
 
-const MesoAttribute *meso_polygon_attribute_on(const MesoPolygonMesh *mesh, const char *name, MesoAttributeDomain domain)
+const MesoAttribute *meso_polygon_attribute_on(const MesoPolygonMesh *mesh, const char *name,
+                                               MesoAttributeDomain domain)
 {
     for (uint32_t a = 0; a < mesh->attribute_count; a++)
         if (mesh->attributes[a].domain == domain && strcmp(mesh->attributes[a].name, name) == 0)

@@ -45,7 +45,8 @@ const MesoAttribute *meso_polygon_attribute(const MesoPolygonMesh *mesh, const c
 const MesoAttribute *meso_polygon_attribute_on(const MesoPolygonMesh *mesh, const char *name,
                                                MesoAttributeDomain domain);
 
-/* The attribute "normal" of corners, or else of vertices, with three numbers; or NULL. Those of faces are no shading. */
+/* The attribute "normal" of corners, or else of vertices, with three numbers; or NULL. Those of faces are no
+ * shading. */
 const MesoAttribute *meso_polygon_normals(const MesoPolygonMesh *mesh);
 
 /*

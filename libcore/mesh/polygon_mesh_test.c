@@ -43,7 +43,8 @@ static void test_numbers(void)
         {.name = "heat", .domain = MESO_ON_VERTICES, .width = 1, .entry_count = 7, .values = heat},
         {.name = "color", .components = rgb, .domain = MESO_ON_VERTICES, .width = 3, .entry_count = 2, .values = colors,
          .entry_of = color_of},
-        {.name = "heat", .domain = MESO_ON_FACES, .width = 1, .entry_count = 2, .values = of_faces, .entry_of = face_entries},
+        {.name = "heat", .domain = MESO_ON_FACES, .width = 1, .entry_count = 2, .values = of_faces,
+         .entry_of = face_entries},
     };
     MesoPolygonMesh mesh = three_faces();
     uint32_t component;
@@ -54,9 +55,11 @@ static void test_numbers(void)
     CHECK(!meso_polygon_attribute(&mesh, "cold") && !meso_polygon_number(&mesh, "color", &component));
     CHECK(meso_polygon_number(&mesh, "blue", &component) == &attributes[1] && component == 2);
     CHECK(meso_polygon_number(&mesh, "heat", &component) == &attributes[2] && component == 0);
-    CHECK(meso_polygon_face_number(&mesh, &attributes[2], 0, 0) == 20 && isnan(meso_polygon_face_number(&mesh, &attributes[2], 0, 1)));
+    CHECK(meso_polygon_face_number(&mesh, &attributes[2], 0, 0) == 20 &&
+          isnan(meso_polygon_face_number(&mesh, &attributes[2], 0, 1)));
     CHECK(meso_polygon_face_number(&mesh, &attributes[0], 0, 1) == 14.0 / 3);
-    CHECK(meso_polygon_face_number(&mesh, &attributes[1], 2, 0) == 0.5 && isnan(meso_polygon_face_number(&mesh, &attributes[1], 0, 1)));
+    CHECK(meso_polygon_face_number(&mesh, &attributes[1], 2, 0) == 0.5 &&
+          isnan(meso_polygon_face_number(&mesh, &attributes[1], 0, 1)));
     CHECK(meso_polygon_mesh_check(&mesh, 1, NULL, &error) == MESO_OK && !meso_polygon_normals(&mesh));
 }
 
@@ -76,7 +79,8 @@ static void test_refusals(void)
     uint32_t wrong[11], entries[11] = {0}, begin[4] = {0, 2, 7, 11}, found = 0;
     float number[2] = {0};
     MesoVec3 moved[7];
-    MesoAttribute uv = {.name = "uv", .domain = MESO_ON_CORNERS, .width = 2, .entry_count = 1, .values = number, .entry_of = entries};
+    MesoAttribute uv = {.name = "uv", .domain = MESO_ON_CORNERS, .width = 2, .entry_count = 1, .values = number,
+                        .entry_of = entries};
     MesoPolygonMesh mesh = three_faces();
     CHECK(meso_polygon_mesh_check(&mesh, 1, &found, &error) == MESO_OK && found == MESO_NO_INDEX);
     memcpy(wrong, corners, sizeof wrong);

@@ -92,7 +92,8 @@ MesoStatus meso_surface_require(const MesoSurface *surface, unsigned needs, uint
         face = &ignored;
     *face = MESO_NO_INDEX;
     if (needs & MESO_NEEDS_QUADS)
-        status = require_sides(&surface->mesh, 4, "every face of a macrosurface must be a quad: meso-mesh quads makes them", face, error);
+        status = require_sides(&surface->mesh, 4,
+                               "every face of a macrosurface must be a quad: meso-mesh quads makes them", face, error);
     if (!status && needs & MESO_NEEDS_TRIANGLES)
         status = require_sides(&surface->mesh, 3, "every face must be a triangle", face, error);
     if (!status && needs & MESO_NEEDS_MANIFOLD)

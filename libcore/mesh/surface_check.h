@@ -8,7 +8,8 @@
 
 #include "libcore/mesh/slot_graph.h"
 
-/* Counts, each with its first faces, from 0; a pair is of two neighbours. What a count of 0 has beside it means nothing. */
+/* Counts, each with its first faces, from 0; a pair is of two neighbours. What a count of 0 has beside it means
+ * nothing. */
 typedef struct MesoSurfaceFlaws {
     uint32_t pieces;            /* connected pieces of the slot graph */
     uint32_t split_edges;       /* border edges whose two ends lie where those of another one do */

@@ -77,7 +77,8 @@ static void test_sound(void)
 static void test_split(void)
 {
     Drawn d = {.vertex_count = 8, .face_count = 2,
-               .positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1, -0.0f, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0}},
+               .positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1, -0.0f, 0}, {1, 1, 0}, {2, 0, 0},
+                             {2, 1, 0}},
                .vertices = {0, 2, 3, 1, 4, 6, 7, 5}};
     MesoSurfaceFlaws flaws = look(&d);
     CHECK(flaws.pieces == 2 && flaws.split_edges == 2);

@@ -32,7 +32,8 @@ static void test_triangles(void)
     build(2, (uint32_t[]){0, 1, 2, 0, 2, 3});
     CHECK(surface.edges.edge_count == 5 && surface.edges.border_count == 4 && surface.edges.twin[2] == 3);
     CHECK(fabsf(surface.mean_edge_length - (4 + 2 * sqrtf(2)) / 6) < 1e-6f);
-    CHECK(meso_surface_require(&surface, MESO_NEEDS_TRIANGLES | MESO_NEEDS_MANIFOLD | MESO_NEEDS_ORIENTED, NULL, &error) ==
+    CHECK(meso_surface_require(&surface, MESO_NEEDS_TRIANGLES | MESO_NEEDS_MANIFOLD | MESO_NEEDS_ORIENTED, NULL,
+                               &error) ==
           MESO_OK);
     expect(MESO_NEEDS_QUADS, 0, "face 1 has 3 sides; every face of a macrosurface must be a quad: meso-mesh quads makes them");
     build(2, (uint32_t[]){0, 1, 2, 2, 0, 3});

@@ -32,7 +32,8 @@ static uint32_t usable_normal(const Split *split, uint32_t corner)
     const MesoAttribute *normals = split->normals;
     if (!normals)
         return MESO_NO_INDEX;
-    uint32_t n = meso_attribute_entry(normals, normals->domain == MESO_ON_CORNERS ? corner : split->mesh->corners[corner]);
+    uint32_t n = meso_attribute_entry(normals,
+                                      normals->domain == MESO_ON_CORNERS ? corner : split->mesh->corners[corner]);
     if (n == MESO_NO_INDEX)
         return n;
     MesoVec3 given = meso_attribute_vec3(normals, n);

@@ -134,7 +134,8 @@ static inline bool drat_find_watch(const DratChecker *checker, const DratClause 
     return false;
 }
 
-/* `watched` of clause `number` became false: true where it still watches. *conflict where all of the clause is false. */
+/* `watched` of clause `number` became false: true where it still watches. *conflict where all of the clause is
+ * false. */
 static inline bool drat_visit(DratChecker *checker, int32_t number, int32_t watched, bool *conflict)
 {
     const DratClause *clause = &checker->clauses[number];

@@ -34,6 +34,10 @@ judge() {
         # What is there of many seeds is there to go on with: whole lines.
         [ ! -e out/lines.jsonl.partial ] || grep -v '^{.*}$' out/lines.jsonl.partial
         rm -f out/*.partial out/stdout
+        # The report of a failure is there too, whole, and says what it was.
+        if [ -e out/cube.json ] && grep -q '"status": "memory"' out/cube.json; then
+            meso-info -q out/cube.json >/dev/null && rm out/cube.json
+        fi
         for file in out/* out/.[!.]*; do
             [ ! -e "$file" ] || cmp -s "$file" "right/${file#out/}" || echo "left $file: FAIL_MALLOC=$fail $*"
         done

@@ -28,8 +28,8 @@ static void list_statements(void *context, uint64_t begin, uint64_t end)
         const char *line_end = memchr(at, obj->text.line_end, (size_t)(lines->end - at));
         MesoTextLine line = {.next = line_end + 1};
         MesoWord word;
-        if (!looks_plain(at, line_end) && meso_text_line(&obj->text, lines, at, &line) && meso_text_word(&line, &word) &&
-            meso_obj_name_kind(word) != MESO_OBJ_NAME_KINDS)
+        if (!looks_plain(at, line_end) && meso_text_line(&obj->text, lines, at, &line) &&
+            meso_text_word(&line, &word) && meso_obj_name_kind(word) != MESO_OBJ_NAME_KINDS)
             *statement++ = at;
         at = line.next;
     }
@@ -72,7 +72,8 @@ static MesoStatus number_name(Numbering *numbering, MesoObjName kind, const Meso
         return MESO_OK;
     }
     uint32_t *count = &numbering->count[kind];
-    numbering->names[kind] = MESO_GROW(numbering->scratch, numbering->names[kind], *count, numbering->room[kind], 16, error);
+    numbering->names[kind] = MESO_GROW(numbering->scratch, numbering->names[kind], *count, numbering->room[kind], 16,
+                                       error);
     if (!numbering->names[kind])
         return MESO_ERR_MEMORY;
     *entry = meso_names_add(&numbering->table[kind], numbering->scratch, name, size, *count, error);

@@ -106,7 +106,8 @@ static MesoStatus make_room(ObjReader *reader, MesoError *error)
     }
     if (totals[MESO_OBJ_TEXTURES]) {
         arrays->texture_width = texture_width(reader);
-        arrays->textures = room(reader, totals[MESO_OBJ_TEXTURES] * arrays->texture_width, sizeof(float), &failed, error);
+        arrays->textures = room(reader, totals[MESO_OBJ_TEXTURES] * arrays->texture_width, sizeof(float), &failed,
+                                error);
         arrays->texture_of = room(reader, corners, sizeof(uint32_t), &failed, error);
     }
     for (uint32_t k = 0; k < MESO_OBJ_NAME_KINDS; k++)

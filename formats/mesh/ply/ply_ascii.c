@@ -103,7 +103,8 @@ static void count_corners(void *context, uint64_t begin, uint64_t end)
     AsciiPiece *piece = &ascii->pieces[begin];
     const MesoTextPiece *lines = &ascii->text.pieces[begin];
     MesoTextLine line = {.next = lines->begin};
-    Place place = place_of_line(ascii->ply, piece->lines_before), last = place_of_line(ascii->ply, piece->lines_before + piece->lines);
+    Place place = place_of_line(ascii->ply, piece->lines_before);
+    Place last = place_of_line(ascii->ply, piece->lines_before + piece->lines);
     (void)end;
     piece->least_sides = MESO_NO_INDEX;
     pass_over_full(&place);
@@ -192,7 +193,8 @@ typedef struct AsciiFill {
 
 static MesoStatus wrong_item(AsciiFill *fill, const char *what)
 {
-    return meso_text_wrong(fill->lines, fill->line.begin, "%s %u %s", fill->place.element->name, fill->place.item + 1, what);
+    return meso_text_wrong(fill->lines, fill->line.begin, "%s %u %s", fill->place.element->name, fill->place.item + 1,
+                           what);
 }
 
 static MesoStatus next_word(AsciiFill *fill, MesoWord *word)
@@ -236,7 +238,8 @@ static MesoStatus read_double(AsciiFill *fill, double most, unsigned char *out)
     if (status)
         return status;
     if (meso_text_double(word.text, &number) != word.text + word.size)
-        return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is not a finite number", MESO_WORD_ARGUMENTS(word));
+        return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is not a finite number",
+                               MESO_WORD_ARGUMENTS(word));
     if (!(fabs(number) <= most))
         return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is too large", MESO_WORD_ARGUMENTS(word));
     if (out)
@@ -248,7 +251,8 @@ static MesoStatus read_integer(AsciiFill *fill, int64_t *integer, MesoWord *word
 {
     MesoStatus status = next_word(fill, word);
     if (!status && !meso_word_integer(*word, integer))
-        return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is not an integer", MESO_WORD_ARGUMENTS(*word));
+        return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is not an integer",
+                               MESO_WORD_ARGUMENTS(*word));
     return status;
 }
 
@@ -258,7 +262,8 @@ static MesoStatus put_integer(AsciiFill *fill, const MesoPlyProperty *property, 
     unsigned char bytes[8];
     memcpy(bytes, &integer, sizeof bytes);
     if (property->to != MESO_SCALAR_FLOAT && meso_ply_integer(property->type, bytes, false) != integer)
-        return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is beyond its type", MESO_WORD_ARGUMENTS(word));
+        return meso_text_wrong(fill->lines, fill->line.begin, "value '%.*s' is beyond its type",
+                               MESO_WORD_ARGUMENTS(word));
     float number = (float)integer;
     memcpy(out, property->to == MESO_SCALAR_FLOAT ? (const void *)&number : bytes, meso_scalar_size(property->to));
     return MESO_OK;
@@ -362,7 +367,8 @@ static MesoStatus check_end(const Ascii *ascii, MesoError *error)
                      place.element->count);
 }
 
-static MesoStatus read_ascii(Ascii *ascii, MesoArena *arena, MesoArena *scratch, uint32_t thread_count, MesoError *error)
+static MesoStatus read_ascii(Ascii *ascii, MesoArena *arena, MesoArena *scratch, uint32_t thread_count,
+                             MesoError *error)
 {
     MesoStatus status = count(ascii, thread_count, scratch, error);
     if (!status)

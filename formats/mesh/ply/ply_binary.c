@@ -50,14 +50,15 @@ static void note_wrong(Reading *reading, uint32_t item)
 
 static MesoStatus fail_item(const Reading *reading, uint32_t item, const char *what)
 {
-    return meso_fail(reading->error, MESO_ERR_INPUT, "%s: %s %u %s", reading->ply->path, reading->element->name, item + 1, what);
+    return meso_fail(reading->error, MESO_ERR_INPUT, "%s: %s %u %s", reading->ply->path, reading->element->name,
+                     item + 1, what);
 }
 
 /* ---- where items lie ---- */
 
 /*
- * Bytes of the item at `at`, with the lengths of its lists to `counts` (may be NULL). Returns false where it does not end before
- * `limit`, or, with `*negative` set, where a list has a negative length.
+ * Bytes of the item at `at`, with the lengths of its lists to `counts` (may be NULL). Returns false where it does not
+ * end before `limit`, or, with `*negative` set, where a list has a negative length.
  */
 static bool measure_item(const MesoPlyElement *element, const unsigned char *at, const unsigned char *limit, bool big,
                          uint32_t *counts, size_t *size, bool *negative)
@@ -270,7 +271,8 @@ static void check_vertices(Reading *reading, uint32_t begin, uint32_t end)
                 note_wrong(reading, v);
     for (const MesoAttribute *a = mesh->attributes; a < mesh->attributes + mesh->attribute_count; a++) {
         if (!is_normal(a) || (a->scalar == MESO_SCALAR_FLOAT &&
-                              all_finite((const float *)a->values + (size_t)begin * a->width, (size_t)(end - begin) * a->width)))
+                              all_finite((const float *)a->values + (size_t)begin * a->width,
+                                         (size_t)(end - begin) * a->width)))
             continue;
         for (uint32_t v = begin; v < end; v++)
             if (!has_finite_normal(a, v))
@@ -384,6 +386,7 @@ MesoStatus meso_ply_read_binary(MesoPly *ply, MesoPolygonMesh *mesh, MesoArena *
         at += reading.used;
     }
     if (at < input->size)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: %zu bytes more than the header counts", ply->path, input->size - at);
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %zu bytes more than the header counts", ply->path,
+                         input->size - at);
     return MESO_OK;
 }

@@ -163,7 +163,8 @@ static MesoStatus set_role(HeaderReader *reader, MesoPlyElement *element, MesoPl
     if (element->roles & 1u << property->role)
         return fail(reader, "property '%.*s' comes twice", MESO_WORD_ARGUMENTS(name));
     if (property->list != (property->role >= MESO_PLY_INDICES))
-        return fail(reader, "property '%.*s' must%s be a list", MESO_WORD_ARGUMENTS(name), property->list ? " not" : "");
+        return fail(reader, "property '%.*s' must%s be a list", MESO_WORD_ARGUMENTS(name),
+                    property->list ? " not" : "");
     if (property->role == MESO_PLY_INDICES && !is_integer(property->type))
         return fail(reader, "vertex indices are not integers");
     element->roles |= 1u << property->role;
@@ -229,8 +230,8 @@ static MesoStatus read_comment(HeaderReader *reader)
     MesoTextLine *line = &reader->line;
     MesoWord property, number;
     int64_t value;
-    if (!meso_text_word(line, &property) || !meso_text_word(line, &number) || !read_count(number, &value) || value < 0 ||
-        value >= UINT32_MAX)
+    if (!meso_text_word(line, &property) || !meso_text_word(line, &number) || !read_count(number, &value) ||
+        value < 0 || value >= UINT32_MAX)
         return MESO_OK;
     const char *begin = line->at < line->end ? line->at + 1 : line->end, *end = line->end;
     end -= end > begin && end[-1] == '\r';
@@ -295,8 +296,8 @@ static MesoStatus read_statements(HeaderReader *reader)
 MesoStatus meso_ply_header_read(MesoPly *ply, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
     const char *data = (const char *)input->data;
-    HeaderReader reader = {.ply = ply, .arena = arena, .next = data + meso_input_mark(input), .limit = data + input->size,
-                           .error = error};
+    HeaderReader reader = {.ply = ply, .arena = arena, .next = data + meso_input_mark(input),
+                           .limit = data + input->size, .error = error};
     *ply = (MesoPly){.path = input->path};
     reader.line.line_end = first_line_end(reader.next, reader.limit);
     MesoStatus status = read_statements(&reader);

@@ -65,7 +65,8 @@ void meso_ply_put(const MesoPlyProperty *property, unsigned char *out, const uns
     put(property->type, property->to, out, bytes, big);
 }
 
-void meso_ply_add_run(MesoPlyItems *items, const MesoPlyProperty *property, uint32_t count, size_t offset, size_t stride)
+void meso_ply_add_run(MesoPlyItems *items, const MesoPlyProperty *property, uint32_t count, size_t offset,
+                      size_t stride)
 {
     if (!property->out || count == 0)
         return;
@@ -86,8 +87,8 @@ void meso_ply_add_run(MesoPlyItems *items, const MesoPlyProperty *property, uint
     for (; count > 0; count--, from += from_stride, to += to_stride)                 \
         memcpy(to, from, (bytes))
 
-static void copy_bits(unsigned char *to, size_t to_stride, const unsigned char *from, size_t from_stride, uint32_t count,
-                      size_t bytes)
+static void copy_bits(unsigned char *to, size_t to_stride, const unsigned char *from, size_t from_stride,
+                      uint32_t count, size_t bytes)
 {
     switch (bytes) {
     case 1: COPY_EACH(1); break;

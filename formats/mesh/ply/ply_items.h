@@ -28,8 +28,10 @@ int64_t meso_ply_integer(MesoScalar type, const unsigned char *bytes, bool big);
 /* Copies one number, in the type that it is kept in, to `out`. Indices that are negative become 2^31 or more. */
 void meso_ply_put(const MesoPlyProperty *property, unsigned char *out, const unsigned char *bytes, bool big);
 
-/* `count` numbers of `property` lie at `offset` in each item and go to `out`, `stride` apart; runs that adjoin become one. */
-void meso_ply_add_run(MesoPlyItems *items, const MesoPlyProperty *property, uint32_t count, size_t offset, size_t stride);
+/* `count` numbers of `property` lie at `offset` in each item and go to `out`, `stride` apart; runs that adjoin
+ * become one. */
+void meso_ply_add_run(MesoPlyItems *items, const MesoPlyProperty *property, uint32_t count, size_t offset,
+                      size_t stride);
 
 /* Copies items [begin, end). */
 void meso_ply_copy_items(const MesoPlyItems *items, uint32_t begin, uint32_t end);

@@ -10,7 +10,8 @@ typedef struct Planner {
     MesoError *error;
 } Planner;
 
-/* While attributes have no room, `stride` of a property is the number of its attribute, plus 1, and `out` is not used. */
+/* While attributes have no room, `stride` of a property is the number of its attribute, plus 1, and `out` is not
+ * used. */
 static bool is_free(const MesoPlyProperty *property)
 {
     return !property->list && property->role > MESO_PLY_Z && property->stride == 0;
@@ -159,7 +160,8 @@ static void aim(MesoPlyProperty *property, void *out, uint32_t stride, MesoScala
 static MesoStatus make_attribute(MesoAttribute *attribute, MesoArena *arena, uint32_t count, MesoError *error)
 {
     attribute->entry_count = count;
-    attribute->values = meso_arena_alloc(arena, count, (size_t)attribute->width * meso_scalar_size(attribute->scalar), error);
+    attribute->values = meso_arena_alloc(arena, count, (size_t)attribute->width * meso_scalar_size(attribute->scalar),
+                                         error);
     return attribute->values ? MESO_OK : MESO_ERR_MEMORY;
 }
 
@@ -176,7 +178,8 @@ static MesoStatus aim_scalars(MesoPlyElement *element, MesoPolygonMesh *mesh, Me
         uint32_t size = meso_scalar_size(attribute->scalar), component = 0;
         while (attribute->components[component] != p->name)
             component++;
-        aim(p, (unsigned char *)attribute->values + (size_t)component * size, attribute->width * size, attribute->scalar);
+        aim(p, (unsigned char *)attribute->values + (size_t)component * size, attribute->width * size,
+            attribute->scalar);
     }
     return MESO_OK;
 }
@@ -221,7 +224,8 @@ void meso_ply_join_widths(uint32_t *widths, const uint32_t *others, const MesoPl
     }
 }
 
-static MesoStatus aim_list(MesoPlyProperty *property, MesoPolygonMesh *mesh, MesoArena *arena, uint32_t width, MesoError *error)
+static MesoStatus aim_list(MesoPlyProperty *property, MesoPolygonMesh *mesh, MesoArena *arena, uint32_t width,
+                           MesoError *error)
 {
     MesoAttribute *attribute = &mesh->attributes[property->stride - 1];
     if (width == 0 || width == MESO_NO_INDEX || (property->role == MESO_PLY_TEXCOORD && width != 2))

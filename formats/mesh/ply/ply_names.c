@@ -33,7 +33,8 @@ static bool all_have_names(const MesoAttribute *attribute, uint32_t count)
     return true;
 }
 
-static MesoStatus name_attribute(MesoAttribute *attribute, const MesoPly *ply, uint32_t count, MesoArena *arena, MesoError *error)
+static MesoStatus name_attribute(MesoAttribute *attribute, const MesoPly *ply, uint32_t count, MesoArena *arena,
+                                 MesoError *error)
 {
     MesoAttribute named = {.name = attribute->name, .domain = attribute->domain, .entry_count = count};
     named.names = MESO_NEW(arena, const char *, count, error);

@@ -230,9 +230,11 @@ static void test_names(void)
     MesoInput input;
     meso_input_wrap(&input, "t.ply", named, strlen(named));
     CHECK(meso_ply_read(&polygons, &arena, &input, 1, &error) == MESO_OK);
-    const MesoAttribute *kind = meso_polygon_attribute(&polygons, "kind"), *part = meso_polygon_attribute(&polygons, "part");
+    const MesoAttribute *kind = meso_polygon_attribute(&polygons, "kind");
+    const MesoAttribute *part = meso_polygon_attribute(&polygons, "part");
     CHECK(kind && kind->width == 0 && kind->entry_count == 2 && strcmp(kind->names[0], "left side") == 0);
-    CHECK(strcmp(kind->names[kind->entry_of[0]], "") == 0 && kind->entry_of[1] == 0 && kind->entry_of[2] == MESO_NO_INDEX);
+    CHECK(strcmp(kind->names[kind->entry_of[0]], "") == 0 && kind->entry_of[1] == 0 &&
+          kind->entry_of[2] == MESO_NO_INDEX);
     CHECK(part && part->width == 1 && meso_attribute_number(part, 1, 0) == 1);
 }
 

@@ -131,7 +131,8 @@ static bool is_whole(const Numbered *numbered, const MesoPolygonMesh *mesh, uint
     return true;
 }
 
-static void put_face(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const Numbered *uv, const Numbered *normals, uint32_t face)
+static void put_face(MesoMeshSink *sink, const MesoPolygonMesh *mesh, const Numbered *uv, const Numbered *normals,
+                     uint32_t face)
 {
     uint32_t begin = meso_polygon_begin(mesh, face), end = begin + meso_polygon_sides(mesh, face);
     bool has_uv = is_whole(uv, mesh, begin, end), has_normals = is_whole(normals, mesh, begin, end);

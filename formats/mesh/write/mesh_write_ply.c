@@ -63,7 +63,8 @@ static bool is_written(const MesoPolygonMesh *mesh, const MesoAttribute *attribu
 {
     char name[NAME_BYTES], other[NAME_BYTES];
     name_component(name, sizeof name, attribute, 0);
-    if (attribute->domain == MESO_ON_VERTICES && (strcmp(name, "x") == 0 || strcmp(name, "y") == 0 || strcmp(name, "z") == 0))
+    if (attribute->domain == MESO_ON_VERTICES && (strcmp(name, "x") == 0 || strcmp(name, "y") == 0 ||
+                                                  strcmp(name, "z") == 0))
         return false;
     for (const MesoAttribute *a = mesh->attributes; a < attribute; a++) {
         name_component(other, sizeof other, a, 0);
@@ -278,8 +279,8 @@ static bool agree_at_vertices(uint32_t *entry_of, const MesoPolygonMesh *mesh, c
 }
 
 /*
- * Few readers know lists of corners, and all know numbers of vertices: what is the same all around each vertex is written there,
- * unless vertices have one of its name.
+ * Few readers know lists of corners, and all know numbers of vertices: what is the same all around each vertex is
+ * written there, unless vertices have one of its name.
  */
 static bool move_to_vertices(MesoPolygonMesh *moved, MesoMeshSink *sink, const MesoPolygonMesh *mesh)
 {

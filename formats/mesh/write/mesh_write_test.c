@@ -63,7 +63,8 @@ static uint32_t corners[8] = {0, 1, 2, 3, 1, 4, 5, 2};
 
 static MesoPolygonMesh two_quads(MesoAttribute *attributes, uint32_t count)
 {
-    return (MesoPolygonMesh){.vertex_count = 6, .face_count = 2, .corner_count = 8, .side_count = 4, .positions = positions,
+    return (MesoPolygonMesh){.vertex_count = 6, .face_count = 2, .corner_count = 8, .side_count = 4,
+                             .positions = positions,
                              .corners = corners, .attributes = attributes, .attribute_count = count};
 }
 
@@ -90,18 +91,22 @@ static void test_ply(void)
 {
     char text[2000];
     MesoAttribute attributes[] = {
-        {.name = "flow", .domain = MESO_ON_VERTICES, .scalar = MESO_SCALAR_DOUBLE, .width = 2, .entry_count = 6, .values = doubles},
+        {.name = "flow", .domain = MESO_ON_VERTICES, .scalar = MESO_SCALAR_DOUBLE, .width = 2, .entry_count = 6,
+         .values = doubles},
         {.name = "uv", .domain = MESO_ON_CORNERS, .width = 2, .entry_count = 8, .values = uv, .entry_of = uv_of},
         {.name = "color", .domain = MESO_ON_VERTICES, .scalar = MESO_SCALAR_UINT8, .normalized = true, .width = 3,
          .entry_count = 6, .values = colors},
-        {.name = "height", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT16, .width = 1, .entry_count = 2, .values = heights},
+        {.name = "height", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT16, .width = 1, .entry_count = 2,
+         .values = heights},
         {.name = "material", .domain = MESO_ON_FACES, .entry_count = 2, .names = materials, .entry_of = material_of},
-        {.name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = 2, .values = normals, .entry_of = normal_of},
+        {.name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = 2, .values = normals,
+         .entry_of = normal_of},
         {.name = "color", .domain = MESO_ON_VERTICES, .width = 4, .entry_count = 1, .values = doubles},
     };
     MesoPolygonMesh mesh = two_quads(attributes, 7), read = round_trip(&mesh, "x.ply", text, sizeof text);
     check_shape(&mesh, &read);
-    CHECK(meso_mesh_kind_holds(MESO_MESH_PLY, &mesh, &attributes[0]) && !meso_mesh_kind_holds(MESO_MESH_PLY, &mesh, &attributes[6]));
+    CHECK(meso_mesh_kind_holds(MESO_MESH_PLY, &mesh, &attributes[0]) &&
+          !meso_mesh_kind_holds(MESO_MESH_PLY, &mesh, &attributes[6]));
     uint32_t component;
     const MesoAttribute *flow = meso_polygon_number_on(&read, "flow_1", MESO_ON_VERTICES, &component);
     CHECK(flow && flow->scalar == MESO_SCALAR_DOUBLE && meso_attribute_number(flow, 0, component) == 2);
@@ -115,7 +120,8 @@ static void test_ply(void)
     CHECK(material && material->width == 0 && strcmp(material->names[meso_attribute_entry(material, 0)], "iron") == 0);
     CHECK(strcmp(material->names[meso_attribute_entry(material, 1)], "red oak") == 0);
     CHECK(strstr(text, "\ncomment material 0 red oak\ncomment material 1 iron\n"));
-    CHECK(strstr(text, "\nproperty list uchar float texcoord\n") && strstr(text, "\nproperty list uchar float normal\n"));
+    CHECK(strstr(text, "\nproperty list uchar float texcoord\n") &&
+          strstr(text, "\nproperty list uchar float normal\n"));
 }
 
 /* Where corners agree around each vertex, its number is one of the vertex. */
@@ -138,11 +144,13 @@ static void test_obj(void)
     char text[2000];
     MesoAttribute attributes[] = {
         {.name = "uv", .domain = MESO_ON_CORNERS, .width = 2, .entry_count = 8, .values = uv, .entry_of = uv_of},
-        {.name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = 2, .values = normals, .entry_of = normal_of},
+        {.name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = 2, .values = normals,
+         .entry_of = normal_of},
         {.name = "color", .domain = MESO_ON_VERTICES, .scalar = MESO_SCALAR_UINT8, .normalized = true, .width = 3,
          .entry_count = 6, .values = colors},
         {.name = "material", .domain = MESO_ON_FACES, .entry_count = 2, .names = materials, .entry_of = material_of},
-        {.name = "height", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT16, .width = 1, .entry_count = 2, .values = heights},
+        {.name = "height", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT16, .width = 1, .entry_count = 2,
+         .values = heights},
     };
     MesoPolygonMesh mesh = two_quads(attributes, 5), read = round_trip(&mesh, "x.obj", text, sizeof text);
     check_shape(&mesh, &read);

@@ -99,8 +99,8 @@ static const double *find_values(MesoWeightReader *weights, const char *name)
         return NULL;
     for (uint32_t slot = 0; slot < weights->slot_count; slot++)
         column.values[slot] = meso_polygon_face_number(weights->mesh, column.attribute, column.component, slot);
-    weights->columns = MESO_GROW(weights->reader->arena, weights->columns, weights->column_count, weights->column_room, 8,
-                                 weights->reader->error);
+    weights->columns = MESO_GROW(weights->reader->arena, weights->columns, weights->column_count, weights->column_room,
+                                 8, weights->reader->error);
     if (!weights->columns) {
         out_of_memory(weights);
         return NULL;

@@ -51,7 +51,8 @@ static const char *name_constraint(Parser *parser, const MesoJsonField *item, co
     const char *given = field.value ? meso_json_text(&field) : NULL;
     const char *name = given ? meso_arena_print(parser->reader->arena, parser->reader->error, "%s[%zu] '%.80s'", list,
                                                 item->index, given)
-                             : meso_arena_print(parser->reader->arena, parser->reader->error, "%s[%zu]", list, item->index);
+                             : meso_arena_print(parser->reader->arena, parser->reader->error, "%s[%zu]", list,
+                                                item->index);
     if (!name)
         out_of_memory(parser);
     return name ? name : "";
@@ -433,7 +434,8 @@ MesoStatus meso_strand_rule_parse(MesoStrandRule *rule, const char *text, MesoEr
     for (const char *word = text;; word++) {
         size_t size = strcspn(word, ",");
         if (!parse_strand_word(rule, word, size))
-            return meso_fail(error, MESO_ERR_USAGE, "'%.*s' is no rule on strands; 'connected', 'acyclic', 'no-loops' and "
+            return meso_fail(error, MESO_ERR_USAGE,
+                             "'%.*s' is no rule on strands; 'connected', 'acyclic', 'no-loops' and "
                              "'max-length=N' are, with commas between several", (int)(size < 60 ? size : 60), word);
         word += size;
         if (!*word)

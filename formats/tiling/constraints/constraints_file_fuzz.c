@@ -23,8 +23,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static uint32_t of_face[3] = {0, 1, UINT32_MAX};
     static double values[3] = {0, 0.5, 1}, partial[3] = {-1e308, NAN, INFINITY};
     static MesoAttribute attributes[3] = {
-        {.name = "red", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_DOUBLE, .width = 1, .entry_count = 3, .values = values},
-        {.name = "heat", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_DOUBLE, .width = 1, .entry_count = 3, .values = partial},
+        {.name = "red", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_DOUBLE, .width = 1, .entry_count = 3,
+         .values = values},
+        {.name = "heat", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_DOUBLE, .width = 1, .entry_count = 3,
+         .values = partial},
         {.name = "group", .domain = MESO_ON_FACES, .entry_count = 2, .names = names, .entry_of = of_face}};
     const MesoTileSet set = {.interface_count = 2, .interfaces = interfaces, .tile_count = 3, .tiles = tiles,
                              .section_count = 1, .sections = sections, .sweep_count = 2, .sweeps = sweeps};

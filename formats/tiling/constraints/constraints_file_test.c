@@ -103,7 +103,8 @@ static void test_pins(Case *c)
     static const uint32_t two[1] = {2}, left[2] = {0, 2}, side[1] = {9};
     expect_places(c, "\"pins\": [{\"slot\": 2, \"tile\": \"knob\"}]", false, 1, two, 0x1e);
     CHECK(strcmp(c->constraints.restrictions[0].name, "pins[0]") == 0);
-    expect_places(c, "\"pins\": [{\"name\": \"x\", \"slot\": 2, \"tile\": \"knob\", \"turn\": 3}]", false, 1, two, 0x10);
+    expect_places(c, "\"pins\": [{\"name\": \"x\", \"slot\": 2, \"tile\": \"knob\", \"turn\": 3}]", false, 1, two,
+                  0x10);
     CHECK(strcmp(c->constraints.restrictions[0].name, "pins[0] 'x'") == 0);
     /* The four turns of a tile that shows the same under each are one variant. */
     expect_places(c, "\"pins\": [{\"slot\": 2, \"tile\": \"even\", \"turn\": 3}]", false, 1, two, 0x20);
@@ -126,18 +127,22 @@ static void test_places(Case *c)
     static const uint32_t all[4] = {0, 1, 2, 3}, top[2] = {2, 3}, red[2] = {0, 2}, one[1] = {3}, spans[3] = {3, 0, 1};
     expect_places(c, "\"regions\": [{\"where\": {}, \"tiles\": [\"plain\"]}]", false, 4, all, 1);
     expect_places(c, "\"regions\": [{\"where\": {\"object\": \"sheet\"}, \"tiles\": [\"plain\"]}]", false, 4, all, 1);
-    expect_places(c, "\"regions\": [{\"where\": {\"material\": \"blue\"}, \"tiles\": [\"plain\", \"even\"]}]", false, 2, top,
-                  0x21);
-    expect_places(c, "\"regions\": [{\"where\": {\"property\": \"red\", \"range\": [0.6, 1]}, \"tiles\": [\"plain\"]}]", false,
-                  2, red, 1);
+    expect_places(c, "\"regions\": [{\"where\": {\"material\": \"blue\"}, \"tiles\": [\"plain\", \"even\"]}]", false, 2,
+                  top, 0x21);
+    expect_places(c, "\"regions\": [{\"where\": {\"property\": \"red\", \"range\": [0.6, 1]}, \"tiles\": [\"plain\"]}]",
+                  false, 2, red, 1);
     expect_places(c, "\"regions\": [{\"where\": {\"property\": \"blue\", \"value\": 0.5, \"group\": \"top\"},"
                   " \"tiles\": [\"plain\"]}]", false, 1, one, 1);
-    expect_places(c, "\"regions\": [{\"where\": {\"slots\": [3, [0, 1]]}, \"tiles\": [\"plain\"]}]", false, 3, spans, 1);
+    expect_places(c, "\"regions\": [{\"where\": {\"slots\": [3, [0, 1]]}, \"tiles\": [\"plain\"]}]", false, 3, spans,
+                  1);
     expect(c, "\"regions\": [{\"where\": {\"material\": \"red\"}, \"tiles\": [\"plain\"]}]", "no material 'red'");
     expect(c, "\"regions\": [{\"where\": {\"group\": \"middle\"}, \"tiles\": [\"plain\"]}]", "no group 'middle'");
-    expect(c, "\"regions\": [{\"where\": {\"property\": \"heat\", \"value\": 1}, \"tiles\": [\"plain\"]}]", "no property 'heat'");
-    expect(c, "\"regions\": [{\"where\": {\"property\": \"red\"}, \"tiles\": [\"plain\"]}]", "either \"value\" or \"range\"");
-    expect(c, "\"regions\": [{\"where\": {\"property\": \"red\", \"value\": 0.3}, \"tiles\": [\"plain\"]}]", "selects no slot");
+    expect(c, "\"regions\": [{\"where\": {\"property\": \"heat\", \"value\": 1}, \"tiles\": [\"plain\"]}]",
+           "no property 'heat'");
+    expect(c, "\"regions\": [{\"where\": {\"property\": \"red\"}, \"tiles\": [\"plain\"]}]",
+           "either \"value\" or \"range\"");
+    expect(c, "\"regions\": [{\"where\": {\"property\": \"red\", \"value\": 0.3}, \"tiles\": [\"plain\"]}]",
+           "selects no slot");
     expect(c, "\"regions\": [{\"where\": {\"slots\": [[2, 1]]}, \"tiles\": [\"plain\"]}]", "behind the last");
     expect(c, "\"regions\": [{\"where\": {}}]", "\"tiles\" or \"weights\" is needed");
     expect(c, "\"regions\": [{\"tiles\": [\"plain\"]}]", "regions[0].where: missing");
@@ -150,12 +155,12 @@ static void test_ply(void)
     Case c;
     begin(&c, "s.ply", ply_text);
     CHECK(c.surface.surface.mesh.attribute_count == 3);
-    expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"part\", \"value\": -2}, \"tiles\": [\"plain\"]}]", false, 1,
-                  one, 1);
-    expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"heat\", \"value\": 1}, \"tiles\": [\"plain\"]}]", false, 1,
-                  zero, 1);
-    expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"red\", \"value\": 0.5}, \"tiles\": [\"plain\"]}]", false, 1,
-                  one, 1);
+    expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"part\", \"value\": -2}, \"tiles\": [\"plain\"]}]",
+                  false, 1, one, 1);
+    expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"heat\", \"value\": 1}, \"tiles\": [\"plain\"]}]",
+                  false, 1, zero, 1);
+    expect_places(&c, "\"regions\": [{\"where\": {\"property\": \"red\", \"value\": 0.5}, \"tiles\": [\"plain\"]}]",
+                  false, 1, one, 1);
     meso_arena_release(&c.arena);
 }
 
@@ -182,7 +187,8 @@ static void test_weights(Case *c)
               weight(c, s, 1) == 840);
     expect(c, "\"weights\": {\"knob\": -1}", "weights.knob: -1; it must be from 0 to 1000000");
     expect(c, "\"weights\": {\"nob\": 1}", "unknown tile 'nob'");
-    expect(c, "\"weights\": {\"knob\": 1e6, \"plain\": 1000000.5}", "weights.plain: 1000000.5; it must be from 0 to 1000000");
+    expect(c, "\"weights\": {\"knob\": 1e6, \"plain\": 1000000.5}",
+           "weights.plain: 1000000.5; it must be from 0 to 1000000");
     expect(c, "\"weights\": {\"knob\": -0.001}", "weights.knob: -0.001; it must be from 0 to 1000000");
     expect(c, "\"weights\": {\"knob\": 0.0001}", "weights.knob: 0.0001; a weight has at most three decimals");
     expect(c, "\"weights\": {\"knob\": 999999.9995}", "weights.knob: 999999.9995; a weight has at most three decimals");
@@ -228,7 +234,8 @@ static void test_wrong_ramps(Case *c)
     expect(c, RAMP("heat", "[[0, 1], [1, 2]]"), "weights.even.property: the surface has no property 'heat'");
     expect(c, RAMP("red", "[[0, 1], [1, 1000001]]"), "weights.even.stops[1][1]: 1000001; it must be from 0 to 1000000");
     expect(c, RAMP("red", "[[0, -1], [1, 1]]"), "weights.even.stops[0][1]: -1; it must be from 0 to 1000000");
-    expect(c, RAMP("red", "[[0, 0.0005], [1, 1]]"), "weights.even.stops[0][1]: 0.0005; a weight has at most three decimals");
+    expect(c, RAMP("red", "[[0, 0.0005], [1, 1]]"),
+           "weights.even.stops[0][1]: 0.0005; a weight has at most three decimals");
     expect(c, RAMP("red", "[[0, \"some\"], [1, 1]]"), "weights.even.stops[0][1]: a whole number is needed");
     expect(c, RAMP("red", "[[0, 1], [0, 2]]"), "weights.even.stops[1][0]: 0 does not lie above 0; stops are listed by");
     expect(c, RAMP("red", "[[0, 1], [2, 2], [1, 3]]"), "weights.even.stops[2][0]: 1 does not lie above 2");
@@ -272,7 +279,8 @@ static void test_ply_ramps(void)
 static void test_borders(Case *c)
 {
     static const uint32_t loop[8] = {0, 4, 5, 13, 14, 10, 11, 3};
-    expect_places(c, "\"borders\": [{\"loop\": 0, \"interfaces\": [\"edge\", \"b'\"]}]", true, 8, loop, 1 << 3 | 1 << 4);
+    expect_places(c, "\"borders\": [{\"loop\": 0, \"interfaces\": [\"edge\", \"b'\"]}]", true, 8, loop,
+                  1 << 3 | 1 << 4);
     expect_places(c, "\"borders\": [{\"loop\": \"all\", \"interfaces\": [\"a\"]}]", true, 8, loop, 1);
     expect(c, "\"borders\": [{\"loop\": 1, \"interfaces\": [\"a\"]}]", "borders[0].loop: 1; it must be from 0 to 0");
     expect(c, "\"borders\": [{\"loop\": \"some\", \"interfaces\": [\"a\"]}]", "or \"all\", is needed");
@@ -340,7 +348,8 @@ int main(void)
     Case c;
     begin(&c, "s.obj", surface_text);
     const MesoPolygonMesh *mesh = &c.surface.surface.mesh;
-    CHECK(meso_polygon_attribute(mesh, "group")->entry_count == 4 && meso_polygon_attribute(mesh, "material")->entry_count == 2);
+    CHECK(meso_polygon_attribute(mesh, "group")->entry_count == 4 &&
+          meso_polygon_attribute(mesh, "material")->entry_count == 2);
     test_pins(&c);
     test_places(&c);
     test_weights(&c);

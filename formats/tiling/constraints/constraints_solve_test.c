@@ -10,7 +10,8 @@ enum { PLAIN, KNOB, EVEN, STAR, TILES, COLUMNS = 4, ROWS = 3, GRID = COLUMNS * R
 
 static const MesoEngine engines[3] = {MESO_ENGINE_AUTO, MESO_ENGINE_WFC, MESO_ENGINE_EXACT};
 
-/* a has a cross-section, b has none; the plain tile bends two strands, the even one crosses them, the star joins them. */
+/* a has a cross-section, b has none; the plain tile bends two strands, the even one crosses them, the star joins
+ * them. */
 static MesoInterface interfaces[2] = {{.name = "a", .section_count = 1}, {.name = "b"}};
 static MesoSection sections[1] = {{.name = "s"}};
 static MesoSweep sweeps[9] = {{.from_side = 0, .to_side = 1}, {.from_side = 2, .to_side = 3},
@@ -248,7 +249,8 @@ static void test_holds(void)
         {"\"borders\": [{\"loop\": \"all\", \"interfaces\": [\"a\", \"a'\"]}]", borders_show_a, false},
         {"\"quotas\": [{\"tile\": \"knob\", \"least\": 2, \"most\": 3}]", two_to_three_knobs, false},
         {"\"quotas\": [{\"tiles\": [\"even\", \"star\"], \"least\": 5, \"most\": 5}]", five_even_or_star, false},
-        {"\"quotas\": [{\"tiles\": [\"plain\", \"star\"], \"least_share\": 0.5, \"most_share\": 0.6}]", shares_of_14, false},
+        {"\"quotas\": [{\"tiles\": [\"plain\", \"star\"], \"least_share\": 0.5, \"most_share\": 0.6}]", shares_of_14,
+         false},
         {"\"strands\": {\"no_loops\": true}", no_loops, false},
         {"\"strands\": {\"acyclic\": true}", no_cycles, false},
         {"\"strands\": {\"max_length\": 4}", short_strands, false},
@@ -386,9 +388,12 @@ static void test_contradictions(void)
         {RING ", \"strands\": {\"acyclic\": true}", RING_FAILS, false, false},
         {RING ", \"strands\": {\"max_length\": 3}", RING_FAILS, false, false},
         /* Of the plain tile in the corner, one strand is cut off from all others. */
-        {RING ", \"strands\": {\"connected\": true}", "pins[0] and the rule on strands cannot hold together", false, false},
-        {EVEN_STRIP ", \"strands\": {\"connected\": true}", "regions[0] and the rule on strands cannot hold together", false, false},
-        {EVEN_STRIP ", \"strands\": {\"max_length\": 1}", "regions[0] and the rule on strands cannot hold together", false, false},
+        {RING ", \"strands\": {\"connected\": true}", "pins[0] and the rule on strands cannot hold together", false,
+         false},
+        {EVEN_STRIP ", \"strands\": {\"connected\": true}", "regions[0] and the rule on strands cannot hold together",
+         false, false},
+        {EVEN_STRIP ", \"strands\": {\"max_length\": 1}", "regions[0] and the rule on strands cannot hold together",
+         false, false},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (uint32_t e = 0; e < 3; e++) {
@@ -399,7 +404,8 @@ static void test_contradictions(void)
             bool gave_up = rows[i].tried && engines[e] == MESO_ENGINE_WFC &&
                            c.result.verdict == MESO_VERDICT_GAVE_UP && strstr(reason, "quotas[0] stood in the way");
             if (!gave_up && (c.result.verdict != MESO_VERDICT_UNSOLVABLE || !blames(reason, rows[i].reason))) {
-                fprintf(stderr, "%s: engine %u, verdict %u: %s\n", rows[i].content, engines[e], c.result.verdict, reason);
+                fprintf(stderr, "%s: engine %u, verdict %u: %s\n", rows[i].content, engines[e], c.result.verdict,
+                        reason);
                 CHECK(false);
             }
             meso_arena_release(&c.arena);

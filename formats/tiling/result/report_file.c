@@ -143,8 +143,8 @@ static json_t *write_core(const MesoConflictCore *core, const MesoTileSet *set, 
     for (uint32_t i = 0; i < core->constraint_count; i++)
         names = append_name(names, meso_constraint_name(constraints, core->constraints[i]));
     if (!failed && tiles && rules && names)
-        return json_pack("{sbsosososo}", "minimal", core->minimal, "slots", slots, "tiles", tiles, "border_rules", rules,
-                         "constraints", names);
+        return json_pack("{sbsosososo}", "minimal", core->minimal, "slots", slots, "tiles", tiles, "border_rules",
+                         rules, "constraints", names);
     json_decref(slots);
     json_decref(tiles);
     json_decref(rules);

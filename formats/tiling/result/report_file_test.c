@@ -222,7 +222,8 @@ static void test_gave_up(void)
     MesoSlotGraph graph = fixture_grid(&arena, 5, 5, true, true, false);
     MesoSolveOptions options = {.engine = MESO_ENGINE_WFC, .max_attempts = 3, .max_dead_ends = 5};
     char *text = solve_to_text(&arena, &set, &graph, NULL, &options);
-    CHECK(strstr(text, "\"reason\":\"the search made its 3 attempts; at best ") && strstr(text, " dead ends were at slot "));
+    CHECK(strstr(text, "\"reason\":\"the search made its 3 attempts; at best ") &&
+          strstr(text, " dead ends were at slot "));
     CHECK(strstr(text, "\"budget\":\"attempts\",\"decided_at_best\":") && !strstr(text, "\"conflicts\""));
     check_hot_spots(text);
     free(text);

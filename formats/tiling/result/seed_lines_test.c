@@ -44,8 +44,8 @@ static void test_round_trip(void)
     uint32_t tiles[5] = {1, 0, 1, 1, 0};
     MesoTransform transforms[5] = {0, 1, 2, 3, 7};
     MesoTileSet set = fixture_set(&arena, 1, 2, labels, true, true, false);
-    MesoSolveResult result = {.verdict = MESO_VERDICT_SOLVED, .decider = MESO_DECIDER_SEARCH, .attempts = 3, .observations = 5000000000,
-                              .assignment = {5, tiles, transforms}, .dead_end_total = 2};
+    MesoSolveResult result = {.verdict = MESO_VERDICT_SOLVED, .decider = MESO_DECIDER_SEARCH, .attempts = 3,
+                              .observations = 5000000000, .assignment = {5, tiles, transforms}, .dead_end_total = 2};
     MesoSeedLine line;
     MesoError error;
     char text[1000];

@@ -47,7 +47,8 @@ static MesoStatus write_name(MesoOutput *output, const char *name, MesoError *er
 MesoStatus meso_slots_write_csv(const MesoSlotsFile *slots, MesoOutput *output, MesoError *error)
 {
     const MesoAssignment *a = &slots->assignment;
-    MesoStatus status = write_text(output, slots->quarters ? "slot,tile,turn,flip,corner\n" : "slot,tile,turn,flip\n", error);
+    MesoStatus status = write_text(output, slots->quarters ? "slot,tile,turn,flip,corner\n" : "slot,tile,turn,flip\n",
+                                   error);
     for (uint32_t s = 0; s < a->slot_count && !status; s++) {
         char number[16], rest[16];
         snprintf(number, sizeof number, "%" PRIu32 ",", s);
@@ -130,14 +131,17 @@ static MesoStatus make_room(Reader *reader, uint32_t count)
     return reader->quarters ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* Number of the tile with this name, which may be new; MESO_NO_INDEX where memory is out. `name` outlives the reader. */
+/* Number of the tile with this name, which may be new; MESO_NO_INDEX where memory is out. `name` outlives the
+ * reader. */
 static uint32_t tile_number(Reader *reader, const char *name)
 {
     MesoSlotsFile *slots = reader->slots;
-    uint32_t number = meso_names_add(&reader->names, reader->arena, name, strlen(name), slots->tile_count, reader->error);
+    uint32_t number = meso_names_add(&reader->names, reader->arena, name, strlen(name), slots->tile_count,
+                                     reader->error);
     if (number != slots->tile_count)
         return number;
-    slots->tile_names = MESO_GROW(reader->arena, slots->tile_names, slots->tile_count, reader->name_room, 16, reader->error);
+    slots->tile_names = MESO_GROW(reader->arena, slots->tile_names, slots->tile_count, reader->name_room, 16,
+                                  reader->error);
     if (!slots->tile_names)
         return MESO_NO_INDEX;
     slots->tile_names[slots->tile_count++] = name;
@@ -269,7 +273,8 @@ static uint32_t find_column(const char *name)
 
 static MesoStatus fail_kind(const Reader *reader)
 {
-    return meso_fail(reader->error, MESO_ERR_INPUT, "%s: neither an assignment nor a listing of slots, whose first line "
+    return meso_fail(reader->error, MESO_ERR_INPUT,
+                     "%s: neither an assignment nor a listing of slots, whose first line "
                      "names its columns: slot,tile and perhaps turn,flip,corner", reader->path);
 }
 
@@ -318,14 +323,14 @@ static MesoStatus read_row(Reader *reader, const Line *line, const Header *heade
         if (column == TILE)
             name = fields[i];
         else if (!parse_number(fields[i], most[column], &values[column]))
-            return fail_at(reader, line, "%s '%.40s' is not a whole number from 0 to %" PRIu32, columns[column], fields[i],
-                           most[column]);
+            return fail_at(reader, line, "%s '%.40s' is not a whole number from 0 to %" PRIu32, columns[column],
+                           fields[i], most[column]);
     }
     if (!is_name(name))
         return fail_at(reader, line, "tile '%.40s' is no name", name);
     if (values[SLOT] >= a->slot_count)
-        return fail_at(reader, line, "slot %" PRIu32 " of %" PRIu32 ": each slot from 0 must be listed once", values[SLOT],
-                       a->slot_count);
+        return fail_at(reader, line, "slot %" PRIu32 " of %" PRIu32 ": each slot from 0 must be listed once",
+                       values[SLOT], a->slot_count);
     if (a->tile[values[SLOT]] != MESO_NO_INDEX)
         return fail_at(reader, line, "slot %" PRIu32 " is listed twice", values[SLOT]);
     return put_slot(reader, name, values);

@@ -136,7 +136,8 @@ static void test_wrong_csv(void)
 
 static void test_wrong_json(void)
 {
-    expect("{\"format\": \"meso-report\", \"version\": 1}", "file: is a 'meso-report' file; a 'meso-slots' file is needed here");
+    expect("{\"format\": \"meso-report\", \"version\": 1}",
+           "file: is a 'meso-report' file; a 'meso-slots' file is needed here");
     expect("{\"format\": \"meso-slots\", \"version\": 2}", "file: version 2 is newer than this program reads (1)");
     expect(LISTING("\"slots\": []"), "file: slots: 0 items; from 1 to 1073741823 are possible");
     expect(LISTING("\"slot\": []"), "file: unknown key \"slot\"; there are \"format\", \"version\", \"provenance\", \"inputs\", \"slots\"");
@@ -146,7 +147,8 @@ static void test_wrong_json(void)
     expect(LISTING("\"slots\": [{\"slot\": 1, \"tile\": \"a\"}]"), "file: slots[0].slot: 1; it must be from 0 to 0");
     expect(LISTING("\"slots\": [{\"slot\": 0, \"tile\": \"a\"}, {\"slot\": 0, \"tile\": \"a\"}]"),
            "file: slots[1]: slot 0 is listed twice");
-    expect(LISTING("\"slots\": [{\"slot\": 0, \"tile\": \"a\", \"turn\": 4}]"), "file: slots[0].turn: 4; it must be from 0 to 3");
+    expect(LISTING("\"slots\": [{\"slot\": 0, \"tile\": \"a\", \"turn\": 4}]"),
+           "file: slots[0].turn: 4; it must be from 0 to 3");
     expect(LISTING("\"slots\": [{\"slot\": 0, \"tile\": \"a\", \"flip\": 1}]"),
            "file: slots[0].flip: true or false is needed here, not a number");
     expect(LISTING("\"inputs\": {\"tiles\": \"12\"}, \"slots\": [{\"slot\": 0, \"tile\": \"a\"}]"),

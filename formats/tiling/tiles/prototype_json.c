@@ -114,7 +114,8 @@ static MesoVec2 read_pair(const MesoJsonField *field, const char *key)
     return (MesoVec2){values[0], values[1]};
 }
 
-/* Older files give a disc's "radius"; the prototype itself reads it as the size along both axes, and so wrote such files anew. */
+/* Older files give a disc's "radius"; the prototype itself reads it as the size along both axes, and so wrote such
+ * files anew. */
 static MesoVec2 read_size(const MesoJsonField *field, bool disc)
 {
     MesoJsonField radius = meso_json_key(field, "radius");

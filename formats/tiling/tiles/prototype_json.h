@@ -13,8 +13,8 @@ bool meso_prototype_recognise(const json_t *root);
  * "z", then "i27" and so on, cross-sections "1", "2", ... within each, tiles "t1",
  * "t2", ... What our form cannot express is left out, and `report` (may be
  * NULL) hears a warning about it; so are tiles with a wall that shows nothing. Older
- * layouts are read too: discs with a radius, flat tiles' parts of sides as discs. Colours are taken as linear; where an old
- * file has none, a cross-section gets its interface's. Numbers are not
+ * layouts are read too: discs with a radius, flat tiles' parts of sides as discs. Colours are taken as linear; where an
+ * old file has none, a cross-section gets its interface's. Numbers are not
  * checked, see meso_tile_set_check(). Errors go to `reader`. O(size of the JSON).
  */
 void meso_prototype_parse(MesoTileSet *set, MesoJsonReader *reader, const json_t *root,

@@ -21,7 +21,8 @@ static void test_stars(void)
         }
         for (uint32_t i = 0; i < n; i++) {
             double a = 2 * MESO_PI * i / n, r = 0.1 + random_unit(&random), x = r * cos(a), y = r * sin(a);
-            positions[i] = (MesoVec3){(float)(x * u[0] + y * w[0]), (float)(x * u[1] + y * w[1]), (float)(x * u[2] + y * w[2])};
+            positions[i] = (MesoVec3){(float)(x * u[0] + y * w[0]), (float)(x * u[1] + y * w[1]),
+                                      (float)(x * u[2] + y * w[2])};
             corners[i] = i;
         }
         MesoPolygonMesh mesh, star = {.vertex_count = n, .face_count = 1, .corner_count = n, .positions = positions,
@@ -44,8 +45,8 @@ static void test_quads(void)
 {
     MesoVec3 positions[4] = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
     uint32_t corners[4] = {0, 1, 2, 3};
-    MesoPolygonMesh mesh, quad = {.vertex_count = 4, .face_count = 1, .corner_count = 4, .side_count = 4, .positions = positions,
-                                  .corners = corners};
+    MesoPolygonMesh mesh, quad = {.vertex_count = 4, .face_count = 1, .corner_count = 4, .side_count = 4,
+                                  .positions = positions, .corners = corners};
     CHECK(meso_mesh_cut_faces(&mesh, &arena, &quad, &error) == MESO_OK);
     CHECK(mesh.corners[2] == 2 && fabs(area(&mesh) - 4) < 1e-6);
     positions[1] = (MesoVec3){1, 0, 0};

@@ -16,8 +16,8 @@ static inline MesoAreaVector meso_area_between(MesoVec3 o, MesoVec3 p, MesoVec3 
 }
 
 /*
- * Twice the area vector of a face: the sum of the cross products of its fan. Along its normal, as long as twice the area of
- * its shadow on the plane across it.
+ * Twice the area vector of a face: the sum of the cross products of its fan. Along its normal, as long as twice the
+ * area of its shadow on the plane across it.
  */
 static inline MesoAreaVector meso_face_area(const MesoPolygonMesh *mesh, uint32_t face)
 {

@@ -99,8 +99,8 @@ static MesoStatus keep_faces(MesoMeshCopies *copies, MesoArena *scratch, const M
     return status;
 }
 
-MesoStatus meso_mesh_clean(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoCleanCounts *counts,
-                           MesoError *error)
+MesoStatus meso_mesh_clean(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from,
+                           MesoCleanCounts *counts, MesoError *error)
 {
     MesoArena scratch;
     MesoPolygonMesh loops;
@@ -123,7 +123,8 @@ MesoStatus meso_mesh_clean(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPo
 /* ---- separating ---- */
 
 /* Joins the corners at both ends of an inner edge. */
-static void join_fans(uint32_t *fans, const MesoPolygonMesh *mesh, uint32_t h, uint32_t next, uint32_t twin, uint32_t twin_next)
+static void join_fans(uint32_t *fans, const MesoPolygonMesh *mesh, uint32_t h, uint32_t next, uint32_t twin,
+                      uint32_t twin_next)
 {
     bool alike = mesh->corners[h] == mesh->corners[twin];
     meso_sets_join(fans, h, alike ? twin : twin_next);
@@ -141,7 +142,8 @@ static uint32_t *next_corners(MesoArena *scratch, const MesoPolygonMesh *mesh, M
     return next;
 }
 
-MesoStatus meso_mesh_find_fans(uint32_t *fans, const MesoPolygonMesh *mesh, const MesoHalfEdges *edges, MesoError *error)
+MesoStatus meso_mesh_find_fans(uint32_t *fans, const MesoPolygonMesh *mesh, const MesoHalfEdges *edges,
+                               MesoError *error)
 {
     MesoArena scratch;
     meso_arena_init(&scratch);
@@ -159,8 +161,8 @@ MesoStatus meso_mesh_find_fans(uint32_t *fans, const MesoPolygonMesh *mesh, cons
 }
 
 /* A fan's first corner comes before its others: `of_fan` knows their vertex by then. */
-static MesoStatus give_vertices(MesoMeshCopies *copies, MesoArena *scratch, const MesoPolygonMesh *mesh, const uint32_t *fans,
-                                MesoError *error)
+static MesoStatus give_vertices(MesoMeshCopies *copies, MesoArena *scratch, const MesoPolygonMesh *mesh,
+                                const uint32_t *fans, MesoError *error)
 {
     uint64_t most = (uint64_t)mesh->vertex_count + mesh->corner_count;
     MesoStatus status = meso_mesh_counts_check("separating", most, 0, 0, error);

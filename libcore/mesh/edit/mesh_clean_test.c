@@ -22,9 +22,11 @@ static void test_clean(void)
                                   .face_begin = face_begin, .corners = corners, .attribute_count = 1, .attributes = &attribute};
     MesoCleanCounts counts;
     CHECK(meso_mesh_clean(&mesh, &arena, &from, &counts, &error) == MESO_OK && is_checked(&mesh));
-    CHECK(counts.faces_looped == 3 && counts.faces_flat == 1 && counts.faces_double == 2 && counts.vertices_unused == 1);
+    CHECK(counts.faces_looped == 3 && counts.faces_flat == 1 && counts.faces_double == 2 &&
+          counts.vertices_unused == 1);
     CHECK(mesh.vertex_count == 5 && mesh.face_count == 2 && meso_polygon_sides(&mesh, 1) == 3);
-    CHECK(((const int32_t *)mesh.attributes[0].values)[0] == 10 && ((const int32_t *)mesh.attributes[0].values)[1] == 13);
+    CHECK(((const int32_t *)mesh.attributes[0].values)[0] == 10 &&
+          ((const int32_t *)mesh.attributes[0].values)[1] == 13);
 }
 
 /* What is clean stays as it is. */
@@ -70,10 +72,11 @@ static void test_separate(void)
 
     MesoVec3 positions[5] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
     uint32_t corners[6] = {0, 1, 2, 0, 3, 4};
-    MesoPolygonMesh bow = {.vertex_count = 5, .face_count = 2, .corner_count = 6, .side_count = 3, .positions = positions,
-                           .corners = corners};
+    MesoPolygonMesh bow = {.vertex_count = 5, .face_count = 2, .corner_count = 6, .side_count = 3,
+                           .positions = positions, .corners = corners};
     mesh = separate(&bow, &added);
-    CHECK(added == 1 && mesh.vertex_count == 6 && mesh.corners[0] == 0 && mesh.corners[3] == 5 && mesh.positions[5].x == 0);
+    CHECK(added == 1 && mesh.vertex_count == 6 && mesh.corners[0] == 0 && mesh.corners[3] == 5 &&
+          mesh.positions[5].x == 0);
 }
 
 int main(void)

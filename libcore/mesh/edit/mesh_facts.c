@@ -39,7 +39,8 @@ static void sum_areas(const Finding *finding)
     for (uint32_t f = 0; f < mesh->face_count; f++) {
         const uint32_t *v = mesh->corners + meso_polygon_begin(mesh, f);
         for (uint32_t k = 1; k + 1 < meso_polygon_sides(mesh, f); k++) {
-            MesoAreaVector a = meso_area_between(mesh->positions[v[0]], mesh->positions[v[k]], mesh->positions[v[k + 1]]);
+            MesoAreaVector a = meso_area_between(mesh->positions[v[0]], mesh->positions[v[k]],
+                                                 mesh->positions[v[k + 1]]);
             facts->area += sqrt(meso_area_dot(a, a)) / 2;
         }
         volume += meso_face_volume(mesh, f, mesh->positions[mesh->corners[0]]) / 6;
@@ -66,7 +67,8 @@ static double edge_length(const MesoPolygonMesh *mesh, uint32_t from, uint32_t t
     return sqrt(x * x + y * y + z * z);
 }
 
-/* Crowded edges count once for each of their faces in lengths and valences: they have no place where they are counted once. */
+/* Crowded edges count once for each of their faces in lengths and valences: they have no place where they are
+ * counted once. */
 static MesoStatus look_at_edges(Finding *finding, MesoError *error)
 {
     const MesoPolygonMesh *mesh = finding->mesh;
@@ -128,7 +130,8 @@ static uint32_t count_sets(const Finding *finding, uint32_t *sets, bool border)
 
 static MesoStatus count_parts(Finding *finding, MesoError *error)
 {
-    uint32_t *sets = meso_arena_alloc(&finding->scratch, finding->mesh->vertex_count, sizeof *sets + sizeof(bool), error);
+    uint32_t *sets = meso_arena_alloc(&finding->scratch, finding->mesh->vertex_count, sizeof *sets + sizeof(bool),
+                                      error);
     if (!sets)
         return MESO_ERR_MEMORY;
     finding->facts->components = count_sets(finding, sets, false);
@@ -190,8 +193,8 @@ static MesoStatus find_borders(bool **on_border, Finding *finding, MesoError *er
 }
 
 /* Vertices that would be welded to one before, and those of them where both are on borders. */
-static MesoStatus count_welded(uint32_t *count, uint32_t *borders, Finding *finding, const bool *on_border, double distance,
-                               MesoError *error)
+static MesoStatus count_welded(uint32_t *count, uint32_t *borders, Finding *finding, const bool *on_border,
+                               double distance, MesoError *error)
 {
     uint32_t *first = MESO_NEW(&finding->scratch, uint32_t, finding->mesh->vertex_count, error);
     MesoStatus status = first ? meso_mesh_weld_map(first, finding->mesh, distance, error) : MESO_ERR_MEMORY;
@@ -257,7 +260,8 @@ static MesoStatus find(Finding *finding, uint32_t thread_count, MesoError *error
     return status;
 }
 
-MesoStatus meso_mesh_find_facts(MesoMeshFacts *facts, const MesoPolygonMesh *mesh, uint32_t thread_count, MesoError *error)
+MesoStatus meso_mesh_find_facts(MesoMeshFacts *facts, const MesoPolygonMesh *mesh, uint32_t thread_count,
+                                MesoError *error)
 {
     Finding finding = {.mesh = mesh, .facts = facts};
     *facts = (MesoMeshFacts){0};

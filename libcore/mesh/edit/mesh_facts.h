@@ -37,6 +37,7 @@ typedef struct MesoMeshFacts {
 } MesoMeshFacts;
 
 /* Of a checked mesh. O(corners) but for what meso_mesh_weld_map() says. MESO_ERR_MEMORY alone. */
-MesoStatus meso_mesh_find_facts(MesoMeshFacts *facts, const MesoPolygonMesh *mesh, uint32_t thread_count, MesoError *error);
+MesoStatus meso_mesh_find_facts(MesoMeshFacts *facts, const MesoPolygonMesh *mesh, uint32_t thread_count,
+                                MesoError *error);
 
 #endif

@@ -69,7 +69,8 @@ static inline void move_randomly(MesoPolygonMesh *mesh, MesoRandom *random, doub
 /* Reverses a face in place; the first corner stays. */
 static inline void turn_face(MesoPolygonMesh *mesh, uint32_t face)
 {
-    uint32_t *low = mesh->corners + meso_polygon_begin(mesh, face) + 1, *high = low + meso_polygon_sides(mesh, face) - 2;
+    uint32_t *low = mesh->corners + meso_polygon_begin(mesh, face) + 1;
+    uint32_t *high = low + meso_polygon_sides(mesh, face) - 2;
     for (; low < high; low++, high--) {
         uint32_t kept = *low;
         *low = *high;
@@ -135,11 +136,12 @@ static inline void add_attributes(MesoPolygonMesh *mesh, MesoArena *arena)
     for (uint32_t f = 0; f < mesh->face_count; f++)
         number[f] = (int32_t)f;
     MesoAttribute made[3] = {
-        {.name = "heat", .domain = MESO_ON_VERTICES, .scalar = MESO_SCALAR_FLOAT, .width = 1, .entry_count = n, .values = heat},
-        {.name = "uv", .domain = MESO_ON_CORNERS, .scalar = MESO_SCALAR_DOUBLE, .width = 2, .entry_count = n, .values = wide,
-         .entry_of = entry_of},
-        {.name = "number", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT32, .width = 1, .entry_count = mesh->face_count,
-         .values = number},
+        {.name = "heat", .domain = MESO_ON_VERTICES, .scalar = MESO_SCALAR_FLOAT, .width = 1, .entry_count = n,
+         .values = heat},
+        {.name = "uv", .domain = MESO_ON_CORNERS, .scalar = MESO_SCALAR_DOUBLE, .width = 2, .entry_count = n,
+         .values = wide, .entry_of = entry_of},
+        {.name = "number", .domain = MESO_ON_FACES, .scalar = MESO_SCALAR_INT32, .width = 1,
+         .entry_count = mesh->face_count, .values = number},
     };
     mesh->attribute_count = 3;
     mesh->attributes = MESO_NEW(arena, MesoAttribute, 3, NULL);

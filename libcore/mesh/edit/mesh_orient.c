@@ -193,8 +193,8 @@ static MesoStatus double_entries(MesoAttribute *normals, MesoArena *arena, uint3
     return MESO_OK;
 }
 
-static MesoStatus turn_normals(const MesoPolygonMesh *mesh, MesoAttribute *normals, MesoArena *arena, MesoArena *scratch,
-                               MesoError *error)
+static MesoStatus turn_normals(const MesoPolygonMesh *mesh, MesoAttribute *normals, MesoArena *arena,
+                               MesoArena *scratch, MesoError *error)
 {
     uint64_t *wrong = NULL;
     uint32_t count = meso_polygon_elements(mesh, normals->domain), old = normals->entry_count;

@@ -14,9 +14,10 @@ typedef struct MesoOrientCounts {
 /*
  * Turns faces so that neighbours agree, piece by piece; faces are neighbours across edges of two faces. Which way a
  * piece runs is told, where it is closed, by the volume that it encloses, which becomes positive: outward; else by
- * the most of its faces, in doubt the first. A turned face keeps its first corner. Normals of corners, and of vertices, that then look
- * into a face, or into the sum of the faces around, are turned too. Pieces that have one side
- * only are given the windings that a breadth-first search finds. O(corners). `counts` may be NULL. MESO_ERR_MEMORY alone.
+ * the most of its faces, in doubt the first. A turned face keeps its first corner. Normals of corners, and of vertices,
+ * that then look into a face, or into the sum of the faces around, are turned too. Pieces that have one side
+ * only are given the windings that a breadth-first search finds. O(corners). `counts` may be NULL. MESO_ERR_MEMORY
+ * alone.
  */
 MesoStatus meso_mesh_orient(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from,
                             const MesoHalfEdges *edges, MesoOrientCounts *counts, MesoError *error);

@@ -30,7 +30,8 @@ static void test_closed(void)
                 count++;
             }
         MesoPolygonMesh mesh = orient(&turned, &counts);
-        CHECK(counts.faces_turned == count && counts.disagreeing == 0 && counts.pieces_turned == (count == torus.face_count));
+        CHECK(counts.faces_turned == count && counts.disagreeing == 0 &&
+              counts.pieces_turned == (count == torus.face_count));
         CHECK(memcmp(mesh.corners, torus.corners, torus.corner_count * sizeof *mesh.corners) == 0);
     }
 }
@@ -54,13 +55,14 @@ static void test_one_sided(void)
     MesoVec3 positions[6] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
     uint32_t corners[12] = {0, 1, 4, 3, 1, 2, 5, 4, 2, 3, 0, 5};
     MesoOrientCounts counts;
-    MesoPolygonMesh strip = {.vertex_count = 6, .face_count = 3, .corner_count = 12, .side_count = 4, .positions = positions,
-                             .corners = corners};
+    MesoPolygonMesh strip = {.vertex_count = 6, .face_count = 3, .corner_count = 12, .side_count = 4,
+                             .positions = positions, .corners = corners};
     orient(&strip, &counts);
     CHECK(counts.disagreeing == 1 && counts.one_sided == 0);
 }
 
-/* Normals of a torus turned inside out, on vertices and on corners: they look out in the end, whether they did before or not. */
+/* Normals of a torus turned inside out, on vertices and on corners: they look out in the end, whether they did
+ * before or not. */
 static void test_normals(void)
 {
     for (int side = -1; side <= 1; side += 2) {

@@ -92,7 +92,8 @@ static void join_list(uint32_t *first, const Table *table, const MesoPolygonMesh
                       double distance)
 {
     for (uint32_t u = head; u != MESO_NO_INDEX; u = table->next[u])
-        if (meso_sets_root(first, u) != meso_sets_root(first, v) && within(mesh->positions[u], mesh->positions[v], distance))
+        if (meso_sets_root(first, u) != meso_sets_root(first, v) &&
+            within(mesh->positions[u], mesh->positions[v], distance))
             meso_sets_join(first, u, v);
 }
 
@@ -105,7 +106,8 @@ static void join_near(uint32_t *first, const Table *table, const MesoPolygonMesh
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
         if (first[v] != v && same_place(mesh->positions[first[v]], mesh->positions[v]))
             continue;
-        Key p = key_of(mesh->positions[v]), cell = {floor(p.x / distance), floor(p.y / distance), floor(p.z / distance)};
+        Key p = key_of(mesh->positions[v]);
+        Key cell = {floor(p.x / distance), floor(p.y / distance), floor(p.z / distance)};
         for (int i = 0; i < 27; i++) {
             Key near = {cell.x + i % 3 - 1, cell.y + i / 3 % 3 - 1, cell.z + i / 9 - 1};
             join_list(first, table, mesh, *list_of(table, near), v, distance);

@@ -13,8 +13,8 @@ typedef struct MesoWeldCounts {
 /*
  * first[v] [vertex_count] is the first vertex that v is one with: those within `distance`, >= 0 and finite, of each
  * other are, and so are all along a chain of such. 0 asks for equal positions. O(vertices) as long as few lie
- * within `distance`, for which it is meant; quadratic in those that do not join, though thousands lie as near as three times
- * that. Scratch of some 40 bytes a vertex. MESO_ERR_MEMORY alone.
+ * within `distance`, for which it is meant; quadratic in those that do not join, though thousands lie as near as three
+ * times that. Scratch of some 40 bytes a vertex. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_mesh_weld_map(uint32_t *first, const MesoPolygonMesh *mesh, double distance, MesoError *error);
 

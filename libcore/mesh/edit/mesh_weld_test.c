@@ -60,13 +60,14 @@ static void test_soup(void)
         own[c] = (int32_t)c;
     }
     MesoAttribute attributes[2] = {{.name = "same", .width = 1, .entry_count = soup.vertex_count, .values = same},
-                                   {.name = "own", .scalar = MESO_SCALAR_INT32, .width = 1, .entry_count = soup.vertex_count,
-                                    .values = own}};
+                                   {.name = "own", .scalar = MESO_SCALAR_INT32, .width = 1,
+                                    .entry_count = soup.vertex_count, .values = own}};
     soup.attributes = attributes;
     soup.attribute_count = 2;
     MesoWeldCounts counts;
     CHECK(meso_mesh_weld(&mesh, &arena, &soup, 0, &counts, &error) == MESO_OK && is_checked(&mesh));
-    CHECK(mesh.vertex_count == 30 && counts.vertices_gone == 90 && counts.faces_gone == 0 && counts.attributes_moved == 1);
+    CHECK(mesh.vertex_count == 30 && counts.vertices_gone == 90 && counts.faces_gone == 0 &&
+          counts.attributes_moved == 1);
     CHECK(mesh.side_count == 4 && euler(&arena, &mesh) == 0 && fabs(volume(&mesh) - volume(&torus)) < 1e-6);
     CHECK(mesh.attributes[0].domain == MESO_ON_VERTICES && mesh.attributes[1].domain == MESO_ON_CORNERS);
     for (uint32_t c = 0; c < mesh.corner_count; c++)
@@ -91,7 +92,8 @@ static void test_collapse(void)
     CHECK(mesh.face_count == 1 && mesh.side_count == 5 && counts.faces_gone == 1 && mesh.vertex_count == 5);
     positions[4] = positions[5] = positions[1];
     CHECK(meso_mesh_weld(&mesh, &arena, &from, 0, &counts, &error) == MESO_OK && is_checked(&mesh));
-    CHECK(mesh.face_count == 1 && mesh.side_count == 3 && mesh.corners[0] == 1 && mesh.corners[1] == 2 && mesh.corners[2] == 3);
+    CHECK(mesh.face_count == 1 && mesh.side_count == 3 && mesh.corners[0] == 1 && mesh.corners[1] == 2 &&
+          mesh.corners[2] == 3);
 }
 
 int main(void)

@@ -21,7 +21,8 @@ static MesoPolygonMesh carry(MesoAttribute *attribute)
     MesoPolygonMesh from = {.vertex_count = 2, .positions = positions, .attribute_count = 1, .attributes = attribute};
     MesoPolygonMesh mesh = {.vertex_count = 3, .side_count = 3};
     CHECK(meso_mesh_carry(&mesh, &arena, &from, &origins, &error) == MESO_OK);
-    CHECK(mesh.positions[0].x == 3 && mesh.positions[1].x == 0 && mesh.positions[2].y == 6 && mesh.positions[2].z == -3);
+    CHECK(mesh.positions[0].x == 3 && mesh.positions[1].x == 0 && mesh.positions[2].y == 6 &&
+          mesh.positions[2].z == -3);
     return mesh;
 }
 
@@ -53,7 +54,8 @@ static void test_names(void)
     const char *names[2] = {"iron", "wood"};
     MesoAttribute a = {.name = "material", .entry_count = 2, .names = names};
     MesoPolygonMesh mesh = carry(&a);
-    CHECK(mesh.attributes[0].names == names && mesh.attributes[0].entry_of[0] == 1 && mesh.attributes[0].entry_of[1] == 0);
+    CHECK(mesh.attributes[0].names == names && mesh.attributes[0].entry_of[0] == 1 &&
+          mesh.attributes[0].entry_of[1] == 0);
 }
 
 static void test_missing(void)
@@ -101,7 +103,8 @@ static void test_sides(void)
     uint32_t face_begin[3] = {0, 4, 8}, corners[8] = {0, 1, 0, 1, 0, 1, 0, 1};
     MesoVec3 positions[2] = {{0, 0, 0}, {1, 0, 0}};
     MesoPolygonMesh from = {.vertex_count = 2, .positions = positions};
-    MesoPolygonMesh mesh = {.vertex_count = 2, .face_count = 2, .corner_count = 8, .face_begin = face_begin, .corners = corners};
+    MesoPolygonMesh mesh = {.vertex_count = 2, .face_count = 2, .corner_count = 8, .face_begin = face_begin,
+                            .corners = corners};
     CHECK(meso_mesh_carry(&mesh, &arena, &from, &(MesoMeshOrigins){0}, &error) == MESO_OK);
     CHECK(mesh.side_count == 4 && !mesh.face_begin && mesh.positions != positions && mesh.positions[1].x == 1);
 }

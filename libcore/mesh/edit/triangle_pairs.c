@@ -16,7 +16,8 @@ static MesoStatus refuse(uint32_t *face, uint32_t number, const char *why, MesoE
  *     | / |      to b and to d
  *     a---b
  */
-static MesoStatus join_corners(uint32_t quad[4], const MesoPolygonMesh *mesh, uint32_t t, uint32_t *face, MesoError *error)
+static MesoStatus join_corners(uint32_t quad[4], const MesoPolygonMesh *mesh, uint32_t t, uint32_t *face,
+                               MesoError *error)
 {
     const uint32_t *a = mesh->corners + 3 * (size_t)t, *b = a + 3;
     uint32_t shared = 0, edge_a = 0, edge_b = 0;
@@ -66,7 +67,8 @@ static bool is_convex(const MesoPolygonMesh *mesh, const uint32_t quad[4])
     return true;
 }
 
-static MesoStatus add_pair(MesoMeshCopies *copies, const MesoPolygonMesh *mesh, uint32_t t, uint32_t *face, MesoError *error)
+static MesoStatus add_pair(MesoMeshCopies *copies, const MesoPolygonMesh *mesh, uint32_t t, uint32_t *face,
+                           MesoError *error)
 {
     uint32_t quad[4] = {0};
     MesoStatus status = join_corners(quad, mesh, t, face, error);
@@ -92,8 +94,8 @@ static MesoStatus check_triangles(const MesoPolygonMesh *mesh, uint32_t *face, M
     return MESO_OK;
 }
 
-MesoStatus meso_mesh_pair_triangles(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, uint32_t *face,
-                                    MesoError *error)
+MesoStatus meso_mesh_pair_triangles(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from,
+                                    uint32_t *face, MesoError *error)
 {
     MesoArena scratch;
     MesoMeshCopies copies;

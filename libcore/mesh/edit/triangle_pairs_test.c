@@ -41,11 +41,12 @@ static void test_torus(void)
     }
 }
 
-static void check_refused(const uint32_t *corners, uint32_t face_count, const MesoVec3 *positions, uint32_t face, const char *part)
+static void check_refused(const uint32_t *corners, uint32_t face_count, const MesoVec3 *positions, uint32_t face,
+                          const char *part)
 {
     uint32_t found;
-    MesoPolygonMesh mesh, from = {.vertex_count = 5, .face_count = face_count, .corner_count = 3 * face_count, .side_count = 3,
-                                  .positions = (MesoVec3 *)positions, .corners = (uint32_t *)corners};
+    MesoPolygonMesh mesh, from = {.vertex_count = 5, .face_count = face_count, .corner_count = 3 * face_count,
+                                  .side_count = 3, .positions = (MesoVec3 *)positions, .corners = (uint32_t *)corners};
     CHECK(meso_mesh_pair_triangles(&mesh, &arena, &from, &found, &error) == MESO_ERR_INPUT);
     CHECK(found == face && strstr(error.message, part));
 }
@@ -70,7 +71,8 @@ static void test_refusals(void)
     uint32_t corners[7] = {0, 1, 2, 0, 2, 3, 4}, face_begin[3] = {0, 3, 7};
     MesoPolygonMesh mesh, from = {.vertex_count = 5, .face_count = 2, .corner_count = 7, .positions = flat,
                                   .face_begin = face_begin, .corners = corners};
-    CHECK(meso_mesh_pair_triangles(&mesh, &arena, &from, NULL, &error) == MESO_ERR_INPUT && strstr(error.message, "face 2 is no"));
+    CHECK(meso_mesh_pair_triangles(&mesh, &arena, &from, NULL, &error) == MESO_ERR_INPUT &&
+          strstr(error.message, "face 2 is no"));
 }
 
 int main(void)

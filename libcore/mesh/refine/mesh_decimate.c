@@ -34,7 +34,8 @@ static MesoStatus check(const MesoPolygonMesh *mesh, uint32_t thread_count, Meso
     return status;
 }
 
-static MesoStatus collapse(Left *left, MesoArena *scratch, const MesoPolygonMesh *mesh, uint32_t target, MesoError *error)
+static MesoStatus collapse(Left *left, MesoArena *scratch, const MesoPolygonMesh *mesh, uint32_t target,
+                           MesoError *error)
 {
     left->triangles = MESO_NEW(scratch, uint32_t, mesh->face_count, error);
     left->corners = MESO_NEW(scratch, uint32_t, mesh->corner_count, error);

@@ -41,7 +41,8 @@ static void test_square(void)
     CHECK(meso_mesh_decimate(&mesh, &arena, &square, 1000, 1, &error) == MESO_OK && mesh.face_count == 128);
 }
 
-/* As few triangles as can be are still a surface of the same kind: closed, or a sheet whose border the collapses met. */
+/* As few triangles as can be are still a surface of the same kind: closed, or a sheet whose border the collapses
+ * met. */
 static void test_to_the_end(void)
 {
     MesoRandom random;

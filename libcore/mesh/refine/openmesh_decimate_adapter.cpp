@@ -1,6 +1,7 @@
 /*
- * Decimation of triangle meshes on OpenMesh's half-edges, with its collapse, its quadrics and its heap. Which edge goes is ours: its
- * error forgets borders, and its decimater asks of every edge whether it may go before it asks whether it would be the one.
+ * Decimation of triangle meshes on OpenMesh's half-edges, with its collapse, its quadrics and its heap. Which edge goes
+ * is ours: its error forgets borders, and its decimater asks of every edge whether it may go before it asks whether it
+ * would be the one.
  */
 #include "libcore/mesh/refine/openmesh_decimate_adapter.h"
 
@@ -168,7 +169,8 @@ bool keeps_topology(Shape &shape, Half half, std::uint32_t mark)
 {
     Half back = shape.opposite(half);
     int v0 = shape.begin(half), v1 = shape.end(half), left = across(shape, half), right = across(shape, back);
-    if (shape.mesh.status(shape.mesh.edge_handle(half)).deleted() || is_flap(shape, half) || is_flap(shape, back) || left == right)
+    if (shape.mesh.status(shape.mesh.edge_handle(half)).deleted() || is_flap(shape, half) || is_flap(shape, back) ||
+        left == right)
         return false;
     if (shape.is_border_vertex(v0) && (!shape.is_border_vertex(v1) || (left >= 0 && right >= 0)))
         return false;       /* borders stay where they are, and apart */
@@ -304,7 +306,8 @@ MesoStatus add_faces(Mesh &mesh, const MesoDecimation &in, MesoError *error)
         for (std::uint32_t k = 0; k < 3; k++)
             v[k] = Mesh::VertexHandle(static_cast<int>(in.triangles[3 * static_cast<std::size_t>(t) + k]));
         if (!mesh.add_face(v[0], v[1], v[2]).is_valid())
-            return meso_fail(error, MESO_ERR_INPUT, "face %u is wound against its neighbours, or they are no manifold", t + 1);
+            return meso_fail(error, MESO_ERR_INPUT, "face %u is wound against its neighbours, or they are no manifold",
+                             t + 1);
     }
     return MESO_OK;
 }

@@ -22,15 +22,16 @@ typedef struct MesoDecimation {
 
 /*
  * Collapses edges onto one of their ends, those with the least quadric error first (Garland and Heckbert, "Surface
- * simplification using quadric error metrics", 1997), until `target` triangles are left or no edge can go. Borders are part of
- * the error: a plane stands upright on each of their edges. `kept` [triangle_count] gets the triangles that are left, ascending, and
- * `corners` [3 * triangle_count] their vertices, by the old numbers; `kept_count` how many. Vertices do not move. Takes some
- * 400 bytes a vertex beside. O(n log n).
+ * simplification using quadric error metrics", 1997), until `target` triangles are left or no edge can go. Borders are
+ * part of the error: a plane stands upright on each of their edges. `kept` [triangle_count] gets the triangles that are
+ * left, ascending, and `corners` [3 * triangle_count] their vertices, by the old numbers; `kept_count` how many.
+ * Vertices do not move. Takes some 400 bytes a vertex beside. O(n log n).
  *
- * MESO_ERR_INPUT with the number, from 1, of a triangle that cannot be one of such a mesh; MESO_ERR_MEMORY, MESO_ERR_INTERNAL.
+ * MESO_ERR_INPUT with the number, from 1, of a triangle that cannot be one of such a mesh; MESO_ERR_MEMORY,
+ * MESO_ERR_INTERNAL.
  */
-MesoStatus meso_openmesh_decimate(const MesoDecimation *decimation, uint32_t *kept, uint32_t *corners, uint32_t *kept_count,
-                                  MesoError *error);
+MesoStatus meso_openmesh_decimate(const MesoDecimation *decimation, uint32_t *kept, uint32_t *corners,
+                                  uint32_t *kept_count, MesoError *error);
 
 #ifdef __cplusplus
 }

@@ -38,8 +38,8 @@ template <class Mesh> MesoStatus fill(Mesh &mesh, const MesoOpenMeshPolygons &po
 }
 
 template <class Mesh, class Subdivider>
-MesoStatus subdivide(MesoVec3 *positions, std::uint32_t room, std::uint32_t *count, const MesoOpenMeshPolygons &polygons,
-                     std::uint32_t level_count, MesoError *error)
+MesoStatus subdivide(MesoVec3 *positions, std::uint32_t room, std::uint32_t *count,
+                     const MesoOpenMeshPolygons &polygons, std::uint32_t level_count, MesoError *error)
 {
     Mesh mesh;
     Subdivider subdivider;

@@ -19,11 +19,12 @@ typedef struct MesoOpenMeshPolygons {
 } MesoOpenMeshPolygons;
 
 /*
- * Vertices after `level_count` steps of Loop's scheme, or else of Catmull and Clark's, to `positions` [room], and their number to
- * `count`. On borders, the latter is no cubic B-spline: OpenMesh takes a third of a vertex and of the middles of its edges.
- * MESO_ERR_LIMIT where there is not enough room; MESO_ERR_INPUT for what OpenMesh does not take.
+ * Vertices after `level_count` steps of Loop's scheme, or else of Catmull and Clark's, to `positions` [room], and their
+ * number to `count`. On borders, the latter is no cubic B-spline: OpenMesh takes a third of a vertex and of the middles
+ * of its edges. MESO_ERR_LIMIT where there is not enough room; MESO_ERR_INPUT for what OpenMesh does not take.
  */
-MesoStatus meso_openmesh_subdivide(MesoVec3 *positions, uint32_t room, uint32_t *count, const MesoOpenMeshPolygons *polygons,
+MesoStatus meso_openmesh_subdivide(MesoVec3 *positions, uint32_t room, uint32_t *count,
+                                   const MesoOpenMeshPolygons *polygons,
                                    int loop, uint32_t level_count, MesoError *error);
 
 #ifdef __cplusplus

@@ -29,7 +29,8 @@ static bool is_linear(const Level *level)
 static bool is_crease(const Level *level, uint32_t h)
 {
     uint32_t twin = level->edges.twin[h];
-    return twin == MESO_NO_INDEX || (level->creases && (meso_bits_test(level->creases, h) || meso_bits_test(level->creases, twin)));
+    return twin == MESO_NO_INDEX || (level->creases && (meso_bits_test(level->creases, h) ||
+                                                        meso_bits_test(level->creases, twin)));
 }
 
 /* ---- edges ---- */
@@ -122,7 +123,8 @@ static MesoStatus count_sources(MesoOrigins *origins, const Level *level, MesoEr
     const MesoPolygonMesh *mesh = level->mesh;
     uint32_t vertex_count = mesh->vertex_count, edge_count = level->edges.edge_count;
     uint32_t face_vertices = level->triangles ? 0 : mesh->face_count;
-    uint64_t sum = 0, *begin = MESO_NEW(level->scratch, uint64_t, (size_t)vertex_count + edge_count + face_vertices + 1, error);
+    uint64_t sum = 0, *begin = MESO_NEW(level->scratch, uint64_t, (size_t)vertex_count + edge_count + face_vertices + 1,
+                                        error);
     if (!begin)
         return MESO_ERR_MEMORY;
     origins->begin = begin;
@@ -355,7 +357,8 @@ static bool has_corner_attributes(const MesoPolygonMesh *mesh)
 }
 
 /* Six sources for each corner of a polygon and one more, twenty-one for each triangle. */
-static MesoStatus init_split(Split *split, const Level *level, const MesoPolygonMesh *result, MesoArena *arena, MesoError *error)
+static MesoStatus init_split(Split *split, const Level *level, const MesoPolygonMesh *result, MesoArena *arena,
+                             MesoError *error)
 {
     size_t corners = result->corner_count, sources = 7 * (size_t)level->mesh->corner_count;
     *split = (Split){.corners = MESO_NEW(arena, uint32_t, corners, error),
@@ -374,7 +377,8 @@ static MesoStatus init_split(Split *split, const Level *level, const MesoPolygon
     return good ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static MesoStatus split_faces(Split *split, const Level *level, const MesoPolygonMesh *result, MesoArena *arena, MesoError *error)
+static MesoStatus split_faces(Split *split, const Level *level, const MesoPolygonMesh *result, MesoArena *arena,
+                              MesoError *error)
 {
     MesoStatus status = init_split(split, level, result, arena, error);
     for (uint32_t f = 0; f < level->mesh->face_count && !status; f++)
@@ -406,14 +410,15 @@ static bool gives_triangles(const MesoPolygonMesh *mesh, MesoScheme scheme)
 }
 
 /* `creases` are those of `from`, and then those of `mesh`, in `arena`. */
-static MesoStatus subdivide_once(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from, MesoScheme scheme,
-                                 uint64_t **creases, uint32_t thread_count, MesoError *error)
+static MesoStatus subdivide_once(MesoPolygonMesh *mesh, MesoArena *arena, const MesoPolygonMesh *from,
+                                 MesoScheme scheme, uint64_t **creases, uint32_t thread_count, MesoError *error)
 {
     MesoArena scratch;
     Split split;
     MesoMeshOrigins origins = {0};
     meso_arena_init(&scratch);
-    Level level = {.mesh = from, .scheme = scheme, .triangles = gives_triangles(from, scheme), .creases = *creases, .scratch = &scratch};
+    Level level = {.mesh = from, .scheme = scheme, .triangles = gives_triangles(from, scheme), .creases = *creases,
+                   .scratch = &scratch};
     MesoStatus status = init_level(&level, thread_count, error);
     if (!status)
         status = count_result(mesh, &level, error);
@@ -458,8 +463,8 @@ static MesoStatus require_triangles(const MesoPolygonMesh *mesh, MesoError *erro
 {
     for (uint32_t f = 0; mesh->side_count != 3 && f < mesh->face_count; f++)
         if (meso_polygon_sides(mesh, f) != 3)
-            return meso_fail(error, MESO_ERR_INPUT, "face %u has %u sides; Loop's subdivision is one of triangles", f + 1,
-                             meso_polygon_sides(mesh, f));
+            return meso_fail(error, MESO_ERR_INPUT, "face %u has %u sides; Loop's subdivision is one of triangles",
+                             f + 1, meso_polygon_sides(mesh, f));
     return MESO_OK;
 }
 

@@ -44,7 +44,8 @@ static void compare(const MesoPolygonMesh *from, MesoScheme scheme, uint32_t lev
     static MesoVec3 theirs[8192];
     uint32_t count;
     MesoPolygonMesh mesh = subdivide(from, scheme, levels, MESO_NO_CREASE);
-    MesoOpenMeshPolygons polygons = {from->vertex_count, from->face_count, from->positions, begins_of(from), from->corners};
+    MesoOpenMeshPolygons polygons = {from->vertex_count, from->face_count, from->positions, begins_of(from),
+                                     from->corners};
     CHECK(meso_openmesh_subdivide(theirs, 8192, &count, &polygons, scheme == MESO_LOOP, levels, &error) == MESO_OK);
     CHECK(count == mesh.vertex_count);
     for (uint32_t v = 0; v < count; v++) {
@@ -86,18 +87,21 @@ static void test_counts(void)
     CHECK(mesh.side_count == 3 && mesh.face_count == 4 * triangles.face_count);
     CHECK(fabs(area(&mesh) - area(&triangles)) < 1e-4 && fabs(volume(&mesh) - volume(&triangles)) < 1e-4);
     mesh = subdivide(&triangles, MESO_LINEAR_QUADS, 1, MESO_NO_CREASE);
-    CHECK(mesh.side_count == 4 && mesh.face_count == triangles.corner_count && fabs(volume(&mesh) - volume(&triangles)) < 1e-4);
+    CHECK(mesh.side_count == 4 && mesh.face_count == triangles.corner_count &&
+          fabs(volume(&mesh) - volume(&triangles)) < 1e-4);
     mesh = subdivide(&triangles, MESO_LINEAR, 0, MESO_NO_CREASE);
     CHECK(mesh.corners == triangles.corners);
 }
 
-/* A plane stays one, and linear functions on it linear, under every scheme; corners have the entry of their neighbours still. */
+/* A plane stays one, and linear functions on it linear, under every scheme; corners have the entry of their
+ * neighbours still. */
 static void test_attributes(void)
 {
     for (int scheme = 0; scheme < 3; scheme++) {
         MesoRandom random;
         meso_random_init(&random, 7, 0);
-        MesoPolygonMesh torus = make_torus(&arena, 6, 6, &random), from = scheme == MESO_LOOP ? triangles_of(&torus) : torus;
+        MesoPolygonMesh torus = make_torus(&arena, 6, 6, &random);
+        MesoPolygonMesh from = scheme == MESO_LOOP ? triangles_of(&torus) : torus;
         if (scheme != MESO_LINEAR)  /* corners are linear in faces, vertices are not */
             for (uint32_t v = 0; v < 36; v++)
                 from.positions[v] = (MesoVec3){1, 2, 3};
@@ -110,18 +114,20 @@ static void test_attributes(void)
     MesoPolygonMesh mesh = subdivide(&torus, MESO_LINEAR, 1, MESO_NO_CREASE);
     CHECK(mesh.attributes[1].entry_count == mesh.vertex_count);     /* no seam: one entry a vertex */
     for (uint32_t f = 0; f < mesh.face_count; f++)
-        CHECK(((const int32_t *)mesh.attributes[2].values)[f] == (int32_t)(f / 4) && mesh.corners[4 * f] == torus.corners[f]);
+        CHECK(((const int32_t *)mesh.attributes[2].values)[f] == (int32_t)(f / 4) &&
+              mesh.corners[4 * f] == torus.corners[f]);
 }
 
-/* A cube: its limit is round without creases, and the cube itself with them; at an angle that it has not, round again. */
+/* A cube: its limit is round without creases, and the cube itself with them; at an angle that it has not, round
+ * again. */
 static void test_creases(void)
 {
     MesoVec3 positions[8];
     uint32_t corners[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
     for (uint32_t v = 0; v < 8; v++)
         positions[v] = (MesoVec3){v & 1 ? 1 : -1, v & 2 ? 1 : -1, v & 4 ? 1 : -1};
-    MesoPolygonMesh cube = {.vertex_count = 8, .face_count = 6, .corner_count = 24, .side_count = 4, .positions = positions,
-                            .corners = corners};
+    MesoPolygonMesh cube = {.vertex_count = 8, .face_count = 6, .corner_count = 24, .side_count = 4,
+                            .positions = positions, .corners = corners};
     MesoPolygonMesh round = subdivide(&cube, MESO_CATMULL_CLARK, 3, MESO_NO_CREASE);
     MesoPolygonMesh sharp = subdivide(&cube, MESO_CATMULL_CLARK, 3, 60);
     MesoPolygonMesh blunt = subdivide(&cube, MESO_CATMULL_CLARK, 3, 120);
@@ -134,8 +140,8 @@ static void test_border(void)
 {
     MesoVec3 positions[4] = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
     uint32_t corners[4] = {0, 1, 2, 3};
-    MesoPolygonMesh quad = {.vertex_count = 4, .face_count = 1, .corner_count = 4, .side_count = 4, .positions = positions,
-                            .corners = corners};
+    MesoPolygonMesh quad = {.vertex_count = 4, .face_count = 1, .corner_count = 4, .side_count = 4,
+                            .positions = positions, .corners = corners};
     MesoPolygonMesh mesh = subdivide(&quad, MESO_CATMULL_CLARK, 1, MESO_NO_CREASE);
     CHECK(mesh.vertex_count == 9 && mesh.positions[0].x == 1 && mesh.positions[0].y == 1 && mesh.positions[4].x == 4);
     CHECK(mesh.positions[4].y == 0 && mesh.positions[8].x == 4 && mesh.positions[8].y == 4);
@@ -149,7 +155,8 @@ static void test_refusals(void)
     CHECK(meso_mesh_subdivide(&mesh, &arena, &torus, MESO_LINEAR, 14, 181, 1, &error) == MESO_ERR_LIMIT);
     CHECK(meso_mesh_subdivide(&mesh, &arena, &torus, MESO_LINEAR, 4000000000, 181, 1, &error) == MESO_ERR_LIMIT);
     turn_face(&torus, 1);       /* windings that disagree are no hindrance */
-    CHECK(meso_mesh_subdivide(&mesh, &arena, &torus, MESO_CATMULL_CLARK, 1, 181, 1, &error) == MESO_OK && mesh.side_count == 4);
+    CHECK(meso_mesh_subdivide(&mesh, &arena, &torus, MESO_CATMULL_CLARK, 1, 181, 1, &error) == MESO_OK &&
+          mesh.side_count == 4);
 }
 
 int main(void)

@@ -103,7 +103,8 @@ static MesoStatus search(MesoExact *exact, Walk *walk, MesoSatAnswer *answer, Me
 MesoStatus meso_exact_search_chains(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random, uint64_t work,
                                     uint64_t conflict_limit, bool (*stop)(void *context), void *context, MesoError *error)
 {
-    Walk walk = {.random = random, .work_left = work, .conflicts_left = conflict_limit, .stop = stop, .context = context};
+    Walk walk = {.random = random, .work_left = work, .conflicts_left = conflict_limit, .stop = stop,
+                 .context = context};
     *answer = MESO_SAT_UNKNOWN;
     if (exact->chain_count == 0 || exact->chain_count > MESO_EXACT_MOST_CHAINS)
         return MESO_OK;

@@ -13,8 +13,8 @@
 
 /*
  * MESO_SAT_YES, or MESO_SAT_UNKNOWN where `stop` says so, or nothing was found in about
- * `work` looks at an edge (5 to 10 ns each) and `conflict_limit` conflicts of the engine; at once where there are no chains. The formula is the same
- * afterwards, but for what the engine learned. Deterministic, but for `stop`. Memory of
+ * `work` looks at an edge (5 to 10 ns each) and `conflict_limit` conflicts of the engine; at once where there are no
+ * chains. The formula is the same afterwards, but for what the engine learned. Deterministic, but for `stop`. Memory of
  * meso_chain_rings_build() for the time of the call. MESO_ERR_MEMORY, or what CaDiCaL fails with.
  */
 MesoStatus meso_exact_search_chains(MesoExact *exact, MesoSatAnswer *answer, MesoRandom *random, uint64_t work,

@@ -255,7 +255,8 @@ static MesoStatus number_chains(Finder *finder, MesoEdgeChains *chains, MesoErro
     return MESO_OK;
 }
 
-MesoStatus meso_edge_chains_find(MesoEdgeChains *chains, MesoArena *arena, MesoLabelPatternTable *table, MesoError *error)
+MesoStatus meso_edge_chains_find(MesoEdgeChains *chains, MesoArena *arena, MesoLabelPatternTable *table,
+                                 MesoError *error)
 {
     Finder finder = {.table = table, .arena = arena, .label_count = 2 * table->propagation->set->interface_count};
     *chains = (MesoEdgeChains){0};

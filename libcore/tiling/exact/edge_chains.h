@@ -34,6 +34,7 @@ typedef struct MesoEdgeChains {
  * Edges with over 64 labels have none. Arrays live in `arena`. Expected
  * O(slots * labels). MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_edge_chains_find(MesoEdgeChains *chains, MesoArena *arena, MesoLabelPatternTable *table, MesoError *error);
+MesoStatus meso_edge_chains_find(MesoEdgeChains *chains, MesoArena *arena, MesoLabelPatternTable *table,
+                                 MesoError *error);
 
 #endif

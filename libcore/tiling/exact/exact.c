@@ -347,7 +347,8 @@ static MesoStatus choose_patterns(MesoExact *exact, const uint32_t *hint, uint32
         const uint64_t *bits = meso_domain_bits(&propagation->domains, propagation->initial[s]);
         pattern[s] = hinted_pattern(exact, s, hint, random);
         if (pattern[s] == MESO_NO_INDEX && !fits)
-            pattern[s] = pattern_of_variant(meso_label_pattern_list(&exact->patterns, s, NULL), draw(exact, s, bits, random));
+            pattern[s] = pattern_of_variant(meso_label_pattern_list(&exact->patterns, s, NULL),
+                                            draw(exact, s, bits, random));
         if (pattern[s] == MESO_NO_INDEX)
             order[count++] = s;
         else

@@ -10,7 +10,8 @@
 
 #include "libcore/tiling/exact/exact.h"
 
-/* Slots that may change, those nearest to the changes that there are; surfaces of more than the other are left alone. */
+/* Slots that may change, those nearest to the changes that there are; surfaces of more than the other are left
+ * alone. */
 enum { MESO_FEWEST_CHANGES_OPEN = 1 << 12, MESO_FEWEST_CHANGES_SLOTS = 1 << 16 };
 
 typedef struct MesoFewestChangesOptions {
@@ -25,8 +26,8 @@ typedef struct MesoFewestChangesOptions {
  *             `propagation`; gets one that does too, and changes as many or fewer of constraints->keep
  * conflicts   gets those that the engine met
  *
- * `propagation` may get new states in its table. `*fewest` where no assignment is left that changes fewer. The result depends on the
- * arguments alone, unless `stop` ended the work. O(slots * patterns), and what the engine
+ * `propagation` may get new states in its table. `*fewest` where no assignment is left that changes fewer. The result
+ * depends on the arguments alone, unless `stop` ended the work. O(slots * patterns), and what the engine
  * takes. MESO_ERR_MEMORY, or what CaDiCaL fails with.
  */
 MesoStatus meso_fewest_changes(uint32_t *variant, bool *fewest, uint64_t *conflicts, MesoPropagation *propagation,

@@ -240,7 +240,8 @@ static bool keeps(Sheet *sheet, const MesoStrandRule *rule, uint32_t number)
 }
 
 /* No assignment that keeps to the rule has all that a cut forbids to stand together. */
-static uint32_t check_cuts(MesoArena *arena, Sheet *sheet, const MesoStrandRule *rule, const bool *good, uint32_t number)
+static uint32_t check_cuts(MesoArena *arena, Sheet *sheet, const MesoStrandRule *rule, const bool *good,
+                           uint32_t number)
 {
     uint32_t variant[4], other[4], all = 1;
     MesoStrandCuts cuts;

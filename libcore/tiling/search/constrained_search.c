@@ -210,7 +210,8 @@ static bool may_go_on(const MesoConstrainedSearch *search)
     return search->observations % TICK_INTERVAL != 0 || !search->tick || search->tick(search->context);
 }
 
-MesoStatus meso_constrained_search_attempt(MesoConstrainedSearch *search, MesoRandom *random, bool *solved, MesoError *error)
+MesoStatus meso_constrained_search_attempt(MesoConstrainedSearch *search, MesoRandom *random, bool *solved,
+                                           MesoError *error)
 {
     MesoPropagation *propagation = search->propagation;
     uint64_t left = LEAST_BACKTRACKS + propagation->graph->slot_count / BACKTRACK_PART;

@@ -59,6 +59,7 @@ MesoStatus meso_constrained_search_init(MesoConstrainedSearch *search, MesoArena
  * attempt keeps nothing in a ball around the place of the failure, twice as
  * wide each time.
  */
-MesoStatus meso_constrained_search_attempt(MesoConstrainedSearch *search, MesoRandom *random, bool *solved, MesoError *error);
+MesoStatus meso_constrained_search_attempt(MesoConstrainedSearch *search, MesoRandom *random, bool *solved,
+                                           MesoError *error);
 
 #endif

@@ -141,7 +141,8 @@ static MesoStatus jump_back(MesoSearch *search, Attempt *attempt, MesoSearchOutc
     return MESO_OK;
 }
 
-/* A log of causes costs a little: it begins with the first dead end. It knows nothing of causes beyond the neighbours. */
+/* A log of causes costs a little: it begins with the first dead end. It knows nothing of causes beyond the
+ * neighbours. */
 static MesoStatus begin_cause_log(MesoPropagation *propagation, MesoError *error)
 {
     assert(propagation->quotas.count == 0 && !propagation->tracing && !propagation->decided);

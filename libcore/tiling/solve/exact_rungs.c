@@ -141,7 +141,8 @@ MesoStatus meso_rung_exact(MesoLadder *ladder, bool chains, uint64_t conflicts, 
     meso_random_init(&random, ladder->options->seed, UINT64_MAX);
     if (ladder->options->formula)
         ladder->options->formula(ladder->options->proof_context);
-    if (constraints && meso_exact_groups(&options.group, &ladder->scratch, constraints, ladder->problem->variants->count, error))
+    if (constraints && meso_exact_groups(&options.group, &ladder->scratch, constraints,
+                                         ladder->problem->variants->count, error))
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_exact_init(&exact, &ladder->scratch, &ladder->propagation, &options, error);
     if (status == MESO_ERR_LIMIT) {
@@ -216,13 +217,15 @@ MesoStatus meso_rung_fewest_changes(MesoLadder *ladder, MesoError *error)
     const MesoAssignment *found = &result->assignment;
     uint64_t conflicts;
     meso_ladder_allow_conflicts(ladder);
-    const MesoFewestChangesOptions keep = {.seed = options->seed, .max_conflicts = meso_ladder_conflicts_left(ladder, KEEP_CONFLICTS),
+    const MesoFewestChangesOptions keep = {.seed = options->seed,
+                                           .max_conflicts = meso_ladder_conflicts_left(ladder, KEEP_CONFLICTS),
                                   .stop = options->stop, .stop_context = options->stop_context};
     uint32_t *variant = MESO_NEW(&ladder->scratch, uint32_t, found->slot_count, error);
     if (!variant)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < found->slot_count; s++)
-        variant[s] = meso_variant_find(ladder->problem->variants, ladder->problem->set, found->tile[s], found->transform[s]);
+        variant[s] = meso_variant_find(ladder->problem->variants, ladder->problem->set, found->tile[s],
+                                       found->transform[s]);
     MesoStatus status = meso_fewest_changes(variant, &result->changes_fewest, &conflicts, &ladder->propagation,
                                        ladder->problem->variants, ladder->problem->constraints, &keep, error);
     if (status)

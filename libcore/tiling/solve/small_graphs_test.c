@@ -174,7 +174,8 @@ static void test_gluings(void)
     meso_arena_release(&cases.arena);
 }
 
-/* All sets over one interface, and some over two, on strips, sheets, rings, Moebius bands and tori of up to six slots. */
+/* All sets over one interface, and some over two, on strips, sheets, rings, Moebius bands and tori of up to six
+ * slots. */
 static void test_grids(void)
 {
     static Cases cases;

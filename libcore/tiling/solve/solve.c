@@ -96,7 +96,8 @@ static MesoStatus climb(MesoLadder *ladder, MesoError *error)
     /* On a large surface the formula alone takes longer, and more memory, than the attempts. */
     if (!status && meso_ladder_undecided(ladder) && more && ladder->problem->graph->slot_count <= FIRST_GO_SLOTS) {
         meso_ladder_allow_conflicts(ladder);
-        status = meso_rung_exact(ladder, true, meso_ladder_conflicts_left(ladder, MESO_LADDER_FIRST_CONFLICTS), 0, error);
+        status = meso_rung_exact(ladder, true, meso_ladder_conflicts_left(ladder, MESO_LADDER_FIRST_CONFLICTS), 0,
+                                 error);
     }
     if (!status && meso_ladder_undecided(ladder) && more)
         status = meso_rung_search(ladder, attempts, error);

@@ -77,8 +77,8 @@ static const char *quotas_text(MesoArena *arena, const MesoTilingProblem *proble
 }
 
 /* The interfaces with one of the two border rules: "interfaces 'a' and 'b' must not lie on a border"; or "". */
-static const char *rule_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core, bool only,
-                             MesoError *error)
+static const char *rule_text(MesoArena *arena, const MesoTilingProblem *problem, const MesoConflictCore *core,
+                             bool only, MesoError *error)
 {
     const char *names = "";
     uint32_t count = 0, i = 0;

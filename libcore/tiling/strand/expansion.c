@@ -191,7 +191,8 @@ static MesoStatus check_inner(const MesoModel *model, const MesoTile *tile, uint
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
         MesoVec3 q = meso_frame_point(&frame, mesh->positions[v]);
         if (!is_near(q.x) || !is_near(q.y) || !is_near(q.z))
-            return meso_fail(error, MESO_ERR_INPUT, "tile '%s': vertex %u of its mesh '%s' lies more than %g tiles away",
+            return meso_fail(error, MESO_ERR_INPUT,
+                             "tile '%s': vertex %u of its mesh '%s' lies more than %g tiles away",
                              tile->name, v + 1, place->file, (double)MESO_INNER_LIMIT);
     }
     return MESO_OK;
