@@ -111,7 +111,7 @@ static void test_walls_inside(void)
     const uint8_t member[3] = {0, 1, 1}, one[2] = {0, 1};
     MesoDomain all = {member, 0, NULL}, region = {one, 0, NULL};
     MesoGeodesicSeed seeds[2] = {{3, 0, true}, {4, 0, true}};
-    for (int engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
+    for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
         MesoGeodesicSolver *solver = new_solver(&mesh, engine, false), *other = new_solver(&slit, engine, false);
         float *distance = new_field(&mesh, 0), *through = new_field(&mesh, 0);
         solve(solver, &(MesoGeodesicQuery){NULL, seeds, 2, 0, MESO_NO_INDEX, false}, distance);
@@ -138,7 +138,7 @@ static void test_limit_and_target(void)
 {
     MesoTriangulation mesh = meso_fixture_sphere(40, 0.3f, 1);
     MesoGeodesicSeed seed = {100, 0.125f, false};
-    for (int engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
+    for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
         MesoGeodesicSolver *solver = new_solver(&mesh, engine, false);
         float *whole = new_field(&mesh, 0), *part = new_field(&mesh, 0);
         const uint32_t *touched;
@@ -177,7 +177,7 @@ static void test_keep(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(40, 40, 1);
     const uint32_t vertices[4] = {0, 40, 20 * 41 + 13, 35 * 41 + 30};
-    for (int engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_EXACT; engine++) {
+    for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_EXACT; engine++) {
         MesoGeodesicSolver *solver = new_solver(&mesh, engine, false);
         float *kept = new_field(&mesh, INFINITY), *before = new_field(&mesh, 0);
         MesoGeodesicSeed seeds[4];
@@ -285,7 +285,7 @@ static void test_positions(void)
         moved[v] = (MesoVec3){2 * mesh.positions[v].x, mesh.positions[v].y, 0};
     MesoGeodesicSeed seed = {7, 0, false};
     MesoGeodesicQuery query = {NULL, &seed, 1, 0, MESO_NO_INDEX, false};
-    for (int engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_EXACT; engine++) {
+    for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_EXACT; engine++) {
         MesoGeodesicSolver *solver = new_solver(&mesh, engine, false);
         float *distance = new_field(&mesh, 0);
         solve(solver, &query, distance);

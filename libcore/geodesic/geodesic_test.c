@@ -334,7 +334,7 @@ static void test_hard_meshes(void)
         for (uint32_t i = 0; i < 20; i++)
             seeds[i] = (MesoGeodesicSeed){meso_choose(&choices, mesh.vertex_count),
                                           size * (float)meso_choose(&choices, 3), meso_choose(&choices, 2)};
-        for (int engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
+        for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
             float *distance = solve(&mesh, engine, &(MesoGeodesicQuery){.seeds = seeds, .seed_count = 1 + round % 20,
                                                                         .target = MESO_NO_INDEX});
             for (uint32_t v = 0; v < mesh.vertex_count; v++)
@@ -365,7 +365,7 @@ static void test_two_pieces(void)
     const uint32_t corners[6] = {0, 1, 2, 3, 4, 5};
     MesoTriangulation mesh = meso_fixture_triangulation(positions, 7, corners, 2);
     MesoGeodesicSeed seeds[2] = {{1, 0.5f, false}, {6, 0, false}};
-    for (int engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
+    for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_GRAPH; engine++) {
         float *distance = solve_everywhere(&mesh, engine, seeds, 1);
         CHECK(distance[0] == 1.5f && distance[1] == 0.5f);
         for (uint32_t v = 3; v < 7; v++)
