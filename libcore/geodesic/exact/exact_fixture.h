@@ -108,4 +108,19 @@ static inline MesoTriangulation meso_fixture_sphere(uint32_t frequency)
     return mesh;
 }
 
+/* Nine by nine squares, of which the region 1 lacks three columns from the top down to row 3: a U. */
+static inline MesoTriangulation meso_fixture_u(void)
+{
+    MesoTriangulation mesh = meso_fixture_sheet(9, 9, 1);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        uint32_t column = t / 2 % 9, row = t / 18;
+        mesh.labels[t] = row < 3 || column < 3 || column >= 6;
+    }
+    for (uint32_t h = 0; h < 3 * mesh.triangle_count; h++)
+        if (mesh.twins[h] != MESO_NO_INDEX && mesh.labels[h / 3] != mesh.labels[mesh.twins[h] / 3])
+            mesh.walls[h / 3] |= (uint8_t)(1u << h % 3);
+    CHECK(meso_triangulation_check(&mesh, NULL) == MESO_OK);
+    return mesh;
+}
+
 #endif

@@ -1,13 +1,14 @@
 #include "libcore/geodesic/exact/exact_geodesic.h"
 
 #include "libcore/geodesic/exact/exact_windows.h"
+#include "libcore/geodesic/exact/unfold.h"
 
 enum { DEFAULT_WINDOW_LIMIT = 1 << 25 };
 
 /* Of a vertex. */
 enum { EMITS = 1, FINAL = 2, REACHED = 4, ON_LINE = 8, INSIDE = 16 };
 
-/* A half-edge: its length, and where its triangle's third corner lies, along it and to its left. */
+/* As MesoSideShape, and the half-edge across. */
 typedef struct Side {
     double length, x, y;
     uint32_t across;        /* in the domain */
@@ -57,39 +58,14 @@ static bool is_inside(const Solve *solve, uint32_t triangle)
     return !solve->query->domain || meso_domain_has(solve->query->domain, solve->mesh, triangle);
 }
 
-static void subtract(MesoVec3 a, MesoVec3 b, double d[3])
-{
-    d[0] = (double)a.x - b.x;
-    d[1] = (double)a.y - b.y;
-    d[2] = (double)a.z - b.z;
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double cross_length(const double a[3], const double b[3])
-{
-    double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    return sqrt(dot(c, c));
-}
-
 /* Returns the angle at the half-edge's origin. */
 static double measure_side(Solve *solve, uint32_t h)
 {
-    const uint32_t *corners = solve->mesh->corners;
-    MesoVec3 origin = solve->positions[corners[h]];
+    MesoSideShape shape = meso_side_shape(solve->mesh, solve->positions, h);
     uint32_t twin = solve->mesh->twins[h];
-    Side *side = &solve->sides[h];
-    double along[3], third[3];
-    subtract(solve->positions[corners[meso_next_corner(h)]], origin, along);
-    subtract(solve->positions[corners[meso_previous_corner(h)]], origin, third);
-    side->length = sqrt(dot(along, along));
-    side->x = side->length > 0 ? dot(third, along) / side->length : 0;
-    side->y = side->length > 0 ? cross_length(third, along) / side->length : 0;
-    side->across = twin != MESO_NO_INDEX && is_inside(solve, twin / 3) ? twin : MESO_NO_INDEX;
-    return atan2(side->y, side->x);
+    solve->sides[h] = (Side){shape.length, shape.x, shape.y,
+                             twin != MESO_NO_INDEX && is_inside(solve, twin / 3) ? twin : MESO_NO_INDEX};
+    return atan2(shape.y, shape.x);
 }
 
 /*

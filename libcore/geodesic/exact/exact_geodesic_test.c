@@ -293,27 +293,12 @@ static void test_points(void)
 
 /* ---- what ends a search ---- */
 
-/* Nine by nine squares, of which the region 1 lacks three columns from the top down to row 3: a U. */
-static MesoTriangulation make_u(void)
-{
-    MesoTriangulation mesh = meso_fixture_sheet(9, 9, 1);
-    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
-        uint32_t column = t / 2 % 9, row = t / 18;
-        mesh.labels[t] = row < 3 || column < 3 || column >= 6;
-    }
-    for (uint32_t h = 0; h < 3 * mesh.triangle_count; h++)
-        if (mesh.twins[h] != MESO_NO_INDEX && mesh.labels[h / 3] != mesh.labels[mesh.twins[h] / 3])
-            mesh.walls[h / 3] |= (uint8_t)(1u << h % 3);
-    CHECK(meso_triangulation_check(&mesh, NULL) == MESO_OK);
-    return mesh;
-}
-
 /* From one arm of the U to the tip of the other, around both inner corners. */
 static void test_domain(void)
 {
     const uint8_t member[2] = {0, 1};
     MesoDomain domain = {.member = member};
-    MesoTriangulation mesh = make_u();
+    MesoTriangulation mesh = meso_fixture_u();
     MesoExactGeodesicSeed seed = {91, 0, false};     /* (1,9) */
     double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.domain = &domain, .seeds = &seed,
                                                                          .seed_count = 1, .target = MESO_NO_INDEX});
@@ -331,13 +316,14 @@ static void test_ends(void)
 {
     MesoTriangulation mesh = meso_fixture_torus(24, 16, 0.4f);
     MesoExactGeodesicSeed seed = {7, 0, false};
-    double *all = meso_fixture_exact(&mesh, 7);
-    double *some = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = &seed, .seed_count = 1, .limit = 0.8,
-                                                                     .target = MESO_NO_INDEX});
+    MesoExactGeodesicQuery query = {.seeds = &seed, .seed_count = 1, .limit = 0.8, .target = MESO_NO_INDEX};
+    double *all = meso_fixture_exact(&mesh, 7), *some = meso_fixture_exact_query(&mesh, &query);
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
         CHECK(all[v] <= 0.8 ? some[v] == all[v] : some[v] == INFINITY);
     free(some);
-    some = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = &seed, .seed_count = 1, .target = 100});
+    query.limit = 0;
+    query.target = 100;
+    some = meso_fixture_exact_query(&mesh, &query);
     for (uint32_t v = 0; v < mesh.vertex_count; v++)
         CHECK(all[v] < all[100] || v == 100 ? some[v] == all[v] : some[v] == INFINITY || some[v] == all[v]);
     free(some);
