@@ -41,7 +41,7 @@ typedef struct MesoTriangleSplit {
     uint32_t passed_count, passed_room;
     uint32_t *passed;               /* half-edges that a segment crosses */
     uint32_t listed_count;          /* points that are in the lists */
-    uint32_t *cells;                /* [MESO_SPLIT_CELLS] first points of lists by place; made where there are many */
+    uint32_t *cells;                /* [MESO_SPLIT_CELLS] first points of lists by place; filled where there are many */
     double metric[3];               /* products of the sides a, b from corner 0: aa, ab, bb */
 } MesoTriangleSplit;
 
