@@ -9,7 +9,7 @@
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
-#   bench-decor       distances on surfaces, beside the exact ones
+#   bench-decor       distances on surfaces, beside the exact ones; lines, cells and samples
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -149,8 +149,8 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
-bench-decor: $(OUT)/test/libcore/geodesic/geodesic_bench
-	@$<
+bench-decor: $(OUT)/test/libcore/geodesic/geodesic_bench $(OUT)/test/libcore/geodesic/geodesic_lines_bench
+	@for bench in $^; do $$bench; done
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 fuzz-run: fuzzers all generators
