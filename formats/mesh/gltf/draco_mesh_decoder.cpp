@@ -10,7 +10,7 @@
 namespace meso {
 
 /* A count as the bitstream has it: four bytes before `compact`, fewer since. */
-static uint32_t read_count(draco::DecoderBuffer *buffer, uint16_t compact)
+static uint32_t read_count(draco::DecoderBuffer *buffer, int compact)
 {
     uint32_t count = 0;
     bool read = buffer->bitstream_version() < compact ? buffer->Decode(&count) : draco::DecodeVarint(&count, buffer);
@@ -20,8 +20,8 @@ static uint32_t read_count(draco::DecoderBuffer *buffer, uint16_t compact)
 }
 
 /*
- * The larger one of the numbers of faces and vertices in the header, which Draco allocates for before it reads any of them. As
- * MeshEdgebreakerDecoderImpl and MeshSequentialDecoder begin.
+ * The larger one of the numbers of faces and vertices in the header, which Draco allocates for before it reads any of
+ * them. As MeshEdgebreakerDecoderImpl and MeshSequentialDecoder begin.
  */
 static uint32_t claimed_size(draco::DecoderBuffer buffer)
 {
@@ -29,11 +29,12 @@ static uint32_t claimed_size(draco::DecoderBuffer buffer)
     draco::GeometryMetadata metadata;
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok())
         throw std::runtime_error("Draco: broken header");
-    buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+    const int version = DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor);
+    buffer.set_bitstream_version(static_cast<uint16_t>(version));
     bool described = buffer.bitstream_version() >= DRACO_BITSTREAM_VERSION(1, 3) && (header.flags & METADATA_FLAG_MASK);
     if (described && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
         throw std::runtime_error("Draco: broken metadata");
-    uint16_t compact = DRACO_BITSTREAM_VERSION(2, 2);
+    int compact = DRACO_BITSTREAM_VERSION(2, 2);
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
         buffer.Advance(1);      /* the kind of traversal */
         if (buffer.bitstream_version() < compact)
