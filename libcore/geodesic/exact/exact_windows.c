@@ -144,7 +144,7 @@ static void free_places(MesoWindowStore *store, MesoWindowList *list)
 {
     if (!list->places)
         return;
-    memcpy(list->places, &store->rooms[list->size], sizeof(MesoWindowPlace *));
+    memcpy((void *)list->places, &store->rooms[list->size], sizeof(MesoWindowPlace *));
     store->rooms[list->size] = list->places;
     *list = (MesoWindowList){0};
 }
@@ -157,7 +157,7 @@ static MesoStatus new_places(MesoWindowStore *store, uint32_t count, MesoWindowL
         size++;
     *list = (MesoWindowList){store->rooms[size], 0, size};
     if (list->places)
-        memcpy(&store->rooms[size], list->places, sizeof(MesoWindowPlace *));
+        memcpy(&store->rooms[size], (void *)list->places, sizeof(MesoWindowPlace *));
     else
         list->places = MESO_NEW(store->arena, MesoWindowPlace, (size_t)1 << size, error);
     return list->places ? MESO_OK : MESO_ERR_MEMORY;
