@@ -6,38 +6,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cmd/common/seed_list.h"
 #include "formats/file/output.h"
 #include "formats/tiling/result/slots_file.h"
-
-bool meso_each_is_pattern(const char *text)
-{
-    int seeds = 0;
-    for (; *text; text++)
-        if (*text == '%') {
-            text++;
-            seeds += *text == 'd';
-            if (*text != 'd' && *text != '%')
-                return false;
-        }
-    return seeds == 1;
-}
-
-static char *each_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoError *error)
-{
-    char *path = meso_arena_copy_text(arena, "", error);
-    for (const char *next; path && *pattern; pattern = next) {
-        next = pattern + strcspn(pattern, "%");
-        path = meso_arena_print(arena, error, "%s%.*s", path, (int)(next - pattern), pattern);
-        if (!*next)
-            break;
-        if (path && next[1] == 'd')
-            path = meso_arena_print(arena, error, "%s%" PRIu64, path, seed);
-        else if (path)
-            path = meso_arena_print(arena, error, "%s%%", path);
-        next += 2;
-    }
-    return path;
-}
 
 /*
  * The command that writes the assignment of this seed alone, whatever shard it is of: with
@@ -87,7 +58,7 @@ MesoStatus meso_each_write(const MesoSeedEach *each, uint64_t seed, const MesoAs
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    const char *path = each_path(each->pattern, seed, &arena, error);
+    const char *path = meso_seed_path(each->pattern, seed, &arena, error);
     MesoStatus status = path ? meso_each_write_to(each, seed, assignment, path, &arena, error) : MESO_ERR_MEMORY;
     meso_arena_release(&arena);
     return status;
@@ -111,7 +82,7 @@ MesoStatus meso_each_find(bool *there, const MesoSeedEach *each, const MesoSeedL
 {
     MesoInput input;
     MesoSlotsFile slots;
-    const char *path = each_path(each->pattern, line->seed, arena, error);
+    const char *path = meso_seed_path(each->pattern, line->seed, arena, error);
     *there = false;
     if (!path)
         return MESO_ERR_MEMORY;
@@ -158,7 +129,7 @@ static MesoStatus add_keys(const MesoSeedEach *each, const MesoSeedRange *range,
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < range->count && !status; i++) {
         MesoArenaMark before = meso_arena_mark(&tool->arena);
-        const char *path = each_path(each->pattern, range->first + i, &tool->arena, error);
+        const char *path = meso_seed_path(each->pattern, range->first + i, &tool->arena, error);
         if (!path)
             return MESO_ERR_MEMORY;
         keys[*used].seed = range->first + i;

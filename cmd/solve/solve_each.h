@@ -2,7 +2,7 @@
 #ifndef MESO_SOLVE_EACH_H
 #define MESO_SOLVE_EACH_H
 
-#include "cmd/solve/seed_list.h"
+#include "cmd/common/seed_list.h"
 #include "cmd/solve/seed_problem.h"
 #include "formats/tiling/result/seed_lines.h"
 
@@ -12,9 +12,6 @@ typedef struct MesoSeedEach {
     const char *pattern;        /* of --each; NULL: not given */
     const MesoSeedList *list;   /* of --seeds */
 } MesoSeedEach;
-
-/* One %d, any number of %%, and no other %. */
-bool meso_each_is_pattern(const char *text);
 
 /* Refuses names that are those of inputs, of other outputs, or of two seeds. MESO_ERR_USAGE. */
 MesoStatus meso_each_check_paths(const MesoSeedEach *each, MesoError *error);

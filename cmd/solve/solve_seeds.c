@@ -9,7 +9,7 @@
 #include <threads.h>
 #include <unistd.h>
 
-#include "cmd/solve/seed_list.h"
+#include "cmd/common/seed_list.h"
 #include "cmd/solve/solve_each.h"
 #include "formats/file/line_file.h"
 #include "formats/file/output.h"
@@ -96,7 +96,7 @@ MesoStatus meso_seed_options_check(const MesoSeedOptions *o, const MesoTool *too
     if (status || !o->seeds)
         return status;
     status = check_list(o->seeds, attempts_given, error);
-    if (!status && o->each && !meso_each_is_pattern(o->each))
+    if (!status && o->each && !meso_seed_path_is_pattern(o->each))
         return meso_fail(error, MESO_ERR_USAGE, "--each: '%s' must have one %%d, for the seed; %%%% stands for %%",
                          o->each);
     return status || !o->best ? status : parse_best(&metric, &file, o->best, error);

@@ -1,7 +1,8 @@
-/* Lists of seeds, as --seeds takes them: "1-10,20,30-40x3". */
+/* Lists of seeds, as --seeds takes them: "1-10,20,30-40x3", and the files that they make. */
 #ifndef MESO_SEED_LIST_H
 #define MESO_SEED_LIST_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "libcore/base/arena.h"
@@ -33,5 +34,13 @@ const MesoSeedRange *meso_seed_list_find(const MesoSeedList *list, uint64_t seed
 
 /* Its place among the seeds of the list, ascending. The seed must be in it. */
 uint32_t meso_seed_list_index(const MesoSeedList *list, uint64_t seed);
+
+/* ---- files, one a seed: "out-%d.slots" ---- */
+
+/* One %d, any number of %%, and no other %. */
+bool meso_seed_path_is_pattern(const char *text);
+
+/* The name for a seed, in `arena`; NULL when memory is out. */
+char *meso_seed_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoError *error);
 
 #endif

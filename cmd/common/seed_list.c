@@ -1,4 +1,4 @@
-#include "cmd/solve/seed_list.h"
+#include "cmd/common/seed_list.h"
 
 #include <assert.h>
 #include <ctype.h>
@@ -103,4 +103,34 @@ uint32_t meso_seed_list_index(const MesoSeedList *list, uint64_t seed)
     const MesoSeedRange *range = meso_seed_list_find(list, seed);
     assert(range);
     return range->begin + (uint32_t)(seed - range->first);
+}
+
+bool meso_seed_path_is_pattern(const char *text)
+{
+    int seeds = 0;
+    for (; *text; text++)
+        if (*text == '%') {
+            text++;
+            seeds += *text == 'd';
+            if (*text != 'd' && *text != '%')
+                return false;
+        }
+    return seeds == 1;
+}
+
+char *meso_seed_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoError *error)
+{
+    char *path = meso_arena_copy_text(arena, "", error);
+    for (const char *next; path && *pattern; pattern = next) {
+        next = pattern + strcspn(pattern, "%");
+        path = meso_arena_print(arena, error, "%s%.*s", path, (int)(next - pattern), pattern);
+        if (!*next)
+            break;
+        if (path && next[1] == 'd')
+            path = meso_arena_print(arena, error, "%s%" PRIu64, path, seed);
+        else if (path)
+            path = meso_arena_print(arena, error, "%s%%", path);
+        next += 2;
+    }
+    return path;
 }

@@ -1,5 +1,5 @@
 /* Lists of seeds: every form, every mistake, and where a seed stands. */
-#include "cmd/solve/seed_list.h"
+#include "cmd/common/seed_list.h"
 
 #include <stdio.h>
 #include <string.h>
