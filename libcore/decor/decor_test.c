@@ -1,0 +1,412 @@
+/* Invariants of finished patterns, after random programs on surfaces of every kind. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcore/base/random.h"
+#include "libcore/decor/decor.h"
+#include "libcore/decor/region/region_shape.h"
+#include "libcore/decor/region/triangle_area.h"
+#include "libcore/mesh/cut/border_loops.h"
+#include "libcore/mesh/cut/triangulation_fixture.h"
+
+/* ---- surfaces ---- */
+
+static MesoTriangulation tube(uint32_t columns, uint32_t rows, bool turned)
+{
+    uint32_t count = columns * (rows + 1), n = 0;
+    MesoVec3 *positions = malloc(count * sizeof *positions);
+    uint32_t *corners = malloc(6 * sizeof *corners * columns * rows);
+    CHECK(positions && corners);
+    for (uint32_t v = 0; v < count; v++) {
+        float a = 6.2831853f * (float)(v % columns) / (float)columns, h = (float)(v / columns) / (float)rows;
+        float r = 1 + 0.3f * sinf(4 * h);
+        /* turned: a band around a circle, which the seam turns over */
+        float across = 0.4f * (h - 0.5f), out = 1 + across * cosf(a / 2);
+        positions[v] = turned ? (MesoVec3){out * cosf(a), out * sinf(a), across * sinf(a / 2)}
+                              : (MesoVec3){r * cosf(a), 2 * h, r * sinf(a)};
+    }
+    for (uint32_t r = 0; r < rows; r++)
+        for (uint32_t c = 0; c < columns; c++) {
+            bool seam = turned && c + 1 == columns;
+            uint32_t next = (c + 1) % columns, low = r, high = r + 1;
+            uint32_t far_low = seam ? rows - r : low, far_high = seam ? rows - r - 1 : high;
+            uint32_t quad[6] = {low * columns + c, far_low * columns + next, far_high * columns + next,
+                                low * columns + c, far_high * columns + next, high * columns + c};
+            for (uint32_t k = 0; k < 6; k++)
+                corners[n++] = quad[k];
+        }
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, count, corners, n / 3);
+    free(positions);
+    free(corners);
+    return mesh;
+}
+
+/* An octahedron, each face in n x n triangles, on the sphere. */
+static MesoTriangulation ball(uint32_t n)
+{
+    uint32_t count = 4 * n * n + 2, used = 0, c = 0;
+    MesoVec3 *positions = malloc(count * sizeof *positions);
+    uint32_t *corners = malloc(3 * sizeof *corners * 8 * n * n);
+    uint32_t *ring = malloc((2 * n + 2) * sizeof *ring);
+    CHECK(positions && corners && ring);
+    for (uint32_t i = 0; i <= 2 * n; i++) {
+        uint32_t sides = i <= n ? i : 2 * n - i, size = sides ? 4 * sides : 1;
+        ring[i] = used;
+        for (uint32_t k = 0; k < size; k++) {
+            float polar = 3.14159265f * (float)i / (float)(2 * n), a = 6.2831853f * (float)k / (float)size;
+            positions[used++] = (MesoVec3){sinf(polar) * cosf(a), cosf(polar), -sinf(polar) * sinf(a)};
+        }
+    }
+    for (uint32_t i = 0; i < 2 * n; i++) {
+        uint32_t s0 = i <= n ? i : 2 * n - i, s1 = i + 1 <= n ? i + 1 : 2 * n - i - 1;
+        for (uint32_t q = 0; q < 4; q++) {
+            uint32_t most = s0 > s1 ? s0 : s1;
+            for (uint32_t k = 0; k < most; k++) {
+                bool grows = s1 > s0;
+                uint32_t small = grows ? s0 : s1, big = grows ? s1 : s0;
+                uint32_t small_ring = ring[grows ? i : i + 1], big_ring = ring[grows ? i + 1 : i];
+                uint32_t small_size = small ? 4 * small : 1, big_size = 4 * big;
+                uint32_t a = small_ring + (q * small + k) % small_size, b0 = big_ring + (q * big + k) % big_size;
+                uint32_t b1 = big_ring + (q * big + k + 1) % big_size;
+                uint32_t t[3] = {a, grows ? b0 : b1, grows ? b1 : b0};
+                memcpy(corners + c, t, sizeof t);
+                c += 3;
+                if (k + 1 < most) {
+                    uint32_t a1 = small_ring + (q * small + k + 1) % small_size;
+                    uint32_t u[3] = {a, grows ? b1 : a1, grows ? a1 : b1};
+                    memcpy(corners + c, u, sizeof u);
+                    c += 3;
+                }
+            }
+        }
+    }
+    CHECK(used == count && c == 24 * n * n);
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, count, corners, c / 3);
+    free(positions);
+    free(corners);
+    free(ring);
+    return mesh;
+}
+
+static MesoTriangulation one_triangle(void)
+{
+    const MesoVec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const uint32_t corners[3] = {0, 1, 2};
+    return meso_fixture_triangulation(positions, 3, corners, 1);
+}
+
+/* Two sheets that do not touch. */
+static MesoTriangulation two_sheets(void)
+{
+    const uint32_t side = 9, count = 2 * side * side;
+    MesoVec3 positions[2 * 9 * 9];
+    uint32_t corners[2 * 6 * 8 * 8], n = 0;
+    for (uint32_t v = 0; v < count; v++) {
+        uint32_t sheet = v / (side * side), w = v % (side * side);
+        positions[v] = (MesoVec3){(float)(w % side) + 20 * (float)sheet, (float)(w / side), 0};
+    }
+    for (uint32_t sheet = 0; sheet < 2; sheet++)
+        for (uint32_t r = 0; r + 1 < side; r++)
+            for (uint32_t c = 0; c + 1 < side; c++) {
+                uint32_t a = sheet * side * side + r * side + c;
+                uint32_t quad[6] = {a, a + 1, a + side + 1, a, a + side + 1, a + side};
+                memcpy(corners + n, quad, sizeof quad);
+                n += 6;
+            }
+    return meso_fixture_triangulation(positions, count, corners, n / 3);
+}
+
+enum { SURFACES = 12 };
+
+static MesoTriangulation surface(uint32_t number)
+{
+    switch (number) {
+    case 0: return meso_fixture_sheet(12, 9, 0.1f);
+    case 1: return meso_fixture_sheet(40, 3, 1);
+    case 2: return meso_fixture_torus(24, 12, 0.4f);
+    case 3: return tube(24, 16, false);
+    case 4: return tube(30, 5, true);
+    case 5: return ball(6);
+    case 6: return ball(12);
+    case 7: return one_triangle();
+    case 8: return two_sheets();
+    case 9: return meso_fixture_sheet(1, 1, 100);
+    case 10: return tube(48, 40, false);
+    default: return meso_fixture_torus(9, 30, 0.7f);
+    }
+}
+
+/* ---- invariants ---- */
+
+static double mesh_area(const MesoTriangulation *mesh)
+{
+    double area = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        area += meso_triangle_area(mesh, t);
+    return area;
+}
+
+/* Whether a walk goes on across a side: of all, or of what walls part. */
+static bool goes_on(const MesoTriangulation *mesh, uint32_t half_edge, bool open)
+{
+    return mesh->twins[half_edge] != MESO_NO_INDEX && !(open && meso_side_is_wall(mesh, half_edge));
+}
+
+/*
+ * V - E + F of all triangles, or of those of one label, opened along its walls: vertices are counted once for each
+ * fan of theirs between walls.
+ */
+static int64_t euler(const MesoTriangulation *mesh, uint32_t label)
+{
+    bool open = label != MESO_NO_INDEX;
+    int64_t faces = 0, twice = 0, vertices = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (open && mesh->labels[t] != label)
+            continue;
+        faces++;
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t corner = 3 * t + k;
+            twice += goes_on(mesh, corner, open) ? 1 : 2;
+            /* a fan is counted at its lowest corner */
+            bool lowest = true, closed = false;
+            for (int turned = 0; turned < 2 && !closed; turned++) {
+                MesoFan fan = {corner, turned};
+                while (!closed && goes_on(mesh, meso_fan_exit(fan), open) && meso_fan_next(mesh, &fan)) {
+                    closed = fan.corner == corner;
+                    lowest &= fan.corner >= corner;
+                }
+            }
+            vertices += lowest;
+        }
+    }
+    return vertices - twice / 2 + faces;
+}
+
+static uint32_t flood(const MesoTriangulation *mesh, uint32_t first, uint8_t *seen, uint32_t *stack)
+{
+    uint32_t depth = 0, count = 0;
+    stack[depth++] = first;
+    seen[first] = 1;
+    while (depth > 0) {
+        uint32_t t = stack[--depth];
+        count++;
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t across = mesh->twins[3 * t + k];
+            if (across == MESO_NO_INDEX || seen[across / 3] || mesh->labels[across / 3] != mesh->labels[t])
+                continue;
+            seen[across / 3] = 1;
+            stack[depth++] = across / 3;
+        }
+    }
+    return count;
+}
+
+/*
+ * Leaves are connected, and as large as the tree says; the first label may be of several pieces where the surface
+ * is.
+ */
+static void check_connected(const MesoDecor *decor)
+{
+    const MesoTriangulation *mesh = &decor->mesh;
+    uint8_t *seen = calloc(mesh->triangle_count, 1);
+    uint32_t *stack = malloc(mesh->triangle_count * sizeof *stack);
+    uint32_t *pieces = calloc(decor->tree.region_count, sizeof *pieces);
+    CHECK(seen && stack && pieces);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (seen[t])
+            continue;
+        uint32_t label = mesh->labels[t], count = flood(mesh, t, seen, stack);
+        CHECK(decor->tree.regions[label].child_count == 0);
+        pieces[label]++;
+        CHECK(label == 0 || (pieces[label] == 1 && count >= decor->tree.regions[label].triangle_count));
+    }
+    free(seen);
+    free(stack);
+    free(pieces);
+}
+
+static void check_regions(const MesoDecor *decor, bool orientable, bool moved)
+{
+    MesoArena arena;
+    MesoRegionLists lists;
+    MesoRegionFacts facts;
+    MesoError error;
+    meso_arena_init(&arena);
+    CHECK(meso_region_lists_build(&lists, &arena, &decor->tree, &decor->mesh, &error) == MESO_OK);
+    CHECK(meso_region_facts(&facts, &arena, &decor->tree, &decor->mesh, &error) == MESO_OK);
+    double leaves = 0, all = mesh_area(&decor->mesh);
+    for (uint32_t r = 0; r < decor->tree.region_count; r++) {
+        const MesoRegion *region = &decor->tree.regions[r];
+        double children = 0;
+        for (uint32_t i = 0; i < region->child_count; i++) {
+            children += facts.shapes[region->child_begin + i].area;
+            CHECK(decor->tree.regions[region->child_begin + i].parent == r);
+        }
+        if (region->child_count > 0) {
+            CHECK(fabs(children - facts.shapes[r].area) <= 1e-6 * all);
+            continue;
+        }
+        leaves += facts.shapes[r].area;
+        CHECK(lists.begin[r + 1] > lists.begin[r]);
+        CHECK(moved || fabs(region->area - facts.shapes[r].area) <= 1e-6 * all);
+        int64_t holes = 2 - (int64_t)facts.shapes[r].borders - euler(&decor->mesh, r);
+        CHECK(r == 0 || (holes >= 0 && (!orientable || holes % 2 == 0)));
+    }
+    CHECK(fabs(leaves - all) <= 1e-6 * all);
+    meso_arena_release(&arena);
+}
+
+/* ---- random programs ---- */
+
+static float share(MesoRandom *random)
+{
+    return (float)meso_random_below(random, 1000) / 1000;
+}
+
+static MesoRange any_range(void)
+{
+    return (MesoRange){-INFINITY, INFINITY};
+}
+
+static MesoSelector random_selector(MesoRandom *random)
+{
+    MesoSelector s = {.borders = any_range(), .corners = any_range(), .aspect = any_range(), .area = any_range(),
+                      .area_share = any_range(), .share = 1};
+    switch (meso_random_below(random, 8)) {
+    case 0: s.every = 2; break;
+    case 1: s.largest = 3; break;
+    case 2: s.colors = 2; break;
+    case 3: s.share = 0.5f; break;
+    case 4: s.level = MESO_SELECT_NODES; s.path = "*"; break;
+    case 5: s.level = MESO_SELECT_NODES; break;
+    case 6: s.has_point = true; s.point = (MesoVec3){share(random), share(random), 0}; break;
+    default: break;
+    }
+    return s;
+}
+
+static MesoSeedSpec random_seed(MesoRandom *random)
+{
+    MesoSeedSpec spec = {.kind = MESO_SEED_BORDERS};
+    switch (meso_random_below(random, 9)) {
+    case 0: spec.kind = MESO_SEED_OUTER; break;
+    case 1: spec.kind = MESO_SEED_INNER; break;
+    case 2: spec.kind = MESO_SEED_SIDE; spec.corners[1] = 1 + meso_random_below(random, 3); break;
+    case 3: spec.kind = MESO_SEED_POINT; spec.point = (MesoVec3){share(random), share(random), share(random)}; break;
+    case 4: spec.kind = MESO_SEED_ALONG; spec.of = MESO_SEED_BORDERS; spec.count = 1 + meso_random_below(random, 9);
+            break;
+    case 5: case 6: spec.kind = MESO_SEED_POISSON; spec.count = 1 + meso_random_below(random, 9);
+            spec.from_border = meso_random_below(random, 2); break;
+    default: break;
+    }
+    return spec;
+}
+
+enum { MOST_STEPS = 6 };
+
+typedef struct Program {
+    MesoStep steps[MOST_STEPS];
+    MesoSeedSpec seeds[MOST_STEPS][6];
+    float levels[MOST_STEPS][3];
+    MesoAfterSplit after[MOST_STEPS];
+    uint32_t count;
+    bool moves;
+} Program;
+
+static void random_program(Program *p, MesoRandom *random)
+{
+    *p = (Program){.count = 1 + meso_random_below(random, MOST_STEPS)};
+    for (uint32_t i = 0; i < p->count; i++) {
+        MesoStep *step = &p->steps[i];
+        for (int k = 0; k < 6; k++)
+            p->seeds[i][k] = random_seed(random);
+        for (int k = 0; k < 3; k++)
+            p->levels[i][k] = share(random);
+        step->kind = (MesoStepKind)meso_random_below(random, 4);
+        step->place = "step";
+        step->on = random_selector(random);
+        step->field.from = (MesoSeedSet){p->seeds[i], 1 + meso_random_below(random, 2)};
+        step->field.to = (MesoSeedSet){p->seeds[i] + 2, 1};
+        step->field.blend = meso_random_below(random, 2);
+        if (meso_random_below(random, 4) == 0)
+            step->field.noise = (MesoNoise){.of = 1 + meso_random_below(random, 2), .gain = 0.05f, .frequency = 3};
+        step->levels = (MesoLevels){.values = p->levels[i], .value_count = meso_random_below(random, 4),
+                                    .count = meso_random_below(random, 4), .unit = MESO_LEVEL_SHARE};
+        step->line_count = 1 + meso_random_below(random, 12);
+        for (int k = 3; k < 6; k++) {
+            p->seeds[i][k].kind = MESO_SEED_POINT;
+            p->seeds[i][k].point = (MesoVec3){share(random), share(random), share(random)};
+        }
+        step->points = p->seeds[i] + 3;
+        step->point_count = 2 + meso_random_below(random, 2);
+        step->closed = meso_random_below(random, 2);
+        if (meso_random_below(random, 4) == 0) {
+            p->after[i] = (MesoAfterSplit){.displaced = true, .displacement = {0.02f, false, 0.5f, 0.5f, 0}};
+            step->after = &p->after[i];
+            step->after_count = 1;
+            p->moves = true;
+        }
+    }
+}
+
+static uint64_t hash_of(const MesoDecor *decor)
+{
+    uint64_t hash = 1469598103934665603u;
+    const uint8_t *bytes[3] = {(const uint8_t *)decor->mesh.positions, (const uint8_t *)decor->mesh.corners,
+                               (const uint8_t *)decor->mesh.labels};
+    size_t sizes[3] = {decor->mesh.vertex_count * sizeof(MesoVec3), 12 * (size_t)decor->mesh.triangle_count,
+                       4 * (size_t)decor->mesh.triangle_count};
+    for (int i = 0; i < 3; i++)
+        for (size_t k = 0; k < sizes[i]; k++)
+            hash = (hash ^ bytes[i][k]) * 1099511628211u;
+    return hash;
+}
+
+static void run(MesoDecor *decor, MesoArena *arena, uint32_t number, const MesoPattern *pattern, uint64_t seed)
+{
+    MesoError error;
+    const MesoDecorOptions options = {.seed = seed, .region_limit = 100000, .triangle_limit = 10000000};
+    *decor = (MesoDecor){.mesh = surface(number)};
+    MesoStatus status = meso_decor_run(decor, arena, pattern, &options, &error);
+    if (status)
+        fprintf(stderr, "surface %u, seed %llu: %s\n", number, (unsigned long long)seed, error.message);
+    CHECK(status == MESO_OK);
+}
+
+static void test_program(uint32_t number, uint64_t seed)
+{
+    MesoRandom random;
+    Program program;
+    MesoArena arena;
+    MesoDecor decor, again;
+    MesoError error;
+    MesoTriangulation before = surface(number);
+    meso_random_init(&random, seed, number);
+    random_program(&program, &random);
+    meso_arena_init(&arena);
+    const MesoPattern pattern = {.steps = program.steps, .step_count = program.count};
+    run(&decor, &arena, number, &pattern, seed);
+    MesoStatus status = meso_triangulation_check(&decor.mesh, &error);
+    if (status)
+        fprintf(stderr, "surface %u, seed %llu: %s\n", number, (unsigned long long)seed, error.message);
+    CHECK(status == MESO_OK);
+    CHECK(euler(&before, MESO_NO_INDEX) == euler(&decor.mesh, MESO_NO_INDEX));
+    CHECK(program.moves || fabs(mesh_area(&before) - mesh_area(&decor.mesh)) < 1e-5 * mesh_area(&before));
+    check_connected(&decor);
+    check_regions(&decor, number != 4, program.moves);
+    run(&again, &arena, number, &pattern, seed);
+    CHECK(hash_of(&decor) == hash_of(&again));
+    meso_triangulation_release(&before);
+    meso_triangulation_release(&decor.mesh);
+    meso_triangulation_release(&again.mesh);
+    meso_arena_release(&arena);
+}
+
+int main(int argc, char **argv)
+{
+    uint64_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 5, first = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
+    for (uint64_t seed = first; seed < first + count; seed++)
+        for (uint32_t number = 0; number < SURFACES; number++)
+            test_program(number, seed);
+    return 0;
+}
