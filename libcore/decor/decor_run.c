@@ -112,7 +112,7 @@ static MesoStatus split_and_look_after(MesoDecorWork *work, const MesoStep *step
     uint32_t before = work->decor->tree.region_count;
     MesoStatus status = meso_decor_split(work, step, targets, error);
     if (!status && work->decor->tree.region_count > work->options->region_limit)
-        return meso_fail(error, MESO_ERR_LIMIT, "%s: %u regions, over the limit of %u", step->place,
+        return meso_fail(error, MESO_ERR_LIMIT, "%u regions, over the limit of %u",
                          work->decor->tree.region_count, work->options->region_limit);
     if (!status)
         status = meso_decor_refresh(work, error);
@@ -163,6 +163,10 @@ MesoStatus meso_decor_run_steps(MesoDecorWork *work, const MesoStep *steps, uint
             meso_decor_note(work, &steps[i], "no region is selected: nothing is done");
         else if (!status)
             status = run_on(work, &steps[i], &targets, error);
+        if ((status == MESO_ERR_INPUT || status == MESO_ERR_LIMIT) && !work->placed) {
+            meso_fail_prefix(error, steps[i].place);
+            work->placed = true;
+        }
         meso_arena_rewind(work->scratch, mark);
     }
     return status;

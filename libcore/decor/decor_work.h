@@ -14,6 +14,7 @@ typedef struct MesoDecorWork {
     const MesoDecorOptions *options;
     MesoGeodesicSolver *solver;
     MesoArena *scratch;         /* of one step */
+    bool placed;                /* the error names its step */
 
     /* Made anew after each cut: */
     MesoArena tables;
@@ -82,9 +83,13 @@ MesoStatus meso_decor_face_point(const MesoDecorWork *work, const MesoSeedSpec *
 
 /* region_field.c: work->field on the vertices of the domain. */
 typedef struct MesoFieldFacts {
-    float largest;      /* that is finite; 0: no seeds, or no way from them */
+    float largest;      /* that is finite */
+    bool seeded;        /* there are seeds, on both sides of a blend */
     bool points;        /* `from` has points: what a contour cuts out are dots */
 } MesoFieldFacts;
+
+/* Why there is nothing to do in a field whose largest value is 0. */
+const char *meso_decor_flat_reason(const MesoFieldFacts *facts);
 
 MesoStatus meso_decor_field(MesoDecorWork *work, const MesoFieldSpec *spec, uint32_t region, const MesoDomain *domain,
                             MesoFieldFacts *facts, MesoError *error);

@@ -29,8 +29,7 @@ static MesoStatus choose_levels(MesoSplit *split, MesoSplitTarget *target, MesoE
     double every = (double)levels->every * (double)unit;
     double regular = levels->count ? levels->count : every > 0 ? (double)largest / every : 0;
     if (regular > MOST_LEVELS)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: %.0f levels in one region, over the limit of %d",
-                         split->step->place,
+        return meso_fail(error, MESO_ERR_INPUT, "%.0f levels in one region, over the limit of %d",
                          regular, MOST_LEVELS);
     uint32_t count = levels->value_count + (uint32_t)regular, kept = 0;
     target->levels = MESO_NEW(split->work->scratch, float, (size_t)count + 1, error);
@@ -74,7 +73,7 @@ MesoStatus meso_decor_contour(MesoSplit *split, MesoSplitTarget *target, const M
     target->largest = facts.largest;
     target->points = facts.points;
     if (!(facts.largest > 0)) {
-        target->idle = "there are no seeds to measure from";
+        target->idle = meso_decor_flat_reason(&facts);
         return MESO_OK;
     }
     status = choose_levels(split, target, error);

@@ -63,7 +63,7 @@ MesoStatus meso_decor_stream(MesoSplit *split, MesoSplitTarget *target, const Me
         return status;
     target->largest = facts.largest;
     if (!(facts.largest > 0) || chains.count == 0) {
-        target->idle = "there is no border to start from, or none to go to";
+        target->idle = facts.largest > 0 ? "it has no border to start from" : meso_decor_flat_reason(&facts);
         return MESO_OK;
     }
     status = meso_border_samples(work, &chains, split->step->line_count, 0, &starts, &count, error);

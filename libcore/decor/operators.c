@@ -274,7 +274,7 @@ static MesoStatus draw_and_cut(MesoSplit *split, MesoError *error)
     if (!status)
         status = meso_mesh_cut(&work->decor->mesh, &split->lines, &report, work->scratch, error);
     if (!status && work->decor->mesh.triangle_count > work->options->triangle_limit)
-        status = meso_fail(error, MESO_ERR_LIMIT, "%s: %u triangles, over the limit of %llu", split->step->place,
+        status = meso_fail(error, MESO_ERR_LIMIT, "%u triangles, over the limit of %llu",
                            work->decor->mesh.triangle_count, (unsigned long long)work->options->triangle_limit);
     if (!status)
         status = meso_geodesic_update(work->solver, &report, error);

@@ -78,6 +78,7 @@ MesoStatus meso_decor_field(MesoDecorWork *work, const MesoFieldSpec *spec, uint
         status = meso_decor_seeds(work, &spec->to, region, domain, &to, error);
     if (status || from.count == 0 || (spec->blend && to.count == 0))
         return status;
+    facts->seeded = true;
     facts->points = from.point_count > 0;
     status = solve(work, &from, domain, work->field, error);
     if (!status && spec->blend)
@@ -92,6 +93,12 @@ MesoStatus meso_decor_field(MesoDecorWork *work, const MesoFieldSpec *spec, uint
         facts->largest = largest_in(&work->decor->mesh, domain, work->field);
     }
     return MESO_OK;
+}
+
+const char *meso_decor_flat_reason(const MesoFieldFacts *facts)
+{
+    return facts->seeded ? "it is too coarse: all of its vertices are seeds"
+                         : "it has nothing to measure distances from, or nothing to go to";
 }
 
 MesoStatus meso_decor_perturb(MesoDecorWork *work, const MesoNoise *noise, float size, MesoError *error)

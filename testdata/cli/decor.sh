@@ -1,0 +1,72 @@
+# Patterns on surfaces: the tree, the lines, steps one by one, seeds, threads; and what cannot be.
+pattern() { printf '{"format": "meso-pattern", "version": 1, "steps": [%s]}\n' "$1"; }
+leaves() { grep -c '"triangles"' "$1"; }
+cp "$fixtures/vase.obj" . && meso-mesh -q triangulate vase.obj -o vase.ply
+
+echo "== a rim, a belly, dots on it"
+pattern '{"contour": {"dist": "outer", "at": [0.2, 0.7]}, "names": "zone"},
+         {"contour": {"dist": {"poisson": {"count": 5}}, "at": 0.06, "unit": "size"}, "on": "zone.1"}' >dots.json
+meso-decor dots.json vase.ply -o dots.meso --tree dots.tree.json --lines dots.svg
+leaves dots.tree.json
+grep '"path"' dots.tree.json
+grep -c '<g id="operation' dots.svg
+
+echo "== polygons are cut into triangles first; steps one by one"
+meso-decor --until 1 dots.json vase.obj -o one.ply --tree one.json --lines one.obj
+leaves one.json
+grep -c '^g operation' one.obj
+
+echo "== the same bytes for any number of threads, and from one run to the next"
+for threads in 1 2 7; do
+    meso-decor --threads $threads "$fixtures/macros-square.pattern.json" vase.ply -o - --to meso | cksum
+done | uniq | wc -l
+
+echo "== seeds: each what it is alone"
+pattern '{"voronoi": {"poisson": 6}}, {"paint": {"by": "random", "materials": ["a", "b"]}}' |
+    sed 's/"steps"/"materials": {"a": "#f00", "b": "#00f"}, "steps"/' >cells.json
+meso-decor --seeds 1-3,7 cells.json vase.ply -o cells-%d.meso
+ls cells-*.meso
+meso-decor --seed 7 cells.json vase.ply -o alone.meso
+cmp cells-7.meso alone.meso && cmp -s cells-1.meso cells-2.meso
+echo $?
+meso-decor --seeds 1-3 cells.json vase.ply -o cells.meso
+echo $?
+
+echo "== a single triangle, a one-sided band, two pieces of which one has the seed"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one-face.obj
+pattern '{"contour": {"dist": "borders", "count": 3}}, {"stream": {"dist": "borders", "lines": 4}}' >plain.json
+meso-decor plain.json one-face.obj -o one-face.ply
+awk 'BEGIN { n = 24; pi = atan2(0, -1)
+    for (i = 0; i < n; i++) for (s = -1; s <= 1; s++) {
+        a = 2 * pi * i / n; r = 1 + 0.3 * s * cos(a / 2)
+        print "v", r * cos(a), r * sin(a), 0.3 * s * sin(a / 2) }
+    for (i = 0; i + 1 < n; i++) for (k = 1; k < 3; k++) print "f", 3 * i + k, 3 * i + k + 3, 3 * i + k + 4, 3 * i + k + 1
+    for (k = 1; k < 3; k++) print "f", 3 * n - 3 + k, 4 - k, 3 - k, 3 * n - 2 + k }' >band.obj
+meso-decor plain.json band.obj -o band.ply --tree band.json
+leaves band.json
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n' >two.obj
+pattern '{"contour": {"dist": {"point": [0, 0, 0]}, "at": 0.5, "unit": "scene"}}' >corner.json
+meso-decor corner.json two.obj -o two.ply --tree two.json
+leaves two.json
+
+echo "== nothing to do is said"
+pattern '{"contour": {"dist": "outer", "at": 0.5}, "on": "nowhere"}, {"stream": {"blend": ["inner", "outer"], "lines": 4}}' >idle.json
+meso-decor idle.json vase.ply -o idle.ply
+
+echo "== what cannot be"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n' >crowded.obj
+meso-decor plain.json crowded.obj -o crowded.ply
+echo $?
+pattern '{"contuor": {"dist": "outer"}}' >wrong.json
+meso-decor wrong.json vase.ply -o wrong.ply
+echo $?
+printf '{"format": "meso-pattern", "version": 1, "macros": {"m": {"steps": [{"macro": "m"}]}}, "steps": [{"macro": "m"}]}' >loop.json
+meso-decor loop.json vase.ply -o loop.ply
+echo $?
+pattern '{"contour": {"dist": "outer", "every": 1e-7, "unit": "scene"}}' >fine.json
+meso-decor fine.json vase.ply -o fine.ply
+echo $?
+pattern '{"voronoi": [{"face": 99999999}, {"point": [0, 0, 0]}]}' >face.json
+meso-decor face.json vase.ply -o face.ply
+echo $?
+ls | grep -E 'crowded.ply|wrong.ply|loop.ply|fine.ply|face.ply'
