@@ -105,7 +105,8 @@ typedef struct Part {
 
 enum { PART_COUNT = 3 };
 
-static const char *const paint_keys[] = {"by", "materials", NULL}, *const displacement_keys[] = {"height", "unit", "bias", "gain", "jitter", NULL};
+static const char *const paint_keys[] = {"by", "materials", NULL};
+static const char *const displacement_keys[] = {"height", "unit", "bias", "gain", "jitter", NULL};
 static const Part parts[PART_COUNT] = {
     {"paint", paint_keys, read_paint}, {"displace", displacement_keys, read_displacement}, {"names", NULL, read_name}};
 

@@ -1,4 +1,4 @@
-/* What regions get: painting, displacement, names; of a split's children by their tags, or of a region that a step selects. */
+/* What regions get: painting, displacement, names; a split's children by their tags, or what a step selects. */
 #ifndef MESO_PATTERN_AFTER_H
 #define MESO_PATTERN_AFTER_H
 

@@ -4,7 +4,7 @@
 
 enum { MOST_LEVELS = 1 << 16 };
 
-/* Gain and frequency are in units of the region's size unless "unit" says otherwise, so that a pattern fits any surface. */
+/* Gain and frequency are relative to the region unless "unit" says otherwise, so that a pattern fits any surface. */
 static void read_noise(const MesoJsonField *field, MesoNoise *noise)
 {
     static const char *const keys[] = {"of", "gain", "frequency", "unit", "seed", NULL};

@@ -31,7 +31,8 @@ static void add_macro_files(MesoPatternParser *parser, const MesoJsonField *list
 /* The pattern's own macros go before those of its files, and those before the built-in ones. */
 static void read_root(MesoPatternParser *parser, const MesoJsonField *root, MesoPattern *pattern)
 {
-    static const char *const keys[] = {"format", "version", "provenance", "materials", "macros", "macro_files", "steps", NULL};
+    static const char *const keys[] = {"format", "version", "provenance", "materials", "macros", "macro_files", "steps",
+                                       NULL};
     MesoJsonField materials = meso_json_key(root, "materials"), macros = meso_json_key(root, "macros");
     MesoJsonField files = meso_json_key(root, "macro_files"), steps = meso_json_key(root, "steps");
     if (!meso_json_object(root, keys))
@@ -43,8 +44,8 @@ static void read_root(MesoPatternParser *parser, const MesoJsonField *root, Meso
     meso_pattern_steps(parser, &steps, &pattern->steps, &pattern->step_count);
 }
 
-MesoStatus meso_pattern_read(MesoPattern *pattern, MesoArena *arena, const MesoInput *input, const MesoPatternFiles *files,
-                             MesoError *error)
+MesoStatus meso_pattern_read(MesoPattern *pattern, MesoArena *arena, const MesoInput *input,
+                             const MesoPatternFiles *files, MesoError *error)
 {
     json_t *root;
     *pattern = (MesoPattern){0};

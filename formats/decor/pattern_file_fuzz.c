@@ -1,4 +1,4 @@
-/* Any bytes as a pattern, which may name itself as a file of macros or points; what is accepted is as its header says. */
+/* Any bytes as a pattern, and as the files that it names; what is accepted is as the header says. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -25,9 +25,9 @@ typedef struct MesoMacroCall {
 } MesoMacroCall;
 
 /*
- * Writes out the steps of the macro that `field` calls: a text "$name" that stands for a whole value becomes the parameter
- * of that name, as the call or else the macro has it; one that is null leaves out its key or item. "$$" begins a text with one
- * '$'. Every begin that gives steps has its end; between them, the macro cannot be called again.
+ * Writes out the steps of the macro that `field` calls: a text "$name" that stands for a whole value becomes the
+ * parameter of that name, as the call or else the macro has it; one that is null leaves out its key or item. "$$"
+ * begins a text with one '$'. Every begin that gives steps has its end; between them, the macro cannot be called again.
  */
 void meso_macro_begin(MesoMacroCall *call, MesoPatternParser *parser, const MesoJsonField *field);
 void meso_macro_end(MesoMacroCall *call, MesoPatternParser *parser);

@@ -47,7 +47,7 @@ void *meso_pattern_allocate(MesoPatternParser *parser, uint64_t count, size_t si
 /* The file behind the name at `field`, or NULL, told there. */
 const MesoInput *meso_pattern_open(MesoPatternParser *parser, const MesoJsonField *field);
 
-/* Says that `text` is none of `words`, ended by NULL, which one it may be meant to be, and otherwise which there are. */
+/* Says that `text` is none of `words`, ended by NULL, and which one it may be meant to be, or which there are. */
 void meso_pattern_refuse(const MesoJsonField *field, const char *what, const char *text, const char *const *words);
 
 /* Number among `words` of the text at `field`; refused where it is none. */

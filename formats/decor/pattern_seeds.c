@@ -176,8 +176,8 @@ static const MesoPatternPoints *read_file(MesoPatternParser *parser, const MesoJ
     if (!input)
         return NULL;
     MesoStatus status = meso_points_read(&points.points, &points.count, reader->arena, input, reader->error);
-    MesoPatternPoints *grown = MESO_GROW(reader->arena, parser->points, parser->point_file_count, parser->point_file_room, 4,
-                                         reader->error);
+    MesoPatternPoints *grown = MESO_GROW(reader->arena, parser->points, parser->point_file_count,
+                                         parser->point_file_room, 4, reader->error);
     if (status || !grown) {
         reader->status = status ? status : MESO_ERR_MEMORY;
         return NULL;
@@ -222,7 +222,8 @@ static void read_list_of_points(const MesoJsonField *field, MesoSeedSpec *specs,
     }
 }
 
-static void read_file_of_points(MesoPatternParser *parser, const MesoJsonField *field, MesoSeedSpec *specs, uint32_t count)
+static void read_file_of_points(MesoPatternParser *parser, const MesoJsonField *field, MesoSeedSpec *specs,
+                                uint32_t count)
 {
     const MesoPatternPoints *file = file_of_seed(parser, field);
     for (uint32_t i = 0; file && i < count; i++) {
@@ -238,8 +239,8 @@ static void refuse_object(const MesoJsonField *field)
     json_object_foreach((json_t *)field->value, key, value)
         if (!meso_json_is_note(key))
             meso_pattern_refuse(field, "seed", key, kinds);
-    meso_json_wrong(field, "a seed is needed here: \"borders\", \"outer\", \"inner\" or an object with one of \"side\", \"loop\", "
-                    "\"point\", \"points\", \"face\", \"along\", \"poisson\", \"file\"");
+    meso_json_wrong(field, "a seed is needed here: \"borders\", \"outer\", \"inner\" or an object with one of "
+                    "\"side\", \"loop\", \"point\", \"points\", \"face\", \"along\", \"poisson\", \"file\"");
 }
 
 /* `count` seeds of an object. */
@@ -337,11 +338,13 @@ static void read_row_entry(MesoPatternParser *parser, const MesoJsonField *field
     } else if (kind == POINT || kind == POINTS || kind == FACE || kind == FILE_OF_POINTS) {
         read_entry(parser, field, specs, count);
     } else {
-        meso_json_wrong(field, "a point is needed here: [x, y, z], {\"point\": ...}, {\"face\": ...} or {\"file\": ...}");
+        meso_json_wrong(field, "a point is needed here: [x, y, z], {\"point\": ...}, {\"face\": ...} or "
+                        "{\"file\": ...}");
     }
 }
 
-const MesoSeedSpec *meso_pattern_row(MesoPatternParser *parser, const MesoJsonField *field, uint32_t least, uint32_t *count)
+const MesoSeedSpec *meso_pattern_row(MesoPatternParser *parser, const MesoJsonField *field, uint32_t least,
+                                     uint32_t *count)
 {
     meso_json_require(field);
     uint32_t total = count_list(parser, field), done = 0;

@@ -10,7 +10,8 @@ void meso_pattern_seeds(MesoPatternParser *parser, const MesoJsonField *field, M
 /* True if `value` is an object that is a seed. */
 bool meso_pattern_is_seed(const json_t *value);
 
-/* Points of the surface in a row, `least` or more: a list of [x, y, z] and of seeds that are points, or a file of them. */
-const MesoSeedSpec *meso_pattern_row(MesoPatternParser *parser, const MesoJsonField *field, uint32_t least, uint32_t *count);
+/* Points of the surface in a row, `least` or more: a list of [x, y, z] and of seeds that are points. */
+const MesoSeedSpec *meso_pattern_row(MesoPatternParser *parser, const MesoJsonField *field, uint32_t least,
+                                     uint32_t *count);
 
 #endif

@@ -8,9 +8,9 @@ const char *const meso_pattern_tags[] = {"surface", "band", "inside", "dot", "ba
 
 static const MesoRange any = {-INFINITY, INFINITY};
 
-static const char *const selector_keys[] = {"path", "tag", "level", "borders", "corners", "aspect", "area", "area_share",
-                                            "point", "checkered", "colors", "color", "share", "every", "from",
-                                            "largest", NULL};
+static const char *const selector_keys[] = {"path", "tag", "level", "borders", "corners", "aspect", "area",
+                                            "area_share", "point", "checkered", "colors", "color", "share", "every",
+                                            "from", "largest", NULL};
 static const char *const rule_keys[] = {"path", "tag", "borders", "corners", "aspect", "area", "area_share", NULL};
 
 /* Names and numbers with '/' between, "*" and "**"; or "." alone. */
@@ -150,8 +150,8 @@ static void read_object(MesoPatternParser *parser, const MesoJsonField *object, 
 static void read_selector(MesoPatternParser *parser, const MesoJsonField *field, const char *const *keys,
                           MesoSelector *selector)
 {
-    *selector = (MesoSelector){.borders = any, .corners = any, .aspect = any, .area = any, .area_share = any, .share = 1,
-                               .every = 1};
+    *selector = (MesoSelector){.borders = any, .corners = any, .aspect = any, .area = any, .area_share = any,
+                               .share = 1, .every = 1};
     if (!field->value)
         return;
     if (json_is_string(field->value))

@@ -153,13 +153,14 @@ static void refuse_nothing(const MesoJsonField *field)
     json_object_foreach((json_t *)field->value, key, value)
         if (strcmp(key, "on") != 0 && strcmp(key, "names") != 0 && !meso_json_is_note(key))
             meso_pattern_refuse(field, "step", key, does_keys);
-    meso_json_wrong(field, "a step does something; there are \"contour\", \"stream\", \"voronoi\", \"polyline\", \"paint\", "
-                    "\"displace\", \"macro\", \"steps\" and \"grow\"");
+    meso_json_wrong(field, "a step does something; there are \"contour\", \"stream\", \"voronoi\", \"polyline\", "
+                    "\"paint\", \"displace\", \"macro\", \"steps\" and \"grow\"");
 }
 
 static bool check_keys(const MesoJsonField *field, Does does)
 {
-    static const char *const rule_keys[] = {"weight", "most"}, *const split[] = {"on", "paint", "displace", "names", NULL};
+    static const char *const rule_keys[] = {"weight", "most"};
+    static const char *const split[] = {"on", "paint", "displace", "names", NULL};
     const char *keys[6] = {does_keys[does], "on"};
     for (uint32_t i = 0; does == MACRO && i < 2; i++)
         if (meso_pattern_has(field, rule_keys[i]))

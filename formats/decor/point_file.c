@@ -38,7 +38,8 @@ static MesoStatus add_row(Rows *rows, const char *at)
     for (uint32_t i = 0; i < 3; i++) {
         const char *end = meso_text_float(skip(at), &x[i]);
         if (!end || !(is_between(*end) || is_end(*end)) || !isfinite(x[i]))
-            return meso_fail(rows->error, MESO_ERR_INPUT, "%s:%u: a row is three finite numbers", rows->path, rows->line);
+            return meso_fail(rows->error, MESO_ERR_INPUT, "%s:%u: a row is three finite numbers", rows->path,
+                             rows->line);
         at = end;
     }
     rows->points = MESO_GROW(rows->arena, rows->points, rows->count, rows->room, 64, rows->error);
@@ -94,7 +95,8 @@ MesoStatus meso_points_read(const MesoVec3 **points, uint32_t *count, MesoArena 
     Rows rows = {.arena = arena, .path = input->path, .error = error};
     MesoPolygonMesh mesh = {0};
     bool table = is_table(input->path);
-    MesoStatus status = table ? read_table(&rows, input) : meso_polygon_mesh_read_vertices(&mesh, arena, input, 1, error);
+    MesoStatus status = table ? read_table(&rows, input)
+                              : meso_polygon_mesh_read_vertices(&mesh, arena, input, 1, error);
     *points = table ? rows.points : mesh.positions;
     *count = table ? rows.count : mesh.vertex_count;
     if (!status && *count == 0)

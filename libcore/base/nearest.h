@@ -7,7 +7,7 @@
 typedef struct MesoNearest {
     const char *text;       /* [length] what was written */
     size_t length;
-    const char *best;       /* a word that `text` begins, or the nearest of which less than half is another; NULL: none */
+    const char *best;       /* a word that `text` begins, or the nearest, where half of it is right; NULL: none */
     size_t least;
 } MesoNearest;
 

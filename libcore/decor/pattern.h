@@ -32,7 +32,7 @@ typedef enum MesoSelectLevel {
 
 /* All of its conditions hold; the filters by number come last, in this order. */
 typedef struct MesoSelector {
-    const char *path;       /* names joined by '/', '*' any one, '**' any number, "." the scope itself; NULL: all in it */
+    const char *path;       /* names joined by '/', '*' any one, '**' any number, "." the scope; NULL: all in it */
     const char **tags;      /* [tag_count] any of these; 0: any tag */
     uint32_t tag_count;
     MesoSelectLevel level;
@@ -89,7 +89,7 @@ typedef struct MesoNoise {
     MesoNoiseOf of;
     float gain;             /* largest shift, in scene units; of a field, in its own */
     float frequency;        /* cells a scene unit */
-    bool relative;          /* units are the root of the region's area instead; gains of a field, its largest value */
+    bool relative;          /* to the root of the region's area; the gain of a field, to its largest value */
     uint64_t seed;
 } MesoNoise;
 
