@@ -49,7 +49,7 @@ static const MesoStep *step(const char *text)
 {
     if (read(meso_arena_print(&c.arena, NULL, "\"steps\": [%s]", text)) != MESO_OK) {
         fprintf(stderr, "%s\n%s\n", text, c.error.message);
-        CHECK(!"read");
+        CHECK(false);
     }
     CHECK(c.pattern.step_count == 1);
     return &c.pattern.steps[0];
@@ -60,7 +60,7 @@ static void expect_message(MesoStatus status, const char *message)
     if (status != MESO_ERR_INPUT || strcmp(c.error.message, message) != 0) {
         fprintf(stderr, "status %d: %s\n", status, status ? c.error.message : "");
         fprintf(stderr, "expected: %s\n", message);
-        CHECK(!"message");
+        CHECK(false);
     }
 }
 

@@ -56,7 +56,7 @@ static const MesoMacro *call(const char *macros, const char *step)
 {
     if (read(meso_arena_print(&c.arena, NULL, "\"macros\": {%s}, \"steps\": [%s]", macros, step)) != MESO_OK) {
         fprintf(stderr, "%s\n", c.error.message);
-        CHECK(!"read");
+        CHECK(false);
     }
     CHECK(c.pattern.step_count == 1 && c.pattern.steps[0].kind == MESO_STEP_MACRO);
     return &c.pattern.steps[0].macro;
@@ -66,7 +66,7 @@ static void expect_message(MesoStatus status, const char *message)
 {
     if (status != MESO_ERR_INPUT || strcmp(c.error.message, message) != 0) {
         fprintf(stderr, "status %d: %s\nexpected: %s\n", status, status ? c.error.message : "", message);
-        CHECK(!"message");
+        CHECK(false);
     }
 }
 
@@ -180,7 +180,7 @@ static void expect_end(MesoStatus status, const char *end)
     size_t length = strlen(c.error.message), own = strlen(end);
     if (status != MESO_ERR_INPUT || length < own || strcmp(c.error.message + length - own, end) != 0) {
         fprintf(stderr, "status %d: %s\n", status, c.error.message);
-        CHECK(!"end of message");
+        CHECK(false);
     }
 }
 
