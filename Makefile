@@ -9,7 +9,7 @@
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
-#   bench-decor       distances on surfaces, beside the exact ones; lines, cells and samples
+#   bench-decor       distances on surfaces, beside the exact ones; lines, cells, samples, cuts; an editing sequence
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -149,7 +149,8 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
-bench-decor: $(OUT)/test/libcore/geodesic/geodesic_bench $(OUT)/test/libcore/geodesic/geodesic_lines_bench
+bench-decor: $(addprefix $(OUT)/test/libcore/,geodesic/geodesic_bench geodesic/geodesic_lines_bench \
+             mesh/cut/mesh_cut_bench decor/decor_bench)
 	@for bench in $^; do $$bench; done
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
