@@ -59,7 +59,8 @@ MesoStatus meso_decor_shape(MesoDecorWork *work, uint32_t region, MesoRegionShap
     const MesoRegionTree *tree = &work->decor->tree;
     MesoDomain domain;
     MesoArenaMark mark = meso_arena_mark(work->scratch);
-    MesoStatus status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, region, error);
+    MesoStatus status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, &work->decor->mesh,
+                                           region, error);
     if (!status)
         status = meso_region_shape(shape, work->scratch, &work->decor->mesh, &domain, error);
     meso_region_domain_end(tree, region, work->member);

@@ -64,7 +64,8 @@ MesoStatus meso_decor_displace(MesoDecorWork *work, const MesoDisplacement *disp
     for (uint32_t i = 0; i < count && !status; i++) {
         MesoDomain domain;
         MesoArenaMark mark = meso_arena_mark(work->scratch);
-        status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, regions[i], error);
+        status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, &work->decor->mesh,
+                                           regions[i], error);
         if (!status)
             status = displace_region(work, displacement, regions[i], &domain, error);
         meso_region_domain_end(tree, regions[i], work->member);

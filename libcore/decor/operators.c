@@ -36,7 +36,8 @@ static MesoStatus draw_lines(MesoSplit *split, MesoError *error)
     for (uint32_t i = 0; i < split->count && !status; i++) {
         MesoSplitTarget *target = &split->targets[i];
         MesoDomain domain;
-        status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, target->region, error);
+        status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, &work->decor->mesh,
+                                           target->region, error);
         if (!status)
             status = OPERATORS[split->step->kind](split, target, &domain, error);
         meso_region_domain_end(tree, target->region, work->member);

@@ -123,7 +123,8 @@ static MesoStatus keep_at_point(Selection *s, MesoError *error)
     const MesoRegionTree *tree = &work->decor->tree;
     MesoDomain domain;
     MesoArenaMark mark = meso_arena_mark(work->scratch);
-    MesoStatus status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, s->scope, error);
+    MesoStatus status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, &work->decor->mesh,
+                                           s->scope, error);
     if (status)
         return status;
     MesoMeshPoint nearest = meso_surface_point(&work->decor->mesh, &domain, s->selector->point);

@@ -88,7 +88,7 @@ MesoStatus meso_region_facts(MesoRegionFacts *facts, MesoArena *arena, const Mes
     for (uint32_t r = 0; r < tree->region_count && !status; r++) {
         MesoDomain domain;
         MesoArenaMark mark = meso_arena_mark(arena);
-        status = meso_region_domain(&domain, member, arena, tree, &lists, r, error);
+        status = meso_region_domain(&domain, member, arena, tree, &lists, mesh, r, error);
         if (!status)
             status = meso_region_shape(&facts->shapes[r], arena, mesh, &domain, error);
         meso_region_domain_end(tree, r, member);

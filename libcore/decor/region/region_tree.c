@@ -184,8 +184,20 @@ static void gather_leaf(void *context, uint32_t leaf)
 }
 
 
+/* Domains with more than this share of the mesh's triangles are found by a look at all, and not by sorting. */
+enum { SORT_SHARE = 64 };
+
+static void pick_triangles(Gathering *g, const MesoTriangulation *mesh)
+{
+    g->count = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        if (g->member[mesh->labels[t]])
+            g->triangles[g->count++] = t;
+}
+
 MesoStatus meso_region_domain(MesoDomain *domain, uint8_t *member, MesoArena *arena, const MesoRegionTree *tree,
-                              const MesoRegionLists *lists, uint32_t region, MesoError *error)
+                              const MesoRegionLists *lists, const MesoTriangulation *mesh, uint32_t region,
+                              MesoError *error)
 {
     Gathering g = {.lists = lists, .member = member};
     meso_region_each_leaf(tree, region, gather_leaf, &g);
@@ -198,9 +210,13 @@ MesoStatus meso_region_domain(MesoDomain *domain, uint8_t *member, MesoArena *ar
     g.triangles = MESO_NEW(arena, uint32_t, g.count, error);
     if (!g.triangles)
         return MESO_ERR_MEMORY;
-    g.count = 0;
-    meso_region_each_leaf(tree, region, gather_leaf, &g);
-    qsort(g.triangles, g.count, sizeof *g.triangles, meso_by_number);
+    if (g.count > mesh->triangle_count / SORT_SHARE) {
+        pick_triangles(&g, mesh);
+    } else {
+        g.count = 0;
+        meso_region_each_leaf(tree, region, gather_leaf, &g);
+        qsort(g.triangles, g.count, sizeof *g.triangles, meso_by_number);
+    }
     domain->triangles = g.triangles;
     return MESO_OK;
 }

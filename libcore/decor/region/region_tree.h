@@ -77,7 +77,8 @@ MesoStatus meso_region_lists_build(MesoRegionLists *lists, MesoArena *arena, con
  * caller clears them again with meso_region_domain_end(). O(triangles of the region).
  */
 MesoStatus meso_region_domain(MesoDomain *domain, uint8_t *member, MesoArena *arena, const MesoRegionTree *tree,
-                              const MesoRegionLists *lists, uint32_t region, MesoError *error);
+                              const MesoRegionLists *lists, const MesoTriangulation *mesh, uint32_t region,
+                              MesoError *error);
 void meso_region_domain_end(const MesoRegionTree *tree, uint32_t region, uint8_t *member);
 
 /* Calls `visit` for each leaf of a region in the order of their numbers along the tree. */

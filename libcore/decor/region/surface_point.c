@@ -54,6 +54,23 @@ static double nearest_in_triangle(MesoVec3 a, MesoVec3 b, MesoVec3 c, MesoVec3 p
     return best;
 }
 
+static float outside(float low, float high, float x)
+{
+    return x < low ? low - x : x > high ? x - high : 0;
+}
+
+/* A bound from below, by the box around the triangle: most triangles are passed over by this alone. */
+static float squared_box_distance(MesoVec3 a, MesoVec3 b, MesoVec3 c, MesoVec3 p)
+{
+    float x = outside(fminf(a.x, fminf(b.x, c.x)), fmaxf(a.x, fmaxf(b.x, c.x)), p.x);
+    float y = outside(fminf(a.y, fminf(b.y, c.y)), fmaxf(a.y, fmaxf(b.y, c.y)), p.y);
+    float z = outside(fminf(a.z, fminf(b.z, c.z)), fmaxf(a.z, fmaxf(b.z, c.z)), p.z);
+    return x * x + y * y + z * z;
+}
+
+/* Of the bound, in single precision. */
+static const double BOX_ROUNDING = 1 - 1e-5;
+
 MesoMeshPoint meso_surface_point(const MesoTriangulation *mesh, const MesoDomain *domain, MesoVec3 p)
 {
     MesoMeshPoint nearest = {.triangle = domain->triangles[0], .weight = {1, 0, 0}};
@@ -61,6 +78,10 @@ MesoMeshPoint meso_surface_point(const MesoTriangulation *mesh, const MesoDomain
     for (uint32_t i = 0; i < domain->triangle_count; i++) {
         const uint32_t *c = &mesh->corners[3 * (size_t)domain->triangles[i]];
         double weight[2] = {0, 0};
+        double bound = (double)squared_box_distance(mesh->positions[c[0]], mesh->positions[c[1]],
+                                                    mesh->positions[c[2]], p);
+        if (bound * BOX_ROUNDING > least)
+            continue;
         double d = nearest_in_triangle(mesh->positions[c[0]], mesh->positions[c[1]], mesh->positions[c[2]], p, weight);
         if (d < least) {
             least = d;
