@@ -15,14 +15,25 @@ static MesoOperator *const OPERATORS[] = {
     [MESO_STEP_POLYLINE] = meso_decor_polyline,
 };
 
+static void count_leaf(void *context, uint32_t leaf)
+{
+    MesoSplit *split = context;
+    const uint32_t *begin = split->work->lists.begin;
+    split->field.row_room += begin[leaf + 1] - begin[leaf];
+}
+
 /* Rows for the corners of all targets' triangles; no target shares one with another. */
 static MesoStatus init_field(MesoSplit *split, MesoError *error)
 {
     const MesoTriangulation *mesh = &split->work->decor->mesh;
     MesoArena *scratch = split->work->scratch;
+    if (split->step->kind != MESO_STEP_CONTOUR)
+        return MESO_OK;
+    for (uint32_t i = 0; i < split->count; i++)
+        meso_region_each_leaf(&split->work->decor->tree, split->targets[i].region, count_leaf, split);
     split->field.row = MESO_NEW(scratch, uint32_t, mesh->triangle_count, error);
-    split->field.values = split->field.row ? MESO_NEW(scratch, float, 3 * (size_t)mesh->triangle_count, error) : NULL;
-    if (!split->field.values)
+    split->field.values = MESO_NEW(scratch, float, 3 * (size_t)split->field.row_room, error);
+    if (!split->field.row || !split->field.values)
         return MESO_ERR_MEMORY;
     memset(split->field.row, 0xff, mesh->triangle_count * sizeof *split->field.row);
     return MESO_OK;
@@ -110,7 +121,6 @@ static MesoPieceLook look(void *context, const MesoPiece *piece)
 typedef struct Flooding {
     MesoSplit *split;
     MesoPieces *pieces;
-    const float *value;
     MesoStatus status;
     MesoError *error;
     uint32_t leaves;
@@ -121,7 +131,8 @@ static void flood_leaf(void *context, uint32_t leaf)
     Flooding *f = context;
     f->leaves++;
     if (!f->status)
-        f->status = meso_pieces_add(f->pieces, f->split->work->scratch, f->split->work, leaf, f->value, f->error);
+        f->status = meso_pieces_add(f->pieces, f->split->work->scratch, f->split->work, leaf,
+                                    f->split->field.row ? &f->split->field : NULL, f->error);
 }
 
 /*
@@ -153,10 +164,10 @@ static void order_stripes(const MesoSplit *split, const MesoSplitTarget *target,
 }
 
 /* Children for the leaves of a target, where any of them has come apart. */
-static MesoStatus divide_target(MesoSplit *split, MesoSplitTarget *target, MesoPieces *pieces, const float *value,
-                                const MesoCutReport *report, MesoError *error)
+static MesoStatus divide_target(MesoSplit *split, MesoSplitTarget *target, MesoPieces *pieces, const MesoCutReport *report,
+                                MesoError *error)
 {
-    Flooding f = {.split = split, .pieces = pieces, .value = value, .error = error};
+    Flooding f = {.split = split, .pieces = pieces, .error = error};
     uint32_t begin = pieces->count;
     meso_region_each_leaf(&split->work->decor->tree, target->region, flood_leaf, &f);
     if (!f.status)
@@ -185,19 +196,28 @@ static MesoStatus divide_target(MesoSplit *split, MesoSplitTarget *target, MesoP
     return status;
 }
 
+static void note_largest(void *context, uint32_t leaf)
+{
+    MesoSplit *split = context;
+    const uint32_t *begin = split->work->lists.begin;
+    uint32_t size = begin[leaf + 1] - begin[leaf];
+    split->largest_leaf = size > split->largest_leaf ? size : split->largest_leaf;
+}
+
 static MesoStatus divide(MesoSplit *split, const MesoCutReport *report, MesoError *error)
 {
     MesoDecorWork *work = split->work;
     MesoPieces pieces;
     MesoStatus status = meso_decor_refresh(work, error);
-    if (!status)
-        status = meso_pieces_init(&pieces, work->scratch, &work->decor->mesh, error);
     if (status)
         return status;
-    const float *value = meso_corner_field_after(&split->field, work->scratch, &work->decor->mesh, report, error);
-    status = value ? MESO_OK : MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < split->count; i++)
+        meso_region_each_leaf(&work->decor->tree, split->targets[i].region, note_largest, split);
+    status = meso_pieces_init(&pieces, work->scratch, &work->decor->mesh, split->largest_leaf, error);
+    if (!status && split->field.row)
+        status = meso_corner_field_cut(&split->field, work->scratch, &work->decor->mesh, report, error);
     for (uint32_t i = 0; i < split->count && !status; i++)
-        status = divide_target(split, &split->targets[i], &pieces, value, report, error);
+        status = divide_target(split, &split->targets[i], &pieces, report, error);
     return status;
 }
 

@@ -9,7 +9,8 @@ typedef struct MesoSplit {
     MesoDecorWork *work;
     const MesoStep *step;
     MesoCutLines lines;
-    MesoCornerField field;      /* contours, streams: of all targets */
+    MesoCornerField field;      /* contours: of all targets */
+    uint32_t largest_leaf;      /* of the targets, after the cut */
     struct MesoSplitTarget *targets;    /* [count] */
     uint32_t count;
 } MesoSplit;

@@ -6,18 +6,37 @@
 #include "libcore/base/grow.h"
 #include "libcore/decor/region/triangle_area.h"
 
-MesoStatus meso_pieces_init(MesoPieces *pieces, MesoArena *arena, const MesoTriangulation *mesh, MesoError *error)
+MesoStatus meso_pieces_init(MesoPieces *pieces, MesoArena *arena, const MesoTriangulation *mesh, uint32_t largest_leaf,
+                            MesoError *error)
 {
     *pieces = (MesoPieces){0};
     pieces->piece_of = MESO_NEW(arena, uint32_t, mesh->triangle_count, error);
-    pieces->stack = MESO_NEW(arena, uint32_t, mesh->triangle_count, error);
+    pieces->stack = MESO_NEW(arena, uint32_t, largest_leaf, error);
     if (!pieces->piece_of || !pieces->stack)
         return MESO_ERR_MEMORY;
     memset(pieces->piece_of, 0xff, mesh->triangle_count * sizeof *pieces->piece_of);
     return MESO_OK;
 }
 
-static void flood(MesoPieces *pieces, const MesoTriangulation *mesh, uint32_t first, const float *value)
+/* Mean of the field over a triangle after the cut; of a part, its value at its centre. INFINITY where it has none. */
+static float field_at(const MesoCornerField *field, uint32_t triangle)
+{
+    uint32_t before = field->report->first_triangle;
+    uint32_t row = triangle < before ? field->row[triangle] : field->row_count + field->part_of[triangle - before];
+    if (row == MESO_NO_INDEX)
+        return INFINITY;
+    if (row < field->row_count) {
+        const float *f = &field->values[3 * (size_t)row];
+        return (f[0] + f[1] + f[2]) / 3;
+    }
+    const MesoCutPart *part = &field->report->parts[row - field->row_count];
+    if (field->parent_row[row - field->row_count] == MESO_NO_INDEX)
+        return INFINITY;
+    const float *f = &field->values[3 * (size_t)field->parent_row[row - field->row_count]];
+    return part->centre[0] * f[0] + part->centre[1] * f[1] + part->centre[2] * f[2];
+}
+
+static void flood(MesoPieces *pieces, const MesoTriangulation *mesh, uint32_t first, const MesoCornerField *field)
 {
     uint32_t number = pieces->count - 1, depth = 0;
     MesoPiece *piece = &pieces->pieces[number];
@@ -26,10 +45,11 @@ static void flood(MesoPieces *pieces, const MesoTriangulation *mesh, uint32_t fi
     while (depth > 0) {
         uint32_t t = pieces->stack[--depth];
         double area = meso_triangle_area(mesh, t);
+        float value = field ? field_at(field, t) : INFINITY;
         piece->triangle_count++;
         piece->area += area;
-        if (value && value[t] < INFINITY)
-            piece->level += area * value[t];
+        if (value < INFINITY)
+            piece->level += area * (double)value;
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t across = mesh->twins[3 * t + k];
             if (mesh->walls[t] >> k & 1 || pieces->piece_of[across / 3] != MESO_NO_INDEX)
@@ -38,11 +58,11 @@ static void flood(MesoPieces *pieces, const MesoTriangulation *mesh, uint32_t fi
             pieces->stack[depth++] = across / 3;
         }
     }
-    piece->level = piece->area > 0 ? piece->level / piece->area : value && value[first] < INFINITY ? value[first] : 0;
+    piece->level = piece->area > 0 ? piece->level / piece->area : 0;
 }
 
 MesoStatus meso_pieces_add(MesoPieces *pieces, MesoArena *arena, const MesoDecorWork *work, uint32_t leaf,
-                           const float *value, MesoError *error)
+                           const MesoCornerField *field, MesoError *error)
 {
     const MesoRegionLists *lists = &work->lists;
     for (uint32_t i = lists->begin[leaf]; i < lists->begin[leaf + 1]; i++) {
@@ -53,7 +73,7 @@ MesoStatus meso_pieces_add(MesoPieces *pieces, MesoArena *arena, const MesoDecor
         if (!pieces->pieces)
             return MESO_ERR_MEMORY;
         pieces->pieces[pieces->count++] = (MesoPiece){.leaf = leaf, .first = t};
-        flood(pieces, &work->decor->mesh, t, value);
+        flood(pieces, &work->decor->mesh, t, field);
     }
     return MESO_OK;
 }
@@ -189,25 +209,23 @@ MesoStatus meso_pieces_join_small(MesoPieces *pieces, MesoDecorWork *work, uint3
     return joined ? close_gaps(pieces, work, begin, error) : MESO_OK;
 }
 
-float *meso_corner_field_after(const MesoCornerField *field, MesoArena *arena, const MesoTriangulation *mesh,
-                               const MesoCutReport *report, MesoError *error)
+MesoStatus meso_corner_field_cut(MesoCornerField *field, MesoArena *arena, const MesoTriangulation *mesh,
+                                 const MesoCutReport *report, MesoError *error)
 {
-    float *value = MESO_NEW(arena, float, mesh->triangle_count, error);
-    if (!value)
-        return NULL;
-    for (uint32_t t = 0; t < report->first_triangle; t++)
-        if (field->row[t] != MESO_NO_INDEX) {
-            const float *f = &field->values[3 * (size_t)field->row[t]];
-            value[t] = (f[0] + f[1] + f[2]) / 3;
-        }
+    field->report = report;
+    field->parent_row = MESO_NEW(arena, uint32_t, report->part_count, error);
+    field->part_of = MESO_NEW(arena, uint32_t, mesh->triangle_count - report->first_triangle, error);
+    if (!field->parent_row || !field->part_of)
+        return MESO_ERR_MEMORY;
+    /* all parents first: one part stands in the parent's place, and its row becomes the part's */
+    for (uint32_t i = 0; i < report->part_count; i++)
+        field->parent_row[i] = field->row[report->parts[i].parent];
     for (uint32_t i = 0; i < report->part_count; i++) {
-        const MesoCutPart *part = &report->parts[i];
-        if (field->row[part->parent] == MESO_NO_INDEX)
-            continue;
-        const float *f = &field->values[3 * (size_t)field->row[part->parent]];
-        value[part->triangle] = part->centre[0] * f[0] + part->centre[1] * f[1] + part->centre[2] * f[2];
+        uint32_t t = report->parts[i].triangle;
+        *(t < report->first_triangle ? &field->row[t] : &field->part_of[t - report->first_triangle]) =
+            t < report->first_triangle ? field->row_count + i : i;
     }
-    return value;
+    return MESO_OK;
 }
 
 /* ---- becoming regions ---- */

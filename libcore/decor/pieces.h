@@ -17,28 +17,32 @@ typedef struct MesoPieces {
     MesoPiece *pieces;      /* [count] those of one leaf in a row, by their lowest triangle */
     uint32_t count, room;
     uint32_t *piece_of;     /* [triangle_count] or MESO_NO_INDEX */
-    uint32_t *stack;        /* of the flood */
+    uint32_t *stack;        /* [largest leaf] of the flood */
 } MesoPieces;
 
 /*
- * Values of a field at the triangles of several domains, over a cut: `rows` says where a triangle's
- * three corners stand, before the cut.
+ * A field at the corners of the triangles of several domains, over a cut. Triangles find their row; once cut, parts that
+ * have come behind find it as parts.
  */
 typedef struct MesoCornerField {
-    uint32_t *row;          /* [triangles before the cut], or MESO_NO_INDEX */
-    float *values;          /* [3 * rows] */
-    uint32_t row_count;
+    uint32_t *row;          /* [triangles before the cut], or MESO_NO_INDEX; behind the rows: a part, after the cut */
+    float *values;          /* [3 * row_count] */
+    uint32_t row_count, row_room;
+    const MesoCutReport *report;    /* of the cut; NULL before it */
+    uint32_t *parent_row;           /* [parts] row of the triangle before the cut, or MESO_NO_INDEX */
+    uint32_t *part_of;              /* [new triangles] */
 } MesoCornerField;
 
-/* Room for the pieces of a mesh, none yet. */
-MesoStatus meso_pieces_init(MesoPieces *pieces, MesoArena *arena, const MesoTriangulation *mesh, MesoError *error);
+/* Room for the pieces of a mesh, none yet, whose leaves have at most so many triangles. */
+MesoStatus meso_pieces_init(MesoPieces *pieces, MesoArena *arena, const MesoTriangulation *mesh, uint32_t largest_leaf,
+                            MesoError *error);
 
 /*
- * Floods the triangles of a leaf between walls, and adds its pieces. value[triangle_count] is averaged; NULL: none.
+ * Floods the triangles of a leaf between walls, and adds its pieces, with the mean of a field (NULL: none).
  * O(triangles of the leaf).
  */
 MesoStatus meso_pieces_add(MesoPieces *pieces, MesoArena *arena, const MesoDecorWork *work, uint32_t leaf,
-                           const float *value, MesoError *error);
+                           const MesoCornerField *field, MesoError *error);
 
 /*
  * Joins pieces from number `begin` on that are smaller than a part of a triangle of the surface, to which lines
@@ -48,12 +52,9 @@ MesoStatus meso_pieces_add(MesoPieces *pieces, MesoArena *arena, const MesoDecor
  */
 MesoStatus meso_pieces_join_small(MesoPieces *pieces, MesoDecorWork *work, uint32_t begin, MesoError *error);
 
-/*
- * Value of each triangle after a cut: the mean over its corners, of parts at their centres. [triangle_count] in the
- * arena; NULL when memory is out. O(triangles).
- */
-float *meso_corner_field_after(const MesoCornerField *field, MesoArena *arena, const MesoTriangulation *mesh,
-                               const MesoCutReport *report, MesoError *error);
+/* Makes the field answer for the triangles after a cut. O(parts). MESO_ERR_MEMORY alone. */
+MesoStatus meso_corner_field_cut(MesoCornerField *field, MesoArena *arena, const MesoTriangulation *mesh,
+                                 const MesoCutReport *report, MesoError *error);
 
 /* What pieces of a kind become. */
 typedef struct MesoPieceLook {
