@@ -54,17 +54,21 @@ static double nearest_in_triangle(MesoVec3 a, MesoVec3 b, MesoVec3 c, MesoVec3 p
     return best;
 }
 
-static float outside(float low, float high, float x)
+/* How far x lies outside of the range of three numbers. Plain comparisons: fminf() is a call. */
+static float outside(float a, float b, float c, float x)
 {
-    return x < low ? low - x : x > high ? x - high : 0;
+    float low = a < b ? a : b, high = a < b ? b : a;
+    low = low < c ? low : c;
+    high = high < c ? c : high;
+    float below = low - x, above = x - high;
+    float out = below > above ? below : above;
+    return out > 0 ? out : 0;
 }
 
 /* A bound from below, by the box around the triangle: most triangles are passed over by this alone. */
 static float squared_box_distance(MesoVec3 a, MesoVec3 b, MesoVec3 c, MesoVec3 p)
 {
-    float x = outside(fminf(a.x, fminf(b.x, c.x)), fmaxf(a.x, fmaxf(b.x, c.x)), p.x);
-    float y = outside(fminf(a.y, fminf(b.y, c.y)), fmaxf(a.y, fmaxf(b.y, c.y)), p.y);
-    float z = outside(fminf(a.z, fminf(b.z, c.z)), fmaxf(a.z, fmaxf(b.z, c.z)), p.z);
+    float x = outside(a.x, b.x, c.x, p.x), y = outside(a.y, b.y, c.y, p.y), z = outside(a.z, b.z, c.z, p.z);
     return x * x + y * y + z * z;
 }
 
