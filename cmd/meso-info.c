@@ -94,7 +94,7 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
         return meso_info_mesh(facts, arena, input, error);
     return meso_fail(error, MESO_ERR_INPUT,
                      "%s: no kind of file that is known here: .slots or a listing of slots, .meso, "
-                     ".tiles.json or a prototype's tile set, constraints, report, .jsonl of seeds, .obj, .ply, "
+                     ".tiles.json or a prototype's tile set, constraints, report, pattern, .jsonl of seeds, .obj, .ply, "
                      ".off, .glb, .drc, .exr, .png",
                      input->path);
 }

@@ -17,7 +17,8 @@
 enum { REGION_LIMIT = 1 << 18 };
 static const uint64_t TRIANGLE_LIMIT = (uint64_t)1 << 28;
 
-static const MesoInputPlace PLACE_PATTERN = {"PATTERN", "a pattern (.pattern.json)", "pattern", MESO_FILE_JSON};
+static const MesoInputPlace PLACE_PATTERN = {"PATTERN", "a pattern (.pattern.json)", "pattern",
+                                             MESO_FILE_PATTERN | MESO_FILE_JSON};
 
 enum { MOST_FILES = 64 };
 

@@ -48,7 +48,9 @@ static MesoFileKind kind_of_format(const MesoInput *input, size_t at)
         const char *name;
         MesoFileKind kind;
     } formats[] = {{"meso-tiles", MESO_FILE_TILES}, {"meso-constraints", MESO_FILE_CONSTRAINTS},
-                   {"meso-report", MESO_FILE_REPORT}, {"meso-slots", MESO_FILE_LISTING}};
+                   {"meso-report", MESO_FILE_REPORT}, {"meso-slots", MESO_FILE_LISTING},
+                   {"meso-pattern", MESO_FILE_PATTERN}, {"meso-macros", MESO_FILE_MACROS},
+                   {"meso-regions", MESO_FILE_REGIONS}};
     if (at == input->size || input->data[at] != '"')
         return MESO_FILE_UNKNOWN;
     size_t end = skip_string(input, at);
@@ -190,6 +192,9 @@ const char *meso_file_kind_phrase(MesoFileKind kind)
     case MESO_FILE_EXR: return "an EXR image";
     case MESO_FILE_PNG: return "a PNG image";
     case MESO_FILE_LISTING: return "a listing of slots";
+    case MESO_FILE_PATTERN: return "a pattern";
+    case MESO_FILE_MACROS: return "a file of macros";
+    case MESO_FILE_REGIONS: return "a tree of regions";
     case MESO_FILE_CSV: return "a listing of slots (CSV)";
     case MESO_FILE_UNKNOWN: break;
     }

@@ -24,12 +24,15 @@ typedef enum MesoFileKind {
     MESO_FILE_EXR = 1 << 14,
     MESO_FILE_PNG = 1 << 15,
     MESO_FILE_LISTING = 1 << 16,        /* of slots, in JSON */
-    MESO_FILE_CSV = 1 << 17             /* the same, in CSV; with its columns in their usual order */
+    MESO_FILE_CSV = 1 << 17,            /* the same, in CSV; with its columns in their usual order */
+    MESO_FILE_PATTERN = 1 << 18,
+    MESO_FILE_MACROS = 1 << 19,         /* of patterns */
+    MESO_FILE_REGIONS = 1 << 20         /* of a finished pattern */
 } MesoFileKind;
 
 /* All that begin as JSON text. */
 enum { MESO_FILES_OF_JSON = MESO_FILE_SEED_LINES * 2 - 1 + MESO_FILE_GLTF + MESO_FILE_JSON +
-                          MESO_FILE_LISTING };
+                          MESO_FILE_LISTING + MESO_FILE_PATTERN + MESO_FILE_MACROS + MESO_FILE_REGIONS };
 
 /*
  * Goes by the first bytes, by the keys of the outermost object of JSON, and by

@@ -34,6 +34,9 @@ static void test_json(void)
 {
     expect("{\"format\": \"meso-tiles\", \"version\": 1}", MESO_FILE_TILES);
     expect(" \n{ \"version\" : 1 , \"format\" :\n\"meso-constraints\"}", MESO_FILE_CONSTRAINTS);
+    expect("{\"format\": \"meso-pattern\", \"version\": 1}", MESO_FILE_PATTERN);
+    expect("{\"format\": \"meso-macros\", \"version\": 1}", MESO_FILE_MACROS);
+    expect("{\"format\": \"meso-regions\", \"version\": 1}", MESO_FILE_REGIONS);
     expect("{\"a\": {\"format\": \"meso-tiles\"}, \"b\": \"\\\"}{\\\\\", \"format\": \"meso-report\"}",
            MESO_FILE_REPORT);
     expect("{\"edgeTypes\": [{\"tileTypes\": 1}], \"tileTypes\": []}", MESO_FILE_PROTOTYPE);

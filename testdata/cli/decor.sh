@@ -11,6 +11,8 @@ leaves dots.tree.json
 grep '"path"' dots.tree.json
 grep -c '<g id="operation' dots.svg
 
+meso-info dots.json dots.tree.json | grep -v '"xxh3_128"\|"bytes"\|"version"'
+
 echo "== polygons are cut into triangles first; steps one by one"
 meso-decor --until 1 dots.json vase.obj -o one.ply --tree one.json --lines one.obj
 leaves one.json
