@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
-#include "libcore/decor/region/triangle_area.h"
+#include "libcore/mesh/cut/triangle_area.h"
 
 MesoStatus meso_pieces_init(MesoPieces *pieces, MesoArena *arena, const MesoTriangulation *mesh, uint32_t largest_leaf,
                             MesoError *error)

@@ -5,7 +5,7 @@
 
 #include "libcore/base/grow.h"
 #include "libcore/decor/region/surface_point.h"
-#include "libcore/decor/region/triangle_area.h"
+#include "libcore/mesh/cut/triangle_area.h"
 
 MesoStatus meso_region_tree_init(MesoRegionTree *tree, MesoArena *arena, const MesoTriangulation *mesh,
                                  MesoError *error)

@@ -17,8 +17,6 @@ void meso_vertex_normals(MesoVec3 *normals, const MesoTriangulation *mesh)
         for (int k = 0; k < 3; k++)
             normals[corners[k]] = meso_vec3_add(normals[corners[k]], area);
     }
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        float length = meso_vec3_length(normals[v]);
-        normals[v] = length > 0 ? meso_vec3_scale(normals[v], 1 / length) : (MesoVec3){0, 0, 1};
-    }
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        normals[v] = meso_vec3_direction(normals[v], (MesoVec3){0, 0, 1});
 }

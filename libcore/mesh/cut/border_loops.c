@@ -3,6 +3,7 @@
 #include "libcore/base/grow.h"
 #include "libcore/base/index_map.h"
 #include "libcore/mesh/cut/mesh_domain.h"
+#include "libcore/mesh/cut/triangle_area.h"
 
 typedef struct Finder {
     const MesoTriangulation *mesh;
@@ -112,14 +113,6 @@ static MesoStatus add_loop(Finder *finder, uint32_t half_edge)
     return MESO_OK;
 }
 
-static double triangle_area(const MesoTriangulation *mesh, uint32_t triangle)
-{
-    const uint32_t *corners = mesh->corners + 3 * (size_t)triangle;
-    MesoVec3 a = meso_vec3_sub(mesh->positions[corners[1]], mesh->positions[corners[0]]);
-    MesoVec3 b = meso_vec3_sub(mesh->positions[corners[2]], mesh->positions[corners[0]]);
-    return 0.5 * meso_vec3_length(meso_vec3_cross(a, b));
-}
-
 MesoStatus meso_border_loops_find(MesoBorderLoops *loops, MesoArena *arena, const MesoTriangulation *mesh,
                                   const MesoDomain *domain, bool slits, MesoError *error)
 {
@@ -132,7 +125,7 @@ MesoStatus meso_border_loops_find(MesoBorderLoops *loops, MesoArena *arena, cons
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < count && !status; i++) {
         uint32_t triangle = meso_domain_triangle(domain, i);
-        loops->area += triangle_area(mesh, triangle);
+        loops->area += meso_triangle_area(mesh, triangle);
         for (uint32_t h = 3 * triangle; h < 3 * triangle + 3 && !status; h++)
             if (is_border(&finder, h) && meso_index_map_find(&finder.walked, h) == MESO_NO_INDEX)
                 status = add_loop(&finder, h);

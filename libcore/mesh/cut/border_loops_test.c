@@ -178,6 +178,18 @@ static void test_torus_and_moebius(void)
     meso_triangulation_release(&band);
 }
 
+/* Areas of sizes whose squares single precision does not hold. */
+static void test_sizes(void)
+{
+    const float sizes[] = {1e-12f, 1, 1e12f, 1e17f};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        MesoTriangulation mesh = meso_fixture_sheet(2, 3, sizes[i]);
+        MesoBorderLoops loops = find(&mesh, NULL, true);
+        CHECK(fabs(loops.area / (6 * (double)sizes[i] * (double)sizes[i]) - 1) < 1e-6);
+        meso_triangulation_release(&mesh);
+    }
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -186,6 +198,7 @@ int main(void)
     test_slits();
     test_touching();
     test_torus_and_moebius();
+    test_sizes();
     meso_arena_release(&arena);
     return 0;
 }
