@@ -28,6 +28,7 @@ typedef struct Job {
     MesoInput pattern_input, surface_input;
     MesoInput files[MOST_FILES];    /* [file_count] that the pattern names */
     uint32_t file_count;
+    MesoSeedList seeds;
     MesoPattern pattern;
     MesoDecorSurface surface;
 } Job;
@@ -83,7 +84,8 @@ static void close_inputs(Job *job)
 
 static void say_note(void *context, const char *place, const char *text)
 {
-    meso_tool_say(context, "warning: %s: %s", place, text);
+    MesoTool *tool = context;
+    meso_tool_say(tool, "warning: %s: %s: %s", tool->operands[0], place, text);
 }
 
 static MesoGeodesicEngine engine_of(const MesoDecorArguments *a)
@@ -92,10 +94,10 @@ static MesoGeodesicEngine engine_of(const MesoDecorArguments *a)
         : strcmp(a->engine, "exact") == 0 ? MESO_GEODESIC_EXACT : MESO_GEODESIC_FRONTS;
 }
 
-static bool is_svg(const char *path)
+static bool ends_in(const char *path, const char *extension)
 {
     const char *dot = strrchr(path, '.');
-    return dot && strcasecmp(dot, ".svg") == 0;
+    return dot && strcasecmp(dot, extension) == 0;
 }
 
 static MesoStatus write_beside(const Job *job, const MesoDecor *decor, const char *path, bool tree)
@@ -106,7 +108,7 @@ static MesoStatus write_beside(const Job *job, const MesoDecor *decor, const cha
     if (!path || status)
         return status;
     status = tree ? meso_tree_write(decor, &tool->provenance, output, &tool->error)
-        : is_svg(path) ? meso_lines_svg_write(decor, &tool->provenance, output, &tool->error)
+        : ends_in(path, ".svg") ? meso_lines_svg_write(decor, &tool->provenance, output, &tool->error)
                        : meso_lines_obj_write(decor, &tool->provenance, output, &tool->error);
     return meso_output_finish(output, status, &tool->error);
 }
@@ -176,9 +178,10 @@ typedef struct Names {
     const char *output, *tree, *lines;
 } Names;
 
-static MesoStatus check_names(const Job *job, const Names *names)
+static MesoStatus check_names(const Job *job)
 {
-    const char *const given[] = {names->output, names->tree, names->lines}, *const options[] = {"-o", "--tree", "--lines"};
+    const MesoDecorArguments *a = job->arguments;
+    const char *const given[] = {job->tool->output, a->tree, a->lines}, *const options[] = {"-o", "--tree", "--lines"};
     for (int i = 0; i < 3; i++)
         if (given[i] && !meso_seed_path_is_pattern(given[i]))
             return meso_fail(&job->tool->error, MESO_ERR_USAGE,
@@ -220,14 +223,15 @@ static MesoStatus run_one_of_many(Job *job, const Names *names, uint64_t seed)
 }
 
 /* Each product is what its seed alone would give; the report has a list of them. */
-static MesoStatus run_seeds(Job *job, const MesoSeedList *list)
+static MesoStatus run_seeds(Job *job)
 {
     MesoTool *tool = job->tool;
+    const MesoSeedList *list = &job->seeds;
     MesoDecorArguments *a = job->arguments;
     const Names names = {tool->output, a->tree, a->lines};
     const MesoProvenance provenance = tool->provenance;
     json_t *whole = tool->report, *seeds = json_array();
-    MesoStatus status = check_names(job, &names);
+    MesoStatus status = MESO_OK;
     for (uint32_t r = 0; r < list->range_count && !status; r++)
         for (uint32_t i = 0; i < list->ranges[r].count && !status; i++) {
             uint64_t seed = list->ranges[r].first + i;
@@ -250,17 +254,43 @@ static MesoStatus run_seeds(Job *job, const MesoSeedList *list)
 static MesoStatus run_all(Job *job)
 {
     MesoTool *tool = job->tool;
-    MesoSeedList list;
+    return job->arguments->seeds ? run_seeds(job) : run_seed(job, tool->seed);
+}
+
+/* ---- what goes together ---- */
+
+static MesoStatus read_seeds(Job *job)
+{
+    MesoTool *tool = job->tool;
+    MesoSeedList *list = &job->seeds;
     if (!job->arguments->seeds)
-        return run_seed(job, tool->seed);
-    MesoStatus status = meso_seed_list_parse(&list, &tool->arena, job->arguments->seeds, &tool->error);
-    return status ? status : run_seeds(job, &list);
+        return MESO_OK;
+    if (tool->seed)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "--seed and --seeds are both given; one is needed");
+    MesoStatus status = meso_seed_list_parse(list, &tool->arena, job->arguments->seeds, &tool->error);
+    for (uint32_t r = 0; !status && r < list->range_count; r++)
+        if (list->ranges[r].attempts > 0)
+            status = meso_fail(&tool->error, MESO_ERR_USAGE, "--seeds: there are no attempts here: leave out 'x%u'",
+                               list->ranges[r].attempts);
+    return status ? status : check_names(job);
+}
+
+static MesoStatus check_lines(const Job *job)
+{
+    const char *lines = job->arguments->lines;
+    if (!lines || ends_in(lines, ".svg") || ends_in(lines, ".obj"))
+        return MESO_OK;
+    return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--lines '%s': end it in .svg or .obj", lines);
 }
 
 MesoStatus meso_decor_job_run(MesoDecorArguments *arguments)
 {
     Job job = {.arguments = arguments, .tool = &arguments->tool};
     MesoStatus status = meso_tool_choose_scene_kind(job.tool, &arguments->output);
+    if (!status)
+        status = check_lines(&job);
+    if (!status)
+        status = read_seeds(&job);
     if (!status)
         status = read_inputs(&job);
     if (!status)

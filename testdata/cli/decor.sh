@@ -19,8 +19,9 @@ leaves one.json
 grep -c '^g operation' one.obj
 
 echo "== the same bytes for any number of threads, and from one run to the next"
+cp "$fixtures/macros-square.pattern.json" .
 for threads in 1 2 7; do
-    meso-decor --threads $threads "$fixtures/macros-square.pattern.json" vase.ply -o - --to meso | cksum
+    meso-decor --threads $threads macros-square.pattern.json vase.ply -o - --to meso | cksum
 done | uniq | wc -l
 
 echo "== seeds: each what it is alone"
@@ -32,6 +33,10 @@ meso-decor --seed 7 cells.json vase.ply -o alone.meso
 cmp cells-7.meso alone.meso && cmp -s cells-1.meso cells-2.meso
 echo $?
 meso-decor --seeds 1-3 cells.json vase.ply -o cells.meso
+echo $?
+meso-decor --seeds 1-3 --seed 2 cells.json vase.ply -o cells-%d.meso
+echo $?
+meso-decor --seeds 1-3x2 cells.json vase.ply -o cells-%d.meso
 echo $?
 
 echo "== a single triangle, a one-sided band, two pieces of which one has the seed"
@@ -71,4 +76,9 @@ echo $?
 pattern '{"voronoi": [{"face": 99999999}, {"point": [0, 0, 0]}]}' >face.json
 meso-decor face.json vase.ply -o face.ply
 echo $?
-ls | grep -E 'crowded.ply|wrong.ply|loop.ply|fine.ply|face.ply'
+meso-decor plain.json vase.ply -o lines.ply --lines lines.dxf
+echo $?
+printf 'v 0 0 0\nv 1e15 0 0\nv 0 1e15 0\nf 1 2 3\n' >far.obj
+meso-decor corner.json far.obj -o far.ply --tree far.json
+grep area far.json
+ls | grep -E 'crowded.ply|lines.ply|lines.dxf|wrong.ply|loop.ply|fine.ply|face.ply'
