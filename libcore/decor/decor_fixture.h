@@ -119,7 +119,6 @@ static inline void meso_fixture_check_regions(const MesoDecor *decor, bool orien
         }
         leaves += facts.shapes[r].area;
         CHECK(lists.begin[r + 1] > lists.begin[r]);
-        if (getenv("DBG")) fprintf(stderr, "region %u parent %u step %u tag %s: area %g now %g all %g triangles %u now %u\n", r, region->parent, region->step, region->tag, region->area, facts.shapes[r].area, all, region->triangle_count, lists.begin[r+1]-lists.begin[r]);
         CHECK(moved || fabs(region->area - facts.shapes[r].area) <= 1e-6 * all);
         int64_t holes = 2 - (int64_t)facts.shapes[r].borders - meso_fixture_region_euler(&decor->mesh, r);
         CHECK(r == 0 || (holes >= 0 && (!orientable || holes % 2 == 0)));

@@ -1,4 +1,4 @@
-/* Patterns: whatever the surface and whatever the steps, regions and scene are as they are promised, or it says why not. */
+/* Patterns: whatever the surface and the steps, regions and scene are as promised, or it says why not. */
 #include "libcore/decor/decor_fixture.h"
 #include "libcore/decor/decor_scene.h"
 #include "libcore/mesh/cut/mesh_cut_fixture.h"
@@ -178,7 +178,7 @@ static MesoLevels make_levels(Making *m)
     if (choose(m, 2))
         levels.count = choose(m, 6);
     else
-        levels.every = choose_share(m);
+        levels.every = 0.02f + choose_share(m);     /* thousands in one triangle are slow, and no more */
     return levels;
 }
 

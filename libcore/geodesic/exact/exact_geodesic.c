@@ -104,6 +104,9 @@ static MesoStatus push_event(Solve *solve, double key, uint32_t item, MesoEventK
 
 static MesoStatus reach(Solve *solve, uint32_t vertex, double distance)
 {
+    /* rounding may take a front that is wide and far from home below zero, where nothing would be an improvement */
+    if (distance < 0)
+        distance = 0;
     /* an improvement by rounding would start all over */
     if (!(solve->flags[vertex] & INSIDE) || !(distance < solve->distance[vertex] * (1 - 1e-14)) ||
         distance > solve->limit)

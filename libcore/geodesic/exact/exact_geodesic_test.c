@@ -244,6 +244,33 @@ static void test_border_line(void)
     meso_triangulation_release(&mesh);
 }
 
+/* Needles 20000 times as long as they are wide: fronts that run along them are rounded to below nothing. It ends. */
+static void test_needles(void)
+{
+    enum { SIDE = 5, COUNT = 18 };
+    static const MesoVec3 places[COUNT] = {
+        {3, 5, 0}, {0, 2, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 100000}, {2, 0.5, 50000}, {0, 1, 100000}, {1, 1, 100000},
+        {2, 1, 100000}, {3, 1, 100000}, {4, 1, 100000}, {5, 1, 100000}, {0, 2, 100000}, {1, 2, 100000}, {2, 2,
+        100000}, {3, 2, 100000}, {4, 2, 100000}, {3, 5, 0}
+    };
+    MesoTriangulation mesh = meso_fixture_sheet(SIDE, SIDE, 1);
+    MesoExactGeodesicSeed seeds[4 * SIDE];
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        uint32_t x = v % (SIDE + 1), y = v / (SIDE + 1);
+        mesh.positions[v] = meso_vec3_scale(v < COUNT ? places[v] : (MesoVec3){v > 33 ? (float)x : 3, 5, 0}, 1e12f);
+        if (x == 0 || y == 0 || x == SIDE || y == SIDE)
+            seeds[count++] = (MesoExactGeodesicSeed){v, 0, true};
+    }
+    mesh.positions[33] = (MesoVec3){4e12f, 0, 1e17f};
+    double *distance = meso_fixture_exact_query(&mesh, &(MesoExactGeodesicQuery){.seeds = seeds, .seed_count = count,
+                                                                         .target = MESO_NO_INDEX});
+    for (uint32_t v = 0; v < mesh.vertex_count; v++)
+        CHECK(distance[v] >= 0 && distance[v] < 1e18);
+    free(distance);
+    meso_triangulation_release(&mesh);
+}
+
 /* A line whose ends start differently sends a front at an angle: sine 0.6 along it. */
 static void test_slanted_line(void)
 {
@@ -428,6 +455,7 @@ int main(void)
     test_metric();
     test_line();
     test_border_line();
+    test_needles();
     test_slanted_line();
     test_points();
     test_domain();
