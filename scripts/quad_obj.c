@@ -38,8 +38,8 @@ void obj_face(ObjMesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
     face[0] = a, face[1] = b, face[2] = c, face[3] = d;
 }
 
-/* Moves vertices from `begin` on to the mean of their neighbours, again and again. */
-static void smooth(ObjMesh *mesh, uint32_t face_begin, uint32_t begin)
+/* Moves vertices from `begin` on, but for those that are `fixed` (or NULL), to the mean of their neighbours, again and again. */
+static void smooth(ObjMesh *mesh, uint32_t face_begin, uint32_t begin, const bool *fixed)
 {
     MesoVec3 *sum = calloc(mesh->vertex_count, sizeof *sum);
     uint32_t *count = calloc(mesh->vertex_count, sizeof *count);
@@ -55,10 +55,16 @@ static void smooth(ObjMesh *mesh, uint32_t face_begin, uint32_t begin)
             count[a]++, count[b]++;
         }
         for (uint32_t v = begin; v < mesh->vertex_count; v++)
-            mesh->positions[v] = meso_vec3_scale(sum[v], 1 / (float)count[v]);
+            if (!fixed || !fixed[v])
+                mesh->positions[v] = meso_vec3_scale(sum[v], 1 / (float)count[v]);
     }
     free(sum);
     free(count);
+}
+
+void obj_smooth(ObjMesh *mesh, const bool *fixed)
+{
+    smooth(mesh, 0, 0, fixed);
 }
 
 static MesoVec3 on_circle(float radius, uint32_t k, uint32_t count)
@@ -100,7 +106,7 @@ uint32_t obj_disk(ObjMesh *mesh, uint32_t side, uint32_t ring_count)
         for (uint32_t i = 0; i < side; i++)
             obj_face(mesh, grid_vertex(side, ring, inner, i, j), grid_vertex(side, ring, inner, i + 1, j),
                      grid_vertex(side, ring, inner, i + 1, j + 1), grid_vertex(side, ring, inner, i, j + 1));
-    smooth(mesh, face_begin, begin + around);
+    smooth(mesh, face_begin, begin + around, NULL);
     return begin;
 }
 

@@ -6,6 +6,7 @@
 #ifndef MESO_QUAD_OBJ_H
 #define MESO_QUAD_OBJ_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "libcore/math/vec.h"
@@ -30,6 +31,10 @@ void obj_face(ObjMesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d);
  * like angles meet. Returns the index of the first vertex.
  */
 uint32_t obj_disk(ObjMesh *mesh, uint32_t side, uint32_t ring_count);
+
+/* Moves all vertices, but for those that are `fixed` ([vertex_count]), to the mean of their neighbours, many times.
+ * Each that is not fixed must be in a face. */
+void obj_smooth(ObjMesh *mesh, const bool *fixed);
 
 /* Joins vertices from `begin` on that lie within `distance`; those left over are dropped. */
 void obj_weld(ObjMesh *mesh, uint32_t begin, float distance);
