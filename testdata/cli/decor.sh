@@ -56,6 +56,12 @@ pattern '{"contour": {"dist": {"point": [0, 0, 0]}, "at": 0.5, "unit": "scene"}}
 meso-decor corner.json two.obj -o two.ply --tree two.json
 leaves two.json
 
+echo "== dots that keep their distance are fewer"
+pattern '{"macro": "polka-dots", "count": 30}' >near.json
+pattern '{"macro": "polka-dots", "count": 30, "spacing": 0.3}' >far.json
+meso-decor near.json vase.ply -o near.ply --tree near.tree.json && meso-decor far.json vase.ply -o far.ply --tree far.tree.json
+grep -c '"tag": "dot"' near.tree.json far.tree.json
+
 echo "== nothing to do is said"
 pattern '{"contour": {"dist": "outer", "at": 0.5}, "on": "nowhere"}, {"stream": {"blend": ["inner", "outer"], "lines": 4}}' >idle.json
 meso-decor idle.json vase.ply -o idle.ply
