@@ -232,6 +232,7 @@ MesoStatus meso_corner_field_cut(MesoCornerField *field, MesoArena *arena, const
 
 typedef struct Rank {
     uint32_t piece, kind;
+    double area;
 } Rank;
 
 static int by_kind(const void *a, const void *b)
@@ -239,13 +240,15 @@ static int by_kind(const void *a, const void *b)
     const Rank *x = a, *y = b;
     if (x->kind != y->kind)
         return x->kind < y->kind ? -1 : 1;
+    if (x->area != y->area)
+        return x->area > y->area ? -1 : 1;
     return x->piece < y->piece ? -1 : x->piece > y->piece;
 }
 
 static void sort_pieces(Rank *ranks, const MesoPieces *pieces, uint32_t begin, uint32_t end)
 {
     for (uint32_t i = begin; i < end; i++)
-        ranks[i - begin] = (Rank){i, pieces->pieces[i].kind};
+        ranks[i - begin] = (Rank){i, pieces->pieces[i].kind, pieces->pieces[i].area};
     qsort(ranks, end - begin, sizeof *ranks, by_kind);
 }
 

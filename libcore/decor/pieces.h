@@ -21,8 +21,8 @@ typedef struct MesoPieces {
 } MesoPieces;
 
 /*
- * A field at the corners of the triangles of several domains, over a cut. Triangles find their row; once cut, parts that
- * have come behind find it as parts.
+ * A field at the corners of the triangles of several domains, over a cut. Triangles find their row; once cut, parts
+ * that have come behind find it as parts.
  */
 typedef struct MesoCornerField {
     uint32_t *row;          /* [triangles before the cut], or MESO_NO_INDEX; behind the rows: a part, after the cut */
@@ -63,8 +63,8 @@ typedef struct MesoPieceLook {
 } MesoPieceLook;
 
 /*
- * Makes children of the leaf whose pieces are [begin, end), ordered by kind and lowest triangle, and gives their
- * triangles their labels. `look` says what a piece becomes.
+ * Makes children of the leaf whose pieces are [begin, end), ordered by kind, and the largest first, whatever the
+ * mesh's order, and gives their triangles their labels. `look` says what a piece becomes.
  */
 MesoStatus meso_pieces_become_regions(MesoPieces *pieces, MesoDecorWork *work, uint32_t begin, uint32_t end,
                                       MesoPieceLook (*look)(void *context, const MesoPiece *piece), void *context,
