@@ -141,7 +141,7 @@ static MesoSeedSpec make_seed(Making *m, bool point)
     s.point = choose_place(m);
     s.count = choose(m, 10);
     s.spacing = 0.02f + choose_share(m);
-    s.relative = choose(m, 2);
+    s.relative = true;      /* in scene units there could be a million of them in one triangle */
     s.on_border = choose(m, 4) == 0;
     s.from_border = !s.on_border && choose(m, 2);
     return s;
@@ -175,10 +175,12 @@ static MesoLevels make_levels(Making *m)
     for (uint32_t i = 0; i < levels.value_count; i++)
         values[i] = choose_share(m);
     levels.values = values;
-    if (choose(m, 2))
-        levels.count = choose(m, 6);
-    else
-        levels.every = 0.02f + choose_share(m);     /* thousands in one triangle are slow, and no more */
+    levels.count = choose(m, 6);
+    if (choose(m, 2)) {         /* by tens, as above */
+        levels.count = 0;
+        levels.every = 0.02f + choose_share(m);
+        levels.unit = MESO_LEVEL_SHARE;
+    }
     return levels;
 }
 

@@ -102,7 +102,7 @@ static MesoStatus look_after(MesoDecorWork *work, const MesoStep *step, uint32_t
         if (after->painted)
             meso_decor_paint(work, after, regions, chosen);
         if (after->displaced && chosen > 0)
-            status = meso_decor_displace(work, &after->displacement, regions, chosen, error);
+            status = meso_decor_displace(work, step, &after->displacement, regions, chosen, error);
     }
     return status;
 }
@@ -135,7 +135,7 @@ static MesoStatus run_on(MesoDecorWork *work, const MesoStep *step, const MesoTa
         meso_decor_paint(work, step->after, regions, targets->count);
         break;
     case MESO_STEP_DISPLACE:
-        status = meso_decor_displace(work, &step->after->displacement, regions, targets->count, error);
+        status = meso_decor_displace(work, step, &step->after->displacement, regions, targets->count, error);
         break;
     default:
         status = split_and_look_after(work, step, targets, error);

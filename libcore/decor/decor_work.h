@@ -108,14 +108,14 @@ MesoStatus meso_decor_poisson(MesoDecorWork *work, const MesoSeedSpec *spec, uin
 MesoStatus meso_decor_split(MesoDecorWork *work, const MesoStep *step, const MesoTargets *targets, MesoError *error);
 
 /* displace.c, paint.c */
-MesoStatus meso_decor_displace(MesoDecorWork *work, const MesoDisplacement *displacement, const uint32_t *regions,
-                               uint32_t count, MesoError *error);
+MesoStatus meso_decor_displace(MesoDecorWork *work, const MesoStep *step, const MesoDisplacement *displacement,
+                               const uint32_t *regions, uint32_t count, MesoError *error);
 void meso_decor_paint(MesoDecorWork *work, const MesoAfterSplit *paint, const uint32_t *regions, uint32_t count);
 
 /* grow.c */
 MesoStatus meso_decor_grow(MesoDecorWork *work, const MesoStep *step, const MesoTargets *targets, MesoError *error);
 
-/* decor.c: steps in scopes; what grow and macros come back to. */
+/* decor_run.c: steps in scopes; what grow and macros come back to. */
 MesoStatus meso_decor_run_steps(MesoDecorWork *work, const MesoStep *steps, uint32_t step_count,
                                 const uint32_t *scopes, uint32_t scope_count, MesoError *error);
 

@@ -1,3 +1,5 @@
+#include <stdio.h>
+
 #include "libcore/base/random.h"
 #include "libcore/decor/decor_work.h"
 
@@ -45,32 +47,47 @@ static void move_vertices(MesoDecorWork *work, const MesoDisplacement *d, const 
 }
 
 static MesoStatus displace_region(MesoDecorWork *work, const MesoDisplacement *d, uint32_t region,
-                                  const MesoDomain *domain, MesoError *error)
+                                  const MesoDomain *domain, bool *flat, MesoError *error)
 {
     static const MesoSeedSpec borders = {.kind = MESO_SEED_BORDERS};
     static const MesoFieldSpec spec = {.from = {&borders, 1}};
     MesoFieldFacts facts;
     MesoStatus status = meso_decor_field(work, &spec, region, domain, &facts, error);
-    if (!status && facts.largest > 0)
+    *flat = !status && !(facts.largest > 0);
+    if (!status && !*flat)
         move_vertices(work, d, domain, facts.largest, height_of(work, d, region, facts.largest));
     return status;
 }
 
-MesoStatus meso_decor_displace(MesoDecorWork *work, const MesoDisplacement *displacement, const uint32_t *regions,
-                               uint32_t count, MesoError *error)
+static void tell_flat(const MesoDecorWork *work, const MesoStep *step, uint32_t flat, uint32_t count)
+{
+    char text[160];
+    snprintf(text, sizeof text, "%u of %u regions are not displaced: they have no border to rise from, or no vertex "
+             "inside", flat, count);
+    if (flat > 0)
+        meso_decor_note(work, step, text);
+}
+
+MesoStatus meso_decor_displace(MesoDecorWork *work, const MesoStep *step, const MesoDisplacement *displacement,
+                               const uint32_t *regions, uint32_t count, MesoError *error)
 {
     const MesoRegionTree *tree = &work->decor->tree;
+    uint32_t flat_count = 0;
     MesoStatus status = meso_decor_normals(work, error);
     for (uint32_t i = 0; i < count && !status; i++) {
         MesoDomain domain;
+        bool flat = false;
         MesoArenaMark mark = meso_arena_mark(work->scratch);
         status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, &work->decor->mesh,
-                                           regions[i], error);
+                                    regions[i], error);
         if (!status)
-            status = displace_region(work, displacement, regions[i], &domain, error);
+            status = displace_region(work, displacement, regions[i], &domain, &flat, error);
+        flat_count += flat;
         meso_region_domain_end(tree, regions[i], work->member);
         meso_arena_rewind(work->scratch, mark);
     }
     work->normals = NULL;
+    if (!status)
+        tell_flat(work, step, flat_count, count);
     return status ? status : meso_geodesic_set_positions(work->solver, work->decor->mesh.positions, error);
 }

@@ -170,12 +170,14 @@ static MesoStatus divide_target(MesoSplit *split, MesoSplitTarget *target, MesoP
     Flooding f = {.split = split, .pieces = pieces, .error = error};
     uint32_t begin = pieces->count;
     meso_region_each_leaf(&split->work->decor->tree, target->region, flood_leaf, &f);
+    bool divided = pieces->count - begin > f.leaves;
     if (!f.status)
         f.status = meso_pieces_join_small(pieces, split->work, begin, error);
     if (f.status)
         return f.status;
     if (pieces->count - begin <= f.leaves) {
-        target->idle = target->idle ? target->idle : "its lines divide nothing";
+        if (!target->idle)
+            target->idle = divided ? "it is too coarse: its parts are smaller than a face" : "its lines divide nothing";
         return MESO_OK;
     }
     if (split->step->kind == MESO_STEP_STREAM)

@@ -306,27 +306,35 @@ static void keep_every(Selection *s)
     s->count = kept;
 }
 
-/* The area below which a region is not among the largest; of equal ones, the first stay. */
+typedef struct Sized {
+    double area;
+    uint32_t region;
+} Sized;
+
+static int by_size(const void *a, const void *b)
+{
+    const Sized *x = a, *y = b;
+    if (x->area != y->area)
+        return x->area > y->area ? -1 : 1;
+    return x->region < y->region ? -1 : x->region > y->region;
+}
+
+/* Of equal ones, the first stay. */
 static MesoStatus keep_largest(Selection *s, MesoError *error)
 {
     const MesoRegion *regions = s->work->decor->tree.regions;
     if (s->count <= s->selector->largest)
         return MESO_OK;
-    uint8_t *chosen = MESO_NEW(s->work->scratch, uint8_t, s->count, error);
-    if (!chosen)
+    Sized *sized = MESO_NEW(s->work->scratch, Sized, s->count, error);
+    if (!sized)
         return MESO_ERR_MEMORY;
-    for (uint32_t n = 0; n < s->selector->largest; n++) {
-        uint32_t best = MESO_NO_INDEX;
-        for (uint32_t i = 0; i < s->count; i++)
-            if (!chosen[i] && (best == MESO_NO_INDEX || regions[s->regions[i]].area > regions[s->regions[best]].area))
-                best = i;
-        chosen[best] = 1;
-    }
-    uint32_t kept = 0;
     for (uint32_t i = 0; i < s->count; i++)
-        if (chosen[i])
-            s->regions[kept++] = s->regions[i];
-    s->count = kept;
+        sized[i] = (Sized){regions[s->regions[i]].area, s->regions[i]};
+    qsort(sized, s->count, sizeof *sized, by_size);
+    s->count = s->selector->largest;
+    for (uint32_t i = 0; i < s->count; i++)
+        s->regions[i] = sized[i].region;
+    qsort(s->regions, s->count, sizeof *s->regions, meso_by_number);
     return MESO_OK;
 }
 

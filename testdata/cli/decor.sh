@@ -65,6 +65,9 @@ grep -c '"tag": "dot"' near.tree.json far.tree.json
 echo "== nothing to do is said"
 pattern '{"contour": {"dist": "outer", "at": 0.5}, "on": "nowhere"}, {"stream": {"blend": ["inner", "outer"], "lines": 4}}' >idle.json
 meso-decor idle.json vase.ply -o idle.ply
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >four.obj
+pattern '{"displace": 0.1}, {"contour": {"dist": {"point": [0, 0, 0]}, "at": 0.5}}' >closed.json
+meso-decor closed.json four.obj -o four.ply
 
 echo "== what cannot be"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n' >crowded.obj

@@ -9,8 +9,11 @@ draco_decoder -i vase.drc -o decoded.ply >/dev/null || echo "draco_decoder: stat
 for element in vertex face; do
     grep -a "^element $element" decoded.ply >counts && grep -q '[1-9]' counts || echo "no $element in the Draco file"
 done
+meso-decor -q "$fixtures/eleven-steps.pattern.json" "$fixtures/vase.obj" -o decor.glb
 if [ -d "$npm/node_modules/gltf-validator" ]; then
-    NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" vase.glb >said || { echo "validator: $?" && cat said; }
+    for file in vase.glb decor.glb; do
+        NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" $file >said || { echo "validator: $?" && cat said; }
+    done
 elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
     echo "gltf-validator is not installed" >&2
 fi

@@ -85,6 +85,10 @@ for kind in ply obj glb drc; do
 done
 each meso-mesh -q --threads 1 weld=0.1 clean separate orient subdivide=2 info cube.obj -o out/cube.obj --json=out/cube.json
 each meso-mesh -q --threads 1 subdivide=linear,2 decimate=50% cube.obj -o out/cube.ply
+cp "$fixtures"/*.pattern.json "$fixtures/flowers.macros.json" "$fixtures/vase.obj" .
+each meso-decor -q --threads 1 eleven-steps.pattern.json vase.obj -o out/v.meso --tree out/v.json --lines out/v.svg
+each meso-decor -q --threads 1 --seeds 1-2 procedural.pattern.json vase.obj -o out/%d.glb
+each meso-decor -q --threads 1 --geodesics exact polyline-closed.pattern.json vase.obj -o out/v.ply --lines out/v.obj
 for file in quad.tiles.json cube.obj cube.slots cube.meso cube.glb; do
     each meso-info $file
 done
