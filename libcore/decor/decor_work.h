@@ -107,6 +107,13 @@ MesoStatus meso_decor_poisson(MesoDecorWork *work, const MesoSeedSpec *spec, uin
 /* operators.c: lines of a step in all of its targets, cut; children made. */
 MesoStatus meso_decor_split(MesoDecorWork *work, const MesoStep *step, const MesoTargets *targets, MesoError *error);
 
+/* Whether a vertex may be moved there: what is written can be read again. */
+static inline bool meso_decor_may_stand(MesoVec3 p)
+{
+    return fabsf(p.x) <= MESO_COORDINATE_LIMIT && fabsf(p.y) <= MESO_COORDINATE_LIMIT &&
+           fabsf(p.z) <= MESO_COORDINATE_LIMIT;
+}
+
 /* displace.c, paint.c */
 MesoStatus meso_decor_displace(MesoDecorWork *work, const MesoStep *step, const MesoDisplacement *displacement,
                                const uint32_t *regions, uint32_t count, MesoError *error);

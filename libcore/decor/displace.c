@@ -29,8 +29,8 @@ static float height_of(const MesoDecorWork *work, const MesoDisplacement *d, uin
 }
 
 /* Moves the vertices of a domain; work->field has their distances from its border, and marks those that were moved. */
-static void move_vertices(MesoDecorWork *work, const MesoDisplacement *d, const MesoDomain *domain, float largest,
-                          float height)
+static MesoStatus move_vertices(MesoDecorWork *work, const MesoDisplacement *d, const MesoDomain *domain,
+                                float largest, float height, MesoError *error)
 {
     MesoTriangulation *mesh = &work->decor->mesh;
     float a = clamped(d->bias), b = clamped(d->gain);
@@ -43,7 +43,11 @@ static void move_vertices(MesoDecorWork *work, const MesoDisplacement *d, const 
             work->field[v] = 0;
             mesh->positions[v] = meso_vec3_add(mesh->positions[v],
                                                meso_vec3_scale(work->normals[v], height * gain(bias(x, a), b)));
+            if (!meso_decor_may_stand(mesh->positions[v]))
+                return meso_fail(error, MESO_ERR_INPUT, "a height of %g takes vertices beyond the largest coordinate, %g",
+                                 (double)height, (double)MESO_COORDINATE_LIMIT);
         }
+    return MESO_OK;
 }
 
 static MesoStatus displace_region(MesoDecorWork *work, const MesoDisplacement *d, uint32_t region,
@@ -55,7 +59,7 @@ static MesoStatus displace_region(MesoDecorWork *work, const MesoDisplacement *d
     MesoStatus status = meso_decor_field(work, &spec, region, domain, &facts, error);
     *flat = !status && !(facts.largest > 0);
     if (!status && !*flat)
-        move_vertices(work, d, domain, facts.largest, height_of(work, d, region, facts.largest));
+        status = move_vertices(work, d, domain, facts.largest, height_of(work, d, region, facts.largest), error);
     return status;
 }
 

@@ -114,6 +114,9 @@ MesoStatus meso_decor_perturb(MesoDecorWork *work, const MesoNoise *noise, float
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
         float shift = gain * noise_at(work, noise, mesh->positions[v], size);
         moved[v] = meso_vec3_add(mesh->positions[v], meso_vec3_scale(work->normals[v], shift));
+        if (!meso_decor_may_stand(moved[v]))
+            return meso_fail(error, MESO_ERR_INPUT, "noise of gain %g takes vertices beyond the largest coordinate, %g",
+                             (double)gain, (double)MESO_COORDINATE_LIMIT);
     }
     status = meso_geodesic_set_positions(work->solver, moved, error);
     meso_arena_rewind(work->scratch, mark);

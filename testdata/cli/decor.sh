@@ -85,9 +85,12 @@ echo $?
 pattern '{"voronoi": [{"face": 99999999}, {"point": [0, 0, 0]}]}' >face.json
 meso-decor face.json vase.ply -o face.ply
 echo $?
+pattern '{"displace": 1e30}' >high.json
+meso-decor high.json vase.ply -o high.ply
+echo $?
 meso-decor plain.json vase.ply -o lines.ply --lines lines.dxf
 echo $?
 printf 'v 0 0 0\nv 1e15 0 0\nv 0 1e15 0\nf 1 2 3\n' >far.obj
 meso-decor corner.json far.obj -o far.ply --tree far.json
 grep area far.json
-ls | grep -E 'crowded.ply|lines.ply|lines.dxf|wrong.ply|loop.ply|fine.ply|face.ply'
+ls | grep -E 'crowded.ply|high.ply|lines.ply|lines.dxf|wrong.ply|loop.ply|fine.ply|face.ply'
