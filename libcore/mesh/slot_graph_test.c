@@ -3,7 +3,7 @@
 
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
-#include "libcore/mesh/slot_graph.h"
+#include "libcore/mesh/slot_flood.h"
 
 static MesoArena arena;
 static MesoSlotGraph graph;
@@ -79,6 +79,33 @@ static void make_torus(uint32_t width, uint32_t height, uint32_t *faces)
             f[2] = y1 * width + x1;
             f[3] = y1 * width + x;
         }
+}
+
+/* The nearest first, by side; never more than there is room for, nor what is marked as met. */
+static void test_flood(void)
+{
+    uint32_t faces[4 * 20], slots[20];
+    bool met[20] = {false};
+    make_torus(5, 4, faces);
+    CHECK(build(20, 20, faces) == MESO_OK);
+    MesoSlotFlood flood = {.graph = &graph, .slots = slots, .met = met, .most = 20};
+    meso_slot_flood_all(&flood);
+    CHECK(flood.count == 0);
+    meso_slot_flood_meet(&flood, 0);
+    meso_slot_flood_meet(&flood, 0);
+    CHECK(flood.count == 1);
+    meso_slot_flood_step(&flood);
+    CHECK(flood.count == 5 && flood.followed == 1);
+    CHECK(slots[0] == 0 && slots[1] == 15 && slots[2] == 1 && slots[3] == 5 && slots[4] == 4);
+    meso_slot_flood_all(&flood);
+    CHECK(flood.count == 20 && flood.followed == 20);
+
+    memset(met, 0, sizeof met);
+    met[1] = true;
+    flood = (MesoSlotFlood){.graph = &graph, .slots = slots, .met = met, .most = 3};
+    meso_slot_flood_meet(&flood, 0);
+    meso_slot_flood_all(&flood);
+    CHECK(flood.count == 3 && slots[1] == 15 && slots[2] == 5 && !met[4]);
 }
 
 /* Closed and orientable: Euler's V - E + F is 0. */
@@ -185,6 +212,7 @@ int main(void)
     test_shared_edges();
     test_three_faces();
     test_torus();
+    test_flood();
     test_moebius();
     test_random();
     meso_arena_release(&arena);

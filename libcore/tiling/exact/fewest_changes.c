@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "libcore/mesh/slot_flood.h"
 #include "libcore/tiling/exact/exact_control.h"
 
 /* Conflicts of one question, and assignments that a rule on strands may cut off in all. */
@@ -34,29 +35,20 @@ static bool is_changed(const Keeper *keeper, uint32_t slot)
 static MesoStatus open_slots(Keeper *keeper, MesoError *error)
 {
     const MesoSlotGraph *graph = keeper->propagation->graph;
-    uint32_t most = graph->slot_count < MESO_FEWEST_CHANGES_OPEN ? graph->slot_count : MESO_FEWEST_CHANGES_OPEN, count = 0;
+    uint32_t most = graph->slot_count < MESO_FEWEST_CHANGES_OPEN ? graph->slot_count : MESO_FEWEST_CHANGES_OPEN;
     keeper->open = MESO_NEW(&keeper->arena, uint32_t, most, error);
-    bool *open = keeper->is_open = MESO_NEW(&keeper->arena, bool, graph->slot_count, error);
-    if (!keeper->open || !open)
+    keeper->is_open = MESO_NEW(&keeper->arena, bool, graph->slot_count, error);
+    if (!keeper->open || !keeper->is_open)
         return MESO_ERR_MEMORY;
-    for (uint32_t s = 0; s < graph->slot_count && count < most; s++)
-        if ((open[s] = is_changed(keeper, s)))
-            keeper->open[count++] = s;
-    for (uint32_t head = 0; head < count; head++)
-        for (uint32_t k = 0; k < 4; k++) {
-            uint32_t twin = graph->twin[4 * (size_t)keeper->open[head] + k];
-            if (twin == MESO_NO_INDEX || open[twin / 4] || count == most)
-                continue;
-            open[twin / 4] = true;
-            keeper->open[count++] = twin / 4;
-        }
+    MesoSlotFlood flood = {.graph = graph, .slots = keeper->open, .met = keeper->is_open, .most = most};
+    for (uint32_t s = 0; s < graph->slot_count; s++)
+        if (is_changed(keeper, s))
+            meso_slot_flood_meet(&flood, s);
+    meso_slot_flood_all(&flood);
     /* Pieces without any change: quotas may still ask for one. */
-    for (uint32_t s = 0; s < graph->slot_count && count < most; s++)
-        if (!open[s]) {
-            open[s] = true;
-            keeper->open[count++] = s;
-        }
-    keeper->open_count = count;
+    for (uint32_t s = 0; s < graph->slot_count; s++)
+        meso_slot_flood_meet(&flood, s);
+    keeper->open_count = flood.count;
     return MESO_OK;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/random.h"
+#include "libcore/mesh/slot_flood.h"
 
 enum { DEFAULT_SLOTS = 20000, DEFAULT_CONFLICTS = 20000 };
 
@@ -349,22 +350,16 @@ static MesoStatus order_slots(Finder *finder, uint32_t near, uint32_t most, Meso
     const MesoSlotGraph *graph = finder->problem->graph;
     finder->order = MESO_NEW(finder->arena, uint32_t, most, error);
     finder->rank = MESO_NEW(finder->arena, uint32_t, graph->slot_count, error);
-    if (!finder->order || !finder->rank)
+    MesoSlotFlood flood = {.graph = graph, .slots = finder->order, .most = most,
+                           .met = MESO_NEW(finder->arena, bool, graph->slot_count, error)};
+    if (!finder->order || !finder->rank || !flood.met)
         return MESO_ERR_MEMORY;
-    /* Until formulas need it, `rank` says which slots were met. */
-    uint32_t head = 0, count = 0, start = near == MESO_NO_INDEX ? 0 : near;
-    while (count < most && start < graph->slot_count) {
-        if (!finder->rank[start]++)
-            finder->order[count++] = start;
-        for (; head < count; head++)
-            for (uint32_t k = 0; k < 4; k++) {
-                uint32_t twin = graph->twin[4 * (size_t)finder->order[head] + k];
-                if (twin != MESO_NO_INDEX && count < most && !finder->rank[twin / 4]++)
-                    finder->order[count++] = twin / 4;
-            }
-        start = near == MESO_NO_INDEX ? start + 1 : graph->slot_count;
+    uint32_t begin = near == MESO_NO_INDEX ? 0 : near, end = near == MESO_NO_INDEX ? graph->slot_count : near + 1;
+    for (uint32_t start = begin; start < end && flood.count < most; start++) {
+        meso_slot_flood_meet(&flood, start);
+        meso_slot_flood_all(&flood);
     }
-    finder->order_count = count;
+    finder->order_count = flood.count;
     memset(finder->rank, 0xff, graph->slot_count * sizeof *finder->rank);
     return MESO_OK;
 }

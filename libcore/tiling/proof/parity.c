@@ -3,6 +3,8 @@
 #include <assert.h>
 #include <string.h>
 
+#include "libcore/mesh/slot_flood.h"
+
 static const uint64_t word_limit = (uint64_t)1 << 27;
 
 /* Sums modulo 2 that all patterns of a list agree on: rows over the constant (column 0) and the codes shown. */
@@ -119,41 +121,27 @@ static Relations *find_relations(MesoArena *arena, const MesoLabelPatternList *l
     return relations;
 }
 
-/* Slots reachable from `start`, appended to `order`, breadth first. */
-static uint32_t visit(const MesoSlotGraph *graph, uint32_t start, uint32_t *order, uint32_t *seen,
-                      uint32_t mark)
-{
-    uint32_t head = 0, tail = 0;
-    order[tail++] = start;
-    seen[start] = mark;
-    while (head < tail) {
-        uint32_t slot = order[head++];
-        for (uint32_t k = 0; k < 4; k++) {
-            uint32_t twin = graph->twin[4 * (size_t)slot + k];
-            if (twin == MESO_NO_INDEX || seen[twin / 4] == mark)
-                continue;
-            seen[twin / 4] = mark;
-            order[tail++] = twin / 4;
-        }
-    }
-    return tail;
-}
-
 /* Each piece breadth first from a slot far off: the last one of a first round. */
 static MesoStatus order_slots(Sweep *sweep, MesoError *error)
 {
     const MesoSlotGraph *graph = sweep->table->propagation->graph;
-    uint32_t *seen = MESO_NEW(sweep->arena, uint32_t, graph->slot_count, error);
     sweep->order = MESO_NEW(sweep->arena, uint32_t, graph->slot_count, error);
-    if (!seen || !sweep->order)
+    MesoSlotFlood flood = {.graph = graph, .slots = sweep->order, .most = graph->slot_count,
+                           .met = MESO_NEW(sweep->arena, bool, graph->slot_count, error)};
+    if (!flood.met || !sweep->order)
         return MESO_ERR_MEMORY;
-    uint32_t done = 0;
     for (uint32_t s = 0; s < graph->slot_count; s++) {
-        if (seen[s])
+        if (flood.met[s])
             continue;
-        uint32_t *order = sweep->order + done;
-        uint32_t count = visit(graph, s, order, seen, 1);
-        done += visit(graph, order[count - 1], order, seen, 2);
+        uint32_t begin = flood.count;
+        meso_slot_flood_meet(&flood, s);
+        meso_slot_flood_all(&flood);
+        uint32_t last = flood.slots[flood.count - 1];
+        for (uint32_t i = begin; i < flood.count; i++)
+            flood.met[flood.slots[i]] = false;
+        flood.count = flood.followed = begin;
+        meso_slot_flood_meet(&flood, last);
+        meso_slot_flood_all(&flood);
     }
     return MESO_OK;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
+#include "libcore/mesh/slot_flood.h"
 
 /* Choices that an attempt may take back: so many, and a part of the slots. */
 enum { LEAST_BACKTRACKS = 1000, BACKTRACK_PART = 4 };
@@ -162,24 +163,18 @@ static MesoStatus release_ball(MesoConstrainedSearch *search, uint32_t centre, u
 {
     const MesoSlotGraph *graph = search->propagation->graph;
     MesoArenaMark mark = meso_arena_mark(search->arena);
-    uint8_t *seen = MESO_NEW(search->arena, uint8_t, graph->slot_count, error);
-    uint32_t *queue = MESO_NEW(search->arena, uint32_t, graph->slot_count, error);
-    if (!seen || !queue)
+    MesoSlotFlood flood = {
+        .graph = graph, .most = graph->slot_count,
+        .slots = MESO_NEW(search->arena, uint32_t, graph->slot_count, error),
+        .met = MESO_NEW(search->arena, bool, graph->slot_count, error),
+    };
+    if (!flood.slots || !flood.met)
         return MESO_ERR_MEMORY;
-    uint32_t head = 0, count = 0;
-    queue[count++] = centre;
-    seen[centre] = 1;
-    for (uint32_t distance = 0; distance <= radius && head < count; distance++)
-        for (uint32_t end = count; head < end; head++) {
-            search->released[queue[head]] = 1;
-            for (uint32_t k = 0; k < 4; k++) {
-                uint32_t twin = graph->twin[4 * (size_t)queue[head] + k];
-                if (twin == MESO_NO_INDEX || seen[twin / 4])
-                    continue;
-                seen[twin / 4] = 1;
-                queue[count++] = twin / 4;
-            }
-        }
+    meso_slot_flood_meet(&flood, centre);
+    for (uint32_t distance = 0; distance < radius && flood.followed < flood.count; distance++)
+        meso_slot_flood_step(&flood);
+    for (uint32_t i = 0; i < flood.count; i++)
+        search->released[flood.slots[i]] = 1;
     meso_arena_rewind(search->arena, mark);
     return MESO_OK;
 }
