@@ -19,6 +19,7 @@
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/prototype_json.h"
 #include "formats/tiling/tiles/tiles_file.h"
+#include "libcore/math/box.h"
 #include "libcore/mesh/slot_graph.h"
 #include "libcore/scene/parts.h"
 
@@ -210,17 +211,11 @@ static MesoStatus put_tile_set(json_t *facts, MesoArena *arena, const MesoTileSe
 static int put_bounds(json_t *facts, uint32_t count, const MesoVec3 *positions)
 {
     json_t *bounds = json_object();
-    MesoVec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    for (uint32_t v = 0; v < count; v++) {
-        low = (MesoVec3){fminf(low.x, positions[v].x), fminf(low.y, positions[v].y),
-                         fminf(low.z, positions[v].z)};
-        high = (MesoVec3){fmaxf(high.x, positions[v].x), fmaxf(high.y, positions[v].y),
-                          fmaxf(high.z, positions[v].z)};
-    }
+    MesoBox box = meso_box_of(positions, count);
     int failed = 0;
     if (count > 0) {
-        failed |= put_point(bounds, "low", low);
-        failed |= put_point(bounds, "high", high);
+        failed |= put_point(bounds, "low", box.low);
+        failed |= put_point(bounds, "high", box.high);
     }
     return failed | json_object_set_new(facts, "bounds", bounds);
 }

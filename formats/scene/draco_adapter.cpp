@@ -192,14 +192,11 @@ MesoVec3 decoded_point(MesoVec3 point, const MesoDracoOptions &options)
 /* Rounding to the grid keeps the order of coordinates, so the corners of the box suffice. */
 void bound(const MesoDracoMesh &from, const MesoDracoOptions &options, MesoDracoResult *result)
 {
-    MesoVec3 low = from.vertices[0].position, high = low;
-    for (size_t i = 1; i < from.vertex_count; i++) {
-        const MesoVec3 p = from.vertices[i].position;
-        low = MesoVec3{std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-        high = MesoVec3{std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
-    }
-    result->decoded_low = decoded_point(low, options);
-    result->decoded_high = decoded_point(high, options);
+    MesoBox box = meso_box_empty();
+    for (size_t i = 0; i < from.vertex_count; i++)
+        meso_box_add(&box, from.vertices[i].position);
+    result->decoded_low = decoded_point(box.low, options);
+    result->decoded_high = decoded_point(box.high, options);
 }
 
 uint32_t unique_id(const draco::Mesh &mesh, int id)

@@ -252,7 +252,7 @@ static void test_obj(void)
 
 typedef struct Decoded {
     uint64_t vertex_count, face_count;
-    MesoVec3 low, high;
+    MesoBox box;
 } Decoded;
 
 static uint64_t number_after(const MesoInput *input, const char *line)
@@ -272,16 +272,14 @@ static Decoded decode(const char *path)
     snprintf(command, sizeof command, "draco_decoder -i %s -o %s >/dev/null 2>&1", path, ply);
     CHECK(system(command) == 0);
     CHECK(meso_input_open(&input, ply, &error) == MESO_OK);
-    Decoded d = {number_after(&input, "element vertex "), number_after(&input, "element face "),
-                 {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    Decoded d = {number_after(&input, "element vertex "), number_after(&input, "element face "), meso_box_empty()};
     const uint8_t *rows = after(&input, "end_header\n");
     size_t row = after(&input, "property uchar red\n") ? 27 : 24;
     CHECK(rows && (size_t)(input.data + input.size - rows) >= row * d.vertex_count);
     for (uint64_t i = 0; i < d.vertex_count; i++) {
         MesoVec3 p;
         memcpy(&p, rows + row * i, 12);
-        d.low = (MesoVec3){fminf(d.low.x, p.x), fminf(d.low.y, p.y), fminf(d.low.z, p.z)};
-        d.high = (MesoVec3){fmaxf(d.high.x, p.x), fmaxf(d.high.y, p.y), fmaxf(d.high.z, p.z)};
+        meso_box_add(&d.box, p);
     }
     meso_input_close(&input);
     remove(ply);
@@ -325,8 +323,8 @@ static void test_drc(void)
     bounds_of(&whole, &low, &high);
     MesoVec3 extent = meso_vec3_sub(high, low);
     float step = fmaxf(extent.x, fmaxf(extent.y, extent.z)) / (float)((1 << 14) - 1);
-    check_near(d.low, low, 0.51f * step);
-    check_near(d.high, high, 0.51f * step);
+    check_near(d.box.low, low, 0.51f * step);
+    check_near(d.box.high, high, 0.51f * step);
     CHECK(contains(&input, "slot") && contains(&input, "material") && contains(&input, "provenance"));
     CHECK(contains(&input, "[\"plain \\\"weave\\\"\",\"float\"]"));
     check_threads(meso_drc_write, &fixture.parts, &input);
@@ -382,8 +380,8 @@ static uint64_t check_primitive(const json_t *root, const json_t *primitive, con
     Decoded d = decode(path);
     CHECK(d.vertex_count == integer(position, "count") && d.vertex_count == integer(slot, "count"));
     CHECK(3 * d.face_count == integer(indices, "count"));
-    check_near(d.low, point(json_object_get(position, "min")), 0);
-    check_near(d.high, point(json_object_get(position, "max")), 0);
+    check_near(d.box.low, point(json_object_get(position, "min")), 0);
+    check_near(d.box.high, point(json_object_get(position, "max")), 0);
     remove(path);
     return d.face_count;
 }

@@ -20,6 +20,15 @@ static inline void meso_box_add(MesoBox *box, MesoVec3 p)
     box->high = (MesoVec3){fmaxf(box->high.x, p.x), fmaxf(box->high.y, p.y), fmaxf(box->high.z, p.z)};
 }
 
+/* The box around `points` [count]. */
+static inline MesoBox meso_box_of(const MesoVec3 *points, uint32_t count)
+{
+    MesoBox box = meso_box_empty();
+    for (uint32_t i = 0; i < count; i++)
+        meso_box_add(&box, points[i]);
+    return box;
+}
+
 /* Adds the cube of side 2 `radius` around `p`. */
 static inline void meso_box_add_around(MesoBox *box, MesoVec3 p, float radius)
 {

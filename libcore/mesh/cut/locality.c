@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/math/box.h"
+
 /*
  * "Compact Hilbert Indices" (Hamilton 2006): a cell is entered at corner e and
  * left along axis d; bits of the three coordinates, seen from there, are the
@@ -75,16 +77,10 @@ typedef struct Grid {
 
 static Grid grid_of(const MesoVec3 *positions, uint32_t count)
 {
-    MesoVec3 low = {0, 0, 0}, high = low;
-    for (uint32_t v = 0; v < count; v++) {
-        MesoVec3 p = positions[v];
-        if (v == 0)
-            low = high = p;
-        low = (MesoVec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
-        high = (MesoVec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
-    }
-    float size = fmaxf(high.x - low.x, fmaxf(high.y - low.y, high.z - low.z));
-    return (Grid){low, size > 0 ? (float)(RADIX - 1) / size : 0};
+    MesoBox box = meso_box_of(positions, count);
+    MesoVec3 extent = meso_vec3_sub(box.high, box.low);
+    float size = fmaxf(extent.x, fmaxf(extent.y, extent.z));
+    return (Grid){box.low, size > 0 ? (float)(RADIX - 1) / size : 0};
 }
 
 static uint32_t cell_of(float coordinate, float low, float scale)

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "libcore/base/disjoint_sets.h"
+#include "libcore/math/box.h"
 #include "libcore/mesh/edit/face_area.h"
 #include "libcore/mesh/edit/mesh_clean.h"
 #include "libcore/mesh/edit/mesh_orient.h"
@@ -169,12 +170,11 @@ static MesoStatus find_sides(Finding *finding, MesoError *error)
 
 static void find_bounds(const Finding *finding)
 {
-    MesoMeshFacts *facts = finding->facts;
-    for (uint32_t v = 0; v < finding->mesh->vertex_count; v++) {
-        MesoVec3 p = finding->mesh->positions[v], low = v ? facts->low : p, high = v ? facts->high : p;
-        facts->low = (MesoVec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
-        facts->high = (MesoVec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
-    }
+    if (finding->mesh->vertex_count == 0)
+        return;
+    MesoBox box = meso_box_of(finding->mesh->positions, finding->mesh->vertex_count);
+    finding->facts->low = box.low;
+    finding->facts->high = box.high;
 }
 
 static MesoStatus find_borders(bool **on_border, Finding *finding, MesoError *error)
