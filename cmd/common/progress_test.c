@@ -13,9 +13,7 @@ static void expect(const char *text, uint64_t done, uint64_t total, double secon
 {
     char out[80];
     meso_progress_format(out, sizeof out, "mapping", "slots", done, total, seconds);
-    if (strcmp(out, text) != 0)
-        fprintf(stderr, "%s\n", out);
-    CHECK(strcmp(out, text) == 0);
+    CHECK_TEXT(out, text);
 }
 
 static void test_text(void)

@@ -47,9 +47,7 @@ static void expect_error(const void *bytes, size_t size, const char *message)
     MesoContainer container;
     MesoError error;
     CHECK(read_bytes(&container, bytes, size, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "%s\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
+    CHECK_TEXT(error.message, message);
 }
 
 static void test_round_trip(const TestFolder *folder)

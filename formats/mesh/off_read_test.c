@@ -1,34 +1,14 @@
 /* OFF: its kinds and layouts, and what is refused. */
-#include <string.h>
-
-#include "formats/mesh/surface_read.h"
-#include "libcore/base/check.h"
-
-static MesoArena arena;
-static MesoQuadMesh mesh;
-static MesoError error;
-
-static MesoStatus read_mesh(const MesoInput *input)
-{
-    MesoQuadSurface surface;
-    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
-    mesh = surface.mesh;
-    return status;
-}
+#include "formats/mesh/surface_read_fixture.h"
 
 static MesoStatus read_bytes(const char *text, size_t size)
 {
-    MesoInput input;
-    meso_input_wrap(&input, "t.off", text, size);
-    return read_mesh(&input);
+    return read_file("t.off", text, size);
 }
 
 static void check_message(const char *text, const char *message)
 {
-    CHECK(read_bytes(text, strlen(text)) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "got '%s'\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
+    check_refused("t.off", text, message);
 }
 
 static void check_square(const char *text)

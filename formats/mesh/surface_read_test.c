@@ -1,28 +1,13 @@
 /* Kinds of files by name and content, glTF, triangles for inner meshes. */
 #include <math.h>
-#include <string.h>
 
-#include "formats/mesh/surface_read.h"
-#include "libcore/base/check.h"
+#include "formats/mesh/surface_read_fixture.h"
 
-static MesoArena arena;
-static MesoQuadMesh mesh;
 static MesoTriangleMesh triangles;
-static MesoError error;
-
-static MesoStatus read_mesh(const MesoInput *input)
-{
-    MesoQuadSurface surface;
-    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
-    mesh = surface.mesh;
-    return status;
-}
 
 static MesoStatus read(const char *path, const char *text)
 {
-    MesoInput input;
-    meso_input_wrap(&input, path, text, strlen(text));
-    return read_mesh(&input);
+    return read_file(path, text, strlen(text));
 }
 
 static MesoStatus read_triangles(const char *path, const char *text)
@@ -30,14 +15,6 @@ static MesoStatus read_triangles(const char *path, const char *text)
     MesoInput input;
     meso_input_wrap(&input, path, text, strlen(text));
     return meso_triangle_mesh_read(&triangles, &arena, &input, 1, &error);
-}
-
-static void check_message(const char *path, const char *text, const char *message)
-{
-    CHECK(read(path, text) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "got '%s'\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
 }
 
 #define OBJ "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
@@ -52,10 +29,10 @@ static void test_kinds(void)
     CHECK(read("a.Off", OFF) == MESO_OK && read("obj.d/a", OFF) == MESO_OK);
     CHECK(read(".ply", PLY) == MESO_OK && read("/dev/fd/63", PLY) == MESO_OK);
     CHECK(read("a.obj", PLY) == MESO_ERR_INPUT && read("a.ply", OBJ) == MESO_ERR_INPUT);
-    check_message("a.stl", "solid\nfacet\n", "a.stl: not a mesh; OBJ, PLY, OFF, glTF and Draco are read");
-    check_message("a.obj", "", "a.obj: empty file");
-    check_message("a", "", "a: empty file");
-    check_message("a", "\n\n", "a: not a mesh; OBJ, PLY, OFF, glTF and Draco are read");
+    check_refused("a.stl", "solid\nfacet\n", "a.stl: not a mesh; OBJ, PLY, OFF, glTF and Draco are read");
+    check_refused("a.obj", "", "a.obj: empty file");
+    check_refused("a", "", "a: empty file");
+    check_refused("a", "\n\n", "a: not a mesh; OBJ, PLY, OFF, glTF and Draco are read");
 }
 
 /* `text` with a byte order mark, or with line ends as they once were; in a buffer of its own. */
@@ -95,7 +72,7 @@ static void test_marks_and_returns(void)
             check_square(names[kind][name], marked(returned(names[kind][2])));
         }
     check_square("a.obj", "# one line\r\nv 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 3 4\r\n");
-    check_message("a.obj", "v 0 0 0\rv 1 x 0\r", "a.obj:2: coordinate 'x' is not a finite number");
+    check_refused("a.obj", "v 0 0 0\rv 1 x 0\r", "a.obj:2: coordinate 'x' is not a finite number");
 }
 
 /* Bytes behind the header that look like line ends, 0x0a0d0d0a among them, stay. */
@@ -115,9 +92,7 @@ static void test_binary_ply_returns(void)
     *at++ = 4;
     memcpy(at, face, sizeof face);
     at += sizeof face;
-    MesoInput input;
-    meso_input_wrap(&input, "a.ply", bytes, (size_t)(at - bytes));
-    CHECK(read_mesh(&input) == MESO_OK);
+    CHECK(read_file("a.ply", bytes, (size_t)(at - bytes)) == MESO_OK);
     CHECK(mesh.face_count == 1 && mesh.positions[0].z == odd && mesh.positions[1].x == 1);
 }
 
@@ -129,16 +104,13 @@ static const unsigned char glb[] =
 
 static void test_gltf(void)
 {
-    MesoInput input;
-    meso_input_wrap(&input, "a.glb", glb, sizeof glb - 1);
-    CHECK(read_mesh(&input) == MESO_ERR_INPUT);
+    CHECK(read_file("a.glb", glb, sizeof glb - 1) == MESO_ERR_INPUT);
     CHECK(strcmp(error.message, "a.glb" REFUSAL) == 0);
     for (size_t size = 1; size < sizeof glb - 1; size++) {
-        meso_input_wrap(&input, "a.glb", glb, size);
-        CHECK(read_mesh(&input) == MESO_ERR_INPUT);
+        CHECK(read_file("a.glb", glb, size) == MESO_ERR_INPUT);
         CHECK(strncmp(error.message, "a.glb: broken glTF: ", 20) == 0);
     }
-    check_message("a.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "a.gltf" REFUSAL);
+    check_refused("a.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "a.gltf" REFUSAL);
     CHECK(read("a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":4,\"uri\":\"/etc/passwd\"}]}") ==
           MESO_ERR_INPUT);
     CHECK(strstr(error.message, "broken glTF"));
@@ -154,8 +126,8 @@ static void test_deep_gltf(void)
     memset(at, '[', DEPTH);
     memset(at + DEPTH, ']', DEPTH);
     strcpy(at + 2 * DEPTH, "}");
-    check_message("a.gltf", text, "a.gltf: broken glTF: nested more than 200 deep");
-    check_message("a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extras\":\"\\\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
+    check_refused("a.gltf", text, "a.gltf: broken glTF: nested more than 200 deep");
+    check_refused("a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extras\":\"\\\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
                   "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
                   "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
                   "\"}", "a.gltf" REFUSAL);
@@ -212,10 +184,8 @@ static void test_truncation(void)
     const char *texts[3] = {OBJ "vn 0 0 1\nf -4/1/-1 4//1 3/2/1 2\n", OFF, PLY};
     for (int i = 0; i < 3; i++)
         for (size_t size = 0; size <= strlen(texts[i]); size++) {
-            MesoInput input;
             char *copy = meso_arena_copy_text(&arena, texts[i], &error);
-            meso_input_wrap(&input, "a", copy, size);
-            MesoStatus status = read_mesh(&input);
+            MesoStatus status = read_file("a", copy, size);
             CHECK(status == MESO_OK || status == MESO_ERR_INPUT);
         }
 }

@@ -1,7 +1,7 @@
 /* Model files: round trip to the bit, every kind of wrong chunk, every damaged byte. */
 #include "formats/model/model_file.h"
 
-#include "formats/file/test_folder.h"
+#include "formats/file/container_fixture.h"
 #include "formats/model/model_fixture.h"
 
 static MesoArena arena;
@@ -64,37 +64,20 @@ static void test_round_trip(void)
     meso_input_close(&input);
 }
 
-/* Writes the example with one chunk replaced (left out where `size` is UINT64_MAX), and reads it. */
-static void expect(const char *chunk, const void *data, uint64_t size, const char *message)
+static MesoStatus read_quietly(const MesoInput *input, MesoError *error)
 {
-    const char *path = test_path(&folder, "a.meso"), *changed = test_path(&folder, "c.meso");
-    MesoContainer container;
-    MesoInput input;
-    MesoOutput *output;
-    MesoError error;
     MesoModel model;
     MesoArenaMark mark = meso_arena_mark(&arena);
-    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
-    CHECK(meso_container_read(&container, &input, "model", 1, &error) == MESO_OK);
-    for (uint32_t i = 0; i < container.chunk_count; i++)
-        if (strcmp(container.chunks[i].name, chunk) == 0) {
-            if (size == UINT64_MAX)
-                container.chunks[i] = (MesoChunk){.name = "other"};
-            container.chunks[i].data = data;
-            container.chunks[i].size = size == UINT64_MAX ? 0 : size;
-        }
-    CHECK(meso_output_open(&output, changed, &error) == MESO_OK);
-    CHECK(meso_container_write(&container, output, &error) == MESO_OK);
-    CHECK(meso_output_commit(output, &error) == MESO_OK);
-    meso_input_close(&input);
-    CHECK(meso_input_open(&input, changed, &error) == MESO_OK);
-    input.path = "file";
-    CHECK(meso_model_read(&model, NULL, &arena, &input, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "%s\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
-    meso_input_close(&input);
+    MesoStatus status = meso_model_read(&model, NULL, &arena, input, error);
     meso_arena_rewind(&arena, mark);
+    return status;
+}
+
+static const ContainerFixture fixture = {&folder, "a.meso", "model", 1, read_quietly};
+
+static void expect(const char *chunk, const void *data, uint64_t size, const char *message)
+{
+    container_fixture_expect(&fixture, chunk, data, size, message);
 }
 
 static void test_missing_chunks(void)
@@ -175,27 +158,6 @@ static void test_tiles_and_inner(void)
     expect("innertri", triangle, 12, "file: inner mesh 0: no vertex 3; it has 3");
 }
 
-static void test_every_byte(void)
-{
-    MesoInput whole, input;
-    MesoError error;
-    MesoModel model;
-    CHECK(meso_input_open(&whole, test_path(&folder, "a.meso"), &error) == MESO_OK);
-    uint8_t *bytes = MESO_NEW(&arena, uint8_t, whole.size, &error);
-    memcpy(bytes, whole.data, whole.size);
-    for (size_t i = 0; i < whole.size; i++) {
-        MesoArenaMark mark = meso_arena_mark(&arena);
-        meso_input_wrap(&input, "file", bytes, i);
-        CHECK(meso_model_read(&model, NULL, &arena, &input, &error) == MESO_ERR_INPUT);
-        bytes[i] ^= (uint8_t)(1 << i % 8);
-        meso_input_wrap(&input, "file", bytes, whole.size);
-        CHECK(meso_model_read(&model, NULL, &arena, &input, &error) == MESO_ERR_INPUT);
-        bytes[i] ^= (uint8_t)(1 << i % 8);
-        meso_arena_rewind(&arena, mark);
-    }
-    meso_input_close(&whole);
-}
-
 int main(void)
 {
     folder = test_folder_make();
@@ -205,7 +167,7 @@ int main(void)
     test_options();
     test_surface();
     test_tiles_and_inner();
-    test_every_byte();
+    container_fixture_damage(&fixture);
     meso_arena_release(&arena);
     test_folder_remove(&folder);
     return 0;

@@ -1,7 +1,7 @@
 /* Models of any method as scenes: bodies there and back to the bit, every kind of wrong chunk, every damaged byte. */
 #include "formats/model/model_scene.h"
 
-#include "formats/file/test_folder.h"
+#include "formats/file/container_fixture.h"
 #include "formats/model/model_body.h"
 #include "formats/model/model_fixture.h"
 #include "formats/scene/scene_fixture.h"
@@ -113,36 +113,21 @@ static void test_tiles(void)
     meso_input_close(&input);
 }
 
-/* Writes the bodies with one chunk replaced (renamed where `size` is UINT64_MAX), and reads them. */
-static void expect(const char *chunk, const void *data, uint64_t size, const char *message)
+static MesoStatus read_quietly(const MesoInput *input, MesoError *error)
 {
-    MesoContainer container;
-    MesoOutput *output;
     MesoScene scene;
     MesoSceneReading reading = {0};
-    MesoError error;
     MesoArenaMark mark = meso_arena_mark(&arena);
-    MesoInput input = open_file(test_path(&folder, "a.meso"));
-    CHECK(meso_container_read(&container, &input, "model", 1, &error) == MESO_OK);
-    for (uint32_t i = 0; i < container.chunk_count; i++)
-        if (strcmp(container.chunks[i].name, chunk) == 0) {
-            if (size == UINT64_MAX)
-                container.chunks[i] = (MesoChunk){.name = "other"};
-            container.chunks[i].data = data;
-            container.chunks[i].size = size == UINT64_MAX ? 0 : size;
-        }
-    CHECK(meso_output_open(&output, test_path(&folder, "c.meso"), &error) == MESO_OK);
-    CHECK(meso_container_write(&container, output, &error) == MESO_OK);
-    CHECK(meso_output_commit(output, &error) == MESO_OK);
-    meso_input_close(&input);
-    input = open_file(test_path(&folder, "c.meso"));
-    input.path = "file";
-    CHECK(meso_scene_read(&scene, &arena, &input, &reading, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "%s\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
-    meso_input_close(&input);
+    MesoStatus status = meso_scene_read(&scene, &arena, input, &reading, error);
     meso_arena_rewind(&arena, mark);
+    return status;
+}
+
+static const ContainerFixture fixture = {&folder, "a.meso", "model", 1, read_quietly};
+
+static void expect(const char *chunk, const void *data, uint64_t size, const char *message)
+{
+    container_fixture_expect(&fixture, chunk, data, size, message);
 }
 
 static void expect_text(const char *description, const char *message)
@@ -184,27 +169,6 @@ static void test_wrong_chunks(void)
                 "file: chunk 'bodydesc': channels[0].names: 1 names for 2 ids");
 }
 
-static void test_every_byte(void)
-{
-    MesoInput whole = open_file(test_path(&folder, "a.meso")), input;
-    MesoScene scene;
-    MesoSceneReading reading = {0};
-    MesoError error;
-    uint8_t *bytes = MESO_NEW(&arena, uint8_t, whole.size, &error);
-    memcpy(bytes, whole.data, whole.size);
-    for (size_t i = 0; i < whole.size; i++) {
-        MesoArenaMark mark = meso_arena_mark(&arena);
-        meso_input_wrap(&input, "file", bytes, i);
-        CHECK(meso_scene_read(&scene, &arena, &input, &reading, &error) == MESO_ERR_INPUT);
-        bytes[i] ^= (uint8_t)(1 << i % 8);
-        meso_input_wrap(&input, "file", bytes, whole.size);
-        CHECK(meso_scene_read(&scene, &arena, &input, &reading, &error) == MESO_ERR_INPUT);
-        bytes[i] ^= (uint8_t)(1 << i % 8);
-        meso_arena_rewind(&arena, mark);
-    }
-    meso_input_close(&whole);
-}
-
 int main(void)
 {
     folder = test_folder_make();
@@ -212,7 +176,7 @@ int main(void)
     test_round_trip();
     test_tiles();
     test_wrong_chunks();
-    test_every_byte();
+    container_fixture_damage(&fixture);
     meso_arena_release(&arena);
     test_folder_remove(&folder);
     return 0;

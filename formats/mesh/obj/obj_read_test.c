@@ -1,34 +1,14 @@
 /* OBJ: what is tolerated, what is refused, and that every element arrives as written. */
-#include <string.h>
-
-#include "formats/mesh/surface_read.h"
-#include "libcore/base/check.h"
-
-static MesoArena arena;
-static MesoQuadMesh mesh;
-static MesoError error;
-
-static MesoStatus read_mesh(const MesoInput *input)
-{
-    MesoQuadSurface surface;
-    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
-    mesh = surface.mesh;
-    return status;
-}
+#include "formats/mesh/surface_read_fixture.h"
 
 static MesoStatus read(const char *text)
 {
-    MesoInput input;
-    meso_input_wrap(&input, "t.obj", text, strlen(text));
-    return read_mesh(&input);
+    return read_file("t.obj", text, strlen(text));
 }
 
 static void check_message(const char *text, const char *message)
 {
-    CHECK(read(text) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "got '%s'\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
+    check_refused("t.obj", text, message);
 }
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

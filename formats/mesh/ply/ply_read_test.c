@@ -1,36 +1,17 @@
 /* PLY: three forms of one mesh, other properties around it, and broken headers and bodies. */
 #include <math.h>
-#include <string.h>
 
 #include "formats/mesh/mesh_kinds.h"
-#include "formats/mesh/surface_read.h"
-#include "libcore/base/check.h"
-
-static MesoArena arena;
-static MesoQuadMesh mesh;
-static MesoError error;
-
-static MesoStatus read_mesh(const MesoInput *input)
-{
-    MesoQuadSurface surface;
-    MesoStatus status = meso_quad_surface_read(&surface, &arena, input, 1, &error);
-    mesh = surface.mesh;
-    return status;
-}
+#include "formats/mesh/surface_read_fixture.h"
 
 static MesoStatus read_bytes(const void *bytes, size_t size)
 {
-    MesoInput input;
-    meso_input_wrap(&input, "t.ply", bytes, size);
-    return read_mesh(&input);
+    return read_file("t.ply", bytes, size);
 }
 
 static void check_message(const char *text, const char *message)
 {
-    CHECK(read_bytes(text, strlen(text)) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "got '%s'\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
+    check_refused("t.ply", text, message);
 }
 
 /* Two squares, 3 2 5 / 0 1 4, the right one upright. */

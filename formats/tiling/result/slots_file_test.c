@@ -1,7 +1,7 @@
 /* Assignment files: round trip, every kind of wrong chunk, every damaged byte. */
 #include "formats/tiling/result/slots_file.h"
 
-#include "formats/file/test_folder.h"
+#include "formats/file/container_fixture.h"
 #include "libcore/tiling/fixture/solve_fixture.h"
 
 static MesoArena arena;
@@ -112,36 +112,20 @@ static void test_unused_name(void)
     meso_input_close(&input);
 }
 
-/* Writes the example with one chunk replaced (left out where `size` is UINT64_MAX), and reads it. */
+static MesoStatus read_quietly(const MesoInput *input, MesoError *error)
+{
+    MesoSlotsFile slots;
+    MesoArenaMark mark = meso_arena_mark(&arena);
+    MesoStatus status = meso_slots_read(&slots, &arena, input, error);
+    meso_arena_rewind(&arena, mark);
+    return status;
+}
+
+static const ContainerFixture fixture = {&folder, "a.slots", "slots", 2, read_quietly};
+
 static void expect(const char *chunk, const void *data, uint64_t size, const char *message)
 {
-    const char *path = test_path(&folder, "c.slots");
-    MesoContainer container;
-    MesoInput input;
-    MesoOutput *output;
-    MesoError error;
-    MesoSlotsFile slots;
-    write_file(test_path(&folder, "a.slots"));
-    CHECK(meso_input_open(&input, test_path(&folder, "a.slots"), &error) == MESO_OK);
-    CHECK(meso_container_read(&container, &input, "slots", 2, &error) == MESO_OK);
-    for (uint32_t i = 0; i < container.chunk_count; i++)
-        if (strcmp(container.chunks[i].name, chunk) == 0) {
-            if (size == UINT64_MAX)
-                container.chunks[i] = (MesoChunk){.name = "other"};
-            container.chunks[i].data = data;
-            container.chunks[i].size = size == UINT64_MAX ? 0 : size;
-        }
-    CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    CHECK(meso_container_write(&container, output, &error) == MESO_OK);
-    CHECK(meso_output_commit(output, &error) == MESO_OK);
-    meso_input_close(&input);
-    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
-    input.path = "file";
-    CHECK(meso_slots_read(&slots, &arena, &input, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "%s\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
-    meso_input_close(&input);
+    container_fixture_expect(&fixture, chunk, data, size, message);
 }
 
 static void test_wrong_chunks(void)
@@ -169,28 +153,6 @@ static void test_wrong_chunks(void)
     expect("xform", turned, 0, "file: chunk 'xform' has no possible number of slots");
 }
 
-static void test_every_byte(void)
-{
-    MesoInput whole, input;
-    MesoError error;
-    MesoSlotsFile slots;
-    write_file(test_path(&folder, "a.slots"));
-    CHECK(meso_input_open(&whole, test_path(&folder, "a.slots"), &error) == MESO_OK);
-    uint8_t *bytes = MESO_NEW(&arena, uint8_t, whole.size, &error);
-    memcpy(bytes, whole.data, whole.size);
-    for (size_t i = 0; i < whole.size; i++) {
-        MesoArenaMark mark = meso_arena_mark(&arena);
-        meso_input_wrap(&input, "file", bytes, i);
-        CHECK(meso_slots_read(&slots, &arena, &input, &error) == MESO_ERR_INPUT);
-        bytes[i] ^= (uint8_t)(1 << i % 8);
-        meso_input_wrap(&input, "file", bytes, whole.size);
-        CHECK(meso_slots_read(&slots, &arena, &input, &error) == MESO_ERR_INPUT);
-        bytes[i] ^= (uint8_t)(1 << i % 8);
-        meso_arena_rewind(&arena, mark);
-    }
-    meso_input_close(&whole);
-}
-
 int main(void)
 {
     folder = test_folder_make();
@@ -199,7 +161,7 @@ int main(void)
     test_versions();
     test_unused_name();
     test_wrong_chunks();
-    test_every_byte();
+    container_fixture_damage(&fixture);
     meso_arena_release(&arena);
     test_folder_remove(&folder);
     return 0;

@@ -23,9 +23,7 @@ static void expect(const char *text, const char *message)
     MesoSlotsFile slots;
     MesoError error = {0};
     CHECK(read_text(&slots, text, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "%s\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
+    CHECK_TEXT(error.message, message);
 }
 
 static void check_same(const MesoSlotsFile *a, const MesoSlotsFile *b)

@@ -212,9 +212,7 @@ static void check_refused(const char *text, const char *message)
     meso_arena_init(&arena);
     meso_input_wrap(&input, "x.json", text, strlen(text));
     CHECK(meso_tiles_read(&set, &arena, &input, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "got:      %s\nexpected: %s\n", error.message, message);
-    CHECK(strcmp(error.message, message) == 0);
+    CHECK_TEXT(error.message, message);
     meso_arena_release(&arena);
 }
 

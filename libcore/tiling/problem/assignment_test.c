@@ -12,9 +12,7 @@ static void expect(const MesoAssignment *assignment, const MesoTileSet *set,
 {
     MesoError error;
     CHECK(meso_assignment_check(assignment, set, graph, &error) == MESO_ERR_INPUT);
-    if (strcmp(error.message, message) != 0)
-        fprintf(stderr, "%s\n", error.message);
-    CHECK(strcmp(error.message, message) == 0);
+    CHECK_TEXT(error.message, message);
 }
 
 /*
