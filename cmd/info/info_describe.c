@@ -33,31 +33,17 @@ static int put_count(json_t *object, const char *key, uint64_t count)
     return json_object_set_new(object, key, json_integer((json_int_t)count));
 }
 
-/* As people write it: 0.1 and not 0.10000000149011612. */
-static json_t *number(float value)
-{
-    char text[32];
-    double shortest = (double)value;
-    for (int digits = 1; digits <= 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        shortest = strtod(text, NULL);
-        if ((float)shortest == value)
-            break;
-    }
-    return json_real(shortest + 0.0);   /* no -0.0 */
-}
-
 static int put_number(json_t *object, const char *key, float value)
 {
-    return json_object_set_new(object, key, number(value));
+    return json_object_set_new(object, key, meso_json_shortest(value));
 }
 
 static int put_point(json_t *object, const char *key, MesoVec3 point)
 {
     json_t *list = json_array();
-    int failed = json_array_append_new(list, number(point.x));
-    failed |= json_array_append_new(list, number(point.y));
-    failed |= json_array_append_new(list, number(point.z));
+    int failed = json_array_append_new(list, meso_json_shortest(point.x));
+    failed |= json_array_append_new(list, meso_json_shortest(point.y));
+    failed |= json_array_append_new(list, meso_json_shortest(point.z));
     return failed | json_object_set_new(object, key, list);
 }
 

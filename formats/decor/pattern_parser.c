@@ -30,24 +30,13 @@ const MesoInput *meso_pattern_open(MesoPatternParser *parser, const MesoJsonFiel
     return input;
 }
 
-/* The words that there are, for the message. */
-static void list_words(const char *const *words, char *list, size_t size)
-{
-    size_t used = 0;
-    list[0] = '\0';
-    for (; *words && used < size; words++) {
-        int length = snprintf(list + used, size - used, "%s\"%s\"", used ? ", " : "", *words);
-        used += length > 0 ? (size_t)length : 0;
-    }
-}
-
 void meso_pattern_refuse(const MesoJsonField *field, const char *what, const char *text, const char *const *words)
 {
     char list[200];
     MesoNearest nearest = meso_nearest(text, strlen(text));
     for (const char *const *word = words; *word; word++)
         meso_nearest_try(&nearest, *word);
-    list_words(words, list, sizeof list);
+    meso_json_list_words(words, list, sizeof list);
     if (nearest.best)
         meso_json_wrong(field, "no %s '%.40s'; did you mean '%.80s'?", what, text, nearest.best);
     else
@@ -67,7 +56,7 @@ uint32_t meso_pattern_word(const MesoJsonField *field, const char *what, const c
         return fallback;
     }
     char list[200];
-    list_words(words, list, sizeof list);
+    meso_json_list_words(words, list, sizeof list);
     meso_json_wrong(field, "a %s is needed here, one of %s", what, list);
     return fallback;
 }

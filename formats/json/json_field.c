@@ -105,13 +105,12 @@ static bool expect(const MesoJsonField *field, bool right, const char *expected)
     return right;
 }
 
-/* The keys that there are, for the message. */
-static void list_keys(const char *const *keys, char *text, size_t size)
+void meso_json_list_words(const char *const *words, char *list, size_t size)
 {
     size_t used = 0;
-    text[0] = '\0';
-    for (; *keys && used < size; keys++) {
-        int length = snprintf(text + used, size - used, "%s\"%s\"", used ? ", " : "", *keys);
+    list[0] = '\0';
+    for (; *words && used < size; words++) {
+        int length = snprintf(list + used, size - used, "%s\"%s\"", used ? ", " : "", *words);
         used += length > 0 ? (size_t)length : 0;
     }
 }
@@ -134,7 +133,7 @@ bool meso_json_object(const MesoJsonField *field, const char *const *keys)
             k++;
         if (keys && !keys[k] && !meso_json_is_note(key)) {
             char known[200];
-            list_keys(keys, known, sizeof known);
+            meso_json_list_words(keys, known, sizeof known);
             meso_json_wrong(field, "unknown key \"%.40s\"; there are %s", key, known);
             if (!field->reader->report)
                 return false;

@@ -43,6 +43,9 @@ MesoJsonField meso_json_item(const MesoJsonField *array, size_t index);
 void meso_json_wrong(const MesoJsonField *field, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Words, up to a NULL, quoted and with commas between them, in `list` [size]: those that there are, for messages. */
+void meso_json_list_words(const char *const *words, char *list, size_t size);
+
 /* "tiles[3].sides[1]"; "" for the root. Cut off at `size`. */
 void meso_json_place(const MesoJsonField *field, char *place, size_t size);
 

@@ -97,6 +97,19 @@ json_t *meso_json_string(const char *text)
     return value;
 }
 
+json_t *meso_json_shortest(float value)
+{
+    char text[32];
+    double shortest = (double)value;
+    for (int digits = 1; digits <= 9; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, (double)value);
+        shortest = strtod(text, NULL);
+        if ((float)shortest == value)
+            break;
+    }
+    return json_real(shortest + 0.0);   /* no -0.0 */
+}
+
 /* Text of one value on one line while it fits; then `overflow` is set. */
 typedef struct Line {
     char text[LINE_WIDTH + 1];

@@ -22,6 +22,10 @@ MesoStatus meso_json_parse_line(json_t **root, const char *path, uint64_t number
  * '?' for the rest. NULL when memory is out. */
 json_t *meso_json_string(const char *text);
 
+/* Real value of `value` as people write it: 0.1 and not 0.10000000149011612, 0 and not -0. NULL where it is not finite,
+ * or memory is out. */
+json_t *meso_json_shortest(float value);
+
 /*
  * Appends `value` as text: two spaces of indent, keys in the order of insertion, the shortest
  * numbers that read back to the same double, a final newline. Arrays of scalars, and objects of

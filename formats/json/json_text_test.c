@@ -199,6 +199,20 @@ static void test_strings(void)
     json_decref(value);
 }
 
+static void test_floats(void)
+{
+    static const struct {
+        float value;
+        double shown;
+    } rows[] = {{0.1f, 0.1}, {-0.0f, 0}, {16777216, 16777216}, {1.0f / 3, 0.33333334}, {1e-45f, 1e-45}, {-2.5e30f, -2.5e30}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        json_t *value = meso_json_shortest(rows[i].value);
+        CHECK(json_real_value(value) == rows[i].shown && !signbit(json_real_value(value)) == (rows[i].shown >= 0));
+        json_decref(value);
+    }
+    CHECK(!meso_json_shortest(NAN) && !meso_json_shortest(INFINITY));
+}
+
 int main(void)
 {
     TestFolder folder = test_folder_make();
@@ -209,6 +223,7 @@ int main(void)
     test_numbers_come_back(&folder);
     test_format();
     test_strings();
+    test_floats();
     test_folder_remove(&folder);
     return 0;
 }

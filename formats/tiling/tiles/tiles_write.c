@@ -1,10 +1,10 @@
 #include "formats/tiling/tiles/tiles_file.h"
-#include "formats/tiling/tiles/tiles_room.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "formats/json/json_text.h"
+#include "formats/tiling/tiles/tiles_room.h"
 
 /* JSON that grows key by key; `failed` when memory is out. */
 typedef struct Writer {
@@ -24,20 +24,12 @@ static void append(Writer *writer, json_t *array, json_t *value)
         writer->failed = true;
 }
 
-/* The double with the fewest digits that reads back to the same float. */
+/* Whole numbers stay whole. */
 static json_t *number(float value)
 {
     if (value == truncf(value) && fabsf(value) < 1e6f)
         return json_integer((json_int_t)value);
-    char text[32];
-    double shortest = (double)value;
-    for (int digits = 1; digits <= 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        shortest = strtod(text, NULL);
-        if ((float)shortest == value)
-            break;
-    }
-    return json_real(shortest);
+    return meso_json_shortest(value);
 }
 
 static json_t *numbers(Writer *writer, const float *values, uint32_t count)
