@@ -5,8 +5,12 @@
 #include "libcore/base/clock.h"
 #include "libcore/render/isolate.h"
 
-/* What a software driver takes before it draws: its tables, and the code that it compiles. */
-enum { DRIVER_BYTES = 32 << 20 };
+/*
+ * What a software driver takes: its tables, the code that it compiles, and the stacks of its threads; some 130 MB
+ * are measured. Where there is less, its end is a matter of luck, and so nothing is begun: it may die, and might
+ * draw something else.
+ */
+enum { DRIVER_BYTES = 192 << 20 };
 
 /* The arrays of the image follow the head. */
 enum { HEAD_BYTES = (sizeof(MesoPicture) + 63) / 64 * 64 };
