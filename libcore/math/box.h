@@ -14,10 +14,15 @@ static inline MesoBox meso_box_empty(void)
     return (MesoBox){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
 
+/* Plain comparisons: fminf() is a call. What is not a number adds nothing. */
 static inline void meso_box_add(MesoBox *box, MesoVec3 p)
 {
-    box->low = (MesoVec3){fminf(box->low.x, p.x), fminf(box->low.y, p.y), fminf(box->low.z, p.z)};
-    box->high = (MesoVec3){fmaxf(box->high.x, p.x), fmaxf(box->high.y, p.y), fmaxf(box->high.z, p.z)};
+    box->low.x = p.x < box->low.x ? p.x : box->low.x;
+    box->low.y = p.y < box->low.y ? p.y : box->low.y;
+    box->low.z = p.z < box->low.z ? p.z : box->low.z;
+    box->high.x = p.x > box->high.x ? p.x : box->high.x;
+    box->high.y = p.y > box->high.y ? p.y : box->high.y;
+    box->high.z = p.z > box->high.z ? p.z : box->high.z;
 }
 
 /* The box around `points` [count]. */
