@@ -48,7 +48,7 @@ static MesoStatus draw_lines(MesoSplit *split, MesoError *error)
         MesoSplitTarget *target = &split->targets[i];
         MesoDomain domain;
         status = meso_region_domain(&domain, work->member, work->scratch, tree, &work->lists, &work->decor->mesh,
-                                           target->region, error);
+                                    target->region, error);
         if (!status)
             status = OPERATORS[split->step->kind](split, target, &domain, error);
         meso_region_domain_end(tree, target->region, work->member);
