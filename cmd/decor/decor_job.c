@@ -151,7 +151,7 @@ static MesoStatus run_seed(Job *job, uint64_t seed)
 {
     MesoTool *tool = job->tool;
     const MesoDecorOptions options = {
-        .seed = seed, .engine = engine_of(job->arguments), .step_limit = job->arguments->until,
+        .seed = seed, .engine = engine_of(job->arguments), .threads = tool->threads, .step_limit = job->arguments->until,
         .region_limit = REGION_LIMIT, .triangle_limit = TRIANGLE_LIMIT, .progress = meso_tool_progress,
         .note = say_note, .context = tool,
     };

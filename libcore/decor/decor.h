@@ -9,6 +9,7 @@
 typedef struct MesoDecorOptions {
     uint64_t seed;
     MesoGeodesicEngine engine;
+    uint32_t threads;           /* 0: all cores */
     uint32_t step_limit;        /* operations after which it ends; 0: none */
     uint32_t region_limit;      /* MESO_ERR_LIMIT beyond */
     uint64_t triangle_limit;    /* MESO_ERR_LIMIT beyond */

@@ -239,6 +239,36 @@ static uint64_t hash_of(const MesoDecor *decor)
     return hash;
 }
 
+/* Blends that are worth a second thread come out the same with and without. */
+static void test_threads(void)
+{
+    static const MesoSeedSpec point = {.kind = MESO_SEED_POINT, .point = {1, 0, 0.3f}}, borders = {0};
+    static const MesoSeedSpec few = {.kind = MESO_SEED_POISSON, .count = 5};
+    static const float levels[] = {0.3f, 0.6f};
+    MesoSelector all = {.borders = any_range(), .corners = any_range(), .aspect = any_range(), .area = any_range(),
+                        .area_share = any_range(), .share = 1};
+    const MesoStep steps[] = {
+        {.kind = MESO_STEP_CONTOUR, .place = "a", .on = all, .levels = {levels, 2, .unit = MESO_LEVEL_SCENE},
+         .field = {.from = {&point, 1}, .to = {&few, 1}, .blend = true}},
+        {.kind = MESO_STEP_CONTOUR, .place = "b", .on = all, .levels = {levels, 1, .unit = MESO_LEVEL_SCENE},
+         .field = {.from = {&few, 1}, .to = {&borders, 1}, .blend = true}},
+    };
+    const MesoPattern pattern = {.steps = steps, .step_count = 2};
+    uint64_t hashes[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        MesoArena arena;
+        const MesoDecorOptions options = {.threads = i + 1, .region_limit = 1000, .triangle_limit = 1 << 20};
+        MesoDecor decor = {.mesh = meso_fixture_torus(160, 80, 0.4f)};
+        meso_arena_init(&arena);
+        CHECK(meso_decor_run(&decor, &arena, &pattern, &options, NULL) == MESO_OK);
+        CHECK(decor.tree.region_count > 8);
+        hashes[i] = hash_of(&decor);
+        CHECK(hashes[i] == hashes[0]);
+        meso_triangulation_release(&decor.mesh);
+        meso_arena_release(&arena);
+    }
+}
+
 static void run(MesoDecor *decor, MesoArena *arena, uint32_t number, const MesoPattern *pattern, uint64_t seed)
 {
     MesoError error;
@@ -283,6 +313,7 @@ static void test_program(uint32_t number, uint64_t seed)
 int main(int argc, char **argv)
 {
     uint64_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 5, first = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
+    test_threads();
     for (uint64_t seed = first; seed < first + count; seed++)
         for (uint32_t number = 0; number < SURFACES; number++)
             test_program(number, seed);

@@ -14,13 +14,22 @@ static float largest_in(const MesoTriangulation *mesh, const MesoDomain *domain,
     return largest;
 }
 
-static MesoStatus solve(MesoDecorWork *work, const MesoSeeds *seeds, const MesoDomain *domain, float *distance,
-                        MesoError *error)
+static MesoGeodesicQuery query_from(const MesoSeeds *seeds, const MesoDomain *domain)
 {
-    const MesoGeodesicQuery query = {
+    return (MesoGeodesicQuery){
         .domain = domain, .seeds = seeds->seeds, .seed_count = seeds->count, .target = MESO_NO_INDEX,
     };
-    return meso_geodesic_solve(work->solver, &query, distance, NULL, NULL, error);
+}
+
+/* work->field, and of a blend work->other. */
+static MesoStatus solve(MesoDecorWork *work, const MesoSeeds *from, const MesoSeeds *to, const MesoDomain *domain,
+                        MesoError *error)
+{
+    const MesoGeodesicQuery queries[] = {query_from(from, domain), query_from(to, domain)};
+    if (to->count == 0)
+        return meso_geodesic_solve(work->solver, &queries[0], work->field, NULL, NULL, error);
+    return meso_geodesic_solve_pair(work->solver, queries, (float *const[]){work->field, work->other},
+                                    work->options->threads, error);
 }
 
 /* dist S / (dist S + dist S'), 1/2 where both meet; S alone where no way leads to S', and so 0. */
@@ -80,9 +89,7 @@ MesoStatus meso_decor_field(MesoDecorWork *work, const MesoFieldSpec *spec, uint
         return status;
     facts->seeded = true;
     facts->points = from.point_count > 0;
-    status = solve(work, &from, domain, work->field, error);
-    if (!status && spec->blend)
-        status = solve(work, &to, domain, work->other, error);
+    status = solve(work, &from, &to, domain, error);
     if (status)
         return status;
     if (spec->blend)

@@ -303,6 +303,64 @@ static void test_positions(void)
     meso_triangulation_release(&mesh);
 }
 
+/* ---- two at once ---- */
+
+/* What a pair finds is what its queries find one by one, to the bit. */
+static void check_pair(MesoGeodesicSolver *solver, const MesoGeodesicQuery *queries)
+{
+    const MesoTriangulation *mesh = solver->mesh;
+    float *one[2], *both[2];
+    for (int i = 0; i < 2; i++) {
+        one[i] = new_field(mesh, -1);
+        both[i] = new_field(mesh, -1);
+        solve(solver, &queries[i], one[i]);
+    }
+    for (uint32_t threads = 1; threads <= 2; threads++) {
+        CHECK(meso_geodesic_solve_pair(solver, queries, both, threads, NULL) == MESO_OK);
+        for (int i = 0; i < 2; i++)
+            CHECK(memcmp(one[i], both[i], mesh->vertex_count * sizeof(float)) == 0);
+    }
+    CHECK(solver->twin && solver->twin_is_like);
+    for (int i = 0; i < 2; i++) {
+        free(one[i]);
+        free(both[i]);
+    }
+}
+
+static void cut_some(MesoTriangulation *mesh, MesoGeodesicSolver *solver)
+{
+    MesoArena arena;
+    MesoCutLines lines;
+    MesoCutReport report;
+    MesoChoices choices = {0};
+    meso_random_init(&choices.random, 3, 0);
+    meso_arena_init(&arena);
+    meso_choose_lines(&lines, &arena, &choices, mesh, 40);
+    CHECK(meso_mesh_cut(mesh, &lines, &report, &arena, NULL) == MESO_OK);
+    CHECK(meso_geodesic_update(solver, &report, NULL) == MESO_OK);
+    meso_arena_release(&arena);
+}
+
+static void test_pair(void)
+{
+    const MesoGeodesicSeed point = {77, 0, false}, line[3] = {{900, 0, true}, {901, 0, true}, {902, 0.5f, true}};
+    const MesoGeodesicQuery queries[2] = {{NULL, &point, 1, 0, MESO_NO_INDEX, false},
+                                          {NULL, line, 3, 0, MESO_NO_INDEX, false}};
+    for (MesoGeodesicEngine engine = MESO_GEODESIC_FRONTS; engine <= MESO_GEODESIC_EXACT; engine++) {
+        MesoTriangulation mesh = meso_fixture_torus(64, 36, 0.4f);
+        MesoGeodesicSolver *solver = new_solver(&mesh, engine, false);
+        check_pair(solver, queries);
+        cut_some(&mesh, solver);
+        check_pair(solver, queries);
+        for (uint32_t v = 0; v < mesh.vertex_count; v++)
+            mesh.positions[v].x *= 3;
+        CHECK(meso_geodesic_set_positions(solver, mesh.positions, NULL) == MESO_OK);
+        check_pair(solver, queries);
+        meso_geodesic_release(solver);
+        meso_triangulation_release(&mesh);
+    }
+}
+
 int main(void)
 {
     test_domain();
@@ -311,5 +369,6 @@ int main(void)
     test_keep();
     test_update();
     test_positions();
+    test_pair();
     return 0;
 }

@@ -94,17 +94,18 @@ static void note_walls(MesoGeodesicSolver *solver, uint32_t triangle)
     }
 }
 
-/* It is made again when it is wanted. */
-static void drop_graph(MesoGeodesicSolver *solver)
+/* What follows from mesh and positions is made again when it is wanted. */
+static void note_change(MesoGeodesicSolver *solver)
 {
     meso_geodesic_graph_release(solver->graph);
     solver->graph = NULL;
+    solver->twin_is_like = false;
 }
 
 MesoStatus meso_geodesic_set_positions(MesoGeodesicSolver *solver, const MesoVec3 *positions, MesoError *error)
 {
     (void)error;
-    drop_graph(solver);
+    note_change(solver);
     take_positions(solver, positions);
     return MESO_OK;
 }
@@ -141,6 +142,7 @@ void meso_geodesic_release(MesoGeodesicSolver *solver)
     if (!solver)
         return;
     meso_geodesic_graph_release(solver->graph);
+    meso_geodesic_twin_release(solver->twin);
     meso_buckets_release(&solver->buckets);
     meso_one_rings_release(&solver->rings);
     free(solver->rows);
@@ -185,7 +187,7 @@ MesoStatus meso_geodesic_update(MesoGeodesicSolver *solver, const MesoCutReport 
         solver->states[v] = 0;
     }
     solver->vertex_count = mesh->vertex_count;
-    drop_graph(solver);
+    note_change(solver);
     return remake_rings(solver, report, error);
 }
 

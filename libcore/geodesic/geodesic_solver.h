@@ -37,6 +37,8 @@ struct MesoGeodesicSolver {
     MesoOneRings rings;
     MesoBuckets buckets;
     MesoGeodesicGraph *graph;   /* of the graph engine; NULL: to be made before the next solve */
+    MesoGeodesicSolver *twin;   /* that solves beside this one, and has its rings; NULL: not wanted yet */
+    bool twin_is_like;          /* nothing has changed since it was made so */
 };
 
 /* One solve, in the rows' units. */
@@ -81,5 +83,8 @@ MesoStatus meso_geodesic_graph_make(MesoGeodesicSolver *solver, MesoError *error
 
 /* NULL is left alone. */
 void meso_geodesic_graph_release(MesoGeodesicGraph *graph);
+
+/* The same, of all that is the twin's own. */
+void meso_geodesic_twin_release(MesoGeodesicSolver *twin);
 
 #endif
