@@ -99,20 +99,27 @@ static void report(MesoTool *tool, const MesoSceneKind *kind, const MesoScenePar
                       (unsigned long long)vertex_count, (unsigned long long)parts->triangle_count);
 }
 
-MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product)
+static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product,
+                                const MesoSceneParts *parts, MesoOutput **file)
 {
-    MesoOutput *file;
-    MesoSceneParts parts;
-    MesoStatus status = meso_scene_parts_init(&parts, &tool->arena, product->scene, &tool->error);
+    MesoStatus status = meso_output_open(file, tool->output, &tool->error);
     if (status)
         return status;
-    status = meso_output_open(&file, tool->output, &tool->error);
-    if (!status) {
-        meso_tool_progress_begin(tool, "writing", output->kind->draco ? "triangles" : "vertices");
-        status = output->kind->write ? write_mesh(tool, output, &parts, product->smaller, file)
-                                     : write_model(tool, product, file);
-    }
-    status = meso_output_finish(file, status, &tool->error);
+    meso_tool_progress_begin(tool, "writing", output->kind->draco ? "triangles" : "vertices");
+    return output->kind->write ? write_mesh(tool, output, parts, product->smaller, *file)
+                               : write_model(tool, product, *file);
+}
+
+MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product)
+{
+    MesoOutput *files[1 + MESO_SCENE_BESIDE] = {NULL};
+    MesoSceneParts parts;
+    MesoStatus status = meso_scene_parts_init(&parts, &tool->arena, product->scene, &tool->error);
+    for (int i = 0; i < MESO_SCENE_BESIDE; i++)
+        files[1 + i] = product->beside[i];
+    if (!status)
+        status = write_product(tool, output, product, &parts, &files[0]);
+    status = meso_output_finish_all(files, 1 + MESO_SCENE_BESIDE, status, &tool->error);
     if (!status)
         report(tool, output->kind, &parts);
     return status;

@@ -61,18 +61,22 @@ const MesoSceneKind *meso_scene_kind_named(const char *name);
  */
 MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output);
 
+enum { MESO_SCENE_BESIDE = 2 };
+
 typedef struct MesoSceneProduct {
     const MesoScene *scene;
     /* Writes the scene as a model (.meso) of the tool's own method; NULL: as bodies, and the scene has no sweeps. */
     MesoStatus (*write_model)(const void *model, const MesoProvenance *provenance, MesoOutput *output,
                               MesoError *error);
     const void *model;          /* for `write_model` */
+    MesoOutput *beside[MESO_SCENE_BESIDE];  /* more files of the same run, written but not committed; NULL: none */
     const char *smaller;        /* options of the tool that make less of it, for messages; NULL: it has none */
 } MesoSceneProduct;
 
 /*
  * Writes a scene to tool->output, with progress, and puts into the report: the kind, how many ids there are, parts,
- * vertices, faces, triangles, and bytes. Errors as those of the writers.
+ * vertices, faces, triangles, and bytes. What is beside it appears with it, or not at all; ends all of these files,
+ * whatever happens. Errors as those of the writers.
  */
 MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product);
 

@@ -100,17 +100,28 @@ static bool ends_in(const char *path, const char *extension)
     return dot && strcasecmp(dot, extension) == 0;
 }
 
-static MesoStatus write_beside(const Job *job, const MesoDecor *decor, const char *path, bool tree)
+static MesoStatus write_text(const Job *job, const MesoDecor *decor, const char *path, bool tree, MesoOutput *output)
 {
     MesoTool *tool = job->tool;
-    MesoOutput *output = NULL;
-    MesoStatus status = path ? meso_output_open(&output, path, &tool->error) : MESO_OK;
+    if (tree)
+        return meso_tree_write(decor, &tool->provenance, output, &tool->error);
+    return ends_in(path, ".svg") ? meso_lines_svg_write(decor, &tool->provenance, output, &tool->error)
+                                 : meso_lines_obj_write(decor, &tool->provenance, output, &tool->error);
+}
+
+/* A file that is to appear with the scene's; NULL where none is wanted, and on failure. */
+static MesoStatus write_beside(const Job *job, const MesoDecor *decor, const char *path, bool tree, MesoOutput **output)
+{
+    *output = NULL;
+    MesoStatus status = path ? meso_output_open(output, path, &job->tool->error) : MESO_OK;
     if (!path || status)
         return status;
-    status = tree ? meso_tree_write(decor, &tool->provenance, output, &tool->error)
-        : ends_in(path, ".svg") ? meso_lines_svg_write(decor, &tool->provenance, output, &tool->error)
-                       : meso_lines_obj_write(decor, &tool->provenance, output, &tool->error);
-    return meso_output_finish(output, status, &tool->error);
+    status = write_text(job, decor, path, tree, *output);
+    if (status) {
+        meso_output_discard(*output);
+        *output = NULL;
+    }
+    return status;
 }
 
 static MesoStatus write_products(const Job *job, const MesoDecor *decor)
@@ -118,14 +129,16 @@ static MesoStatus write_products(const Job *job, const MesoDecor *decor)
     const MesoDecorArguments *a = job->arguments;
     MesoTool *tool = job->tool;
     MesoScene scene;
+    MesoSceneProduct product = {.scene = &scene};
     MesoStatus status = meso_decor_scene(&scene, &tool->arena, decor, &job->pattern, &job->surface.values,
                                          &tool->error);
     if (!status)
-        status = meso_tool_write_scene(tool, &a->output, &(MesoSceneProduct){.scene = &scene});
+        status = write_beside(job, decor, a->tree, true, &product.beside[0]);
     if (!status)
-        status = write_beside(job, decor, a->tree, true);
+        status = write_beside(job, decor, a->lines, false, &product.beside[1]);
     if (!status)
-        status = write_beside(job, decor, a->lines, false);
+        return meso_tool_write_scene(tool, &a->output, &product);
+    meso_output_discard(product.beside[0]);
     return status;
 }
 

@@ -271,13 +271,24 @@ MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void 
     return MESO_OK;
 }
 
-static MesoStatus commit_rename(MesoOutput *output, MesoError *error)
+/* Everything is in the file; one that is to be renamed is closed. */
+static MesoStatus settle(MesoOutput *output, MesoError *error)
 {
+    MesoStatus status = refuse_after_failure(output, error);
+    if (!status)
+        status = flush(output, error);
+    if (status || !output->target)
+        return status;
     if (fsync(output->file) != 0 && errno != EINVAL && errno != ENOTSUP)
         return fail_errno(output, errno, error);
     int closed = close(output->file);
     output->file = -1;
-    if (closed != 0 || !meso_temporary_rename(&output->temporary, output->target))
+    return closed == 0 ? MESO_OK : fail_errno(output, errno, error);
+}
+
+static MesoStatus commit_rename(MesoOutput *output, MesoError *error)
+{
+    if (!meso_temporary_rename(&output->temporary, output->target))
         return fail_errno(output, errno, error);
 
     /* So that the name survives a crash too; not every file system can. */
@@ -330,27 +341,40 @@ static MesoStatus commit_copy(MesoOutput *output, MesoError *error)
     return good ? MESO_OK : fail_errno(output, reason, error);
 }
 
-MesoStatus meso_output_commit(MesoOutput *output, MesoError *error)
-{
-    MesoStatus status = refuse_after_failure(output, error);
-    if (!status)
-        status = flush(output, error);
-    if (!status)
-        status = output->target ? commit_rename(output, error) : commit_copy(output, error);
-    meso_output_discard(output);
-    return status;
-}
-
 void meso_output_discard(MesoOutput *output)
 {
     if (output)
         release(output);
 }
 
-MesoStatus meso_output_finish(MesoOutput *output, MesoStatus status, MesoError *error)
+/* What can fail comes first: a device or a pipe may refuse its copy, a file beside its target is all but there. */
+static MesoStatus commit_all(MesoOutput *const *outputs, uint32_t count, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
+        status = outputs[i] ? settle(outputs[i], error) : MESO_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
+        status = outputs[i] && !outputs[i]->target ? commit_copy(outputs[i], error) : MESO_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
+        status = outputs[i] && outputs[i]->target ? commit_rename(outputs[i], error) : MESO_OK;
+    return status;
+}
+
+MesoStatus meso_output_finish_all(MesoOutput *const *outputs, uint32_t count, MesoStatus status, MesoError *error)
 {
     if (!status)
-        return meso_output_commit(output, error);
-    meso_output_discard(output);
+        status = commit_all(outputs, count, error);
+    for (uint32_t i = 0; i < count; i++)
+        meso_output_discard(outputs[i]);
     return status;
+}
+
+MesoStatus meso_output_finish(MesoOutput *output, MesoStatus status, MesoError *error)
+{
+    return meso_output_finish_all(&output, 1, status, error);
+}
+
+MesoStatus meso_output_commit(MesoOutput *output, MesoError *error)
+{
+    return meso_output_finish(output, MESO_OK, error);
 }

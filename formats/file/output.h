@@ -46,4 +46,10 @@ void meso_output_discard(MesoOutput *output);
  */
 MesoStatus meso_output_finish(MesoOutput *output, MesoStatus status, MesoError *error);
 
+/*
+ * The same for the files of one run, of which none appears unless all could be written: [count], NULL for none. Devices
+ * and pipes get their bytes first, since they may refuse them; what one has got before another fails is not undone.
+ */
+MesoStatus meso_output_finish_all(MesoOutput *const *outputs, uint32_t count, MesoStatus status, MesoError *error);
+
 #endif

@@ -92,6 +92,30 @@ static void test_finish(const TestFolder *folder)
     unlink(test_path(folder, "finished"));
 }
 
+/* None appears where one cannot: of three files, one that failed before, a disk that is full, and none of these. */
+static void test_finish_all(const TestFolder *folder)
+{
+    static const char *const names[] = {"one", "two", "three"};
+    for (int round = 0; round < 4; round++) {
+        MesoOutput *outputs[4] = {NULL};
+        MesoError error;
+        for (int i = 0; i < 3; i++) {
+            const char *path = round == 1 && i == 2 ? "/dev/full" : test_path(folder, names[i]);
+            CHECK(meso_output_open(&outputs[i + (i > 0)], path, &error) == MESO_OK);
+            CHECK(meso_output_write(outputs[i + (i > 0)], names[i], 3, &error) == MESO_OK);
+        }
+        if (round == 0)
+            CHECK(meso_output_write_at(outputs[2], UINT64_MAX - 1, "ab", 2, &error) == MESO_ERR_OUTPUT);
+        MesoStatus given = round == 2 ? MESO_ERR_LIMIT : MESO_OK, wanted = round < 2 ? MESO_ERR_OUTPUT : given;
+        CHECK(meso_output_finish_all(outputs, 4, given, &error) == wanted);
+        CHECK(test_folder_count(folder) == (round < 3 ? 0 : 3));
+    }
+    for (int i = 0; i < 3; i++) {
+        CHECK(test_file_is(test_path(folder, names[i]), names[i], 3));
+        unlink(test_path(folder, names[i]));
+    }
+}
+
 static void test_modes_and_links(const TestFolder *folder)
 {
     struct stat status;
@@ -273,6 +297,7 @@ int main(void)
     signal(SIGXFSZ, SIG_IGN);
     test_appears_on_commit(&folder);
     test_finish(&folder);
+    test_finish_all(&folder);
     test_modes_and_links(&folder);
     test_bad_targets(&folder);
     test_permissions(&folder);

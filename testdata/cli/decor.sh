@@ -69,6 +69,21 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n
 pattern '{"displace": 0.1}, {"contour": {"dist": {"point": [0, 0, 0]}, "at": 0.5}}' >closed.json
 meso-decor closed.json four.obj -o four.ply
 
+echo "== all files of a run appear, or none: a folder that is not there, a full disk"
+mkdir whole
+meso-decor dots.json vase.ply -o whole/a.ply --tree none/a.json
+echo $?
+meso-decor dots.json vase.ply -o whole/a.ply --tree whole/a.json --lines none/a.svg
+echo $?
+meso-decor dots.json vase.ply -o whole/a.ply --tree /dev/full
+echo $?
+ln -s /dev/full full.svg
+meso-decor dots.json vase.ply -o whole/a.ply --tree whole/a.json --lines full.svg
+echo $?
+meso-decor --to ply dots.json vase.ply -o /dev/full --tree whole/a.json --lines whole/a.svg
+echo $?
+ls -A whole
+
 echo "== what cannot be"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n' >crowded.obj
 meso-decor plain.json crowded.obj -o crowded.ply
