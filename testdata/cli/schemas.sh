@@ -42,6 +42,11 @@ meso-solve -q --seeds 1-2 gap.tiles.json vase.obj 2>/dev/null >unsolvable.jsonl
 
 meso-info --slots json vase.slots >listing.json
 
+meso-decor -q --tree tree.json macros-square.pattern.json vase.obj -o x.ply
+meso-decor -q --tree grown-tree.json procedural.pattern.json vase.obj -o x.ply
+printf '{"format": "meso-pattern", "version": 1, "steps": [{"displace": 0.1}]}' >idle.json
+meso-decor -q --tree whole-tree.json idle.json vase.obj -o x.ply
+
 # Broken ones, each in one place.
 sed 's/"solved"/"perhaps"/' solved.json >broken-1.json
 sed 's/"initial": true/"initial": 1/' gap.json >broken-2.json
@@ -51,6 +56,7 @@ sed 's/2.5/-2.5/' no.json >broken-4.json
 
 sed 's/"#8f4a33"/"#8f4a3"/' "$testdata/patterns/contour-line.pattern.json" >broken-5.json
 sed 's/"parameters": {/"parameters": [{/; s/"heart": null}/"heart": null}]/' "$testdata/patterns/flowers.macros.json" >broken-6.json
+sed 's/"triangles"/"leaves"/; s/"tag": "surface"/"tag": "cellar"/' whole-tree.json >broken-7.json
 
 sed -n 's/.*"status": "\(.*\)",/\1/p' report-*.json | sort | uniq -c
 
@@ -67,11 +73,13 @@ if [ -d "$npm/node_modules/ajv" ]; then
     validate slots listing.json
     validate pattern "$testdata"/patterns/*.pattern.json
     validate macros "$testdata/patterns/flowers.macros.json" "$(dirname "$scripts")/formats/decor/macros.json"
+    validate regions tree.json grown-tree.json whole-tree.json
     validate report broken-[123].json
     validate seeds broken.jsonl
     validate constraints broken-4.json
     validate pattern broken-5.json
     validate macros broken-6.json
+    validate regions broken-7.json
 elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
     echo "ajv is not installed" >&2
 else
