@@ -39,6 +39,7 @@ static void check_seed(const MesoSeedSpec *seed)
         check(fabsf(seed->weight[0] + seed->weight[1] + seed->weight[2] - 1) < 1e-5f);
     if (seed->kind == MESO_SEED_ALONG || seed->kind == MESO_SEED_POISSON)
         check(seed->count > 0 || seed->spacing > 0);
+    check(seed->border_slack >= 0 && seed->border_slack <= 1);
 }
 
 static void check_field(const MesoFieldSpec *field)

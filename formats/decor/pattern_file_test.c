@@ -240,6 +240,9 @@ static void test_seeds(void)
     CHECK(s->kind == MESO_SEED_POISSON && s->count == 40 && s->spacing == 0 && s->from_border && !s->on_border);
     s = seed("{\"poisson\": {\"count\": 3, \"radius\": 2, \"unit\": \"scene\", \"on\": \"region\", \"start\": \"any\"}}");
     CHECK(s->count == 3 && s->spacing == 2 && !s->relative && !s->from_border && !s->on_border);
+    CHECK(s->border_slack == 0);
+    s = seed("{\"poisson\": {\"count\": 3, \"border\": 0.25}}");
+    CHECK(s->from_border && s->border_slack == 0.75f);
     s = seed("{\"poisson\": {\"radius\": 0.1, \"on\": \"border\"}}");
     CHECK(s->count == 0 && s->relative && s->on_border && !s->from_border);
 }
@@ -281,6 +284,9 @@ static void test_wrong_seeds(void)
     refuse_seed("{\"along\": \"outer\", \"spacing\": 1, \"unit\": \"share\"}", ".contour.dist.unit: no unit 'share'; there are "
                 "\"scene\", \"size\"");
     refuse_seed("{\"poisson\": {}}", ".contour.dist.poisson: \"count\" or \"radius\" is needed");
+    refuse_seed("{\"poisson\": {\"count\": 2, \"border\": 1.5}}", ".contour.dist.poisson.border: 1.5; it must be from 0 to 1");
+    refuse_seed("{\"poisson\": {\"count\": 2, \"border\": 0.5, \"start\": \"any\"}}",
+                ".contour.dist.poisson.border: only samples that start at the border keep away from it");
     refuse_seed("{\"poisson\": 0}", ".contour.dist.poisson: 0; it must be from 1 to 1048576");
     refuse_seed("{\"poisson\": 2, \"radius\": 1}", ".contour.dist: unknown key \"radius\"; there are \"poisson\"");
     refuse_seed("{\"poisson\": {\"count\": 2, \"on\": \"border\", \"start\": \"border\"}}",

@@ -137,7 +137,7 @@ static void read_along(const MesoJsonField *field, MesoSeedSpec *spec)
 static void read_poisson(const MesoJsonField *field, MesoSeedSpec *spec)
 {
     static const char *const own[] = {"poisson", NULL};
-    static const char *const keys[] = {"count", "radius", "unit", "on", "start", NULL};
+    static const char *const keys[] = {"count", "radius", "unit", "on", "start", "border", NULL};
     static const char *const places[] = {"region", "border", NULL}, *const starts[] = {"border", "any", NULL};
     MesoJsonField object = meso_json_key(field, "poisson");
     spec->kind = MESO_SEED_POISSON;
@@ -152,6 +152,7 @@ static void read_poisson(const MesoJsonField *field, MesoSeedSpec *spec)
         return;
     MesoJsonField count = meso_json_key(&object, "count"), radius = meso_json_key(&object, "radius");
     MesoJsonField on = meso_json_key(&object, "on"), start = meso_json_key(&object, "start");
+    MesoJsonField border = meso_json_key(&object, "border");
     read_count(&count, spec);
     read_spacing(&object, "radius", spec);
     if (!count.value && !radius.value)
@@ -160,6 +161,9 @@ static void read_poisson(const MesoJsonField *field, MesoSeedSpec *spec)
     spec->from_border = meso_pattern_word(&start, "start", starts, spec->on_border) == 0;
     if (spec->on_border && spec->from_border)
         meso_json_wrong(&start, "samples of the border cannot start away from it; \"any\" is possible");
+    spec->border_slack = 1 - meso_pattern_float(&border, 0, 1, false, 1);
+    if (border.value && !spec->from_border)
+        meso_json_wrong(&border, "only samples that start at the border keep away from it");
 }
 
 /* ---- files ---- */

@@ -144,6 +144,7 @@ static MesoSeedSpec make_seed(Making *m, bool point)
     s.relative = true;      /* in scene units there could be a million of them in one triangle */
     s.on_border = choose(m, 4) == 0;
     s.from_border = !s.on_border && choose(m, 2);
+    s.border_slack = s.from_border ? choose_share(m) : 0;
     return s;
 }
 

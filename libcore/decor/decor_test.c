@@ -173,7 +173,8 @@ static MesoSeedSpec random_seed(MesoRandom *random)
     case 4: spec.kind = MESO_SEED_ALONG; spec.of = MESO_SEED_BORDERS; spec.count = 1 + meso_random_below(random, 9);
             break;
     case 5: case 6: spec.kind = MESO_SEED_POISSON; spec.count = 1 + meso_random_below(random, 9);
-            spec.from_border = meso_random_below(random, 2); break;
+            spec.from_border = meso_random_below(random, 2); spec.border_slack = 0.5f * (float)meso_random_below(random, 3);
+            break;
     default: break;
     }
     return spec;

@@ -72,6 +72,7 @@ typedef struct MesoSeedSpec {
     bool relative;          /* spacing as a share of the root of the region's area */
     bool on_border;         /* Poisson samples of borders alone */
     bool from_border;       /* as the paper has it: the first lies farthest from the border, none near to it */
+    float border_slack;     /* from 0 to 1: those keep only 1 - slack of their distance from it */
 } MesoSeedSpec;
 
 /* A union. */

@@ -33,6 +33,7 @@ MesoStatus meso_decor_poisson(MesoDecorWork *work, const MesoSeedSpec *spec, uin
     float radius = spec->relative ? (float)(root * (double)spec->spacing) : spec->spacing;
     MesoSampleQuery query = {
         .domain = domain, .start = MESO_NO_INDEX, .border_only = spec->on_border, .radius = radius,
+        .slack = spec->from_border ? spec->border_slack : 0,
         .count = spec->count ? spec->count : MOST_SAMPLES,
     };
     MesoGeodesicSeed *given = NULL;

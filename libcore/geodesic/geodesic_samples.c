@@ -118,7 +118,7 @@ static uint32_t find_farthest(Farthest *farthest, float *distance)
     }
 }
 
-/* ---- samples ---- */
+/* ---- what is given ---- */
 
 static MesoStatus solve_given(MesoGeodesicSolver *solver, const MesoSampleQuery *query, float *distance,
                               MesoError *error)
@@ -127,6 +127,31 @@ static MesoStatus solve_given(MesoGeodesicSolver *solver, const MesoSampleQuery 
                                .target = MESO_NO_INDEX};
     return meso_geodesic_solve(solver, &given, distance, NULL, NULL, error);
 }
+
+static uint32_t farthest_candidate(const Farthest *farthest, const float *distance)
+{
+    uint32_t best = farthest->candidate_count ? farthest->candidates[0] : MESO_NO_INDEX;
+    for (uint32_t i = 1; i < farthest->candidate_count; i++)
+        if (distance[farthest->candidates[i]] > distance[best])
+            best = farthest->candidates[i];
+    return best;
+}
+
+/* What is given counts as farther away than it is; there are no samples yet. */
+static MesoStatus loosen(float *distance, float slack, MesoArena *scratch, const MesoTriangulation *mesh,
+                         const MesoDomain *domain, MesoError *error)
+{
+    MesoDomainVertices vertices;
+    MesoStatus status = meso_domain_vertices_init(&vertices, scratch, mesh, domain, error);
+    if (status)
+        return status;
+    for (uint32_t v = meso_domain_vertex_from(&vertices, 0); v != MESO_NO_INDEX;
+         v = meso_domain_vertex_from(&vertices, v + 1))
+        distance[v] = slack < 1 ? distance[v] / (1 - slack) : INFINITY;
+    return MESO_OK;
+}
+
+/* ---- samples ---- */
 
 static MesoStatus take(MesoSamples *samples, uint32_t *room, float *distance, MesoArena *arena,
                        MesoGeodesicSolver *solver, const MesoSampleQuery *query, uint32_t vertex, MesoError *error)
@@ -149,14 +174,18 @@ MesoStatus meso_geodesic_sample(MesoSamples *samples, float *distance, MesoArena
 {
     MesoArena scratch;
     Farthest farthest = {0};
-    uint32_t room = 0;
+    uint32_t room = 0, start = query->start;
     meso_arena_init(&scratch);
     *samples = (MesoSamples){0};
     MesoStatus status = solve_given(solver, query, distance, error);
-    if (!status && query->start != MESO_NO_INDEX && query->count > 0)
-        status = take(samples, &room, distance, arena, solver, query, query->start, error);
     if (!status)
         status = list_candidates(&farthest, &scratch, mesh, query, error);
+    if (!status && start == MESO_NO_INDEX && query->given_count > 0 && query->slack >= 1)
+        start = farthest_candidate(&farthest, distance);
+    if (!status && query->slack > 0)
+        status = loosen(distance, query->slack, &scratch, mesh, query->domain, error);
+    if (!status && start != MESO_NO_INDEX && query->count > 0)
+        status = take(samples, &room, distance, arena, solver, query, start, error);
     if (!status)
         status = init_farthest(&farthest, &scratch, distance, error);
     while (!status) {

@@ -12,6 +12,8 @@ typedef struct MesoSampleQuery {
     const MesoDomain *domain;           /* NULL: everywhere */
     uint32_t given_count;
     const MesoGeodesicSeed *given;      /* [given_count] what samples keep away from, too: borders, seeds */
+    float slack;                        /* from 0 to 1: they keep only 1 - slack of their distance from it; at 1 only the
+                                           first sample knows of it */
     uint32_t start;                     /* vertex of the domain that is the first sample; MESO_NO_INDEX: the farthest
                                            from what is given, or the domain's lowest where nothing is */
     bool border_only;                   /* samples are vertices of the domain's border */
@@ -23,7 +25,8 @@ typedef struct MesoSamples {
     uint32_t count;
     uint32_t *vertices;     /* [count] in the order in which they were taken */
     float *radii;           /* [count] how far each was from what came before it; INFINITY where no path leads from
-                               there. Descending, but for rounding, from the one behind `start` on */
+                               there, and distances from what is given divided by 1 - slack. Descending, but for
+                               rounding, from the one behind `start` on */
     float radius;           /* how far any vertex that could be a sample is from all at most */
 } MesoSamples;
 

@@ -141,6 +141,55 @@ static void test_greedy(void)
     meso_triangulation_release(&mesh);
 }
 
+/* How far from the border and from each other the samples of a sheet come at least, in squares. */
+static void measure_slack(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, MesoSampleQuery query,
+                          uint32_t *count, double *from_border, double *apart)
+{
+    float *distance = malloc(mesh->vertex_count * sizeof *distance);
+    CHECK(distance);
+    MesoSamples samples = sample(mesh, solver, query, distance);
+    *count = samples.count;
+    *from_border = *apart = INFINITY;
+    for (uint32_t i = 0; i < samples.count; i++) {
+        MesoVec3 p = mesh->positions[samples.vertices[i]];
+        *from_border = fmin(*from_border, (double)fminf(fminf(p.x, 40 - p.x), fminf(p.y, 8 - p.y)));
+        for (uint32_t k = 0; k < i; k++)
+            *apart = fmin(*apart, (double)meso_vec3_length(meso_vec3_sub(p, mesh->positions[samples.vertices[k]])));
+    }
+    free(distance);
+}
+
+/* A strip of 40 x 8 squares, whose border all samples keep from at first, then less and less. */
+static void test_slack(void)
+{
+    MesoTriangulation mesh = meso_fixture_sheet(40, 8, 1);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    MesoGeodesicSeed border[96];
+    MesoSampleQuery query = {.given = border, .start = MESO_NO_INDEX, .count = 1000, .radius = 4.5f};
+    for (uint32_t v = 0; v < mesh.vertex_count; v++)
+        if (v % 41 == 0 || v % 41 == 40 || v < 41 || v >= 8 * 41)
+            border[query.given_count++] = (MesoGeodesicSeed){v, 0, true};
+    CHECK(query.given_count == 96);
+    const uint32_t least[] = {0, 5, 6, 14};
+    for (int i = 0; i < 4; i++) {
+        static const float slacks[] = {0, 0.25f, 0.75f, 1};
+        uint32_t count;
+        double from_border, apart;
+        query.slack = slacks[i];
+        measure_slack(&mesh, solver, query, &count, &from_border, &apart);
+        CHECK(i > 0 ? count >= least[i] : count == 0);
+        CHECK(from_border >= 4.5 * (1 - (double)slacks[i]) - 1e-4 && apart >= 4.5 - 1e-3);
+        CHECK(i < 3 || from_border == 0);
+        /* the first is the one in the middle; it is alone where no more are wanted */
+        query.count = 1;
+        measure_slack(&mesh, solver, query, &count, &from_border, &apart);
+        CHECK(count == (i > 0) && (i == 0 || from_border == 4));
+        query.count = 1000;
+    }
+    meso_geodesic_release(solver);
+    meso_triangulation_release(&mesh);
+}
+
 /* No two are nearer to each other than the last radius, and none of the surface is farther than that from all. */
 static void test_spread(void)
 {
@@ -165,6 +214,7 @@ int main(void)
     meso_arena_init(&arena);
     test_strip();
     test_greedy();
+    test_slack();
     test_spread();
     meso_arena_release(&arena);
     return 0;

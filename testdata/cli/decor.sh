@@ -62,6 +62,15 @@ pattern '{"macro": "polka-dots", "count": 30, "spacing": 0.3}' >far.json
 meso-decor near.json vase.ply -o near.ply --tree near.tree.json && meso-decor far.json vase.ply -o far.ply --tree far.tree.json
 grep -c '"tag": "dot"' near.tree.json far.tree.json
 
+echo "== a narrow strip has dots where the pattern lets them near its border"
+awk 'BEGIN { for (y = 0; y < 9; y++) for (x = 0; x <= 80; x++) print "v", x / 8, y / 8, 0
+    for (y = 0; y < 8; y++) for (x = 0; x < 80; x++) { a = 81 * y + x + 1; print "f", a, a + 1, a + 82, a + 81 } }' >strip.obj
+for border in 1 0.8 0.2 0; do
+    pattern '{"macro": "polka-dots", "count": 99, "size": 0.07, "spacing": 0.17, "border": '$border'}' >strip.json
+    meso-decor strip.json strip.obj -o strip.ply --tree strip.tree.json
+    echo "$border: $(grep -c '"tag": "dot"' strip.tree.json)"
+done
+
 echo "== nothing to do is said"
 pattern '{"contour": {"dist": "outer", "at": 0.5}, "on": "nowhere"}, {"stream": {"blend": ["inner", "outer"], "lines": 4}}' >idle.json
 meso-decor idle.json vase.ply -o idle.ply
