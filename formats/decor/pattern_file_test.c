@@ -287,6 +287,8 @@ static void test_wrong_seeds(void)
     refuse_seed("{\"poisson\": {\"count\": 2, \"border\": 1.5}}", ".contour.dist.poisson.border: 1.5; it must be from 0 to 1");
     refuse_seed("{\"poisson\": {\"count\": 2, \"border\": 0.5, \"start\": \"any\"}}",
                 ".contour.dist.poisson.border: only samples that start at the border keep away from it");
+    refuse_seed("{\"points\": [[0, 1e18, 0], [0, 0, -1e19]]}",
+                ".contour.dist.points[1]: -1e+19 lies beyond the largest coordinate, 1e+18");
     refuse_seed("{\"poisson\": 0}", ".contour.dist.poisson: 0; it must be from 1 to 1048576");
     refuse_seed("{\"poisson\": 2, \"radius\": 1}", ".contour.dist: unknown key \"radius\"; there are \"poisson\"");
     refuse_seed("{\"poisson\": {\"count\": 2, \"on\": \"border\", \"start\": \"border\"}}",

@@ -42,6 +42,10 @@ static MesoStatus add_row(Rows *rows, const char *at)
                              rows->line);
         at = end;
     }
+    for (uint32_t i = 0; i < 3; i++)
+        if (!(fabsf(x[i]) <= MESO_COORDINATE_LIMIT))
+            return meso_fail(rows->error, MESO_ERR_INPUT, "%s:%u: %g lies beyond the largest coordinate, %g", rows->path,
+                             rows->line, (double)x[i], (double)MESO_COORDINATE_LIMIT);
     rows->points = MESO_GROW(rows->arena, rows->points, rows->count, rows->room, 64, rows->error);
     if (!rows->points)
         return MESO_ERR_MEMORY;

@@ -44,6 +44,7 @@ static void test_tables(void)
     refuse("p.csv", "x\ny\n1,2,3", "p.csv:2: a row is three finite numbers");
     refuse("p.csv", "1,2,3x", "p.csv:1: a row is three finite numbers");
     refuse("p.csv", "1,2,1e99", "p.csv:1: a row is three finite numbers");
+    refuse("p.csv", "1,2,3\n1,-1e20,3\n", "p.csv:2: -1e+20 lies beyond the largest coordinate, 1e+18");
     refuse("p.csv", "x,y,z\n", "p.csv: no points");
     refuse("p.csv", "", "p.csv: no points");
 }
@@ -55,6 +56,7 @@ static void test_meshes(void)
            "1 2.5 -3\n4 5 6\n");
     CHECK(read("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") == MESO_OK && count == 3);
     refuse("p.obj", "v 1 2\n", "p.obj:1: coordinate has 2 numbers instead of 3");
+    refuse("p.obj", "v 1 2 1e19\n", "p.obj: vertex 1 lies beyond the largest coordinate, 1e+18");
     refuse("p.obj", "# nothing\n", "p.obj: no points");
     refuse("p.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n", "p.obj:3: face 1 uses vertex 3 of 2");
 }

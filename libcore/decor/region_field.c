@@ -58,8 +58,9 @@ static float noise_at(const MesoDecorWork *work, const MesoNoise *noise, MesoVec
     return meso_noise(meso_vec3_scale(p, noise->frequency / size), seed);
 }
 
-static void perturb_field(MesoDecorWork *work, const MesoNoise *noise, const MesoDomain *domain, float size,
-                          float largest)
+/* Vertices that nothing has reached stay infinitely far. */
+static MesoStatus perturb_field(MesoDecorWork *work, const MesoNoise *noise, const MesoDomain *domain, float size,
+                                float largest, MesoError *error)
 {
     const MesoTriangulation *mesh = &work->decor->mesh;
     float gain = noise->relative ? noise->gain * largest : noise->gain;
@@ -73,8 +74,13 @@ static void perturb_field(MesoDecorWork *work, const MesoNoise *noise, const Mes
             if (work->other[v] < 0)
                 continue;
             work->other[v] = -1;
-            work->field[v] += gain * noise_at(work, noise, mesh->positions[v], noise->relative ? size : 1);
+            float value = work->field[v] + gain * noise_at(work, noise, mesh->positions[v], noise->relative ? size : 1);
+            if (!isfinite(gain) || (isfinite(work->field[v]) && !isfinite(value)))
+                return meso_fail(error, MESO_ERR_INPUT, "noise of gain %g takes the field beyond the largest number",
+                                 (double)noise->gain);
+            work->field[v] = value;
         }
+    return MESO_OK;
 }
 
 MesoStatus meso_decor_field(MesoDecorWork *work, const MesoFieldSpec *spec, uint32_t region, const MesoDomain *domain,
@@ -96,10 +102,11 @@ MesoStatus meso_decor_field(MesoDecorWork *work, const MesoFieldSpec *spec, uint
         blend_fields(work, domain);
     facts->largest = largest_in(&work->decor->mesh, domain, work->field);
     if (spec->noise.of == MESO_NOISE_OF_FIELD) {
-        perturb_field(work, &spec->noise, domain, (float)sqrt(work->decor->tree.regions[region].area), facts->largest);
+        status = perturb_field(work, &spec->noise, domain, (float)sqrt(work->decor->tree.regions[region].area),
+                               facts->largest, error);
         facts->largest = largest_in(&work->decor->mesh, domain, work->field);
     }
-    return MESO_OK;
+    return status;
 }
 
 const char *meso_decor_flat_reason(const MesoFieldFacts *facts)

@@ -112,6 +112,9 @@ echo $?
 pattern '{"displace": 1e30}' >high.json
 meso-decor high.json vase.ply -o high.ply
 echo $?
+pattern '{"contour": {"noise": {"of": "field", "gain": 3e38}}}' >loud.json
+meso-decor loud.json vase.ply -o high.ply
+echo $?
 meso-decor plain.json vase.ply -o lines.ply --lines lines.dxf
 echo $?
 printf 'v 0 0 0\nv 1e15 0 0\nv 0 1e15 0\nf 1 2 3\n' >far.obj
