@@ -235,7 +235,7 @@ static MesoStatus reserve(Building *b)
     ((b)->array = meso_arena_enlarge((b)->arena, (b)->array, (b)->vertex_count, (b)->vertex_room, \
                                      sizeof *(b)->array, (b)->error))
 
-static MesoStatus add_vertex(Building *b, const MesoVec3 *normals, uint32_t vertex, MesoVec2 uv)
+static MesoStatus add_vertex(Building *b, const MesoVec3 *sums, uint32_t vertex, MesoVec2 uv)
 {
     if (b->vertex_count == b->vertex_room) {
         b->vertex_room = b->vertex_room > UINT32_MAX / 2 ? UINT32_MAX : 2 * b->vertex_room;
@@ -244,7 +244,7 @@ static MesoStatus add_vertex(Building *b, const MesoVec3 *normals, uint32_t vert
             return MESO_ERR_MEMORY;
     }
     b->positions[b->vertex_count] = b->decor->mesh.positions[vertex];
-    b->normals[b->vertex_count] = normals[vertex];
+    b->normals[b->vertex_count] = meso_vec3_direction(sums[vertex], (MesoVec3){0, 0, 1});
     b->origins[b->vertex_count] = vertex;
     b->next[b->vertex_count] = MESO_NO_INDEX;
     if (b->uvs)
@@ -254,7 +254,7 @@ static MesoStatus add_vertex(Building *b, const MesoVec3 *normals, uint32_t vert
 }
 
 /* The copy of a corner's vertex in the body that begins at `first`, by its coordinates. */
-static MesoStatus find_vertex(Building *b, const MesoVec3 *normals, uint32_t *copy_of, uint32_t first, uint32_t corner,
+static MesoStatus find_vertex(Building *b, const MesoVec3 *sums, uint32_t *copy_of, uint32_t first, uint32_t corner,
                               uint32_t *found)
 {
     uint32_t vertex = b->decor->mesh.corners[corner], last = MESO_NO_INDEX;
@@ -268,7 +268,7 @@ static MesoStatus find_vertex(Building *b, const MesoVec3 *normals, uint32_t *co
     }
     if (copy == MESO_NO_INDEX) {
         copy = b->vertex_count;
-        MesoStatus status = add_vertex(b, normals, vertex, uv);
+        MesoStatus status = add_vertex(b, sums, vertex, uv);
         if (status)
             return status;
         if (last == MESO_NO_INDEX)
@@ -280,16 +280,41 @@ static MesoStatus find_vertex(Building *b, const MesoVec3 *normals, uint32_t *co
     return MESO_OK;
 }
 
+/* Regions meet at an angle where one is displaced, and hardly anywhere else: 30 degrees. */
+static const float CREASE_COSINE = 0.866f;
+
+/*
+ * A vertex where a region meets the others at an angle, the foot of a bump, has the normal of each side in its copies:
+ * one for all would shade the row of triangles beside it, whose widths a cut leaves to chance. `own` is room.
+ */
+static void crease(Building *b, uint32_t leaf, uint32_t first, const MesoVec3 *sums, MesoVec3 *own)
+{
+    const MesoVec3 none = {0, 0, 0};
+    for (uint32_t v = first; v < b->vertex_count; v++)
+        own[b->origins[v]] = none;
+    for (uint32_t k = b->begin[leaf]; k < b->begin[leaf + 1]; k++)
+        meso_vertex_normals_add(own, &b->decor->mesh, b->triangles[k]);
+    for (uint32_t v = first; v < b->vertex_count; v++) {
+        uint32_t vertex = b->origins[v];
+        MesoVec3 side = meso_vec3_direction(own[vertex], none);
+        MesoVec3 others = meso_vec3_direction(meso_vec3_sub(sums[vertex], own[vertex]), side);
+        if (meso_vec3_dot(side, side) > 0 && meso_vec3_dot(side, others) < CREASE_COSINE)
+            b->normals[v] = side;
+    }
+}
+
 static MesoStatus build_bodies(Building *b, uint32_t *first_vertex)
 {
     const MesoTriangulation *mesh = &b->decor->mesh;
     MesoScene *scene = b->scene;
-    MesoVec3 *normals = MESO_NEW(b->arena, MesoVec3, mesh->vertex_count, b->error);
-    uint32_t *copy_of = normals ? MESO_NEW(b->arena, uint32_t, mesh->vertex_count, b->error) : NULL;
+    MesoVec3 *sums = MESO_NEW(b->arena, MesoVec3, mesh->vertex_count, b->error);
+    MesoVec3 *own = sums ? MESO_NEW(b->arena, MesoVec3, mesh->vertex_count, b->error) : NULL;
+    uint32_t *copy_of = own ? MESO_NEW(b->arena, uint32_t, mesh->vertex_count, b->error) : NULL;
     uint32_t corner_count = 0;
     if (!copy_of)
         return MESO_ERR_MEMORY;
-    meso_vertex_normals(normals, mesh);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        meso_vertex_normals_add(sums, mesh, t);
     memset(copy_of, 0xff, mesh->vertex_count * sizeof *copy_of);
     MesoStatus status = reserve(b);
     for (uint32_t i = 0; i < b->leaf_count && !status; i++) {
@@ -298,7 +323,9 @@ static MesoStatus build_bodies(Building *b, uint32_t *first_vertex)
                                       .corners = b->corners + corner_count};
         for (uint32_t k = b->begin[leaf]; k < b->begin[leaf + 1] && !status; k++)
             for (uint32_t c = 3 * b->triangles[k], n = 0; n < 3 && !status; c++, n++)
-                status = find_vertex(b, normals, copy_of, first, c, &b->corners[corner_count++]);
+                status = find_vertex(b, sums, copy_of, first, c, &b->corners[corner_count++]);
+        if (!status)
+            crease(b, leaf, first, sums, own);
         scene->bodies[i].vertex_count = b->vertex_count - first;
         scene->placed[i].body = i;
         first_vertex[i] = first;

@@ -15,9 +15,10 @@ typedef struct MesoDecorValues {
 
 /*
  * Bodies by the tree's order of leaves, with the channels "region" (their paths) and "tag", and the pattern's
- * materials; ramps add materials of their own. Normals are smooth over all of the surface. A vertex comes once for
- * each region, and within one for each texture coordinate that it has there; all copies have the same floats. Where
- * nothing is painted, tags have looks of their own. To `arena`; bodies do not point into the mesh. O(vertices +
+ * materials; ramps add materials of their own. Normals are smooth over all of the surface, but where regions meet at
+ * more than 30 degrees, each side has its own. A vertex comes once for each region, and within one for each texture
+ * coordinate that it has there; all copies have the same floats, but for those normals. Where nothing is painted, tags
+ * have looks of their own. To `arena`; bodies do not point into the mesh. O(vertices +
  * triangles). MESO_ERR_LIMIT beyond 65535 leaves, MESO_ERR_MEMORY.
  */
 MesoStatus meso_decor_scene(MesoScene *scene, MesoArena *arena, const MesoDecor *decor, const MesoPattern *pattern,

@@ -4,6 +4,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/decor/decor_fixture.h"
+#include "libcore/decor/decor_scene.h"
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
 /* ---- surfaces ---- */
@@ -240,6 +241,44 @@ static uint64_t hash_of(const MesoDecor *decor)
     return hash;
 }
 
+/* A bump on a sheet: at its foot the bump's normals lean, and those of the flat band around it do not. */
+static void test_crease(void)
+{
+    static const MesoSeedSpec borders = {.kind = MESO_SEED_BORDERS};
+    static const float half[] = {0.45f};
+    const MesoAfterSplit bump = {.tag = "inside", .displaced = true,
+                                 .displacement = {.height = 1, .relative = true, .bias = 0.5f, .gain = 0.5f}};
+    const MesoStep step = {.kind = MESO_STEP_CONTOUR, .place = "a", .on = {.borders = any_range(), .corners = any_range(),
+                           .aspect = any_range(), .area = any_range(), .area_share = any_range(), .share = 1},
+                           .field = {.from = {&borders, 1}}, .levels = {half, 1, .unit = MESO_LEVEL_SHARE},
+                           .after = &bump, .after_count = 1};
+    const MesoPattern pattern = {.steps = &step, .step_count = 1};
+    const MesoDecorOptions options = {.region_limit = 100, .triangle_limit = 1 << 20};
+    const MesoDecorValues values = MESO_DECOR_NO_VALUES;
+    MesoDecor decor = {.mesh = meso_fixture_sheet(21, 21, 1)};
+    MesoArena arena;
+    MesoScene scene;
+    meso_arena_init(&arena);
+    CHECK(meso_decor_run(&decor, &arena, &pattern, &options, NULL) == MESO_OK && decor.tree.region_count == 3);
+    CHECK(meso_decor_scene(&scene, &arena, &decor, &pattern, &values, NULL) == MESO_OK && scene.body_count == 2);
+    for (uint32_t b = 0; b < 2; b++) {
+        bool inside = strcmp(decor.tree.regions[1 + b].tag, "inside") == 0;
+        const MesoBody *body = &scene.bodies[b];
+        uint32_t feet = 0;
+        for (uint32_t v = 0; v < body->vertex_count; v++) {
+            MesoVec3 p = body->positions[v], n = body->normals[v];
+            float x = fabsf(p.x - 10.5f), y = fabsf(p.y - 10.5f);
+            bool corner = fabsf(x - y) < 2, foot = inside && p.z == 0 && !corner;
+            feet += foot;
+            CHECK(!foot || n.z < 0.9f);
+            CHECK(inside || corner || n.z > 0.99999f);
+        }
+        CHECK(!inside || feet > 4);
+    }
+    meso_triangulation_release(&decor.mesh);
+    meso_arena_release(&arena);
+}
+
 /* Blends that are worth a second thread come out the same with and without. */
 static void test_threads(void)
 {
@@ -314,6 +353,7 @@ static void test_program(uint32_t number, uint64_t seed)
 int main(int argc, char **argv)
 {
     uint64_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 5, first = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
+    test_crease();
     test_threads();
     for (uint64_t seed = first; seed < first + count; seed++)
         for (uint32_t number = 0; number < SURFACES; number++)

@@ -7,4 +7,7 @@
 /* normals[vertex_count]: sums of the area vectors around each vertex, made unit length; +Z where they vanish. */
 void meso_vertex_normals(MesoVec3 *normals, const MesoTriangulation *mesh);
 
+/* Adds the area vector of one triangle to the sums of its three corners. */
+void meso_vertex_normals_add(MesoVec3 *sums, const MesoTriangulation *mesh, uint32_t triangle);
+
 #endif
