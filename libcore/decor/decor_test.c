@@ -9,81 +9,30 @@
 
 /* ---- surfaces ---- */
 
-static MesoTriangulation tube(uint32_t columns, uint32_t rows, bool turned)
+/* A tube with a waist. */
+static MesoVec3 on_vase(const MesoFixtureSquares *squares, uint32_t column, uint32_t row)
 {
-    uint32_t count = columns * (rows + 1), n = 0;
-    MesoVec3 *positions = malloc(count * sizeof *positions);
-    uint32_t *corners = malloc(6 * sizeof *corners * columns * rows);
-    CHECK(positions && corners);
-    for (uint32_t v = 0; v < count; v++) {
-        float a = 6.2831853f * (float)(v % columns) / (float)columns, h = (float)(v / columns) / (float)rows;
-        float r = 1 + 0.3f * sinf(4 * h);
-        /* turned: a band around a circle, which the seam turns over */
-        float across = 0.4f * (h - 0.5f), out = 1 + across * cosf(a / 2);
-        positions[v] = turned ? (MesoVec3){out * cosf(a), out * sinf(a), across * sinf(a / 2)}
-                              : (MesoVec3){r * cosf(a), 2 * h, r * sinf(a)};
-    }
-    for (uint32_t r = 0; r < rows; r++)
-        for (uint32_t c = 0; c < columns; c++) {
-            bool seam = turned && c + 1 == columns;
-            uint32_t next = (c + 1) % columns, low = r, high = r + 1;
-            uint32_t far_low = seam ? rows - r : low, far_high = seam ? rows - r - 1 : high;
-            uint32_t quad[6] = {low * columns + c, far_low * columns + next, far_high * columns + next,
-                                low * columns + c, far_high * columns + next, high * columns + c};
-            for (uint32_t k = 0; k < 6; k++)
-                corners[n++] = quad[k];
-        }
-    MesoTriangulation mesh = meso_fixture_triangulation(positions, count, corners, n / 3);
-    free(positions);
-    free(corners);
-    return mesh;
+    float a = 6.2831853f * (float)column / (float)squares->columns, h = (float)row / (float)squares->rows;
+    float r = 1 + 0.3f * sinf(4 * h);
+    return (MesoVec3){r * cosf(a), 2 * h, r * sinf(a)};
 }
 
-/* An octahedron, each face in n x n triangles, on the sphere. */
-static MesoTriangulation ball(uint32_t n)
+/* A band around a circle, which the seam turns over. */
+static MesoVec3 on_band(const MesoFixtureSquares *squares, uint32_t column, uint32_t row)
 {
-    uint32_t count = 4 * n * n + 2, used = 0, c = 0;
-    MesoVec3 *positions = malloc(count * sizeof *positions);
-    uint32_t *corners = malloc(3 * sizeof *corners * 8 * n * n);
-    uint32_t *ring = malloc((2 * n + 2) * sizeof *ring);
-    CHECK(positions && corners && ring);
-    for (uint32_t i = 0; i <= 2 * n; i++) {
-        uint32_t sides = i <= n ? i : 2 * n - i, size = sides ? 4 * sides : 1;
-        ring[i] = used;
-        for (uint32_t k = 0; k < size; k++) {
-            float polar = 3.14159265f * (float)i / (float)(2 * n), a = 6.2831853f * (float)k / (float)size;
-            positions[used++] = (MesoVec3){sinf(polar) * cosf(a), cosf(polar), -sinf(polar) * sinf(a)};
-        }
-    }
-    for (uint32_t i = 0; i < 2 * n; i++) {
-        uint32_t s0 = i <= n ? i : 2 * n - i, s1 = i + 1 <= n ? i + 1 : 2 * n - i - 1;
-        for (uint32_t q = 0; q < 4; q++) {
-            uint32_t most = s0 > s1 ? s0 : s1;
-            for (uint32_t k = 0; k < most; k++) {
-                bool grows = s1 > s0;
-                uint32_t small = grows ? s0 : s1, big = grows ? s1 : s0;
-                uint32_t small_ring = ring[grows ? i : i + 1], big_ring = ring[grows ? i + 1 : i];
-                uint32_t small_size = small ? 4 * small : 1, big_size = 4 * big;
-                uint32_t a = small_ring + (q * small + k) % small_size, b0 = big_ring + (q * big + k) % big_size;
-                uint32_t b1 = big_ring + (q * big + k + 1) % big_size;
-                uint32_t t[3] = {a, grows ? b0 : b1, grows ? b1 : b0};
-                memcpy(corners + c, t, sizeof t);
-                c += 3;
-                if (k + 1 < most) {
-                    uint32_t a1 = small_ring + (q * small + k + 1) % small_size;
-                    uint32_t u[3] = {a, grows ? b1 : a1, grows ? a1 : b1};
-                    memcpy(corners + c, u, sizeof u);
-                    c += 3;
-                }
-            }
-        }
-    }
-    CHECK(used == count && c == 24 * n * n);
-    MesoTriangulation mesh = meso_fixture_triangulation(positions, count, corners, c / 3);
-    free(positions);
-    free(corners);
-    free(ring);
-    return mesh;
+    float a = 6.2831853f * (float)column / (float)squares->columns, h = (float)row / (float)squares->rows;
+    float across = 0.4f * (h - 0.5f), out = 1 + across * cosf(a / 2);
+    return (MesoVec3){out * cosf(a), out * sinf(a), across * sinf(a / 2)};
+}
+
+static MesoTriangulation vase(uint32_t columns, uint32_t rows)
+{
+    return meso_fixture_squares(&(MesoFixtureSquares){columns, rows, MESO_SEAM_JOINED, false, {0, 0}, on_vase});
+}
+
+static MesoTriangulation band(uint32_t columns, uint32_t rows)
+{
+    return meso_fixture_squares(&(MesoFixtureSquares){columns, rows, MESO_SEAM_TWISTED, false, {0, 0}, on_band});
 }
 
 static MesoTriangulation one_triangle(void)
@@ -122,14 +71,14 @@ static MesoTriangulation surface(uint32_t number)
     case 0: return meso_fixture_sheet(12, 9, 0.1f);
     case 1: return meso_fixture_sheet(40, 3, 1);
     case 2: return meso_fixture_torus(24, 12, 0.4f);
-    case 3: return tube(24, 16, false);
-    case 4: return tube(30, 5, true);
-    case 5: return ball(6);
-    case 6: return ball(12);
+    case 3: return vase(24, 16);
+    case 4: return band(30, 5);
+    case 5: return meso_fixture_ball(6);
+    case 6: return meso_fixture_ball(12);
     case 7: return one_triangle();
     case 8: return two_sheets();
     case 9: return meso_fixture_sheet(1, 1, 100);
-    case 10: return tube(48, 40, false);
+    case 10: return vase(48, 40);
     default: return meso_fixture_torus(9, 30, 0.7f);
     }
 }

@@ -173,7 +173,7 @@ static MesoTriangulation make(uint32_t kind)
 {
     switch (kind) {
     case 0: return meso_fixture_sheet(3, 3, 0.5f);
-    case 1: return meso_fixture_sphere(2);
+    case 1: return meso_fixture_ball(2);
     case 2: return meso_fixture_torus(4, 3, 0.4f);
     case 3: return make_moebius();
     default: return meso_fixture_tube(4, 2, 1);

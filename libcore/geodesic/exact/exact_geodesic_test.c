@@ -137,7 +137,7 @@ static void test_doubled_disk(void)
 /* The greatest deviation from the angle, which falls with the square of the sides. */
 static double sphere_error(uint32_t frequency)
 {
-    MesoTriangulation mesh = meso_fixture_sphere(frequency);
+    MesoTriangulation mesh = meso_fixture_ball(frequency);
     uint32_t source = 0;
     double *distance = meso_fixture_exact(&mesh, source), worst = 0;
     for (uint32_t v = 0; v < mesh.vertex_count; v++) {

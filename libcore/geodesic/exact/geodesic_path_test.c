@@ -128,7 +128,7 @@ static void test_helix(void)
 /* Near great circles on the sphere: most are the shortest, none is much longer: it passed a vertex on the other side. */
 static void test_sphere(void)
 {
-    MesoTriangulation mesh = meso_fixture_sphere(24);
+    MesoTriangulation mesh = meso_fixture_ball(24);
     MesoRandom random;
     uint32_t shortest = 0, count = 0;
     meso_random_init(&random, 2, 0);
@@ -319,7 +319,7 @@ static void test_moebius(void)
 /* Closed paths around nothing come to an end. */
 static void test_contracting(void)
 {
-    MesoTriangulation sheet = meso_fixture_sheet(12, 12, 1), sphere = meso_fixture_sphere(8);
+    MesoTriangulation sheet = meso_fixture_sheet(12, 12, 1), sphere = meso_fixture_ball(8);
     uint32_t vertices[32], count = 0;
     for (uint32_t i = 0; i < 8; i++)
         vertices[count++] = 2 * 13 + 2 + i;
