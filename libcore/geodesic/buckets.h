@@ -32,10 +32,9 @@ typedef struct MesoBuckets {
 
 static inline void meso_buckets_clear(MesoBuckets *buckets)
 {
-    for (uint32_t b = 0; b < MESO_BUCKET_COUNT; b++)
-        buckets->open[b].count = 0;
     for (uint32_t w = 0; w < MESO_BUCKET_COUNT / 64; w++)
-        buckets->filled[w] = 0;
+        for (; buckets->filled[w]; buckets->filled[w] &= buckets->filled[w] - 1)
+            buckets->open[64 * w + (uint32_t)__builtin_ctzll(buckets->filled[w])].count = 0;
     buckets->beyond.count = 0;
     buckets->current = 0;
     buckets->nearest_beyond = MESO_BUCKET_LAST;

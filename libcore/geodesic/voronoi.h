@@ -8,7 +8,8 @@
  * which goes through it then: no change comes nearer to the end of a side than MESO_CUT_SNAP of its length. A triangle
  * whose outline changes twice is crossed by a segment. Where it changes more often, all changes are joined to a node
  * inside: for three cells the point that is as far from all three, and where that is outside, or for more, the middle
- * of the changes. What a cell has between vertices of others is left to them.
+ * of the changes. What a cell has between vertices of others is left to them, and so are vertices of it beyond: those
+ * that sides do not join to the nearest are drawn in the cell of another seed that is near.
  */
 #ifndef MESO_VORONOI_H
 #define MESO_VORONOI_H
@@ -32,8 +33,8 @@ typedef struct MesoVoronoiQuery {
  *
  * A solve for all seeds, and one for each that goes little beyond its cell: cells are those of separate solves, to the
  * last bit. Measured against one propagation that carries three seeds a vertex: faster from a thousand seeds on, since
- * the fronts of a cell stay in the nearest caches. 32 bytes of scratch a vertex of the domain, whatever the number of
- * seeds. Errors as of meso_geodesic_solve().
+ * the fronts of a cell stay in the nearest caches. 40 bytes of scratch a vertex of the domain and 60 a seed, and 20 a
+ * side that borders are near. Errors as of meso_geodesic_solve().
  */
 MesoStatus meso_voronoi_trace(MesoCutLines *lines, uint32_t *cell, float *distance, MesoArena *arena,
                               const MesoTriangulation *mesh, MesoGeodesicSolver *solver, const MesoVoronoiQuery *query,

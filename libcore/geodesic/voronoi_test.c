@@ -4,6 +4,7 @@
 
 #include "libcore/geodesic/geodesic_fixture.h"
 #include "libcore/geodesic/geodesic_solver.h"
+#include "libcore/geodesic/nearest_seeds.h"
 #include "libcore/geodesic/regions_fixture.h"
 #include "libcore/mesh/cut/mesh_domain.h"
 
@@ -236,6 +237,46 @@ static void test_domain(void)
     meso_triangulation_release(&mesh);
 }
 
+/* Vertices of a cell hang together, also where fronts pass between vertices of others: many cells, one part each. */
+static void test_whole_cells(void)
+{
+    enum { SEEDS = 3000, ROOM = 1000000 };
+    MesoRandom random;
+    MesoMeshPoint seeds[SEEDS];
+    MesoNearestSeeds nearest = {.seed_count = SEEDS, .seeds = seeds};
+    MesoCutLines lines = {0};
+    uint32_t cells = 0, parts = 0;
+    uint8_t has_vertex[SEEDS] = {0};
+    MesoTriangulation mesh = meso_fixture_sphere(60, 0.3f, 3);
+    MesoGeodesicSolver *solver = solver_of(&mesh);
+    uint32_t *region = MESO_NEW(&arena, uint32_t, ROOM, NULL), *part = MESO_NEW(&arena, uint32_t, ROOM, NULL);
+    meso_random_init(&random, 8, 0);
+    for (uint32_t i = 0; i < SEEDS; i++)
+        seeds[i] = random_point(&mesh, &random);
+    MesoVoronoiQuery query = {.seed_count = SEEDS, .seeds = seeds};
+    CHECK(meso_nearest_seeds_find(&nearest, &arena, &mesh, solver, NULL) == MESO_OK);
+    CHECK(meso_nearest_seeds_settle(&nearest, &arena, &mesh, NULL) == MESO_OK);
+    meso_sets_init(part, mesh.vertex_count);
+    for (uint32_t h = 0; h < 3 * mesh.triangle_count; h++) {
+        uint32_t a = mesh.corners[h], b = mesh.corners[meso_next_corner(h)];
+        if (meso_seed_slots(&nearest, a)->seed[0] == meso_seed_slots(&nearest, b)->seed[0])
+            meso_sets_join(part, a, b);
+    }
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        uint8_t *has = &has_vertex[meso_seed_slots(&nearest, v)->seed[0]];
+        parts += meso_sets_root(part, v) == v;
+        cells += !*has;
+        *has = 1;
+    }
+    CHECK(parts == cells);
+    /* what is left more: between borders that go through the same vertices */
+    CHECK(meso_voronoi_trace(&lines, NULL, NULL, &arena, &mesh, solver, &query, NULL) == MESO_OK);
+    meso_geodesic_release(solver);
+    uint32_t count = meso_fixture_cut(&mesh, &lines, region, ROOM);
+    CHECK(count >= cells && count - cells < cells / 200);
+    meso_triangulation_release(&mesh);
+}
+
 static uint32_t nearest_pole(const MesoVec3 *poles, uint32_t count, MesoVec3 point)
 {
     uint32_t nearest = 0;
@@ -295,6 +336,7 @@ int main(void)
     test_three();
     test_brute_force();
     test_domain();
+    test_whole_cells();
     test_area();
     meso_arena_release(&arena);
     return 0;

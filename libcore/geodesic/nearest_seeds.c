@@ -1,0 +1,373 @@
+#include "libcore/geodesic/nearest_seeds.h"
+
+#include "libcore/base/grow.h"
+#include "libcore/mesh/cut/cut_keys.h"
+#include "libcore/mesh/cut/cut_lines.h"
+
+enum { SLOTS = MESO_NEAREST_SEEDS };
+
+typedef struct Finder {
+    const MesoTriangulation *mesh;
+    MesoGeodesicSolver *solver;
+    MesoNearestSeeds *nearest;
+    uint64_t *order;            /* [seed_count] by triangles: what one seed has touched, the next finds in the caches */
+    MesoGeodesicSeed *planted;  /* [3 * seed_count] in that order */
+    uint32_t *planted_begin;    /* [seed_count + 1] */
+    float *bound;               /* [vertex_count] what distances from a seed have to be below to matter; then `snap` */
+    float *front;               /* [vertex_count] distances of a solve; as `bound` before and after it */
+    MesoArena *arena;
+    MesoError *error;
+} Finder;
+
+/* ---- distances ---- */
+
+static MesoStatus make_room(Finder *finder)
+{
+    MesoStatus status = meso_domain_vertices_init(&finder->nearest->vertices, finder->arena, finder->mesh,
+                                                  finder->nearest->domain, finder->error);
+    if (status)
+        return status;
+    finder->nearest->slots = MESO_NEW(finder->arena, MesoSeedSlots, finder->nearest->vertices.count, finder->error);
+    finder->bound = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
+    finder->front = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
+    if (!finder->nearest->slots || !finder->bound || !finder->front)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < finder->nearest->vertices.count; i++)
+        for (uint32_t k = 0; k < SLOTS; k++) {
+            finder->nearest->slots[i].distance[k] = INFINITY;
+            finder->nearest->slots[i].seed[k] = MESO_NO_INDEX;
+        }
+    return MESO_OK;
+}
+
+/* A seed at a vertex is that vertex; the corners of its triangle know one that is inside. Returns how many. */
+static uint32_t plant(const MesoTriangulation *mesh, const MesoMeshPoint *point, MesoGeodesicSeed planted[3])
+{
+    const uint32_t *corners = mesh->corners + 3 * (size_t)point->triangle;
+    MesoVec3 place = {0, 0, 0};
+    for (uint32_t k = 0; k < 3; k++) {
+        if (point->weight[k] >= 1) {
+            planted[0] = (MesoGeodesicSeed){corners[k], 0, false};
+            return 1;
+        }
+        place = meso_vec3_mad(place, point->weight[k], mesh->positions[corners[k]]);
+    }
+    for (uint32_t k = 0; k < 3; k++) {
+        float distance = meso_vec3_length(meso_vec3_sub(mesh->positions[corners[k]], place));
+        planted[k] = (MesoGeodesicSeed){corners[k], distance, false};
+    }
+    return 3;
+}
+
+static MesoStatus plant_all(Finder *finder)
+{
+    uint32_t count = finder->nearest->seed_count;
+    finder->order = MESO_NEW(finder->arena, uint64_t, count, finder->error);
+    finder->planted_begin = MESO_NEW(finder->arena, uint32_t, (size_t)count + 1, finder->error);
+    finder->planted = MESO_NEW(finder->arena, MesoGeodesicSeed, 3 * (size_t)count, finder->error);
+    uint64_t *spare = MESO_NEW(finder->arena, uint64_t, count, finder->error);
+    if (!finder->order || !finder->planted_begin || !finder->planted || !spare)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < count; i++)
+        finder->order[i] = meso_cut_key(finder->nearest->seeds[i].triangle, i);
+    meso_cut_sort(finder->order, spare, count);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t begin = finder->planted_begin[i];
+        finder->planted_begin[i + 1] =
+            begin + plant(finder->mesh, &finder->nearest->seeds[(uint32_t)finder->order[i]], finder->planted + begin);
+    }
+    return MESO_OK;
+}
+
+/* Distances from the nearest of all seeds, in `front`. */
+static MesoStatus solve_together(Finder *finder)
+{
+    const MesoNearestSeeds *nearest = finder->nearest;
+    MesoGeodesicQuery all = {.domain = nearest->domain, .seed_count = finder->planted_begin[nearest->seed_count],
+                             .seeds = finder->planted, .target = MESO_NO_INDEX};
+    return meso_geodesic_solve(finder->solver, &all, finder->front, NULL, NULL, finder->error);
+}
+
+/* The square of a vertex's longest side, in `bound`. */
+static void find_longest_sides(Finder *finder)
+{
+    const MesoTriangulation *mesh = finder->mesh;
+    uint32_t count = meso_domain_size(finder->nearest->domain, mesh);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t *corners = mesh->corners + 3 * (size_t)meso_domain_triangle(finder->nearest->domain, i);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t a = corners[k], b = corners[k == 2 ? 0 : k + 1];
+            MesoVec3 side = meso_vec3_sub(mesh->positions[a], mesh->positions[b]);
+            float square = meso_vec3_dot(side, side);
+            finder->bound[a] = square > finder->bound[a] ? square : finder->bound[a];
+            finder->bound[b] = square > finder->bound[b] ? square : finder->bound[b];
+        }
+    }
+}
+
+/*
+ * A front has to go where its seed is the nearest of a vertex, or of the other end of one of its sides: there each of
+ * two seeds is nearer or farther by the side's length at most. A little more, for what rounding and fronts that mix
+ * take off the least distance.
+ */
+static void find_bounds(Finder *finder)
+{
+    const float reach = 2.1f;
+    find_longest_sides(finder);
+    for (uint32_t v = meso_domain_vertex_from(&finder->nearest->vertices, 0); v != MESO_NO_INDEX;
+         v = meso_domain_vertex_from(&finder->nearest->vertices, v + 1))
+        finder->front[v] = finder->bound[v] = finder->front[v] + reach * sqrtf(finder->bound[v]);
+}
+
+static bool comes_before(float distance, uint32_t seed, const MesoSeedSlots *slots, uint32_t k)
+{
+    return distance < slots->distance[k] || (distance == slots->distance[k] && seed < slots->seed[k]);
+}
+
+static void put_slot(MesoSeedSlots *slots, uint32_t seed, float distance)
+{
+    uint32_t k = SLOTS;
+    while (k > 0 && comes_before(distance, seed, slots, k - 1)) {
+        k--;
+        if (k + 1 < SLOTS) {
+            slots->distance[k + 1] = slots->distance[k];
+            slots->seed[k + 1] = slots->seed[k];
+        }
+    }
+    if (k < SLOTS) {
+        slots->distance[k] = distance;
+        slots->seed[k] = seed;
+    }
+}
+
+/* Distances from the seed that is number `i` of the order, where it matters. */
+static MesoStatus solve_alone(Finder *finder, uint32_t i)
+{
+    const uint32_t *touched, *begin = &finder->planted_begin[i];
+    uint32_t touched_count;
+    MesoGeodesicQuery one = {.domain = finder->nearest->domain, .seed_count = begin[1] - begin[0],
+                             .seeds = finder->planted + begin[0], .target = MESO_NO_INDEX, .keep = true};
+    MesoStatus status = meso_geodesic_solve(finder->solver, &one, finder->front, &touched, &touched_count,
+                                            finder->error);
+    for (uint32_t k = 0; k < touched_count && !status; k++) {
+        uint32_t v = touched[k];
+        put_slot(meso_seed_slots(finder->nearest, v), (uint32_t)finder->order[i], finder->front[v]);
+        finder->front[v] = finder->bound[v];
+    }
+    return status;
+}
+
+/*
+ * Borders that would cross a side within MESO_CUT_SNAP of its length from the vertex are to go through the vertex, in
+ * all of its triangles. Along a side of length l the distances of two seeds come nearer by 2 l at most, and bounds are
+ * a little more than that above the distance.
+ */
+static void find_snaps(Finder *finder)
+{
+    MesoNearestSeeds *nearest = finder->nearest;
+    nearest->snap = finder->bound;
+    for (uint32_t v = meso_domain_vertex_from(&nearest->vertices, 0); v != MESO_NO_INDEX;
+         v = meso_domain_vertex_from(&nearest->vertices, v + 1))
+        nearest->snap[v] = MESO_CUT_SNAP * (finder->bound[v] - meso_seed_slots(nearest, v)->distance[0]);
+}
+
+MesoStatus meso_nearest_seeds_find(MesoNearestSeeds *nearest, MesoArena *arena, const MesoTriangulation *mesh,
+                                   MesoGeodesicSolver *solver, MesoError *error)
+{
+    Finder finder = {.mesh = mesh, .solver = solver, .nearest = nearest, .arena = arena, .error = error};
+    MesoStatus status = make_room(&finder);
+    if (!status)
+        status = plant_all(&finder);
+    if (!status)
+        status = solve_together(&finder);
+    if (status)
+        return status;
+    find_bounds(&finder);
+    for (uint32_t i = 0; i < nearest->seed_count && !status; i++)
+        status = solve_alone(&finder, i);
+    find_snaps(&finder);
+    return status;
+}
+
+/* ---- cells that hang together ---- */
+
+typedef struct Joiner {
+    const MesoTriangulation *mesh;
+    const MesoDomain *domain;
+    MesoNearestSeeds *nearest;
+    uint64_t *joined;           /* a bit a vertex number: sides within its cell lead to the cell's nearest vertex */
+    uint64_t *met;              /* likewise, on the walk that is under way */
+    uint32_t met_count, met_room, stray_count, stray_room;
+    uint32_t *met_list, *strays;    /* vertices; strays are to be looked at yet */
+    MesoArena *arena;
+    MesoError *error;
+} Joiner;
+
+static uint32_t number_of(const Joiner *joiner, uint32_t vertex)
+{
+    return meso_domain_vertex_number(&joiner->nearest->vertices, vertex);
+}
+
+static bool is_nearer(const Joiner *joiner, uint32_t a, uint32_t b)
+{
+    float to_a = meso_seed_slots(joiner->nearest, a)->distance[0];
+    float to_b = meso_seed_slots(joiner->nearest, b)->distance[0];
+    return to_a != to_b ? to_a < to_b : a < b;
+}
+
+/* Marks, in `met`, the vertices that have a side to one of their cell that is nearer to the seed. */
+static void mark_descents(Joiner *joiner)
+{
+    const MesoTriangulation *mesh = joiner->mesh;
+    uint32_t count = meso_domain_size(joiner->domain, mesh);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t *corners = mesh->corners + 3 * (size_t)meso_domain_triangle(joiner->domain, i);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t a = corners[k], b = corners[k == 2 ? 0 : k + 1];
+            if (meso_seed_slots(joiner->nearest, a)->seed[0] == meso_seed_slots(joiner->nearest, b)->seed[0])
+                meso_bits_set(joiner->met, number_of(joiner, is_nearer(joiner, a, b) ? b : a));
+        }
+    }
+}
+
+static MesoStatus add_stray(Joiner *joiner, uint32_t vertex)
+{
+    joiner->strays = MESO_GROW(joiner->arena, joiner->strays, joiner->stray_count, joiner->stray_room, 64,
+                               joiner->error);
+    if (!joiner->strays)
+        return MESO_ERR_MEMORY;
+    joiner->strays[joiner->stray_count++] = vertex;
+    return MESO_OK;
+}
+
+/* Vertices from which no side leads nearer to the seed: the nearest of their cell, and those that may be strays. */
+static MesoStatus list_strays(Joiner *joiner, uint32_t seed_count)
+{
+    const MesoDomainVertices *vertices = &joiner->nearest->vertices;
+    uint32_t *first = MESO_NEW(joiner->arena, uint32_t, seed_count, joiner->error);
+    MesoStatus status = first ? MESO_OK : MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < seed_count && first; s++)
+        first[s] = MESO_NO_INDEX;
+    for (uint32_t v = meso_domain_vertex_from(vertices, 0); v != MESO_NO_INDEX && !status;
+         v = meso_domain_vertex_from(vertices, v + 1)) {
+        uint32_t seed = meso_seed_slots(joiner->nearest, v)->seed[0], stray = v;
+        if (seed == MESO_NO_INDEX || meso_bits_test(joiner->met, number_of(joiner, v)))
+            continue;
+        if (first[seed] == MESO_NO_INDEX || is_nearer(joiner, v, first[seed])) {
+            stray = first[seed];
+            first[seed] = v;
+        }
+        if (stray != MESO_NO_INDEX)
+            status = add_stray(joiner, stray);
+    }
+    for (uint32_t s = 0; s < seed_count && !status; s++)
+        if (first[s] != MESO_NO_INDEX)
+            meso_bits_set(joiner->joined, number_of(joiner, first[s]));
+    return status;
+}
+
+/* Notes a vertex of the walk's cell, unless it is known; says whether it is joined. */
+static MesoStatus meet(Joiner *joiner, uint32_t vertex, uint32_t seed, bool *joined)
+{
+    uint32_t number = number_of(joiner, vertex);
+    if (meso_seed_slots(joiner->nearest, vertex)->seed[0] != seed || meso_bits_test(joiner->met, number))
+        return MESO_OK;
+    joiner->met_list = MESO_GROW(joiner->arena, joiner->met_list, joiner->met_count, joiner->met_room, 64,
+                                 joiner->error);
+    if (!joiner->met_list)
+        return MESO_ERR_MEMORY;
+    meso_bits_set(joiner->met, number);
+    joiner->met_list[joiner->met_count++] = vertex;
+    *joined = *joined || meso_bits_test(joiner->joined, number);
+    return MESO_OK;
+}
+
+static MesoStatus meet_around(Joiner *joiner, uint32_t vertex, uint32_t seed, bool *joined)
+{
+    const uint32_t *corners = joiner->mesh->corners;
+    MesoFan fan = meso_fan_first(joiner->mesh, vertex);
+    uint32_t first = fan.corner;
+    MesoStatus status = MESO_OK;
+    do {
+        if (!meso_domain_holds(joiner->domain, joiner->mesh, fan.corner / 3))
+            continue;
+        status = meet(joiner, corners[meso_next_corner(fan.corner)], seed, joined);
+        if (!status)
+            status = meet(joiner, corners[meso_previous_corner(fan.corner)], seed, joined);
+    } while (!status && meso_fan_next(joiner->mesh, &fan) && fan.corner != first);
+    return status;
+}
+
+/* The vertex forgets its nearest seed, if it knows another. */
+static MesoStatus forget_nearest(Joiner *joiner, uint32_t vertex)
+{
+    MesoSeedSlots *slots = meso_seed_slots(joiner->nearest, vertex);
+    if (slots->seed[1] == MESO_NO_INDEX)
+        return MESO_OK;
+    for (uint32_t k = 0; k + 1 < SLOTS; k++) {
+        slots->distance[k] = slots->distance[k + 1];
+        slots->seed[k] = slots->seed[k + 1];
+    }
+    slots->distance[SLOTS - 1] = INFINITY;
+    slots->seed[SLOTS - 1] = MESO_NO_INDEX;
+    return add_stray(joiner, vertex);
+}
+
+/* Walks over the part of its cell that a vertex is in, until that is known to be joined; all that is met is alike. */
+static MesoStatus settle_part(Joiner *joiner, uint32_t vertex)
+{
+    uint32_t seed = meso_seed_slots(joiner->nearest, vertex)->seed[0];
+    bool joined = false;
+    joiner->met_count = 0;
+    MesoStatus status = meet(joiner, vertex, seed, &joined);
+    for (uint32_t i = 0; i < joiner->met_count && !status && !joined; i++)
+        status = meet_around(joiner, joiner->met_list[i], seed, &joined);
+    for (uint32_t i = 0; i < joiner->met_count && !status; i++) {
+        uint32_t number = number_of(joiner, joiner->met_list[i]);
+        meso_bits_clear(joiner->met, number);
+        if (joined)
+            meso_bits_set(joiner->joined, number);
+        else
+            status = forget_nearest(joiner, joiner->met_list[i]);
+    }
+    return status;
+}
+
+static MesoStatus join_cells(Joiner *joiner, uint32_t seed_count)
+{
+    uint32_t words = meso_bits_words(joiner->nearest->vertices.count);
+    joiner->joined = MESO_NEW(joiner->arena, uint64_t, words, joiner->error);
+    joiner->met = MESO_NEW(joiner->arena, uint64_t, words, joiner->error);
+    if (!joiner->joined || !joiner->met)
+        return MESO_ERR_MEMORY;
+    mark_descents(joiner);
+    MesoStatus status = list_strays(joiner, seed_count);
+    for (uint32_t w = 0; w < words; w++)
+        joiner->met[w] = 0;
+    for (uint32_t i = 0; i < joiner->stray_count && !status; i++)
+        status = settle_part(joiner, joiner->strays[i]);
+    return status;
+}
+
+/* ---- borders through vertices ---- */
+
+static void level_slots(MesoNearestSeeds *nearest)
+{
+    for (uint32_t v = meso_domain_vertex_from(&nearest->vertices, 0); v != MESO_NO_INDEX;
+         v = meso_domain_vertex_from(&nearest->vertices, v + 1)) {
+        MesoSeedSlots *slots = meso_seed_slots(nearest, v);
+        float least = slots->distance[0];
+        for (uint32_t k = 1; k < SLOTS; k++)
+            if (slots->distance[k] - least <= nearest->snap[v])
+                slots->distance[k] = least;
+    }
+}
+
+MesoStatus meso_nearest_seeds_settle(MesoNearestSeeds *nearest, MesoArena *arena, const MesoTriangulation *mesh,
+                                     MesoError *error)
+{
+    Joiner joiner = {.mesh = mesh, .domain = nearest->domain, .nearest = nearest, .arena = arena, .error = error};
+    MesoStatus status = join_cells(&joiner, nearest->seed_count);
+    level_slots(nearest);
+    return status;
+}
