@@ -1,4 +1,4 @@
-/* Rate of the cut: contours on a torus of a million triangles, all at once and one after the other. */
+/* Rate of the cut: contours on a torus of a million triangles, at once and one by one; many lines in one triangle. */
 #include <stdio.h>
 #include <time.h>
 
@@ -95,10 +95,47 @@ static double time_cuts(uint32_t levels_each)
     return took;
 }
 
+static uint32_t random_node_on(MesoCutLines *lines, MesoArena *arena, MesoRandom *random, uint32_t half_edge)
+{
+    uint32_t node;
+    MesoCutNode added = {MESO_ON_EDGE, half_edge, {(float)meso_random_below(random, 1000000) * 1e-6f, 0}};
+    CHECK(meso_cut_add_node(lines, arena, added, &node, NULL) == MESO_OK);
+    return node;
+}
+
+/* Lines from side to side of one triangle, each of which crosses a third of the others. */
+static void time_one_triangle(uint32_t line_count)
+{
+    MesoArena arena;
+    MesoRandom random;
+    MesoError error;
+    MesoCutReport report;
+    MesoCutLines lines = {0};
+    MesoTriangulation mesh = meso_fixture_sheet(1, 1, 1);
+    meso_arena_init(&arena);
+    meso_random_init(&random, 1, 0);
+    for (uint32_t l = 0; l < line_count; l++) {
+        uint32_t side = meso_random_below(&random, 3);
+        MesoCutSegment segment = {{0, 0}, 0, l};
+        segment.node[0] = random_node_on(&lines, &arena, &random, side);
+        segment.node[1] = random_node_on(&lines, &arena, &random, (side + 1) % 3);
+        CHECK(meso_cut_add_segment(&lines, &arena, segment, NULL) == MESO_OK);
+    }
+    double start = seconds();
+    CHECK(meso_mesh_cut(&mesh, &lines, &report, &arena, &error) == MESO_OK);
+    printf("cut, one triangle, %u lines across it: %.3f s, %u triangles\n", line_count, seconds() - start,
+           mesh.triangle_count);
+    CHECK(meso_triangulation_check(&mesh, &error) == MESO_OK);
+    meso_arena_release(&arena);
+    meso_triangulation_release(&mesh);
+}
+
 int main(void)
 {
     for (uint32_t round = 0; round < ROUNDS; round++)
         time_cuts(LEVELS);
     time_cuts(1);
+    for (uint32_t line_count = 500; line_count <= 8000; line_count *= 4)
+        time_one_triangle(line_count);
     return 0;
 }
