@@ -96,13 +96,13 @@ MESO_AVX2 __m256 meso_front_between(__m256 t, __m256 whole)
     return _mm256_and_ps(_mm256_cmp_ps(_mm256_setzero_ps(), t, _CMP_LE_OQ), _mm256_cmp_ps(t, whole, _CMP_LE_OQ));
 }
 
+/* Distances are squared. */
 MESO_AVX2 MesoFrontFound meso_front_circular(const MesoFrontSides *side, __m256 px, __m256 py)
 {
     __m256 x = _mm256_sub_ps(px, side->sx), y = _mm256_add_ps(py, side->sy);
     __m256 t = _mm256_add_ps(_mm256_mul_ps(side->sx, py), _mm256_mul_ps(px, side->sy));
     __m256 squared = _mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y));
-    return (MesoFrontFound){_mm256_sqrt_ps(squared), meso_front_between(t, _mm256_mul_ps(side->l, y)),
-                            _mm256_setzero_ps()};
+    return (MesoFrontFound){squared, meso_front_between(t, _mm256_mul_ps(side->l, y)), _mm256_setzero_ps()};
 }
 
 MESO_AVX2 MesoFrontFound meso_front_planar(const MesoFrontSides *side, __m256 px, __m256 py)
@@ -114,20 +114,44 @@ MESO_AVX2 MesoFrontFound meso_front_planar(const MesoFrontSides *side, __m256 px
                             _mm256_blendv_ps(side->planar_i, side->planar_u, nearer_u)};
 }
 
-/* `planar_lanes`: a bit for each. Most vertices have all of them or none, and go without the other half. */
+/* `planar_lanes`: a bit for each, not none. Where it is all, the other half is left out. */
 MESO_AVX2 MesoFrontFound meso_front_across_avx2(const MesoFrontSides *side, __m256 dot, __m256 area, int planar_lanes)
 {
     __m256 px = _mm256_mul_ps(dot, side->inverse), py = _mm256_mul_ps(area, side->inverse);
-    if (planar_lanes == 0)
-        return meso_front_circular(side, px, py);
     MesoFrontFound front = meso_front_planar(side, px, py);
     if (planar_lanes == 255)
         return front;
     MesoFrontFound circular = meso_front_circular(side, px, py);
     __m256 planar = _mm256_or_ps(side->planar_u, side->planar_i);
-    return (MesoFrontFound){_mm256_blendv_ps(circular.distance, front.distance, planar),
+    return (MesoFrontFound){_mm256_blendv_ps(_mm256_sqrt_ps(circular.distance), front.distance, planar),
                             _mm256_blendv_ps(circular.crosses, front.crosses, planar),
                             _mm256_and_ps(front.planar, planar)};
+}
+
+/* What of the two triangles at each spoke is told, and where. */
+typedef struct MesoFrontAround {
+    __m256i next, before;
+    __m256 ahead_counts, behind_counts;
+} MesoFrontAround;
+
+/*
+ * What circular fronts tell through triangles. Squares are compared, and one root is drawn: roots that are rounded are in
+ * the order of what is under them.
+ */
+MESO_AVX2 __m256 meso_front_all_circular(const MesoFrontSides *side, const MesoFrontAround *around, __m256 dot,
+                                         __m256 area)
+{
+    __m256 px = _mm256_mul_ps(dot, side->inverse), py = _mm256_mul_ps(area, side->inverse);
+    MesoFrontFound ahead = meso_front_circular(side, px, py);
+    px = _mm256_mul_ps(_mm256_permutevar8x32_ps(dot, around->before), side->inverse);
+    py = _mm256_mul_ps(_mm256_permutevar8x32_ps(area, around->before), side->inverse);
+    MesoFrontFound behind = meso_front_circular(side, px, py);
+    __m256 none = _mm256_set1_ps(INFINITY);
+    __m256 from_before = _mm256_blendv_ps(none, ahead.distance, _mm256_and_ps(ahead.crosses, around->ahead_counts));
+    __m256 from_next = _mm256_blendv_ps(none, behind.distance, _mm256_and_ps(behind.crosses, around->behind_counts));
+    from_before = _mm256_permutevar8x32_ps(from_before, around->before);
+    from_next = _mm256_permutevar8x32_ps(from_next, around->next);
+    return _mm256_sqrt_ps(_mm256_min_ps(from_before, from_next));
 }
 
 MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
@@ -171,19 +195,28 @@ MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
 
     uint32_t sides = step->closed ? step->count : step->count - 1;
     __m256 has_ahead = _mm256_castsi256_ps(_mm256_load_si256((const __m256i *)meso_front_sides[sides]));
-    __m256 has_behind = _mm256_permutevar8x32_ps(has_ahead, before);
+    MesoFrontAround around = {next, before, _mm256_and_ps(valid, has_ahead),
+                              _mm256_and_ps(valid, _mm256_permutevar8x32_ps(has_ahead, before))};
+    __m256 least = _mm256_set1_ps(step->floor), best = _mm256_add_ps(side.du, side.l);
+    uint32_t spokes = (1u << step->count) - 1;
+    if (planar_lanes == 0) {
+        __m256 through = _mm256_max_ps(meso_front_all_circular(&side, &around, dot, area), least);
+        best = _mm256_min_ps(through, best);
+        _mm256_storeu_ps(found, best);
+        return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(best, di, _CMP_LT_OQ)) & spokes;
+    }
     MesoFrontFound ahead = meso_front_across_avx2(&side, dot, area, planar_lanes);
     MesoFrontFound behind = meso_front_across_avx2(&side, _mm256_permutevar8x32_ps(dot, before),
                                                    _mm256_permutevar8x32_ps(area, before), planar_lanes);
-    __m256 none = _mm256_set1_ps(INFINITY), least = _mm256_set1_ps(step->floor);
-    __m256 ahead_counts = _mm256_and_ps(_mm256_and_ps(ahead.crosses, valid), has_ahead);
-    __m256 behind_counts = _mm256_and_ps(_mm256_and_ps(behind.crosses, valid), has_behind);
+    __m256 none = _mm256_set1_ps(INFINITY);
+    __m256 ahead_counts = _mm256_and_ps(ahead.crosses, around.ahead_counts);
+    __m256 behind_counts = _mm256_and_ps(behind.crosses, around.behind_counts);
     __m256 from_before = _mm256_blendv_ps(none, _mm256_max_ps(ahead.distance, least), ahead_counts);
     __m256 from_next = _mm256_blendv_ps(none, _mm256_max_ps(behind.distance, least), behind_counts);
     from_before = _mm256_permutevar8x32_ps(from_before, before);
     from_next = _mm256_permutevar8x32_ps(from_next, next);
 
-    __m256 best = _mm256_add_ps(side.du, side.l), best_planar = side.planar_u;
+    __m256 best_planar = side.planar_u;
     __m256 nearer = _mm256_cmp_ps(from_before, best, _CMP_LT_OQ);
     best = _mm256_blendv_ps(best, from_before, nearer);
     best_planar = _mm256_blendv_ps(best_planar, _mm256_permutevar8x32_ps(ahead.planar, before), nearer);
@@ -191,7 +224,7 @@ MESO_AVX2 uint32_t meso_front_step_avx2(const MesoFrontStep *step, float *found)
     best = _mm256_blendv_ps(best, from_next, nearer);
     best_planar = _mm256_blendv_ps(best_planar, _mm256_permutevar8x32_ps(behind.planar, next), nearer);
     _mm256_storeu_ps(found, _mm256_or_ps(best, best_planar));
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(best, di, _CMP_LT_OQ)) & ((1u << step->count) - 1);
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(best, di, _CMP_LT_OQ)) & spokes;
 }
 
 #endif
