@@ -1,8 +1,9 @@
 /*
  * The step of a front at a vertex u of known distance: what it tells the
  * vertices at the ends of up to eight spokes, for the triangles between
- * spokes that follow each other. Written twice, in plain C and for vectors of
- * eight; operations and their order are the same, and so are the results.
+ * spokes that follow each other. Written three times: here for one spoke after
+ * the other, and for vectors of four and of eight; operations and their order
+ * are the same, and so are the results.
  *
  * Side u-i of a triangle u, i, p lies in the plane from (0,0) to (l,0), and p
  * at (px,py) above. The front that has reached u and i comes

@@ -1,5 +1,6 @@
 #include "libcore/geodesic/front_kernel.h"
 #include "libcore/geodesic/front_kernel_avx2.h"
+#include "libcore/geodesic/front_kernel_four.h"
 
 /*
  * Nothing but rounding can make a vertex lower another and then be lowered by it; should that go on, what comes
@@ -215,7 +216,11 @@ ALWAYS_INLINE void propagate(Fronts *fronts, bool everywhere, FrontStep step)
 
 static void propagate_plain(Fronts *fronts, bool everywhere)
 {
+#ifdef MESO_HAS_FRONT_STEP_FOUR
+    propagate(fronts, everywhere, meso_front_step_four);
+#else
     propagate(fronts, everywhere, meso_front_step_plain);
+#endif
 }
 
 #ifdef MESO_HAS_FRONT_STEP_AVX2
