@@ -139,14 +139,15 @@ static void move_fan(MesoTriangulation *mesh, uint32_t corner, uint32_t vertex)
     }
 }
 
-/* One fan a vertex: the first keeps the vertex of the file. */
-static MesoStatus separate_fans(MesoTriangulation *mesh, MesoError *error)
+/* The first fan keeps the vertex of the file, each other has one of its own. */
+static MesoStatus give_fans_vertices(MesoTriangulation *mesh, MesoError *error)
 {
     size_t corner_count = 3 * (size_t)mesh->triangle_count;
     uint8_t *claimed = calloc(corner_count + 1, 1);
     if (!claimed)
         return out_of_memory(corner_count, "corners", error);
     MesoStatus status = MESO_OK;
+    memset(mesh->vertex_corner, 0xff, mesh->vertex_count * sizeof *mesh->vertex_corner);
     for (uint32_t c = 0; c < corner_count && !status; c++) {
         if (claimed[c])
             continue;
@@ -165,6 +166,31 @@ static MesoStatus separate_fans(MesoTriangulation *mesh, MesoError *error)
     }
     free(claimed);
     return status;
+}
+
+/* Corners of the fan that has a corner, by one walk where it closes. */
+static uint32_t fan_corners(const MesoTriangulation *mesh, uint32_t corner)
+{
+    MesoFan fan = {corner, false};
+    uint32_t count = 1;
+    while (meso_fan_next(mesh, &fan)) {
+        if (fan.corner == corner)
+            return count;
+        count++;
+    }
+    for (fan = (MesoFan){corner, true}; meso_fan_next(mesh, &fan);)
+        count++;
+    return count;
+}
+
+/* One fan a vertex. Nearly always that is so from the first: then the fans of the vertices' corners have all corners. */
+static MesoStatus separate_fans(MesoTriangulation *mesh, MesoError *error)
+{
+    uint64_t in_fans = 0;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        if (mesh->vertex_corner[v] != MESO_NO_INDEX)
+            in_fans += fan_corners(mesh, mesh->vertex_corner[v]);
+    return in_fans == 3 * (uint64_t)mesh->triangle_count ? MESO_OK : give_fans_vertices(mesh, error);
 }
 
 /* ---- building ---- */
@@ -203,7 +229,10 @@ static void copy_triangle(MesoTriangulation *mesh, const MesoSurface *surface, c
     mesh->walls[t] = 0;
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t twin = surface->edges.twin[from + k];
-        mesh->corners[to + k] = places->of_vertex[surface->mesh.corners[from + k]];
+        uint32_t vertex = places->of_vertex[surface->mesh.corners[from + k]];
+        mesh->corners[to + k] = vertex;
+        if (mesh->vertex_corner[vertex] > (uint32_t)to + k)     /* MESO_NO_INDEX is above all */
+            mesh->vertex_corner[vertex] = (uint32_t)to + k;
         mesh->twins[to + k] = twin == MESO_NO_INDEX ? twin : 3 * places->of_triangle[twin / 3] + twin % 3;
         if (twin == MESO_NO_INDEX)
             mesh->walls[t] |= (uint8_t)(1u << k);
