@@ -12,17 +12,22 @@
 /* Meshes of fewer vertices lie in the caches whatever their order. */
 enum { MESO_LOCALITY_LEAST = 65536 };
 
+/* An order, both ways. */
+typedef struct MesoLocality {
+    uint32_t *old_vertex, *new_vertex;          /* [vertex_count] which comes in a place, and in which place one comes */
+    uint32_t *old_triangle, *new_triangle;      /* [triangle_count] */
+} MesoLocality;
+
 /*
  * An order of vertices along a Hilbert curve through 1024^3 cells of the mesh's box, and of triangles by the first of
  * their vertices in it; what is equal comes as before.
  *
  * corners       [3 * triangle_count]
- * old_vertex    [vertex_count] which vertex comes in each place
- * old_triangle  [triangle_count] which triangle does
+ * order         arrays of the caller's, which are filled; those of triangles are not looked at where there are none
  *
  * Positions have to be finite. O(vertices + triangles). MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_locality_order(const MesoVec3 *positions, uint32_t vertex_count, const uint32_t *corners,
-                               uint32_t triangle_count, uint32_t *old_vertex, uint32_t *old_triangle, MesoError *error);
+                               uint32_t triangle_count, const MesoLocality *order, MesoError *error);
 
 #endif

@@ -9,15 +9,19 @@ static void test_curve(void)
 {
     enum { SIDE = 16, COUNT = SIDE * SIDE * SIDE };
     MesoVec3 *positions = malloc(COUNT * sizeof *positions);
-    uint32_t *order = malloc(COUNT * sizeof *order);
-    CHECK(positions && order);
+    uint32_t *order = malloc(COUNT * sizeof *order), *places = malloc(COUNT * sizeof *places);
+    CHECK(positions && order && places);
     for (uint32_t v = 0; v < COUNT; v++)
         positions[v] = (MesoVec3){(float)(v % SIDE), (float)(v / SIDE % SIDE), (float)(v / SIDE / SIDE)};
-    CHECK(meso_locality_order(positions, COUNT, NULL, 0, order, NULL, NULL) == MESO_OK);
+    const MesoLocality both = {.old_vertex = order, .new_vertex = places};
+    CHECK(meso_locality_order(positions, COUNT, NULL, 0, &both, NULL) == MESO_OK);
     for (uint32_t i = 0; i + 1 < COUNT; i++)
         CHECK(meso_vec3_length(meso_vec3_sub(positions[order[i]], positions[order[i + 1]])) == 1);
+    for (uint32_t i = 0; i < COUNT; i++)
+        CHECK(places[order[i]] == i);
     free(positions);
     free(order);
+    free(places);
 }
 
 /* Nothing, and all in one place: the order of before. */
@@ -25,11 +29,14 @@ static void test_no_size(void)
 {
     MesoVec3 positions[4] = {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}};
     uint32_t corners[6] = {2, 1, 3, 0, 1, 2}, vertices[4], triangles[2];
-    CHECK(meso_locality_order(positions, 4, corners, 2, vertices, triangles, NULL) == MESO_OK);
+    uint32_t vertex_places[4], triangle_places[2];
+    const MesoLocality order = {vertices, vertex_places, triangles, triangle_places};
+    CHECK(meso_locality_order(positions, 4, corners, 2, &order, NULL) == MESO_OK);
     for (uint32_t v = 0; v < 4; v++)
-        CHECK(vertices[v] == v);
+        CHECK(vertices[v] == v && vertex_places[v] == v);
     CHECK(triangles[0] == 1 && triangles[1] == 0);
-    CHECK(meso_locality_order(positions, 0, corners, 0, vertices, triangles, NULL) == MESO_OK);
+    CHECK(triangle_places[0] == 1 && triangle_places[1] == 0);
+    CHECK(meso_locality_order(positions, 0, corners, 0, &order, NULL) == MESO_OK);
 }
 
 /* A triangulation that is large enough is numbered again, says how, and has its neighbours near. */

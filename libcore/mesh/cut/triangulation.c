@@ -207,19 +207,15 @@ static MesoStatus find_places(MesoTriangulation *mesh, const MesoPolygonMesh *fr
     places->of_triangle = malloc(((size_t)from->face_count + 1) * sizeof(uint32_t));
     if (!places->of_vertex || !places->of_triangle)
         return out_of_memory(from->vertex_count, "vertices", error);
+    if (from->vertex_count >= MESO_LOCALITY_LEAST) {
+        const MesoLocality order = {mesh->origins, places->of_vertex, mesh->faces, places->of_triangle};
+        return meso_locality_order(from->positions, from->vertex_count, from->corners, from->face_count, &order, error);
+    }
     for (uint32_t v = 0; v < from->vertex_count; v++)
-        mesh->origins[v] = v;
+        mesh->origins[v] = places->of_vertex[v] = v;
     for (uint32_t t = 0; t < from->face_count; t++)
-        mesh->faces[t] = t;
-    MesoStatus status = MESO_OK;
-    if (from->vertex_count >= MESO_LOCALITY_LEAST)
-        status = meso_locality_order(from->positions, from->vertex_count, from->corners, from->face_count,
-                                     mesh->origins, mesh->faces, error);
-    for (uint32_t v = 0; v < from->vertex_count && !status; v++)
-        places->of_vertex[mesh->origins[v]] = v;
-    for (uint32_t t = 0; t < from->face_count && !status; t++)
-        places->of_triangle[mesh->faces[t]] = t;
-    return status;
+        mesh->faces[t] = places->of_triangle[t] = t;
+    return MESO_OK;
 }
 
 static void copy_triangle(MesoTriangulation *mesh, const MesoSurface *surface, const Places *places, uint32_t t)
