@@ -44,8 +44,10 @@ static float fitting_scale(const MesoVec3 *positions, uint32_t count)
 {
     float largest = 0;
     for (uint32_t v = 0; v < count; v++) {
-        largest = fmaxf(largest, fmaxf(fabsf(positions[v].x), fabsf(positions[v].y)));
-        largest = fmaxf(largest, fabsf(positions[v].z));
+        float x = fabsf(positions[v].x), y = fabsf(positions[v].y), z = fabsf(positions[v].z);
+        x = x > y ? x : y;
+        x = x > z ? x : z;
+        largest = x > largest ? x : largest;
     }
     int exponent = 0;
     frexpf(largest, &exponent);

@@ -15,10 +15,12 @@ static MesoStatus reserve_pool(MesoOneRings *rings, uint64_t count, MesoError *e
         return meso_fail(error, MESO_ERR_LIMIT, "rings of %llu sides are beyond what can be counted",
                          (unsigned long long)count);
     room = room > UINT32_MAX ? UINT32_MAX : room;
-    uint32_t *pool = realloc(rings->pool, room * sizeof *pool);
+    /* from nothing, the system's own zeros: pages that no ring needs are never touched */
+    uint32_t *pool = rings->pool ? realloc(rings->pool, room * sizeof *pool) : calloc(room, sizeof *pool);
     if (!pool)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory: %llu sides", (unsigned long long)room);
-    memset(pool + rings->pool_count, 0, (room - rings->pool_count) * sizeof *pool);
+    if (rings->pool)
+        memset(pool + rings->pool_count, 0, (room - rings->pool_count) * sizeof *pool);
     rings->pool = pool;
     rings->pool_room = (uint32_t)room;
     return MESO_OK;
