@@ -1,40 +1,10 @@
 #include "libcore/chart/chart.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "libcore/chart/chart_flatten.h"
 #include "libcore/chart/chart_growth.h"
 #include "libcore/chart/simple_border.h"
-
-/* ---- the maker ---- */
-
-static uint32_t *new_numbers(uint32_t count)
-{
-    uint32_t *numbers = malloc((count ? count : 1) * sizeof *numbers);
-    if (numbers)
-        memset(numbers, 0xff, count * sizeof *numbers);
-    return numbers;
-}
-
-MesoStatus meso_chart_maker_init(MesoChartMaker *maker, const MesoTriangulation *mesh, MesoError *error)
-{
-    *maker = (MesoChartMaker){.mesh = mesh, .vertex_numbers = new_numbers(mesh->vertex_count),
-                              .triangle_numbers = new_numbers(mesh->triangle_count)};
-    meso_arena_init(&maker->scratch);
-    if (maker->vertex_numbers && maker->triangle_numbers)
-        return MESO_OK;
-    meso_chart_maker_release(maker);
-    return meso_fail(error, MESO_ERR_MEMORY, "out of memory: marks of %u triangles", mesh->triangle_count);
-}
-
-void meso_chart_maker_release(MesoChartMaker *maker)
-{
-    free(maker->vertex_numbers);
-    free(maker->triangle_numbers);
-    meso_arena_release(&maker->scratch);
-    *maker = (MesoChartMaker){0};
-}
 
 /* ---- one disk of the growth ---- */
 
@@ -133,7 +103,8 @@ static void set_places(Flattening *flattening, MesoPoint *places)
     double by = 1 / sqrt(scales.total * (side.x * side.x + side.y * side.y));
     for (uint32_t v = 0; v < disk->vertex_count; v++) {
         double x = places[v].x - centre.x, y = places[v].y - centre.y;
-        flattening->places[v] = (MesoVec2){(float)(by * (x * side.x + y * side.y)), (float)(by * (y * side.x - x * side.y))};
+        flattening->places[v] = (MesoVec2){(float)(by * (x * side.x + y * side.y)),
+                                           (float)(by * (y * side.x - x * side.y))};
     }
 }
 
@@ -153,7 +124,8 @@ static MesoStatus flatten_first(Flattening *flattening, MesoChartMaker *maker, c
     MesoArena *scratch = &maker->scratch;
     double bound = options->largest_ratio > 0 ? options->largest_ratio : 4;
     *flattening = (Flattening){.ratio = 1};
-    MesoStatus status = collect_disk(&flattening->disk, maker, growth, count, 1e-6 * options->radius, flattening->seed, error);
+    MesoStatus status = collect_disk(&flattening->disk, maker, growth, count, 1e-6 * options->radius,
+                                     flattening->seed, error);
     if (status)
         return status;
     uint32_t vertex_count = flattening->disk.vertex_count;

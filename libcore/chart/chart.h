@@ -7,14 +7,14 @@
 #ifndef MESO_CHART_H
 #define MESO_CHART_H
 
-#include "libcore/mesh/cut/triangulation.h"
+#include "libcore/chart/chart_maker.h"
 
 typedef struct MesoChart {
     uint32_t vertex_count, triangle_count;
     uint32_t *vertices;     /* [vertex_count] of the mesh; each once */
     uint32_t *triangles;    /* [triangle_count] of the mesh, each an edge away from one before it; the seed first */
     uint32_t *corners;      /* [3 * triangle_count] vertices of the chart */
-    MesoVec2 *places;       /* [vertex_count] in the surface's units; the seed's centroid at 0,0, its first side along x */
+    MesoVec2 *places;       /* [vertex_count] in the surface's units; the seed's centroid at 0,0, side 0 along x */
     float area_ratio;       /* largest over smallest area scale of a triangle, at least 1 */
     float radius;           /* that it was grown to */
 } MesoChart;
@@ -24,20 +24,6 @@ typedef struct MesoChartOptions {
     float largest_ratio;    /* of area scales; 0: 4 */
     uint32_t relaxations;   /* steps as rigid as possible, after the conformal map */
 } MesoChartOptions;
-
-/* What growing needs of the size of the mesh, so that a chart costs what the chart is. One a thread. */
-typedef struct MesoChartMaker {
-    const MesoTriangulation *mesh;
-    const uint8_t *taken;       /* [triangle_count] 1: not for charts; NULL: all are. The caller's, may change between charts */
-    uint32_t *vertex_numbers;   /* [vertex_count] and [triangle_count]; MESO_NO_INDEX between charts */
-    uint32_t *triangle_numbers;
-    MesoArena scratch;
-} MesoChartMaker;
-
-/* The mesh stays the caller's and is not to change while the maker is in use. O(mesh). MESO_ERR_MEMORY alone. */
-MesoStatus meso_chart_maker_init(MesoChartMaker *maker, const MesoTriangulation *mesh, MesoError *error);
-
-void meso_chart_maker_release(MesoChartMaker *maker);
 
 /*
  * Grows a chart around triangle `seed` and lays it flat.

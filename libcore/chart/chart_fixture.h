@@ -73,7 +73,7 @@ static inline uint32_t meso_fixture_border(const MesoChart *chart, uint32_t *bor
     return count;
 }
 
-/* One component, one loop that meets no vertex twice, Euler's number 1: by sides alone, without the mesh's neighbours. */
+/* One loop that meets no vertex twice, and Euler's number 1: by sides alone, without the mesh's neighbours. */
 static inline void meso_fixture_check_disk(const MesoChart *chart)
 {
     uint32_t *border = malloc(6 * sizeof *border * chart->triangle_count);

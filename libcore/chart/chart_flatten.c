@@ -157,8 +157,8 @@ MesoStatus meso_flatten_conformal(MesoPoint *places, MesoArena *scratch, const M
     uint32_t *next = MESO_NEW(scratch, uint32_t, n, error);
     map.unknowns = MESO_NEW(scratch, uint32_t, n, error);
     map.right = MESO_NEW(scratch, double, 2 * (size_t)n, error);
-    map.equations.triplets = MESO_NEW(scratch, MesoTriplet, 12 * (size_t)disk->triangle_count + 2 * (size_t)disk->border_count,
-                                      error);
+    size_t term_count = 12 * (size_t)disk->triangle_count + 2 * (size_t)disk->border_count;
+    map.equations.triplets = MESO_NEW(scratch, MesoTriplet, term_count, error);
     MesoStatus status = next && map.unknowns && map.right && map.equations.triplets ? MESO_OK : MESO_ERR_MEMORY;
     if (!status) {
         map.held[0] = disk->border[0];

@@ -9,7 +9,7 @@ typedef struct MesoPoint {
     double x, y;
 } MesoPoint;
 
-/* A triangle in its own plane, and the gradients there of its corners' hats: the linear map of a flattening is theirs. */
+/* A triangle in its own plane: the gradients there of the functions that are 1 at a corner and 0 at the others. */
 typedef struct MesoFlatTriangle {
     MesoPoint gradients[3];
     double area;

@@ -33,9 +33,11 @@ static MesoStatus enlarge_flood(Grower *grower)
 {
     Flood *flood = &grower->flood;
     uint32_t count = flood->count, room = count ? 2 * count : 256;
-    flood->vertices = meso_arena_enlarge(grower->arena, flood->vertices, count, room, sizeof *flood->vertices, grower->error);
-    flood->distances = meso_arena_enlarge(grower->arena, flood->distances, count, room, sizeof *flood->distances, grower->error);
-    flood->settled = meso_arena_enlarge(grower->arena, flood->settled, count, room, sizeof *flood->settled, grower->error);
+    MesoArena *arena = grower->arena;
+    flood->vertices = meso_arena_enlarge(arena, flood->vertices, count, room, sizeof *flood->vertices, grower->error);
+    flood->distances = meso_arena_enlarge(arena, flood->distances, count, room, sizeof *flood->distances,
+                                          grower->error);
+    flood->settled = meso_arena_enlarge(arena, flood->settled, count, room, sizeof *flood->settled, grower->error);
     flood->room = room;
     return flood->vertices && flood->distances && flood->settled ? MESO_OK : MESO_ERR_MEMORY;
 }
@@ -82,8 +84,8 @@ static double distance_across(MesoVec3 a, MesoVec3 b, MesoVec3 x, double da, dou
 static MesoStatus spread_in_triangle(Grower *grower, MesoKeyHeap *heap, uint32_t corner)
 {
     const MesoTriangulation *mesh = grower->mesh;
-    uint32_t vertex = mesh->corners[corner], others[2] = {mesh->corners[meso_next_corner(corner)],
-                                                          mesh->corners[meso_previous_corner(corner)]};
+    uint32_t vertex = mesh->corners[corner];
+    uint32_t others[2] = {mesh->corners[meso_next_corner(corner)], mesh->corners[meso_previous_corner(corner)]};
     double here = grower->flood.distances[grower->maker->vertex_numbers[vertex]];
     MesoStatus status = MESO_OK;
     for (uint32_t k = 0; k < 2 && !status; k++) {

@@ -2,7 +2,7 @@
 #ifndef MESO_CHART_GROWTH_H
 #define MESO_CHART_GROWTH_H
 
-#include "libcore/chart/chart.h"
+#include "libcore/chart/chart_maker.h"
 
 typedef struct MesoChartGrowth {
     uint32_t vertex_count, triangle_count;

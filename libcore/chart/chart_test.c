@@ -58,7 +58,7 @@ static void test_plane(void)
     meso_triangulation_release(&mesh);
 }
 
-/* All of the triangles whose corners lie within the radius: distances on a plane are exact, but around obtuse angles. */
+/* All triangles whose corners lie within the radius: distances on a plane are exact, but around obtuse angles. */
 static void test_plane_is_filled(void)
 {
     MesoTriangulation mesh = meso_fixture_sheet(40, 40, 0.1f);

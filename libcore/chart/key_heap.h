@@ -23,7 +23,8 @@ static inline bool meso_heap_before(MesoHeapEntry a, MesoHeapEntry b)
 }
 
 /* An item may lie in it several times. O(log count). MESO_ERR_MEMORY alone. */
-static inline MesoStatus meso_heap_push(MesoKeyHeap *heap, MesoArena *arena, double key, uint32_t item, MesoError *error)
+static inline MesoStatus meso_heap_push(MesoKeyHeap *heap, MesoArena *arena, double key, uint32_t item,
+                                        MesoError *error)
 {
     heap->entries = MESO_GROW(arena, heap->entries, heap->count, heap->room, 256, error);
     if (!heap->entries)

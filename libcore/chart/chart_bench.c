@@ -1,0 +1,58 @@
+/*
+ * Times of charts around many triangles of a bumpy sheet: growth, conformal map and rigid steps, by the triangles of a
+ * chart. Of the process, of one core, the best of some.
+ *
+ *   chart_bench
+ */
+#include <stdio.h>
+#include <time.h>
+
+#include "libcore/chart/chart_fixture.h"
+
+enum { SEEDS = 40, ROUNDS = 5 };
+
+static double cpu_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Charts of about `wanted` triangles: of seeds spread over the sheet, all in one time. */
+static void time_charts(MesoChartMaker *maker, uint32_t wanted, uint32_t relaxations)
+{
+    MesoChartOptions options = {0.1f * sqrtf((float)wanted / 6.2831853f), 4, relaxations};
+    double best = INFINITY, triangles = 0, ratio = 1, shrunk = 0;
+    for (uint32_t round = 0; round < ROUNDS; round++) {
+        MesoArena arena;
+        meso_arena_init(&arena);
+        double start = cpu_seconds();
+        triangles = shrunk = 0;
+        for (uint32_t i = 0; i < SEEDS; i++) {
+            MesoChart chart;
+            uint32_t seed = (uint32_t)((uint64_t)maker->mesh->triangle_count * (2 * i + 1) / (2 * SEEDS));
+            CHECK(meso_chart_grow(&chart, &arena, maker, seed, &options, NULL) == MESO_OK);
+            triangles += chart.triangle_count;
+            shrunk += chart.radius < options.radius;
+            ratio = fmax(ratio, chart.area_ratio);
+        }
+        best = fmin(best, cpu_seconds() - start);
+        meso_arena_release(&arena);
+    }
+    printf("%4u triangles wanted, %u rigid steps: %6.0f triangles, %.3f ms a chart, %.0f of %d shrunk, ratio to %.2f\n",
+           wanted, relaxations, triangles / SEEDS, 1e3 * best / SEEDS, shrunk, (int)SEEDS, ratio);
+}
+
+int main(void)
+{
+    const uint32_t wanted[] = {1, 150, 300, 600, 1000, 2000, 4000};
+    MesoTriangulation mesh = meso_fixture_bumpy(160, 160, 0.3f);
+    MesoChartMaker maker;
+    CHECK(meso_chart_maker_init(&maker, &mesh, NULL) == MESO_OK);
+    for (uint32_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+        for (uint32_t relaxations = 0; relaxations < 5; relaxations += 4)
+            time_charts(&maker, wanted[i], relaxations);
+    meso_chart_maker_release(&maker);
+    meso_triangulation_release(&mesh);
+    return 0;
+}

@@ -1,0 +1,21 @@
+/* Chart maker: marks by vertex and triangle, for many charts of one mesh. */
+#ifndef MESO_CHART_MAKER_H
+#define MESO_CHART_MAKER_H
+
+#include "libcore/mesh/cut/triangulation.h"
+
+/* What growing needs of the size of the mesh, so that a chart costs what the chart is. One a thread. */
+typedef struct MesoChartMaker {
+    const MesoTriangulation *mesh;
+    const uint8_t *taken;       /* [triangle_count] 1: not for charts; NULL: none is. The caller's */
+    uint32_t *vertex_numbers;   /* [vertex_count] and [triangle_count]; MESO_NO_INDEX between charts */
+    uint32_t *triangle_numbers;
+    MesoArena scratch;
+} MesoChartMaker;
+
+/* The mesh stays the caller's and is not to change while the maker is in use. O(mesh). MESO_ERR_MEMORY alone. */
+MesoStatus meso_chart_maker_init(MesoChartMaker *maker, const MesoTriangulation *mesh, MesoError *error);
+
+void meso_chart_maker_release(MesoChartMaker *maker);
+
+#endif
