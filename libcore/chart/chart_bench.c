@@ -21,7 +21,7 @@ static double cpu_seconds(void)
 /* Charts of about `wanted` triangles: of seeds spread over the sheet, all in one time. */
 static void time_charts(MesoChartMaker *maker, uint32_t wanted, uint32_t relaxations)
 {
-    MesoChartOptions options = {0.1f * sqrtf((float)wanted / 6.2831853f), 4, relaxations};
+    MesoChartOptions options = {0.158f * sqrtf((float)wanted / 6.2831853f), 4, relaxations};
     double best = INFINITY, triangles = 0, ratio = 1, shrunk = 0;
     for (uint32_t round = 0; round < ROUNDS; round++) {
         MesoArena arena;
