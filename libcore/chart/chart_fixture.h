@@ -40,12 +40,12 @@ static inline MesoTriangulation meso_fixture_flat(uint32_t columns, uint32_t row
                                                         &side});
 }
 
-/* Squares of the given side, joined around. */
-static inline MesoTriangulation meso_fixture_tube(uint32_t columns, uint32_t rows, float side)
+/* Squares of the given side, joined around; bent at the sides of the columns alone where these are straight. */
+static inline MesoTriangulation meso_fixture_tube(uint32_t columns, uint32_t rows, float side, bool straight)
 {
     MesoFixtureTube tube = {(float)columns, side, side * (float)columns / 6.2831853f};
-    return meso_fixture_place_sheet(&(MesoFixtureSheet){columns, rows, true, 0.25f, 0.25f, 6, meso_fixture_tube_place,
-                                                        &tube});
+    return meso_fixture_place_sheet(&(MesoFixtureSheet){columns, rows, true, straight ? 0 : 0.25f, 0.25f, 6,
+                                                        meso_fixture_tube_place, &tube});
 }
 
 static inline MesoTriangulation meso_fixture_bumpy(uint32_t columns, uint32_t rows, float height)

@@ -1,0 +1,12 @@
+/* Directions from their powers, each turned to be like its neighbours. */
+#ifndef MESO_FIELD_COMB_H
+#define MESO_FIELD_COMB_H
+
+#include "libcore/field/direction_field.h"
+#include "libcore/field/field_singularities.h"
+
+/* Sets `directions`. From the guided triangles on, then from the first of each part. O(triangles). */
+MesoStatus meso_field_comb(MesoDirectionField *field, MesoArena *scratch, const MesoFieldPowers *powers,
+                           const MesoVec3 *guides, const float *weights, MesoError *error);
+
+#endif
