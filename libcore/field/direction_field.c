@@ -1,7 +1,5 @@
 #include "libcore/field/direction_field.h"
 
-#include <string.h>
-
 #include "libcore/base/random.h"
 #include "libcore/field/field_comb.h"
 #include "libcore/field/field_singularities.h"
@@ -227,6 +225,28 @@ static MesoStatus check_arguments(const MesoTriangulation *mesh, const float *we
     return MESO_OK;
 }
 
+static MesoStatus list_singularities(MesoDirectionField *field, MesoArena *arena, const Smoother *s,
+                                     const MesoFieldPowers *powers)
+{
+    uint32_t vertex_count = s->mesh->vertex_count;
+    int *turns = MESO_NEW(s->scratch, int, vertex_count, s->error);
+    if (!turns)
+        return MESO_ERR_MEMORY;
+    meso_field_turns(turns, powers);
+    for (uint32_t v = 0; v < vertex_count; v++)
+        field->singularity_count += turns[v] != 0;
+    field->singularities = MESO_NEW(arena, uint32_t, field->singularity_count, s->error);
+    field->indices = MESO_NEW(arena, float, field->singularity_count, s->error);
+    if (!field->singularities || !field->indices)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0, n = 0; v < vertex_count; v++)
+        if (turns[v]) {
+            field->singularities[n] = v;
+            field->indices[n++] = (float)turns[v] / (float)s->symmetry;
+        }
+    return MESO_OK;
+}
+
 static MesoStatus smooth_field(MesoDirectionField *field, MesoArena *arena, Smoother *s, const MesoVec3 *guides,
                                const float *weights)
 {
@@ -246,8 +266,8 @@ static MesoStatus smooth_field(MesoDirectionField *field, MesoArena *arena, Smoo
     for (uint32_t t = 0; t < n; t++)
         powers[t] = meso_complex_unit(powers[t]);
     MesoFieldPowers by_power = {s->mesh, s->symmetry, s->frames, powers};
-    status = meso_field_singularities(field, arena, s->scratch, &by_power, s->error);
-    return status ? status : meso_field_comb(field, s->scratch, &by_power, guides, weights, s->error);
+    status = list_singularities(field, arena, s, &by_power);
+    return status ? status : meso_field_comb(field->directions, s->scratch, &by_power, guides, weights, s->error);
 }
 
 MesoStatus meso_direction_field_smooth(MesoDirectionField *field, MesoArena *arena, const MesoTriangulation *mesh,

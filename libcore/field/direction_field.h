@@ -40,8 +40,8 @@ MesoStatus meso_direction_field_smooth(MesoDirectionField *field, MesoArena *are
  * Triangle Meshes", Rusinkiewicz 2004).
  *
  * directions  [triangle_count] unit, in the triangle's plane; either of the two ways
- * weights     [triangle_count] how marked they are: (|k1| - |k2|) / (|k1| + |k2|); 0 where both are alike, as on a sphere
- *             or a symmetric saddle, and where the surface is flat: bends less than 1e-4 of a turn over a triangle
+ * weights     [triangle_count] how marked they are: (|k1| - |k2|) / (|k1| + |k2|); 0 where both are alike, as on a
+ *             sphere or a symmetric saddle, and where the surface is flat: bends less than 1e-4 over a triangle
  *
  * O(triangles). MESO_ERR_MEMORY alone.
  */

@@ -2,8 +2,8 @@
 
 typedef struct Comb {
     const MesoFieldPowers *powers;
-    MesoDirectionField *field;
-    MesoComplex *directions;    /* [triangle_count] */
+    MesoVec3 *directions;       /* [triangle_count] */
+    MesoComplex *in_frames;     /* [triangle_count] the same */
     uint8_t *combed;            /* [triangle_count] */
     uint32_t *queue;            /* [triangle_count] */
     uint32_t begin, end;        /* of the queue */
@@ -26,10 +26,10 @@ static void add_triangle(Comb *comb, uint32_t triangle, MesoComplex like)
 {
     const MesoFieldPowers *p = comb->powers;
     MesoComplex root = meso_complex_root(p->powers[triangle], p->symmetry);
-    comb->directions[triangle] = nearest_turn(root, p->symmetry, like);
+    comb->in_frames[triangle] = nearest_turn(root, p->symmetry, like);
     comb->combed[triangle] = 1;
     comb->queue[comb->end++] = triangle;
-    comb->field->directions[triangle] = meso_frame_out(&p->frames[triangle], comb->directions[triangle]);
+    comb->directions[triangle] = meso_frame_out(&p->frames[triangle], comb->in_frames[triangle]);
 }
 
 static void comb_part(Comb *comb, uint32_t first, MesoComplex like)
@@ -43,18 +43,18 @@ static void comb_part(Comb *comb, uint32_t first, MesoComplex like)
             if (across == MESO_NO_INDEX || comb->combed[across / 3])
                 continue;
             MesoComplex turn = meso_frame_turn(mesh, comb->powers->frames, h, across);
-            add_triangle(comb, across / 3, meso_complex_times(comb->directions[t], turn));
+            add_triangle(comb, across / 3, meso_complex_times(comb->in_frames[t], turn));
         }
     }
 }
 
-MesoStatus meso_field_comb(MesoDirectionField *field, MesoArena *scratch, const MesoFieldPowers *powers,
+MesoStatus meso_field_comb(MesoVec3 *directions, MesoArena *scratch, const MesoFieldPowers *powers,
                            const MesoVec3 *guides, const float *weights, MesoError *error)
 {
     uint32_t n = powers->mesh->triangle_count;
-    Comb comb = {.powers = powers, .field = field, .directions = MESO_NEW(scratch, MesoComplex, n, error),
+    Comb comb = {.powers = powers, .directions = directions, .in_frames = MESO_NEW(scratch, MesoComplex, n, error),
                  .combed = MESO_NEW(scratch, uint8_t, n, error), .queue = MESO_NEW(scratch, uint32_t, n, error)};
-    if (!comb.directions || !comb.combed || !comb.queue)
+    if (!comb.in_frames || !comb.combed || !comb.queue)
         return MESO_ERR_MEMORY;
     for (uint32_t t = 0; guides && weights && t < n; t++)
         if (!comb.combed[t] && weights[t] > 0)

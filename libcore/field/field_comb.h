@@ -2,11 +2,10 @@
 #ifndef MESO_FIELD_COMB_H
 #define MESO_FIELD_COMB_H
 
-#include "libcore/field/direction_field.h"
-#include "libcore/field/field_singularities.h"
+#include "libcore/field/triangle_frames.h"
 
-/* Sets `directions`. From the guided triangles on, then from the first of each part. O(triangles). */
-MesoStatus meso_field_comb(MesoDirectionField *field, MesoArena *scratch, const MesoFieldPowers *powers,
+/* Sets `directions` [triangle_count]. From the guided triangles on, then from the first of each part. O(triangles). */
+MesoStatus meso_field_comb(MesoVec3 *directions, MesoArena *scratch, const MesoFieldPowers *powers,
                            const MesoVec3 *guides, const float *weights, MesoError *error);
 
 #endif

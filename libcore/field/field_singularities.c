@@ -25,7 +25,6 @@ static double corner_angle(const MesoTriangulation *mesh, uint32_t corner)
     return atan2(sqrt(x * x + y * y + z * z), u[0] * v[0] + u[1] * v[1] + u[2] * v[2]);
 }
 
-/* How often the power turns around a vertex; 0 at borders, and where triangles are wound against each other. */
 static int turns_around(const MesoFieldPowers *p, uint32_t vertex)
 {
     const MesoTriangulation *mesh = p->mesh;
@@ -44,25 +43,8 @@ static int turns_around(const MesoFieldPowers *p, uint32_t vertex)
     return (int)lrint((p->symmetry * (2 * MESO_PI - angles) + turns) / (2 * MESO_PI));
 }
 
-MesoStatus meso_field_singularities(MesoDirectionField *field, MesoArena *arena, MesoArena *scratch,
-                                    const MesoFieldPowers *powers, MesoError *error)
+void meso_field_turns(int *turns, const MesoFieldPowers *powers)
 {
-    uint32_t vertex_count = powers->mesh->vertex_count;
-    int *turns = MESO_NEW(scratch, int, vertex_count, error);
-    if (!turns)
-        return MESO_ERR_MEMORY;
-    for (uint32_t v = 0; v < vertex_count; v++) {
+    for (uint32_t v = 0; v < powers->mesh->vertex_count; v++)
         turns[v] = turns_around(powers, v);
-        field->singularity_count += turns[v] != 0;
-    }
-    field->singularities = MESO_NEW(arena, uint32_t, field->singularity_count, error);
-    field->indices = MESO_NEW(arena, float, field->singularity_count, error);
-    if (!field->singularities || !field->indices)
-        return MESO_ERR_MEMORY;
-    for (uint32_t v = 0, n = 0; v < vertex_count; v++)
-        if (turns[v]) {
-            field->singularities[n] = v;
-            field->indices[n++] = (float)turns[v] / (float)powers->symmetry;
-        }
-    return MESO_OK;
 }

@@ -20,7 +20,7 @@ typedef struct Bends {
 
 /* ---- normals ---- */
 
-/* By the weights of "Weights for Computing Vertex Normals from Facet Normals" (Max 1999), which are exact on a sphere. */
+/* "Weights for Computing Vertex Normals from Facet Normals" (Max 1999): exact on a sphere. */
 static void add_normals(const Bends *bends, double (*sums)[3], uint32_t triangle)
 {
     const MesoTriangulation *mesh = bends->mesh;

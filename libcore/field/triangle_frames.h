@@ -66,6 +66,14 @@ static inline MesoVec3 meso_frame_out(const MesoFrame *frame, MesoComplex c)
                       (float)(c.re * frame->x[2] + c.im * frame->y[2])};
 }
 
+/* Directions to the power of their symmetry: the same number for all turns of a direction. */
+typedef struct MesoFieldPowers {
+    const MesoTriangulation *mesh;
+    uint32_t symmetry;
+    const MesoFrame *frames;    /* [triangle_count] */
+    const MesoComplex *powers;  /* [triangle_count] of length 1 */
+} MesoFieldPowers;
+
 /* The half-edge across that is wound alike, or MESO_NO_INDEX. */
 static inline uint32_t meso_frame_across(const MesoTriangulation *mesh, uint32_t half_edge)
 {
