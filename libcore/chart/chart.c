@@ -139,8 +139,10 @@ static MesoStatus flatten_first(Flattening *flattening, MesoChartMaker *maker, c
     } else {
         status = find_places(flattening, kept, scratch, options, bound, error);
     }
+    /* equations without a solution: with what has been found before */
+    status = status == MESO_ERR_INPUT ? MESO_OK : status;
     if (status || !flattening->fits)
-        return status == MESO_ERR_INPUT ? MESO_OK : status;
+        return status;
     set_places(flattening, kept);
     flattening->fits = !has_flips(flattening);
     if (flattening->fits)

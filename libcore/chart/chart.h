@@ -37,7 +37,7 @@ typedef struct MesoChartOptions {
  * triangle always does. Triangles thinner than 1e-4 of their longest side are laid out at that height.
  *
  * Same arguments, same bytes. O(n log n) for the growth, and two sparse factorisations; memory is O(n) in `arena`.
- * MESO_ERR_MEMORY, and MESO_ERR_INPUT where the seed is so far out or so small that floats cannot hold it.
+ * MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_chart_grow(MesoChart *chart, MesoArena *arena, MesoChartMaker *maker, uint32_t seed,
                            const MesoChartOptions *options, MesoError *error);

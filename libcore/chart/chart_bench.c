@@ -1,12 +1,13 @@
 /*
  * Times of charts around many triangles of a bumpy sheet: growth, conformal map and rigid steps, by the triangles of a
- * chart. Of the process, of one core, the best of some.
+ * chart; and of an atlas of all. Of the process, of one core, the best of some.
  *
  *   chart_bench
  */
 #include <stdio.h>
 #include <time.h>
 
+#include "libcore/chart/atlas.h"
 #include "libcore/chart/chart_fixture.h"
 
 enum { SEEDS = 40, ROUNDS = 5 };
@@ -43,6 +44,19 @@ static void time_charts(MesoChartMaker *maker, uint32_t wanted, uint32_t relaxat
            wanted, relaxations, triangles / SEEDS, 1e3 * best / SEEDS, shrunk, (int)SEEDS, ratio);
 }
 
+static void time_atlas(const MesoTriangulation *mesh)
+{
+    MesoArena arena;
+    MesoAtlas atlas;
+    MesoChartOptions options = {0, 4, 4};
+    meso_arena_init(&arena);
+    double start = cpu_seconds();
+    CHECK(meso_atlas_build(&atlas, &arena, mesh, &options, NULL) == MESO_OK);
+    printf("atlas of %u triangles: %u charts, ratio %.2f, %.2f s\n", mesh->triangle_count, atlas.chart_count,
+           (double)atlas.largest_ratio, cpu_seconds() - start);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     const uint32_t wanted[] = {1, 150, 300, 600, 1000, 2000, 4000};
@@ -53,6 +67,7 @@ int main(void)
         for (uint32_t relaxations = 0; relaxations < 5; relaxations += 4)
             time_charts(&maker, wanted[i], relaxations);
     meso_chart_maker_release(&maker);
+    time_atlas(&mesh);
     meso_triangulation_release(&mesh);
     return 0;
 }
