@@ -44,7 +44,7 @@ static void test_surfaces(void)
 {
     const MesoChartOptions usual = {0, 4, 4};
     MesoTriangulation sphere = meso_fixture_sphere(8, 0.3f, 3), torus = meso_fixture_torus(40, 16, 0.3f);
-    MesoTriangulation tube = meso_fixture_tube(24, 30, 0.1f, false), bumpy = meso_fixture_bumpy(20, 30, 0.5f);
+    MesoTriangulation tube = meso_fixture_cylinder(24, 30, 0.1f, false), bumpy = meso_fixture_bumpy(20, 30, 0.5f);
     MesoAtlas atlas = check_atlas(&sphere, usual);
     CHECK(atlas.chart_count >= 6 && atlas.chart_count < 60 && atlas.largest_ratio < 2);
     CHECK(check_atlas(&torus, usual).largest_ratio < 3);

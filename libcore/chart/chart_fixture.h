@@ -17,15 +17,15 @@ static inline MesoVec3 meso_fixture_flat_place(float column, float row, const vo
                       side * 0.6f * row};
 }
 
-typedef struct MesoFixtureTube {
+typedef struct MesoFixtureCylinder {
     float columns, side, radius;    /* a turn in columns; the height of a row */
-} MesoFixtureTube;
+} MesoFixtureCylinder;
 
-static inline MesoVec3 meso_fixture_tube_place(float column, float row, const void *context)
+static inline MesoVec3 meso_fixture_cylinder_place(float column, float row, const void *context)
 {
-    const MesoFixtureTube *tube = context;
-    float angle = 6.2831853f * column / tube->columns;
-    return (MesoVec3){tube->radius * cosf(angle), tube->radius * sinf(angle), tube->side * row};
+    const MesoFixtureCylinder *cylinder = context;
+    float angle = 6.2831853f * column / cylinder->columns;
+    return (MesoVec3){cylinder->radius * cosf(angle), cylinder->radius * sinf(angle), cylinder->side * row};
 }
 
 static inline MesoVec3 meso_fixture_bumpy_place(float column, float row, const void *context)
@@ -41,11 +41,11 @@ static inline MesoTriangulation meso_fixture_flat(uint32_t columns, uint32_t row
 }
 
 /* Squares of the given side, joined around; bent at the sides of the columns alone where these are straight. */
-static inline MesoTriangulation meso_fixture_tube(uint32_t columns, uint32_t rows, float side, bool straight)
+static inline MesoTriangulation meso_fixture_cylinder(uint32_t columns, uint32_t rows, float side, bool straight)
 {
-    MesoFixtureTube tube = {(float)columns, side, side * (float)columns / 6.2831853f};
+    MesoFixtureCylinder cylinder = {(float)columns, side, side * (float)columns / 6.2831853f};
     return meso_fixture_place_sheet(&(MesoFixtureSheet){columns, rows, true, straight ? 0 : 0.25f, 0.25f, 6,
-                                                        meso_fixture_tube_place, &tube});
+                                                        meso_fixture_cylinder_place, &cylinder});
 }
 
 static inline MesoTriangulation meso_fixture_bumpy(uint32_t columns, uint32_t rows, float height)

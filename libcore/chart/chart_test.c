@@ -80,7 +80,7 @@ static void test_plane_is_filled(void)
 /* A tube less than the radius around: a slit is left, and it is unrolled without distortion. */
 static void test_tube(void)
 {
-    MesoTriangulation mesh = meso_fixture_tube(24, 60, 0.1f, false);
+    MesoTriangulation mesh = meso_fixture_cylinder(24, 60, 0.1f, false);
     MesoChartMaker maker = make(&mesh);
     for (uint32_t seed = 0; seed < mesh.triangle_count; seed += 311) {
         MesoChart chart = grow(&maker, seed, (MesoChartOptions){2, 4, 6});

@@ -50,7 +50,7 @@ static void test_plane(void)
 /* On a tube it is the same along the axis everywhere, or across it. */
 static void test_tube(void)
 {
-    MesoTriangulation mesh = meso_fixture_tube(24, 40, 0.1f, true);
+    MesoTriangulation mesh = meso_fixture_cylinder(24, 40, 0.1f, true);
     for (uint32_t symmetry = 1; symmetry <= 4; symmetry *= 2) {
         MesoDirectionField field = smooth(&mesh, symmetry, NULL, NULL);
         CHECK(field.singularity_count == 0);
@@ -214,7 +214,7 @@ static MesoVec3 centre_of(const MesoTriangulation *mesh, uint32_t triangle)
 /* Around a tube, and marked as nothing can be more. */
 static void test_curved_tube(void)
 {
-    MesoTriangulation mesh = meso_fixture_tube(48, 30, 0.1f, false);
+    MesoTriangulation mesh = meso_fixture_cylinder(48, 30, 0.1f, false);
     Principal p = principal(&mesh);
     double sum = 0;
     for (uint32_t t = 0; t < mesh.triangle_count; t++) {
