@@ -1,0 +1,19 @@
+/* What hangs together: triangles sorted by elements, their measures and open ends. */
+#ifndef MESO_SWATCH_ELEMENTS_H
+#define MESO_SWATCH_ELEMENTS_H
+
+#include "libcore/quilt/swatch/swatch.h"
+
+/*
+ * Fills `swatch` up to its triangle_begin from `from`, of which only the arrays by vertices and triangles are read: elements by
+ * their first triangle, in each its vertices and triangles in the order that they had. Vertices without triangles go.
+ */
+MesoStatus meso_swatch_sort(MesoSwatch *swatch, MesoArena *arena, const MesoSwatch *from, MesoError *error);
+
+/* The open ends, from loop_count to mates, which are none. Each vertex has one fan of triangles. */
+MesoStatus meso_swatch_find_loops(MesoSwatch *swatch, MesoArena *arena, MesoError *error);
+
+/* Centres, radii and mean_edge; needs positions. `centres` and `radii` are there. */
+void meso_swatch_measure(MesoSwatch *swatch);
+
+#endif
