@@ -1,0 +1,205 @@
+/* Leaves: ivy, whose leaves grow from its stems, and scales. */
+#include <math.h>
+
+#include "libcore/quilt/swatch/swatch_maker.h"
+
+/* ---- ivy ---- */
+
+enum { IVY_STATIONS = 6 };
+
+/* A leaf of five lobes, from the stalk on: how far the rib is, how far the edges are, how far apart these, and the blade's thickness. */
+static const double IVY[IVY_STATIONS][4] = {{0.10, 0.10, 0.014, 0.014}, {0.15, 0.09, 0.13, 0.012},
+                                            {0.22, 0.13, 0.19, 0.012},  {0.29, 0.28, 0.12, 0.012},
+                                            {0.36, 0.40, 0.17, 0.010},  {0.46, 0.46, 0.07, 0.008}};
+#define IVY_TIP 0.58
+
+typedef struct Stem {
+    double length, offset, swing, phase, radius;
+    uint32_t sides;             /* even: leaves grow to both sides */
+} Stem;
+
+/* A leaf grows from a quad of the stem, to the side of its normal, a little ahead. */
+typedef struct Leaf {
+    double x, y, z;             /* where it begins, in the middle of the stem */
+    double ahead_x, ahead_y;    /* its way, of length 1 */
+    double size, rise;
+} Leaf;
+
+static double stem_y(const Stem *stem, double x)
+{
+    return stem->offset + stem->swing * sin(MESO_PI * x + stem->phase);
+}
+
+static double stem_slope(const Stem *stem, double x)
+{
+    return stem->swing * MESO_PI * cos(MESO_PI * x + stem->phase);
+}
+
+/* Across the course, but for the ends, which are plane. */
+static void add_stem_ring(MesoSwatchMaker *maker, const Stem *stem, double x, bool at_end)
+{
+    double slope = stem_slope(stem, x), flat = sqrt(1 + slope * slope);
+    for (uint32_t s = 0; s < stem->sides; s++) {
+        double angle = 2 * MESO_PI * (s - 0.5) / stem->sides;
+        double out = stem->radius * cos(angle), up = stem->radius * sin(angle);
+        meso_maker_vertex(maker, at_end ? x : x - out * slope / flat, stem_y(stem, x) + (at_end ? out * flat : out / flat),
+                          up);
+    }
+}
+
+static uint32_t add_leaf_point(MesoSwatchMaker *maker, const Leaf *leaf, double along, double across, double up)
+{
+    double s = leaf->size, bend = leaf->rise * along - 0.5 * along * along;
+    return meso_maker_vertex(maker, leaf->x + s * (along * leaf->ahead_x - across * leaf->ahead_y),
+                             leaf->y + s * (along * leaf->ahead_y + across * leaf->ahead_x), leaf->z + s * (bend + up));
+}
+
+/*
+ * In place of the stem's quad `base`, counter-clockwise from outside, of which corner `lowest` becomes the lower side of
+ * the rib: rings of four, the rib below, an edge, the rib above, the other edge; the blade is folded along the rib.
+ */
+static void add_leaf(MesoSwatchMaker *maker, const Leaf *leaf, const uint32_t base[4], uint32_t lowest)
+{
+    uint32_t ring = maker->vertex_count;
+    for (uint32_t i = 0; i < IVY_STATIONS; i++) {
+        const double *at = IVY[i];
+        double lift = 0.3 * at[2];
+        add_leaf_point(maker, leaf, at[0], 0, -at[3]);
+        add_leaf_point(maker, leaf, at[1], at[2], lift);
+        add_leaf_point(maker, leaf, at[0], 0, at[3]);
+        add_leaf_point(maker, leaf, at[1], -at[2], lift);
+    }
+    for (uint32_t k = 0; k < 4; k++) {
+        uint32_t l = (k + 1) % 4;
+        uint32_t v[4] = {base[(lowest + k) % 4], base[(lowest + l) % 4], ring + l, ring + k};
+        MesoVec2 uv[4] = {{(float)k / 4, 0}, {(float)(k + 1) / 4, 0}, {(float)(k + 1) / 4, 0}, {(float)k / 4, 0}};
+        meso_maker_face(maker, v, uv, 1);
+    }
+    meso_maker_tube(maker, ring, IVY_STATIONS, 4, false, 1);
+    uint32_t tip = add_leaf_point(maker, leaf, IVY_TIP, 0, 0.02);
+    meso_maker_fan(maker, ring + 4 * (IVY_STATIONS - 1), 4, tip, true, 1);
+}
+
+/* A leaf between rings `ring` and the next, to the left of the stem's way or to the right. */
+static void add_leaf_at(MesoSwatchMaker *maker, const Stem *stem, uint32_t ring, double x, bool right)
+{
+    double slope = stem_slope(stem, x), side = right ? -1 : 1, turn = 0.35 + 2 * meso_maker_jitter(maker);
+    double ahead_x = turn - side * slope, ahead_y = turn * slope + side, length = hypot(ahead_x, ahead_y);
+    Leaf leaf = {x, stem_y(stem, x), 0, ahead_x / length, ahead_y / length, 1 + 2 * meso_maker_jitter(maker),
+                 0.6 + 2 * meso_maker_jitter(maker)};
+    uint32_t s = right ? stem->sides / 2 : 0, a = ring + s, b = a + stem->sides, next = (s + 1) % stem->sides - s;
+    uint32_t base[4] = {a, a + next, b + next, b};
+    add_leaf(maker, &leaf, base, right ? 2 : 0);
+}
+
+/* The tube of the stem, but for the quads from which leaves grow: of every third band one, on the side in turn. */
+static void add_stem_faces(MesoSwatchMaker *maker, const Stem *stem, uint32_t first, uint32_t bands)
+{
+    for (uint32_t r = 0; r < bands; r++)
+        for (uint32_t s = 0; s < stem->sides; s++) {
+            if (r % 3 == 1 && s == (r / 3 % 2 ? stem->sides / 2 : 0))
+                continue;
+            uint32_t a = first + r * stem->sides, b = a + stem->sides, t = (s + 1) % stem->sides;
+            float u0 = (float)s / (float)stem->sides, u1 = (float)(s + 1) / (float)stem->sides;
+            float v0 = (float)r / (float)bands, v1 = (float)(r + 1) / (float)bands;
+            uint32_t v[4] = {a + s, a + t, b + t, b + s};
+            MesoVec2 uv[4] = {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+            meso_maker_face(maker, v, uv, 0);
+        }
+}
+
+/* Three bands for half a pitch: before a leaf, the leaf's own, which is narrow, and behind it. */
+static double band_begin(uint32_t band)
+{
+    static const double at[3] = {0, 0.21, 0.29};
+    return 0.5 * (band / 3) + at[band % 3];
+}
+
+static void add_ivy(MesoSwatchMaker *maker, const Stem *stem)
+{
+    uint32_t first = maker->vertex_count, bands = 6 * maker->recipe.columns;
+    for (uint32_t r = 0; r <= bands; r++) {
+        bool repeats = r == bands && maker->recipe.jitter <= 0;
+        if (!repeats)
+            add_stem_ring(maker, stem, band_begin(r), r == 0 || r == bands);
+        for (uint32_t s = 0; s < stem->sides && repeats && !maker->status; s++) {
+            MesoVec3 p = maker->positions[first + s];
+            meso_maker_vertex(maker, (double)p.x + stem->length, (double)p.y, (double)p.z);
+        }
+    }
+    add_stem_faces(maker, stem, first, bands);
+    for (uint32_t r = 1; r < bands; r += 3)
+        add_leaf_at(maker, stem, first + r * stem->sides, 0.25 + 0.5 * (r / 3), r / 3 % 2);
+}
+
+static void make_ivy(MesoSwatchMaker *maker)
+{
+    for (uint32_t j = 0; j < maker->recipe.rows; j++) {
+        Stem stem = {.length = maker->recipe.columns, .sides = (maker->recipe.sides + 1) / 2 * 2};
+        stem.offset = j + 0.5 + meso_maker_jitter(maker);
+        stem.swing = 0.14 + meso_maker_jitter(maker) / 2;
+        stem.phase = 3 * meso_maker_jitter(maker);
+        stem.radius = (double)maker->recipe.thickness / 2;
+        add_ivy(maker, &stem);
+    }
+}
+
+/* ---- scales ---- */
+
+#define SCALE_ROW 0.5       /* rows stand so far apart, and lie over each other by as much */
+#define SCALE_SLOPE 0.32
+#define SCALE_CROWN 0.25
+
+enum { SCALE_RINGS = 5 };
+
+/* Rings from the middle of the lower side to that of the upper one: how far out, and how far up, in parts. */
+static const double SCALE[SCALE_RINGS][2] = {{0.45, -0.9}, {0.85, -0.6}, {1, 0}, {0.85, 0.6}, {0.45, 0.9}};
+
+typedef struct Scale {
+    double x, y, size, roll, half_height;
+} Scale;
+
+/* A scale leans down towards its tip, at low y, and is crowned. */
+static uint32_t add_scale_point(MesoSwatchMaker *maker, const Scale *scale, double x, double y, double up)
+{
+    double base = -SCALE_SLOPE * y - SCALE_CROWN * x * x + scale->roll * x;
+    return meso_maker_vertex(maker, scale->x + x, scale->y + y, base + up * scale->half_height);
+}
+
+static void add_scale(MesoSwatchMaker *maker, const Scale *scale)
+{
+    uint32_t sides = maker->recipe.sides, first = maker->vertex_count;
+    for (uint32_t r = 0; r < SCALE_RINGS; r++)
+        for (uint32_t s = 0; s < sides; s++) {
+            double angle = 2 * MESO_PI * s / sides, c = cos(angle), d = sin(angle);
+            double narrow = d < 0 ? 1 - 0.25 * d * d * d * d : 1, out = SCALE[r][0] * scale->size;
+            add_scale_point(maker, scale, 0.47 * out * c * narrow, (d < 0 ? 0.56 : 0.46) * out * d, SCALE[r][1]);
+        }
+    meso_maker_tube(maker, first, SCALE_RINGS, sides, false, 0);
+    meso_maker_fan(maker, first, sides, add_scale_point(maker, scale, 0, 0, -1), false, 0);
+    meso_maker_fan(maker, first + (SCALE_RINGS - 1) * sides, sides, add_scale_point(maker, scale, 0, 0, 1), true, 0);
+}
+
+/* Rows that lie over the ones before, each half a pitch further. */
+static void make_scales(MesoSwatchMaker *maker)
+{
+    for (uint32_t j = 0; j < maker->recipe.rows; j++)
+        for (uint32_t i = 0; i < maker->recipe.columns; i++) {
+            Scale scale = {.x = i + 0.25 + 0.5 * (j % 2), .y = (j + 0.5) * SCALE_ROW};
+            scale.x += fmax(-0.015, fmin(0.015, meso_maker_jitter(maker)));
+            scale.y += fmax(-0.03, fmin(0.03, meso_maker_jitter(maker)));
+            scale.size = 1 - fmin(0.1, fabs(meso_maker_jitter(maker)));
+            scale.roll = fmax(-0.05, fmin(0.05, meso_maker_jitter(maker)));
+            scale.half_height = (double)maker->recipe.thickness / 2;
+            add_scale(maker, &scale);
+        }
+}
+
+static const MesoMakerMaterial IVIES[2] = {{"stem", {{0.20f, 0.13f, 0.06f}, 0.8f, 0}},
+                                         {"leaf", {{0.07f, 0.26f, 0.05f}, 0.5f, 0}}};
+static const MesoMakerMaterial SCALES[1] = {{"scale", {{0.16f, 0.36f, 0.32f}, 0.3f, 0}}};
+
+const MesoSwatchMethod meso_swatch_leaf_methods[2] = {
+    {{.name = "ivy", .columns = 2, .rows = 2, .sides = 6, .thickness = 0.09f}, 2, 1, 2, IVIES, 2, make_ivy},
+    {{.name = "scales", .columns = 4, .rows = 8, .sides = 20, .thickness = 0.07f}, 1, 2, 2, SCALES, 1, make_scales},
+};

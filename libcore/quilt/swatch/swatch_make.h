@@ -1,0 +1,27 @@
+/* Swatches by recipe: strands, rings, leaves and fruit for those who have no mesh of their own. */
+#ifndef MESO_SWATCH_MAKE_H
+#define MESO_SWATCH_MAKE_H
+
+#include "libcore/mesh/polygon_mesh.h"
+
+/* What is 0 is as the recipe has it. */
+typedef struct MesoSwatchRecipe {
+    const char *name;           /* weave, wire, mail, rings, nuts, apples, ivy, scales, armour */
+    uint32_t columns, rows;     /* strands, or elements, along x and y */
+    float jitter;               /* of phase, offset and amplitude, in pitches, up to 0.25; with 0 it is periodic */
+    uint64_t seed;
+    uint32_t sides;             /* of a strand's cross-section, 3 or more */
+    float thickness;            /* across a strand, in pitches */
+} MesoSwatchRecipe;
+
+/*
+ * The mesh of a recipe, z up, the pitch of its elements 1, with attributes "normal", "uv", and of faces "material", "albedo",
+ * "roughness" and "metallic". Without jitter it is periodic along x and y, as meso_swatch_build() finds it. O(faces).
+ * MESO_ERR_USAGE for a name that is not there, or numbers out of range; MESO_ERR_LIMIT, MESO_ERR_MEMORY.
+ */
+MesoStatus meso_swatch_make(MesoPolygonMesh *mesh, MesoArena *arena, const MesoSwatchRecipe *recipe, MesoError *error);
+
+/* "weave, wire, ...", for messages and help. */
+const char *meso_swatch_recipe_names(void);
+
+#endif
