@@ -34,7 +34,7 @@ typedef struct MesoSwatch {
     uint32_t *loop_begin;       /* [loop_count + 1] */
     uint32_t *loop_vertices;    /* [open_edge_count] in the order of the half-edges along them */
     uint32_t *mates;            /* [vertex_count] of a vertex at the high side of a period the one at the low side whose
-                                   place it takes there, a period further; else MESO_NO_INDEX */
+                                   place it takes in the next tile; else MESO_NO_INDEX */
     bool periodic_x, periodic_y;
     MesoVec2 period;            /* moves by it map the texture onto itself, and size is a multiple; 0 where not periodic */
 
@@ -59,9 +59,9 @@ typedef struct MesoSwatchOptions {
  *
  * Periodic along x is a mesh whose open ends towards x meet those on the other side by one move, within a hundredth of
  * the mean edge, vertex by vertex; without such ends, one whose elements stand in rows of equals along x, two or more of
- * them, equally spaced, all rows over the same length. Equals have their vertices in the same order. The ends are then made to meet
- * exactly: high = low + period, in floats. The tile is a period, else as wide as the open ends stand apart, or, of
- * closed elements alone, the box of their centres and half of their mean spacing around it.
+ * them, equally spaced, all rows over the same length. Equals have their vertices in the same order. Ends are then made to
+ * meet exactly: high = low + size, in floats. The tile is a period, else as wide as the open ends stand apart, or, without
+ * such, as the centres of the elements do and the widest gap between two of them in that direction.
  *
  * O(corners) and sorting. MESO_ERR_INPUT with the face where it is no manifold or has one side only, or is not periodic
  * where it has to be; MESO_ERR_MEMORY.

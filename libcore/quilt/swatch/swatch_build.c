@@ -12,9 +12,6 @@
 #include "libcore/quilt/swatch/swatch_looks.h"
 #include "libcore/quilt/swatch/swatch_tile.h"
 
-/* An element that is longer than this part of its tile runs through it, closed or not. */
-#define THROUGH 0.75f
-
 /* ---- triangles ---- */
 
 static MesoStatus require_two_sides(const MesoOrientCounts *counts, MesoError *error)
@@ -49,26 +46,34 @@ static MesoStatus make_triangles(MesoPolygonMesh *triangles, MesoHalfEdges *edge
 /* ---- vertices ---- */
 
 /*
- * A vertex for each fan of triangles: corners that meet along an edge are one. `vertex_of` [corner_count] gets its
- * number, by first corners; `source` [corner_count] a corner of each.
+ * A vertex for each fan of triangles: corners that meet along an edge are one. `vertex_of` [corner_count] gets its number,
+ * in the order of the mesh's vertices, and of first corners; `source` [corner_count] a corner of each.
  */
-static uint32_t number_fans(uint32_t *vertex_of, uint32_t *source, uint32_t *parent, const MesoPolygonMesh *triangles,
-                            const uint32_t *twins)
+static MesoStatus number_fans(uint32_t *vertex_of, uint32_t *source, uint32_t *count, MesoArena *scratch,
+                              const MesoPolygonMesh *triangles, const uint32_t *twins, MesoError *error)
 {
-    uint32_t count = 0;
-    meso_sets_init(parent, triangles->corner_count);
-    for (uint32_t h = 0; h < triangles->corner_count; h++)
+    uint32_t corners = triangles->corner_count;
+    uint32_t *parent = MESO_NEW(scratch, uint32_t, corners, error);
+    uint32_t *next = MESO_NEW(scratch, uint32_t, (size_t)triangles->vertex_count + 1, error);
+    if (!parent || !next)
+        return MESO_ERR_MEMORY;
+    meso_sets_init(parent, corners);
+    for (uint32_t h = 0; h < corners; h++)
         if (twins[h] != MESO_NO_INDEX)
             meso_sets_join(parent, h, meso_next_corner(twins[h]));
-    for (uint32_t h = 0; h < triangles->corner_count; h++) {
+    for (uint32_t h = 0; h < corners; h++)
+        next[triangles->corners[h] + 1] += meso_sets_root(parent, h) == h;
+    for (uint32_t v = 0; v < triangles->vertex_count; v++)
+        next[v + 1] += next[v];
+    *count = next[triangles->vertex_count];
+    for (uint32_t h = 0; h < corners; h++) {
         uint32_t root = meso_sets_root(parent, h);
-        if (root == h) {
-            source[count] = h;
-            vertex_of[h] = count++;
-        } else
+        if (root == h)
+            source[vertex_of[h] = next[triangles->corners[h]]++] = h;
+        else
             vertex_of[h] = vertex_of[root];
     }
-    return count;
+    return MESO_OK;
 }
 
 /* Cyclic, or turned about x: no handedness changes. */
@@ -138,13 +143,12 @@ static MesoStatus gather(MesoSwatch *from, MesoArena *scratch, const MesoPolygon
                          const MesoHalfEdges *edges, int up, MesoError *error)
 {
     uint32_t *source = MESO_NEW(scratch, uint32_t, triangles->corner_count, error);
-    uint32_t *parent = MESO_NEW(scratch, uint32_t, triangles->corner_count, error);
     from->corners = MESO_NEW(scratch, uint32_t, triangles->corner_count, error);
-    if (!source || !parent || !from->corners)
+    if (!source || !from->corners ||
+        number_fans(from->corners, source, &from->vertex_count, scratch, triangles, edges->twin, error))
         return MESO_ERR_MEMORY;
     from->triangle_count = triangles->face_count;
     from->twins = edges->twin;
-    from->vertex_count = number_fans(from->corners, source, parent, triangles, edges->twin);
     from->positions = MESO_NEW(scratch, MesoVec3, from->vertex_count, error);
     from->normals = MESO_NEW(scratch, MesoVec3, from->vertex_count, error);
     from->materials = MESO_NEW(scratch, uint32_t, from->triangle_count, error);
@@ -180,16 +184,6 @@ static MesoVec3 loop_centre(const MesoSwatch *swatch, uint32_t loop)
     return (MesoVec3){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n)};
 }
 
-static uint32_t element_with(const MesoSwatch *swatch, uint32_t vertex)
-{
-    uint32_t low = 0, high = swatch->element_count;
-    while (high - low > 1) {
-        uint32_t middle = low + (high - low) / 2;
-        *(swatch->vertex_begin[middle] <= vertex ? &low : &high) = middle;
-    }
-    return low;
-}
-
 /* Six times the volumes of all elements, with their open ends closed by cones. */
 static void sum_volumes(double *volumes, const MesoSwatch *swatch)
 {
@@ -202,7 +196,7 @@ static void sum_volumes(double *volumes, const MesoSwatch *swatch)
     for (uint32_t l = 0; l < swatch->loop_count; l++) {
         MesoVec3 middle = loop_centre(swatch, l);
         uint32_t begin = swatch->loop_begin[l], end = swatch->loop_begin[l + 1];
-        uint32_t e = element_with(swatch, swatch->loop_vertices[begin]);
+        uint32_t e = meso_swatch_element(swatch, swatch->loop_vertices[begin]);
         for (uint32_t i = begin; i < end; i++) {
             MesoVec3 a = swatch->positions[swatch->loop_vertices[i]];
             MesoVec3 b = swatch->positions[swatch->loop_vertices[i + 1 < end ? i + 1 : begin]];
@@ -280,19 +274,6 @@ static MesoStatus finish_normals(MesoSwatch *swatch, MesoError *error)
 
 /* ---- all of it ---- */
 
-static void find_kinds(MesoSwatch *swatch)
-{
-    for (uint32_t h = 0; h < 3 * swatch->triangle_count; h++)
-        if (swatch->twins[h] == MESO_NO_INDEX)
-            swatch->kinds[element_with(swatch, swatch->corners[h])] = MESO_ELEMENT_STRAND;
-    for (uint32_t e = 0; e < swatch->element_count; e++) {
-        MesoBox box = meso_box_of(swatch->positions + swatch->vertex_begin[e],
-                                  swatch->vertex_begin[e + 1] - swatch->vertex_begin[e]);
-        if (box.high.x - box.low.x > THROUGH * swatch->size.x || box.high.y - box.low.y > THROUGH * swatch->size.y)
-            swatch->kinds[e] = MESO_ELEMENT_STRAND;
-    }
-}
-
 static MesoStatus build(MesoSwatch *swatch, MesoArena *arena, const MesoPolygonMesh *mesh,
                         const MesoSwatchOptions *options, MesoArena *scratch, MesoError *error)
 {
@@ -329,7 +310,7 @@ static MesoStatus build(MesoSwatch *swatch, MesoArena *arena, const MesoPolygonM
     if (status)
         return status;
     meso_swatch_measure(swatch);
-    find_kinds(swatch);
+    meso_swatch_find_kinds(swatch);
     return MESO_OK;
 }
 

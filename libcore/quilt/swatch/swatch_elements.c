@@ -6,6 +6,9 @@
 #include "libcore/math/box.h"
 #include "libcore/mesh/cut/triangulation.h"
 
+/* An element that is longer than this part of its tile runs through it, closed or not. */
+#define THROUGH 0.75f
+
 /* ---- sorting ---- */
 
 typedef struct Sort {
@@ -79,12 +82,13 @@ static MesoStatus make_arrays(MesoSwatch *swatch, MesoArena *arena, const MesoSw
     swatch->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)triangles, error);
     swatch->twins = MESO_NEW(arena, uint32_t, 3 * (size_t)triangles, error);
     swatch->materials = MESO_NEW(arena, uint32_t, triangles, error);
+    swatch->mates = MESO_NEW(arena, uint32_t, vertices, error);
     swatch->kinds = MESO_NEW(arena, uint8_t, swatch->element_count, error);
     swatch->centres = MESO_NEW(arena, MesoVec3, swatch->element_count, error);
     swatch->radii = MESO_NEW(arena, float, swatch->element_count, error);
     if (!swatch->positions || !swatch->normals || (from->uvs && !swatch->uvs) ||
         (from->corner_uvs && !swatch->corner_uvs) || !swatch->corners || !swatch->twins || !swatch->materials ||
-        !swatch->kinds || !swatch->centres || !swatch->radii)
+        !swatch->mates || !swatch->kinds || !swatch->centres || !swatch->radii)
         return MESO_ERR_MEMORY;
     return MESO_OK;
 }
@@ -98,6 +102,8 @@ static void move_members(MesoSwatch *swatch, const Sort *sort)
             continue;
         swatch->positions[to] = from->positions[v];
         swatch->normals[to] = from->normals[v];
+        uint32_t mate = from->mates ? from->mates[v] : MESO_NO_INDEX;
+        swatch->mates[to] = mate == MESO_NO_INDEX ? mate : sort->vertex_to[mate];
         if (from->uvs)
             swatch->uvs[to] = from->uvs[v];
     }
@@ -171,12 +177,9 @@ MesoStatus meso_swatch_find_loops(MesoSwatch *swatch, MesoArena *arena, MesoErro
     uint32_t *after = MESO_NEW(&scratch, uint32_t, swatch->vertex_count, error);
     swatch->loop_begin = MESO_NEW(arena, uint32_t, (size_t)swatch->open_edge_count / 2 + 2, error);
     swatch->loop_vertices = MESO_NEW(arena, uint32_t, swatch->open_edge_count, error);
-    swatch->mates = MESO_NEW(arena, uint32_t, swatch->vertex_count, error);
-    bool there = after && swatch->loop_begin && swatch->loop_vertices && swatch->mates;
-    if (there) {
-        memset(swatch->mates, 0xff, swatch->vertex_count * sizeof *swatch->mates);
+    bool there = after && swatch->loop_begin && swatch->loop_vertices;
+    if (there)
         memset(after, 0xff, swatch->vertex_count * sizeof *after);
-    }
     for (uint32_t h = 0; h < half_edges && there; h++)
         if (swatch->twins[h] == MESO_NO_INDEX)
             after[swatch->corners[h]] = h;
@@ -218,4 +221,29 @@ void meso_swatch_measure(MesoSwatch *swatch)
         edges++;
     }
     swatch->mean_edge = edges ? (float)(sum / edges) : 0;
+}
+
+/* ---- kinds ---- */
+
+uint32_t meso_swatch_element(const MesoSwatch *swatch, uint32_t vertex)
+{
+    uint32_t low = 0, high = swatch->element_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        *(swatch->vertex_begin[middle] <= vertex ? &low : &high) = middle;
+    }
+    return low;
+}
+
+void meso_swatch_find_kinds(MesoSwatch *swatch)
+{
+    for (uint32_t e = 0; e < swatch->element_count; e++) {
+        MesoBox box = meso_box_of(swatch->positions + swatch->vertex_begin[e],
+                                  swatch->vertex_begin[e + 1] - swatch->vertex_begin[e]);
+        bool through = box.high.x - box.low.x > THROUGH * swatch->size.x ||
+                       box.high.y - box.low.y > THROUGH * swatch->size.y;
+        swatch->kinds[e] = through ? MESO_ELEMENT_STRAND : MESO_ELEMENT_WHOLE;
+    }
+    for (uint32_t l = 0; l < swatch->loop_count; l++)
+        swatch->kinds[meso_swatch_element(swatch, swatch->loop_vertices[swatch->loop_begin[l]])] = MESO_ELEMENT_STRAND;
 }

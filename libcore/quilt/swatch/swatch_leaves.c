@@ -14,7 +14,7 @@ static const double IVY[IVY_STATIONS][4] = {{0.10, 0.10, 0.014, 0.014}, {0.15, 0
 #define IVY_TIP 0.58
 
 typedef struct Stem {
-    double length, offset, swing, phase, radius;
+    double length, offset, drift, swing, phase, radius;
     uint32_t sides;             /* even: leaves grow to both sides */
 } Stem;
 
@@ -27,12 +27,12 @@ typedef struct Leaf {
 
 static double stem_y(const Stem *stem, double x)
 {
-    return stem->offset + stem->swing * sin(MESO_PI * x + stem->phase);
+    return stem->offset + stem->drift * (x / stem->length - 0.5) + stem->swing * sin(MESO_PI * x + stem->phase);
 }
 
 static double stem_slope(const Stem *stem, double x)
 {
-    return stem->swing * MESO_PI * cos(MESO_PI * x + stem->phase);
+    return stem->drift / stem->length + stem->swing * MESO_PI * cos(MESO_PI * x + stem->phase);
 }
 
 /* Across the course, but for the ends, which are plane. */
@@ -137,6 +137,7 @@ static void make_ivy(MesoSwatchMaker *maker)
     for (uint32_t j = 0; j < maker->recipe.rows; j++) {
         Stem stem = {.length = maker->recipe.columns, .sides = (maker->recipe.sides + 1) / 2 * 2};
         stem.offset = j + 0.5 + meso_maker_jitter(maker);
+        stem.drift = meso_maker_jitter(maker);
         stem.swing = 0.14 + meso_maker_jitter(maker) / 2;
         stem.phase = 3 * meso_maker_jitter(maker);
         stem.radius = (double)maker->recipe.thickness / 2;
@@ -200,6 +201,6 @@ static const MesoMakerMaterial IVIES[2] = {{"stem", {{0.20f, 0.13f, 0.06f}, 0.8f
 static const MesoMakerMaterial SCALES[1] = {{"scale", {{0.16f, 0.36f, 0.32f}, 0.3f, 0}}};
 
 const MesoSwatchMethod meso_swatch_leaf_methods[2] = {
-    {{.name = "ivy", .columns = 2, .rows = 2, .sides = 6, .thickness = 0.09f}, 2, 1, 2, IVIES, 2, make_ivy},
+    {{.name = "ivy", .columns = 2, .rows = 2, .sides = 6, .thickness = 0.09f}, 2, 2, 1, IVIES, 2, make_ivy},
     {{.name = "scales", .columns = 4, .rows = 8, .sides = 20, .thickness = 0.07f}, 1, 2, 2, SCALES, 1, make_scales},
 };

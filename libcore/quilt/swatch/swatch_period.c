@@ -224,10 +224,6 @@ static bool are_equal(const MesoSwatch *swatch, uint32_t a, uint32_t b, double t
             if (fabs(meso_along(p, k) - meso_along(q, k)) > tolerance)
                 return false;
     }
-    uint32_t s = 3 * swatch->triangle_begin[a], t = 3 * swatch->triangle_begin[b];
-    for (uint32_t i = 0; i < 3 * (swatch->triangle_begin[a + 1] - swatch->triangle_begin[a]); i++)
-        if (swatch->corners[s + i] - v != swatch->corners[t + i] - w)
-            return false;
     return true;
 }
 

@@ -69,7 +69,7 @@ static void make_mail(MesoSwatchMaker *maker)
 /* Japanese 4-in-1: rings that lie flat, and between neighbours one that stands upright and goes through both. */
 static void make_rings(MesoSwatchMaker *maker)
 {
-    double wire = fmin((double)maker->recipe.thickness / 2, 0.07), free = 0.1 * (0.1 - wire);
+    double wire = fmin((double)maker->recipe.thickness / 2, 0.07), free = 0.3 * (0.1 - wire);
     for (uint32_t j = 0; j < maker->recipe.rows; j++)
         for (uint32_t i = 0; i < maker->recipe.columns; i++) {
             double x = i + 0.5 + fmax(-free, fmin(free, meso_maker_jitter(maker)));

@@ -39,40 +39,10 @@ static Span span_of_centres(const MesoSwatch *swatch, int along)
     return span;
 }
 
-static int compare_radii(const void *a, const void *b)
+static int compare_places(const void *a, const void *b)
 {
-    float p = *(const float *)a, q = *(const float *)b;
+    double p = *(const double *)a, q = *(const double *)b;
     return (p > q) - (p < q);
-}
-
-/*
- * How many elements stand side by side: those that are not small parts on others, like stems, whose reach is less than
- * half of the middle one's.
- */
-static MesoStatus count_bodies(uint32_t *count, const MesoSwatch *swatch, MesoArena *scratch, MesoError *error)
-{
-    float *radii = MESO_NEW(scratch, float, swatch->element_count, error);
-    if (!radii)
-        return MESO_ERR_MEMORY;
-    for (uint32_t e = 0; e < swatch->element_count; e++)
-        radii[e] = swatch->radii[e];
-    qsort(radii, swatch->element_count, sizeof *radii, compare_radii);
-    float least = radii[swatch->element_count / 2] / 2;
-    *count = 0;
-    for (uint32_t e = 0; e < swatch->element_count; e++)
-        *count += swatch->radii[e] >= least;
-    return MESO_OK;
-}
-
-/*
- * Mean distance between `count` elements whose centres span `x` and `y`, from (x + s) (y + s) = count s^2; where `wide`
- * is the tile's other side, or 0, from (x + s) wide = count s^2.
- */
-static double spacing(double count, double x, double y, double wide)
-{
-    if (wide > 0)
-        return (wide + sqrt(wide * wide + 4 * count * wide * x)) / (2 * count);
-    return count > 1 ? (x + y + sqrt((x + y) * (x + y) + 4 * (count - 1) * x * y)) / (2 * (count - 1)) : 0;
 }
 
 /* Where strands or a period say it. */
@@ -93,23 +63,25 @@ static bool find_known(Span *tile, const MesoSwatch *swatch, const MesoSwatchAxi
     return true;
 }
 
-/* Closed elements, or strands side by side along `k`: half of their mean spacing around their centres. */
-static MesoStatus estimate(Span *tile, const MesoSwatch *swatch, int k, Span box, const MesoSwatchAxis *other, double wide,
-                           MesoArena *scratch, MesoError *error)
+/*
+ * From the centres of elements alone: what stands in rows leaves a gap as wide between its last and the next tile's first as
+ * from row to row, and what is strewn a small one.
+ */
+static MesoStatus estimate(Span *tile, const MesoSwatch *swatch, int along, Span box, MesoArena *scratch,
+                           MesoError *error)
 {
-    Span along = span_of_centres(swatch, k), across = span_of_centres(swatch, 1 - k);
-    uint32_t bodies = 0;
-    MesoStatus status = count_bodies(&bodies, swatch, scratch, error);
-    if (status)
-        return status;
-    double x = along.high - along.low, y = across.high - across.low;
-    bool side_by_side = other->low_count > 0 && other->low_count == other->high_count;
-    double gap = !side_by_side          ? spacing(bodies, x, y, wide)
-                 : other->low_count > 1 ? x / (other->low_count - 1)
-                                        : 0;
-    *tile = (Span){along.low - gap / 2, along.high + gap / 2};
+    uint32_t count = swatch->element_count;
+    double *places = MESO_NEW(scratch, double, count, error), gap = 0;
+    if (!places)
+        return MESO_ERR_MEMORY;
+    for (uint32_t e = 0; e < count; e++)
+        places[e] = meso_along(swatch->centres[e], along);
+    qsort(places, count, sizeof *places, compare_places);
+    for (uint32_t e = 1; e < count; e++)
+        gap = fmax(gap, places[e] - places[e - 1]);
+    *tile = (Span){places[0] - gap / 2, places[count - 1] + gap / 2};
     double width = tile->high - tile->low, most = box.high - box.low;
-    if (!(width > most / 4 && width < 2 * most))    /* nothing that stands in rows */
+    if (width < most / 4)       /* a few large elements around each other */
         *tile = box;
     return MESO_OK;
 }
@@ -117,19 +89,12 @@ static MesoStatus estimate(Span *tile, const MesoSwatch *swatch, int k, Span box
 static MesoStatus find_tile(Span tile[2], const MesoSwatch *swatch, const MesoSwatchAxis axes[2], MesoBox box,
                             MesoArena *scratch, MesoError *error)
 {
-    bool known[2];
     Span boxes[2] = {{(double)box.low.x, (double)box.high.x}, {(double)box.low.y, (double)box.high.y}};
-    for (int k = 0; k < 2; k++)
-        known[k] = find_known(&tile[k], swatch, &axes[k], boxes[k]);
-    for (int k = 0; k < 2; k++) {
-        if (known[k])
-            continue;
-        double wide = known[1 - k] ? tile[1 - k].high - tile[1 - k].low : 0;
-        MesoStatus status = estimate(&tile[k], swatch, k, boxes[k], &axes[1 - k], wide, scratch, error);
-        if (status)
-            return status;
-    }
-    return MESO_OK;
+    MesoStatus status = MESO_OK;
+    for (int k = 0; k < 2 && !status; k++)
+        if (!find_known(&tile[k], swatch, &axes[k], boxes[k]))
+            status = estimate(&tile[k], swatch, k, boxes[k], scratch, error);
+    return status;
 }
 
 /* ---- to the origin ---- */
@@ -145,18 +110,24 @@ static void move_to_origin(MesoSwatch *swatch, const Span tile[2], MesoBox box)
                               box.high.z - box.low.z};
 }
 
-/* Mates get one place and one normal. `high` is a period away from its mate along the direction that is further. */
 static void snap(MesoSwatch *swatch, uint32_t high)
 {
     uint32_t low = swatch->mates[high];
-    MesoVec3 p = swatch->positions[low], q = swatch->positions[high];
-    if (fabsf(q.x - p.x) > fabsf(q.y - p.y))
-        p.x += swatch->period.x;
+    MesoVec3 p = swatch->positions[low];
+    if (meso_swatch_mates_along_x(swatch, high))
+        p.x += swatch->size.x;
     else
-        p.y += swatch->period.y;
+        p.y += swatch->size.y;
     swatch->positions[high] = p;
     MesoVec3 sum = meso_vec3_add(swatch->normals[low], swatch->normals[high]);
     swatch->normals[low] = swatch->normals[high] = meso_vec3_unit(sum, swatch->normals[low]);
+}
+
+void meso_swatch_snap(MesoSwatch *swatch)
+{
+    for (uint32_t v = 0; v < swatch->vertex_count; v++)
+        if (swatch->mates[v] != MESO_NO_INDEX)
+            snap(swatch, v);
 }
 
 static MesoStatus place(MesoSwatch *swatch, const MesoSwatchOptions *options, MesoArena *scratch, MesoError *error)
@@ -175,9 +146,7 @@ static MesoStatus place(MesoSwatch *swatch, const MesoSwatchOptions *options, Me
     swatch->periodic_x = axes[0].periodic;
     swatch->periodic_y = axes[1].periodic;
     swatch->period = (MesoVec2){axes[0].periodic ? swatch->size.x : 0, axes[1].periodic ? swatch->size.y : 0};
-    for (uint32_t v = 0; v < swatch->vertex_count; v++)
-        if (swatch->mates[v] != MESO_NO_INDEX)
-            snap(swatch, v);
+    meso_swatch_snap(swatch);
     return MESO_OK;
 }
 

@@ -10,4 +10,14 @@
  */
 MesoStatus meso_swatch_place(MesoSwatch *swatch, const MesoSwatchOptions *options, MesoError *error);
 
+/* Whether a vertex with a mate meets it along x, not y. */
+static inline bool meso_swatch_mates_along_x(const MesoSwatch *swatch, uint32_t high)
+{
+    MesoVec3 p = swatch->positions[swatch->mates[high]], q = swatch->positions[high];
+    return fabsf(q.x - p.x) > fabsf(q.y - p.y);
+}
+
+/* Makes mates meet: their places are apart by the tile's size, in floats, and their normals the same. */
+void meso_swatch_snap(MesoSwatch *swatch);
+
 #endif
