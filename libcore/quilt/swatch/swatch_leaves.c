@@ -13,12 +13,16 @@ static const double IVY[IVY_STATIONS][4] = {{0.10, 0.10, 0.014, 0.014}, {0.15, 0
                                             {0.36, 0.40, 0.17, 0.010},  {0.46, 0.46, 0.07, 0.008}};
 #define IVY_TIP 0.58
 
+/* Pitches that a leaf of length 1 above takes, and that stems and leaves stray without touching each other. */
+#define IVY_SIZE 1.15
+#define IVY_STRAY 0.04
+
 typedef struct Stem {
     double length, offset, drift, swing, phase, radius;
     uint32_t sides;             /* even: leaves grow to both sides */
 } Stem;
 
-/* A leaf grows from a quad of the stem, to the side of its normal, a little ahead. */
+/* A leaf grows from a quad of the stem, to the side and a little ahead; all alike, so that those of neighbours mesh. */
 typedef struct Leaf {
     double x, y, z;             /* where it begins, in the middle of the stem */
     double ahead_x, ahead_y;    /* its way, of length 1 */
@@ -83,10 +87,9 @@ static void add_leaf(MesoSwatchMaker *maker, const Leaf *leaf, const uint32_t ba
 /* A leaf between rings `ring` and the next, to the left of the stem's way or to the right. */
 static void add_leaf_at(MesoSwatchMaker *maker, const Stem *stem, uint32_t ring, double x, bool right)
 {
-    double slope = stem_slope(stem, x), side = right ? -1 : 1, turn = 0.35 + 2 * meso_maker_jitter(maker);
-    double ahead_x = turn - side * slope, ahead_y = turn * slope + side, length = hypot(ahead_x, ahead_y);
-    Leaf leaf = {x, stem_y(stem, x), 0, ahead_x / length, ahead_y / length, 1 + 2 * meso_maker_jitter(maker),
-                 0.6 + 2 * meso_maker_jitter(maker)};
+    double turn = 0.35 + 2 * meso_maker_stray(maker, IVY_STRAY), length = hypot(turn, 1);
+    Leaf leaf = {x, stem_y(stem, x), 0, turn / length, (right ? -1 : 1) / length, IVY_SIZE + 2 * meso_maker_stray(maker, IVY_STRAY),
+                 0.6 + 2 * meso_maker_stray(maker, IVY_STRAY)};
     uint32_t s = right ? stem->sides / 2 : 0, a = ring + s, b = a + stem->sides, next = (s + 1) % stem->sides - s;
     uint32_t base[4] = {a, a + next, b + next, b};
     add_leaf(maker, &leaf, base, right ? 2 : 0);
@@ -136,10 +139,10 @@ static void make_ivy(MesoSwatchMaker *maker)
 {
     for (uint32_t j = 0; j < maker->recipe.rows; j++) {
         Stem stem = {.length = maker->recipe.columns, .sides = (maker->recipe.sides + 1) / 2 * 2};
-        stem.offset = j + 0.5 + meso_maker_jitter(maker);
-        stem.drift = meso_maker_jitter(maker);
-        stem.swing = 0.14 + meso_maker_jitter(maker) / 2;
-        stem.phase = 3 * meso_maker_jitter(maker);
+        stem.offset = j + 0.5 + meso_maker_stray(maker, IVY_STRAY);
+        stem.drift = meso_maker_stray(maker, IVY_STRAY);
+        stem.swing = 0.14 + meso_maker_stray(maker, IVY_STRAY) / 2;
+        stem.phase = 3 * meso_maker_stray(maker, IVY_STRAY);
         stem.radius = (double)maker->recipe.thickness / 2;
         add_ivy(maker, &stem);
     }
@@ -187,10 +190,10 @@ static void make_scales(MesoSwatchMaker *maker)
     for (uint32_t j = 0; j < maker->recipe.rows; j++)
         for (uint32_t i = 0; i < maker->recipe.columns; i++) {
             Scale scale = {.x = i + 0.25 + 0.5 * (j % 2), .y = (j + 0.5) * SCALE_ROW};
-            scale.x += fmax(-0.015, fmin(0.015, meso_maker_jitter(maker)));
-            scale.y += fmax(-0.03, fmin(0.03, meso_maker_jitter(maker)));
+            scale.x += meso_maker_stray(maker, 0.015);
+            scale.y += meso_maker_stray(maker, 0.03);
             scale.size = 1 - fmin(0.1, fabs(meso_maker_jitter(maker)));
-            scale.roll = fmax(-0.05, fmin(0.05, meso_maker_jitter(maker)));
+            scale.roll = meso_maker_stray(maker, 0.05);
             scale.half_height = (double)maker->recipe.thickness / 2;
             add_scale(maker, &scale);
         }

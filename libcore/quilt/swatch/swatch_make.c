@@ -104,6 +104,11 @@ double meso_maker_jitter(MesoSwatchMaker *maker)
     return (2 * unit - 1) * (double)maker->recipe.jitter;
 }
 
+double meso_maker_stray(MesoSwatchMaker *maker, double most)
+{
+    return fmax(-most, fmin(most, meso_maker_jitter(maker)));
+}
+
 /* ---- the mesh ---- */
 
 /* Sums of the area vectors of the faces around. */

@@ -61,4 +61,7 @@ void meso_maker_fan(MesoSwatchMaker *maker, uint32_t ring, uint32_t sides, uint3
 /* A random number from -1 to 1, times the jitter. */
 double meso_maker_jitter(MesoSwatchMaker *maker);
 
+/* The same, but at most `most` either way. */
+double meso_maker_stray(MesoSwatchMaker *maker, double most);
+
 #endif

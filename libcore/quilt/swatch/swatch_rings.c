@@ -57,9 +57,9 @@ static void make_mail(MesoSwatchMaker *maker)
     double free = (0.197 - 2 * wire) / 6;       /* what each of two may stray without touching the other, and some */
     for (uint32_t j = 0; j < maker->recipe.rows; j++)
         for (uint32_t i = 0; i < maker->recipe.columns; i++) {
-            double x = fmax(-free, fmin(free, meso_maker_jitter(maker)));
-            double y = fmax(-free, fmin(free, meso_maker_jitter(maker)));
-            double turn = fmax(-free, fmin(free, meso_maker_jitter(maker)));
+            double x = meso_maker_stray(maker, free);
+            double y = meso_maker_stray(maker, free);
+            double turn = meso_maker_stray(maker, free);
             Vec centre = {i + 0.25 + 0.5 * (j % 2) + x, (j + 0.5) * MAIL_ROW + y, 0};
             Frame frame = lean(centre, meso_maker_jitter(maker), (j % 2 ? -MAIL_LEAN : MAIL_LEAN) + turn);
             add_ring(maker, &frame, MAIL_RADIUS, wire, j % 2);
@@ -72,8 +72,8 @@ static void make_rings(MesoSwatchMaker *maker)
     double wire = fmin((double)maker->recipe.thickness / 2, 0.07), free = 0.3 * (0.1 - wire);
     for (uint32_t j = 0; j < maker->recipe.rows; j++)
         for (uint32_t i = 0; i < maker->recipe.columns; i++) {
-            double x = i + 0.5 + fmax(-free, fmin(free, meso_maker_jitter(maker)));
-            double y = j + 0.5 + fmax(-free, fmin(free, meso_maker_jitter(maker)));
+            double x = i + 0.5 + meso_maker_stray(maker, free);
+            double y = j + 0.5 + meso_maker_stray(maker, free);
             Frame flat = lean((Vec){x, y, 0}, 0, meso_maker_jitter(maker) / 8);
             Frame along_x = {{i + 1.0, y, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
             Frame along_y = {{x, j + 1.0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};

@@ -7,6 +7,7 @@
 typedef struct Cloth {
     double width, height;       /* halves of a strand's cross-section */
     double rise;                /* how far strands go up and down from the middle */
+    double spare;               /* by which the rise is larger, a pitch that strands stray */
     double corners;             /* 1: an ellipse; below: more of a box */
     uint32_t floats;            /* crossings that a strand stays on one side */
     uint32_t bands_per_pitch;
@@ -112,24 +113,19 @@ static void add_strand(MesoSwatchMaker *maker, const Strand *strand)
     meso_maker_tube(maker, first, bands + 1, sides, false, strand->along_y);
 }
 
-/* Neighbours that both stray keep a fifth of the gap between them. */
-static double stray(MesoSwatchMaker *maker, const Cloth *cloth)
-{
-    double gap = 1 - 2 * cloth->width, jitter = meso_maker_jitter(maker) / 2;
-    return fmax(-gap / 5, fmin(gap / 5, jitter));
-}
-
 static void init_strands(MesoSwatchMaker *maker, Strand *strands, uint32_t count, const Cloth *cloth, bool along_y,
                          double length)
 {
+    /* Neighbours keep most of their gap; where crossings come nearer to each other, strands have to rise higher between. */
+    double most = (1 - 2 * cloth->width) / 10, room = 1 + cloth->spare * fmin(most, (double)maker->recipe.jitter);
     for (uint32_t i = 0; i < count; i++) {
         Strand *strand = &strands[i];
         *strand = (Strand){.cloth = cloth, .number = i, .along_y = along_y, .length = length};
-        strand->offset = i + 0.5 + stray(maker, cloth);
-        strand->wander = stray(maker, cloth);
+        strand->offset = i + 0.5 + meso_maker_stray(maker, most);
+        strand->wander = meso_maker_stray(maker, most);
         strand->wave = floor(length / 3 + 1);
         strand->phase = 100 * meso_maker_jitter(maker);
-        strand->rise = cloth->rise * (1 + fabs(meso_maker_jitter(maker)));
+        strand->rise = cloth->rise * (room + fabs(meso_maker_jitter(maker)));
     }
 }
 
@@ -154,21 +150,21 @@ static void make_cloth(MesoSwatchMaker *maker, const Cloth *cloth)
 static void make_weave(MesoSwatchMaker *maker)
 {
     double width = (double)maker->recipe.thickness / 2;
-    Cloth cloth = {width, 0.4 * width, 0.48 * width, 1, 1, 9};
+    Cloth cloth = {width, 0.4 * width, 0.5 * width, 12, 1, 1, 9};
     make_cloth(maker, &cloth);
 }
 
 static void make_wire(MesoSwatchMaker *maker)
 {
     double width = (double)maker->recipe.thickness / 2;
-    Cloth cloth = {width, width, 1.12 * width, 1, 1, 9};
+    Cloth cloth = {width, width, 1.12 * width, 4, 1, 1, 9};
     make_cloth(maker, &cloth);
 }
 
 static void make_armour(MesoSwatchMaker *maker)
 {
     double width = (double)maker->recipe.thickness / 2;
-    Cloth cloth = {width, 0.22 * width, 0.3 * width, 0.6, 2, 8};
+    Cloth cloth = {width, 0.2 * width, 0.38 * width, 28, 0.6, 2, 8};
     make_cloth(maker, &cloth);
 }
 
@@ -182,5 +178,5 @@ static const MesoMakerMaterial ARMOUR[2] = {{"steel", {{0.56f, 0.57f, 0.58f}, 0.
 const MesoSwatchMethod meso_swatch_strand_methods[3] = {
     {{.name = "weave", .columns = 6, .rows = 6, .sides = 12, .thickness = 0.7f}, 2, 2, 1, WEAVE, 2, make_weave},
     {{.name = "wire", .columns = 6, .rows = 6, .sides = 12, .thickness = 0.2f}, 2, 2, 1, WIRE, 2, make_wire},
-    {{.name = "armour", .columns = 8, .rows = 8, .sides = 18, .thickness = 0.88f}, 4, 4, 1, ARMOUR, 2, make_armour},
+    {{.name = "armour", .columns = 8, .rows = 8, .sides = 18, .thickness = 0.8f}, 4, 4, 1, ARMOUR, 2, make_armour},
 };
