@@ -1,8 +1,9 @@
 /*
- * Swatches: a small piece of a texture that is geometry, as it is cut into elements and laid over the plane (Zhou and
- * others, "Mesh Quilting For Geometric Texture Synthesis", 2006). The plane is x and y, z is up. The tile from the origin to
- * `size` is what stands for the texture; elements may overhang it. Elements are what hangs together: closed ones, which
- * are placed whole or not at all, and strands, which run on through the sides of the tile and may be cut.
+ * Swatches: a small piece of a texture that is geometry, as it is cut into elements and laid over the plane (Zhou
+ * and others, "Mesh Quilting For Geometric Texture Synthesis", 2006). The plane is x and y, z is up. The tile from
+ * the origin to `size` is what stands for the texture; elements may overhang it. Elements are what hangs together:
+ * closed ones, which are placed whole or not at all, and strands, which run on through the sides of the tile and may
+ * be cut.
  */
 #ifndef MESO_SWATCH_H
 #define MESO_SWATCH_H
@@ -36,7 +37,7 @@ typedef struct MesoSwatch {
     uint32_t *mates;            /* [vertex_count] of a vertex at the high side of a period the one at the low side whose
                                    place it takes in the next tile; else MESO_NO_INDEX */
     bool periodic_x, periodic_y;
-    MesoVec2 period;            /* moves by it map the texture onto itself, and size is a multiple; 0 where not periodic */
+    MesoVec2 period;            /* moves by it map the texture onto itself; size is a multiple. 0 where not periodic */
 
     uint32_t material_count;
     MesoMaterial *looks;        /* [material_count] */
@@ -50,21 +51,22 @@ typedef struct MesoSwatchOptions {
 } MesoSwatchOptions;
 
 /*
- * The swatch of a checked mesh. Faces become triangles, wound alike within an element and outward: by the volume that it
- * encloses, of strands that which caps would close. Vertices at which several fans of faces touch become several.
- * Materials are those of the faces' attribute "material", by what "albedo", "roughness" and "metallic" say of the first
- * such face; "normal" and "uv" are taken where they are there.
+ * The swatch of a checked mesh. Faces become triangles, wound alike within an element and outward: by the volume
+ * that it encloses, of strands that which caps would close. Vertices at which several fans of faces touch become
+ * several. Materials are those of the faces' attribute "material", by what "albedo", "roughness" and "metallic" say
+ * of the first such face; "normal" and "uv" are taken where they are there.
  *
  * With up 1, (x, y, z) comes to stand as (x, -z, y); with 0, as (y, z, x).
  *
- * Periodic along x is a mesh whose open ends towards x meet those on the other side by one move, within a hundredth of
- * the mean edge, vertex by vertex; without such ends, one whose elements stand in rows of equals along x, two or more of
- * them, equally spaced, all rows over the same length. Equals have their vertices in the same order. Ends are then made to
- * meet exactly: high = low + size, in floats. The tile is a period, else as wide as the open ends stand apart, or, without
- * such, as the centres of the elements do and the widest gap between two of them in that direction.
+ * Periodic along x is a mesh whose open ends towards x meet those on the other side by one move, within a hundredth
+ * of the mean edge, vertex by vertex; without such ends, one whose elements stand in rows of equals along x, two or
+ * more of them, equally spaced, all rows over the same length. Equals have their vertices in the same order. Ends
+ * are then made to meet exactly: high = low + size, in floats. The tile is a period, else as wide as the open ends
+ * stand apart, or, without such, as the centres of the elements do and the widest gap between two of them in that
+ * direction.
  *
- * O(corners) and sorting. MESO_ERR_INPUT with the face where it is no manifold or has one side only, or is not periodic
- * where it has to be; MESO_ERR_MEMORY.
+ * O(corners) and sorting. MESO_ERR_INPUT with the face where it is no manifold or has one side only, or is not
+ * periodic where it has to be; MESO_ERR_MEMORY.
  */
 MesoStatus meso_swatch_build(MesoSwatch *swatch, MesoArena *arena, const MesoPolygonMesh *mesh,
                              const MesoSwatchOptions *options, MesoError *error);

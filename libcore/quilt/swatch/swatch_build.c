@@ -25,7 +25,7 @@ static MesoStatus require_two_sides(const MesoOrientCounts *counts, MesoError *e
 static MesoStatus make_triangles(MesoPolygonMesh *triangles, MesoHalfEdges *edges, MesoArena *scratch,
                                  const MesoPolygonMesh *mesh, MesoError *error)
 {
-    MesoPolygonMesh *turned = MESO_NEW(scratch, MesoPolygonMesh, 1, error);     /* which `triangles` shares names with */
+    MesoPolygonMesh *turned = MESO_NEW(scratch, MesoPolygonMesh, 1, error);     /* `triangles` shares names with it */
     MesoOrientCounts counts = {0};
     if (!turned)
         return MESO_ERR_MEMORY;
@@ -46,8 +46,8 @@ static MesoStatus make_triangles(MesoPolygonMesh *triangles, MesoHalfEdges *edge
 /* ---- vertices ---- */
 
 /*
- * A vertex for each fan of triangles: corners that meet along an edge are one. `vertex_of` [corner_count] gets its number,
- * in the order of the mesh's vertices, and of first corners; `source` [corner_count] a corner of each.
+ * A vertex for each fan of triangles: corners that meet along an edge are one. `vertex_of` [corner_count] gets its
+ * number, in the order of the mesh's vertices, and of first corners; `source` [corner_count] a corner of each.
  */
 static MesoStatus number_fans(uint32_t *vertex_of, uint32_t *source, uint32_t *count, MesoArena *scratch,
                               const MesoPolygonMesh *triangles, const uint32_t *twins, MesoError *error)

@@ -5,9 +5,9 @@
 #include "libcore/quilt/swatch/swatch.h"
 
 /*
- * Fills `swatch` up to its triangle_begin, and its mates, from `from`, of which only the arrays by vertices and triangles are read, and
- * its mates (NULL: none): elements by their first triangle, in each its vertices and triangles in the order that they had.
- * Vertices without triangles go.
+ * Fills `swatch` up to its triangle_begin, and its mates, from `from`, of which only the arrays by vertices and
+ * triangles are read, and its mates (NULL: none): elements by their first triangle, in each its vertices and
+ * triangles in the order that they had. Vertices without triangles go.
  */
 MesoStatus meso_swatch_sort(MesoSwatch *swatch, MesoArena *arena, const MesoSwatch *from, MesoError *error);
 

@@ -75,7 +75,8 @@ static inline bool side_cuts(const FixtureTriangle *a, const FixtureTriangle *b)
 {
     for (int k = 0; k < 3; k++) {
         const double *p = a->at[k], *q = a->at[(k + 1) % 3];
-        if ((fixture_volume(b->at[0], b->at[1], b->at[2], p) > 0) == (fixture_volume(b->at[0], b->at[1], b->at[2], q) > 0))
+        bool above = fixture_volume(b->at[0], b->at[1], b->at[2], p) > 0;
+        if (above == (fixture_volume(b->at[0], b->at[1], b->at[2], q) > 0))
             continue;
         bool r = fixture_volume(p, q, b->at[0], b->at[1]) > 0, s = fixture_volume(p, q, b->at[1], b->at[2]) > 0;
         if (r == s && s == (fixture_volume(p, q, b->at[2], b->at[0]) > 0))

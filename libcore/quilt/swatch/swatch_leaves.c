@@ -7,7 +7,7 @@
 
 enum { IVY_STATIONS = 6 };
 
-/* A leaf of five lobes, from the stalk on: how far the rib is, how far the edges are, how far apart these, and the blade's thickness. */
+/* A leaf of five lobes, from the stalk on: how far the rib is, the edges are, these are apart, and half its thickness. */
 static const double IVY[IVY_STATIONS][4] = {{0.10, 0.10, 0.014, 0.014}, {0.15, 0.09, 0.13, 0.012},
                                             {0.22, 0.13, 0.19, 0.012},  {0.29, 0.28, 0.12, 0.012},
                                             {0.36, 0.40, 0.17, 0.010},  {0.46, 0.46, 0.07, 0.008}};
@@ -46,8 +46,10 @@ static void add_stem_ring(MesoSwatchMaker *maker, const Stem *stem, double x, bo
     for (uint32_t s = 0; s < stem->sides; s++) {
         double angle = 2 * MESO_PI * (s - 0.5) / stem->sides;
         double out = stem->radius * cos(angle), up = stem->radius * sin(angle);
-        meso_maker_vertex(maker, at_end ? x : x - out * slope / flat, stem_y(stem, x) + (at_end ? out * flat : out / flat),
-                          up);
+        if (at_end)
+            meso_maker_vertex(maker, x, stem_y(stem, x) + out * flat, up);
+        else
+            meso_maker_vertex(maker, x - out * slope / flat, stem_y(stem, x) + out / flat, up);
     }
 }
 
@@ -59,8 +61,9 @@ static uint32_t add_leaf_point(MesoSwatchMaker *maker, const Leaf *leaf, double 
 }
 
 /*
- * In place of the stem's quad `base`, counter-clockwise from outside, of which corner `lowest` becomes the lower side of
- * the rib: rings of four, the rib below, an edge, the rib above, the other edge; the blade is folded along the rib.
+ * In place of the stem's quad `base`, counter-clockwise from outside, of which corner `lowest` becomes the lower
+ * side of the rib: rings of four, the rib below, an edge, the rib above, the other edge; the blade is folded along
+ * the rib.
  */
 static void add_leaf(MesoSwatchMaker *maker, const Leaf *leaf, const uint32_t base[4], uint32_t lowest)
 {
@@ -88,8 +91,9 @@ static void add_leaf(MesoSwatchMaker *maker, const Leaf *leaf, const uint32_t ba
 static void add_leaf_at(MesoSwatchMaker *maker, const Stem *stem, uint32_t ring, double x, bool right)
 {
     double turn = 0.35 + 2 * meso_maker_stray(maker, IVY_STRAY), length = hypot(turn, 1);
-    Leaf leaf = {x, stem_y(stem, x), 0, turn / length, (right ? -1 : 1) / length, IVY_SIZE + 2 * meso_maker_stray(maker, IVY_STRAY),
-                 0.6 + 2 * meso_maker_stray(maker, IVY_STRAY)};
+    Leaf leaf = {x, stem_y(stem, x), 0, turn / length, (right ? -1 : 1) / length, 0, 0};
+    leaf.size = IVY_SIZE + 2 * meso_maker_stray(maker, IVY_STRAY);
+    leaf.rise = 0.6 + 2 * meso_maker_stray(maker, IVY_STRAY);
     uint32_t s = right ? stem->sides / 2 : 0, a = ring + s, b = a + stem->sides, next = (s + 1) % stem->sides - s;
     uint32_t base[4] = {a, a + next, b + next, b};
     add_leaf(maker, &leaf, base, right ? 2 : 0);

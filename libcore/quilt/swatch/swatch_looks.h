@@ -5,8 +5,8 @@
 #include "libcore/quilt/swatch/swatch.h"
 
 /*
- * Fills the materials of `swatch`, in `arena`, and `material_of` [mesh->face_count], by the first faces that have them.
- * Faces without one have "none".
+ * Fills the materials of `swatch`, in `arena`, and `material_of` [mesh->face_count], by the first faces that have
+ * them. Faces without one have "none".
  */
 MesoStatus meso_swatch_find_looks(MesoSwatch *swatch, uint32_t *material_of, MesoArena *arena,
                                   const MesoPolygonMesh *mesh, MesoError *error);

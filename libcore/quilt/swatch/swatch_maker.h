@@ -49,8 +49,8 @@ uint32_t meso_maker_vertex(MesoSwatchMaker *maker, double x, double y, double z)
 void meso_maker_face(MesoSwatchMaker *maker, const uint32_t v[4], const MesoVec2 uv[4], uint32_t material);
 
 /*
- * Quads between `rings` rings of `sides` vertices each that begin at `first`, ring by ring, each counter-clockwise as seen
- * from where the rings go to; `closed`: and from the last to the first.
+ * Quads between `rings` rings of `sides` vertices each that begin at `first`, ring by ring, each counter-clockwise
+ * as seen from where the rings go to; `closed`: and from the last to the first.
  */
 void meso_maker_tube(MesoSwatchMaker *maker, uint32_t first, uint32_t rings, uint32_t sides, bool closed,
                      uint32_t material);

@@ -233,7 +233,7 @@ typedef struct Rows {
     bool failed;
 } Rows;
 
-/* The equals of members[0] among `count`, which are sorted along: they stand equally spaced, over the same length as others. */
+/* The equals of members[0] among `count`, sorted along: they stand equally spaced, over the same length as others. */
 static void follow_row(Rows *rows, Member *members, uint32_t count)
 {
     uint32_t found = 1;

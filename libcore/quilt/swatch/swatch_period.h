@@ -21,7 +21,8 @@ static inline double meso_along(MesoVec3 p, int axis)
 }
 
 /* The open ends of each direction. `swatch` has its loops. MESO_ERR_MEMORY alone. */
-MesoStatus meso_swatch_find_ends(MesoSwatchAxis axes[2], MesoArena *scratch, const MesoSwatch *swatch, MesoError *error);
+MesoStatus meso_swatch_find_ends(MesoSwatchAxis axes[2], MesoArena *scratch, const MesoSwatch *swatch,
+                                 MesoError *error);
 
 /*
  * Finds out whether a sorted and measured swatch repeats along `axis`, and after how much, where `axis->period` is not

@@ -85,7 +85,7 @@ static void make_rings(MesoSwatchMaker *maker)
 
 /* ---- nuts ---- */
 
-/* From the hole's middle up, over the top, down the outside and back: parts of the outer radius, and of half the height. */
+/* From the hole's middle up, over the top, down the outside and back: parts of the radius, and of half the height. */
 static const double NUT[18][2] = {
     {0.50, -0.30}, {0.50, 0.30}, {0.50, 0.76}, {0.52, 0.84}, {0.60, 0.98}, {0.63, 1.0},  {0.80, 1.0},  {0.84, 0.99},
     {1.0, 0.80},   {1.0, 0.72},  {1.0, -0.72}, {1.0, -0.80}, {0.84, -0.99}, {0.80, -1.0}, {0.63, -1.0}, {0.60, -0.98},

@@ -67,8 +67,8 @@ static double power(double x, double exponent)
 }
 
 /*
- * A ring across the strand, in the upright plane across its course as seen from above; at the ends across the axis, so that
- * ends are plane.
+ * A ring across the strand, in the upright plane across its course as seen from above; at the ends across the axis,
+ * so that ends are plane.
  */
 static void add_ring(MesoSwatchMaker *maker, const Strand *strand, double along, bool at_end)
 {
@@ -116,7 +116,7 @@ static void add_strand(MesoSwatchMaker *maker, const Strand *strand)
 static void init_strands(MesoSwatchMaker *maker, Strand *strands, uint32_t count, const Cloth *cloth, bool along_y,
                          double length)
 {
-    /* Neighbours keep most of their gap; where crossings come nearer to each other, strands have to rise higher between. */
+    /* Neighbours keep most of their gap; where crossings come nearer to each other, strands rise higher between. */
     double most = (1 - 2 * cloth->width) / 10, room = 1 + cloth->spare * fmin(most, (double)maker->recipe.jitter);
     for (uint32_t i = 0; i < count; i++) {
         Strand *strand = &strands[i];

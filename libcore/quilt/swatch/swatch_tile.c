@@ -64,8 +64,8 @@ static bool find_known(Span *tile, const MesoSwatch *swatch, const MesoSwatchAxi
 }
 
 /*
- * From the centres of elements alone: what stands in rows leaves a gap as wide between its last and the next tile's first as
- * from row to row, and what is strewn a small one.
+ * From the centres of elements alone: what stands in rows leaves a gap as wide between its last and the next tile's
+ * first as from row to row, and what is strewn a small one.
  */
 static MesoStatus estimate(Span *tile, const MesoSwatch *swatch, int along, Span box, MesoArena *scratch,
                            MesoError *error)
