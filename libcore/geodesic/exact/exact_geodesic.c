@@ -1,18 +1,29 @@
 #include "libcore/geodesic/exact/exact_geodesic.h"
 
+#include "libcore/geodesic/exact/event_queue.h"
 #include "libcore/geodesic/exact/exact_windows.h"
 #include "libcore/geodesic/exact/unfold.h"
 
 enum { DEFAULT_WINDOW_LIMIT = 1 << 25 };
 
+typedef enum EventKind { EVENT_SIDE, EVENT_VERTEX, EVENT_EDGE } EventKind;
+
 /* Of a vertex. */
-enum { EMITS = 1, FINAL = 2, REACHED = 4, ON_LINE = 8, INSIDE = 16 };
+enum { EMITS = 1, FINAL = 2, REACHED = 4, ON_LINE = 8, INSIDE = 16, NEARER = 32 };
 
 /* As MesoSideShape, and the half-edge across. */
 typedef struct Side {
     double length, x, y;
+    double due;             /* when windows are next to enter its triangle */
     uint32_t across;        /* in the domain */
+    bool sooner;            /* among `changes`, as NEARER of a vertex */
 } Side;
+
+/* What is to happen sooner, when the present event is over. */
+typedef struct Change {
+    uint32_t item;
+    EventKind kind;
+} Change;
 
 typedef struct Reached {
     uint32_t vertex;
@@ -33,6 +44,11 @@ typedef struct Solve {
     uint32_t reached_count;
     MesoExactGeodesicField *field;
     MesoWindowStore store;
+    MesoEventQueue queue;
+    Change *changes;        /* [change_count] */
+    uint32_t change_count, change_room;
+    MesoWindow *entering;   /* [entering_count] windows that enter one triangle now */
+    uint32_t entering_count, entering_room;
     MesoError *error;
 } Solve;
 
@@ -63,8 +79,8 @@ static double measure_side(Solve *solve, uint32_t h)
 {
     MesoSideShape shape = meso_side_shape(solve->mesh, solve->positions, h);
     uint32_t twin = solve->mesh->twins[h];
-    solve->sides[h] = (Side){shape.length, shape.x, shape.y,
-                             twin != MESO_NO_INDEX && is_inside(solve, twin / 3) ? twin : MESO_NO_INDEX};
+    solve->sides[h] = (Side){shape.length, shape.x, shape.y, INFINITY,
+                             twin != MESO_NO_INDEX && is_inside(solve, twin / 3) ? twin : MESO_NO_INDEX, false};
     return atan2(shape.y, shape.x);
 }
 
@@ -97,9 +113,49 @@ static void measure_domain(Solve *solve, double *angles)
 
 /* ---- propagation ---- */
 
-static MesoStatus push_event(Solve *solve, double key, uint32_t item, MesoEventKind kind)
+static MesoStatus push_event(Solve *solve, double key, uint32_t item, EventKind kind)
 {
-    return meso_event_push(&solve->store.queue, solve->store.arena, (MesoEvent){key, item, kind}, solve->error);
+    return meso_event_push(&solve->queue, solve->store.arena, (MesoEvent){key, item, kind}, solve->error);
+}
+
+static MesoStatus note_change(Solve *solve, uint32_t item, EventKind kind)
+{
+    solve->changes = MESO_GROW(solve->store.arena, solve->changes, solve->change_count, solve->change_room, 64,
+                               solve->error);
+    if (!solve->changes)
+        return MESO_ERR_MEMORY;
+    solve->changes[solve->change_count++] = (Change){item, kind};
+    return MESO_OK;
+}
+
+/* One event for each, however often it has changed. */
+static MesoStatus push_changes(Solve *solve)
+{
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < solve->change_count && !status; i++) {
+        Change change = solve->changes[i];
+        if (change.kind == EVENT_SIDE)
+            solve->sides[change.item].sooner = false;
+        else
+            solve->flags[change.item] &= (uint8_t)~NEARER;
+        double key = change.kind == EVENT_SIDE ? solve->sides[change.item].due : solve->distance[change.item];
+        status = push_event(solve, key, change.item, change.kind);
+    }
+    solve->change_count = 0;
+    return status;
+}
+
+/* Windows are to enter the triangle of a half-edge. */
+static MesoStatus wake_side(Solve *solve, uint32_t h, double when)
+{
+    Side *side = &solve->sides[h];
+    if (!(when < side->due))
+        return MESO_OK;
+    side->due = when;
+    if (side->sooner)
+        return MESO_OK;
+    side->sooner = true;
+    return note_change(solve, h, EVENT_SIDE);
 }
 
 static MesoStatus reach(Solve *solve, uint32_t vertex, double distance)
@@ -115,14 +171,17 @@ static MesoStatus reach(Solve *solve, uint32_t vertex, double distance)
         solve->reached[solve->reached_count++] = (Reached){vertex, solve->distance[vertex]};
     solve->flags[vertex] |= REACHED;
     solve->distance[vertex] = distance;
-    return push_event(solve, distance, vertex, MESO_EVENT_VERTEX);
+    if (solve->flags[vertex] & NEARER)
+        return MESO_OK;
+    solve->flags[vertex] |= NEARER;
+    return note_change(solve, vertex, EVENT_VERTEX);
 }
 
 /* Whether paths along the edge from its ends, or just over it, are shorter than all that comes through the window. */
-static bool comes_too_late(const Solve *solve, const MesoWindow *window, double length)
+static bool comes_too_late(const Solve *solve, uint32_t edge, const MesoWindow *window, double length)
 {
-    double d0 = solve->distance[solve->mesh->corners[window->edge]];
-    double d1 = solve->distance[solve->mesh->corners[meso_next_corner(window->edge)]];
+    double d0 = solve->distance[solve->mesh->corners[edge]];
+    double d1 = solve->distance[solve->mesh->corners[meso_next_corner(edge)]];
     double least = meso_front_least(&window->front, window->begin, window->end);
     return !(least < 0.5 * (d0 + d1 + length)) || least > solve->limit ||
            d0 + window->end <= meso_front_value(&window->front, window->end) ||
@@ -132,20 +191,6 @@ static bool comes_too_late(const Solve *solve, const MesoWindow *window, double 
 static bool run_alike(const Solve *solve, uint32_t h, uint32_t twin)
 {
     return h == twin || solve->mesh->corners[h] == solve->mesh->corners[twin];
-}
-
-/* The same window along the other direction of its edge. */
-static void reverse_window(MesoWindow *window, double length)
-{
-    double begin = window->begin;
-    window->begin = length - window->end;
-    window->end = length - begin;
-    if (window->front.linear) {
-        window->front.sigma += window->front.x * length;
-        window->front.x = -window->front.x;
-    } else {
-        window->front.x = length - window->front.x;
-    }
 }
 
 static MesoStatus cross_triangle(Solve *solve, uint32_t g, const MesoFront *front, double begin, double end);
@@ -163,13 +208,13 @@ static bool is_on_side(const MesoFront *front, double length)
  * Across a side that the source lies on, uncontested. Flat triangles come one behind the other, but a ring of them must
  * have an end.
  */
-static MesoStatus skip_side(Solve *solve, MesoWindow *window, double length)
+static MesoStatus skip_side(Solve *solve, uint32_t edge, MesoWindow *window, double length)
 {
     if (window->front.skips == UINT8_MAX)
         return MESO_OK;
     window->front.skips++;
-    if (!run_alike(solve, window->edge, window->into))
-        reverse_window(window, length);
+    if (!run_alike(solve, edge, window->into))
+        meso_window_reverse(window, length);
     return cross_triangle(solve, window->into, &window->front, window->begin, window->end);
 }
 
@@ -181,14 +226,16 @@ static MesoStatus see_side(Solve *solve, uint32_t h, MesoFront front, double beg
     if (side->across == MESO_NO_INDEX || !(end - begin > tiny))
         return MESO_OK;
     uint32_t first = h < side->across ? h : side->across;
-    MesoWindow window = {front, begin, end, first, side->across, 1, 1};
+    MesoWindow window = {front, begin, end, side->across, true};
+    double least;
     if (!run_alike(solve, first, h))
-        reverse_window(&window, side->length);
-    if (comes_too_late(solve, &window, side->length))
+        meso_window_reverse(&window, side->length);
+    if (comes_too_late(solve, first, &window, side->length))
         return MESO_OK;
     if (is_on_side(&front, side->length))
-        return skip_side(solve, &window, side->length);
-    return meso_window_insert(&solve->store, &solve->lists[first], &window, tiny, solve->error);
+        return skip_side(solve, first, &window, side->length);
+    MesoStatus status = meso_window_insert(&solve->store, &solve->lists[first], &window, tiny, &least, solve->error);
+    return status ? status : wake_side(solve, side->across, least);
 }
 
 /* The front in the frame of a half-edge that begins at (ox,oy) in the present one and has direction (ex,ey). */
@@ -267,15 +314,56 @@ static MesoStatus cross_triangle(Solve *solve, uint32_t g, const MesoFront *fron
     return status;
 }
 
-static MesoStatus advance_window(Solve *solve, uint32_t w)
+/*
+ * Of a side's length: windows that are due so soon come along with the first. They may do so too early to know all that
+ * is nearer, and some go on in vain; but what is in the caches is used, and there is one event for many windows.
+ */
+static const double AHEAD = 1;
+
+/* Gathers those of a half-edge's windows that are due; says when the next ones are. */
+static MesoStatus gather_entering(Solve *solve, uint32_t h, double until, double *next)
 {
-    MesoWindow window = *meso_window(&solve->store, w);
-    meso_window_settle(&solve->store, w);
-    if (!window.listed)
+    uint32_t edge = solve->sides[h].across < h ? solve->sides[h].across : h;
+    MesoWindowList *list = &solve->lists[edge];
+    solve->entering_count = 0;
+    *next = INFINITY;
+    for (uint32_t i = 0; i < list->count; i++) {
+        MesoWindow *window = &list->windows[i];
+        if (!window->waits || window->into != h)
+            continue;
+        double least = meso_front_least(&window->front, window->begin, window->end);
+        if (least > until) {
+            *next = fmin(*next, least);
+            continue;
+        }
+        solve->entering = MESO_GROW(solve->store.arena, solve->entering, solve->entering_count, solve->entering_room,
+                                    64, solve->error);
+        if (!solve->entering)
+            return MESO_ERR_MEMORY;
+        window->waits = false;
+        solve->entering[solve->entering_count] = *window;
+        if (!run_alike(solve, edge, h))
+            meso_window_reverse(&solve->entering[solve->entering_count], solve->sides[h].length);
+        solve->entering_count++;
+    }
+    return MESO_OK;
+}
+
+/* Windows enter the triangle of a half-edge. */
+static MesoStatus enter_triangle(Solve *solve, uint32_t h, double now)
+{
+    double next;
+    if (solve->sides[h].due != now)
         return MESO_OK;
-    if (!run_alike(solve, window.edge, window.into))
-        reverse_window(&window, solve->sides[window.edge].length);
-    return cross_triangle(solve, window.into, &window.front, window.begin, window.end);
+    MesoStatus status = gather_entering(solve, h, now + AHEAD * solve->sides[h].length, &next);
+    solve->sides[h].due = INFINITY;
+    if (!status)
+        status = wake_side(solve, h, next);
+    for (uint32_t i = 0; i < solve->entering_count && !status; i++) {
+        const MesoWindow *window = &solve->entering[i];
+        status = cross_triangle(solve, h, &window->front, window->begin, window->end);
+    }
+    return status;
 }
 
 /*
@@ -289,7 +377,7 @@ static MesoStatus retire_edge_later(Solve *solve, uint32_t h)
     double key = 0.5 * (solve->distance[corners[h]] + solve->distance[corners[meso_next_corner(h)]] + side->length);
     if (side->across == MESO_NO_INDEX || side->across < h || !(key < INFINITY))
         return MESO_OK;
-    return push_event(solve, key, h, MESO_EVENT_EDGE);
+    return push_event(solve, key, h, EVENT_EDGE);
 }
 
 /* From a vertex to the rest of one of its triangles. */
@@ -331,18 +419,20 @@ static MesoStatus settle_vertex(Solve *solve, uint32_t vertex)
 
 static MesoStatus run_events(Solve *solve)
 {
-    MesoStatus status = MESO_OK;
-    while (!status && solve->store.queue.count > 0) {
-        MesoEvent event = meso_event_pop(&solve->store.queue);
-        if (event.kind == MESO_EVENT_WINDOW) {
-            status = advance_window(solve, event.item);
-        } else if (event.kind == MESO_EVENT_EDGE) {
+    MesoStatus status = push_changes(solve);
+    while (!status && solve->queue.count > 0) {
+        MesoEvent event = meso_event_pop(&solve->queue);
+        if (event.kind == EVENT_SIDE) {
+            status = enter_triangle(solve, event.item, event.key);
+        } else if (event.kind == EVENT_EDGE) {
             meso_window_clear(&solve->store, &solve->lists[event.item]);
         } else if (event.key == solve->distance[event.item]) {
             status = settle_vertex(solve, event.item);
             if (event.item == solve->query->target)
                 break;
         }
+        if (!status)
+            status = push_changes(solve);
     }
     return status;
 }
@@ -394,8 +484,9 @@ static MesoStatus start_line(Solve *solve, uint32_t h)
     MesoStatus status = cross_triangle(solve, h, &front, 0, side->length);
     if (status || side->across < h || side->across == MESO_NO_INDEX)
         return status;
-    MesoWindow window = {front, 0, side->length, h, h, 0, 1};
-    return meso_window_insert(&solve->store, &solve->lists[h], &window, 1e-12 * side->length, solve->error);
+    MesoWindow window = {front, 0, side->length, h, false};
+    double least;
+    return meso_window_insert(&solve->store, &solve->lists[h], &window, 1e-12 * side->length, &least, solve->error);
 }
 
 static MesoStatus start_lines(Solve *solve)
@@ -492,8 +583,7 @@ MesoStatus meso_exact_geodesic(const MesoTriangulation *mesh, const MesoVec3 *po
     Solve solve = {
         .mesh = mesh, .positions = positions ? positions : mesh->positions, .query = query,
         .limit = query->limit > 0 ? query->limit : INFINITY, .distance = distance, .field = field, .error = error,
-        .store = {.arena = arena, .unused = MESO_NO_INDEX,
-                  .limit = query->window_limit ? query->window_limit : DEFAULT_WINDOW_LIMIT},
+        .store = {.arena = arena, .limit = query->window_limit ? query->window_limit : DEFAULT_WINDOW_LIMIT},
     };
     MesoArenaMark mark = meso_arena_mark(arena);
     MesoStatus status = solve_in(&solve, arena);

@@ -5,9 +5,10 @@
  * Approximate Geodesics on Meshes" (Surazhsky et al. 2005). A window is a part
  * of a side that is seen from one source through a chain of unfolded
  * triangles. Windows of a side cut each other off where one is nearer; what
- * survives crosses the next triangle. Vertices where paths may bend, saddles
- * and those of borders, become sources when the front arrives. Lines of seeds
- * are exact too: windows with a linear distance ("Accurate Computation of
+ * survives crosses the next triangle, together with all of its side that are
+ * due at about that time. Vertices where paths may bend, saddles and those of
+ * borders, become sources when the front arrives. Lines of seeds are exact
+ * too: windows with a linear distance ("Accurate Computation of
  * Geodesic Distance Fields for Polygonal Curves on Triangle Meshes", Bommes
  * and Kobbelt 2007).
  *
@@ -40,7 +41,7 @@ typedef struct MesoExactGeodesicQuery {
     double limit;                       /* vertices farther away are without distance; 0: no limit */
     uint32_t target;                    /* ends once this vertex is final; MESO_NO_INDEX: none */
     bool keep;                          /* distances in `distance` stand, and are only lowered */
-    uint32_t window_limit;              /* windows at a time, 64 bytes each; 0: 32 million */
+    uint32_t window_limit;              /* windows at a time, some 100 bytes each; 0: 32 million */
 } MesoExactGeodesicQuery;
 
 typedef struct MesoExactGeodesicField {

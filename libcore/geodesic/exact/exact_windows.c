@@ -1,70 +1,6 @@
 #include "libcore/geodesic/exact/exact_windows.h"
 
-/* ---- windows ---- */
-
-static MesoStatus new_chunk(MesoWindowStore *store, MesoError *error)
-{
-    store->chunks = MESO_GROW(store->arena, store->chunks, store->chunk_count, store->chunk_room, 64, error);
-    if (!store->chunks)
-        return MESO_ERR_MEMORY;
-    MesoWindow *chunk = MESO_NEW(store->arena, MesoWindow, MESO_WINDOW_CHUNK, error);
-    if (!chunk)
-        return MESO_ERR_MEMORY;
-    store->chunks[store->chunk_count++] = chunk;
-    return MESO_OK;
-}
-
-/* A copy of `like`, from `begin` to `end`, that waits in the queue if it says so. */
-static MesoStatus make_window(MesoWindowStore *store, const MesoWindow *like, double begin, double end, uint32_t *made,
-                              MesoError *error)
-{
-    uint32_t w = store->unused;
-    if (store->count >= store->limit)
-        return meso_fail(error, MESO_ERR_LIMIT, "exact distances need more than %u windows at a time", store->limit);
-    if (w != MESO_NO_INDEX) {
-        store->unused = meso_window(store, w)->edge;
-    } else {
-        MesoStatus status = store->used == store->chunk_count * MESO_WINDOW_CHUNK ? new_chunk(store, error) : MESO_OK;
-        if (status)
-            return status;
-        w = store->used++;
-    }
-    store->count++;
-    store->made++;
-    store->peak = store->count > store->peak ? store->count : store->peak;
-    MesoWindow *window = meso_window(store, w);
-    *window = *like;
-    window->begin = begin;
-    window->end = end;
-    window->listed = 1;
-    *made = w;
-    if (!window->pending)
-        return MESO_OK;
-    MesoEvent event = {meso_front_least(&window->front, begin, end), w, MESO_EVENT_WINDOW};
-    return meso_event_push(&store->queue, store->arena, event, error);
-}
-
-static void give_back(MesoWindowStore *store, uint32_t w)
-{
-    MesoWindow *window = meso_window(store, w);
-    if (window->pending || window->listed)
-        return;
-    window->edge = store->unused;
-    store->unused = w;
-    store->count--;
-}
-
-static void unlist(MesoWindowStore *store, uint32_t w)
-{
-    meso_window(store, w)->listed = 0;
-    give_back(store, w);
-}
-
-void meso_window_settle(MesoWindowStore *store, uint32_t w)
-{
-    meso_window(store, w)->pending = 0;
-    give_back(store, w);
-}
+#include "libcore/base/grow.h"
 
 /* ---- distance functions ---- */
 
@@ -140,66 +76,69 @@ static uint32_t find_ties(const MesoFront *p, const MesoFront *q, double begin, 
 
 enum { LEAST_SIZE = 2 };
 
-static void free_places(MesoWindowStore *store, MesoWindowList *list)
+static void free_room(MesoWindowStore *store, MesoWindowList *list)
 {
-    if (!list->places)
+    if (!list->windows)
         return;
-    memcpy((void *)list->places, &store->rooms[list->size], sizeof(MesoWindowPlace *));
-    store->rooms[list->size] = list->places;
+    memcpy((void *)list->windows, &store->rooms[list->size], sizeof(MesoWindow *));
+    store->rooms[list->size] = list->windows;
     *list = (MesoWindowList){0};
 }
 
 /* Empty, with room for so many. */
-static MesoStatus new_places(MesoWindowStore *store, uint32_t count, MesoWindowList *list, MesoError *error)
+static MesoStatus new_room(MesoWindowStore *store, uint32_t count, MesoWindowList *list, MesoError *error)
 {
     uint32_t size = LEAST_SIZE;
     while (UINT32_C(1) << size < count)
         size++;
     *list = (MesoWindowList){store->rooms[size], 0, size};
-    if (list->places)
-        memcpy(&store->rooms[size], (void *)list->places, sizeof(MesoWindowPlace *));
+    if (list->windows)
+        memcpy(&store->rooms[size], (void *)list->windows, sizeof(MesoWindow *));
     else
-        list->places = MESO_NEW(store->arena, MesoWindowPlace, (size_t)1 << size, error);
-    return list->places ? MESO_OK : MESO_ERR_MEMORY;
+        list->windows = MESO_NEW(store->arena, MesoWindow, (size_t)1 << size, error);
+    return list->windows ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* The merged places in the stead of those from `begin` to `end`. */
-static MesoStatus replace_places(MesoWindowStore *store, MesoWindowList *list, uint32_t begin, uint32_t end,
-                                 MesoError *error)
+/* The merged windows in the stead of those from `begin` to `end`. */
+static MesoStatus replace_windows(MesoWindowStore *store, MesoWindowList *list, uint32_t begin, uint32_t end,
+                                  MesoError *error)
 {
     uint32_t behind = list->count - end, count = begin + store->merged_count + behind;
     MesoWindowList old = *list;
-    if (!list->places || count > UINT32_C(1) << list->size) {
-        MesoStatus status = new_places(store, count, list, error);
+    if (count > old.count && count - old.count > store->limit - store->count)
+        return meso_fail(error, MESO_ERR_LIMIT, "exact distances need more than %u windows at a time", store->limit);
+    if (!list->windows || count > UINT32_C(1) << list->size) {
+        MesoStatus status = new_room(store, count, list, error);
         if (status)
             return status;
         if (begin)
-            memcpy(list->places, old.places, begin * sizeof *list->places);
+            memcpy(list->windows, old.windows, begin * sizeof *list->windows);
     }
     if (behind)
-        memmove(list->places + count - behind, old.places + end, behind * sizeof *list->places);
+        memmove(list->windows + count - behind, old.windows + end, behind * sizeof *list->windows);
     if (store->merged_count)
-        memcpy(list->places + begin, store->merged, store->merged_count * sizeof *list->places);
+        memcpy(list->windows + begin, store->merged, store->merged_count * sizeof *list->windows);
     list->count = count;
-    if (old.places != list->places)
-        free_places(store, &old);
+    store->count += count - old.count;
+    store->peak = store->count > store->peak ? store->count : store->peak;
+    if (old.windows != list->windows)
+        free_room(store, &old);
     return MESO_OK;
 }
 
 void meso_window_clear(MesoWindowStore *store, MesoWindowList *list)
 {
-    for (uint32_t i = 0; i < list->count; i++)
-        unlist(store, list->places[i].window);
-    free_places(store, list);
+    store->count -= list->count;
+    free_room(store, list);
 }
 
 /* The first that ends behind t. */
-static uint32_t find_place(const MesoWindowList *list, double t)
+static uint32_t find_window(const MesoWindowList *list, double t)
 {
     uint32_t low = 0, high = list->count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (list->places[middle].end > t)
+        if (list->windows[middle].end > t)
             high = middle;
         else
             low = middle + 1;
@@ -212,41 +151,35 @@ typedef struct Merge {
     MesoWindowStore *store;
     const MesoWindow *added;
     double run;             /* what of `added` lies before this is decided */
+    double least;           /* of what is kept of it */
     double tiny;
     MesoError *error;
 } Merge;
 
-static MesoStatus append(Merge *merge, uint32_t w)
+static MesoStatus append(Merge *merge, const MesoWindow *like, double begin, double end)
 {
     MesoWindowStore *store = merge->store;
+    if (!(end - begin > merge->tiny))
+        return MESO_OK;
     store->merged = MESO_GROW(store->arena, store->merged, store->merged_count, store->merged_room, 64, merge->error);
     if (!store->merged)
         return MESO_ERR_MEMORY;
-    store->merged[store->merged_count++] = (MesoWindowPlace){meso_window(store, w)->end, w};
+    MesoWindow *window = &store->merged[store->merged_count++];
+    *window = *like;
+    window->begin = begin;
+    window->end = end;
     return MESO_OK;
 }
 
-static MesoStatus append_copy(Merge *merge, const MesoWindow *like, double begin, double end)
+static MesoStatus append_added(Merge *merge, double end)
 {
-    uint32_t w = MESO_NO_INDEX;
-    if (!(end - begin > merge->tiny))
-        return MESO_OK;
-    MesoStatus status = make_window(merge->store, like, begin, end, &w, merge->error);
-    return status ? status : append(merge, w);
-}
-
-/* What is left of `w`, a part at a time: the first keeps the window. */
-static MesoStatus append_rest(Merge *merge, uint32_t w, const MesoWindow *whole, bool *kept, double begin, double end)
-{
-    if (*kept)
-        return append_copy(merge, whole, begin, end);
-    if (!(end - begin > merge->tiny))
-        return MESO_OK;
-    MesoWindow *window = meso_window(merge->store, w);
-    window->begin = begin;
-    window->end = end;
-    *kept = true;
-    return append(merge, w);
+    uint32_t before = merge->store->merged_count;
+    MesoStatus status = append(merge, merge->added, merge->run, end);
+    if (!status && merge->store->merged_count > before) {
+        merge->least = fmin(merge->least, meso_front_least(&merge->added->front, merge->run, end));
+        merge->store->made++;
+    }
+    return status;
 }
 
 /* Whoever came first stays where the difference may be rounding: else equal windows cut each other to pieces. */
@@ -255,45 +188,41 @@ static bool is_nearer(const MesoFront *added, const MesoFront *old, double t)
     return meso_front_value(added, t) < meso_front_value(old, t) * (1 - 1e-13);
 }
 
-/* Decides between `added` and the window `w`, which overlap. */
-static MesoStatus contend(Merge *merge, uint32_t w)
+/* Decides between `added` and a window that it overlaps. */
+static MesoStatus contend(Merge *merge, const MesoWindow *old)
 {
-    const MesoWindow old = *meso_window(merge->store, w), *added = merge->added;
-    double cut[4] = {fmax(old.begin, added->begin)}, last = fmin(old.end, added->end), rest = old.begin;
-    uint32_t cuts = 1 + find_ties(&added->front, &old.front, cut[0], last, cut + 1);
-    bool kept = false;
+    const MesoWindow *added = merge->added;
+    double cut[4] = {fmax(old->begin, added->begin)}, last = fmin(old->end, added->end), rest = old->begin;
+    uint32_t cuts = 1 + find_ties(&added->front, &old->front, cut[0], last, cut + 1);
     MesoStatus status = MESO_OK;
     cut[cuts] = last;
     for (uint32_t i = 0; i < cuts && !status; i++) {
-        if (is_nearer(&added->front, &old.front, 0.5 * (cut[i] + cut[i + 1]))) {
-            status = append_rest(merge, w, &old, &kept, rest, cut[i]);
+        if (is_nearer(&added->front, &old->front, 0.5 * (cut[i] + cut[i + 1]))) {
+            status = append(merge, old, rest, cut[i]);
             rest = cut[i + 1];
         } else {
-            status = append_copy(merge, added, merge->run, cut[i]);
+            status = append_added(merge, cut[i]);
             merge->run = cut[i + 1];
         }
     }
-    if (!status && rest == last && old.end > last) {
-        status = append_copy(merge, added, merge->run, last);
+    if (!status && rest == last && old->end > last) {
+        status = append_added(merge, last);
         merge->run = last;
     }
-    if (!status)
-        status = append_rest(merge, w, &old, &kept, rest, old.end);
-    if (!status && !kept)
-        unlist(merge->store, w);
-    return status;
+    return status ? status : append(merge, old, rest, old->end);
 }
 
 MesoStatus meso_window_insert(MesoWindowStore *store, MesoWindowList *list, const MesoWindow *added, double tiny,
-                              MesoError *error)
+                              double *least, MesoError *error)
 {
-    Merge merge = {store, added, added->begin, tiny, error};
-    uint32_t first = find_place(list, added->begin + tiny), next = first;
+    Merge merge = {store, added, added->begin, INFINITY, tiny, error};
+    uint32_t first = find_window(list, added->begin + tiny), next = first;
     MesoStatus status = MESO_OK;
     store->merged_count = 0;
-    while (next < list->count && meso_window(store, list->places[next].window)->begin < added->end - tiny && !status)
-        status = contend(&merge, list->places[next++].window);
+    while (next < list->count && list->windows[next].begin < added->end - tiny && !status)
+        status = contend(&merge, &list->windows[next++]);
     if (!status)
-        status = append_copy(&merge, added, merge.run, added->end);
-    return status ? status : replace_places(store, list, first, next, error);
+        status = append_added(&merge, added->end);
+    *least = merge.least;
+    return status ? status : replace_windows(store, list, first, next, error);
 }

@@ -7,8 +7,9 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 
-#include "libcore/geodesic/exact/event_queue.h"
+#include "libcore/base/arena.h"
 
 /*
  * Distance along a straight line, the first axis of a plane. From a point at (x, -y): sigma + |(t,0) - (x,-y)|. From a
@@ -23,43 +24,24 @@ typedef struct MesoFront {
 typedef struct MesoWindow {
     MesoFront front;
     double begin, end;          /* along the edge's first half-edge, the one with the smaller number */
-    uint32_t edge;              /* first half-edge */
     uint32_t into;              /* half-edge of the triangle that is entered */
-    uint8_t pending, listed;    /* whether the queue, and the edge, still have it */
+    bool waits;                 /* has not been through it yet */
 } MesoWindow;
 
-/* Those of an edge, side by side. */
-typedef struct MesoWindowPlace {
-    double end;
-    uint32_t window;
-} MesoWindowPlace;
-
+/* Those of an edge, side by side and in its order: they are met together. */
 typedef struct MesoWindowList {
-    MesoWindowPlace *places;    /* [count], room for 2^size */
+    MesoWindow *windows;        /* [count], room for 2^size */
     uint32_t count, size;
 } MesoWindowList;
 
-typedef enum MesoEventKind { MESO_EVENT_WINDOW, MESO_EVENT_VERTEX, MESO_EVENT_EDGE } MesoEventKind;
-
 typedef struct MesoWindowStore {
     MesoArena *arena;
-    MesoWindow **chunks;
-    uint32_t chunk_count, chunk_room;
-    uint32_t used, unused;      /* windows ever handed out; first of those given back, which `edge` links */
-    MesoWindowPlace *merged;    /* [merged_count] places of the edge in hand, anew */
+    MesoWindow *merged;         /* [merged_count] windows of the edge in hand, anew */
     uint32_t merged_count, merged_room;
-    MesoWindowPlace *rooms[32]; /* by size: first of the places given back, which the first pointer in them links */
+    MesoWindow *rooms[32];      /* by size: first of the arrays given back, which the first pointer in them links */
     uint32_t count, limit, peak;
     uint64_t made;
-    MesoEventQueue queue;
 } MesoWindowStore;
-
-enum { MESO_WINDOW_CHUNK = 1 << 12 };
-
-static inline MesoWindow *meso_window(const MesoWindowStore *store, uint32_t w)
-{
-    return &store->chunks[w / MESO_WINDOW_CHUNK][w % MESO_WINDOW_CHUNK];
-}
 
 static inline double meso_front_value(const MesoFront *front, double t)
 {
@@ -68,20 +50,33 @@ static inline double meso_front_value(const MesoFront *front, double t)
                                            : front->sigma + sqrt(dx * dx + front->y * front->y);
 }
 
+/* The same window along the other direction of its edge. */
+static inline void meso_window_reverse(MesoWindow *window, double length)
+{
+    double begin = window->begin;
+    window->begin = length - window->end;
+    window->end = length - begin;
+    if (window->front.linear) {
+        window->front.sigma += window->front.x * length;
+        window->front.x = -window->front.x;
+    } else {
+        window->front.x = length - window->front.x;
+    }
+}
+
 /* The least value from `begin` to `end`. */
 double meso_front_least(const MesoFront *front, double begin, double end);
 
 /*
- * Gives an edge what of a window is nearer than the windows it has, and these lose that part; new ones are put into the
- * queue. Parts shorter than `tiny` are left out.
+ * Gives an edge what of a window is nearer than the windows it has, and these lose that part. Parts shorter than `tiny`
+ * are left out.
+ *
+ * least      the least value of what the edge has been given; INFINITY where that is nothing
  *
  * O(windows of the edge), for moving them: it meets only those that overlap. MESO_ERR_LIMIT, MESO_ERR_MEMORY.
  */
 MesoStatus meso_window_insert(MesoWindowStore *store, MesoWindowList *list, const MesoWindow *added, double tiny,
-                              MesoError *error);
-
-/* After its event: the window waits no more; the store has it back if its edge has lost it meanwhile. */
-void meso_window_settle(MesoWindowStore *store, uint32_t w);
+                              double *least, MesoError *error);
 
 /* The edge has no windows any more. */
 void meso_window_clear(MesoWindowStore *store, MesoWindowList *list);
