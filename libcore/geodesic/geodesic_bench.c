@@ -1,15 +1,20 @@
 /*
- * Rates and errors of the distances from one vertex of an irregular sphere, whose vertices and triangles come in random
- * order. Times are of the process, of one core, but for those of two fields at once; the best of some. Errors are
- * relative, against r times the angle.
+ * Rates and errors of the distances from one vertex of an irregular surface, whose vertices and triangles come in random
+ * order. Times are of the process, of one core, but for those of two fields at once; the best of some.
  *
- *   geodesic_bench [--exact] [DIVISIONS...]    spheres of 20 n^2 triangles; with the exact engine, too
+ *   geodesic_bench [DIVISIONS...]      spheres of 20 n^2 triangles; errors against r times the angle
+ *   geodesic_bench --exact [MILLIONS]  a table of the engines: spheres up to 7.2 M triangles, a bumpy sphere and a rough
+ *                                      torus; errors against the exact engine, in the disc of so many triangles around
+ *                                      the source (2) where the surface has more. `anew`: an update is a build
  */
+#include <malloc.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "libcore/base/clock.h"
+#include "libcore/geodesic/exact/exact_geodesic.h"
 #include "libcore/geodesic/geodesic_fixture.h"
 #include "libcore/geodesic/geodesic_solver.h"
 #include "libcore/mesh/cut/mesh_cut.h"
@@ -58,7 +63,7 @@ static void copy_polygons(const MesoTriangulation *mesh, bool shuffled, MesoAren
     free(triangle);
 }
 
-/* A triangulation of the same surface, as from a file. */
+/* A triangulation of the same surface, as from a file; says how long that takes if it has a name. */
 static MesoTriangulation reload(const MesoTriangulation *from, bool shuffled, const char *name)
 {
     MesoArena arena;
@@ -71,7 +76,8 @@ static MesoTriangulation reload(const MesoTriangulation *from, bool shuffled, co
     CHECK(meso_surface_build(&surface, &arena, &polygons, 1, NULL) == MESO_OK);
     double start = cpu_seconds();
     CHECK(meso_triangulation_init(&mesh, &surface, 0, 0, NULL) == MESO_OK);
-    printf("  triangulation, %s: %.3f s\n", name, cpu_seconds() - start);
+    if (name)
+        printf("  triangulation, %s: %.3f s\n", name, cpu_seconds() - start);
     meso_arena_release(&arena);
     return mesh;
 }
@@ -106,28 +112,39 @@ static void print_error(const MesoTriangulation *mesh, uint32_t seed, const floa
            100 * worst);
 }
 
-static void time_solver(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, const char *name, int rounds)
+static uint32_t source_of(const MesoTriangulation *mesh)
 {
-    MesoGeodesicSeed seed = {(uint32_t)(0.37 * mesh->vertex_count), 0, false};
+    return (uint32_t)(0.37 * mesh->vertex_count);
+}
+
+/* Seconds of the best round. */
+static double solve(MesoGeodesicSolver *solver, int rounds, float *distance)
+{
+    MesoGeodesicSeed seed = {source_of(solver->mesh), 0, false};
     MesoGeodesicQuery query = {.seeds = &seed, .seed_count = 1, .target = MESO_NO_INDEX};
-    float *distance = malloc(mesh->vertex_count * sizeof *distance);
     double best = 1e9;
-    CHECK(distance);
     for (int round = 0; round < rounds; round++) {
         double start = cpu_seconds();
         CHECK(meso_geodesic_solve(solver, &query, distance, NULL, NULL, NULL) == MESO_OK);
         double took = cpu_seconds() - start;
         best = took < best ? took : best;
     }
-    printf("  %-14s %.4f s, ", name, best);
-    print_error(mesh, seed.vertex, distance);
+    return best;
+}
+
+static void time_solver(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, const char *name, int rounds)
+{
+    float *distance = malloc(mesh->vertex_count * sizeof *distance);
+    CHECK(distance);
+    printf("  %-14s %.4f s, ", name, solve(solver, rounds, distance));
+    print_error(mesh, source_of(mesh), distance);
     free(distance);
 }
 
 /* From two ends, as blends need it, by the clock on the wall. */
 static void time_pair(const MesoTriangulation *mesh, MesoGeodesicSolver *solver)
 {
-    const MesoGeodesicSeed seeds[2] = {{(uint32_t)(0.37 * mesh->vertex_count), 0, false}, {0, 0, false}};
+    const MesoGeodesicSeed seeds[2] = {{source_of(mesh), 0, false}, {0, 0, false}};
     MesoGeodesicQuery queries[2];
     float *distances[2];
     for (int i = 0; i < 2; i++) {
@@ -222,7 +239,8 @@ static void half_lines(const MesoTriangulation *mesh, MesoCutLines *lines, MesoA
     free(nodes);
 }
 
-static void time_update(MesoTriangulation *mesh, MesoGeodesicSolver *solver)
+/* Seconds to follow a cut into halves. */
+static double update(MesoTriangulation *mesh, MesoGeodesicSolver *solver, uint32_t *part_count)
 {
     MesoArena arena;
     MesoCutLines lines;
@@ -233,12 +251,20 @@ static void time_update(MesoTriangulation *mesh, MesoGeodesicSolver *solver)
     double start = cpu_seconds();
     CHECK(meso_geodesic_update(solver, &report, NULL) == MESO_OK);
     double took = cpu_seconds() - start;
-    printf("  update after a cut into halves, %u parts: %.2f ms\n", report.part_count, 1e3 * took);
-    time_solver(mesh, solver, "after the cut", 3);
+    *part_count = report.part_count;
     meso_arena_release(&arena);
+    return took;
 }
 
-static void measure(uint32_t divisions, bool with_exact)
+static void time_update(MesoTriangulation *mesh, MesoGeodesicSolver *solver)
+{
+    uint32_t part_count;
+    double took = update(mesh, solver, &part_count);
+    printf("  update after a cut into halves, %u parts: %.2f ms\n", part_count, 1e3 * took);
+    time_solver(mesh, solver, "after the cut", 3);
+}
+
+static void measure(uint32_t divisions)
 {
     printf("sphere of %.2f M triangles\n", 20e-6 * divisions * divisions);
     MesoTriangulation mesh = load(divisions);
@@ -262,24 +288,186 @@ static void measure(uint32_t divisions, bool with_exact)
     time_solver(&mesh, graph, "graph", 3);
     meso_geodesic_release(graph);
 
-    if (with_exact) {
-        MesoGeodesicSolver *exact;
-        CHECK(meso_geodesic_init(&exact, &mesh, MESO_GEODESIC_EXACT, NULL) == MESO_OK);
-        time_solver(&mesh, exact, "exact", 1);
-        meso_geodesic_release(exact);
-    }
     time_update(&mesh, solver);
     meso_geodesic_release(solver);
     meso_triangulation_release(&mesh);
 }
 
+/* ---- the table ---- */
+
+/* In MB: what is resident now, or what was at most since `forget_peak`. 0 where the system does not say. */
+static double resident(const char *what)
+{
+    char line[128];
+    double kilobytes = 0;
+    FILE *file = fopen("/proc/self/status", "r");
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, what, strlen(what)) == 0)
+            kilobytes = strtod(line + strlen(what), NULL);
+    if (file)
+        fclose(file);
+    return kilobytes / 1024;
+}
+
+static void forget_peak(void)
+{
+    malloc_trim(0);
+    FILE *file = fopen("/proc/self/clear_refs", "w");
+    if (!file)
+        return;
+    fputs("5", file);
+    fclose(file);
+}
+
+/* Exact distances within `limit`; INFINITY beyond. Prints its row. */
+static void solve_exactly(const MesoTriangulation *mesh, double limit, double *exact)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoExactGeodesicField field;
+    MesoExactGeodesicSeed seed = {source_of(mesh), 0, false};
+    MesoExactGeodesicQuery query = {.seeds = &seed, .seed_count = 1, .limit = limit, .target = MESO_NO_INDEX};
+    forget_peak();
+    double before = resident("VmRSS:"), start = cpu_seconds();
+    meso_arena_init(&arena);
+    CHECK(meso_exact_geodesic(mesh, NULL, &query, &arena, exact, &field, &error) == MESO_OK);
+    printf("  exact  %9.3f s %9s %12s %6.0f MB %10s %11s   %.0f M windows\n", cpu_seconds() - start, "-", "-",
+           resident("VmHWM:") - before, "-", "-", 1e-6 * (double)field.window_count);
+    meso_arena_release(&arena);
+}
+
+/* RMS, and the largest beyond 2 % of the farthest, in hundredths. */
+static void compare(const float *distance, const double *exact, uint32_t count, double *rms, double *largest)
+{
+    double farthest = 0, sum = 0;
+    uint32_t compared = 0;
+    *largest = 0;
+    for (uint32_t v = 0; v < count; v++)
+        farthest = isfinite(exact[v]) ? fmax(farthest, exact[v]) : farthest;
+    for (uint32_t v = 0; v < count; v++) {
+        if (!(exact[v] > 0) || !isfinite(exact[v]))
+            continue;
+        double off = 100 * (distance[v] / exact[v] - 1);
+        sum += off * off;
+        compared++;
+        *largest = exact[v] > 0.02 * farthest ? fmax(*largest, fabs(off)) : *largest;
+    }
+    *rms = sqrt(sum / compared);
+}
+
+/* The row of an engine; `cut` is the last use of the mesh, if there is one. */
+static void measure_engine(MesoTriangulation *mesh, MesoGeodesicEngine engine, const double *exact, float *distance,
+                           bool cut)
+{
+    bool is_graph = engine == MESO_GEODESIC_GRAPH;
+    MesoGeodesicSolver *solver;
+    double rms, largest, start;
+    uint32_t part_count;
+    forget_peak();
+    double before = resident("VmRSS:");
+    start = cpu_seconds();
+    CHECK(meso_geodesic_init(&solver, mesh, engine, NULL) == MESO_OK);
+    CHECK(!is_graph || meso_geodesic_graph_make(solver, NULL) == MESO_OK);
+    double build = cpu_seconds() - start, took = solve(solver, is_graph ? 3 : 7, distance);
+    double memory = resident("VmHWM:") - before;
+    compare(distance, exact, mesh->vertex_count, &rms, &largest);
+    printf("  %-6s %9.4f s %7.3f s ", is_graph ? "graph" : "fronts", took, build);
+    if (cut)
+        printf("%9.2f ms", 1e3 * update(mesh, solver, &part_count));
+    else
+        printf("%12s", "anew");
+    printf(" %6.0f MB %8.4f %% %9.3f %%\n", memory, rms, largest);
+    meso_geodesic_release(solver);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const float *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* What the nearest vertices are within, such that about so many triangles are; 0: all. */
+static double disc_radius(const MesoTriangulation *mesh, double triangle_count)
+{
+    if (mesh->triangle_count <= 1.05 * triangle_count)
+        return 0;
+    MesoGeodesicSolver *solver;
+    float *distance = malloc(mesh->vertex_count * sizeof *distance);
+    CHECK(distance && meso_geodesic_init(&solver, mesh, MESO_GEODESIC_FRONTS, NULL) == MESO_OK);
+    solve(solver, 1, distance);
+    qsort(distance, mesh->vertex_count, sizeof *distance, by_size);
+    double radius = distance[(size_t)(triangle_count / mesh->triangle_count * mesh->vertex_count)];
+    meso_geodesic_release(solver);
+    free(distance);
+    return radius;
+}
+
+static void measure_table(const char *name, MesoTriangulation *made, double disc)
+{
+    MesoTriangulation mesh = reload(made, true, NULL);
+    meso_triangulation_release(made);
+    double limit = disc_radius(&mesh, disc), *exact = malloc(mesh.vertex_count * sizeof *exact);
+    float *distance = malloc(mesh.vertex_count * sizeof *distance);
+    CHECK(exact && distance);
+    printf("%s of %.2f M triangles, ", name, 1e-6 * mesh.triangle_count);
+    if (limit > 0)
+        printf("errors within %.3f of the source, which %.1f M of them are\n", limit, 1e-6 * disc);
+    else
+        printf("errors everywhere\n");
+    printf("  %-6s %11s %9s %12s %9s %10s %11s\n", "engine", "solve", "build", "update", "memory", "RMS", "largest");
+    solve_exactly(&mesh, limit, exact);
+    measure_engine(&mesh, MESO_GEODESIC_GRAPH, exact, distance, false);
+    measure_engine(&mesh, MESO_GEODESIC_FRONTS, exact, distance, true);
+    fflush(stdout);
+    free(exact);
+    free(distance);
+    meso_triangulation_release(&mesh);
+}
+
+/* Bumps a twentieth of the radius high. */
+static void add_bumps(MesoTriangulation *mesh)
+{
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        MesoVec3 p = mesh->positions[v];
+        mesh->positions[v] = meso_vec3_scale(p, 1 + 0.05f * sinf(11 * p.x) * cosf(13 * p.y) * sinf(9 * p.z));
+    }
+}
+
+/* Each vertex off its place: half of them are saddles. */
+static void roughen(MesoTriangulation *mesh, float step)
+{
+    MesoRandom random;
+    meso_random_init(&random, 1, 0);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        for (float *x = &mesh->positions[v].x; x <= &mesh->positions[v].z; x++)
+            *x += step * meso_fixture_signed(&random);
+}
+
+static void measure_exactly(double disc)
+{
+    const uint32_t divisions[5] = {122, 158, 224, 316, 600};
+    MesoTriangulation mesh = meso_fixture_sphere(122, 0.3f, 7);
+    add_bumps(&mesh);
+    measure_table("bumpy sphere", &mesh, disc);
+    mesh = meso_fixture_torus(600, 250, 0.4f);
+    roughen(&mesh, 0.0015f);
+    measure_table("rough torus", &mesh, disc);
+    for (uint32_t i = 0; i < 5; i++) {
+        mesh = meso_fixture_sphere(divisions[i], 0.3f, 7);
+        measure_table("sphere", &mesh, disc);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const uint32_t divisions[4] = {122, 224, 316, 600};
-    bool with_exact = argc > 1 && strcmp(argv[1], "--exact") == 0;
-    for (int i = 1 + with_exact; i < argc; i++)
-        measure((uint32_t)atoi(argv[i]), with_exact);
-    for (int i = 0; i < 4 && argc == 1 + with_exact; i++)
-        measure(divisions[i], with_exact);
+    if (argc > 1 && strcmp(argv[1], "--exact") == 0) {
+        measure_exactly(1e6 * (argc > 2 ? strtod(argv[2], NULL) : 2));
+        return 0;
+    }
+    for (int i = 1; i < argc; i++)
+        measure((uint32_t)atoi(argv[i]));
+    for (int i = 0; i < 4 && argc == 1; i++)
+        measure(divisions[i]);
     return 0;
 }
