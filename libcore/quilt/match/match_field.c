@@ -1,0 +1,369 @@
+#include "libcore/quilt/match/match_field.h"
+
+#include <string.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/math/box.h"
+#include "libcore/quilt/match/nearest_faces.h"
+#include "libcore/quilt/match/triangle_distance.h"
+
+/* ---- one face ---- */
+
+static MesoVec3 face_normal(const MesoSwatch *swatch, uint32_t face)
+{
+    const uint32_t *corners = &swatch->corners[3 * (size_t)face];
+    MesoVec3 a = swatch->positions[corners[0]];
+    MesoVec3 across = meso_vec3_cross(meso_vec3_sub(swatch->positions[corners[1]], a),
+                                      meso_vec3_sub(swatch->positions[corners[2]], a));
+    return meso_vec3_direction(across, (MesoVec3){0, 0, 0});
+}
+
+float meso_match_exact(const MesoSwatch *swatch, float lambda, MesoMatchPoint point, uint32_t *face)
+{
+    float best = INFINITY;
+    uint32_t which = MESO_NO_INDEX;
+    for (uint32_t f = 0; f < swatch->triangle_count; f++) {
+        const uint32_t *corners = &swatch->corners[3 * (size_t)f];
+        const MesoVec3 *p = swatch->positions;
+        float turn = 1 + meso_vec3_length(meso_vec3_sub(point.normal, face_normal(swatch, f)));
+        if (turn >= best)
+            continue;
+        float square = meso_triangle_square(point.position, p[corners[0]], p[corners[1]], p[corners[2]]);
+        float cost = (1 + lambda * sqrtf(square)) * turn;
+        if (cost < best) {
+            best = cost;
+            which = f;
+        }
+    }
+    if (face)
+        *face = which;
+    return best;
+}
+
+/* ---- building ---- */
+
+typedef struct Builder {
+    MesoMatchField *field;
+    MesoVoxelGrid grid;
+    uint32_t begins[MESO_MATCH_BINS + 1];
+    uint32_t *list;         /* [triangle_count] faces by bin */
+    float *distances;       /* [bins * voxels] to the nearest face of a bin */
+    uint32_t *nearest;      /* [bins * voxels] that face */
+    char *scratch;
+    size_t scratch_size;    /* of each bin */
+} Builder;
+
+/* Voxels around the tile and the swatch's box, one more above and below, on the lattice through the origin. */
+static MesoStatus place_voxels(MesoMatchField *field, const MesoSwatch *swatch, MesoError *error)
+{
+    MesoBox box = meso_box_of(swatch->positions, swatch->vertex_count);
+    meso_box_add(&box, (MesoVec3){0, 0, box.low.z - field->voxel});
+    meso_box_add(&box, (MesoVec3){swatch->size.x, swatch->size.y, box.high.z + field->voxel});
+    const float low[3] = {box.low.x, box.low.y, box.low.z}, high[3] = {box.high.x, box.high.y, box.high.z};
+    double total = 1;
+    float first[3];
+    for (int k = 0; k < 3; k++) {
+        double from = floor((double)low[k] / field->voxel + 1e-3), to = ceil((double)high[k] / field->voxel - 1e-3);
+        double count = to > from ? to - from : 1;
+        total *= count;
+        if (!(total <= 1 << 24))
+            return meso_fail(error, MESO_ERR_LIMIT, "voxels of %g are too small for a swatch of %g x %g x %g",
+                             (double)field->voxel, (double)high[0] - low[0], (double)high[1] - low[1],
+                             (double)high[2] - low[2]);
+        field->count[k] = (uint32_t)count;
+        first[k] = (float)(from * field->voxel);
+    }
+    field->low = (MesoVec3){first[0], first[1], first[2]};
+    return MESO_OK;
+}
+
+static MesoStatus allocate(Builder *builder, MesoArena *arena, MesoError *error)
+{
+    MesoMatchField *field = builder->field;
+    size_t cells = MESO_MATCH_BINS * meso_voxel_count(&builder->grid), faces = field->swatch->triangle_count;
+    builder->scratch_size = meso_nearest_faces_scratch(&builder->grid);
+    builder->list = MESO_NEW(arena, uint32_t, faces, error);
+    builder->distances = MESO_NEW(arena, float, cells, error);
+    builder->nearest = MESO_NEW(arena, uint32_t, cells, error);
+    builder->scratch = meso_arena_alloc(arena, MESO_MATCH_BINS, builder->scratch_size, error);
+    return builder->list && builder->distances && builder->nearest && builder->scratch ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static void sort_faces(Builder *builder)
+{
+    const MesoMatchField *field = builder->field;
+    uint32_t fill[MESO_MATCH_BINS] = {0};
+    for (uint32_t f = 0; f < field->swatch->triangle_count; f++)
+        fill[meso_match_nearest_bin(field->face_normals[f])]++;
+    for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++) {
+        builder->begins[bin + 1] = builder->begins[bin] + fill[bin];
+        fill[bin] = builder->begins[bin];
+    }
+    for (uint32_t f = 0; f < field->swatch->triangle_count; f++)
+        builder->list[fill[meso_match_nearest_bin(field->face_normals[f])]++] = f;
+}
+
+static void measure_bins(void *context, uint64_t begin, uint64_t end)
+{
+    Builder *builder = context;
+    const MesoSwatch *swatch = builder->field->swatch;
+    size_t voxels = meso_voxel_count(&builder->grid);
+    for (size_t bin = (size_t)begin; bin < end; bin++) {
+        uint32_t first = builder->begins[bin];
+        meso_nearest_faces(builder->distances + bin * voxels, builder->nearest + bin * voxels, &builder->grid,
+                           swatch->positions, swatch->corners, builder->list + first, builder->begins[bin + 1] - first,
+                           builder->scratch + bin * builder->scratch_size);
+    }
+}
+
+/* So many voxels of a row at once: what is known of them stays near. They are filled up to whole lanes by the last. */
+enum { CHUNK = 64, LANES = 8 };
+
+/* The nearest faces of one bin along a row. */
+typedef struct Stretch {
+    float factors[CHUNK], x[CHUNK], y[CHUNK], z[CHUNK];     /* 1 + lambda distance; normals */
+    uint32_t faces[CHUNK];
+    float least;                                            /* of the factors */
+} Stretch;
+
+/* What is best for one direction so far. */
+typedef struct Best {
+    float costs[CHUNK];
+    uint32_t faces[CHUNK];
+} Best;
+
+static uint32_t whole_lanes(uint32_t count)
+{
+    return (count + LANES - 1) / LANES * LANES;
+}
+
+/* Returns false where the bin has no face. */
+static bool load_stretch(Stretch *stretch, const Builder *builder, size_t at, uint32_t count)
+{
+    const MesoMatchField *field = builder->field;
+    if (builder->nearest[at] == MESO_NO_INDEX)
+        return false;
+    stretch->least = INFINITY;
+    for (uint32_t i = 0; i < whole_lanes(count); i++) {
+        size_t from = at + (i < count ? i : count - 1);
+        uint32_t face = builder->nearest[from];
+        MesoVec3 n = field->face_normals[face];
+        float factor = 1 + field->lambda * builder->distances[from];
+        stretch->factors[i] = factor;
+        stretch->x[i] = n.x;
+        stretch->y[i] = n.y;
+        stretch->z[i] = n.z;
+        stretch->faces[i] = face;
+        stretch->least = factor < stretch->least ? factor : stretch->least;
+    }
+    return true;
+}
+
+/* Where the faces are better with a normal in direction `n` than what is there, they take its place. By masks: branches
+ * keep the compiler from doing four at once. */
+static void keep_better(Best *restrict best, const Stretch *restrict stretch, MesoVec3 n, uint32_t count)
+{
+    for (uint32_t i = 0; i < whole_lanes(count); i++) {
+        float x = n.x - stretch->x[i], y = n.y - stretch->y[i], z = n.z - stretch->z[i];
+        float cost = stretch->factors[i] * (1 + sqrtf(x * x + y * y + z * z));
+        float kept = best->costs[i];
+        uint32_t mask = cost < kept ? UINT32_MAX : 0;
+        best->costs[i] = cost < kept ? cost : kept;
+        best->faces[i] ^= (best->faces[i] ^ stretch->faces[i]) & mask;
+    }
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static float largest_cost(const Best *best, uint32_t count)
+{
+    float a = 0, b = 0, c = 0, d = 0;
+    for (uint32_t i = 0; i < count; i += LANES) {
+        a = larger(larger(best->costs[i], best->costs[i + 4]), a);
+        b = larger(larger(best->costs[i + 1], best->costs[i + 5]), b);
+        c = larger(larger(best->costs[i + 2], best->costs[i + 6]), c);
+        d = larger(larger(best->costs[i + 3], best->costs[i + 7]), d);
+    }
+    return larger(larger(a, b), larger(c, d));
+}
+
+static void combine_stretch(const Builder *builder, size_t at, uint32_t count)
+{
+    const MesoMatchField *field = builder->field;
+    size_t voxels = meso_voxel_count(&builder->grid);
+    Stretch stretches[MESO_MATCH_BINS];
+    uint32_t known_count = 0;
+    for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++)
+        known_count += load_stretch(&stretches[known_count], builder, bin * voxels + at, count);
+    for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++) {
+        MesoVec3 direction = meso_match_direction(bin);
+        float largest = INFINITY;
+        Best best;
+        for (uint32_t i = 0; i < CHUNK; i++) {
+            best.costs[i] = INFINITY;
+            best.faces[i] = MESO_NO_INDEX;
+        }
+        for (uint32_t k = 0; k < known_count; k++) {
+            const Stretch *stretch = &stretches[(k + bin) % known_count];
+            if (stretch->least >= largest)
+                continue;
+            keep_better(&best, stretch, direction, count);
+            largest = largest_cost(&best, count);
+        }
+        memcpy(field->costs + bin * voxels + at, best.costs, count * sizeof(float));
+        memcpy(field->faces + bin * voxels + at, best.faces, count * sizeof(uint32_t));
+    }
+}
+
+static void combine_rows(void *context, uint64_t begin, uint64_t end)
+{
+    const Builder *builder = context;
+    uint32_t length = builder->grid.count[0], pieces = (length + CHUNK - 1) / CHUNK;
+    uint32_t piece = (length + pieces - 1) / pieces;
+    for (uint64_t row = begin; row < end; row++)
+        for (uint32_t x = 0; x < length; x += piece)
+            combine_stretch(builder, (size_t)row * length + x, length - x < piece ? length - x : piece);
+}
+
+MesoStatus meso_match_field_build(MesoMatchField *field, MesoArena *arena, const MesoSwatch *swatch, float lambda,
+                                  float voxel, uint32_t thread_count, MesoError *error)
+{
+    *field = (MesoMatchField){.bins = MESO_MATCH_BINS, .voxel = voxel, .lambda = lambda, .swatch = swatch};
+    if (swatch->triangle_count == 0)
+        return meso_fail(error, MESO_ERR_INPUT, "a swatch without faces");
+    if (!(voxel > 0) || !(lambda >= 0))
+        return meso_fail(error, MESO_ERR_INPUT, "a table of voxels of %g by a lambda of %g", (double)voxel,
+                         (double)lambda);
+    MesoStatus status = place_voxels(field, swatch, error);
+    if (status != MESO_OK)
+        return status;
+    Builder builder = {field, {{field->count[0], field->count[1], field->count[2]}, voxel, field->low}, {0}, NULL, NULL,
+                       NULL, NULL, 0};
+    size_t cells = MESO_MATCH_BINS * meso_voxel_count(&builder.grid);
+    field->costs = MESO_NEW(arena, float, cells, error);
+    field->faces = MESO_NEW(arena, uint32_t, cells, error);
+    field->face_normals = MESO_NEW(arena, MesoVec3, swatch->triangle_count, error);
+    MesoArenaMark mark = meso_arena_mark(arena);
+    if (!field->costs || !field->faces || !field->face_normals || allocate(&builder, arena, error) != MESO_OK)
+        return MESO_ERR_MEMORY;
+
+    for (uint32_t f = 0; f < swatch->triangle_count; f++)
+        field->face_normals[f] = face_normal(swatch, f);
+    sort_faces(&builder);
+    meso_parallel_for(thread_count, MESO_MATCH_BINS, 1, measure_bins, &builder);
+    meso_parallel_for(thread_count, (uint64_t)field->count[1] * field->count[2], 32, combine_rows, &builder);
+    meso_arena_rewind(arena, mark);
+    return MESO_OK;
+}
+
+/* ---- asking ---- */
+
+/* The best so far. */
+typedef struct Climb {
+    const MesoMatchField *field;
+    MesoMatchPoint point;
+    uint32_t face;
+    float cost;
+} Climb;
+
+/* Most faces are out by their normals, or by their planes. */
+static void try_face(Climb *climb, uint32_t face)
+{
+    const MesoMatchField *field = climb->field;
+    if (face == climb->face)
+        return;
+    const uint32_t *corners = &field->swatch->corners[3 * (size_t)face];
+    const MesoVec3 *p = field->swatch->positions;
+    MesoVec3 normal = field->face_normals[face], a = p[corners[0]];
+    float turn = 1 + meso_vec3_length(meso_vec3_sub(climb->point.normal, normal));
+    float height = meso_vec3_dot(meso_vec3_sub(climb->point.position, a), normal);
+    if ((1 + field->lambda * 0.9999f * (height < 0 ? -height : height)) * turn >= climb->cost)
+        return;
+    float square = meso_triangle_square(climb->point.position, a, p[corners[1]], p[corners[2]]);
+    float cost = (1 + field->lambda * sqrtf(square)) * turn;
+    if (cost < climb->cost) {
+        climb->cost = cost;
+        climb->face = face;
+    }
+}
+
+static uint32_t next_side(uint32_t side)
+{
+    return side % 3 == 2 ? side - 2 : side + 1;
+}
+
+static uint32_t previous_side(uint32_t side)
+{
+    return side % 3 == 0 ? side + 2 : side - 1;
+}
+
+/* Faces around the vertex that `side` starts from, but its own: one way round, and from a border the other. */
+static void try_around(Climb *climb, uint32_t side)
+{
+    const uint32_t *twins = climb->field->swatch->twins;
+    uint32_t at = twins[previous_side(side)];
+    while (at != MESO_NO_INDEX && at != side) {
+        try_face(climb, at / 3);
+        at = twins[previous_side(at)];
+    }
+    if (at == side)
+        return;
+    at = twins[side];
+    while (at != MESO_NO_INDEX) {
+        at = next_side(at);
+        try_face(climb, at / 3);
+        at = twins[at];
+    }
+}
+
+/* Rounds of going on to better faces around the best. */
+enum { ROUNDS = 3 };
+
+static void climb_on(Climb *climb)
+{
+    for (int round = 0; round < ROUNDS && climb->face != MESO_NO_INDEX; round++) {
+        uint32_t from = climb->face;
+        for (uint32_t k = 0; k < 3; k++)
+            try_around(climb, 3 * from + k);
+        if (climb->face == from)
+            return;
+    }
+}
+
+/* The voxel that a place is in, and the next one on the side of it that the place is nearer to. */
+static void voxels_around(float x, uint32_t count, uint32_t near[2])
+{
+    near[0] = x > 0 ? x < (float)count ? (uint32_t)x : count - 1 : 0;
+    bool up = x - (float)near[0] >= 0.5f;
+    near[1] = up ? near[0] + (near[0] + 1 < count) : near[0] - (near[0] > 0);
+}
+
+/* The faces in the table for the voxel of the point and the three next to it. */
+static void try_table(Climb *climb)
+{
+    const MesoMatchField *field = climb->field;
+    MesoVec3 p = meso_vec3_scale(meso_vec3_sub(climb->point.position, field->low), 1 / field->voxel);
+    MesoMatchBlend blend = meso_match_blend(climb->point.normal);
+    uint32_t x[2], y[2], z[2];
+    voxels_around(p.x, field->count[0], x);
+    voxels_around(p.y, field->count[1], y);
+    voxels_around(p.z, field->count[2], z);
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n < 4 && blend.weights[k] > 0; n++) {
+            size_t layer = (size_t)blend.bins[k] * field->count[2] + z[n == 3];
+            try_face(climb, field->faces[(layer * field->count[1] + y[n == 2]) * field->count[0] + x[n == 1]]);
+        }
+}
+
+float meso_match_at(const MesoMatchField *field, MesoMatchPoint point, uint32_t *face)
+{
+    Climb climb = {field, point, MESO_NO_INDEX, INFINITY};
+    try_table(&climb);
+    climb_on(&climb);
+    if (face)
+        *face = climb.face;
+    return climb.cost;
+}
