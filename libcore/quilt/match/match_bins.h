@@ -1,6 +1,6 @@
 /*
- * 26 directions: to the faces, edges and corners of a cube. Three of them span the triangle that a direction lies in, of
- * the 48 that the sphere is cut into by the cube's mirrors; no direction is farther than 28 degrees from the nearest.
+ * 26 directions: to the faces, edges and corners of a cube. Three of them span the triangle that a direction lies in,
+ * of the 48 that the sphere is cut into by the cube's mirrors; none is farther than 28 degrees from the nearest.
  */
 #ifndef MESO_MATCH_BINS_H
 #define MESO_MATCH_BINS_H

@@ -35,8 +35,8 @@ typedef struct MesoMatchField {
 /*
  * Fills the table. For each direction the faces whose normals are nearest to it have a transform of distances; what is
  * kept of a voxel is the best of the nearest faces of all directions, by exact distance and normal. It is no less than
- * D there, mostly just that, and some parts in a hundred more on average: a face somewhat farther off may have the better
- * normal.
+ * D there, mostly just that, and some parts in a hundred more on average: a face somewhat farther off may have the
+ * better normal.
  *
  * swatch        has to outlast the field
  * lambda        what a distance counts; 1 over the mean edge or so

@@ -45,15 +45,16 @@ static inline void meso_fixture_tube(MesoSwatch *swatch, bool along_x, float at,
 static inline uint32_t meso_fixture_twin(const uint32_t *corners, uint32_t count, uint32_t side, uint32_t sides)
 {
     uint32_t a = corners[side], b = corners[side % 3 == 2 ? side - 2 : side + 1];
-    uint32_t reach = 12 * sides, begin = side > reach ? side - reach : 0, end = side + reach < count ? side + reach : count;
+    uint32_t reach = 12 * sides, begin = side > reach ? side - reach : 0;
+    uint32_t end = side + reach < count ? side + reach : count;
     for (uint32_t h = begin; h < end; h++)
         if (corners[h] == b && corners[h % 3 == 2 ? h - 2 : h + 1] == a)
             return h;
     return MESO_NO_INDEX;
 }
 
-/* `count` tubes each way with a pitch of 1, shifted at random by up to `jitter`; what the table of costs needs of a swatch
- * and no more. */
+/* `count` tubes each way with a pitch of 1, shifted at random by up to `jitter`; what the table of costs needs of a
+ * swatch and no more. */
 static inline void meso_fixture_weave(MesoSwatch *swatch, MesoArena *arena, uint32_t count, uint32_t rings,
                                       uint32_t sides, float jitter, uint64_t seed)
 {

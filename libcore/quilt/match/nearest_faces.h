@@ -36,8 +36,8 @@ size_t meso_nearest_faces_scratch(const MesoVoxelGrid *grid);
  *
  * Voxels within a voxel of a face have it by exact distances. From there squares spread by an exact transform, line by
  * line in x, y and z (Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions", 2012), with the face
- * that they are of. The distances written are those to that face: no less than the least, and rarely more than half a voxel
- * more. O(voxels + what boxes around the faces hold).
+ * that they are of. The distances written are those to that face: no less than the least, and rarely more than half a
+ * voxel more. O(voxels + what boxes around the faces hold).
  */
 void meso_nearest_faces(float *distances, uint32_t *faces, const MesoVoxelGrid *grid, const MesoVec3 *positions,
                         const uint32_t *corners, const uint32_t *list, uint32_t list_count, void *scratch);

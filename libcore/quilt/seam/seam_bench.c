@@ -38,7 +38,8 @@ static void measure(uint32_t side)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    uint8_t *states = MESO_NEW(&arena, uint8_t, side * side, NULL), *sides = MESO_NEW(&arena, uint8_t, side * side, NULL);
+    uint8_t *states = MESO_NEW(&arena, uint8_t, side * side, NULL);
+    uint8_t *sides = MESO_NEW(&arena, uint8_t, side * side, NULL);
     uint16_t *costs = MESO_NEW(&arena, uint16_t, side * side, NULL);
     CHECK(states && sides && costs);
     fill(states, costs, side);

@@ -22,7 +22,8 @@ typedef struct MesoSeamGrid {
     uint32_t columns, rows;
     MesoVec2 low;
     float cell;         /* side of a cell, in the plane's units */
-    float *values;      /* [columns * rows] at centres: distance from the seam in the plane's units, positive on the new side */
+    float *values;      /* [columns * rows] at centres: distance from the seam in the plane's units, positive on the
+                           new side */
 } MesoSeamGrid;
 
 /*

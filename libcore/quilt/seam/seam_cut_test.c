@@ -98,7 +98,8 @@ static void measure_line(const MesoSeamLine *line, double (*f)(double x, double 
         *off = fmax(*off, fabs(f(p.x, p.y)));
         if (line->next[i] == MESO_NO_INDEX || line->previous[i] == MESO_NO_INDEX)
             continue;
-        MesoVec2 a = meso_vec2_sub(p, line->points[line->previous[i]]), b = meso_vec2_sub(line->points[line->next[i]], p);
+        MesoVec2 a = meso_vec2_sub(p, line->points[line->previous[i]]);
+        MesoVec2 b = meso_vec2_sub(line->points[line->next[i]], p);
         if (meso_vec2_length(a) > 0.1f && meso_vec2_length(b) > 0.1f)
             *turn = fmax(*turn, fabs(atan2(meso_vec2_cross(a, b), (double)a.x * b.x + (double)a.y * b.y)));
     }
@@ -149,7 +150,8 @@ static void check_distances(const MesoSeamLine *line, const float *values, const
     }
 }
 
-/* Distances against brute force, on sides without any order: islands, corners that touch, lines that end on the border. */
+/* Distances against brute force, on sides without any order: islands, corners that touch, lines that end on the
+ * border. */
 static void test_distances(void)
 {
     enum { N = 24 };

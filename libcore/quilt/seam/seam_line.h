@@ -9,7 +9,7 @@
 typedef struct MesoSeamLine {
     uint32_t count;
     MesoVec2 *points;   /* [count] each on the segment between two centres of different sides */
-    uint32_t *next;     /* [count] the point after it, with the side of 1 to the left; MESO_NO_INDEX at an end on the border */
+    uint32_t *next;     /* [count] the point after it, with side 1 to the left; MESO_NO_INDEX at an end on the border */
     uint32_t *previous; /* [count] */
 } MesoSeamLine;
 
