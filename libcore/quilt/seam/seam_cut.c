@@ -40,7 +40,8 @@ static void join_cells(Graph *graph, const uint8_t *states, size_t c, size_t d, 
         graph->edges[graph->edge_count++] = (MesoCutEdge){graph->nodes[c], graph->nodes[d], capacity};
         return;
     }
-    if (states[c] != MESO_SEAM_FREE && states[d] != MESO_SEAM_FREE)
+    if ((states[c] != MESO_SEAM_FREE && states[d] != MESO_SEAM_FREE) || states[c] == MESO_SEAM_VOID ||
+        states[d] == MESO_SEAM_VOID)
         return;
     size_t free = states[c] == MESO_SEAM_FREE ? c : d, fixed = free == c ? d : c;
     (states[fixed] == MESO_SEAM_OLD ? graph->source : graph->sink)[graph->nodes[free]] += capacity;
@@ -60,6 +61,23 @@ static void join_neighbours(Graph *graph, const MesoSeamGrid *grid, const uint8_
             }
 }
 
+/* Void cells take the side of the one before them: of lines from the left, then from the right, then of columns. */
+static void fill_void(uint8_t *sides, const MesoSeamGrid *grid)
+{
+    uint32_t cells = grid->columns * grid->rows;
+    const uint32_t steps[2] = {1, grid->columns};
+    for (int pass = 0; pass < 4; pass++)
+        for (uint32_t i = 0; i < cells; i++) {
+            uint32_t at = pass & 1 ? cells - 1 - i : i, step = steps[pass >> 1];
+            uint32_t line = pass >> 1 ? at / grid->columns : at % grid->columns;
+            uint32_t last = pass >> 1 ? grid->rows - 1 : grid->columns - 1;
+            if (sides[at] == MESO_SEAM_VOID && line != (pass & 1 ? last : 0))
+                sides[at] = sides[pass & 1 ? at + step : at - step];
+        }
+    for (uint32_t i = 0; i < cells; i++)
+        sides[i] = sides[i] == 1;
+}
+
 /* Writes 1 for the cells on the new side. */
 static MesoStatus choose_sides(uint8_t *sides, MesoArena *scratch, const MesoSeamGrid *grid, const uint8_t *states,
                                const uint16_t *costs, MesoError *error)
@@ -75,7 +93,9 @@ static MesoStatus choose_sides(uint8_t *sides, MesoArena *scratch, const MesoSea
     MesoStatus status = meso_min_cut(sink_side, NULL, scratch, graph.node_count, graph.source, graph.sink,
                                      graph.edges, graph.edge_count, error);
     for (size_t c = 0; c < cells && status == MESO_OK; c++)
-        sides[c] = states[c] == MESO_SEAM_FREE ? sink_side[graph.nodes[c]] : states[c] == MESO_SEAM_NEW;
+        sides[c] = states[c] == MESO_SEAM_FREE ? sink_side[graph.nodes[c]] : states[c];
+    if (status == MESO_OK)
+        fill_void(sides, grid);
     return status;
 }
 

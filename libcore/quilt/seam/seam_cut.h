@@ -14,7 +14,8 @@
 typedef enum MesoSeamState {
     MESO_SEAM_OLD,      /* fixed on the old side */
     MESO_SEAM_NEW,      /* fixed on the new side */
-    MESO_SEAM_FREE      /* on either */
+    MESO_SEAM_FREE,     /* on either */
+    MESO_SEAM_VOID      /* neither side has anything there: on the side of a cell nearby, and seams through it cost nothing */
 } MesoSeamState;
 
 /* Cell (i, j), stored at j * columns + i, has its centre at low + ((i, j) + (0.5, 0.5)) * cell. */

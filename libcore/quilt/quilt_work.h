@@ -1,0 +1,186 @@
+/* What the steps of a quilt share. A step is one patch: chart, placement, seam, whole elements, strands. */
+#ifndef MESO_QUILT_WORK_H
+#define MESO_QUILT_WORK_H
+
+#include "libcore/math/thin_plate.h"
+#include "libcore/quilt/composite.h"
+#include "libcore/quilt/match/match_search.h"
+#include "libcore/quilt/quilt_plane.h"
+#include "libcore/quilt/seam/clip.h"
+#include "libcore/quilt/seam/seam_cut.h"
+#include "libcore/quilt/seam/section.h"
+
+/* How much of a triangle of the base is covered. */
+typedef enum MesoCover {
+    MESO_COVER_NONE,
+    MESO_COVER_FRAYED,  /* geometry that may still end there: a later patch takes its place */
+    MESO_COVER_DONE,
+    MESO_COVER_OUTSIDE  /* of cells: of the chart */
+} MesoCover;
+
+/* Placements of a patch that are tried. */
+enum { MESO_QUILT_TRIALS = 4 };
+
+typedef struct MesoQuiltWork {
+    const MesoTriangulation *base;
+    const MesoSwatch *swatch;
+    MesoQuiltOptions options;   /* with defaults filled in */
+    MesoMatchField field;
+    MesoComposite composite;
+    MesoChartMaker maker;
+    uint8_t *covers;            /* [triangle_count] MesoCover */
+    uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
+    MesoArena trial_arenas[MESO_QUILT_TRIALS];  /* one each, since they are tried at the same time */
+    MesoArenaMark trial_marks[MESO_QUILT_TRIALS];
+    MesoQuiltReport report;
+    double cost_sum, square_sum;
+    uint64_t moved_count;
+
+    /* lengths in units of the swatch */
+    float gap;          /* strands end so far before the seam, on both sides */
+    float ring;         /* at the rim of a patch, where nothing is changed */
+    float strand_margin;        /* from there on strands no longer fray */
+    float whole_margin;         /* how far whole elements reach, and so the rim moves in */
+    float widening;     /* how far a patch reaches into what is done */
+    float chart_radius;
+} MesoQuiltWork;
+
+/* The older quilt in the plane of a patch. */
+typedef struct MesoOldGeometry {
+    uint32_t vertex_count, triangle_count, whole_count;
+    uint32_t *vertices;         /* [vertex_count] of the composite; their marks are these numbers */
+    MesoVec3 *positions, *normals;      /* [vertex_count] */
+    uint32_t *triangles;        /* [triangle_count] of the composite */
+    uint32_t *corners;          /* [3 * triangle_count] */
+    uint32_t *wholes;           /* [whole_count] of the composite */
+    MesoVec3 *centres;          /* [whole_count] */
+} MesoOldGeometry;
+
+/* What a seam is to know of the chart, whatever the placement: by cells of one grid over its plane. */
+typedef struct MesoSeamGround {
+    uint32_t columns, rows;
+    MesoVec2 low;
+    float cell;
+    uint8_t *covers;            /* [columns * rows] MesoCover, or MESO_COVER_OUTSIDE */
+    uint8_t *layers;            /* strands of the older quilt that lie over each other */
+    float *rim;                 /* distance to where the surface goes on and the chart does not */
+    float *outside;             /* distance to the chart, outside of it */
+    float *undone;              /* distance to what is not done, and not at the rim */
+} MesoSeamGround;
+
+typedef struct MesoQuiltStep {
+    uint32_t seed, patch;
+    float tightness;            /* of the margins: 1, or less where a patch was too small for them */
+    MesoChart chart;
+    MesoQuiltPlane plane;
+    MesoOldGeometry old;
+    MesoSeamGround ground;
+    MesoMatchPoint *points;     /* [point_count] of the older quilt, that the placement is to match */
+    float *point_weights;
+    uint32_t point_count;
+    MesoMatch match;
+    float turn_cos, turn_sin;
+    MesoSeamGrid seam;
+    float *rim;                 /* [seam cells] distance to the rim of the patch; 0 outside */
+    MesoThinPlate warp;         /* what is added to the new side */
+    float warp_limit;           /* the longest way of any of its points */
+    float warp_reach;           /* distance from the seam at which that has faded out */
+} MesoQuiltStep;
+
+/* From the swatch to the plane and back. */
+static inline MesoVec2 meso_step_turn(const MesoQuiltStep *step, MesoVec2 p)
+{
+    return (MesoVec2){step->turn_cos * p.x - step->turn_sin * p.y, step->turn_sin * p.x + step->turn_cos * p.y};
+}
+
+static inline MesoVec2 meso_step_unturn(const MesoQuiltStep *step, MesoVec2 p)
+{
+    return (MesoVec2){step->turn_cos * p.x + step->turn_sin * p.y, step->turn_cos * p.y - step->turn_sin * p.x};
+}
+
+static inline MesoVec3 meso_step_from_swatch(const MesoQuiltStep *step, MesoVec3 s)
+{
+    MesoVec2 p = meso_step_turn(step, meso_vec2_sub((MesoVec2){s.x, s.y}, step->match.shift));
+    return (MesoVec3){p.x, p.y, s.z};
+}
+
+static inline MesoVec3 meso_step_to_swatch(const MesoQuiltStep *step, MesoVec3 p)
+{
+    MesoVec2 s = meso_vec2_add(meso_step_unturn(step, (MesoVec2){p.x, p.y}), step->match.shift);
+    return (MesoVec3){s.x, s.y, p.z};
+}
+
+/* A point of the new side where the warp has it. */
+MesoVec3 meso_step_warp(const MesoQuiltStep *step, MesoVec3 p);
+
+/* Loads the quilt over the chart; composite marks are set until meso_old_geometry_forget(). */
+MesoStatus meso_old_geometry_load(MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+void meso_old_geometry_forget(const MesoQuiltStep *step, MesoQuiltWork *work);
+
+/* Placements, best first. */
+MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted, MesoQuiltStep *step,
+                            MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* Takes a placement; then moves and turns it by less than a voxel or so until it fits. False where nothing is there to fit. */
+bool meso_quilt_align(MesoQuiltStep *step, const MesoQuiltWork *work);
+void meso_quilt_choose(MesoQuiltStep *step, const MesoQuiltWork *work, MesoMatch match);
+
+/* Looks at the chart, once a step; then where the new side of a placement is. */
+MesoStatus meso_quilt_ground(MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+MesoStatus meso_quilt_seam(MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+
+/* Marks what the patch covers; whether the seed is done. */
+bool meso_quilt_cover(const MesoQuiltStep *step, MesoQuiltWork *work);
+
+/* Pairs of whole elements; then old ones are taken away, and new ones placed. */
+typedef struct MesoWholePairs {
+    uint32_t count;             /* new elements that may be placed */
+    uint32_t *elements;         /* [count] of the swatch */
+    MesoVec3 *centres;          /* [count] in the plane, not warped */
+    uint32_t *partners;         /* [count] of the old ones, or MESO_NO_INDEX */
+} MesoWholePairs;
+
+MesoStatus meso_quilt_pair_wholes(MesoWholePairs *pairs, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                                  MesoArena *arena, MesoError *error);
+MesoStatus meso_quilt_place_wholes(const MesoWholePairs *pairs, const MesoQuiltStep *step, MesoQuiltWork *work,
+                                   MesoArena *arena, MesoError *error);
+
+/* Strands of one side, cut at a distance `gap` before the seam. Cut at 0, equal strands of both sides have equal sections. */
+typedef struct MesoStrandSide {
+    uint32_t vertex_count, triangle_count;
+    MesoVec3 *positions;        /* [vertex_count] */
+    float *values;              /* [vertex_count] positive where kept */
+    uint32_t *vertices;         /* [vertex_count] of the composite, or of the swatch */
+    uint32_t *triangles;        /* [triangle_count] of the composite, or of the swatch */
+    uint32_t *corners;          /* [3 * triangle_count] */
+    MesoClip clip;
+    MesoVec3 *clipped;          /* [clip vertices] */
+    MesoSection *sections;      /* [loops that close] */
+    MesoVec3 *axes;             /* [sections] along the strand, away from this side */
+    uint32_t *partners;         /* [sections] of the other side, or MESO_NO_INDEX */
+    MesoVec3 *moves;            /* [sections] what each is to move by */
+    uint32_t section_count;
+} MesoStrandSide;
+
+MesoStatus meso_strands_cut_old(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap,
+                                MesoArena *arena, MesoError *error);
+MesoStatus meso_strands_cut_new(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap,
+                                MesoArena *arena, MesoError *error);
+/*
+ * Pairs sections that lie across the seam from each other, nearest first, up to `reach` times a strand's own reach beside
+ * its way. `flaws`: strands that end, or are cut along.
+ */
+MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
+                             MesoArena *scratch, MesoError *error);
+/*
+ * Moves both sides half of the way to each other, as their sections at the seam say, joins them, closes what has no
+ * partner, and hands all to the composite.
+ */
+MesoStatus meso_strands_join(const MesoStrandSide *old_at_seam, const MesoStrandSide *new_at_seam,
+                             const MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* `reach` of meso_strands_pair() once sides are as near to each other as they can be. */
+#define MESO_REACH_LAST 1.5f
+
+/* One patch around step->seed; whether the seed is done. The composite is as before where it fails. */
+MesoStatus meso_quilt_step(MesoQuiltStep *step, bool *done, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+
+#endif
