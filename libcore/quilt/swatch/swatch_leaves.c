@@ -7,7 +7,7 @@
 
 enum { IVY_STATIONS = 6 };
 
-/* A leaf of five lobes, from the stalk on: how far the rib is, the edges are, these are apart, and half its thickness. */
+/* A leaf of five lobes, from its stalk: how far the rib is, the edges are, these are apart, and half its thickness. */
 static const double IVY[IVY_STATIONS][4] = {{0.10, 0.10, 0.014, 0.014}, {0.15, 0.09, 0.13, 0.012},
                                             {0.22, 0.13, 0.19, 0.012},  {0.29, 0.28, 0.12, 0.012},
                                             {0.36, 0.40, 0.17, 0.010},  {0.46, 0.46, 0.07, 0.008}};

@@ -25,8 +25,8 @@ typedef struct MesoSwatchRecipe {
  * scales       closed scales, row over row
  *
  * Nothing cuts anything else, unless strands are made thicker. Strands have open ends at the tile's sides. Without
- * jitter, columns and rows become so many more that the far sides meet the near ones: even, and for armour four or
- * eight.
+ * jitter, columns and rows become so many more that the far sides meet the near ones: even, and for armour
+ * multiples of four.
  *
  * The mesh of a recipe, z up, the pitch of its elements 1, with attributes "normal", "uv", and of faces "material",
  * "albedo", "roughness" and "metallic". Without jitter it is periodic along x and y, as meso_swatch_build() finds

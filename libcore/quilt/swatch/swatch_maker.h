@@ -64,4 +64,7 @@ double meso_maker_jitter(MesoSwatchMaker *maker);
 /* The same, but at most `most` either way. */
 double meso_maker_stray(MesoSwatchMaker *maker, double most);
 
+/* The mesh in `arena`, with its attributes. MESO_ERR_MEMORY alone. */
+MesoStatus meso_maker_finish(MesoPolygonMesh *mesh, MesoArena *arena, const MesoSwatchMaker *maker, MesoError *error);
+
 #endif
