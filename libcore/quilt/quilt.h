@@ -49,6 +49,10 @@ typedef struct MesoQuiltReport {
     uint32_t shrunk_count;          /* patches made smaller for distortion */
     uint32_t removed_count;         /* whole elements left out, since they would have met another */
     uint32_t skipped_count;         /* triangles of the base that no patch could cover */
+    uint32_t border_count;          /* sections along borders of the surface; of this and what follows, quilt_finish.h */
+    uint32_t border_removed_count;  /* whole elements left out, since they lie across a border */
+    uint32_t closed_count;          /* loops of open edges closed at the end */
+    uint32_t debris_count;          /* pieces of strands left out, since they were too short */
     double seconds[6];              /* charts, matching, seams, whole elements, strands, the rest */
 } MesoQuiltReport;
 

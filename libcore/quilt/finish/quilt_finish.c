@@ -1,0 +1,42 @@
+#include "libcore/quilt/finish/quilt_finish.h"
+
+#include "libcore/quilt/finish/finish_work.h"
+
+/* Unit normals of the base's vertices, by area: for distances between points of the layer. */
+static MesoStatus find_normals(MesoFinishWork *work, MesoError *error)
+{
+    const MesoTriangulation *mesh = &work->base->mesh;
+    work->normals = MESO_NEW(work->arena, MesoVec3, mesh->vertex_count, error);
+    if (!work->normals)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *corner = &mesh->corners[3 * (size_t)t];
+        MesoVec3 a = mesh->positions[corner[0]];
+        MesoVec3 area = meso_vec3_cross(meso_vec3_sub(mesh->positions[corner[1]], a),
+                                        meso_vec3_sub(mesh->positions[corner[2]], a));
+        for (uint32_t k = 0; k < 3; k++)
+            work->normals[corner[k]] = meso_vec3_add(work->normals[corner[k]], area);
+    }
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        work->normals[v] = meso_vec3_direction(work->normals[v], (MesoVec3){0, 0, 1});
+    return MESO_OK;
+}
+
+MesoStatus meso_quilt_finish(MesoQuilt *quilt, MesoArena *arena, const MesoQuiltBase *base, const MesoSwatch *swatch,
+                             const MesoFinishOptions *options, MesoError *error)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    MesoFinishWork work = {.base = base, .swatch = swatch, .options = options, .report = &quilt->report,
+                           .arena = &scratch};
+    quilt->report.open_count = 0;
+    MesoStatus status = find_normals(&work, error);
+    if (!status)
+        status = meso_finish_cut(&work, quilt, error);
+    if (!status)
+        status = meso_finish_close(&work, error);
+    if (!status)
+        status = meso_finish_gather(quilt, arena, &work, error);
+    meso_arena_release(&scratch);
+    return status;
+}
