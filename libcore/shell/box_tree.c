@@ -1,0 +1,108 @@
+#include "libcore/shell/box_tree.h"
+
+#include <stdlib.h>
+
+enum { LEAF = 4 };      /* boxes; looking at four costs less than two more nodes */
+
+static bool meet(const MesoBox *a, const MesoBox *b)
+{
+    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y &&
+           a->low.z <= b->high.z && b->low.z <= a->high.z;
+}
+
+/* An empty box adds nothing. */
+static void add_box(MesoBox *sum, const MesoBox *box)
+{
+    if (!(box->low.x <= box->high.x))
+        return;
+    meso_box_add(sum, box->low);
+    meso_box_add(sum, box->high);
+}
+
+/* Ten bits of each of three numbers, in turns. */
+static uint64_t curve_key(MesoVec3 middle, MesoBox all, float size)
+{
+    const float at[3] = {middle.x - all.low.x, middle.y - all.low.y, middle.z - all.low.z};
+    uint64_t key = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t cell = size > 0 ? (uint32_t)fminf(fmaxf(at[k] / size, 0) * 1023, 1023) : 0;
+        for (uint32_t bit = 0; bit < 10; bit++)
+            key |= (uint64_t)(cell >> bit & 1) << (3 * bit + k);
+    }
+    return key;
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+static MesoStatus sort_boxes(MesoBoxTree *tree, MesoArena *arena, const MesoBox *boxes, MesoError *error)
+{
+    MesoArenaMark mark = meso_arena_mark(arena);
+    uint64_t *keys = MESO_NEW(arena, uint64_t, tree->count, error);
+    if (!keys)
+        return MESO_ERR_MEMORY;
+    MesoBox all = meso_box_empty();
+    for (uint32_t b = 0; b < tree->count; b++)
+        add_box(&all, &boxes[b]);
+    float size = fmaxf(all.high.x - all.low.x, fmaxf(all.high.y - all.low.y, all.high.z - all.low.z));
+    for (uint32_t b = 0; b < tree->count; b++)
+        keys[b] = curve_key(meso_vec3_lerp(boxes[b].low, boxes[b].high, 0.5f), all, size) << 32 | b;
+    qsort(keys, tree->count, sizeof *keys, compare_keys);
+    for (uint32_t b = 0; b < tree->count; b++) {
+        tree->order[b] = (uint32_t)keys[b];
+        tree->boxes[b] = boxes[tree->order[b]];
+    }
+    meso_arena_rewind(arena, mark);
+    return MESO_OK;
+}
+
+MesoStatus meso_box_tree_build(MesoBoxTree *tree, MesoArena *arena, const MesoBox *boxes, uint32_t count,
+                               MesoError *error)
+{
+    *tree = (MesoBoxTree){.count = count, .leaf_count = 1};
+    while ((uint64_t)tree->leaf_count * LEAF < count)
+        tree->leaf_count *= 2;
+    tree->order = MESO_NEW(arena, uint32_t, count, error);
+    tree->boxes = MESO_NEW(arena, MesoBox, count, error);
+    tree->nodes = MESO_NEW(arena, MesoBox, 2 * (size_t)tree->leaf_count, error);
+    if (!tree->order || !tree->boxes || !tree->nodes)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = sort_boxes(tree, arena, boxes, error);
+    if (status)
+        return status;
+    for (uint32_t leaf = 0; leaf < tree->leaf_count; leaf++) {
+        MesoBox *node = &tree->nodes[tree->leaf_count + leaf];
+        *node = meso_box_empty();
+        for (uint64_t b = (uint64_t)leaf * LEAF; b < count && b < (uint64_t)(leaf + 1) * LEAF; b++)
+            add_box(node, &tree->boxes[b]);
+    }
+    for (uint32_t n = tree->leaf_count; --n > 0;) {
+        tree->nodes[n] = tree->nodes[2 * (size_t)n];
+        add_box(&tree->nodes[n], &tree->nodes[2 * (size_t)n + 1]);
+    }
+    return MESO_OK;
+}
+
+void meso_box_tree_query(const MesoBoxTree *tree, MesoBox box, void (*found)(void *context, uint32_t number),
+                         void *context)
+{
+    uint32_t stack[64], depth = 0;      /* a level of the tree adds one */
+    stack[depth++] = 1;
+    while (depth > 0) {
+        uint32_t n = stack[--depth];
+        if (!meet(&tree->nodes[n], &box))
+            continue;
+        if (n < tree->leaf_count) {
+            stack[depth++] = 2 * n + 1;
+            stack[depth++] = 2 * n;
+            continue;
+        }
+        uint64_t b = (uint64_t)(n - tree->leaf_count) * LEAF, end = b + LEAF;
+        for (; b < tree->count && b < end; b++)
+            if (meet(&tree->boxes[b], &box))
+                found(context, tree->order[b]);
+    }
+}

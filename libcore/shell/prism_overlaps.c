@@ -1,0 +1,219 @@
+#include "libcore/base/grow.h"
+#include "libcore/shell/box_tree.h"
+#include "libcore/shell/prism_bodies.h"
+#include "libcore/shell/prism_layer.h"
+
+typedef struct Pair {
+    uint32_t a, b;
+} Pair;
+
+typedef struct Search {
+    MesoPrismLayer *layer;
+    double low, high;       /* with the surface itself between them */
+    uint8_t *graphs;        /* [vertex_count] */
+    uint32_t asking;
+    MesoPrismBody body;     /* of the one that asks */
+    Pair *pairs;            /* that meet */
+    uint32_t pair_count, pair_room;
+    MesoArena *arena;
+    MesoError *error;
+    MesoStatus status;
+} Search;
+
+/* ---- neighbours ---- */
+
+/*
+ * Whether the lids of a prism at all heights are seen from one side along `axis`: their projected areas are below that
+ * of a bilinear function of two heights, and so positive where its four values are.
+ */
+static bool lids_face(const Search *search, uint32_t triangle, MesoVec3d axis)
+{
+    const double margin = 0.02;
+    const uint32_t *v = &search->layer->mesh->corners[3 * (size_t)triangle];
+    MesoVec3d sides[2][2];
+    for (uint32_t k = 0; k < 2; k++) {
+        double height = k == 0 ? search->low : search->high;
+        MesoVec3d p = meso_prism_corner(search->layer, v[0], height);
+        sides[0][k] = meso_vec3d_sub(meso_prism_corner(search->layer, v[1], height), p);
+        sides[1][k] = meso_vec3d_sub(meso_prism_corner(search->layer, v[2], height), p);
+    }
+    double least = margin * meso_vec3d_length(meso_prism_base(search->layer->mesh, triangle));
+    for (uint32_t k = 0; k < 4; k++)
+        if (!(meso_vec3d_det(sides[0][k & 1], sides[1][k >> 1], axis) > least))
+            return false;
+    return true;
+}
+
+/*
+ * Whether the layer around a vertex does not meet itself: all its lids are seen from one side, so that each level is a
+ * graph over the plane; as no prism folds, higher levels lie above lower ones, and each place is met once.
+ */
+static bool is_graph(const Search *search, uint32_t vertex)
+{
+    const MesoPrismLayer *layer = search->layer;
+    MesoFan fan = meso_fan_first(layer->mesh, vertex);
+    uint32_t first = fan.corner;
+    do {
+        if (layer->flat[fan.corner / 3] || !lids_face(search, fan.corner / 3, layer->normals[vertex]))
+            return false;
+    } while (meso_fan_next(layer->mesh, &fan) && fan.corner != first);
+    return true;
+}
+
+static bool share_vertex(const Search *search, uint32_t a, uint32_t b, bool *graph)
+{
+    const uint32_t *v = &search->layer->mesh->corners[3 * (size_t)a], *w = &search->layer->mesh->corners[3 * (size_t)b];
+    bool found = false;
+    for (uint32_t k = 0; k < 9; k++)
+        if (v[k / 3] == w[k % 3]) {
+            found = true;
+            *graph = *graph || search->graphs[v[k / 3]];
+        }
+    return found;
+}
+
+/* ---- pairs ---- */
+
+static MesoPrismBody body_of(const Search *search, uint32_t triangle, double share)
+{
+    const MesoPrismLayer *layer = search->layer;
+    const uint32_t *v = &layer->mesh->corners[3 * (size_t)triangle];
+    MesoPrismBody body;
+    for (uint32_t k = 0; k < 6; k++)
+        body.corners[k] = meso_prism_corner(layer, v[k % 3], share * (k < 3 ? search->low : search->high));
+    meso_prism_split(v, body.tetrahedra);
+    return body;
+}
+
+/* Where the triangles themselves meet or touch, no height helps. */
+static bool triangles_meet(const Search *search, uint32_t a, uint32_t b)
+{
+    MesoPrismBody one = body_of(search, a, 0), other = body_of(search, b, 0);
+    return !meso_prism_hulls_apart(&one, &other);
+}
+
+static bool bodies_meet(const Search *search, uint32_t a, uint32_t b, const MesoPrismBody *body)
+{
+    bool graph = false, neighbours = share_vertex(search, a, b, &graph);
+    if (graph)
+        return false;
+    MesoPrismBody other = body_of(search, b, 1);
+    if (!neighbours && meso_prism_hulls_apart(body, &other))
+        return false;
+    return !meso_prism_tetrahedra_apart(body, &other) && (neighbours || !triangles_meet(search, a, b));
+}
+
+static void try_pair(void *context, uint32_t number)
+{
+    Search *search = context;
+    if (number <= search->asking || search->status || search->layer->flat[number] ||
+        !bodies_meet(search, search->asking, number, &search->body))
+        return;
+    Pair *pairs = MESO_GROW(search->arena, search->pairs, search->pair_count, search->pair_room, 256, search->error);
+    if (!pairs) {
+        search->status = MESO_ERR_MEMORY;
+        return;
+    }
+    search->pairs = pairs;
+    search->pairs[search->pair_count++] = (Pair){search->asking, number};
+}
+
+/* The box as floats, no smaller. */
+static MesoBox box_of(const MesoPrismBody *body)
+{
+    MesoBox box = meso_box_empty();
+    for (uint32_t k = 0; k < 6; k++) {
+        MesoVec3 p = meso_vec3d_narrow(body->corners[k]);
+        float size = 2e-7f * (fabsf(p.x) + fabsf(p.y) + fabsf(p.z));
+        meso_box_add_around(&box, p, size);
+    }
+    return box;
+}
+
+static MesoStatus find_pairs(Search *search)
+{
+    const MesoTriangulation *mesh = search->layer->mesh;
+    MesoBox *boxes = MESO_NEW(search->arena, MesoBox, mesh->triangle_count, search->error);
+    MesoBoxTree tree;
+    if (!boxes)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        MesoPrismBody body = body_of(search, t, 1);
+        boxes[t] = box_of(&body);
+    }
+    MesoStatus status = meso_box_tree_build(&tree, search->arena, boxes, mesh->triangle_count, search->error);
+    for (uint32_t t = 0; t < mesh->triangle_count && !status; t++) {
+        if (search->layer->flat[t])
+            continue;
+        search->asking = t;
+        search->body = body_of(search, t, 1);
+        meso_box_tree_query(&tree, boxes[t], try_pair, search);
+        status = search->status;
+    }
+    return status;
+}
+
+/* ---- lower ---- */
+
+static void lower_vertices(Search *search, uint8_t *marked, uint32_t triangle, double step)
+{
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t v = search->layer->mesh->corners[3 * (size_t)triangle + k];
+        if (!marked[v])
+            search->layer->rises[v] = meso_vec3d_scale(search->layer->rises[v], step);
+        marked[v] = 1;
+    }
+}
+
+/* Pairs that are apart now are let go: what is lowered stays within the hull that it had. */
+static MesoStatus lower_pairs(Search *search, uint8_t *marked, uint8_t *touched)
+{
+    enum { ROUNDS = 64 };
+    MesoPrismLayer *layer = search->layer;
+    for (uint32_t round = 0; search->pair_count > 0 && round < ROUNDS; round++) {
+        for (uint32_t v = 0; v < layer->mesh->vertex_count; v++) {
+            touched[v] |= marked[v];
+            marked[v] = 0;
+        }
+        double step = round + 1 < ROUNDS ? 0.85 : 0;
+        for (uint32_t p = 0; p < search->pair_count; p++) {
+            lower_vertices(search, marked, search->pairs[p].a, step);
+            lower_vertices(search, marked, search->pairs[p].b, step);
+        }
+        MesoStatus status = meso_prism_lower_folds(layer, marked, search->arena, search->error);
+        if (status)
+            return status;
+        uint32_t kept = 0;
+        for (uint32_t p = 0; p < search->pair_count; p++) {
+            Pair pair = search->pairs[p];
+            MesoPrismBody body = body_of(search, pair.a, 1);
+            if (bodies_meet(search, pair.a, pair.b, &body))
+                search->pairs[kept++] = pair;
+        }
+        search->pair_count = kept;
+    }
+    for (uint32_t v = 0; v < layer->mesh->vertex_count; v++)
+        if (touched[v] | marked[v])
+            layer->thickness[v] = fmin(layer->thickness[v], meso_vec3d_length(layer->rises[v]));
+    return MESO_OK;
+}
+
+MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
+{
+    const MesoTriangulation *mesh = layer->mesh;
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    Search search = {.layer = layer, .low = fmin(layer->low, 0), .high = fmax(layer->high, 0), .arena = scratch,
+                     .error = error};
+    search.graphs = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
+    uint8_t *marked = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
+    uint8_t *touched = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
+    if (!search.graphs || !marked || !touched)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        search.graphs[v] = mesh->vertex_corner[v] != MESO_NO_INDEX && is_graph(&search, v);
+    MesoStatus status = find_pairs(&search);
+    if (!status)
+        status = lower_pairs(&search, marked, touched);
+    meso_arena_rewind(scratch, mark);
+    return status;
+}

@@ -1,0 +1,182 @@
+/*
+ * With x = sum b_i (p_i + h d_i) over a flat prism of its triangle's shape, the integral E of the square of equation 8
+ * is quadratic in the directions, and each has the same weight along all axes; the volume V is linear in each single
+ * direction. The logarithm of the normalised stretch's square, log E - 2/3 log V, is therefore stationary in one
+ * direction, others held, where E - s V is with s = 2/3 E / V: at a point that is found by one division. Sweeps over
+ * vertices take it, as far as prisms stand: the barrier against what E alone does not see.
+ */
+#include "libcore/shell/prism_layer.h"
+
+typedef struct Relaxation {
+    MesoPrismLayer *layer;
+    double lengths[3];      /* integrals of 1, h and h squared from low to high */
+    double (*flats)[4];     /* [triangle_count] area, and the products of gradients of corners 1,2  2,0  0,1 */
+    double slope;           /* s */
+} Relaxation;
+
+/* Product of the gradients of the weights of two corners; those of one corner follow, as all add up to 0. */
+static double gradients(const double flat[4], uint32_t i, uint32_t j)
+{
+    return i == j ? -flat[1 + (i + 1) % 3] - flat[1 + (i + 2) % 3] : flat[1 + 3 - i - j];
+}
+
+static void measure(Relaxation *relax)
+{
+    const MesoTriangulation *mesh = relax->layer->mesh;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *v = &mesh->corners[3 * (size_t)t];
+        MesoVec3d sides[3];
+        for (uint32_t k = 0; k < 3; k++)
+            sides[k] = meso_vec3d_sub(meso_vec3d(mesh->positions[v[(k + 2) % 3]]),
+                                      meso_vec3d(mesh->positions[v[(k + 1) % 3]]));
+        double area = 0.5 * meso_vec3d_length(meso_prism_base(mesh, t));
+        relax->flats[t][0] = area;
+        for (uint32_t k = 0; k < 3; k++)
+            relax->flats[t][1 + k] = meso_vec3d_dot(sides[(k + 1) % 3], sides[(k + 2) % 3]) / (4 * area * area);
+    }
+}
+
+/* Weights of d_i . d_j and of d_i . p_j in half the derivative of E. */
+static double rise_weight(const Relaxation *relax, const double flat[4], uint32_t i, uint32_t j)
+{
+    return flat[0] * (gradients(flat, i, j) * relax->lengths[2] + relax->lengths[0] * (i == j ? 2 : 1) / 12);
+}
+
+static double place_weight(const Relaxation *relax, const double flat[4], uint32_t i, uint32_t j)
+{
+    return flat[0] * gradients(flat, i, j) * relax->lengths[1];
+}
+
+/* ---- volume ---- */
+
+typedef struct Prism {
+    MesoVec3d places[3], rises[3];
+} Prism;
+
+static Prism prism_of(const Relaxation *relax, uint32_t triangle, uint32_t from)
+{
+    Prism prism;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t v = relax->layer->mesh->corners[3 * (size_t)triangle + (from + k) % 3];
+        prism.places[k] = meso_vec3d(relax->layer->mesh->positions[v]);
+        prism.rises[k] = relax->layer->rises[v];
+    }
+    return prism;
+}
+
+/* The integral over heights of twice the lid's area, as a vector. */
+static MesoVec3d lid_integral(const Relaxation *relax, const Prism *prism)
+{
+    MesoVec3d a = meso_vec3d_sub(prism->places[1], prism->places[0]), da = meso_vec3d_sub(prism->rises[1], prism->rises[0]);
+    MesoVec3d b = meso_vec3d_sub(prism->places[2], prism->places[0]), db = meso_vec3d_sub(prism->rises[2], prism->rises[0]);
+    MesoVec3d sum = meso_vec3d_scale(meso_vec3d_cross(a, b), relax->lengths[0]);
+    sum = meso_vec3d_mad(sum, relax->lengths[1], meso_vec3d_add(meso_vec3d_cross(a, db), meso_vec3d_cross(da, b)));
+    return meso_vec3d_mad(sum, relax->lengths[2], meso_vec3d_cross(da, db));
+}
+
+static MesoVec3d mean_rise(const Prism *prism)
+{
+    return meso_vec3d_scale(meso_vec3d_add(meso_vec3d_add(prism->rises[0], prism->rises[1]), prism->rises[2]), 1.0 / 3);
+}
+
+/* Of the volume by the first corner's direction. */
+static MesoVec3d volume_derivative(const Relaxation *relax, const Prism *prism)
+{
+    MesoVec3d across = meso_vec3d_scale(meso_vec3d_sub(prism->places[1], prism->places[2]), relax->lengths[1]);
+    across = meso_vec3d_mad(across, relax->lengths[2], meso_vec3d_sub(prism->rises[1], prism->rises[2]));
+    MesoVec3d sum = meso_vec3d_scale(lid_integral(relax, prism), 1.0 / 3);
+    return meso_vec3d_scale(meso_vec3d_add(sum, meso_vec3d_cross(across, mean_rise(prism))), 0.5);
+}
+
+/* ---- sweeps ---- */
+
+/* s for the directions as they are. */
+static double slope_of(const Relaxation *relax)
+{
+    const MesoPrismLayer *layer = relax->layer;
+    double energy = 0, volume = 0;
+    for (uint32_t t = 0; t < layer->mesh->triangle_count; t++) {
+        if (layer->flat[t])
+            continue;
+        const double *flat = relax->flats[t];
+        Prism prism = prism_of(relax, t, 0);
+        volume += 0.5 * meso_vec3d_dot(lid_integral(relax, &prism), mean_rise(&prism));
+        energy += 2 * flat[0] * relax->lengths[0];      /* of the triangle itself */
+        for (uint32_t i = 0; i < 3; i++)
+            for (uint32_t j = 0; j < 3; j++)
+                energy += rise_weight(relax, flat, i, j) * meso_vec3d_dot(prism.rises[i], prism.rises[j]) +
+                          2 * place_weight(relax, flat, i, j) * meso_vec3d_dot(prism.rises[i], prism.places[j]);
+    }
+    return volume > 0 ? 2.0 / 3 * energy / volume : 2;
+}
+
+/* The stationary point of E - s V in one direction. */
+static MesoVec3d best_rise(const Relaxation *relax, uint32_t vertex)
+{
+    const MesoPrismLayer *layer = relax->layer;
+    MesoFan fan = meso_fan_first(layer->mesh, vertex);
+    uint32_t first = fan.corner;
+    MesoVec3d sum = {0, 0, 0};
+    double weight = 0;
+    do {
+        uint32_t t = fan.corner / 3;
+        if (layer->flat[t])
+            continue;
+        const double *flat = relax->flats[t];
+        Prism prism = prism_of(relax, t, fan.corner % 3);
+        weight += rise_weight(relax, flat, fan.corner % 3, fan.corner % 3);
+        sum = meso_vec3d_mad(sum, 0.5 * relax->slope, volume_derivative(relax, &prism));
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t j = (fan.corner + k) % 3;
+            sum = meso_vec3d_mad(sum, -place_weight(relax, flat, fan.corner % 3, j), prism.places[k]);
+            if (k > 0)
+                sum = meso_vec3d_mad(sum, -rise_weight(relax, flat, fan.corner % 3, j), prism.rises[k]);
+        }
+    } while (meso_fan_next(layer->mesh, &fan) && fan.corner != first);
+    return weight > 0 ? meso_vec3d_scale(sum, 1 / weight) : layer->rises[vertex];
+}
+
+/* With the height along the normal that is wanted, or, where folds have lowered it, one between that and what it is. */
+static MesoVec3d keep_thickness(const MesoPrismLayer *layer, uint32_t vertex, MesoVec3d rise)
+{
+    MesoVec3d normal = layer->normals[vertex];
+    double most = layer->thickness[vertex], least = fmin(meso_vec3d_dot(layer->rises[vertex], normal), most);
+    double height = meso_vec3d_dot(rise, normal);
+    return meso_vec3d_mad(rise, fmax(least, fmin(height, most)) - height, normal);
+}
+
+static void move_vertex(Relaxation *relax, uint32_t vertex)
+{
+    enum { STEPS = 4 };
+    const double margin = 0.1;      /* further away from folds than they must be */
+    MesoPrismLayer *layer = relax->layer;
+    MesoVec3d old = layer->rises[vertex], way = meso_vec3d_sub(keep_thickness(layer, vertex, best_rise(relax, vertex)), old);
+    double step = 1;
+    for (uint32_t k = 0; k < STEPS; k++, step /= 2) {
+        layer->rises[vertex] = meso_vec3d_mad(old, step, way);
+        if (meso_prism_ring_stands(layer, vertex, margin))
+            return;
+    }
+    layer->rises[vertex] = old;
+}
+
+MesoStatus meso_prism_relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
+{
+    enum { SWEEPS = 8 };
+    const MesoTriangulation *mesh = layer->mesh;
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    double low = layer->low, high = layer->high;
+    Relaxation relax = {layer, {high - low, (high * high - low * low) / 2, (high * high * high - low * low * low) / 3},
+                        meso_arena_alloc(scratch, mesh->triangle_count, sizeof *relax.flats, error), 2};
+    if (!relax.flats)
+        return MESO_ERR_MEMORY;
+    measure(&relax);
+    for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
+        relax.slope = slope_of(&relax);
+        for (uint32_t v = 0; v < mesh->vertex_count; v++)
+            if (mesh->vertex_corner[v] != MESO_NO_INDEX && meso_vec3d_dot(layer->normals[v], layer->normals[v]) > 0)
+                move_vertex(&relax, v);
+    }
+    meso_arena_rewind(scratch, mark);
+    return MESO_OK;
+}
