@@ -1,0 +1,37 @@
+/* Quilts in space: where the vertices of the layer lie over a surface. */
+#ifndef MESO_QUILT_EMBED_H
+#define MESO_QUILT_EMBED_H
+
+#include "libcore/quilt/quilt.h"
+
+/* Heights that occur, and 0. */
+typedef struct MesoQuiltHeights {
+    float low, high;
+} MesoQuiltHeights;
+
+MesoQuiltHeights meso_quilt_heights(const MesoQuilt *quilt);
+
+/*
+ * directions[vertex_count of the base]: normals, the sums of the area vectors around each vertex at unit length; +Z
+ * where they vanish. Only positions and corners of the base are read. O(triangles).
+ */
+void meso_quilt_directions(MesoVec3 *directions, const MesoTriangulation *base);
+
+/*
+ * The place of each vertex over the base:
+ *
+ *     x = sum of b_i (p_i + h d_i)
+ *
+ * over the corners of its triangle, with its weights b and height h, positions p and directions d. What is continuous
+ * in the layer is so in space.
+ *
+ * positions    [vertex_count of the quilt]
+ * base         that the quilt was grown over, or another with the same triangles; only positions and corners are read
+ * directions   [vertex_count of the base] to where height 1 lies
+ *
+ * O(vertices), on `thread_count` threads (0: all cores).
+ */
+void meso_quilt_embed(MesoVec3 *positions, const MesoQuilt *quilt, const MesoTriangulation *base,
+                      const MesoVec3 *directions, uint32_t thread_count);
+
+#endif
