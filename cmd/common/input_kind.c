@@ -14,8 +14,8 @@ const MesoInputPlace MESO_PLACE_SLOTS = {"SLOTS", "an assignment (.slots)", "slo
 const MesoInputPlace MESO_PLACE_KEEP = {"--keep", "an assignment (.slots)", "keep",
                                         MESO_FILE_SLOTS | MESO_FILE_LISTING | MESO_FILE_CSV};
 const MesoInputPlace MESO_PLACE_MODEL = {
-    "MODEL", "a model (.meso) or a mesh (OBJ, PLY, OFF, glTF or Draco)", "model",
-    MESO_FILE_MODEL | MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF | MESO_FILE_DRC};
+    "MODEL", "a model (.meso), a quilt or a mesh (OBJ, PLY, OFF, glTF or Draco)", "model",
+    MESO_FILE_MODEL | MESO_FILE_QUILT | MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF | MESO_FILE_DRC};
 const MesoInputPlace MESO_PLACE_REPORT = {"REPORT", "a report of meso-solve", "report",
                                           MESO_FILE_REPORT | MESO_FILE_JSON};
 const MesoInputPlace MESO_PLACE_CONSTRAINTS = {"--constraints", "a file of constraints", "constraints",

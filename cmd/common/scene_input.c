@@ -16,7 +16,7 @@ static bool is_mesh(const MesoInput *input)
     bool named = false;
     for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++)
         named = named || strcasecmp(dot, extensions[i]) == 0;
-    return kind == MESO_FILE_UNKNOWN ? named : kind != MESO_FILE_MODEL;
+    return kind == MESO_FILE_UNKNOWN ? named : !(kind & (MESO_FILE_MODEL | MESO_FILE_QUILT));
 }
 
 static MesoStatus read_mesh(MesoTool *tool, MesoScene *scene, const MesoInput *input, MesoSceneReading *reading)
@@ -25,6 +25,7 @@ static MesoStatus read_mesh(MesoTool *tool, MesoScene *scene, const MesoInput *i
     MesoPolygonMesh mesh;
     meso_arena_init(&polygons);
     reading->tiling = NULL;
+    reading->quilt = false;
     reading->provenance = NULL;
     MesoStatus status = meso_polygon_mesh_read(&mesh, &polygons, input, reading->thread_count, &tool->error);
     if (!status && meso_scene_of_mesh(scene, &tool->arena, &mesh, &tool->error))

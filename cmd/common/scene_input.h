@@ -6,7 +6,7 @@
 #include "formats/model/model_scene.h"
 
 /*
- * Opens the operand MODEL, a model (.meso) or a mesh (OBJ, PLY, OFF, glTF, Draco), notes it in the provenance, and
+ * Opens the operand MODEL, a model (.meso), a quilt or a mesh (OBJ, PLY, OFF, glTF, Draco), notes it in the provenance, and
  * reads it as a scene to the tool's arena; of a mesh `reading` gets neither tiling nor provenance. `input` must stay
  * open as long as the scene is used, and is closed on failure. Errors as those of the readers.
  */

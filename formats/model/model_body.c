@@ -7,6 +7,7 @@
 #include "formats/json/json_field.h"
 #include "formats/json/json_text.h"
 #include "formats/model/model_file.h"
+#include "formats/scene/material_json.h"
 #include "libcore/base/index.h"
 #include "libcore/mesh/quad_mesh.h"
 #include "libcore/scene/parts.h"
@@ -90,28 +91,16 @@ static int put_channel(json_t *channels, const MesoIdChannel *channel)
     return failed | json_array_append_new(channels, object);
 }
 
-static int put_material(json_t *materials, const char *name, const MesoMaterial *m)
-{
-    json_t *object = json_object();
-    json_t *albedo = json_pack("[f, f, f]", (double)m->albedo[0], (double)m->albedo[1], (double)m->albedo[2]);
-    int failed = json_object_set_new(object, "name", meso_json_string(name));
-    failed |= json_object_set_new(object, "albedo", albedo);
-    failed |= json_object_set_new(object, "roughness", json_real((double)m->roughness));
-    failed |= json_object_set_new(object, "metallic", json_real((double)m->metallic));
-    return failed | json_array_append_new(materials, object);
-}
-
 /* To be freed; NULL where memory is out. */
 static char *describe(const MesoScene *scene)
 {
-    json_t *root = json_object(), *channels = json_array(), *materials = json_array();
+    json_t *root = json_object(), *channels = json_array();
     int failed = 0;
     for (uint32_t c = 0; c < scene->channel_count; c++)
         failed |= put_channel(channels, &scene->channels[c]);
-    for (uint32_t m = 0; m < scene->material_count; m++)
-        failed |= put_material(materials, scene->material_names[m], &scene->materials[m]);
     failed |= json_object_set_new(root, "channels", channels);
-    failed |= json_object_set_new(root, "materials", materials);
+    failed |= json_object_set_new(root, "materials", meso_materials_to_json(scene->material_count, scene->materials,
+                                                                            scene->material_names));
     char *text = failed ? NULL : json_dumps(root, JSON_COMPACT);
     json_decref(root);
     return text;
@@ -195,19 +184,6 @@ static void read_channel(MesoScene *scene, const MesoJsonField *field, MesoArena
     }
 }
 
-static void read_material(MesoScene *scene, const MesoJsonField *field, uint32_t material)
-{
-    static const char *const keys[] = {"name", "albedo", "roughness", "metallic", NULL};
-    MesoMaterial *out = &scene->materials[material];
-    meso_json_object(field, keys);
-    MesoJsonField name = meso_json_key(field, "name"), albedo = meso_json_key(field, "albedo");
-    MesoJsonField roughness = meso_json_key(field, "roughness"), metallic = meso_json_key(field, "metallic");
-    scene->material_names[material] = meso_json_text(&name);
-    meso_json_floats(&albedo, 3, out->albedo);
-    out->roughness = meso_json_float(&roughness, 0.5f);
-    out->metallic = meso_json_float(&metallic, 0);
-}
-
 static MesoStatus read_fields(const Reading *in, MesoJsonReader *reader, const json_t *root)
 {
     static const char *const keys[] = {"channels", "materials", NULL};
@@ -216,20 +192,11 @@ static MesoStatus read_fields(const Reading *in, MesoJsonReader *reader, const j
     meso_json_object(&top, keys);
     MesoJsonField channels = meso_json_key(&top, "channels"), materials = meso_json_key(&top, "materials");
     uint32_t channel_count = meso_json_count(&channels, 0, MESO_ID_CHANNELS);
-    uint32_t material_count = meso_json_count(&materials, 0, UINT16_MAX);
-    scene->materials = MESO_NEW(in->arena, MesoMaterial, material_count, reader->error);
-    scene->material_names = MESO_NEW(in->arena, const char *, material_count, reader->error);
-    if (!scene->materials || !scene->material_names)
-        return MESO_ERR_MEMORY;
-    scene->material_count = material_count;
     for (uint32_t c = 0; c < channel_count && meso_json_good(&top); c++) {
         MesoJsonField item = meso_json_item(&channels, c);
         read_channel(scene, &item, in->arena);
     }
-    for (uint32_t m = 0; m < material_count && meso_json_good(&top); m++) {
-        MesoJsonField item = meso_json_item(&materials, m);
-        read_material(scene, &item, m);
-    }
+    meso_materials_of_json(&materials, &scene->material_count, &scene->materials, &scene->material_names);
     return reader->status;
 }
 

@@ -4,6 +4,8 @@
 
 #include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
+#include "formats/quilt/quilt_file.h"
+#include "libcore/quilt/embed/quilt_scene.h"
 #include "libcore/tiling/strand/expansion.h"
 
 typedef struct Opened {
@@ -43,18 +45,32 @@ static const struct {
 } METHODS[] = {{"tiles", expand_tiles}, {"body", expand_body}};
 enum { METHOD_COUNT = sizeof METHODS / sizeof *METHODS };
 
+static MesoStatus read_quilt(MesoScene *scene, MesoArena *arena, const MesoInput *input, MesoSceneReading *reading,
+                             MesoError *error)
+{
+    MesoQuiltFile file;
+    MesoStatus status = meso_quilt_read(&file, &reading->provenance, arena, input, error);
+    if (!status && reading->surface)
+        status = meso_quilt_move_base(&file, reading->surface, error);
+    return status ? status : meso_quilt_show(scene, arena, &file.quilt, &file.swatch, &file.base, reading->thread_count,
+                                             error);
+}
+
 MesoStatus meso_scene_read(MesoScene *scene, MesoArena *arena, const MesoInput *input, MesoSceneReading *reading,
                            MesoError *error)
 {
     MesoContainer file;
     uint64_t size;
+    reading->tiling = NULL;
+    reading->quilt = meso_quilt_recognise(input);
+    if (reading->quilt)
+        return read_quilt(scene, arena, input, reading, error);
     MesoStatus status = meso_container_read(&file, input, "model", MESO_MODEL_MAJOR, error);
     if (!status)
         status = meso_model_provenance(&reading->provenance, arena, &file, input->path, error);
     if (status)
         return status;
     const Opened opened = {&file, input, arena, reading};
-    reading->tiling = NULL;
     for (uint32_t m = 0; m < METHOD_COUNT; m++)
         if (meso_container_find(&file, METHODS[m].chunk, &size))
             return METHODS[m].expand(scene, &opened, error);

@@ -1,6 +1,6 @@
 /*
  * Models (.meso) as scenes: an envelope with the provenance and the chunks of one method, known by a chunk of
- * its own: 'tiles' (model_file.h) or 'body' (model_body.h).
+ * its own: 'tiles' (model_file.h) or 'body' (model_body.h). Quilts (.quilt) are read as models too.
  */
 #ifndef MESO_MODEL_SCENE_H
 #define MESO_MODEL_SCENE_H
@@ -14,7 +14,10 @@ typedef struct MesoSceneReading {
     /* May change the mapping options that a tiling was stored with; NULL: they stay. */
     void (*remap)(void *context, MesoMapOptions *options);
     void *context;
+    /* Where a quilt's surface has moved to: a mesh of the same faces, or NULL. Of no use to what is no quilt. */
+    const MesoPolygonMesh *surface;
     const MesoModel *tiling;    /* gets the model, in the arena, where it is one of tiles; else NULL */
+    bool quilt;                 /* gets whether it is one */
     const char *provenance;     /* gets the provenance, in the arena */
 } MesoSceneReading;
 

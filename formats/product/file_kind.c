@@ -156,10 +156,18 @@ static MesoFileKind kind_of_text(const MesoInput *input)
     return begins_obj(input, at) ? MESO_FILE_OBJ : MESO_FILE_UNKNOWN;
 }
 
+/* The kind stands behind the magic. */
+static MesoFileKind kind_of_container(const MesoInput *input)
+{
+    const char *kind = input->size >= 16 ? (const char *)input->data + 8 : "";
+    return strncmp(kind, "model", 8) == 0 ? MESO_FILE_MODEL
+        : strncmp(kind, "quilt", 8) == 0 ? MESO_FILE_QUILT : MESO_FILE_SLOTS;
+}
+
 MesoFileKind meso_file_kind(const MesoInput *input)
 {
-    if (meso_container_recognise(input))    /* the kind stands behind the magic */
-        return input->size >= 16 && memcmp(input->data + 8, "model\0\0", 8) == 0 ? MESO_FILE_MODEL : MESO_FILE_SLOTS;
+    if (meso_container_recognise(input))
+        return kind_of_container(input);
     switch (meso_product_recognise(input)) {
     case MESO_PRODUCT_EXR: return MESO_FILE_EXR;
     case MESO_PRODUCT_PNG: return MESO_FILE_PNG;
@@ -184,6 +192,7 @@ const char *meso_file_kind_phrase(MesoFileKind kind)
     case MESO_FILE_JSON: return "JSON of another kind";
     case MESO_FILE_SLOTS: return "an assignment (.slots)";
     case MESO_FILE_MODEL: return "a model (.meso)";
+    case MESO_FILE_QUILT: return "a quilt (.quilt)";
     case MESO_FILE_OBJ: return "an OBJ mesh";
     case MESO_FILE_PLY: return "a PLY mesh";
     case MESO_FILE_OFF: return "an OFF mesh";

@@ -27,7 +27,8 @@ typedef enum MesoFileKind {
     MESO_FILE_CSV = 1 << 17,            /* the same, in CSV; with its columns in their usual order */
     MESO_FILE_PATTERN = 1 << 18,
     MESO_FILE_MACROS = 1 << 19,         /* of patterns */
-    MESO_FILE_REGIONS = 1 << 20         /* of a finished pattern */
+    MESO_FILE_REGIONS = 1 << 20,        /* of a finished pattern */
+    MESO_FILE_QUILT = 1 << 21
 } MesoFileKind;
 
 /* All that begin as JSON text. */

@@ -14,11 +14,13 @@ typedef struct QuiltFixture {
 /* The cube of side 1 whose lowest corner is the origin; the last two triangles are its top. */
 static inline MesoSwatch quilt_fixture_swatch(MesoArena *arena)
 {
-    static const uint32_t quads[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}, {4, 5, 7, 6}};
+    static const uint32_t quads[6][4] = {{0, 2, 3, 1}, {0, 1, 5, 4}, {1, 3, 7, 5},
+                                         {3, 2, 6, 7}, {2, 0, 4, 6}, {4, 5, 7, 6}};
     static const float uvs[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     MesoError error;
     MesoSwatch swatch;
-    MesoPolygonMesh mesh = {.vertex_count = 8, .face_count = 6, .corner_count = 24, .side_count = 4, .attribute_count = 2};
+    MesoPolygonMesh mesh = {.vertex_count = 8, .face_count = 6, .corner_count = 24, .side_count = 4};
+    mesh.attribute_count = 2;
     mesh.positions = MESO_NEW(arena, MesoVec3, 8, &error);
     mesh.corners = MESO_NEW(arena, uint32_t, 24, &error);
     mesh.attributes = MESO_NEW(arena, MesoAttribute, 2, &error);
@@ -38,8 +40,8 @@ static inline MesoSwatch quilt_fixture_swatch(MesoArena *arena)
     names[1] = "gold";
     mesh.attributes[0] = (MesoAttribute){.name = "material", .domain = MESO_ON_FACES, .entry_count = 2, .names = names,
                                          .entry_of = materials};
-    mesh.attributes[1] = (MesoAttribute){.name = "uv", .domain = MESO_ON_CORNERS, .scalar = MESO_SCALAR_FLOAT, .width = 2,
-                                         .entry_count = 24, .values = coordinates};
+    mesh.attributes[1] = (MesoAttribute){.name = "uv", .domain = MESO_ON_CORNERS, .scalar = MESO_SCALAR_FLOAT,
+                                         .width = 2, .entry_count = 24, .values = coordinates};
     CHECK(meso_swatch_build(&swatch, arena, &mesh, &(MesoSwatchOptions){.up = 2}, &error) == MESO_OK);
     CHECK(swatch.triangle_count == 12 && swatch.element_count == 1 && swatch.material_count == 2);
     return swatch;

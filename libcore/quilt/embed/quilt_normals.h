@@ -18,10 +18,10 @@ static inline uint32_t meso_quilt_normal_group(const MesoQuiltNormals *normals, 
 }
 
 /*
- * Sums of the area vectors at `positions` [vertex_count] around each vertex, but not across an edge of the swatch: where
- * its surface turns by over 65 degrees. Between triangles that are no neighbours in the swatch there is one where they turn
- * as far at `positions`, and both have such an edge. +Z where sums vanish. To `arena`. O(corners); the same for any number
- * of threads. MESO_ERR_MEMORY alone.
+ * Sums of the area vectors at `positions` [vertex_count] around each vertex, but not across an edge of the swatch:
+ * where its surface turns by over 65 degrees. Between triangles that are no neighbours in the swatch there is one where
+ * they turn as far at `positions`, and both have such an edge. +Z where sums vanish. To `arena`. O(corners); the same
+ * for any number of threads. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_quilt_normals(MesoQuiltNormals *normals, MesoArena *arena, const MesoQuilt *quilt,
                               const MesoSwatch *swatch, const MesoVec3 *positions, uint32_t thread_count,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/parallel.h"
+#include "libcore/quilt/embed/quilt_embed.h"
 #include "libcore/quilt/embed/quilt_normals.h"
 
 enum { CHANNELS = 3, GRAIN = 16 };
@@ -300,4 +301,25 @@ MesoStatus meso_quilt_scene(MesoScene *scene, MesoArena *arena, const MesoQuilt 
     if (!status)
         meso_scene_measure(scene);
     return status;
+}
+
+MesoStatus meso_quilt_show(MesoScene *scene, MesoArena *arena, const MesoQuilt *quilt, const MesoSwatch *swatch,
+                           const MesoTriangulation *base, uint32_t thread_count, MesoError *error)
+{
+    MesoArena scratch;
+    MesoStatus status = MESO_ERR_MEMORY;
+    meso_arena_init(&scratch);
+    MesoVec3 *directions = MESO_NEW(&scratch, MesoVec3, base->vertex_count, error);
+    MesoVec3 *positions = directions ? MESO_NEW(&scratch, MesoVec3, quilt->vertex_count, error) : NULL;
+    if (positions) {
+        meso_quilt_directions(directions, base);
+        meso_quilt_embed(positions, quilt, base, directions, thread_count);
+        status = meso_quilt_scene(scene, arena, quilt, swatch, positions, thread_count, error);
+    }
+    meso_arena_release(&scratch);
+    if (status)
+        return status;
+    MesoQuiltHeights heights = meso_quilt_heights(quilt);
+    scene->thickness = heights.high - heights.low;
+    return MESO_OK;
 }
