@@ -147,7 +147,7 @@ static void place_freely(MesoMatch *match, const MesoQuiltStep *step, const Meso
 }
 
 MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted, MesoQuiltStep *step,
-                            MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+                            const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     MesoVec3 size = work->swatch->size;
     MesoVec2 half = {0.5f * work->options.patch * size.x, 0.5f * work->options.patch * size.y};

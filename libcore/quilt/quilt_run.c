@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/quilt_work.h"
 
 /* Margins of a patch are made tighter by steps where its seed is not covered. */
@@ -13,6 +14,7 @@ enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
 
 typedef struct Front {
     uint32_t *triangles;    /* [count] not done, next to what is; in the order in which they came */
+    float *constraints;     /* [count] share of done triangles around them */
     uint32_t count;
     uint8_t *listed;        /* [triangle_count] */
     uint32_t next_bare;     /* triangles below it are done */
@@ -56,49 +58,137 @@ static void extend_front(Front *front, const MesoQuiltWork *work, const MesoChar
     }
 }
 
-/* The most constrained triangle: the largest share of done ones around it, then the oldest. MESO_NO_INDEX at the end. */
-static uint32_t next_seed(Front *front, const MesoQuiltWork *work)
+typedef struct Seed {
+    uint32_t triangle;
+    float constraint;   /* share of what is done around it */
+} Seed;
+
+static bool is_apart(const MesoQuiltWork *work, const Seed *seeds, uint32_t count, uint32_t triangle, float apart)
 {
-    uint32_t best = MESO_NO_INDEX, kept = 0;
-    float most = -1;
+    MesoVec3 p = work->base->positions[work->base->corners[3 * (size_t)triangle]];
+    for (uint32_t i = 0; i < count; i++) {
+        MesoVec3 q = work->base->positions[work->base->corners[3 * (size_t)seeds[i].triangle]];
+        MesoVec3 d = meso_vec3_sub(p, q);
+        if (!(meso_vec3_dot(d, d) > apart * apart))
+            return false;
+    }
+    return true;
+}
+
+/*
+ * The most constrained triangle: the largest share of done ones around it, then the oldest; and some more, each the most
+ * constrained one that is so far from those before it that their charts cannot touch. None at the end.
+ */
+static uint32_t next_seeds(Seed seeds[MESO_QUILT_PATCHES], Front *front, const MesoQuiltWork *work)
+{
+    uint32_t kept = 0, count = 0;
     for (uint32_t i = 0; i < front->count; i++) {
         uint32_t triangle = front->triangles[i], all;
         if (work->covers[triangle] == MESO_COVER_DONE)
             continue;
-        front->triangles[kept++] = triangle;
         uint32_t done = count_done_around(work, triangle, &all);
-        if ((float)done / (float)all > most) {
-            most = (float)done / (float)all;
-            best = triangle;
-        }
+        front->constraints[kept] = (float)done / (float)all;
+        front->triangles[kept++] = triangle;
     }
     front->count = kept;
-    if (best != MESO_NO_INDEX)
-        return best;
+    for (; count < MESO_QUILT_PATCHES; count++) {
+        Seed best = {MESO_NO_INDEX, -1};
+        for (uint32_t i = 0; i < front->count; i++)
+            if (front->constraints[i] > best.constraint &&
+                is_apart(work, seeds, count, front->triangles[i], work->seeds_apart))
+                best = (Seed){front->triangles[i], front->constraints[i]};
+        if (best.triangle == MESO_NO_INDEX)
+            break;
+        seeds[count] = best;
+    }
+    if (count)
+        return count;
     while (front->next_bare < work->base->triangle_count && work->covers[front->next_bare] == MESO_COVER_DONE)
         front->next_bare++;
-    return front->next_bare < work->base->triangle_count ? front->next_bare : MESO_NO_INDEX;
+    if (front->next_bare == work->base->triangle_count)
+        return 0;
+    seeds[0] = (Seed){front->next_bare, 0};
+    return 1;
 }
 
-static MesoStatus cover_seed(uint32_t seed, Front *front, MesoQuiltWork *work, MesoArena *scratch, MesoError *error)
+/* ---- rounds ---- */
+
+/* Patches that are made at the same time, and all that each needs. */
+typedef struct Round {
+    MesoQuiltWork *work;
+    uint32_t count;
+    MesoQuiltPatch patches[MESO_QUILT_PATCHES];
+    MesoQuiltTally tallies[MESO_QUILT_PATCHES];
+    MesoChartMaker makers[MESO_QUILT_PATCHES];
+    MesoArena arenas[MESO_QUILT_PATCHES];
+    MesoStatus statuses[MESO_QUILT_PATCHES];
+    MesoError errors[MESO_QUILT_PATCHES];
+} Round;
+
+static void begin_patch(Round *round, uint32_t i, uint32_t seed, float tightness)
 {
-    for (int attempt = 0; attempt < TIGHTNESS_COUNT; attempt++) {
-        MesoArenaMark mark = meso_arena_mark(scratch);
-        MesoQuiltStep step = {.seed = seed, .patch = work->report.patch_count++, .tightness = TIGHTNESS[attempt]};
-        bool done = false;
-        MesoStatus status = meso_quilt_step(&step, &done, work, scratch, error);
-        if (!status)
-            extend_front(front, work, &step.chart);
-        meso_arena_rewind(scratch, mark);
-        if (status || done)
+    round->tallies[i] = (MesoQuiltTally){0};
+    round->patches[i] = (MesoQuiltPatch){
+        .step = {.seed = seed, .patch = round->work->tally.report.patch_count++, .maker = &round->makers[i],
+                 .tally = &round->tallies[i], .tightness = tightness},
+    };
+}
+
+static void prepare_range(void *context, uint64_t begin, uint64_t end)
+{
+    Round *round = context;
+    for (uint64_t i = begin; i < end; i++)
+        round->statuses[i] = meso_quilt_prepare(&round->patches[i], round->work, &round->arenas[i], &round->errors[i]);
+}
+
+static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, MesoError *error)
+{
+    MesoStatus status = meso_quilt_commit(&round->patches[i], round->statuses[i], done, round->work, &round->arenas[i],
+                                          &round->errors[i]);
+    if (!status)
+        extend_front(front, round->work, &round->patches[i].step.chart);
+    else if (error)
+        *error = round->errors[i];
+    meso_arena_release(&round->arenas[i]);
+    return status;
+}
+
+/* A seed that its patch could not cover: with margins made tighter; in the end it counts as done, so that there is an end. */
+static MesoStatus insist(Round *round, uint32_t seed, Front *front, MesoError *error)
+{
+    MesoQuiltWork *work = round->work;
+    bool done = false;
+    for (int attempt = 1; attempt < TIGHTNESS_COUNT && !done; attempt++) {
+        begin_patch(round, 0, seed, TIGHTNESS[attempt]);
+        prepare_range(round, 0, 1);
+        MesoStatus status = end_patch(round, 0, &done, front, error);
+        if (status)
             return status;
     }
-    /* nothing can be placed there: it counts as done, so that there is an end */
-    work->covers[seed] = MESO_COVER_DONE;
-    work->report.skipped_count++;
-    front->done_count++;
-    front->listed[seed] = 2;
+    if (!done) {
+        work->covers[seed] = MESO_COVER_DONE;
+        work->tally.report.skipped_count++;
+        front->done_count++;
+        front->listed[seed] = 2;
+    }
     return MESO_OK;
+}
+
+static MesoStatus run_round(Round *round, const Seed *seeds, Front *front, MesoError *error)
+{
+    bool done[MESO_QUILT_PATCHES];
+    for (uint32_t i = 0; i < round->count; i++)
+        begin_patch(round, i, seeds[i].triangle, TIGHTNESS[0]);
+    meso_parallel_for(round->work->options.thread_count, round->count, 1, prepare_range, round);
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < round->count; i++) {
+        MesoStatus ended = end_patch(round, i, &done[i], front, status ? NULL : error);
+        status = status ? status : ended;
+    }
+    for (uint32_t i = 0; i < round->count && !status; i++)
+        if (!done[i] && round->work->covers[seeds[i].triangle] != MESO_COVER_DONE)
+            status = insist(round, seeds[i].triangle, front, error);
+    return status;
 }
 
 static MesoStatus check_limits(const MesoQuiltWork *work, MesoError *error)
@@ -109,13 +199,18 @@ static MesoStatus check_limits(const MesoQuiltWork *work, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus grow(MesoQuiltWork *work, Front *front, MesoArena *scratch, MesoError *error)
+static MesoStatus grow(MesoQuiltWork *work, Round *round, Front *front, MesoError *error)
 {
+    uint32_t limit = work->options.step_limit;
     for (;;) {
-        uint32_t seed = next_seed(front, work);
-        if (seed == MESO_NO_INDEX || (work->options.step_limit && work->report.patch_count >= work->options.step_limit))
+        Seed seeds[MESO_QUILT_PATCHES];
+        round->count = next_seeds(seeds, front, work);
+        uint32_t begun = work->tally.report.patch_count;
+        if (limit && round->count > limit - (begun < limit ? begun : limit))
+            round->count = limit - (begun < limit ? begun : limit);
+        if (!round->count)
             return MESO_OK;
-        MesoStatus status = cover_seed(seed, front, work, scratch, error);
+        MesoStatus status = run_round(round, seeds, front, error);
         if (!status)
             status = check_limits(work, error);
         if (status)
@@ -154,28 +249,58 @@ static void choose_lengths(MesoQuiltWork *work)
                          work->whole_margin;
 }
 
-static MesoStatus prepare(MesoQuiltWork *work, Front *front, MesoArena *scratch, MesoError *error)
+/* Charts around seeds that are so far apart, in a straight line, do not touch, however long their triangles are. */
+static float distance_apart(const MesoQuiltWork *work)
 {
-    uint32_t count = work->base->triangle_count;
+    float longest = 0;
+    for (uint32_t c = 0; c < 3 * work->base->triangle_count; c++) {
+        MesoVec3 a = work->base->positions[work->base->corners[c]];
+        MesoVec3 b = work->base->positions[work->base->corners[meso_next_corner(c)]];
+        MesoVec3 d = meso_vec3_sub(a, b);
+        float square = meso_vec3_dot(d, d);
+        longest = square > longest ? square : longest;
+    }
+    return 2 * work->chart_radius * work->options.scale + 6 * sqrtf(longest);
+}
+
+static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, MesoError *error)
+{
+    size_t count = work->base->triangle_count;
     choose_lengths(work);
+    work->seeds_apart = distance_apart(work);
     const MesoSwatch *swatch = work->swatch;
     float longest = swatch->size.x > swatch->size.y ? swatch->size.x : swatch->size.y;
     MesoStatus status = meso_match_field_build(&work->field, scratch, swatch, work->options.lambda / swatch->mean_edge,
                                                longest / VOXELS, work->options.thread_count, error);
     if (!status)
-        status = meso_composite_init(&work->composite, count, error);
-    if (!status)
-        status = meso_chart_maker_init(&work->maker, work->base, error);
+        status = meso_composite_init(&work->composite, work->base->triangle_count, error);
     if (status)
         return status;
     work->covers = MESO_NEW(scratch, uint8_t, count, error);
     work->chart_triangles = MESO_NEW(scratch, uint32_t, count, error);
     front->triangles = MESO_NEW(scratch, uint32_t, count, error);
+    front->constraints = MESO_NEW(scratch, float, count, error);
     front->listed = MESO_NEW(scratch, uint8_t, count, error);
-    if (!work->covers || !work->chart_triangles || !front->triangles || !front->listed)
+    if (!work->covers || !work->chart_triangles || !front->triangles || !front->constraints || !front->listed)
         return MESO_ERR_MEMORY;
     memset(work->chart_triangles, 0xff, count * sizeof *work->chart_triangles);
     return MESO_OK;
+}
+
+static MesoStatus run(MesoQuiltWork *work, Round *round, MesoError *error)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    Front front = {0};
+    MesoStatus status = set_up(work, &front, &scratch, error);
+    for (int i = 0; i < MESO_QUILT_PATCHES && !status; i++)
+        status = meso_chart_maker_init(&round->makers[i], work->base, error);
+    if (!status)
+        status = grow(work, round, &front, error);
+    for (int i = 0; i < MESO_QUILT_PATCHES; i++)
+        meso_chart_maker_release(&round->makers[i]);
+    meso_arena_release(&scratch);
+    return status;
 }
 
 MesoStatus meso_quilt_grow(MesoQuilt *quilt, MesoArena *arena, const MesoTriangulation *base, const MesoSwatch *swatch,
@@ -183,34 +308,28 @@ MesoStatus meso_quilt_grow(MesoQuilt *quilt, MesoArena *arena, const MesoTriangu
 {
     *quilt = (MesoQuilt){0};
     MesoQuiltWork *work = calloc(1, sizeof *work);
-    if (!work)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: a quilt");
-    work->base = base;
-    work->swatch = swatch;
-    work->options = *options;
-    MesoArena scratch;
-    meso_arena_init(&scratch);
-    for (int i = 0; i < MESO_QUILT_TRIALS; i++) {
-        meso_arena_init(&work->trial_arenas[i]);
-        work->trial_marks[i] = meso_arena_mark(&work->trial_arenas[i]);
+    Round *round = calloc(1, sizeof *round);
+    MesoStatus status = MESO_OK;
+    if (!work || !round) {
+        status = meso_fail(error, MESO_ERR_MEMORY, "out of memory: a quilt");
+    } else {
+        work->base = base;
+        work->swatch = swatch;
+        work->options = *options;
+        round->work = work;
+        status = run(work, round, error);
+        if (!status)
+            status = meso_composite_finish(quilt, arena, &work->composite, swatch, error);
+        MesoQuiltReport *report = &work->tally.report;
+        report->cap_count = quilt->report.cap_count;
+        if (report->patch_count)
+            report->matching_cost = work->tally.cost_sum / report->patch_count;
+        if (work->tally.moved_count)
+            report->deformation_rms = sqrt(work->tally.square_sum / (double)work->tally.moved_count);
+        quilt->report = *report;
+        meso_composite_release(&work->composite);
     }
-    Front front = {0};
-    MesoStatus status = prepare(work, &front, &scratch, error);
-    if (!status)
-        status = grow(work, &front, &scratch, error);
-    meso_arena_release(&scratch);
-    for (int i = 0; i < MESO_QUILT_TRIALS; i++)
-        meso_arena_release(&work->trial_arenas[i]);
-    if (!status)
-        status = meso_composite_finish(quilt, arena, &work->composite, swatch, error);
-    work->report.cap_count = quilt->report.cap_count;
-    quilt->report = work->report;
-    if (work->report.patch_count)
-        quilt->report.matching_cost = work->cost_sum / work->report.patch_count;
-    if (work->moved_count)
-        quilt->report.deformation_rms = sqrt(work->square_sum / (double)work->moved_count);
-    meso_chart_maker_release(&work->maker);
-    meso_composite_release(&work->composite);
+    free(round);
     free(work);
     return status;
 }

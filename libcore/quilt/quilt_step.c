@@ -1,11 +1,9 @@
 /* One patch of a quilt. */
 #include "libcore/base/clock.h"
-#include "libcore/base/parallel.h"
 #include "libcore/quilt/quilt_work.h"
 
-/* Placements that are looked at closely, so many at once, and how far from each other sections may lie beside their way. */
-#define CANDIDATE_COUNT MESO_QUILT_TRIALS
-#define TRIED_AT_ONCE 2
+/* Placements that are looked at closely, and how far from each other sections may lie beside their way. */
+#define CANDIDATE_COUNT 4
 #define REACH_BEFORE_WARP 3.0f
 
 /* Ways that are not worth a warp, in mean edges of the swatch. */
@@ -96,125 +94,75 @@ typedef struct Candidate {
     MesoStrandSide old_side, new_side;
     MesoWholePairs wholes;
     float flaws;            /* strands that end, or are cut along */
-    MesoStatus status;
-    MesoError error;
 } Candidate;
 
 /* The seam of a placement, and what meets there. */
-static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoArena *arena)
+static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     MesoQuiltStep *step = &c->step;
     step->warp = (MesoThinPlate){0};
-    MesoStatus status = meso_quilt_seam(step, work, arena, &c->error);
+    MesoStatus status = meso_quilt_seam(step, work, arena, error);
     if (!status)
-        status = meso_strands_cut_old(&c->old_side, step, work, 0, arena, &c->error);
+        status = meso_strands_cut_old(&c->old_side, step, work, 0, arena, error);
     if (!status)
-        status = meso_strands_cut_new(&c->new_side, step, work, 0, arena, &c->error);
+        status = meso_strands_cut_new(&c->new_side, step, work, 0, arena, error);
     if (!status)
-        status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, arena, &c->error);
+        status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, arena, error);
     if (!status)
-        status = meso_quilt_pair_wholes(&c->wholes, step, work, arena, &c->error);
+        status = meso_quilt_pair_wholes(&c->wholes, step, work, arena, error);
     return status;
 }
 
-typedef struct Trials {
-    Candidate *candidates;
-    const MesoQuiltWork *work;
-    MesoArena *arenas;      /* [candidates] */
-    uint32_t begin;
-} Trials;
-
-static void try_range(void *context, uint64_t begin, uint64_t end)
-{
-    const Trials *trials = context;
-    for (uint64_t i = trials->begin + begin; i < trials->begin + end; i++)
-        trials->candidates[i].status = try_placement(&trials->candidates[i], trials->work, &trials->arenas[i]);
-}
-
-/* The placement with the fewest ends; of equal ones the one that matches best. Its seam goes to the step. */
-static MesoStatus choose_placement(Candidate **best, MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena,
+/* The placement with the fewest ends; of equal ones the one that matches best. */
+static MesoStatus choose_placement(Candidate *best, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
                                    MesoError *error)
 {
     MesoMatch matches[CANDIDATE_COUNT];
-    uint32_t found;
+    uint32_t found, chosen = 0;
     double clock = meso_seconds();
     MesoStatus status = meso_quilt_place(matches, &found, CANDIDATE_COUNT, step, work, arena, error);
-    work->report.seconds[1] += meso_seconds() - clock;
-    clock = meso_seconds();
-    Candidate *candidates = status ? NULL : MESO_NEW(arena, Candidate, found, error);
-    if (!candidates)
-        return error ? error->status : MESO_ERR_MEMORY;
-    *best = NULL;
-    for (uint32_t i = 0; i < found && (!*best || (*best)->flaws > 0); i += TRIED_AT_ONCE) {
-        uint32_t end = i + TRIED_AT_ONCE < found ? i + TRIED_AT_ONCE : found;
-        for (uint32_t k = i; k < end; k++) {
-            candidates[k].step = *step;
-            meso_quilt_choose(&candidates[k].step, work, matches[k]);
-        }
-        Trials trials = {candidates, work, work->trial_arenas, i};
-        meso_parallel_for(work->options.thread_count, end - i, 1, try_range, &trials);
-        for (uint32_t k = i; k < end; k++) {
-            if (candidates[k].status) {
-                if (error)
-                    *error = candidates[k].error;
-                return candidates[k].status;
-            }
-            if (!*best || candidates[k].flaws < (*best)->flaws)
-                *best = &candidates[k];
+    step->tally->report.seconds[1] += meso_seconds() - clock;
+    best->flaws = INFINITY;
+    for (uint32_t i = 0; !status && i < found && best->flaws > 0; i++) {
+        Candidate candidate = {.step = *step};
+        meso_quilt_choose(&candidate.step, work, matches[i]);
+        status = try_placement(&candidate, work, arena, error);
+        if (!status && candidate.flaws < best->flaws) {
+            *best = candidate;
+            chosen = i;
         }
     }
-    *step = (*best)->step;
-    work->report.retry_count += *best != candidates;
-    work->cost_sum += step->match.cost;
-    work->report.seconds[2] += meso_seconds() - clock;
+    if (status)
+        return status;
+    step->tally->report.retry_count += chosen > 0;
+    step->tally->cost_sum += best->step.match.cost;
     return MESO_OK;
 }
 
 /* The new side is cut again where placement or warp have moved it. */
-static MesoStatus cut_again(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *work, float reach, MesoArena *arena,
+static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, float reach, MesoArena *arena,
                             MesoError *error)
 {
     MesoStatus status = meso_strands_cut_new(&c->new_side, step, work, 0, arena, error);
     return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, arena, error);
 }
 
-static MesoStatus fit(Candidate *c, MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+/* The placement made exact, and the warp that takes up what is left. The step becomes the candidate's. */
+static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     Pull *pulls;
     uint32_t count;
-    if (meso_quilt_align(&c->step, work)) {
-        MesoStatus status = try_placement(c, work, arena);
-        if (status) {
-            if (error)
-                *error = c->error;
-            return status;
-        }
-    }
+    MesoStatus status = MESO_OK;
+    if (meso_quilt_align(&c->step, work))
+        status = try_placement(c, work, arena, error);
     *step = c->step;
-    MesoStatus status = collect_pulls(&pulls, &count, step, &c->old_side, &c->new_side, &c->wholes, work, arena, error);
+    if (!status)
+        status = collect_pulls(&pulls, &count, step, &c->old_side, &c->new_side, &c->wholes, work, arena, error);
     if (status || !count)
         return status;
-    work->report.correspondence_count += count;
+    step->tally->report.correspondence_count += count;
     status = fit_warp(step, pulls, count, work, arena, error);
     return status || !step->warp.count ? status : cut_again(c, step, work, MESO_REACH_LAST, arena, error);
-}
-
-static MesoStatus stitch(MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
-{
-    Candidate *c = NULL;
-    MesoStatus status = choose_placement(&c, step, work, arena, error);
-    if (status)
-        return status;
-    double clock = meso_seconds();
-    status = fit(c, step, work, arena, error);
-    if (!status)
-        status = meso_strands_join(&c->old_side, &c->new_side, step, work, arena, error);
-    work->report.seconds[4] += meso_seconds() - clock;
-    clock = meso_seconds();
-    if (!status)
-        status = meso_quilt_place_wholes(&c->wholes, step, work, arena, error);
-    work->report.seconds[3] += meso_seconds() - clock;
-    return status;
 }
 
 /* The angle by which the swatch's x axis is turned in the chart: that of the guide, on the mean over the chart. */
@@ -239,30 +187,83 @@ static float guide_angle(const MesoQuiltStep *step, const MesoQuiltWork *work)
     return x != 0 || y != 0 ? (float)(atan2(y, x) / symmetry) : 0;
 }
 
-MesoStatus meso_quilt_step(MesoQuiltStep *step, bool *done, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+/* Chart, plane, and what is there already. */
+static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
-    double clock = meso_seconds();
+    MesoQuiltStep *step = &patch->step;
     MesoChartOptions options = {.radius = step->tightness * work->chart_radius * work->options.scale, .largest_ratio = 4,
                                 .relaxations = 4};
-    MesoStatus status = meso_chart_grow(&step->chart, arena, &work->maker, step->seed, &options, error);
+    MesoStatus status = meso_chart_grow(&step->chart, arena, step->maker, step->seed, &options, error);
     if (status)
         return status;
-    work->report.shrunk_count += step->chart.radius < 0.99f * options.radius;
+    step->tally->report.shrunk_count += step->chart.radius < 0.99f * options.radius;
     status = meso_quilt_plane_make(&step->plane, arena, work->base, &step->chart, work->chart_triangles,
                                    guide_angle(step, work), work->options.scale, work->options.height_scale,
                                    work->options.offset, error);
-    work->report.seconds[0] += meso_seconds() - clock;
-    if (status)
-        return status;
-    status = meso_old_geometry_load(step, work, arena, error);
+    patch->laid_out = true;
     if (!status)
-        status = meso_quilt_ground(step, work, arena, error);
+        status = meso_old_geometry_load(step, work, arena, error);
+    return status ? status : meso_quilt_ground(step, work, arena, error);
+}
+
+MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+{
+    MesoQuiltStep *step = &patch->step;
+    double *seconds = step->tally->report.seconds, clocks[5] = {meso_seconds()};
+    MesoStatus status = survey(patch, work, arena, error);
+    clocks[1] = meso_seconds();
+    Candidate c;
     if (!status)
-        status = stitch(step, work, arena, error);
+        status = choose_placement(&c, step, work, arena, error);
+    if (!status)
+        status = fit(&c, step, work, arena, error);
+    clocks[2] = meso_seconds();
+    if (!status)
+        status = meso_strands_plan(&patch->joint, &c.old_side, &c.new_side, step, work, arena, error);
+    clocks[3] = meso_seconds();
+    if (!status)
+        status = meso_quilt_plan_wholes(&patch->wholes, &c.wholes, step, work, arena, error);
+    clocks[4] = meso_seconds();
+    const int stages[4] = {0, 2, 4, 3};     /* of MesoQuiltReport */
+    for (int i = 0; i < 4; i++)
+        seconds[stages[i]] += clocks[i + 1] - clocks[i];
+    return status;
+}
+
+static void add_tally(MesoQuiltTally *sum, const MesoQuiltTally *tally)
+{
+    const MesoQuiltReport *from = &tally->report;
+    MesoQuiltReport *to = &sum->report;
+    to->correspondence_count += from->correspondence_count;
+    to->join_count += from->join_count;
+    to->open_count += from->open_count;
+    to->retry_count += from->retry_count;
+    to->shrunk_count += from->shrunk_count;
+    to->removed_count += from->removed_count;
+    if (from->deformation_largest > to->deformation_largest)
+        to->deformation_largest = from->deformation_largest;
+    for (int i = 0; i < 6; i++)
+        to->seconds[i] += from->seconds[i];
+    sum->cost_sum += tally->cost_sum;
+    sum->square_sum += tally->square_sum;
+    sum->moved_count += tally->moved_count;
+}
+
+MesoStatus meso_quilt_commit(MesoQuiltPatch *patch, MesoStatus prepared, bool *done, MesoQuiltWork *work,
+                             MesoArena *arena, MesoError *error)
+{
+    MesoQuiltStep *step = &patch->step;
+    double clock = meso_seconds();
+    MesoStatus status = prepared;
+    if (!status)
+        status = meso_strands_commit(&patch->joint, step, work, arena, error);
+    if (!status)
+        status = meso_quilt_commit_wholes(&patch->wholes, step, work, error);
     meso_old_geometry_forget(step, work);
-    for (int i = 0; i < MESO_QUILT_TRIALS; i++)
-        meso_arena_rewind(&work->trial_arenas[i], work->trial_marks[i]);
     *done = !status && meso_quilt_cover(step, work);
-    meso_quilt_plane_forget(&step->plane);
+    if (patch->laid_out)
+        meso_quilt_plane_forget(&step->plane);
+    step->tally->report.seconds[5] += meso_seconds() - clock;
+    add_tally(&work->tally, step->tally);
     return status;
 }

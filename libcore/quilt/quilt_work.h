@@ -18,8 +18,15 @@ typedef enum MesoCover {
     MESO_COVER_OUTSIDE  /* of cells: of the chart */
 } MesoCover;
 
-/* Placements of a patch that are tried. */
-enum { MESO_QUILT_TRIALS = 4 };
+/* Patches that are made at the same time, far from each other. More would have more cores at work, but fronts to begin at
+ * are few. It is no matter of threads: the result depends on it. */
+enum { MESO_QUILT_PATCHES = 4 };
+
+typedef struct MesoQuiltTally {
+    MesoQuiltReport report;
+    double cost_sum, square_sum;
+    uint64_t moved_count;
+} MesoQuiltTally;
 
 typedef struct MesoQuiltWork {
     const MesoTriangulation *base;
@@ -27,14 +34,9 @@ typedef struct MesoQuiltWork {
     MesoQuiltOptions options;   /* with defaults filled in */
     MesoMatchField field;
     MesoComposite composite;
-    MesoChartMaker maker;
     uint8_t *covers;            /* [triangle_count] MesoCover */
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
-    MesoArena trial_arenas[MESO_QUILT_TRIALS];  /* one each, since they are tried at the same time */
-    MesoArenaMark trial_marks[MESO_QUILT_TRIALS];
-    MesoQuiltReport report;
-    double cost_sum, square_sum;
-    uint64_t moved_count;
+    MesoQuiltTally tally;       /* of all steps */
 
     /* lengths in units of the swatch */
     float gap;          /* strands end so far before the seam, on both sides */
@@ -43,6 +45,7 @@ typedef struct MesoQuiltWork {
     float whole_margin;         /* how far whole elements reach, and so the rim moves in */
     float widening;     /* how far a patch reaches into what is done */
     float chart_radius;
+    float seeds_apart;  /* in the surface's units: charts around such seeds do not touch */
 } MesoQuiltWork;
 
 /* The older quilt in the plane of a patch. */
@@ -68,8 +71,14 @@ typedef struct MesoSeamGround {
     float *undone;              /* distance to what is not done, and not at the rim */
 } MesoSeamGround;
 
+/*
+ * One patch. Steps whose charts have no triangle in common, nor neighbouring ones, may be made at the same time: of the
+ * work they change only what lies under their charts. What they add to the quilt comes after, one by one.
+ */
 typedef struct MesoQuiltStep {
     uint32_t seed, patch;
+    MesoChartMaker *maker;
+    MesoQuiltTally *tally;
     float tightness;            /* of the margins: 1, or less where a patch was too small for them */
     MesoChart chart;
     MesoQuiltPlane plane;
@@ -119,7 +128,7 @@ void meso_old_geometry_forget(const MesoQuiltStep *step, MesoQuiltWork *work);
 
 /* Placements, best first. */
 MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted, MesoQuiltStep *step,
-                            MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+                            const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
 /* Takes a placement; then moves and turns it by less than a voxel or so until it fits. False where nothing is there to fit. */
 bool meso_quilt_align(MesoQuiltStep *step, const MesoQuiltWork *work);
 void meso_quilt_choose(MesoQuiltStep *step, const MesoQuiltWork *work, MesoMatch match);
@@ -141,8 +150,19 @@ typedef struct MesoWholePairs {
 
 MesoStatus meso_quilt_pair_wholes(MesoWholePairs *pairs, const MesoQuiltStep *step, const MesoQuiltWork *work,
                                   MesoArena *arena, MesoError *error);
-MesoStatus meso_quilt_place_wholes(const MesoWholePairs *pairs, const MesoQuiltStep *step, MesoQuiltWork *work,
-                                   MesoArena *arena, MesoError *error);
+/* What becomes of whole elements: which old ones go, and which new ones come. */
+typedef struct MesoWholePlan {
+    bool *old_dies;             /* [old.whole_count] */
+    uint32_t count;
+    uint32_t *elements;         /* [count] of the swatch */
+    MesoQuiltVertex *centres;   /* [count] */
+    MesoQuiltVertex *places;    /* their vertices, one element after the other */
+} MesoWholePlan;
+
+MesoStatus meso_quilt_plan_wholes(MesoWholePlan *plan, const MesoWholePairs *pairs, const MesoQuiltStep *step,
+                                  const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+MesoStatus meso_quilt_commit_wholes(const MesoWholePlan *plan, const MesoQuiltStep *step, MesoQuiltWork *work,
+                                    MesoError *error);
 
 /* Strands of one side, cut at a distance `gap` before the seam. Cut at 0, equal strands of both sides have equal sections. */
 typedef struct MesoStrandSide {
@@ -171,16 +191,31 @@ MesoStatus meso_strands_cut_new(MesoStrandSide *side, const MesoQuiltStep *step,
  */
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
                              MesoArena *scratch, MesoError *error);
-/*
- * Moves both sides half of the way to each other, as their sections at the seam say, joins them, closes what has no
- * partner, and hands all to the composite.
- */
-MesoStatus meso_strands_join(const MesoStrandSide *old_at_seam, const MesoStrandSide *new_at_seam,
-                             const MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* Both sides moved half of the way to each other, as their sections at the seam say. */
+typedef struct MesoStrandJoint {
+    MesoStrandSide old_side, new_side;
+} MesoStrandJoint;
+
+MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_at_seam,
+                             const MesoStrandSide *new_at_seam, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                             MesoArena *arena, MesoError *error);
+/* Joins them in the composite, and closes what has no partner. */
+MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,
+                               MesoArena *arena, MesoError *error);
 /* `reach` of meso_strands_pair() once sides are as near to each other as they can be. */
 #define MESO_REACH_LAST 1.5f
 
-/* One patch around step->seed; whether the seed is done. The composite is as before where it fails. */
-MesoStatus meso_quilt_step(MesoQuiltStep *step, bool *done, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* A patch around step->seed, made ready. Its parts are in the arena. */
+typedef struct MesoQuiltPatch {
+    MesoQuiltStep step;
+    MesoStrandJoint joint;
+    MesoWholePlan wholes;
+    bool laid_out;              /* marks in the work are to be taken back */
+} MesoQuiltPatch;
+
+MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* Adds it to the quilt; whether the seed is done then. To be called also where preparing has failed, for the marks. */
+MesoStatus meso_quilt_commit(MesoQuiltPatch *patch, MesoStatus prepared, bool *done, MesoQuiltWork *work,
+                             MesoArena *arena, MesoError *error);
 
 #endif

@@ -12,7 +12,7 @@
 #define MOVE_LEAST 1e-4f
 
 typedef struct Joiner {
-    MesoStrandSide *old_side, *new_side;
+    const MesoStrandSide *old_side, *new_side;
     const MesoQuiltStep *step;
     MesoQuiltWork *work;
     MesoArena *arena;
@@ -59,22 +59,23 @@ static void choose_moves(MesoStrandSide *side, const MesoStrandSide *other, cons
 }
 
 /* How far vertices have moved, those that have. */
-static void count_moves(MesoQuiltWork *work, const MesoVec3 *before, const MesoVec3 *after, uint32_t count)
+static void count_moves(MesoQuiltTally *tally, float edge, const MesoVec3 *before, const MesoVec3 *after, uint32_t count)
 {
     for (uint32_t v = 0; v < count; v++) {
         MesoVec3 move = meso_vec3_sub(after[v], before[v]);
-        double length = meso_vec3_length(move) / work->swatch->mean_edge;
+        double length = meso_vec3_length(move) / edge;
         if (!(length > 0))
             continue;
-        work->square_sum += length * length;
-        work->moved_count++;
-        work->report.deformation_largest =
-            length > work->report.deformation_largest ? length : work->report.deformation_largest;
+        tally->square_sum += length * length;
+        tally->moved_count++;
+        if (length > tally->report.deformation_largest)
+            tally->report.deformation_largest = length;
     }
 }
 
 /* Moves the sections that have a partner; the strands behind follow over some rings. */
-static MesoStatus deform_side(MesoStrandSide *side, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+static MesoStatus deform_side(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                              MesoArena *arena, MesoError *error)
 {
     uint32_t pull_count = 0, count = side->clip.kept_count + side->clip.made_count;
     MesoBandPull *pulls = MESO_NEW(arena, MesoBandPull, side->clip.made_count, error);
@@ -99,7 +100,7 @@ static MesoStatus deform_side(MesoStrandSide *side, MesoQuiltWork *work, MesoAre
                                          pull_count, BAND_RINGS, SECTION_WEIGHT * work->options.mu, NULL, NULL, error);
     if (status)
         return status;
-    count_moves(work, side->clipped, moved, count);
+    count_moves(step->tally, work->swatch->mean_edge, side->clipped, moved, count);
     side->clipped = moved;
     return MESO_OK;
 }
@@ -114,7 +115,7 @@ static MesoStatus fail(MesoError *error)
 /* Made vertices of the older side are new in the composite; kept ones have moved. */
 static MesoStatus commit_old_vertices(Joiner *j, MesoError *error)
 {
-    MesoStrandSide *side = j->old_side;
+    const MesoStrandSide *side = j->old_side;
     const MesoClip *clip = &side->clip;
     MesoComposite *composite = &j->work->composite;
     for (uint32_t i = 0; i < clip->kept_count; i++) {
@@ -138,7 +139,7 @@ static MesoStatus commit_old_vertices(Joiner *j, MesoError *error)
 
 static MesoStatus commit_new_vertices(Joiner *j, MesoError *error)
 {
-    MesoStrandSide *side = j->new_side;
+    const MesoStrandSide *side = j->new_side;
     const MesoClip *clip = &side->clip;
     MesoComposite *composite = &j->work->composite;
     MesoQuiltVertex last = {.triangle = j->step->seed};
@@ -159,7 +160,7 @@ static MesoStatus commit_new_vertices(Joiner *j, MesoError *error)
 /* Old triangles that are crossed or lie on the new side die; pieces of the crossed ones come instead. */
 static MesoStatus commit_old_triangles(Joiner *j, MesoError *error)
 {
-    MesoStrandSide *side = j->old_side;
+    const MesoStrandSide *side = j->old_side;
     const MesoClip *clip = &side->clip;
     MesoComposite *composite = &j->work->composite;
     for (uint32_t t = 0; t < clip->triangle_count; t++) {
@@ -241,7 +242,7 @@ static MesoStatus zip_pair(Joiner *j, uint32_t old_section, uint32_t look, MesoE
         corners[i] = corners[i] < offset ? j->old_names[corners[i]] : j->new_names[corners[i] - offset];
     MesoStatus status = add_all(j, corners, count, look, error);
     meso_arena_rewind(j->arena, mark);
-    j->work->report.join_count++;
+    j->step->tally->report.join_count++;
     return status;
 }
 
@@ -288,50 +289,53 @@ static MesoStatus close_sections(Joiner *j, const uint32_t *old_looks, const uin
             const MesoSection *section = &j->new_side->sections[s];
             status = cap_section(j, section, j->new_names, look_of(j->new_side, new_looks, section), error);
         }
-    j->work->report.open_count += j->old_side->clip.open_count + j->new_side->clip.open_count;
+    j->step->tally->report.open_count += j->old_side->clip.open_count + j->new_side->clip.open_count;
     return status;
 }
 
-static MesoStatus commit(Joiner *j, MesoError *error)
+MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_at_seam,
+                             const MesoStrandSide *new_at_seam, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                             MesoArena *arena, MesoError *error)
 {
-    uint32_t *old_looks, *new_looks;
-    MesoStatus status = find_looks(&old_looks, j->old_side, j->work->composite.triangle_origins, j->arena, error);
-    if (!status)
-        status = find_looks(&new_looks, j->new_side, NULL, j->arena, error);
-    if (!status)
-        status = commit_old_vertices(j, error);
-    if (!status)
-        status = commit_new_vertices(j, error);
-    if (!status)
-        status = commit_old_triangles(j, error);
-    if (!status)
-        status = commit_new_triangles(j, error);
-    return status ? status : close_sections(j, old_looks, new_looks, error);
-}
-
-MesoStatus meso_strands_join(const MesoStrandSide *old_at_seam, const MesoStrandSide *new_at_seam,
-                             const MesoQuiltStep *step, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
-{
-    MesoStrandSide old_side, new_side;
+    MesoStrandSide *old_side = &joint->old_side, *new_side = &joint->new_side;
     float flaws;
-    MesoStatus status = meso_strands_cut_old(&old_side, step, work, work->gap, arena, error);
+    MesoStatus status = meso_strands_cut_old(old_side, step, work, work->gap, arena, error);
     if (!status)
-        status = meso_strands_cut_new(&new_side, step, work, work->gap, arena, error);
+        status = meso_strands_cut_new(new_side, step, work, work->gap, arena, error);
     if (!status)
-        status = meso_strands_pair(&old_side, &new_side, &flaws, MESO_REACH_LAST, arena, error);
+        status = meso_strands_pair(old_side, new_side, &flaws, MESO_REACH_LAST, arena, error);
     if (status)
         return status;
-    Joiner j = {.old_side = &old_side, .new_side = &new_side, .step = step, .work = work, .arena = arena};
-    j.old_names = MESO_NEW(arena, uint32_t, (size_t)old_side.clip.kept_count + old_side.clip.made_count, error);
-    j.new_names = MESO_NEW(arena, uint32_t, (size_t)new_side.clip.kept_count + new_side.clip.made_count, error);
+    choose_moves(old_side, new_side, old_at_seam, new_at_seam, work->gap);
+    choose_moves(new_side, old_side, new_at_seam, old_at_seam, work->gap);
+    status = deform_side(old_side, step, work, arena, error);
+    if (!status)
+        status = deform_side(new_side, step, work, arena, error);
+    measure_again(old_side);
+    measure_again(new_side);
+    return status;
+}
+
+MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,
+                               MesoArena *arena, MesoError *error)
+{
+    Joiner j = {.old_side = &joint->old_side, .new_side = &joint->new_side, .step = step, .work = work, .arena = arena};
+    const MesoClip *old_clip = &j.old_side->clip, *new_clip = &j.new_side->clip;
+    uint32_t *old_looks, *new_looks;
+    j.old_names = MESO_NEW(arena, uint32_t, (size_t)old_clip->kept_count + old_clip->made_count, error);
+    j.new_names = MESO_NEW(arena, uint32_t, (size_t)new_clip->kept_count + new_clip->made_count, error);
     if (!j.old_names || !j.new_names)
         return MESO_ERR_MEMORY;
-    choose_moves(&old_side, &new_side, old_at_seam, new_at_seam, work->gap);
-    choose_moves(&new_side, &old_side, new_at_seam, old_at_seam, work->gap);
-    status = deform_side(&old_side, work, arena, error);
+    MesoStatus status = find_looks(&old_looks, j.old_side, work->composite.triangle_origins, arena, error);
     if (!status)
-        status = deform_side(&new_side, work, arena, error);
-    measure_again(&old_side);
-    measure_again(&new_side);
-    return status ? status : commit(&j, error);
+        status = find_looks(&new_looks, j.new_side, NULL, arena, error);
+    if (!status)
+        status = commit_old_vertices(&j, error);
+    if (!status)
+        status = commit_new_vertices(&j, error);
+    if (!status)
+        status = commit_old_triangles(&j, error);
+    if (!status)
+        status = commit_new_triangles(&j, error);
+    return status ? status : close_sections(&j, old_looks, new_looks, error);
 }

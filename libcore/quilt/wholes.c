@@ -80,11 +80,11 @@ MesoStatus meso_quilt_pair_wholes(MesoWholePairs *pairs, const MesoQuiltStep *st
 
 typedef struct WholeWork {
     const MesoQuiltStep *step;
-    MesoQuiltWork *work;
-    bool *old_dies;         /* [old whole_count] */
+    const MesoQuiltWork *work;
+    MesoWholePlan *plan;
     MesoVec3 *points;       /* [largest element] a new one */
     MesoVec3 *others;       /* [largest element] an old one */
-    MesoQuiltVertex *places;    /* [largest element] */
+    MesoQuiltVertex *places;    /* of the new one: where the plan's go on */
 } WholeWork;
 
 static float seam_at(const MesoQuiltStep *step, MesoVec3 p)
@@ -130,73 +130,96 @@ static bool is_in_the_way(WholeWork *w, uint32_t element, MesoVec3 centre)
     for (uint32_t i = 0; i < w->step->old.whole_count; i++) {
         MesoVec3 d = meso_vec3_sub(w->step->old.centres[i], centre);
         float reach = radius + radius_of_old(w->step, w->work, i);
-        if (!w->old_dies[i] && d.x * d.x + d.y * d.y < reach * reach && meets_old(w, element, i))
+        if (!w->plan->old_dies[i] && d.x * d.x + d.y * d.y < reach * reach && meets_old(w, element, i))
             return true;
     }
     return false;
 }
 
-static MesoStatus place_new(WholeWork *w, const MesoWholePairs *pairs, MesoError *error)
+static uint32_t element_size(const MesoSwatch *swatch, uint32_t element)
 {
-    MesoQuiltWork *work = w->work;
-    const MesoSwatch *swatch = work->swatch;
+    return swatch->vertex_begin[element + 1] - swatch->vertex_begin[element];
+}
+
+/* Whether a pair, or a new element alone, lies on the new side. */
+static bool is_new(const WholeWork *w, MesoVec3 centre, uint32_t old)
+{
+    float side = seam_at(w->step, centre);
+    return (old == MESO_NO_INDEX ? side : 0.5f * (side + seam_at(w->step, w->step->old.centres[old]))) > 0;
+}
+
+static void plan_new(WholeWork *w, const MesoWholePairs *pairs)
+{
+    const MesoSwatch *swatch = w->work->swatch;
     for (uint32_t i = 0; i < pairs->count; i++) {
         uint32_t element = pairs->elements[i], old = pairs->partners[i];
         MesoVec3 centre = meso_step_warp(w->step, meso_step_from_swatch(w->step, swatch->centres[element]));
-        float side = seam_at(w->step, centre);
-        if (old != MESO_NO_INDEX)
-            side = 0.5f * (side + seam_at(w->step, w->step->old.centres[old]));
-        if (side <= 0)
-            continue;
         MesoQuiltVertex place;
-        if (!lay_out(w, element, &place))
+        if (!is_new(w, centre, old) || !lay_out(w, element, &place))
             continue;
         if (old != MESO_NO_INDEX)
-            w->old_dies[old] = true;
+            w->plan->old_dies[old] = true;
         if (is_in_the_way(w, element, centre)) {
             if (old != MESO_NO_INDEX)
-                w->old_dies[old] = false;   /* the older one of a pair does as well */
+                w->plan->old_dies[old] = false;     /* the older one of a pair does as well */
             else
-                work->report.removed_count++;
+                w->step->tally->report.removed_count++;
             continue;
         }
-        uint32_t count = swatch->vertex_begin[element + 1] - swatch->vertex_begin[element];
-        if (meso_composite_add_whole(&work->composite, element, w->step->patch, place, w->places, count, error) ==
-            MESO_NO_INDEX)
-            return error ? error->status : MESO_ERR_MEMORY;
+        w->plan->elements[w->plan->count] = element;
+        w->plan->centres[w->plan->count++] = place;
+        w->places += element_size(swatch, element);
     }
-    return MESO_OK;
 }
 
 /* Old ones without partner go where the new side is; with one, their partner decides. */
 static void find_leavers(WholeWork *w, const MesoWholePairs *pairs)
 {
     for (uint32_t i = 0; i < w->step->old.whole_count; i++)
-        w->old_dies[i] = seam_at(w->step, w->step->old.centres[i]) > 0;
+        w->plan->old_dies[i] = seam_at(w->step, w->step->old.centres[i]) > 0;
     for (uint32_t i = 0; i < pairs->count; i++)
         if (pairs->partners[i] != MESO_NO_INDEX)
-            w->old_dies[pairs->partners[i]] = false;
+            w->plan->old_dies[pairs->partners[i]] = false;
 }
 
-MesoStatus meso_quilt_place_wholes(const MesoWholePairs *pairs, const MesoQuiltStep *step, MesoQuiltWork *work,
-                                   MesoArena *arena, MesoError *error)
+MesoStatus meso_quilt_plan_wholes(MesoWholePlan *plan, const MesoWholePairs *pairs, const MesoQuiltStep *step,
+                                  const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
     uint32_t largest = 0;
-    for (uint32_t e = 0; e < swatch->element_count; e++) {
-        uint32_t count = swatch->vertex_begin[e + 1] - swatch->vertex_begin[e];
-        largest = swatch->kinds[e] == MESO_ELEMENT_WHOLE && count > largest ? count : largest;
-    }
-    WholeWork w = {.step = step, .work = work};
-    w.old_dies = MESO_NEW(arena, bool, step->old.whole_count, error);
+    size_t total = 0;
+    for (uint32_t e = 0; e < swatch->element_count; e++)
+        if (swatch->kinds[e] == MESO_ELEMENT_WHOLE && element_size(swatch, e) > largest)
+            largest = element_size(swatch, e);
+    for (uint32_t i = 0; i < pairs->count; i++)
+        total += element_size(swatch, pairs->elements[i]);
+    *plan = (MesoWholePlan){0};
+    plan->old_dies = MESO_NEW(arena, bool, step->old.whole_count, error);
+    plan->elements = MESO_NEW(arena, uint32_t, pairs->count, error);
+    plan->centres = MESO_NEW(arena, MesoQuiltVertex, pairs->count, error);
+    plan->places = MESO_NEW(arena, MesoQuiltVertex, total, error);
+    WholeWork w = {.step = step, .work = work, .plan = plan, .places = plan->places};
     w.points = MESO_NEW(arena, MesoVec3, largest, error);
     w.others = MESO_NEW(arena, MesoVec3, largest, error);
-    w.places = MESO_NEW(arena, MesoQuiltVertex, largest, error);
-    if (!w.old_dies || !w.points || !w.others || !w.places)
+    if (!plan->old_dies || !plan->elements || !plan->centres || !plan->places || !w.points || !w.others)
         return MESO_ERR_MEMORY;
     find_leavers(&w, pairs);
-    MesoStatus status = place_new(&w, pairs, error);
+    plan_new(&w, pairs);
+    return MESO_OK;
+}
+
+MesoStatus meso_quilt_commit_wholes(const MesoWholePlan *plan, const MesoQuiltStep *step, MesoQuiltWork *work,
+                                    MesoError *error)
+{
+    const MesoQuiltVertex *places = plan->places;
+    for (uint32_t i = 0; i < plan->count; i++) {
+        uint32_t count = element_size(work->swatch, plan->elements[i]);
+        if (meso_composite_add_whole(&work->composite, plan->elements[i], step->patch, plan->centres[i], places, count,
+                                     error) == MESO_NO_INDEX)
+            return error ? error->status : MESO_ERR_MEMORY;
+        places += count;
+    }
     for (uint32_t i = 0; i < step->old.whole_count; i++)
-        work->composite.wholes[step->old.wholes[i]].dead |= w.old_dies[i];
-    return status;
+        work->composite.wholes[step->old.wholes[i]].dead |= plan->old_dies[i];
+    return MESO_OK;
 }
