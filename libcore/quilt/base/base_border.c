@@ -10,6 +10,10 @@
 #define NEAR_SHARE 0.5f
 #define LONG_SHARE 1.6f
 
+/* Thickness of a layer by the mean side of the border behind: more than 1 / NEAR_SHARE, so that fine borders become
+ * coarse layer by layer. */
+#define COARSENING 2.2f
+
 /* Corners that turn by more than acos(0.6) have several points across: no edge across turns more. */
 #define FAN_COSINE 0.6f
 #define FAN_ANGLE 0.9273f
@@ -486,7 +490,7 @@ static MesoStatus extend_loop(Layer *layer, Rim rim, float edge, float reach)
     float depth = 0;
     while (!status && depth < reach * 0.999f) {
         layer->rim = &rim;
-        float left = reach - depth, wanted = fminf(0.9f * edge, 1.5f * mean_side(layer));
+        float left = reach - depth, wanted = fminf(0.9f * edge, COARSENING * mean_side(layer));
         wanted = fmaxf(wanted, THINNEST * fminf(reach, edge));
         layer->thickness = left / fmaxf(ceilf(left / wanted), 1);
         layer->depth = depth += layer->thickness;

@@ -1,5 +1,4 @@
-#include "libcore/quilt/finish/quilt_finish.h"
-
+/* All steps after a quilt has grown. */
 #include "libcore/quilt/finish/finish_work.h"
 
 /* Unit normals of the base's vertices, by area: for distances between points of the layer. */
