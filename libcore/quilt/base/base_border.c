@@ -203,7 +203,8 @@ static MesoStatus join_once(Layer *layer, bool *changed)
         joined[group[from]] = mean_of(layer, from, to);
     }
     for (uint32_t i = 0; i < layer->rim->count; i++) {
-        uint32_t past_first = layer->first[i] / layer->count * groups, past_last = layer->last[i] / layer->count * groups;
+        uint32_t past_first = layer->first[i] / layer->count * groups;
+        uint32_t past_last = layer->last[i] / layer->count * groups;
         layer->first[i] = past_first + group[layer->first[i] % layer->count];
         layer->last[i] = past_last + group[layer->last[i] % layer->count];
     }
@@ -496,7 +497,7 @@ static MesoStatus extend_loop(Layer *layer, Rim rim, float edge, float reach)
         layer->depth = depth += layer->thickness;
         layer->count = layer->room = 0;
         layer->ahead = NULL;
-        Rim next;
+        Rim next = rim;
         status = begin_layer(layer);
         if (!status)
             status = join_points(layer);

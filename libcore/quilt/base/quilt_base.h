@@ -13,14 +13,14 @@ typedef struct MesoQuiltBase {
                                    one at which it was put */
     MesoVec2 *corner_weights;   /* [3 * mesh.triangle_count] weights of its corners 1 and 2; beyond a border outside
                                    of 0 to 1 */
-    float *inside;              /* [mesh.vertex_count] 0 on the borders of the original, above 0 on it, below 0 beyond: the
-                                   distance from the border there; NULL where it has none */
+    float *inside;              /* [mesh.vertex_count] 0 on the borders of the original, above 0 on it, below 0 beyond:
+                                   the distance from the border there; NULL where it has none */
     MesoVec3 *guide;            /* [mesh.triangle_count] in its plane, unit or 0; NULL where the original has none */
 } MesoQuiltBase;
 
 /*
- * From a mesh whose triangles are wound alike. Vertices of the original keep their numbers, triangles that are not split
- * too.
+ * From a mesh whose triangles are wound alike. Vertices of the original keep their numbers, and triangles that are not
+ * split do.
  *
  * guide    [original->triangle_count] or NULL
  * edge     longer edges are split, in the middle, on both sides, so that what comes out lies in the original

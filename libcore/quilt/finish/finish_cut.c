@@ -88,7 +88,8 @@ static MesoStatus cut_element(Cutter *c, uint32_t element, MesoError *error)
 {
     const MesoQuilt *quilt = c->quilt;
     uint32_t first = quilt->vertex_begin[element], begin = quilt->triangle_begin[element];
-    uint32_t vertices = quilt->vertex_begin[element + 1] - first, triangles = quilt->triangle_begin[element + 1] - begin;
+    uint32_t vertices = quilt->vertex_begin[element + 1] - first;
+    uint32_t triangles = quilt->triangle_begin[element + 1] - begin;
     MesoArenaMark mark = meso_arena_mark(&c->scratch);
     uint32_t *corners = MESO_NEW(&c->scratch, uint32_t, 3 * (size_t)triangles, error);
     if (!corners)

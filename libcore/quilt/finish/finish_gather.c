@@ -78,8 +78,10 @@ static void measure_ends(Gatherer *g)
         for (uint32_t i = begin; i < end; i++)
             centre = meso_vec3_mad(centre, 1 / (float)(end - begin), swatch->positions[swatch->loop_vertices[i]]);
         float *reach = &g->reaches[swatch_element(swatch, swatch->loop_vertices[begin])];
-        for (uint32_t i = begin; i < end; i++)
-            *reach = fmaxf(*reach, meso_vec3_length(meso_vec3_sub(swatch->positions[swatch->loop_vertices[i]], centre)));
+        for (uint32_t i = begin; i < end; i++) {
+            MesoVec3 point = swatch->positions[swatch->loop_vertices[i]];
+            *reach = fmaxf(*reach, meso_vec3_length(meso_vec3_sub(point, centre)));
+        }
     }
 }
 
