@@ -1,0 +1,251 @@
+#include "libcore/shell/shell_map.h"
+
+#include <string.h>
+
+#include "libcore/shell/prism_layer.h"
+#include "libcore/shell/shell_map_work.h"
+#include "libcore/shell/shell_stretch.h"
+
+/* ---- tetrahedra ---- */
+
+MesoShellPrism meso_shell_prism(const MesoShellMap *map, uint32_t triangle)
+{
+    MesoShellPrism prism;
+    for (uint32_t k = 0; k < 6; k++) {
+        uint32_t corner = 3 * triangle + k % 3, v = map->corners[corner], origin = map->origins[v];
+        const double *uv = k < 3 ? map->low_uv : map->high_uv;
+        double height = k < 3 ? map->low : map->high;
+        prism.texture[k] = (MesoVec3d){uv[2 * (size_t)v], uv[2 * (size_t)v + 1], height};
+        prism.shell[k] = meso_vec3d_mad(meso_vec3d(map->mesh->positions[origin]), height,
+                                        meso_vec3d(map->directions[origin]));
+    }
+    /* by vertices of the mesh, so that charts agree at their seams */
+    meso_prism_split(&map->mesh->corners[3 * (size_t)triangle], prism.tetrahedra);
+    return prism;
+}
+
+static void pick(const MesoShellPrism *prism, uint32_t part, MesoVec3d texture[4], MesoVec3d shell[4])
+{
+    for (uint32_t k = 0; k < 4; k++) {
+        texture[k] = prism->texture[prism->tetrahedra[part][k]];
+        shell[k] = prism->shell[prism->tetrahedra[part][k]];
+    }
+}
+
+bool meso_shell_prism_stands(const MesoShellPrism *prism)
+{
+    /* as shares of what a prism of the same sides and height can have: floats tell no less */
+    const double least = 1e-7;
+    for (uint32_t part = 0; part < 3; part++) {
+        MesoVec3d corners[2][4];
+        pick(prism, part, corners[0], corners[1]);
+        for (uint32_t side = 0; side < 2; side++) {
+            double most = 1;
+            for (uint32_t k = 1; k < 4; k++)
+                most *= meso_vec3d_length(meso_vec3d_sub(corners[side][k], corners[side][0]));
+            if (!(meso_tetrahedron_det(corners[side]) > least * most))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* ---- building ---- */
+
+static MesoStatus allocate(MesoShellMap *map, const MesoAtlas *atlas, MesoArena *arena, MesoError *error)
+{
+    for (uint32_t c = 0; c < atlas->chart_count; c++)
+        map->vertex_count += atlas->charts[c].vertex_count;
+    map->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)map->mesh->triangle_count, error);
+    map->origins = MESO_NEW(arena, uint32_t, map->vertex_count, error);
+    map->low_uv = MESO_NEW(arena, double, 2 * (size_t)map->vertex_count, error);
+    map->high_uv = MESO_NEW(arena, double, 2 * (size_t)map->vertex_count, error);
+    map->held = MESO_NEW(arena, uint8_t, map->vertex_count, error);
+    return map->corners && map->origins && map->low_uv && map->high_uv && map->held ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static void place_vertices(MesoShellMap *map, const MesoAtlas *atlas)
+{
+    uint32_t first = 0;
+    for (uint32_t c = 0; c < atlas->chart_count; c++) {
+        const MesoChart *chart = &atlas->charts[c];
+        for (uint32_t i = 0; i < 3 * chart->triangle_count; i++) {
+            uint32_t corner = 3 * chart->triangles[i / 3] + i % 3, v = first + chart->corners[i];
+            map->corners[corner] = v;
+            map->origins[v] = map->mesh->corners[corner];
+            map->low_uv[2 * (size_t)v] = (double)atlas->corner_uv[corner].x / atlas->scale;
+            map->low_uv[2 * (size_t)v + 1] = (double)atlas->corner_uv[corner].y / atlas->scale;
+        }
+        first += chart->vertex_count;
+    }
+    if (map->vertex_count)
+        memcpy(map->high_uv, map->low_uv, 2 * (size_t)map->vertex_count * sizeof(double));
+}
+
+/* The half-edge across, in the same chart and not over a slit; MESO_NO_INDEX at the chart's border. */
+static uint32_t twin_in_chart(const MesoShellMap *map, uint32_t half_edge)
+{
+    uint32_t twin = map->mesh->twins[half_edge];
+    if (twin == MESO_NO_INDEX || map->corners[twin] != map->corners[meso_next_corner(half_edge)] ||
+        map->corners[meso_next_corner(twin)] != map->corners[half_edge])
+        return MESO_NO_INDEX;
+    return twin;
+}
+
+static void hold_vertices(MesoShellMap *map)
+{
+    for (uint32_t h = 0; h < 3 * map->mesh->triangle_count; h++)
+        if (twin_in_chart(map, h) == MESO_NO_INDEX) {
+            map->held[map->corners[h]] = 1;
+            map->held[map->corners[meso_next_corner(h)]] = 1;
+        }
+    for (uint32_t t = 0; t < map->mesh->triangle_count; t++) {
+        MesoShellPrism prism = meso_shell_prism(map, t);
+        for (uint32_t k = 0; k < 3 && !meso_shell_prism_stands(&prism); k++)
+            map->held[map->corners[3 * (size_t)t + k]] = 1;
+    }
+}
+
+typedef struct Stretch {
+    double there, back;
+    uint32_t inverted_count;
+} Stretch;
+
+static Stretch measure(const MesoShellMap *map)
+{
+    MesoShellStretch there = {0}, back = {0};
+    for (uint32_t t = 0; t < map->mesh->triangle_count; t++) {
+        MesoShellPrism prism = meso_shell_prism(map, t);
+        bool stands = meso_shell_prism_stands(&prism);
+        for (uint32_t part = 0; part < 3; part++) {
+            MesoVec3d texture[4], shell[4];
+            pick(&prism, part, texture, shell);
+            if (stands) {
+                meso_shell_stretch_add(&there, texture, shell);
+                meso_shell_stretch_add(&back, shell, texture);
+            } else {
+                there.inverted_count += !(meso_tetrahedron_det(texture) > 0 && meso_tetrahedron_det(shell) > 0);
+            }
+        }
+    }
+    return (Stretch){meso_shell_stretch(&there), meso_shell_stretch(&back), there.inverted_count};
+}
+
+/* The solution of the linear system is a start only where it is a better one. */
+static MesoStatus optimise(MesoShellMap *map, Stretch *stretch, uint32_t sweeps, MesoArena *scratch, MesoError *error)
+{
+    size_t size = 2 * (size_t)map->vertex_count * sizeof(double);
+    MesoStatus status = meso_shell_map_solve(map, scratch, error);
+    if (status)
+        return status;
+    if (measure(map).there > stretch->there && size)
+        memcpy(map->high_uv, map->low_uv, size);
+    meso_shell_map_sweep(map, sweeps);
+    Stretch after = measure(map);
+    if (after.there <= stretch->there)
+        *stretch = after;
+    else if (size)
+        memcpy(map->high_uv, map->low_uv, size);
+    return MESO_OK;
+}
+
+MesoStatus meso_shell_map_build(MesoShellMap *map, MesoShellMapReport *report, MesoArena *arena,
+                                const MesoTriangulation *mesh, const MesoAtlas *atlas, const MesoVec3 *directions,
+                                const MesoShellMapOptions *options, MesoError *error)
+{
+    const uint32_t usual_sweeps = 10;
+    if (!(isfinite(options->low) && isfinite(options->high) && options->low < options->high))
+        return meso_fail(error, MESO_ERR_INPUT, "no layer from height %g to %g", (double)options->low,
+                         (double)options->high);
+    *map = (MesoShellMap){.mesh = mesh, .directions = directions, .low = options->low, .high = options->high};
+    MesoStatus status = allocate(map, atlas, arena, error);
+    if (status)
+        return status;
+    place_vertices(map, atlas);
+    hold_vertices(map);
+    Stretch before = measure(map), after = before;
+    if (!options->plain)
+        status = optimise(map, &after, options->sweeps ? options->sweeps : usual_sweeps, arena, error);
+    if (report)
+        *report = (MesoShellMapReport){before.there, after.there, before.back, after.back, after.inverted_count};
+    return status;
+}
+
+/* ---- points ---- */
+
+typedef struct Found {
+    double least;           /* weight of a corner: the more, the farther inside */
+    MesoVec3d point;
+} Found;
+
+/* Looks at a triangle's tetrahedra, and keeps the best. */
+static void look(const MesoShellMap *map, uint32_t triangle, MesoVec3d at, Found *found)
+{
+    MesoShellPrism prism = meso_shell_prism(map, triangle);
+    for (uint32_t part = 0; part < 3; part++) {
+        MesoVec3d texture[4], shell[4], point = {0, 0, 0};
+        pick(&prism, part, texture, shell);
+        double whole = meso_tetrahedron_det(texture), least = INFINITY;
+        if (!(whole > 0))
+            continue;
+        for (uint32_t k = 0; k < 4; k++) {
+            MesoVec3d with[4] = {texture[0], texture[1], texture[2], texture[3]};
+            with[k] = at;
+            double weight = meso_tetrahedron_det(with) / whole;
+            least = fmin(least, weight);
+            point = meso_vec3d_mad(point, weight, shell[k]);
+        }
+        if (least > found->least)
+            *found = (Found){least, point};
+    }
+}
+
+/* The side of a triangle, cut at the point's height, that the point is farthest out of; 3 where it is inside. */
+static uint32_t side_towards(const MesoShellMap *map, uint32_t triangle, MesoVec3d at)
+{
+    double share = (at.z - map->low) / (map->high - map->low), cut[3][2], least = 0;
+    uint32_t side = 3;
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t axis = 0; axis < 2; axis++) {
+            size_t i = 2 * (size_t)map->corners[3 * (size_t)triangle + k] + axis;
+            cut[k][axis] = map->low_uv[i] + share * (map->high_uv[i] - map->low_uv[i]);
+        }
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *from = cut[k], *to = cut[(k + 1) % 3];
+        double turn = (to[0] - from[0]) * (at.y - from[1]) - (to[1] - from[1]) * (at.x - from[0]);
+        if (turn < least && twin_in_chart(map, 3 * triangle + k) != MESO_NO_INDEX) {
+            least = turn;
+            side = k;
+        }
+    }
+    return side;
+}
+
+MesoVec3 meso_shell_map_point(const MesoShellMap *map, uint32_t triangle, float b1, float b2, float h)
+{
+    enum { STEPS = 256 };
+    const double inside = -1e-9;
+    const double b[3] = {1 - (double)b1 - b2, b1, b2};
+    MesoVec3d at = {0, 0, h};
+    for (uint32_t k = 0; k < 3; k++) {
+        size_t v = map->corners[3 * (size_t)triangle + k];
+        at.x += b[k] * map->low_uv[2 * v];
+        at.y += b[k] * map->low_uv[2 * v + 1];
+    }
+    Found found = {-INFINITY, {0, 0, 0}};
+    look(map, triangle, at, &found);
+    for (uint32_t step = 0; step < STEPS && found.least < inside; step++) {
+        uint32_t side = side_towards(map, triangle, at);
+        if (side == 3)
+            break;
+        triangle = twin_in_chart(map, 3 * triangle + side) / 3;
+        look(map, triangle, at, &found);
+    }
+    /* tetrahedra reach a little over the triangle's cut, which is bilinear */
+    for (uint32_t k = 0; k < 3 && found.least < inside; k++) {
+        uint32_t twin = twin_in_chart(map, 3 * triangle + k);
+        if (twin != MESO_NO_INDEX)
+            look(map, twin / 3, at, &found);
+    }
+    return meso_vec3d_narrow(found.point);
+}
