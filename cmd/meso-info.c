@@ -7,6 +7,7 @@
 
 #include "cmd/common/tool.h"
 #include "cmd/info/info_describe.h"
+#include "cmd/info/info_quilt.h"
 #include "formats/file/container.h"
 #include "formats/json/json_text.h"
 #include "formats/product/file_kind.h"
@@ -47,16 +48,17 @@ static MesoStatus put_kind(json_t *facts, const char *kind, MesoError *error)
                : meso_fail(error, MESO_ERR_MEMORY, "out of memory");
 }
 
-/* The kind stands in the container's header, behind the magic. */
 static MesoStatus describe_container(json_t *facts, MesoArena *arena, const MesoInput *input,
                                      MesoError *error)
 {
-    bool model = input->size >= 16 && memcmp(input->data + 8, "model\0\0", 8) == 0;
-    MesoStatus status = put_kind(facts, model ? "model" : "slots", error);
+    MesoFileKind kind = meso_file_kind(input);
+    MesoStatus status = put_kind(facts, kind == MESO_FILE_MODEL ? "model" : kind == MESO_FILE_QUILT ? "quilt" : "slots",
+                                 error);
     if (status)
         return status;
-    return model ? meso_info_model(facts, arena, input, error)
-                 : meso_info_slots(facts, arena, input, error);
+    return kind == MESO_FILE_MODEL ? meso_info_model(facts, arena, input, error)
+        : kind == MESO_FILE_QUILT ? meso_info_quilt(facts, arena, input, error)
+                                  : meso_info_slots(facts, arena, input, error);
 }
 
 static MesoStatus describe_product(json_t *facts, MesoProductKind kind, MesoArena *arena,
@@ -93,7 +95,7 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
         kind & (MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF))
         return meso_info_mesh(facts, arena, input, error);
     return meso_fail(error, MESO_ERR_INPUT,
-                     "%s: no kind of file that is known here: .slots or a listing of slots, .meso, "
+                     "%s: no kind of file that is known here: .slots or a listing of slots, .meso, .quilt, "
                      ".tiles.json or a prototype's tile set, constraints, report, pattern, .jsonl of seeds, .obj, .ply, "
                      ".off, .glb, .drc, .exr, .png",
                      input->path);

@@ -1,6 +1,7 @@
 /* meso-map: grows the geometry of an assignment, and writes it as a model or as a mesh. */
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cmd/common/input_kind.h"
 #include "cmd/common/mesh_path.h"
@@ -8,6 +9,7 @@
 #include "cmd/common/scene_output.h"
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
+#include "formats/mesh/mesh_read.h"
 #include "formats/mesh/surface_read.h"
 #include "formats/model/model_file.h"
 #include "formats/tiling/result/slots_file.h"
@@ -18,13 +20,15 @@
 static const MesoToolInfo MAP_TOOL = {
     .name = "meso-map",
     .synopsis = "meso-map [options] TILES SURFACE SLOTS -o " MESO_SCENE_OUTPUT_NAMES "\n"
-                "meso-map [options] MODEL -o " MESO_SCENE_OUTPUT_NAMES,
+                "meso-map [options] MODEL -o " MESO_SCENE_OUTPUT_NAMES "\n"
+                "meso-map [options] QUILT SURFACE -o " MESO_SCENE_OUTPUT_NAMES,
     .purpose = "Write what an assignment, a model or a mesh is as a model or a mesh.",
     .examples = "meso-map vase.tiles.json vase.obj vase.slots -o vase.meso\n"
                 "meso-map --divisions 24 vase.meso -o vase.glb\n"
                 "meso-map --to ply vase.meso -o - | gzip > vase.ply.gz\n"
-                "meso-map vase.obj -o surface.glb",
-    .words = "1 .json .meso\n"
+                "meso-map vase.obj -o surface.glb\n"
+                "meso-map mail.quilt torso-bent.obj -o mail-bent.glb",
+    .words = "1 .json .meso .quilt\n"
              "2 .obj .ply .off\n"
              "3 .slots .csv .json\n"
              MESO_SCENE_OUTPUT_WORDS
@@ -45,13 +49,20 @@ typedef struct MapArguments {
     MesoSceneOutput output;
 } MapArguments;
 
+static bool names_quilt(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ".quilt") == 0;
+}
+
 static MesoStatus check_operands(const MapArguments *a, MesoError *error)
 {
-    if (a->tool.operand_count == 2)
-        return meso_fail(error, MESO_ERR_USAGE, "2 operands: give TILES SURFACE SLOTS, or MODEL alone");
-    if (a->mesh_path && a->tool.operand_count == 1)
+    if (a->tool.operand_count == 2 && !names_quilt(a->tool.operands[0]))
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "2 operands: give TILES SURFACE SLOTS, MODEL alone, or QUILT SURFACE with a name in .quilt");
+    if (a->mesh_path && a->tool.operand_count < 3)
         return meso_fail(error, MESO_ERR_USAGE, "--mesh-path is for TILES; a model holds its meshes");
-    if (a->strict && a->tool.operand_count == 1)
+    if (a->strict && a->tool.operand_count < 3)
         return meso_fail(error, MESO_ERR_USAGE, "--strict is for SURFACE; a model was made of one already");
     return MESO_OK;
 }
@@ -252,7 +263,7 @@ static MesoStatus check_mapping(const MapArguments *a, const MesoInput *input, c
                           a->given.divisions, a->given.section_step};
     for (size_t i = 0; !tiling && i < sizeof given / sizeof *given; i++)
         if (given[i])
-            return meso_fail(error, MESO_ERR_USAGE, "mapping options are for models of tiles; '%s' is a mesh",
+            return meso_fail(error, MESO_ERR_USAGE, "mapping options are for models of tiles; '%s' is none",
                              input->path);
     return MESO_OK;
 }
@@ -263,6 +274,23 @@ static MesoStatus read_model(MapArguments *a, Inputs *inputs, Mapped *mapped, Me
     MesoStatus status = meso_tool_read_scene(&a->tool, &mapped->scene, &inputs->tiles, a->tool.operands[0], &reading);
     mapped->tiling = reading.tiling;
     return status ? status : check_mapping(a, &inputs->tiles, reading.tiling, error);
+}
+
+/* A quilt over another surface of the same faces. */
+static MesoStatus read_quilt(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoPolygonMesh mesh;
+    MesoSceneReading reading = {.thread_count = tool->threads, .surface = &mesh, .surface_path = tool->operands[1]};
+    MesoStatus status = meso_tool_open_place(tool, &inputs->surface, tool->operands[1], &MESO_PLACE_SURFACE);
+    if (!status)
+        status = meso_polygon_mesh_read(&mesh, &tool->arena, &inputs->surface, tool->threads, error);
+    if (!status)
+        status = meso_tool_read_scene(tool, &mapped->scene, &inputs->tiles, tool->operands[0], &reading);
+    mapped->tiling = NULL;
+    if (!status && !reading.quilt)
+        status = meso_fail(error, MESO_ERR_INPUT, "%s: is no quilt, and stays where it is", tool->operands[0]);
+    return status ? status : check_mapping(a, &inputs->tiles, NULL, error);
 }
 
 static MesoStatus make_model(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
@@ -315,7 +343,8 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     if (!status)
         status = forget_defaults(a, error);
     if (!status)
-        status = (a->tool.operand_count == 1 ? read_model : make_model)(a, inputs, &mapped, error);
+        status = (a->tool.operand_count == 1 ? read_model : a->tool.operand_count == 2 ? read_quilt : make_model)(
+            a, inputs, &mapped, error);
     return status ? status : write_product(a, &mapped);
 }
 

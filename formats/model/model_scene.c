@@ -51,7 +51,8 @@ static MesoStatus read_quilt(MesoScene *scene, MesoArena *arena, const MesoInput
     MesoQuiltFile file;
     MesoStatus status = meso_quilt_read(&file, &reading->provenance, arena, input, error);
     if (!status && reading->surface)
-        status = meso_quilt_move_base(&file, reading->surface, error);
+        status = meso_quilt_move_base(&file, reading->surface, error)
+                     ? meso_fail_prefix(error, reading->surface_path) : MESO_OK;
     return status ? status : meso_quilt_show(scene, arena, &file.quilt, &file.swatch, &file.base, reading->thread_count,
                                              error);
 }

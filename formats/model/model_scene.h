@@ -14,8 +14,9 @@ typedef struct MesoSceneReading {
     /* May change the mapping options that a tiling was stored with; NULL: they stay. */
     void (*remap)(void *context, MesoMapOptions *options);
     void *context;
-    /* Where a quilt's surface has moved to: a mesh of the same faces, or NULL. Of no use to what is no quilt. */
+    /* Where a quilt's surface has moved to: a mesh of the same faces, and its name; or NULL. */
     const MesoPolygonMesh *surface;
+    const char *surface_path;
     const MesoModel *tiling;    /* gets the model, in the arena, where it is one of tiles; else NULL */
     bool quilt;                 /* gets whether it is one */
     const char *provenance;     /* gets the provenance, in the arena */

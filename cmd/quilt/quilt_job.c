@@ -1,0 +1,291 @@
+#include "cmd/quilt/quilt_job.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "cmd/common/seed_list.h"
+#include "cmd/quilt/quilt_report.h"
+#include "cmd/quilt/quilt_surface.h"
+#include "cmd/quilt/quilt_swatch.h"
+#include "libcore/quilt/base/quilt_base.h"
+#include "libcore/quilt/embed/quilt_scene.h"
+#include "libcore/quilt/finish/quilt_finish.h"
+
+static const uint64_t TRIANGLE_LIMIT = (uint64_t)1 << 30;
+
+/* The base's edges are so much shorter than the swatch's sides. */
+static const float EDGE_SHARE = 0.1f;
+
+/* Whole elements may reach so far beyond borders, as a share of the swatch's mean edge. */
+static const float OVERHANG = 0.5f;
+
+typedef struct Job {
+    MesoQuiltArguments *arguments;
+    MesoTool *tool;
+    MesoInput swatch_input, surface_input;
+    MesoQuiltSwatch swatch;
+    MesoQuiltSurface surface;
+    MesoSeedList seeds;
+    bool as_quilt;              /* the product is a .quilt */
+} Job;
+
+/* ---- what goes together ---- */
+
+static bool ends_in(const char *path, const char *extension)
+{
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    return dot && strcasecmp(dot, extension) == 0;
+}
+
+/* A swatch by itself: a recipe, and nothing to put it on. */
+static bool makes_swatch(const MesoQuiltArguments *a)
+{
+    return a->swatch && !a->plane && a->tool.operand_count == 0;
+}
+
+static MesoStatus check_operands(const MesoQuiltArguments *a, MesoError *error)
+{
+    uint32_t wanted = 2u - (a->swatch != NULL) - (a->plane != NULL);
+    if (makes_swatch(a) || a->tool.operand_count == wanted)
+        return MESO_OK;
+    return meso_fail(error, MESO_ERR_USAGE, "%u operands: give %s%s%s%s", a->tool.operand_count,
+                     a->swatch ? "" : "SWATCH", wanted == 2 ? " and " : "", a->plane ? "" : "SURFACE",
+                     wanted == 0 ? "none beside --swatch and --plane" : "");
+}
+
+static MesoStatus check_recipe(const MesoQuiltArguments *a, MesoError *error)
+{
+    const char *given = a->given.columns ? "columns" : a->given.rows ? "rows" : a->given.sides ? "sides"
+        : a->given.jitter ? "jitter" : a->given.thickness ? "thickness" : NULL;
+    if (a->swatch || !given)
+        return MESO_OK;
+    return meso_fail(error, MESO_ERR_USAGE, "--%s is for a recipe, --swatch", given);
+}
+
+static MesoStatus choose_kind(Job *job)
+{
+    MesoQuiltArguments *a = job->arguments;
+    const MesoSceneOutput *o = &a->output;
+    job->as_quilt = o->to ? strcmp(o->to, "quilt") == 0 : ends_in(job->tool->output, ".quilt");
+    if (!job->as_quilt)
+        return meso_tool_choose_scene_kind(job->tool, &a->output);
+    const char *given = o->given.position_bits ? "position-bits" : o->given.normal_bits ? "normal-bits"
+        : o->given.speed ? "speed" : NULL;
+    if (!job->tool->output)
+        job->tool->output = "-";
+    return given ? meso_fail(&job->tool->error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .quilt", given)
+                 : MESO_OK;
+}
+
+static MesoStatus read_seeds(Job *job)
+{
+    MesoTool *tool = job->tool;
+    const char *seeds = job->arguments->seeds;
+    if (!seeds)
+        return MESO_OK;
+    if (tool->seed)
+        return meso_fail(&tool->error, MESO_ERR_USAGE, "--seed and --seeds are both given; one is needed");
+    MesoStatus status = meso_seed_list_parse(&job->seeds, &tool->arena, seeds, &tool->error);
+    for (uint32_t r = 0; !status && r < job->seeds.range_count; r++)
+        if (job->seeds.ranges[r].attempts > 0)
+            status = meso_fail(&tool->error, MESO_ERR_USAGE, "--seeds: there are no attempts here: leave out 'x%u'",
+                               job->seeds.ranges[r].attempts);
+    if (!status && !meso_seed_path_is_pattern(tool->output))
+        status = meso_fail(&tool->error, MESO_ERR_USAGE,
+                           "-o '%s': with --seeds it needs one %%d for the seed (and %%%% for a %%)", tool->output);
+    return status;
+}
+
+/* ---- a quilt ---- */
+
+/* A fifth of the surface is what one sees a texture in; a plane is measured in the swatch's own units. */
+static float scale_of(const Job *job)
+{
+    const MesoQuiltArguments *a = job->arguments;
+    const MesoVec3 tile = job->swatch.tile;
+    if (a->scale > 0 || a->plane)
+        return a->scale > 0 ? a->scale : 1;
+    return job->surface.longest_side / 5 / fmaxf(tile.x, tile.y);
+}
+
+static MesoQuiltOptions options_of(const Job *job, uint64_t seed, const MesoVec3 *guide)
+{
+    const MesoQuiltArguments *a = job->arguments;
+    const float thick = job->swatch.swatch.size.z;
+    return (MesoQuiltOptions){
+        .scale = scale_of(job), .height_scale = a->height > 0 && thick > 0 ? a->height / thick : 0,
+        .offset = a->offset, .turn_count = a->turns, .guide = guide, .patch = a->patch, .lambda = a->lambda,
+        .mu = a->mu, .seed = seed, .step_limit = a->until, .triangle_limit = TRIANGLE_LIMIT,
+        .thread_count = job->tool->threads, .progress = meso_tool_progress, .context = job->tool};
+}
+
+static MesoStatus grow(Job *job, MesoQuilt *quilt, MesoQuiltBase *base, uint64_t seed)
+{
+    MesoTool *tool = job->tool;
+    MesoQuiltOptions options = options_of(job, seed, base->guide);
+    const MesoFinishOptions finish = {.scale = options.scale,
+                                      .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
+    meso_tool_progress_begin(tool, "quilting", "triangles");
+    MesoStatus status = meso_quilt_grow(quilt, &tool->arena, &base->mesh, &job->swatch.swatch, &options, &tool->error);
+    return status ? status : meso_quilt_finish(quilt, &tool->arena, base, &job->swatch.swatch, &finish, &tool->error);
+}
+
+static MesoStatus make_quilt(Job *job, MesoQuilt *quilt, uint64_t seed)
+{
+    MesoTool *tool = job->tool;
+    const MesoSwatch *swatch = &job->swatch.swatch;
+    MesoQuiltBase base;
+    float scale = scale_of(job), shorter = fminf(swatch->size.x, swatch->size.y);
+    float diagonal = sqrtf(swatch->size.x * swatch->size.x + swatch->size.y * swatch->size.y);
+    MesoStatus status = meso_quilt_base_build(&base, &tool->arena, &job->surface.base, job->surface.guide,
+                                              EDGE_SHARE * scale * shorter, 0.5f * scale * diagonal, &tool->error);
+    if (!status) {
+        json_object_set_new(tool->report, "base_triangles", json_integer(base.mesh.triangle_count));
+        status = grow(job, quilt, &base, seed);
+        meso_quilt_base_release(&base);
+    }
+    if (status == MESO_ERR_INPUT || status == MESO_ERR_LIMIT)
+        meso_fail_prefix(&tool->error, job->surface_input.path ? job->surface_input.path : "--plane");
+    return status;
+}
+
+/* ---- products ---- */
+
+static MesoStatus write_quilt(const Job *job, const MesoQuilt *quilt)
+{
+    MesoTool *tool = job->tool;
+    MesoOutput *output = NULL;
+    struct stat file;
+    const MesoQuiltFile product = {*quilt, job->swatch.swatch, job->surface.base, job->surface.mark};
+    MesoStatus status = meso_output_open(&output, tool->output, &tool->error);
+    if (!status)
+        status = meso_quilt_write(&product, &tool->provenance, output, &tool->error);
+    status = meso_output_finish(output, status, &tool->error);
+    json_object_set_new(tool->report, "kind", json_string("quilt"));
+    if (!status && stat(tool->output, &file) == 0 && S_ISREG(file.st_mode))
+        json_object_set_new(tool->report, "bytes", json_integer((json_int_t)file.st_size));
+    return status;
+}
+
+static MesoStatus write_scene(const Job *job, const MesoQuilt *quilt)
+{
+    MesoTool *tool = job->tool;
+    MesoScene scene;
+    MesoStatus status = meso_quilt_show(&scene, &tool->arena, quilt, &job->swatch.swatch, &job->surface.base,
+                                        tool->threads, &tool->error);
+    return status ? status : meso_tool_write_scene(tool, &job->arguments->output,
+                                                   &(MesoSceneProduct){.scene = &scene, .smaller = "raise --scale"});
+}
+
+static MesoStatus run_seed(Job *job, uint64_t seed)
+{
+    MesoTool *tool = job->tool;
+    MesoQuilt quilt;
+    MesoStatus status = make_quilt(job, &quilt, seed);
+    if (!status)
+        status = (job->as_quilt ? write_quilt : write_scene)(job, &quilt);
+    if (!status)
+        meso_quilt_report(tool, &quilt, scale_of(job));
+    return status;
+}
+
+/* ---- many seeds ---- */
+
+static MesoStatus run_one_of_many(Job *job, const char *pattern, uint64_t seed)
+{
+    MesoTool *tool = job->tool;
+    char number[32];
+    snprintf(number, sizeof number, "%" PRIu64, seed);
+    tool->output = meso_seed_path(pattern, seed, &tool->arena, &tool->error);
+    MesoStatus status = tool->output ? meso_tool_check_output(tool, "-o", tool->output) : MESO_ERR_MEMORY;
+    if (status)
+        return status;
+    const MesoOptionChange changes[] = {{"seeds", NULL}, {"seed", number}, {"output", tool->output}, {NULL, NULL}};
+    tool->provenance.seed = seed;
+    tool->provenance.command_line = meso_tool_command(tool, changes, &tool->arena, &tool->error);
+    return tool->provenance.command_line ? run_seed(job, seed) : MESO_ERR_MEMORY;
+}
+
+/* Each product is what its seed alone would give; the report has a list of them. */
+static MesoStatus run_seeds(Job *job)
+{
+    MesoTool *tool = job->tool;
+    const MesoSeedList *list = &job->seeds;
+    const MesoProvenance provenance = tool->provenance;
+    const char *pattern = tool->output;
+    json_t *whole = tool->report, *seeds = json_array();
+    MesoStatus status = MESO_OK;
+    for (uint32_t r = 0; r < list->range_count && !status; r++)
+        for (uint32_t i = 0; i < list->ranges[r].count && !status; i++) {
+            uint64_t seed = list->ranges[r].first + i;
+            MesoArenaMark mark = meso_arena_mark(&tool->arena);
+            tool->report = json_object();
+            json_object_set_new(tool->report, "seed", json_integer((json_int_t)seed));
+            status = run_one_of_many(job, pattern, seed);
+            json_array_append_new(seeds, tool->report);
+            tool->report = whole;
+            tool->output = pattern;
+            meso_arena_rewind(&tool->arena, mark);
+        }
+    tool->provenance = provenance;
+    json_object_set_new(whole, "seeds", seeds);
+    return status;
+}
+
+/* ---- the whole ---- */
+
+static MesoStatus run_recipe(MesoQuiltArguments *a)
+{
+    MesoPolygonMesh mesh;
+    MesoStatus status = meso_quilt_swatch_make(&mesh, a);
+    return status ? status : meso_quilt_swatch_write(&mesh, a);
+}
+
+static MesoStatus read_inputs(Job *job)
+{
+    MesoQuiltArguments *a = job->arguments;
+    MesoTool *tool = job->tool;
+    const char *const *operands = tool->operands;
+    MesoStatus status = meso_quilt_swatch_read(&job->swatch, a, &job->swatch_input, a->swatch ? NULL : operands[0]);
+    if (!status)
+        status = meso_quilt_surface_read(&job->surface, a, &job->surface_input,
+                                         a->plane ? NULL : operands[tool->operand_count - 1]);
+    if (status)
+        return status;
+    meso_quilt_swatch_report(tool->report, &job->swatch);
+    json_object_set_new(tool->report, "surface_triangles", json_integer(job->surface.base.triangle_count));
+    if (!(a->scale > 0) && !a->plane)
+        meso_tool_say(tool, "scale %g: the swatch is a fifth of the surface", (double)scale_of(job));
+    return MESO_OK;
+}
+
+static void close_inputs(Job *job)
+{
+    if (job->swatch_input.data)
+        meso_input_close(&job->swatch_input);
+    if (job->surface_input.data)
+        meso_input_close(&job->surface_input);
+    meso_quilt_surface_release(&job->surface);
+}
+
+MesoStatus meso_quilt_job_run(MesoQuiltArguments *a)
+{
+    Job job = {.arguments = a, .tool = &a->tool};
+    MesoStatus status = check_operands(a, &a->tool.error);
+    if (!status)
+        status = check_recipe(a, &a->tool.error);
+    if (status || makes_swatch(a))
+        return status ? status : run_recipe(a);
+    status = choose_kind(&job);
+    if (!status)
+        status = read_seeds(&job);
+    if (!status)
+        status = read_inputs(&job);
+    if (!status)
+        status = a->seeds ? run_seeds(&job) : run_seed(&job, a->tool.seed);
+    close_inputs(&job);
+    return status;
+}
