@@ -43,6 +43,7 @@ typedef struct MesoQuiltReport {
     uint64_t correspondence_count;  /* pairs of sections and of whole elements */
     double deformation_rms, deformation_largest;    /* displacements, in mean edges of the swatch */
     uint32_t join_count;            /* sections joined */
+    uint32_t weld_count;            /* patches that fitted vertex by vertex, so that nothing was cut */
     uint32_t cap_count;             /* sections closed because nothing went on there */
     uint32_t open_count;            /* sections left open: at borders of the surface */
     uint32_t retry_count;           /* placements given up for a better one */

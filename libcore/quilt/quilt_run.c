@@ -9,8 +9,9 @@
 static const float TIGHTNESS[] = {1, 0.5f, 0.25f, 0.1f};
 enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
 
-/* Voxels of the field along the longer side of the swatch. */
-#define VOXELS 72
+/* A voxel of the field is half an edge of the swatch wide, but there are so many along its longer side. */
+#define VOXELS_LEAST 48
+#define VOXELS_MOST 128
 
 typedef struct Front {
     uint32_t *triangles;    /* [count] not done, next to what is; in the order in which they came */
@@ -263,15 +264,21 @@ static float distance_apart(const MesoQuiltWork *work)
     return 2 * work->chart_radius * work->options.scale + 6 * sqrtf(longest);
 }
 
+static float choose_voxel(const MesoSwatch *swatch)
+{
+    float longest = swatch->size.x > swatch->size.y ? swatch->size.x : swatch->size.y, voxel = 0.5f * swatch->mean_edge;
+    voxel = voxel > longest / VOXELS_MOST ? voxel : longest / VOXELS_MOST;
+    return least(voxel, longest / VOXELS_LEAST);
+}
+
 static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, MesoError *error)
 {
     size_t count = work->base->triangle_count;
     choose_lengths(work);
     work->seeds_apart = distance_apart(work);
     const MesoSwatch *swatch = work->swatch;
-    float longest = swatch->size.x > swatch->size.y ? swatch->size.x : swatch->size.y;
     MesoStatus status = meso_match_field_build(&work->field, scratch, swatch, work->options.lambda / swatch->mean_edge,
-                                               longest / VOXELS, work->options.thread_count, error);
+                                               choose_voxel(swatch), work->options.thread_count, error);
     if (!status)
         status = meso_composite_init(&work->composite, work->base->triangle_count, error);
     if (status)

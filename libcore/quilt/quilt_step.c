@@ -7,7 +7,7 @@
 #define REACH_BEFORE_WARP 3.0f
 
 /* Ways that are not worth a warp, in mean edges of the swatch. */
-#define WARP_LEAST 1e-4f
+#define WARP_LEAST 0.01f
 
 /* Smoothing of the warp, and the share of the patch over which it fades out. */
 #define WARP_SMOOTHING 0.02
@@ -218,7 +218,9 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
     if (!status)
         status = fit(&c, step, work, arena, error);
     clocks[2] = meso_seconds();
-    if (!status)
+    if (!status && !step->warp.count)
+        status = meso_strands_try_weld(&patch->weld, &patch->welded, &c.old_side, &c.new_side, step, work, arena, error);
+    if (!status && !patch->welded)
         status = meso_strands_plan(&patch->joint, &c.old_side, &c.new_side, step, work, arena, error);
     clocks[3] = meso_seconds();
     if (!status)
@@ -236,6 +238,7 @@ static void add_tally(MesoQuiltTally *sum, const MesoQuiltTally *tally)
     MesoQuiltReport *to = &sum->report;
     to->correspondence_count += from->correspondence_count;
     to->join_count += from->join_count;
+    to->weld_count += from->weld_count;
     to->open_count += from->open_count;
     to->retry_count += from->retry_count;
     to->shrunk_count += from->shrunk_count;
@@ -256,7 +259,8 @@ MesoStatus meso_quilt_commit(MesoQuiltPatch *patch, MesoStatus prepared, bool *d
     double clock = meso_seconds();
     MesoStatus status = prepared;
     if (!status)
-        status = meso_strands_commit(&patch->joint, step, work, arena, error);
+        status = patch->welded ? meso_strands_commit_weld(&patch->weld, step, work, arena, error)
+                               : meso_strands_commit(&patch->joint, step, work, arena, error);
     if (!status)
         status = meso_quilt_commit_wholes(&patch->wholes, step, work, error);
     meso_old_geometry_forget(step, work);

@@ -205,9 +205,25 @@ MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep
 /* `reach` of meso_strands_pair() once sides are as near to each other as they can be. */
 #define MESO_REACH_LAST 1.5f
 
+/* Strands of both sides of which each triangle is either there or not. */
+typedef struct MesoStrandWeld {
+    MesoStrandSide old_side, new_side;
+    uint32_t *same;             /* [new vertex_count] old vertex in the same place, or MESO_NO_INDEX */
+    bool *old_stays, *new_comes;    /* [triangle_count] of either side */
+} MesoStrandWeld;
+
+/* `welded`: whether both sides fit so that no triangle needs to be cut, wherever something is done. */
+MesoStatus meso_strands_try_weld(MesoStrandWeld *weld, bool *welded, const MesoStrandSide *old_side,
+                                 const MesoStrandSide *new_side, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                                 MesoArena *arena, MesoError *error);
+MesoStatus meso_strands_commit_weld(const MesoStrandWeld *weld, const MesoQuiltStep *step, MesoQuiltWork *work,
+                                    MesoArena *arena, MesoError *error);
+
 /* A patch around step->seed, made ready. Its parts are in the arena. */
 typedef struct MesoQuiltPatch {
     MesoQuiltStep step;
+    bool welded;
+    MesoStrandWeld weld;        /* where it is; else: */
     MesoStrandJoint joint;
     MesoWholePlan wholes;
     bool laid_out;              /* marks in the work are to be taken back */

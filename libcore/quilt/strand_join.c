@@ -36,26 +36,55 @@ static uint32_t section_at_seam(const MesoStrandSide *at_seam, const MesoSection
     return best;
 }
 
-/* Half of the way between the centres at the seam, where both are known; else between those of the sections, across. */
-static void choose_moves(MesoStrandSide *side, const MesoStrandSide *other, const MesoStrandSide *at_seam,
-                         const MesoStrandSide *other_at_seam, float gap)
+/*
+ * Pairs sections as those at the seam that they belong to are paired, and has them move half of the way between the
+ * centres there. Others keep what meso_strands_pair() has said, if both cross the seam: what does not is only grazed by
+ * the seam, and is to be closed.
+ */
+static MesoStatus pair_by_seam(MesoStrandJoint *joint, const MesoStrandSide *old_at_seam,
+                               const MesoStrandSide *new_at_seam, float gap, MesoArena *scratch, MesoError *error)
 {
-    for (uint32_t s = 0; s < side->section_count; s++) {
-        uint32_t partner = side->partners[s];
-        if (partner == MESO_NO_INDEX)
+    MesoStrandSide *old_side = &joint->old_side, *new_side = &joint->new_side;
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    uint32_t *old_here = MESO_NEW(scratch, uint32_t, old_side->section_count, error);
+    uint32_t *new_here = MESO_NEW(scratch, uint32_t, new_side->section_count, error);
+    if (!old_here || !new_here)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < old_side->section_count; s++)
+        old_here[s] = section_at_seam(old_at_seam, &old_side->sections[s], gap);
+    for (uint32_t s = 0; s < new_side->section_count; s++)
+        new_here[s] = section_at_seam(new_at_seam, &new_side->sections[s], gap);
+    for (uint32_t s = 0; s < old_side->section_count; s++) {
+        uint32_t other = old_side->partners[s];
+        if (other != MESO_NO_INDEX && (old_here[s] == MESO_NO_INDEX || new_here[other] == MESO_NO_INDEX)) {
+            old_side->partners[s] = new_side->partners[other] = MESO_NO_INDEX;
             continue;
-        uint32_t here = section_at_seam(at_seam, &side->sections[s], gap);
-        uint32_t there = here == MESO_NO_INDEX ? MESO_NO_INDEX : at_seam->partners[here];
-        MesoVec3 way;
-        if (there != MESO_NO_INDEX) {
-            way = meso_vec3_sub(other_at_seam->sections[there].centre, at_seam->sections[here].centre);
-        } else {
-            MesoVec3 axis = meso_vec3_unit(meso_vec3_sub(side->axes[s], other->axes[partner]), side->axes[s]);
-            way = meso_vec3_sub(other->sections[partner].centre, side->sections[s].centre);
-            way = meso_vec3_mad(way, -meso_vec3_dot(way, axis), axis);
         }
-        side->moves[s] = meso_vec3_scale(way, 0.5f);
+        uint32_t there = old_here[s] == MESO_NO_INDEX ? MESO_NO_INDEX : old_at_seam->partners[old_here[s]];
+        for (uint32_t n = 0; there != MESO_NO_INDEX && n < new_side->section_count; n++) {
+            if (new_here[n] != there || new_side->partners[n] == s)
+                continue;
+            if (other != MESO_NO_INDEX && new_here[other] == there)
+                break;      /* two of them: the nearer one is the partner already */
+            if (other != MESO_NO_INDEX)
+                new_side->partners[other] = MESO_NO_INDEX;
+            if (new_side->partners[n] != MESO_NO_INDEX)
+                old_side->partners[new_side->partners[n]] = MESO_NO_INDEX;
+            old_side->partners[s] = other = n;
+            new_side->partners[n] = s;
+        }
     }
+    for (uint32_t s = 0; s < old_side->section_count; s++) {
+        uint32_t other = old_side->partners[s];
+        if (other == MESO_NO_INDEX)
+            continue;
+        MesoVec3 way = meso_vec3_sub(new_at_seam->sections[new_here[other]].centre,
+                                     old_at_seam->sections[old_here[s]].centre);
+        old_side->moves[s] = meso_vec3_scale(way, 0.5f);
+        new_side->moves[other] = meso_vec3_scale(way, -0.5f);
+    }
+    meso_arena_rewind(scratch, mark);
+    return MESO_OK;
 }
 
 /* How far vertices have moved, those that have. */
@@ -306,9 +335,9 @@ MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_a
         status = meso_strands_pair(old_side, new_side, &flaws, MESO_REACH_LAST, arena, error);
     if (status)
         return status;
-    choose_moves(old_side, new_side, old_at_seam, new_at_seam, work->gap);
-    choose_moves(new_side, old_side, new_at_seam, old_at_seam, work->gap);
-    status = deform_side(old_side, step, work, arena, error);
+    status = pair_by_seam(joint, old_at_seam, new_at_seam, work->gap, arena, error);
+    if (!status)
+        status = deform_side(old_side, step, work, arena, error);
     if (!status)
         status = deform_side(new_side, step, work, arena, error);
     measure_again(old_side);
