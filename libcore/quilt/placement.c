@@ -1,10 +1,18 @@
 /* Where the swatch goes: equations 1 to 3 over all shifts and turns. */
+#include <string.h>
+
 #include "libcore/base/random.h"
 #include "libcore/quilt/grid_distance.h"
 #include "libcore/quilt/quilt_work.h"
 
 /* More points than that tell nothing new. */
 #define POINT_LIMIT 1000
+
+/* Points that vote for the placement in which the quilt just goes on; votes that agree, in mean edges of the swatch; and by
+ * how much it may match worse than another one, which would have to be deformed to fit. */
+enum { VOTERS = 64 };
+#define AGREE 0.1f
+#define WORSE_BUT_EXACT 0.1f
 
 /* How far from what is not done points are worth something, as a share of the swatch's shorter side. */
 #define NEAR_SHARE 0.3f
@@ -84,8 +92,8 @@ static void whole_normals(MesoVec3 *normals, const MesoVec3 *points, const MesoS
 }
 
 /* Points of the old quilt in the window: vertices of strands, and of whole elements, in even shares. */
-static MesoStatus collect_points(MesoMatchPoint *points, float *weights, uint32_t *count, const MesoQuiltStep *step,
-                                 const MesoQuiltWork *work, MesoVec2 half, MesoArena *scratch, MesoError *error)
+static MesoStatus collect_points(MesoMatchPoint *points, float *weights, uint32_t *origins, uint32_t *count,
+                                 const MesoQuiltStep *step, const MesoQuiltWork *work, MesoVec2 half, MesoArena *scratch, MesoError *error)
 {
     Nearness near;
     measure_nearness(&near, step, work);
@@ -106,6 +114,7 @@ static MesoStatus collect_points(MesoMatchPoint *points, float *weights, uint32_
         if (is_inside(half, old->positions[v]) && weight_at(&near, old->positions[v]) > 0 && number++ % stride == 0 &&
             *count < POINT_LIMIT) {
             weights[*count] = weight_at(&near, old->positions[v]);
+            origins[*count] = work->composite.vertex_origins[old->vertices[v]];
             points[(*count)++] = (MesoMatchPoint){old->positions[v], old->normals[v]};
         }
     MesoArenaMark mark = meso_arena_mark(scratch);
@@ -123,15 +132,79 @@ static MesoStatus collect_points(MesoMatchPoint *points, float *weights, uint32_
             complete &= meso_quilt_plane_to(&step->plane, work->composite.whole_vertices[begin + k], &places[k]);
         if (!complete)
             continue;
-        whole_normals(normals, places, work->swatch, work->composite.wholes[old->wholes[i]].element);
+        uint32_t element = work->composite.wholes[old->wholes[i]].element;
+        whole_normals(normals, places, work->swatch, element);
         for (uint32_t k = 0; k < size; k++)
             if (number++ % stride == 0 && *count < POINT_LIMIT) {
                 weights[*count] = weight;
+                origins[*count] = work->swatch->vertex_begin[element] + k;
                 points[(*count)++] = (MesoMatchPoint){places[k], normals[k]};
             }
     }
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
+}
+
+/* The number of periods nearest to a length, as a length; 0 where there is no period. */
+static float whole_periods(float length, float period)
+{
+    return period > 0 ? period * floorf(length / period + 0.5f) : 0;
+}
+
+/* Votes of points for a shift, up to whole periods: how many agree with that of point `i`, and their mean. */
+static uint32_t count_votes(MesoVec2 *mean, const MesoVec2 *shifts, uint32_t count, uint32_t i, const MesoSwatch *swatch)
+{
+    uint32_t votes = 0;
+    double x = 0, y = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        MesoVec2 d = meso_vec2_sub(shifts[k], shifts[i]);
+        d.x -= whole_periods(d.x, swatch->period.x);
+        d.y -= whole_periods(d.y, swatch->period.y);
+        if (meso_vec2_length(d) > AGREE * swatch->mean_edge)
+            continue;
+        votes++;
+        x += d.x;
+        y += d.y;
+    }
+    *mean = (MesoVec2){shifts[i].x + (float)(x / votes), shifts[i].y + (float)(y / votes)};
+    return votes;
+}
+
+/*
+ * The placement in which the older quilt simply goes on: each of its vertices knows its place in the swatch, and so the
+ * shift that it was laid with, up to whole periods. False where no half of them agree, or the swatch ends before.
+ */
+static bool go_on(MesoMatch *match, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoVec2 half)
+{
+    const MesoSwatch *swatch = work->swatch;
+    uint32_t stride = step->point_count / VOTERS + 1, most = 0;
+    *match = (MesoMatch){0};
+    for (uint32_t turn = 0; turn < work->options.turn_count; turn++) {
+        MesoVec2 shifts[VOTERS], mean;
+        uint32_t count = 0;
+        double angle = 2 * MESO_PI * turn / work->options.turn_count;
+        float c = (float)cos(angle), s = (float)sin(angle);
+        for (uint32_t i = 0; i < step->point_count && count < VOTERS; i += stride) {
+            MesoVec3 p = step->points[i].position, o = swatch->positions[step->point_origins[i]];
+            shifts[count++] = (MesoVec2){o.x - (c * p.x + s * p.y), o.y - (c * p.y - s * p.x)};
+        }
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t votes = count_votes(&mean, shifts, count, i, swatch);
+            if (votes > most && 2 * votes > count) {
+                most = votes;
+                *match = (MesoMatch){.shift = mean, .turn = turn};
+            }
+        }
+    }
+    if (!most)
+        return false;
+    /* as near to the middle of the swatch as periods allow */
+    match->shift.x += whole_periods(0.5f * swatch->size.x - match->shift.x, swatch->period.x);
+    match->shift.y += whole_periods(0.5f * swatch->size.y - match->shift.y, swatch->period.y);
+    match->cost = meso_match_cost(&work->field, step->points, step->point_weights, step->point_count, match->shift,
+                                  match->turn, work->options.turn_count);
+    return match->shift.x >= half.x && match->shift.y >= half.y && match->shift.x <= swatch->size.x - half.x &&
+           match->shift.y <= swatch->size.y - half.y;
 }
 
 /* Where nothing is yet: anywhere in the swatch that has room for the window. */
@@ -153,12 +226,13 @@ MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted
     MesoVec2 half = {0.5f * work->options.patch * size.x, 0.5f * work->options.patch * size.y};
     MesoMatchPoint *points = MESO_NEW(arena, MesoMatchPoint, POINT_LIMIT, error);
     float *weights = MESO_NEW(arena, float, POINT_LIMIT, error);
-    if (!points || !weights)
+    step->point_origins = MESO_NEW(arena, uint32_t, POINT_LIMIT, error);
+    if (!points || !weights || !step->point_origins)
         return MESO_ERR_MEMORY;
     uint32_t count = 0;
     step->points = points;
     step->point_weights = weights;
-    MesoStatus status = collect_points(points, weights, &count, step, work, half, arena, error);
+    MesoStatus status = collect_points(points, weights, step->point_origins, &count, step, work, half, arena, error);
     if (status)
         return status;
     *found = 0;
@@ -166,6 +240,13 @@ MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted
     if (count)
         status = meso_match_search(matches, found, wanted, 4 * work->field.voxel, &work->field, arena, points, weights,
                                    count, (MesoVec2){-half.x, -half.y}, half, 0, work->options.turn_count, error);
+    MesoMatch going_on;
+    if (!status && count && go_on(&going_on, step, work, half) &&
+        (!*found || going_on.cost <= matches[0].cost + WORSE_BUT_EXACT)) {
+        memmove(&matches[1], &matches[0], (*found < wanted ? *found : wanted - 1) * sizeof *matches);
+        matches[0] = going_on;
+        *found += *found < wanted;
+    }
     if (!status && !*found) {
         place_freely(&matches[0], step, work, half);
         *found = 1;

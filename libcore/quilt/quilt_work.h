@@ -86,6 +86,7 @@ typedef struct MesoQuiltStep {
     MesoSeamGround ground;
     MesoMatchPoint *points;     /* [point_count] of the older quilt, that the placement is to match */
     float *point_weights;
+    uint32_t *point_origins;    /* vertices of the swatch that they are copies of, or lie next to */
     uint32_t point_count;
     MesoMatch match;
     float turn_cos, turn_sin;

@@ -44,6 +44,9 @@ static bool lies_inside(const MesoVec3 p[4], MesoAreaVector area, uint32_t k)
     return meso_area_dot(meso_area_between(a, b, c), area) > 0 && meso_area_dot(meso_area_between(a, c, d), area) > 0;
 }
 
+/* Squares of diagonals that differ by less are equal. */
+#define DIAGONAL_TIE 0.9999
+
 static void cut_quad(const Ring *ring)
 {
     MesoVec3 p[4];
@@ -51,7 +54,8 @@ static void cut_quad(const Ring *ring)
         p[k] = ring->mesh->positions[ring->mesh->corners[ring->begin + k]];
     MesoAreaVector area = meso_face_area(ring->mesh, ring->face);
     bool first = lies_inside(p, area, 0), second = lies_inside(p, area, 1);
-    if (second && (!first || squared_distance(p[1], p[3]) < squared_distance(p[0], p[2]))) {
+    /* equal but for rounding, diagonals are the same everywhere: copies of a quad are cut alike */
+    if (second && (!first || squared_distance(p[1], p[3]) < DIAGONAL_TIE * squared_distance(p[0], p[2]))) {
         add_triangle(ring, 0, 1, 3);
         add_triangle(ring, 1, 2, 3);
         return;
