@@ -8,7 +8,7 @@
 
 /* Angles: at most, and such as are only noise. */
 #define ANGLE_MOST 0.15
-#define ANGLE_LEAST 1e-5
+#define ANGLE_LEAST 3e-4
 
 typedef struct Motion {
     double x, y, angle;     /* of the swatch's plane; the angle about the window's middle, times `size` */

@@ -1,6 +1,4 @@
 /* Where the swatch goes: equations 1 to 3 over all shifts and turns. */
-#include <string.h>
-
 #include "libcore/base/random.h"
 #include "libcore/quilt/grid_distance.h"
 #include "libcore/quilt/quilt_work.h"
@@ -243,9 +241,8 @@ MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted
     MesoMatch going_on;
     if (!status && count && go_on(&going_on, step, work, half) &&
         (!*found || going_on.cost <= matches[0].cost + WORSE_BUT_EXACT)) {
-        memmove(&matches[1], &matches[0], (*found < wanted ? *found : wanted - 1) * sizeof *matches);
-        matches[0] = going_on;
-        *found += *found < wanted;
+        matches[0] = going_on;      /* nothing else is worth a try */
+        *found = 1;
     }
     if (!status && !*found) {
         place_freely(&matches[0], step, work, half);
