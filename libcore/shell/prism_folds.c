@@ -127,6 +127,22 @@ void meso_prism_normals(MesoPrismLayer *layer)
     }
 }
 
+void meso_prism_face(MesoPrismLayer *layer)
+{
+    enum { STEPS = 8 };
+    const double enough = 0.1;
+    for (uint32_t v = 0; v < layer->mesh->vertex_count; v++) {
+        MesoVec3d upright = meso_vec3d_scale(layer->normals[v], meso_vec3d_dot(layer->rises[v], layer->normals[v]));
+        for (uint32_t step = 0; step < STEPS && layer->mesh->vertex_corner[v] != MESO_NO_INDEX; step++) {
+            uint32_t least;
+            if (least_share(layer, v, layer->rises[v], &least) > enough * meso_vec3d_length(layer->rises[v]))
+                break;
+            MesoVec3d half = meso_vec3d_scale(meso_vec3d_add(layer->rises[v], upright), 0.5);
+            layer->rises[v] = step + 1 < STEPS ? half : upright;
+        }
+    }
+}
+
 /* ---- folds ---- */
 
 /*
@@ -142,7 +158,8 @@ bool meso_prism_stands(const MesoPrismLayer *layer, uint32_t triangle, double ma
     MesoVec3d sides[3][2];
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t from = v[k], to = v[(k + 1) % 3];
-        MesoVec3d flat = meso_vec3d_sub(meso_vec3d(layer->mesh->positions[to]), meso_vec3d(layer->mesh->positions[from]));
+        MesoVec3d flat = meso_vec3d_sub(meso_vec3d(layer->mesh->positions[to]),
+                                        meso_vec3d(layer->mesh->positions[from]));
         MesoVec3d more = meso_vec3d_sub(layer->rises[to], layer->rises[from]);
         sides[k][0] = meso_vec3d_mad(flat, layer->low, more);
         sides[k][1] = meso_vec3d_mad(flat, layer->high, more);
@@ -216,8 +233,11 @@ static void lower_vertex(MesoPrismLayer *layer, Queue *queue, uint32_t vertex)
 static void raise_vertex(MesoPrismLayer *layer, uint32_t vertex)
 {
     enum { STEPS = 5 };
-    MesoVec3d low = layer->rises[vertex];
-    MesoVec3d more = meso_vec3d_sub(meso_vec3d_scale(layer->normals[vertex], layer->thickness[vertex]), low);
+    MesoVec3d low = layer->rises[vertex], full = meso_vec3d_scale(layer->normals[vertex], layer->thickness[vertex]);
+    double height = meso_vec3d_dot(low, layer->normals[vertex]);
+    if (height > 0)
+        full = meso_vec3d_scale(low, layer->thickness[vertex] / height);
+    MesoVec3d more = meso_vec3d_sub(full, low);
     double stands = 0;
     for (double step = 1; step > 1.0 / (1 << STEPS); step /= 2) {
         double to = fmin(stands + step, 1);
@@ -260,6 +280,6 @@ void meso_prism_raise(MesoPrismLayer *layer)
 {
     for (uint32_t pass = 0; pass < 2; pass++)
         for (uint32_t v = 0; v < layer->mesh->vertex_count; v++)
-            if (meso_vec3d_length(layer->rises[v]) < 0.9999 * layer->thickness[v])
+            if (meso_vec3d_dot(layer->rises[v], layer->normals[v]) < 0.9999 * layer->thickness[v])
                 raise_vertex(layer, v);
 }

@@ -37,6 +37,9 @@ void meso_prism_split(const uint32_t vertices[3], uint8_t tetrahedra[3][4]);
 /* Sets normals, thickness, rises and flat. */
 void meso_prism_normals(MesoPrismLayer *layer);
 
+/* Turns directions towards the normals until they are well outside of all triangles around. */
+void meso_prism_face(MesoPrismLayer *layer);
+
 /*
  * Whether all tetrahedra between any two heights of the prism are positive, by `margin`: the least share of the flat
  * prism's volume that they must have, for as long directions.
@@ -56,11 +59,17 @@ void meso_prism_raise(MesoPrismLayer *layer);
 
 /*
  * Makes directions shorter until no prism meets another. What has been lowered here wants to be no longer: thickness
- * is what is left.
+ * is what is left. `lowered`: whether anything was.
  */
-MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error);
+MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, bool *lowered, MesoArena *scratch, MesoError *error);
 
 /* ---- prism_relax.c ---- */
+
+/*
+ * Directions near the least stretch by one sparse system; prisms may not stand then. Leaves them where the system is
+ * larger than pays, or not positive definite in doubles: sweeps need no start.
+ */
+MesoStatus meso_prism_solve(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error);
 
 /* Turns directions for less stretch; all prisms stand before and after. */
 MesoStatus meso_prism_relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error);

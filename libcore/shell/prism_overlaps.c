@@ -198,7 +198,7 @@ static MesoStatus lower_pairs(Search *search, uint8_t *marked, uint8_t *touched)
     return MESO_OK;
 }
 
-MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
+MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, bool *lowered, MesoArena *scratch, MesoError *error)
 {
     const MesoTriangulation *mesh = layer->mesh;
     MesoArenaMark mark = meso_arena_mark(scratch);
@@ -212,6 +212,7 @@ MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, MesoArena *scratch, 
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         search.graphs[v] = mesh->vertex_corner[v] != MESO_NO_INDEX && is_graph(&search, v);
     MesoStatus status = find_pairs(&search);
+    *lowered = search.pair_count > 0;
     if (!status)
         status = lower_pairs(&search, marked, touched);
     meso_arena_rewind(scratch, mark);

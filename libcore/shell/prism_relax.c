@@ -5,6 +5,7 @@
  * direction, others held, where E - s V is with s = 2/3 E / V: at a point that is found by one division. Sweeps over
  * vertices take it, as far as prisms stand: the barrier against what E alone does not see.
  */
+#include "libcore/math/sparse_cholesky.h"
 #include "libcore/shell/prism_layer.h"
 
 typedef struct Relaxation {
@@ -34,6 +35,18 @@ static void measure(Relaxation *relax)
         for (uint32_t k = 0; k < 3; k++)
             relax->flats[t][1 + k] = meso_vec3d_dot(sides[(k + 1) % 3], sides[(k + 2) % 3]) / (4 * area * area);
     }
+}
+
+static MesoStatus init(Relaxation *relax, MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
+{
+    double low = layer->low, high = layer->high;
+    *relax = (Relaxation){layer, {high - low, (high * high - low * low) / 2,
+                                  (high * high * high - low * low * low) / 3}, NULL, 2};
+    relax->flats = meso_arena_alloc(scratch, layer->mesh->triangle_count, sizeof *relax->flats, error);
+    if (!relax->flats)
+        return MESO_ERR_MEMORY;
+    measure(relax);
+    return MESO_OK;
 }
 
 /* Weights of d_i . d_j and of d_i . p_j in half the derivative of E. */
@@ -67,8 +80,9 @@ static Prism prism_of(const Relaxation *relax, uint32_t triangle, uint32_t from)
 /* The integral over heights of twice the lid's area, as a vector. */
 static MesoVec3d lid_integral(const Relaxation *relax, const Prism *prism)
 {
-    MesoVec3d a = meso_vec3d_sub(prism->places[1], prism->places[0]), da = meso_vec3d_sub(prism->rises[1], prism->rises[0]);
-    MesoVec3d b = meso_vec3d_sub(prism->places[2], prism->places[0]), db = meso_vec3d_sub(prism->rises[2], prism->rises[0]);
+    const MesoVec3d *p = prism->places, *d = prism->rises;
+    MesoVec3d a = meso_vec3d_sub(p[1], p[0]), da = meso_vec3d_sub(d[1], d[0]);
+    MesoVec3d b = meso_vec3d_sub(p[2], p[0]), db = meso_vec3d_sub(d[2], d[0]);
     MesoVec3d sum = meso_vec3d_scale(meso_vec3d_cross(a, b), relax->lengths[0]);
     sum = meso_vec3d_mad(sum, relax->lengths[1], meso_vec3d_add(meso_vec3d_cross(a, db), meso_vec3d_cross(da, b)));
     return meso_vec3d_mad(sum, relax->lengths[2], meso_vec3d_cross(da, db));
@@ -87,8 +101,6 @@ static MesoVec3d volume_derivative(const Relaxation *relax, const Prism *prism)
     MesoVec3d sum = meso_vec3d_scale(lid_integral(relax, prism), 1.0 / 3);
     return meso_vec3d_scale(meso_vec3d_add(sum, meso_vec3d_cross(across, mean_rise(prism))), 0.5);
 }
-
-/* ---- sweeps ---- */
 
 /* s for the directions as they are. */
 static double slope_of(const Relaxation *relax)
@@ -109,6 +121,87 @@ static double slope_of(const Relaxation *relax)
     }
     return volume > 0 ? 2.0 / 3 * energy / volume : 2;
 }
+
+/* With the height along the normal that is wanted, or, where folds have lowered it, one between that and what it is. */
+static MesoVec3d keep_thickness(const MesoPrismLayer *layer, uint32_t vertex, MesoVec3d rise)
+{
+    MesoVec3d normal = layer->normals[vertex];
+    double most = layer->thickness[vertex], least = fmin(meso_vec3d_dot(layer->rises[vertex], normal), most);
+    double height = meso_vec3d_dot(rise, normal);
+    return meso_vec3d_mad(rise, fmax(least, fmin(height, most)) - height, normal);
+}
+
+/* ---- all directions at once ---- */
+
+/* Half the derivative of s V - E by each direction, where the directions do not count for E; and the weights in E. */
+static void add_terms(const Relaxation *relax, uint32_t triangle, MesoTriplet *triplets, size_t *count, double *right)
+{
+    const uint32_t *v = &relax->layer->mesh->corners[3 * (size_t)triangle];
+    const double *flat = relax->flats[triangle];
+    for (uint32_t i = 0; i < 3; i++) {
+        Prism prism = prism_of(relax, triangle, i);
+        MesoVec3d sum = meso_vec3d_scale(volume_derivative(relax, &prism), 0.5 * relax->slope);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t j = (i + k) % 3;
+            sum = meso_vec3d_mad(sum, -place_weight(relax, flat, i, j), prism.places[k]);
+            if (v[i] >= v[j])
+                triplets[(*count)++] = (MesoTriplet){v[i], v[j], rise_weight(relax, flat, i, j)};
+        }
+        right[3 * (size_t)v[i]] += sum.x;
+        right[3 * (size_t)v[i] + 1] += sum.y;
+        right[3 * (size_t)v[i] + 2] += sum.z;
+    }
+}
+
+/* Vertices without a triangle that counts stand alone. */
+static size_t add_lonely(const MesoPrismLayer *layer, uint8_t *met, MesoTriplet *triplets, size_t count)
+{
+    for (uint32_t t = 0; t < layer->mesh->triangle_count; t++)
+        for (uint32_t k = 0; k < 3 && !layer->flat[t]; k++)
+            met[layer->mesh->corners[3 * (size_t)t + k]] = 1;
+    for (uint32_t v = 0; v < layer->mesh->vertex_count; v++)
+        if (!met[v])
+            triplets[count++] = (MesoTriplet){v, v, 1};
+    return count;
+}
+
+MesoStatus meso_prism_solve(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
+{
+    const uint32_t most = 1u << 17;     /* vertices: half a second, some hundred MB */
+    const MesoTriangulation *mesh = layer->mesh;
+    if (mesh->vertex_count > most)
+        return MESO_OK;
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    Relaxation relax;
+    MesoCholesky factor;
+    size_t count = 0;
+    MesoStatus status = init(&relax, layer, scratch, error);
+    size_t most_terms = 6 * (size_t)mesh->triangle_count + mesh->vertex_count;
+    MesoTriplet *triplets = MESO_NEW(scratch, MesoTriplet, most_terms, error);
+    double *right = MESO_NEW(scratch, double, 3 * (size_t)mesh->vertex_count, error);
+    uint8_t *met = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
+    if (status || !triplets || !right || !met)
+        return MESO_ERR_MEMORY;
+    relax.slope = slope_of(&relax);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        if (!layer->flat[t])
+            add_terms(&relax, t, triplets, &count, right);
+    count = add_lonely(layer, met, triplets, count);
+    status = meso_cholesky_analyse(&factor, scratch, mesh->vertex_count, triplets, count, error);
+    if (!status)
+        status = meso_cholesky_factor(&factor, triplets, count, error);
+    if (!status) {
+        meso_cholesky_solve(&factor, right, 3);
+        for (uint32_t v = 0; v < mesh->vertex_count; v++)
+            if (met[v])
+                layer->rises[v] = keep_thickness(layer, v, (MesoVec3d){right[3 * (size_t)v], right[3 * (size_t)v + 1],
+                                                                       right[3 * (size_t)v + 2]});
+    }
+    meso_arena_rewind(scratch, mark);
+    return status == MESO_ERR_INPUT ? MESO_OK : status;
+}
+
+/* ---- sweeps ---- */
 
 /* The stationary point of E - s V in one direction. */
 static MesoVec3d best_rise(const Relaxation *relax, uint32_t vertex)
@@ -136,21 +229,13 @@ static MesoVec3d best_rise(const Relaxation *relax, uint32_t vertex)
     return weight > 0 ? meso_vec3d_scale(sum, 1 / weight) : layer->rises[vertex];
 }
 
-/* With the height along the normal that is wanted, or, where folds have lowered it, one between that and what it is. */
-static MesoVec3d keep_thickness(const MesoPrismLayer *layer, uint32_t vertex, MesoVec3d rise)
-{
-    MesoVec3d normal = layer->normals[vertex];
-    double most = layer->thickness[vertex], least = fmin(meso_vec3d_dot(layer->rises[vertex], normal), most);
-    double height = meso_vec3d_dot(rise, normal);
-    return meso_vec3d_mad(rise, fmax(least, fmin(height, most)) - height, normal);
-}
-
 static void move_vertex(Relaxation *relax, uint32_t vertex)
 {
     enum { STEPS = 4 };
     const double margin = 0.1;      /* further away from folds than they must be */
     MesoPrismLayer *layer = relax->layer;
-    MesoVec3d old = layer->rises[vertex], way = meso_vec3d_sub(keep_thickness(layer, vertex, best_rise(relax, vertex)), old);
+    MesoVec3d old = layer->rises[vertex], best = keep_thickness(layer, vertex, best_rise(relax, vertex));
+    MesoVec3d way = meso_vec3d_sub(best, old);
     double step = 1;
     for (uint32_t k = 0; k < STEPS; k++, step /= 2) {
         layer->rises[vertex] = meso_vec3d_mad(old, step, way);
@@ -165,12 +250,9 @@ MesoStatus meso_prism_relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError
     enum { SWEEPS = 8 };
     const MesoTriangulation *mesh = layer->mesh;
     MesoArenaMark mark = meso_arena_mark(scratch);
-    double low = layer->low, high = layer->high;
-    Relaxation relax = {layer, {high - low, (high * high - low * low) / 2, (high * high * high - low * low * low) / 3},
-                        meso_arena_alloc(scratch, mesh->triangle_count, sizeof *relax.flats, error), 2};
-    if (!relax.flats)
+    Relaxation relax;
+    if (init(&relax, layer, scratch, error))
         return MESO_ERR_MEMORY;
-    measure(&relax);
     for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
         relax.slope = slope_of(&relax);
         for (uint32_t v = 0; v < mesh->vertex_count; v++)

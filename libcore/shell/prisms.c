@@ -76,6 +76,7 @@ static void add_prism(Sums *sums, const MesoPrismLayer *layer, uint32_t triangle
 
 static uint32_t count_inverted(const MesoPrismLayer *layer, uint32_t triangle)
 {
+    const double rounding = 1e-12;      /* where a corner has no direction, tetrahedra have no volume */
     const uint32_t *v = &layer->mesh->corners[3 * (size_t)triangle];
     uint8_t tetrahedra[3][4];
     uint32_t count = 0;
@@ -86,7 +87,10 @@ static uint32_t count_inverted(const MesoPrismLayer *layer, uint32_t triangle)
             uint32_t corner = tetrahedra[i][k];
             corners[k] = meso_prism_corner(layer, v[corner % 3], corner < 3 ? layer->low : layer->high);
         }
-        count += meso_tetrahedron_det(corners) < 0;
+        double most = rounding;
+        for (uint32_t k = 1; k < 4; k++)
+            most *= meso_vec3d_length(meso_vec3d_sub(corners[k], corners[0]));
+        count += meso_tetrahedron_det(corners) < -most;
     }
     return count;
 }
@@ -106,33 +110,58 @@ static Sums measure(const MesoPrismLayer *layer)
 
 static MesoStatus lower(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
 {
+    bool lowered;
     MesoStatus status = meso_prism_lower_folds(layer, NULL, scratch, error);
     if (!status) {
         meso_prism_raise(layer);
-        status = meso_prism_lower_overlaps(layer, scratch, error);
+        status = meso_prism_lower_overlaps(layer, &lowered, scratch, error);
     }
     return status;
 }
 
-/* Turned directions, lowered where they meet; those that were there before where that is no better. */
-static MesoStatus optimise(MesoPrismLayer *layer, Sums *best, MesoArena *scratch, MesoError *error)
+/* Turned, and lowered where that makes prisms meet; once more where it has, with what is left of the heights. */
+static MesoStatus relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
 {
-    size_t size = layer->mesh->vertex_count * sizeof(MesoVec3d);
-    MesoVec3d *kept = MESO_NEW(scratch, MesoVec3d, layer->mesh->vertex_count, error);
+    bool lowered = true;
+    MesoStatus status = MESO_OK;
+    for (uint32_t pass = 0; pass < 2 && lowered && !status; pass++) {
+        status = meso_prism_relax(layer, scratch, error);
+        if (!status)
+            status = meso_prism_lower_overlaps(layer, &lowered, scratch, error);
+    }
+    return status;
+}
+
+/* From the full thickness; back to what there was where that is no better. */
+static MesoStatus optimise(MesoPrismLayer *layer, Sums *best, const double *thickness, MesoArena *scratch,
+                           MesoError *error)
+{
+    uint32_t count = layer->mesh->vertex_count;
+    MesoVec3d *kept = MESO_NEW(scratch, MesoVec3d, count, error);
     if (!kept)
         return MESO_ERR_MEMORY;
-    if (size)
-        memcpy(kept, layer->rises, size);
-    MesoStatus status = meso_prism_relax(layer, scratch, error);
-    if (!status)
-        status = meso_prism_lower_overlaps(layer, scratch, error);
+    for (uint32_t v = 0; v < count; v++) {
+        kept[v] = layer->rises[v];
+        layer->thickness[v] = thickness[v];
+        layer->rises[v] = meso_vec3d_scale(layer->normals[v], thickness[v]);
+    }
+    MesoStatus status = meso_prism_solve(layer, scratch, error);
+    if (status)
+        return status;
+    meso_prism_face(layer);
+    status = meso_prism_lower_folds(layer, NULL, scratch, error);
+    if (status)
+        return status;
+    meso_prism_raise(layer);
+    status = relax(layer, scratch, error);
     if (status)
         return status;
     Sums after = measure(layer);
     if (meso_shell_stretch(&after.there) <= meso_shell_stretch(&best->there))
         *best = after;
-    else if (size)
-        memcpy(layer->rises, kept, size);
+    else
+        for (uint32_t v = 0; v < count; v++)
+            layer->rises[v] = kept[v];
     return MESO_OK;
 }
 
@@ -166,7 +195,7 @@ static MesoStatus build(MesoPrismLayer *layer, MesoPrismReport *report, MesoAren
         return status;
     Sums before = measure(layer), after = before;
     if (wants_least && layer->high > layer->low)
-        status = optimise(layer, &after, scratch, error);
+        status = optimise(layer, &after, thickness, scratch, error);
     *report = (MesoPrismReport){meso_shell_stretch(&before.there), meso_shell_stretch(&after.there),
                                 meso_shell_stretch(&before.back), meso_shell_stretch(&after.back), 0, 1,
                                 after.inverted_count};

@@ -25,7 +25,7 @@ typedef struct MesoPrismReport {
     double stretch_before, stretch_after;                   /* from flat into space */
     double stretch_before_inverse, stretch_after_inverse;   /* and back: the paper's */
     uint32_t limited_count; /* vertices whose directions were made shorter */
-    float least_limit;      /* the least of them, as a share; 1: none. 0 where a vertex is on no side of its triangles */
+    float least_limit;      /* the least of them, as a share; 1: none; 0: a vertex that no direction suits */
     uint32_t inverted_count;/* tetrahedra of negative volume: none */
 } MesoPrismReport;
 

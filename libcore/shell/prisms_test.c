@@ -178,6 +178,52 @@ static void test_units(void)
     drop(&other);
 }
 
+/* Bent patches of about 1000 triangles as in the paper's figure 7, which goes from 1.14 to 1.08. */
+static void test_less_stretch(void)
+{
+    Layer thin = build(meso_fixture_bumpy(22, 22, 0.5f), 0, 0.16f, true);       /* 5 % of the diagonal */
+    CHECK(thin.report.stretch_before > 1.015 && thin.report.stretch_after < 1.011);
+    CHECK(thin.report.stretch_after_inverse < thin.report.stretch_before_inverse);
+    Layer thick = build(meso_fixture_bumpy(22, 22, 0.3f), 0, 0.4f, true);
+    CHECK(thick.report.stretch_before > 1.09 && thick.report.stretch_after < 1.03);
+    CHECK(thick.report.stretch_before_inverse > 1.15 && thick.report.stretch_after_inverse < 1.04);
+    Layer plain = build(meso_fixture_bumpy(22, 22, 0.3f), 0, 0.4f, false);
+    CHECK(thick.report.limited_count < plain.report.limited_count / 2);
+    drop(&thin);
+    drop(&thick);
+    drop(&plain);
+}
+
+/* A fan whose triangles wind twice around its middle vertex faces nowhere: that vertex stays, all others rise. */
+static void test_no_side(void)
+{
+    enum { AROUND = 10 };
+    MesoVec3 positions[AROUND + 1] = {{0, 0, 0}};
+    uint32_t corners[3 * AROUND];
+    for (uint32_t k = 0; k < AROUND; k++) {
+        float angle = 4 * 3.1415927f * (float)k / AROUND;
+        positions[k + 1] = (MesoVec3){cosf(angle), sinf(angle), k % 2 ? 80.0f : -80.0f};
+        corners[3 * k] = 0;
+        corners[3 * k + 1] = k + 1;
+        corners[3 * k + 2] = (k + 1) % AROUND + 1;
+    }
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, AROUND + 1, corners, AROUND);
+    MesoVec3 *directions = malloc(mesh.vertex_count * sizeof *directions);
+    MesoPrismReport report;
+    MesoError error;
+    CHECK(directions);
+    for (uint32_t optimise = 0; optimise < 2; optimise++) {
+        CHECK(meso_prisms_build(directions, &report, &arena, &mesh, &(MesoPrismOptions){0, 0.1f, optimise}, &error) ==
+              MESO_OK);
+        CHECK(report.inverted_count == 0 && report.stretch_after <= report.stretch_before);
+        for (uint32_t v = 0; v < mesh.vertex_count; v++)
+            CHECK(meso_vec3_finite(directions[v]));
+    }
+    CHECK(report.least_limit == 0 && meso_vec3_length(directions[0]) == 0);
+    free(directions);
+    meso_triangulation_release(&mesh);
+}
+
 static void test_refused(void)
 {
     MesoTriangulation mesh = plane();
@@ -205,6 +251,8 @@ int main(void)
     test_mitre();
     test_facing();
     test_units();
+    test_less_stretch();
+    test_no_side();
     test_refused();
     test_surfaces();
     meso_arena_release(&arena);

@@ -98,7 +98,7 @@ static inline void meso_fixture_check_stands(const MesoTriangulation *mesh, cons
             uint32_t i = pair / LEVELS, j = pair % LEVELS;
             if (i >= j)
                 continue;
-            double from = low + ((double)high - low) * i / (LEVELS - 1), to = low + ((double)high - low) * j / (LEVELS - 1);
+            double step = ((double)high - low) / (LEVELS - 1), from = low + step * i, to = low + step * j;
             MesoPrismBody body = meso_fixture_prism(mesh, directions, t, from, to);
             for (uint32_t order = 0; order < 6; order++) {
                 meso_prism_split(orders[order], body.tetrahedra);

@@ -200,6 +200,18 @@ static void look(const MesoShellMap *map, uint32_t triangle, MesoVec3d at, Found
     }
 }
 
+/* Looks at all triangles of the chart at a corner. */
+static void look_around(const MesoShellMap *map, uint32_t corner, MesoVec3d at, Found *found)
+{
+    uint32_t v = map->corners[corner];
+    MesoFan fan = meso_fan_first(map->mesh, map->origins[v]);
+    uint32_t first = fan.corner;
+    do
+        if (map->corners[fan.corner] == v)
+            look(map, fan.corner / 3, at, found);
+    while (meso_fan_next(map->mesh, &fan) && fan.corner != first);
+}
+
 /* The side of a triangle, cut at the point's height, that the point is farthest out of; 3 where it is inside. */
 static uint32_t side_towards(const MesoShellMap *map, uint32_t triangle, MesoVec3d at)
 {
@@ -241,11 +253,8 @@ MesoVec3 meso_shell_map_point(const MesoShellMap *map, uint32_t triangle, float 
         triangle = twin_in_chart(map, 3 * triangle + side) / 3;
         look(map, triangle, at, &found);
     }
-    /* tetrahedra reach a little over the triangle's cut, which is bilinear */
-    for (uint32_t k = 0; k < 3 && found.least < inside; k++) {
-        uint32_t twin = twin_in_chart(map, 3 * triangle + k);
-        if (twin != MESO_NO_INDEX)
-            look(map, twin / 3, at, &found);
-    }
+    /* tetrahedra reach over the triangle's cut, which is bilinear */
+    for (uint32_t k = 0; k < 3 && found.least < inside; k++)
+        look_around(map, 3 * triangle + k, at, &found);
     return meso_vec3d_narrow(found.point);
 }

