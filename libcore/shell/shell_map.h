@@ -12,6 +12,7 @@
 #define MESO_SHELL_MAP_H
 
 #include "libcore/chart/atlas.h"
+#include "libcore/shell/shell_tetrahedra.h"
 
 typedef struct MesoShellMapOptions {
     float low, high;        /* heights of the two layers of vertices, low < high */
@@ -25,17 +26,6 @@ typedef struct MesoShellMapReport {
     double stretch_before_inverse, stretch_after_inverse;   /* and back: the paper's */
     uint32_t inverted_count;    /* tetrahedra that are negative or flat: of triangles too low, or without a layer */
 } MesoShellMapReport;
-
-typedef struct MesoShellMap {
-    const MesoTriangulation *mesh;
-    const MesoVec3 *directions; /* [mesh->vertex_count] */
-    double low, high;
-    uint32_t vertex_count;      /* of all charts: a vertex of the mesh at a seam is several */
-    uint32_t *corners;          /* [3 * triangle_count] vertices of the map, by corner of the mesh */
-    uint32_t *origins;          /* [vertex_count] vertices of the mesh */
-    double *low_uv, *high_uv;   /* [2 * vertex_count] below and above, in units of the surface */
-    uint8_t *held;              /* [vertex_count] 1 on the border of its chart, where the upper uv is the lower */
-} MesoShellMap;
 
 /*
  * Keeps pointers to `mesh` and `directions` (prisms.h, made for the same heights, so that no tetrahedron is negative);

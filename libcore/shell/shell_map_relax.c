@@ -1,5 +1,6 @@
+#include "libcore/shell/shell_map_relax.h"
+
 #include "libcore/math/sparse_cholesky.h"
-#include "libcore/shell/shell_map_work.h"
 #include "libcore/shell/shell_stretch.h"
 
 /* Gradients of the weights of a tetrahedron's corners, and its volume. */
@@ -38,9 +39,8 @@ static void add_tetrahedron(System *system, const MesoShellPrism *prism, uint32_
 {
     const MesoShellMap *map = system->map;
     const uint8_t *tetrahedron = prism->tetrahedra[part];
-    MesoVec3d shell[4];
-    for (uint32_t k = 0; k < 4; k++)
-        shell[k] = prism->shell[tetrahedron[k]];
+    MesoVec3d texture[4], shell[4];
+    meso_shell_prism_part(prism, part, texture, shell);
     Weights weights = weights_of(shell);
     for (uint32_t i = 0; i < 4; i++) {
         uint32_t v = map->corners[3 * (size_t)triangle + tetrahedron[i] % 3];
@@ -80,10 +80,9 @@ static bool is_upright_enough(const MesoShellPrism *prism)
     MesoVec3d b = meso_vec3d_sub(prism->texture[2], prism->texture[0]);
     double upright = (a.x * b.y - a.y * b.x) * (prism->texture[3].z - prism->texture[0].z);
     for (uint32_t part = 0; part < 3; part++) {
-        MesoVec3d corners[4];
-        for (uint32_t k = 0; k < 4; k++)
-            corners[k] = prism->texture[prism->tetrahedra[part][k]];
-        if (!(meso_tetrahedron_det(corners) >= least * upright))
+        MesoVec3d texture[4], shell[4];
+        meso_shell_prism_part(prism, part, texture, shell);
+        if (!(meso_tetrahedron_det(texture) >= least * upright))
             return false;
     }
     return true;
@@ -155,13 +154,12 @@ typedef struct Step {
 
 static void add_part(Step *step, const MesoShellPrism *prism, uint32_t part, uint32_t top)
 {
-    MesoVec3d texture[4], columns[3] = {{0}}, g = {0, 0, 0};
-    for (uint32_t k = 0; k < 4; k++)
-        texture[k] = prism->texture[prism->tetrahedra[part][k]];
+    MesoVec3d texture[4], shell[4], columns[3] = {{0}}, g = {0, 0, 0};
+    meso_shell_prism_part(prism, part, texture, shell);
     Weights weights = weights_of(texture);
     bool has_top = false;
     for (uint32_t k = 0; k < 4; k++) {
-        MesoVec3d gradient = weights.gradients[k], x = prism->shell[prism->tetrahedra[part][k]];
+        MesoVec3d gradient = weights.gradients[k], x = shell[k];
         columns[0] = meso_vec3d_mad(columns[0], gradient.x, x);
         columns[1] = meso_vec3d_mad(columns[1], gradient.y, x);
         columns[2] = meso_vec3d_mad(columns[2], gradient.z, x);
@@ -192,10 +190,7 @@ static double energy_of(const MesoShellPrism *prism)
     double sum = 0;
     for (uint32_t part = 0; part < 3; part++) {
         MesoVec3d texture[4], shell[4];
-        for (uint32_t k = 0; k < 4; k++) {
-            texture[k] = prism->texture[prism->tetrahedra[part][k]];
-            shell[k] = prism->shell[prism->tetrahedra[part][k]];
-        }
+        meso_shell_prism_part(prism, part, texture, shell);
         sum += meso_tetrahedron_stretch(texture, shell) * meso_tetrahedron_det(texture);
     }
     return sum;

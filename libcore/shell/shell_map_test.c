@@ -1,7 +1,6 @@
 #include "libcore/shell/shell_map.h"
 
 #include "libcore/shell/shell_fixture.h"
-#include "libcore/shell/shell_map_work.h"
 
 static MesoArena arena;
 
