@@ -167,7 +167,7 @@ static size_t add_lonely(const MesoPrismLayer *layer, uint8_t *met, MesoTriplet 
 
 MesoStatus meso_prism_solve(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
 {
-    const uint32_t most = 1u << 17;     /* vertices: half a second, some hundred MB */
+    const uint32_t most = 1u << 17;     /* vertices: a second or two, some hundred MB */
     const MesoTriangulation *mesh = layer->mesh;
     if (mesh->vertex_count > most)
         return MESO_OK;
