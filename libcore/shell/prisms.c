@@ -157,7 +157,7 @@ static MesoStatus optimise(MesoPrismLayer *layer, Sums *best, const double *thic
     if (status)
         return status;
     Sums after = measure(layer);
-    if (meso_shell_stretch(&after.there) <= meso_shell_stretch(&best->there))
+    if (meso_shell_stretch_sixth(&after.there) <= meso_shell_stretch_sixth(&best->there))
         *best = after;
     else
         for (uint32_t v = 0; v < count; v++)

@@ -61,14 +61,14 @@ static void hold_vertices(MesoShellMap *map)
     }
 }
 
-typedef struct Stretch {
-    double there, back;
+typedef struct Sums {
+    MesoShellStretch there, back;
     uint32_t inverted_count;
-} Stretch;
+} Sums;
 
-static Stretch measure(const MesoShellMap *map)
+static Sums measure(const MesoShellMap *map)
 {
-    MesoShellStretch there = {0}, back = {0};
+    Sums sums = {0};
     for (uint32_t t = 0; t < map->mesh->triangle_count; t++) {
         MesoShellPrism prism = meso_shell_prism(map, t);
         bool stands = meso_shell_prism_stands(&prism);
@@ -76,29 +76,36 @@ static Stretch measure(const MesoShellMap *map)
             MesoVec3d texture[4], shell[4];
             meso_shell_prism_part(&prism, part, texture, shell);
             if (stands) {
-                meso_shell_stretch_add(&there, texture, shell);
-                meso_shell_stretch_add(&back, shell, texture);
+                meso_shell_stretch_add(&sums.there, texture, shell);
+                meso_shell_stretch_add(&sums.back, shell, texture);
             } else {
-                there.inverted_count += !(meso_tetrahedron_det(texture) > 0 && meso_tetrahedron_det(shell) > 0);
+                sums.inverted_count += !(meso_tetrahedron_det(texture) > 0 && meso_tetrahedron_det(shell) > 0);
             }
         }
     }
-    return (Stretch){meso_shell_stretch(&there), meso_shell_stretch(&back), there.inverted_count};
+    sums.inverted_count += sums.there.inverted_count;
+    return sums;
+}
+
+static bool is_no_worse(const Sums *a, const Sums *b)
+{
+    return meso_shell_stretch_sixth(&a->there) <= meso_shell_stretch_sixth(&b->there);
 }
 
 /* The solution of the linear system is a start only where it is a better one. */
-static MesoStatus optimise(MesoShellMap *map, Stretch *stretch, uint32_t sweeps, MesoArena *scratch, MesoError *error)
+static MesoStatus optimise(MesoShellMap *map, Sums *best, uint32_t sweeps, MesoArena *scratch, MesoError *error)
 {
     size_t size = 2 * (size_t)map->vertex_count * sizeof(double);
     MesoStatus status = meso_shell_map_solve(map, scratch, error);
     if (status)
         return status;
-    if (measure(map).there > stretch->there && size)
+    Sums start = measure(map);
+    if (!is_no_worse(&start, best) && size)
         memcpy(map->high_uv, map->low_uv, size);
     meso_shell_map_sweep(map, sweeps);
-    Stretch after = measure(map);
-    if (after.there <= stretch->there)
-        *stretch = after;
+    Sums after = measure(map);
+    if (is_no_worse(&after, best))
+        *best = after;
     else if (size)
         memcpy(map->high_uv, map->low_uv, size);
     return MESO_OK;
@@ -118,11 +125,13 @@ MesoStatus meso_shell_map_build(MesoShellMap *map, MesoShellMapReport *report, M
         return status;
     place_vertices(map, atlas);
     hold_vertices(map);
-    Stretch before = measure(map), after = before;
+    Sums before = measure(map), after = before;
     if (!options->plain)
         status = optimise(map, &after, options->sweeps ? options->sweeps : usual_sweeps, arena, error);
     if (report)
-        *report = (MesoShellMapReport){before.there, after.there, before.back, after.back, after.inverted_count};
+        *report = (MesoShellMapReport){meso_shell_stretch(&before.there), meso_shell_stretch(&after.there),
+                                       meso_shell_stretch(&before.back), meso_shell_stretch(&after.back),
+                                       after.inverted_count};
     return status;
 }
 

@@ -55,9 +55,15 @@ void meso_shell_stretch_sample(MesoShellStretch *sum, const MesoVec3d derivative
     sum->to_volume += back ? volume : det * volume;
 }
 
-double meso_shell_stretch(const MesoShellStretch *sum)
+double meso_shell_stretch_sixth(const MesoShellStretch *sum)
 {
     if (!(sum->from_volume > 0 && sum->to_volume > 0))
         return 1;
-    return sqrt(sum->squares / sum->from_volume) * cbrt(sum->from_volume / sum->to_volume);
+    double square = sum->squares / sum->from_volume, shrinking = sum->from_volume / sum->to_volume;
+    return square * square * square * shrinking * shrinking;
+}
+
+double meso_shell_stretch(const MesoShellStretch *sum)
+{
+    return cbrt(sqrt(meso_shell_stretch_sixth(sum)));
 }

@@ -43,4 +43,7 @@ void meso_shell_stretch_sample(MesoShellStretch *sum, const MesoVec3d derivative
  */
 double meso_shell_stretch(const MesoShellStretch *sum);
 
+/* Its sixth power, to compare: by products and quotients alone, and so the same everywhere. */
+double meso_shell_stretch_sixth(const MesoShellStretch *sum);
+
 #endif
