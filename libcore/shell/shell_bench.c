@@ -62,7 +62,7 @@ static void time_map(uint32_t columns, float height)
         best[0] = fmin(best[0], cpu_milliseconds() - start);
         start = cpu_milliseconds();
         for (uint32_t t = 0; t < mesh.triangle_count; t++)
-            directions[0].x += 0 * meso_shell_map_point(&map, t, 0.2f, 0.5f, 0.7f * height).x;
+            CHECK(meso_vec3_finite(meso_shell_map_point(&map, t, 0.2f, 0.5f, 0.7f * height)));
         best[1] = fmin(best[1], cpu_milliseconds() - start);
     }
     printf("%6u triangles, height %.2f edges, %u charts: map %.1f ms, %.4f to %.4f; a point %.2f us\n",
