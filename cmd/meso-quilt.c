@@ -49,10 +49,11 @@ int main(int argc, char **argv)
         MESO_TEXT(0, "plane", "LxW", "a rectangle in place of SURFACE", &a.plane),
         MESO_NUMBER(0, "scale", "S", "length of one unit of the swatch (default: so that the swatch is a fifth of the "
                     "surface; on a plane 1)", &a.scale, 1e-12, 1e12),
-        MESO_NUMBER(0, "height", "H", "of the layer (default: as the swatch has it, by --scale)", &a.height, 1e-12, 1e12),
+        MESO_NUMBER(0, "height", "H", "of the layer (default: as the swatch has it, by --scale)", &a.height, 1e-12,
+                    1e12),
         MESO_NUMBER(0, "offset", "O", "of the layer's bottom from the surface (default 0)", &a.offset, -1e12, 1e12),
-        MESO_TEXT(0, "guide", "HOW", "where the swatch's x axis points: smooth (default), auto (along curvature), u, v, "
-                  "none, field=ATTRIBUTE, or a file of directions", &a.guide),
+        MESO_TEXT(0, "guide", "HOW", "where the swatch's x axis points: smooth (default), auto (along curvature), u, "
+                  "v, none, field=ATTRIBUTE, or a file of directions", &a.guide),
         MESO_COUNT(0, "turns", "N", "rotations that the swatch may take: 1 (default), 2, 4, ...", &a.turns, 1, 64),
         MESO_GROUP("Growth"),
         MESO_NUMBER(0, "patch", "P", "what of a patch must match, as a share of the swatch (default 0.55)", &a.patch,

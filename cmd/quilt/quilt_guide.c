@@ -88,7 +88,8 @@ static bool find_vector(Vector *vector, const MesoPolygonMesh *mesh, const char 
         uint32_t found = 0;
         for (uint32_t i = 0; i < 3; i++) {
             const char *number = meso_arena_print(arena, NULL, "%s%s%c", name, choice ? "_" : "", "xyz"[i]);
-            vector->attributes[i] = number ? meso_polygon_number_on(mesh, number, domain, &vector->components[i]) : NULL;
+            uint32_t *component = &vector->components[i];
+            vector->attributes[i] = number ? meso_polygon_number_on(mesh, number, domain, component) : NULL;
             found += vector->attributes[i] != NULL;
         }
         if (found == 3)
@@ -104,8 +105,8 @@ static MesoStatus take_attribute(MesoVec3 *guide, const MesoPolygonMesh *mesh, c
     MesoTool *tool = &a->tool;
     if (!find_vector(&vector, mesh, name, MESO_ON_FACES, &tool->arena) &&
         !find_vector(&vector, mesh, name, MESO_ON_VERTICES, &tool->arena))
-        return meso_fail(&tool->error, MESO_ERR_INPUT, "--guide: the surface has no vector attribute '%s': a PLY file would "
-                         "give it as the properties %sx %sy %sz of faces or vertices", name, name, name, name);
+        return meso_fail(&tool->error, MESO_ERR_INPUT, "--guide: the surface has no vector attribute '%s': a PLY file "
+                         "would give it as the properties %sx %sy %sz of faces or vertices", name, name, name, name);
     for (uint32_t t = 0; t < base->triangle_count; t++) {
         double x[3];
         for (uint32_t i = 0; i < 3; i++)
@@ -124,7 +125,7 @@ static MesoVec2 uv_at(const MesoPolygonMesh *mesh, const MesoAttribute *uv, uint
     return entry == MESO_NO_INDEX ? (MesoVec2){NAN, NAN} : meso_attribute_vec2(uv, entry);
 }
 
-/* Where the coordinate grows fastest in the triangle: n x (sum of its values times the sides across), up to a factor. */
+/* Where the coordinate grows fastest in the triangle: n x (sum of its values times the sides across). */
 static MesoVec3 gradient(const MesoPolygonMesh *mesh, const MesoAttribute *uv, uint32_t face, bool v)
 {
     MesoVec3 p[3], sum = {0, 0, 0};
@@ -181,7 +182,8 @@ static MesoStatus smooth(MesoVec3 **guide, float *weights, const MesoTriangulati
     MesoTool *tool = &a->tool;
     MesoDirectionField field;
     uint32_t symmetry = symmetry_of(a->turns);
-    MesoStatus status = meso_direction_field_smooth(&field, &tool->arena, base, symmetry, *guide, weights, &tool->error);
+    MesoStatus status = meso_direction_field_smooth(&field, &tool->arena, base, symmetry, *guide, weights,
+                                                    &tool->error);
     if (status)
         return status;
     *guide = field.directions;

@@ -6,9 +6,9 @@
 #include "libcore/mesh/cut/triangulation.h"
 
 /*
- * Of --guide FILE, its directions as an attribute of faces, before these are cut; of another guide nothing. A text of three
- * numbers for each face, in the order of the surface's file. MESO_ERR_INPUT with the line that is none, or where there are
- * more or fewer.
+ * Of --guide FILE, its directions as an attribute of faces, before these are cut; of another guide nothing. A text of
+ * three numbers for each face, in the order of the surface's file. MESO_ERR_INPUT with the line that is none, or where
+ * there are more or fewer.
  */
 MesoStatus meso_quilt_guide_add(MesoPolygonMesh *polygons, MesoQuiltArguments *arguments);
 

@@ -51,7 +51,8 @@ static MesoStatus check_operands(const MesoQuiltArguments *a, MesoError *error)
     uint32_t wanted = 2u - (a->swatch != NULL) - (a->plane != NULL);
     if (makes_swatch(a) || a->tool.operand_count == wanted)
         return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE, "%u operands: give %s%s%s%s", a->tool.operand_count,
+    return meso_fail(error, MESO_ERR_USAGE, "%u operand%s: give %s%s%s%s", a->tool.operand_count,
+                     a->tool.operand_count == 1 ? "" : "s",
                      a->swatch ? "" : "SWATCH", wanted == 2 ? " and " : "", a->plane ? "" : "SURFACE",
                      wanted == 0 ? "none beside --swatch and --plane" : "");
 }
@@ -65,19 +66,25 @@ static MesoStatus check_recipe(const MesoQuiltArguments *a, MesoError *error)
     return meso_fail(error, MESO_ERR_USAGE, "--%s is for a recipe, --swatch", given);
 }
 
+/* Those of scenes, and .quilt. */
 static MesoStatus choose_kind(Job *job)
 {
     MesoQuiltArguments *a = job->arguments;
     const MesoSceneOutput *o = &a->output;
-    job->as_quilt = o->to ? strcmp(o->to, "quilt") == 0 : ends_in(job->tool->output, ".quilt");
+    const char *path = job->tool->output ? job->tool->output : "-", *dot = strrchr(path, '.');
+    job->as_quilt = o->to ? strcmp(o->to, "quilt") == 0 : ends_in(path, ".quilt");
+    if (!job->as_quilt && !o->to && !(dot && meso_scene_kind_named(dot + 1)))
+        return meso_fail(&job->tool->error, MESO_ERR_USAGE, "no kind of file is known by the name '%s': end it in "
+                         ".meso, .quilt, .ply, .obj, .glb or .drc, or give --to", path);
     if (!job->as_quilt)
         return meso_tool_choose_scene_kind(job->tool, &a->output);
     const char *given = o->given.position_bits ? "position-bits" : o->given.normal_bits ? "normal-bits"
         : o->given.speed ? "speed" : NULL;
     if (!job->tool->output)
         job->tool->output = "-";
-    return given ? meso_fail(&job->tool->error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .quilt", given)
-                 : MESO_OK;
+    if (!given)
+        return MESO_OK;
+    return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .quilt", given);
 }
 
 static MesoStatus read_seeds(Job *job)
@@ -280,6 +287,8 @@ MesoStatus meso_quilt_job_run(MesoQuiltArguments *a)
     if (status || makes_swatch(a))
         return status ? status : run_recipe(a);
     status = choose_kind(&job);
+    if (!status)
+        status = meso_quilt_plane_check(a);
     if (!status)
         status = read_seeds(&job);
     if (!status)

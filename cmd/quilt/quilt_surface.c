@@ -32,6 +32,12 @@ static MesoStatus parse_plane(const char *text, MesoVec2 *size, MesoError *error
     return meso_fail(error, MESO_ERR_USAGE, "option '--plane' needs two lengths, as 12x8, not '%s'", text);
 }
 
+MesoStatus meso_quilt_plane_check(MesoQuiltArguments *a)
+{
+    MesoVec2 size;
+    return a->plane ? parse_plane(a->plane, &size, &a->tool.error) : MESO_OK;
+}
+
 /* Four triangles around the middle, so that none has all of its vertices on the border; from the origin, z up. */
 static MesoStatus make_plane(MesoPolygonMesh *mesh, MesoQuiltArguments *a)
 {

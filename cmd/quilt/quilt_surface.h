@@ -13,9 +13,12 @@ typedef struct MesoQuiltSurface {
     float longest_side;             /* of the box around it */
 } MesoQuiltSurface;
 
+/* MESO_ERR_USAGE where --plane is given and is no two lengths. */
+MesoStatus meso_quilt_plane_check(MesoQuiltArguments *arguments);
+
 /*
- * By --plane, or from the operand `path`, which must stay open as long as the surface is used. MESO_ERR_INPUT where it is
- * no manifold, or neighbours are wound against each other.
+ * By --plane, or from the operand `path`; `input` must stay open as long as the surface is used. MESO_ERR_INPUT where
+ * it is no manifold, or neighbours are wound against each other.
  */
 MesoStatus meso_quilt_surface_read(MesoQuiltSurface *surface, MesoQuiltArguments *arguments, MesoInput *input,
                                    const char *path);

@@ -12,7 +12,7 @@ static const MesoInputPlace PLACE_SWATCH = {
     "SWATCH", "a mesh (OBJ, PLY, OFF, glTF or Draco)", "swatch",
     MESO_FILE_OBJ | MESO_FILE_PLY | MESO_FILE_OFF | MESO_FILE_GLB | MESO_FILE_GLTF | MESO_FILE_DRC};
 
-/* A periodic tile is repeated to so many elements along each side, and so much of itself, that patches have a choice. */
+/* A periodic tile is repeated to so many elements along a side, and so much of itself: patches have a choice then. */
 static const float LEAST_ELEMENTS = 5, LEAST_TILES = 1.5f;
 
 MesoStatus meso_quilt_swatch_make(MesoPolygonMesh *mesh, MesoQuiltArguments *a)
@@ -31,9 +31,9 @@ static int periodic_bits(const char *text)
     return strcmp(text, "auto") == 0 ? -1 : (strchr(text, 'x') ? 1 : 0) | (strchr(text, 'y') ? 2 : 0);
 }
 
-static const char *period_names(const MesoSwatch *swatch)
+static bool is_periodic(const MesoSwatch *swatch)
 {
-    return swatch->periodic_x ? swatch->periodic_y ? "x and y" : "x" : swatch->periodic_y ? "y" : NULL;
+    return swatch->periodic_x || swatch->periodic_y;
 }
 
 /* What the tile should cover, along one direction: as it is where it has periods enough. */
@@ -49,7 +49,7 @@ static MesoStatus repeat(MesoQuiltSwatch *s, MesoQuiltArguments *a)
     MesoSwatch larger, *swatch = &s->swatch;
     MesoVec2 cover = {cover_along(swatch, swatch->periodic_x, swatch->size.x, swatch->period.x),
                       cover_along(swatch, swatch->periodic_y, swatch->size.y, swatch->period.y)};
-    if (!period_names(swatch))
+    if (!is_periodic(swatch))
         return MESO_OK;
     bool enough = cover.x <= swatch->size.x && cover.y <= swatch->size.y;
     MesoStatus status = enough ? MESO_OK
@@ -58,8 +58,13 @@ static MesoStatus repeat(MesoQuiltSwatch *s, MesoQuiltArguments *a)
         return status;
     if (!enough)
         *swatch = larger;
-    meso_tool_say(&a->tool, "the swatch is periodic along %s, by %g and %g%s", period_names(swatch),
-                  (double)swatch->period.x, (double)swatch->period.y, enough ? "" : "; it was repeated");
+    const char *more = enough ? "" : "; it was repeated";
+    if (swatch->periodic_x && swatch->periodic_y)
+        meso_tool_say(&a->tool, "the swatch is periodic along x, by %g, and y, by %g%s", (double)swatch->period.x,
+                      (double)swatch->period.y, more);
+    else
+        meso_tool_say(&a->tool, "the swatch is periodic along %s, by %g%s", swatch->periodic_x ? "x" : "y",
+                      (double)(swatch->periodic_x ? swatch->period.x : swatch->period.y), more);
     return MESO_OK;
 }
 
@@ -133,7 +138,7 @@ void meso_quilt_swatch_report(json_t *report, const MesoQuiltSwatch *s)
     json_object_set_new(object, "size", size);
     json_object_set_new(object, "mean_edge", meso_json_shortest(swatch->mean_edge));
     json_object_set_new(object, "open_edges", json_integer(swatch->open_edge_count));
-    if (period_names(swatch))
+    if (is_periodic(swatch))
         json_object_set_new(object, "period", pair(swatch->period.x, swatch->period.y));
     json_object_set_new(report, "swatch", object);
 }

@@ -15,6 +15,7 @@ try meso-map -q ../vase.meso -o x.ply
 try meso-map -q ../vase.meso -o x.obj
 try meso-map -q ../vase.meso -o x.glb
 try meso-map -q ../vase.meso -o x.drc
+try meso-quilt -q --swatch nuts --plane 4x4 -o x.quilt
 try meso-render -q --size 256x256 ../vase.meso -o x.exr
 try meso-render -q --size 256x256 ../vase.meso -o x.png
 head -c 60000 /dev/zero >disk/ballast

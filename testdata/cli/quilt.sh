@@ -1,0 +1,106 @@
+# Quilts: swatches by recipe, a plane, a closed surface, moved surfaces, threads, seeds; and what cannot be.
+try() {
+    "$@"
+    echo "status $?"
+}
+number() { grep -o "\"$1\": [0-9.e-]*" "$2" | head -n 1; }
+
+# A torus of 24 x 12 quads with texture coordinates, its tube TUBE thick.
+torus() {
+    awk -v tube="$1" 'BEGIN { n = 24; m = 12; pi = atan2(0, -1)
+        for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+            a = 2 * pi * i / n; b = 2 * pi * j / m; r = 1 + tube * cos(b)
+            printf "v %.6f %.6f %.6f\nvt %.6f %.6f\n", r * cos(a), r * sin(a), tube * sin(b), i / n, j / m }
+        for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+            right = (i + 1) % n; up = (j + 1) % m
+            a = j * n + i + 1; b = j * n + right + 1; c = up * n + right + 1; d = up * n + i + 1
+            printf "f %d/%d %d/%d %d/%d %d/%d\n", a, a, b, b, c, c, d, d } }'
+}
+torus 0.4 >torus.obj
+torus 0.35 >thin.obj
+
+echo "== swatches"
+meso-quilt --swatch nuts --columns 3 --rows 3 -o nuts.ply
+meso-quilt --swatch weave --columns 4 --rows 4 >weave.ply && head -n 1 weave.ply
+for name in weave wire mail rings nuts apples ivy scales armour; do
+    meso-quilt -q --swatch $name -o $name.obj && meso-info $name.obj | grep -c '"kind"'
+done
+
+echo "== a plane"
+meso-quilt nuts.ply --plane 4x3 -o nuts.quilt --json=nuts.json
+meso-info nuts.quilt | grep '"kind"\|"command"\|"surface"'
+number closed_loops nuts.json
+meso-quilt -q nuts.ply --plane 4x3 -o nuts.glb
+meso-map nuts.quilt -o again.glb && meso-info again.glb | grep '"kind"'
+
+echo "== the same bytes for any number of threads, and from one run to the next"
+for threads in 1 2 7; do
+    meso-quilt -q --threads $threads --swatch weave --until 4 --scale 0.1 torus.obj -o - --to quilt | cksum
+done | uniq | wc -l
+for threads in 1 2 7; do
+    meso-quilt -q --threads $threads --swatch nuts --until 4 --scale 0.1 torus.obj -o - --to meso | cksum
+done | uniq | wc -l
+
+echo "== a closed surface, with the scale that is said"
+meso-quilt -q --swatch wire --sides 4 --guide u --scale 0.12 torus.obj -o torus.quilt --json=torus.json
+meso-quilt --swatch wire --sides 4 --until 1 torus.obj -o one.quilt
+number open_sections torus.json
+meso-render -q --size 64x48 --samples 1 torus.quilt -o torus.png && meso-info torus.png | grep '"kind"'
+
+echo "== moved: the surface that it has is where it was; another one is not; only of the same faces"
+meso-map torus.quilt -o a.ply && meso-map torus.quilt torus.obj -o b.ply
+meso-map torus.quilt thin.obj -o c.ply
+tail -c 4000 a.ply >a && tail -c 4000 b.ply >b && cmp a b && echo same faces
+meso-info b.ply | grep -o '"face": [0-9]*' >b && meso-info c.ply | grep -o '"face": [0-9]*' | cmp b - && echo as many
+tail -c 4000000 a.ply >a && tail -c 4000000 c.ply | cmp -s - a || echo elsewhere
+sed '$d' torus.obj >hole.obj
+try meso-map torus.quilt hole.obj -o x.ply
+sed 's|^f 1/1 2/2|f 2/2 1/1|' torus.obj >turned.obj
+try meso-map torus.quilt turned.obj -o x.ply
+try meso-map nuts.ply torus.obj -o x.ply
+cp nuts.ply other.quilt && try meso-map other.quilt torus.obj -o x.ply
+try meso-map --divisions 4 torus.quilt -o x.ply
+
+echo "== guides"
+awk 'BEGIN { for (i = 0; i < 288; i++) print i % 2, 0, 1 - i % 2 }' >along.txt
+for guide in smooth auto v none along.txt; do
+    meso-quilt -q --swatch nuts --until 3 --scale 0.1 --turns 4 --guide $guide torus.obj -o guide.meso || echo $guide
+done
+head -n 100 along.txt >few.txt
+try meso-quilt -q --swatch nuts --guide few.txt torus.obj -o x.ply
+try meso-quilt -q --swatch nuts --guide field=wind torus.obj -o x.ply
+try meso-quilt -q --swatch nuts --guide missing.txt torus.obj -o x.ply
+grep -v '^vt' torus.obj | sed 's|/[0-9]*||g' >bare.obj
+try meso-quilt -q --swatch nuts --guide u bare.obj -o x.ply
+
+echo "== seeds: each what it is alone"
+meso-quilt -q --seeds 1-2 nuts.ply --plane 3x3 -o nuts-%d.meso
+meso-quilt -q --seed 2 nuts.ply --plane 3x3 -o alone.meso
+cmp nuts-2.meso alone.meso && echo same
+try meso-quilt -q --seeds 1-2 nuts.ply --plane 3x3 -o nuts.meso
+try meso-quilt -q --seeds 1-2 --seed 1 nuts.ply --plane 3x3 -o nuts-%d.meso
+
+echo "== what cannot be"
+try meso-quilt nuts.ply -o x.ply
+try meso-quilt nuts.ply torus.obj --plane 3x3 -o x.ply
+try meso-quilt --swatch nuts --plane 3x3 torus.obj -o x.ply
+try meso-quilt --swatch nuts -o x.glb
+try meso-quilt --swatch bolts -o x.ply
+try meso-quilt --columns 3 nuts.ply torus.obj -o x.ply
+try meso-quilt nuts.ply --plane 3 -o x.ply
+try meso-quilt nuts.ply --plane 0x3 -o x.ply
+try meso-quilt nuts.ply --plane 3xinf -o x.ply
+try meso-quilt nuts.ply torus.obj -o x.stl
+try meso-quilt --speed 3 nuts.ply torus.obj -o x.quilt
+try meso-quilt torus.quilt torus.obj -o x.ply
+try meso-quilt nuts.ply nuts.quilt -o x.ply
+try meso-quilt --periodic x nuts.ply nowhere.obj -o x.ply
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n' >crowded.obj
+try meso-quilt nuts.ply crowded.obj -o x.ply
+try meso-quilt crowded.obj torus.obj -o x.ply
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' >against.obj
+try meso-quilt nuts.ply against.obj -o x.ply
+head -c 3000 torus.quilt >cut.quilt
+try meso-map cut.quilt -o x.ply
+try meso-info cut.quilt
+ls | grep '^x'
