@@ -192,6 +192,8 @@ static MesoStatus run_seed(Job *job, uint64_t seed)
     MesoTool *tool = job->tool;
     MesoQuilt quilt;
     MesoStatus status = make_quilt(job, &quilt, seed);
+    if (!status && quilt.element_count == 0)
+        status = meso_fail(&tool->error, MESO_ERR_INPUT, "no element of the swatch fits onto the surface: lower --scale");
     if (!status)
         status = (job->as_quilt ? write_quilt : write_scene)(job, &quilt);
     if (!status)
