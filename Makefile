@@ -13,6 +13,7 @@
 #                     combination of the data's surfaces and tile sets
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
+#   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -159,6 +160,8 @@ bench-solve: all benches generators
 bench-decor: $(addprefix $(OUT)/test/libcore/,geodesic/geodesic_bench geodesic/geodesic_lines_bench \
              mesh/cut/mesh_cut_bench decor/decor_bench)
 	@for bench in $^; do $$bench; done
+bench-quilt: $(OUT)/test/libcore/quilt/check/quilt_bench
+	@$< --check
 bench-exact: $(OUT)/test/libcore/geodesic/geodesic_bench
 	@$< --exact
 demo: all generators
@@ -176,6 +179,6 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-reference bench \
-        bench-solve bench-decor bench-exact demo fuzz-run fuzzers benches references install clean
+        bench-solve bench-decor bench-quilt bench-exact demo fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
