@@ -274,19 +274,24 @@ static void print_check(const Outcome *o)
 {
     const MesoQuiltReport *r = &o->report;
     const MesoQuiltCheck *k = &o->check;
+    const MesoMeshFaults *f = &k->faults;
     printf("  patches %u, joins %u, caps %u, closed %u, debris %u, removed %u, skipped %u, retries %u, shrunk %u\n",
            r->patch_count, r->join_count, r->cap_count, r->closed_count, r->debris_count, r->removed_count,
            r->skipped_count, r->retry_count, r->shrunk_count);
-    printf("  mesh: unplaced %u, open %u, crowded %u, reversed %u, collapsed %u, pinched %u\n", k->faults.unplaced_count,
-           k->faults.open_count, k->faults.crowded_count, k->faults.reversed_count, k->faults.collapsed_count, k->faults.pinched_count);
+    printf("  mesh: unplaced %u, open %u, crowded %u, reversed %u, collapsed %u, pinched %u\n", f->unplaced_count,
+           f->open_count, f->crowded_count, f->reversed_count, f->collapsed_count, f->pinched_count);
     printf("  elements: whole %u of %.0f by area, changed %u, squeezed %u (volumes %.3f to %.3f), strands %u, "
            "merged %u, apart %u; triangles %.3f and area %.3f of those by area\n", k->whole_count, k->expected_whole_count,
            k->changed_count, k->squeezed_count, k->least_volume, k->largest_volume, k->strand_count, k->merged_count,
            k->apart_count, o->triangles / k->expected_triangle_count, k->area_share);
     printf("  crossings: %llu between elements, %llu within, %llu of one patch, in %u elements; swatch %.0f; "
-           "%.3f + %.3f s\n", (unsigned long long)k->crossings.between_count,
+           "%.3f + %.3f + %.3f + %.3f s\n", (unsigned long long)k->crossings.between_count,
            (unsigned long long)k->crossings.within_count, (unsigned long long)k->crossings.one_patch_count,
-           k->crossings.element_count, k->expected_crossings, k->seconds[0], k->seconds[1]);
+           k->crossings.element_count, k->expected_crossings, k->seconds[0], k->seconds[1], k->seconds[2], k->seconds[3]);
+    printf("  likeness: %u windows %.4f from the swatch (worst %.4f), within it %.4f: ratio %.3f; KS at seams: lengths %.3f, "
+           "angles %.3f\n", k->likeness.window_count, k->likeness.distance, k->likeness.largest_distance,
+           k->likeness.swatch_distance, k->likeness.distance / k->likeness.swatch_distance, k->seams.length_distance,
+           k->seams.angle_distance);
 }
 
 static bool is_wanted(const Row *row, int count, char **names)

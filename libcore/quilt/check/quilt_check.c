@@ -12,6 +12,8 @@ typedef struct Checking {
     const MesoSwatch *swatch;
     MesoCheckMesh mesh, sample;     /* of the quilt, of the swatch */
     double scale, height_scale;
+    float offset;
+    const MesoTriangulation *base;
     double tiles;                   /* tiles of the swatch that the surface's area is */
     uint32_t thread_count;
 } Checking;
@@ -101,9 +103,21 @@ static MesoStatus check_crossings(const Checking *c, MesoError *error)
     return status;
 }
 
+static MesoStatus check_seams(const Checking *c, MesoError *error)
+{
+    return meso_check_seams(&c->check->seams, c->arena, &c->mesh, error);
+}
+
+static MesoStatus check_likeness(const Checking *c, MesoError *error)
+{
+    const MesoLikenessOptions options = {(float)c->scale, (float)c->height_scale, c->offset, c->thread_count};
+    return meso_check_likeness(&c->check->likeness, c->arena, c->quilt, c->swatch, c->base, &options, error);
+}
+
 static MesoStatus check_all(Checking *c, const MesoVec3 *positions, MesoError *error)
 {
-    MesoStatus (*const parts[])(const Checking *, MesoError *) = {check_elements, check_crossings};
+    MesoStatus (*const parts[])(const Checking *, MesoError *) = {check_elements, check_crossings, check_seams,
+                                                                  check_likeness};
     double start = meso_seconds();
     MesoStatus status = meso_check_mesh_of_quilt(&c->mesh, &c->check->faults, c->arena, c->quilt, positions,
                                                  c->thread_count, error);
@@ -124,7 +138,7 @@ MesoStatus meso_quilt_check(MesoQuiltCheck *check, MesoArena *arena, const MesoQ
 {
     *check = (MesoQuiltCheck){0};
     Checking c = {.check = check, .arena = arena, .quilt = quilt, .swatch = swatch, .scale = (double)options->scale,
-                  .thread_count = options->thread_count};
+                  .base = base, .offset = options->offset, .thread_count = options->thread_count};
     c.height_scale = options->height_scale > 0 ? (double)options->height_scale : c.scale;
     c.tiles = area_of(base) / (c.scale * c.scale * (double)swatch->size.x * (double)swatch->size.y);
     MesoArenaMark mark = meso_arena_mark(arena);

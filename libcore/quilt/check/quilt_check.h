@@ -7,10 +7,13 @@
 #define MESO_QUILT_CHECK_H
 
 #include "libcore/quilt/check/check_crossings.h"
+#include "libcore/quilt/check/check_likeness.h"
+#include "libcore/quilt/check/check_seams.h"
 
 typedef struct MesoQuiltCheckOptions {
     float scale;                /* as of MesoQuiltOptions, > 0 */
     float height_scale;         /* 0: as `scale` */
+    float offset;
     uint32_t thread_count;      /* 0: all cores */
 } MesoQuiltCheckOptions;
 
@@ -32,7 +35,10 @@ typedef struct MesoQuiltCheck {
     MesoCrossings crossings, swatch_crossings;
     double expected_crossings;  /* as many as the swatch has on that area */
 
-    double seconds[2];          /* mesh and elements, crossings */
+    MesoSeams seams;
+    MesoLikeness likeness;
+
+    double seconds[4];          /* mesh and elements, crossings, seams, likeness */
 } MesoQuiltCheck;
 
 /*

@@ -1,0 +1,450 @@
+#include "libcore/quilt/check/check_likeness.h"
+
+#include <string.h>
+
+#include "libcore/base/random.h"
+#include "libcore/quilt/check/check_window.h"
+#include "libcore/quilt/match/triangle_distance.h"
+
+enum {
+    WINDOWS = 32,
+    TRIES = 4 * WINDOWS,    /* some places are too near to a border, or have nothing over them */
+    LEAST_POINTS = 12,
+    MOST_POINTS = 250,
+    PLACES = 16,            /* of the swatch that are looked at more closely */
+    SLIDES = 2              /* of them from where a better one is looked for nearby */
+};
+
+/* Radius of a window as a share of the tile's shorter side. */
+#define RADIUS 0.15f
+
+/* Voxels along the longer side of the tile. */
+#define VOXELS 72
+
+typedef struct Comparison {
+    const MesoQuilt *quilt;
+    const MesoSwatch *swatch;
+    const MesoTriangulation *base;
+    const MesoLikenessOptions *options;
+    MesoArena *scratch;
+    MesoMatchField field;
+    MesoNearestMesh sample;         /* the swatch */
+    MesoMatchPoint *sample_points;
+    float radius, reach;
+    /* by triangle of the base, the triangles of the quilt whose first corner is over it */
+    uint32_t *begin, *triangles;
+    double *areas;                  /* [triangle_count of the base + 1] sums */
+    uint32_t *visits, visit;        /* [triangle_count of the base] the last window that has seen it */
+    uint32_t *queue;
+    uint32_t *locals, *sample_locals;
+} Comparison;
+
+/* Where a window is laid on the swatch. */
+typedef struct Placing {
+    double cosine, sine;    /* by which the swatch is turned in the window */
+    MesoVec2 shift;         /* the place on the swatch that is under the window's middle */
+} Placing;
+
+/* The plane of a window. */
+typedef struct Frame {
+    MesoVec3 origin, x, y;
+} Frame;
+
+/* ---- preparation ---- */
+
+static uint32_t triangle_base(const Comparison *c, uint32_t triangle)
+{
+    return c->quilt->vertices[c->quilt->corners[3 * (size_t)triangle]].triangle;
+}
+
+static MesoStatus sort_triangles(Comparison *c, MesoError *error)
+{
+    uint32_t count = c->base->triangle_count;
+    c->begin = MESO_NEW(c->scratch, uint32_t, (size_t)count + 2, error);
+    c->triangles = MESO_NEW(c->scratch, uint32_t, c->quilt->triangle_count, error);
+    if (!c->begin || !c->triangles)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < c->quilt->triangle_count; t++)
+        c->begin[triangle_base(c, t) + 2]++;
+    for (uint32_t t = 0; t < count; t++)
+        c->begin[t + 2] += c->begin[t + 1];
+    for (uint32_t t = 0; t < c->quilt->triangle_count; t++)
+        c->triangles[c->begin[triangle_base(c, t) + 1]++] = t;
+    return MESO_OK;
+}
+
+static MesoStatus sum_areas(Comparison *c, MesoError *error)
+{
+    const MesoTriangulation *base = c->base;
+    c->areas = MESO_NEW(c->scratch, double, (size_t)base->triangle_count + 1, error);
+    c->visits = MESO_NEW(c->scratch, uint32_t, base->triangle_count, error);
+    c->queue = MESO_NEW(c->scratch, uint32_t, base->triangle_count, error);
+    if (!c->areas || !c->visits || !c->queue)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < base->triangle_count; t++) {
+        const uint32_t *v = &base->corners[3 * (size_t)t];
+        MesoVec3 a = base->positions[v[0]], b = meso_vec3_sub(base->positions[v[1]], a);
+        MesoVec3 area = meso_vec3_cross(b, meso_vec3_sub(base->positions[v[2]], a));
+        c->areas[t + 1] = c->areas[t] + (double)meso_vec3_length(area);
+    }
+    return MESO_OK;
+}
+
+static MesoStatus prepare_swatch(Comparison *c, MesoError *error)
+{
+    const MesoSwatch *swatch = c->swatch;
+    c->sample_points = MESO_NEW(c->scratch, MesoMatchPoint, swatch->vertex_count, error);
+    c->locals = MESO_NEW(c->scratch, uint32_t, c->quilt->vertex_count, error);
+    c->sample_locals = MESO_NEW(c->scratch, uint32_t, swatch->vertex_count, error);
+    if (!c->sample_points || !c->locals || !c->sample_locals)
+        return MESO_ERR_MEMORY;
+    memset(c->locals, 0xff, c->quilt->vertex_count * sizeof *c->locals);
+    memset(c->sample_locals, 0xff, swatch->vertex_count * sizeof *c->sample_locals);
+    for (uint32_t v = 0; v < swatch->vertex_count; v++)
+        c->sample_points[v] = (MesoMatchPoint){swatch->positions[v], swatch->normals[v]};
+    c->radius = RADIUS * fminf(swatch->size.x, swatch->size.y);
+    c->reach = c->radius + 2 * swatch->mean_edge;
+    MesoStatus status = meso_nearest_mesh_build(&c->sample, c->scratch, c->sample_points, swatch->corners,
+                                                swatch->triangle_count, error);
+    float longer = fmaxf(swatch->size.x, swatch->size.y);
+    return status ? status : meso_match_field_build(&c->field, c->scratch, swatch, 1 / swatch->mean_edge,
+                                                    longer / VOXELS, c->options->thread_count, error);
+}
+
+/* ---- windows of the quilt ---- */
+
+static MesoVec3 base_corner(const MesoTriangulation *base, uint32_t corner)
+{
+    return base->positions[base->corners[corner]];
+}
+
+/* The triangles of the base within `reach` of a point of `seed`; false where a border is within `radius`. */
+static bool flood(Comparison *c, uint32_t *count, uint32_t seed, MesoVec3 point, float reach, float radius)
+{
+    const MesoTriangulation *base = c->base;
+    c->visits[seed] = ++c->visit;
+    c->queue[0] = seed;
+    *count = 1;
+    for (uint32_t i = 0; i < *count; i++)
+        for (uint32_t h = 3 * c->queue[i]; h < 3 * c->queue[i] + 3; h++) {
+            uint32_t across = base->twins[h];
+            MesoVec3 a = base_corner(base, h), b = base_corner(base, meso_next_corner(h));
+            float square = meso_segment_square(meso_vec3_sub(point, a), meso_vec3_sub(b, a));
+            if (across == MESO_NO_INDEX && square <= radius * radius)
+                return false;
+            if (across == MESO_NO_INDEX || square > reach * reach || c->visits[across / 3] == c->visit)
+                continue;
+            c->visits[across / 3] = c->visit;
+            c->queue[(*count)++] = across / 3;
+        }
+    return true;
+}
+
+static MesoVec3 place_in(const Comparison *c, const Frame *frame, uint32_t vertex)
+{
+    const MesoQuiltVertex *q = &c->quilt->vertices[vertex];
+    const float weights[3] = {1 - q->b1 - q->b2, q->b1, q->b2};
+    MesoVec3 foot = {0, 0, 0};
+    for (uint32_t k = 0; k < 3; k++)
+        foot = meso_vec3_mad(foot, weights[k], base_corner(c->base, 3 * q->triangle + k));
+    foot = meso_vec3_scale(meso_vec3_sub(foot, frame->origin), 1 / c->options->scale);
+    return (MesoVec3){meso_vec3_dot(foot, frame->x), meso_vec3_dot(foot, frame->y),
+                      (q->height - c->options->offset) / c->options->height_scale};
+}
+
+/* A place, all places of the surface being as likely, and the plane there. */
+static Frame random_frame(const Comparison *c, MesoRandom *random, uint32_t *triangle)
+{
+    const MesoTriangulation *base = c->base;
+    const double unit = 1.0 / 4294967296.0;
+    double at = c->areas[base->triangle_count] * (double)meso_random_below(random, UINT32_MAX) * unit;
+    uint32_t low = 0, high = base->triangle_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        *(c->areas[middle] <= at ? &low : &high) = middle;
+    }
+    float u = (float)(meso_random_below(random, UINT32_MAX) * unit);
+    float v = (float)(meso_random_below(random, UINT32_MAX) * unit);
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    MesoVec3 a = base_corner(base, 3 * low), b = meso_vec3_sub(base_corner(base, 3 * low + 1), a);
+    MesoVec3 d = meso_vec3_sub(base_corner(base, 3 * low + 2), a);
+    Frame frame = {.origin = meso_vec3_mad(meso_vec3_mad(a, u, b), v, d), .x = meso_vec3_direction(b, (MesoVec3){1, 0, 0})};
+    MesoVec3 normal = meso_vec3_direction(meso_vec3_cross(b, d), (MesoVec3){0, 0, 1});
+    frame.y = meso_vec3_cross(normal, frame.x);
+    *triangle = low;
+    return frame;
+}
+
+static MesoStatus take_window(MesoWindow *window, Comparison *c, const Frame *frame, uint32_t near_count,
+                              MesoError *error)
+{
+    uint32_t candidates = 0;
+    for (uint32_t i = 0; i < near_count; i++)
+        candidates += c->begin[c->queue[i] + 1] - c->begin[c->queue[i]];
+    MesoStatus status = meso_window_init(window, c->scratch, candidates, c->radius, c->reach, c->locals, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < near_count; i++)
+        for (uint32_t j = c->begin[c->queue[i]]; j < c->begin[c->queue[i] + 1]; j++) {
+            const uint32_t *v = &c->quilt->corners[3 * (size_t)c->triangles[j]];
+            const MesoVec3 places[3] = {place_in(c, frame, v[0]), place_in(c, frame, v[1]), place_in(c, frame, v[2])};
+            meso_window_add(window, v, places);
+        }
+    return MESO_OK;
+}
+
+/* How the swatch is turned in the window: its edges there, against themselves in the swatch. */
+static Placing turn_of(const Comparison *c, const MesoWindow *window)
+{
+    Placing placing = {0};
+    for (uint32_t h = 0; h < 3 * window->triangle_count; h++) {
+        uint32_t a = window->corners[h], b = window->corners[meso_next_corner(h)];
+        MesoVec3 p = meso_vec3_sub(window->points[b].position, window->points[a].position);
+        MesoVec3 q = meso_vec3_sub(c->swatch->positions[c->quilt->origins[window->vertices[b]]],
+                                   c->swatch->positions[c->quilt->origins[window->vertices[a]]]);
+        placing.cosine += (double)(p.x * q.x + p.y * q.y);
+        placing.sine += (double)(q.x * p.y - q.y * p.x);
+    }
+    double length = sqrt(placing.cosine * placing.cosine + placing.sine * placing.sine);
+    placing.cosine = length > 0 ? placing.cosine / length : 1;
+    placing.sine = length > 0 ? placing.sine / length : 0;
+    return placing;
+}
+
+/* ---- a window on the swatch ---- */
+
+static MesoVec3 turned_back(MesoVec3 p, const Placing *placing)
+{
+    float c = (float)placing->cosine, s = (float)placing->sine;
+    return (MesoVec3){c * p.x + s * p.y, c * p.y - s * p.x, p.z};
+}
+
+/* Moves a place as long as that makes it better, by steps down to a hundredth of a voxel or so; returns its cost. */
+static float slide(MesoVec2 *shift, const Comparison *c, const MesoMatchPoint *points, uint32_t count)
+{
+    static const float ways[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    float cost = meso_match_cost(&c->field, points, NULL, count, *shift, 0, 1);
+    for (float step = c->field.voxel / 2; step > c->field.voxel / 100;) {
+        bool better = false;
+        for (int k = 0; k < 4 && !better; k++) {
+            MesoVec2 next = {shift->x + step * ways[k][0], shift->y + step * ways[k][1]};
+            float price = meso_match_cost(&c->field, points, NULL, count, next, 0, 1);
+            if ((better = price < cost)) {
+                *shift = next;
+                cost = price;
+            }
+        }
+        if (!better)
+            step /= 2;
+    }
+    return cost;
+}
+
+/* Where the point nearest to the middle is in the swatch: a place to begin with. */
+static MesoVec2 origin_of(const Comparison *c, const MesoWindow *window, const Placing *placing)
+{
+    uint32_t nearest = window->inside[0];
+    for (uint32_t i = 0; i < window->inside_count; i++) {
+        MesoVec3 p = window->points[window->inside[i]].position, q = window->points[nearest].position;
+        nearest = p.x * p.x + p.y * p.y < q.x * q.x + q.y * q.y ? window->inside[i] : nearest;
+    }
+    MesoVec3 at = c->swatch->positions[c->quilt->origins[window->vertices[nearest]]];
+    MesoVec3 p = turned_back(window->points[nearest].position, placing);
+    return (MesoVec2){at.x - p.x, at.y - p.y};
+}
+
+/* What is known of a window before it is laid on the swatch. */
+typedef struct Hint {
+    bool is_quilt;      /* its points have origins */
+    MesoVec2 home;      /* else where it is from: places within a radius do not count */
+} Hint;
+
+/* Places to slide from, of a window whose points are turned back already. */
+static MesoStatus find_places(MesoVec2 *shifts, uint32_t *found, const Comparison *c, const MesoWindow *window,
+                              const MesoMatchPoint *points, uint32_t count, const Placing *placing, const Hint *hint,
+                              MesoError *error)
+{
+    MesoMatch matches[PLACES];
+    uint32_t match_count = 0, kept = 0;
+    const float r = c->radius;
+    MesoStatus status = meso_match_search(matches, &match_count, PLACES, 2 * c->field.voxel, &c->field, c->scratch,
+                                          points, NULL, count, (MesoVec2){-r, -r}, (MesoVec2){r, r}, 0, 1, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < match_count; i++)
+        if (hint->is_quilt || meso_vec2_length(meso_vec2_sub(matches[i].shift, hint->home)) >= r)
+            matches[kept++] = matches[i];
+    if (kept)
+        kept = meso_match_refine(matches, kept, kept < SLIDES ? kept : SLIDES, &c->field, points, NULL, count, 1);
+    *found = 0;
+    for (uint32_t i = 0; i < kept; i++)
+        shifts[(*found)++] = matches[i].shift;
+    if (hint->is_quilt)
+        shifts[(*found)++] = origin_of(c, window, placing);
+    return MESO_OK;
+}
+
+/* The best place for a window. */
+static MesoStatus find_place(Placing *placing, bool *found, const Comparison *c, const MesoWindow *window,
+                             const MesoMatchPoint *points, uint32_t count, const Hint *hint, MesoError *error)
+{
+    MesoVec2 shifts[SLIDES + 1];
+    uint32_t shift_count;
+    float least = INFINITY;
+    MesoStatus status = find_places(shifts, &shift_count, c, window, points, count, placing, hint, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < shift_count; i++) {
+        float cost = slide(&shifts[i], c, points, count);
+        if (cost < least) {
+            least = cost;
+            placing->shift = shifts[i];
+        }
+    }
+    *found = shift_count > 0;
+    return MESO_OK;
+}
+
+/* Mean distances both ways. */
+static MesoStatus compare(double *distance, const Comparison *c, const MesoWindow *window, const MesoMatchPoint *points,
+                          uint32_t count, const Placing *placing, MesoError *error)
+{
+    MesoNearestMesh there;
+    MesoStatus status = meso_nearest_mesh_build(&there, c->scratch, window->points, window->corners,
+                                                window->triangle_count, error);
+    if (status)
+        return status;
+    double to = 0, from = 0;
+    uint32_t from_count = 0;
+    const MesoVec3 shift = {placing->shift.x, placing->shift.y, 0};
+    const Placing back = {.cosine = placing->cosine, .sine = -placing->sine};
+    for (uint32_t i = 0; i < count; i++)
+        to += (double)meso_nearest_distance(&c->sample, meso_vec3_add(points[i].position, shift), c->radius);
+    for (uint32_t v = 0; v < c->swatch->vertex_count; v++) {
+        MesoVec3 p = meso_vec3_sub(c->swatch->positions[v], shift);
+        if (p.x * p.x + p.y * p.y > c->radius * c->radius)
+            continue;
+        from += (double)meso_nearest_distance(&there, turned_back(p, &back), c->radius);
+        from_count++;
+    }
+    *distance = 0.5 * (to / count + (from_count ? from / from_count : 0));
+    return MESO_OK;
+}
+
+/* The distance of a window whose turn is known from its best place; found: there is such. */
+static MesoStatus measure(double *distance, bool *found, const Comparison *c, const MesoWindow *window,
+                          Placing placing, const Hint *hint, MesoError *error)
+{
+    uint32_t stride = window->inside_count / MOST_POINTS + 1, count = 0;
+    MesoMatchPoint *points = MESO_NEW(c->scratch, MesoMatchPoint, window->inside_count, error);
+    if (!points)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < window->inside_count; i += stride) {
+        MesoMatchPoint point = window->points[window->inside[i]];
+        points[count++] = (MesoMatchPoint){turned_back(point.position, &placing), turned_back(point.normal, &placing)};
+    }
+    MesoStatus status = find_place(&placing, found, c, window, points, count, hint, error);
+    return status || !*found ? status : compare(distance, c, window, points, count, &placing, error);
+}
+
+/* ---- all windows ---- */
+
+static MesoStatus measure_quilt_window(MesoLikeness *likeness, Comparison *c, MesoRandom *random, MesoError *error)
+{
+    MesoWindow window;
+    uint32_t seed, near_count;
+    Frame frame = random_frame(c, random, &seed);
+    float scale = c->options->scale;
+    if (!flood(c, &near_count, seed, frame.origin, c->reach * scale, c->radius * scale))
+        return MESO_OK;
+    MesoStatus status = take_window(&window, c, &frame, near_count, error);
+    if (status)
+        return status;
+    meso_window_finish(&window);
+    double distance = 0;
+    bool found = false;
+    if (window.inside_count >= LEAST_POINTS)
+        status = measure(&distance, &found, c, &window, turn_of(c, &window), &(Hint){.is_quilt = true}, error);
+    if (status || !found)
+        return status;
+    likeness->distance += distance;
+    likeness->largest_distance = fmax(likeness->largest_distance, distance);
+    likeness->window_count++;
+    return MESO_OK;
+}
+
+static MesoStatus measure_swatch_window(MesoLikeness *likeness, Comparison *c, MesoRandom *random, MesoError *error)
+{
+    const MesoSwatch *swatch = c->swatch;
+    const double unit = 1.0 / 4294967296.0;
+    MesoVec3 middle = {c->radius + (swatch->size.x - 2 * c->radius) * (float)(meso_random_below(random, UINT32_MAX) * unit),
+                       c->radius + (swatch->size.y - 2 * c->radius) * (float)(meso_random_below(random, UINT32_MAX) * unit),
+                       0};
+    MesoWindow window;
+    MesoStatus status = meso_window_init(&window, c->scratch, swatch->triangle_count, c->radius, c->reach,
+                                         c->sample_locals, error);
+    if (status)
+        return status;
+    for (uint32_t t = 0; t < swatch->triangle_count; t++) {
+        const uint32_t *v = &swatch->corners[3 * (size_t)t];
+        const MesoVec3 places[3] = {meso_vec3_sub(swatch->positions[v[0]], middle),
+                                    meso_vec3_sub(swatch->positions[v[1]], middle),
+                                    meso_vec3_sub(swatch->positions[v[2]], middle)};
+        meso_window_add(&window, v, places);
+    }
+    meso_window_finish(&window);
+    double distance = 0;
+    bool found = false;
+    if (window.inside_count >= LEAST_POINTS)
+        status = measure(&distance, &found, c, &window, (Placing){.cosine = 1},
+                         &(Hint){.home = {middle.x, middle.y}}, error);
+    if (status || !found)
+        return status;
+    likeness->swatch_distance += distance;
+    likeness->swatch_window_count++;
+    return MESO_OK;
+}
+
+static MesoStatus measure_all(MesoLikeness *likeness, Comparison *c, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    MesoRandom random;
+    meso_random_init(&random, 1, 0);
+    for (uint32_t i = 0; i < TRIES && likeness->window_count < WINDOWS && !status; i++) {
+        MesoArenaMark mark = meso_arena_mark(c->scratch);
+        status = measure_quilt_window(likeness, c, &random, error);
+        meso_arena_rewind(c->scratch, mark);
+    }
+    for (uint32_t i = 0; i < TRIES && likeness->swatch_window_count < WINDOWS && !status; i++) {
+        MesoArenaMark mark = meso_arena_mark(c->scratch);
+        status = measure_swatch_window(likeness, c, &random, error);
+        meso_arena_rewind(c->scratch, mark);
+    }
+    likeness->distance /= likeness->window_count ? likeness->window_count : 1;
+    likeness->swatch_distance /= likeness->swatch_window_count ? likeness->swatch_window_count : 1;
+    likeness->radius = (double)c->radius;
+    return status;
+}
+
+MesoStatus meso_check_likeness(MesoLikeness *likeness, MesoArena *scratch, const MesoQuilt *quilt,
+                               const MesoSwatch *swatch, const MesoTriangulation *base,
+                               const MesoLikenessOptions *options, MesoError *error)
+{
+    *likeness = (MesoLikeness){0};
+    if (quilt->triangle_count == 0 || base->triangle_count == 0)
+        return MESO_OK;
+    Comparison c = {.quilt = quilt, .swatch = swatch, .base = base, .options = options, .scratch = scratch};
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    MesoStatus status = sort_triangles(&c, error);
+    if (!status)
+        status = sum_areas(&c, error);
+    if (!status)
+        status = prepare_swatch(&c, error);
+    if (!status)
+        status = measure_all(likeness, &c, error);
+    meso_arena_rewind(scratch, mark);
+    return status;
+}
