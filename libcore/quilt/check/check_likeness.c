@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "libcore/base/random.h"
+#include "libcore/quilt/check/check_places.h"
 #include "libcore/quilt/check/check_window.h"
 #include "libcore/quilt/match/triangle_distance.h"
 
@@ -33,7 +33,7 @@ typedef struct Comparison {
     float radius, reach;
     /* by triangle of the base, the triangles of the quilt whose first corner is over it */
     uint32_t *begin, *triangles;
-    double *areas;                  /* [triangle_count of the base + 1] sums */
+    MesoPlaces places;
     uint32_t *visits, visit;        /* [triangle_count of the base] the last window that has seen it */
     uint32_t *queue;
     uint32_t *locals, *sample_locals;
@@ -73,21 +73,13 @@ static MesoStatus sort_triangles(Comparison *c, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus sum_areas(Comparison *c, MesoError *error)
+static MesoStatus prepare_base(Comparison *c, MesoError *error)
 {
-    const MesoTriangulation *base = c->base;
-    c->areas = MESO_NEW(c->scratch, double, (size_t)base->triangle_count + 1, error);
-    c->visits = MESO_NEW(c->scratch, uint32_t, base->triangle_count, error);
-    c->queue = MESO_NEW(c->scratch, uint32_t, base->triangle_count, error);
-    if (!c->areas || !c->visits || !c->queue)
+    c->visits = MESO_NEW(c->scratch, uint32_t, c->base->triangle_count, error);
+    c->queue = MESO_NEW(c->scratch, uint32_t, c->base->triangle_count, error);
+    if (!c->visits || !c->queue)
         return MESO_ERR_MEMORY;
-    for (uint32_t t = 0; t < base->triangle_count; t++) {
-        const uint32_t *v = &base->corners[3 * (size_t)t];
-        MesoVec3 a = base->positions[v[0]], b = meso_vec3_sub(base->positions[v[1]], a);
-        MesoVec3 area = meso_vec3_cross(b, meso_vec3_sub(base->positions[v[2]], a));
-        c->areas[t + 1] = c->areas[t] + (double)meso_vec3_length(area);
-    }
-    return MESO_OK;
+    return meso_places_init(&c->places, c->scratch, c->base, error);
 }
 
 static MesoStatus prepare_swatch(Comparison *c, MesoError *error)
@@ -152,29 +144,14 @@ static MesoVec3 place_in(const Comparison *c, const Frame *frame, uint32_t verte
                       (q->height - c->options->offset) / c->options->height_scale};
 }
 
-/* A place, all places of the surface being as likely, and the plane there. */
+/* A place, and the plane there. */
 static Frame random_frame(const Comparison *c, MesoRandom *random, uint32_t *triangle)
 {
-    const MesoTriangulation *base = c->base;
-    const double unit = 1.0 / 4294967296.0;
-    double at = c->areas[base->triangle_count] * (double)meso_random_below(random, UINT32_MAX) * unit;
-    uint32_t low = 0, high = base->triangle_count;
-    while (high - low > 1) {
-        uint32_t middle = low + (high - low) / 2;
-        *(c->areas[middle] <= at ? &low : &high) = middle;
-    }
-    float u = (float)(meso_random_below(random, UINT32_MAX) * unit);
-    float v = (float)(meso_random_below(random, UINT32_MAX) * unit);
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    MesoVec3 a = base_corner(base, 3 * low), b = meso_vec3_sub(base_corner(base, 3 * low + 1), a);
-    MesoVec3 d = meso_vec3_sub(base_corner(base, 3 * low + 2), a);
-    Frame frame = {.origin = meso_vec3_mad(meso_vec3_mad(a, u, b), v, d), .x = meso_vec3_direction(b, (MesoVec3){1, 0, 0})};
-    MesoVec3 normal = meso_vec3_direction(meso_vec3_cross(b, d), (MesoVec3){0, 0, 1});
-    frame.y = meso_vec3_cross(normal, frame.x);
-    *triangle = low;
+    Frame frame = {.origin = meso_places_next(&c->places, random, triangle)};
+    MesoVec3 a = base_corner(c->base, 3 * *triangle), b = meso_vec3_sub(base_corner(c->base, 3 * *triangle + 1), a);
+    MesoVec3 side = meso_vec3_sub(base_corner(c->base, 3 * *triangle + 2), a);
+    frame.x = meso_vec3_direction(b, (MesoVec3){1, 0, 0});
+    frame.y = meso_vec3_cross(meso_vec3_direction(meso_vec3_cross(b, side), (MesoVec3){0, 0, 1}), frame.x);
     return frame;
 }
 
@@ -379,10 +356,8 @@ static MesoStatus measure_quilt_window(MesoLikeness *likeness, Comparison *c, Me
 static MesoStatus measure_swatch_window(MesoLikeness *likeness, Comparison *c, MesoRandom *random, MesoError *error)
 {
     const MesoSwatch *swatch = c->swatch;
-    const double unit = 1.0 / 4294967296.0;
-    MesoVec3 middle = {c->radius + (swatch->size.x - 2 * c->radius) * (float)(meso_random_below(random, UINT32_MAX) * unit),
-                       c->radius + (swatch->size.y - 2 * c->radius) * (float)(meso_random_below(random, UINT32_MAX) * unit),
-                       0};
+    MesoVec3 middle = {c->radius + (swatch->size.x - 2 * c->radius) * (float)meso_random_share(random),
+                       c->radius + (swatch->size.y - 2 * c->radius) * (float)meso_random_share(random), 0};
     MesoWindow window;
     MesoStatus status = meso_window_init(&window, c->scratch, swatch->triangle_count, c->radius, c->reach,
                                          c->sample_locals, error);
@@ -440,7 +415,7 @@ MesoStatus meso_check_likeness(MesoLikeness *likeness, MesoArena *scratch, const
     MesoArenaMark mark = meso_arena_mark(scratch);
     MesoStatus status = sort_triangles(&c, error);
     if (!status)
-        status = sum_areas(&c, error);
+        status = prepare_base(&c, error);
     if (!status)
         status = prepare_swatch(&c, error);
     if (!status)

@@ -4,11 +4,11 @@
 
 #include "libcore/quilt/quilt.h"
 
-/* Lengths in units of the swatch: the mean of distances to the nearest triangle, from the window's vertices to the swatch
+/* Lengths in units of the swatch: means of distances to the nearest triangle, from the window's vertices to the swatch
  * and from the swatch's to the window. */
 typedef struct MesoLikeness {
     uint32_t window_count, swatch_window_count;     /* 0: the tile is too small, or there is too little in it */
-    double distance, largest_distance;  /* of windows of the quilt from where the swatch is most like them: mean, worst */
+    double distance, largest_distance;  /* of the quilt's windows from what is most like them: mean, worst */
     double swatch_distance;             /* the same for windows of the swatch, and places at least a radius away */
     double radius;                      /* of a window */
 } MesoLikeness;

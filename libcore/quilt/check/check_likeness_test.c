@@ -46,8 +46,8 @@ static MesoLikeness measure(Case *c)
     MesoLikeness likeness;
     MesoError error;
     size_t used = c->arena.used;
-    CHECK(meso_check_likeness(&likeness, &c->arena, &c->quilt, &c->swatch, &c->base,
-                              &(MesoLikenessOptions){.scale = 2, .height_scale = 2, .offset = 0.25f}, &error) == MESO_OK);
+    const MesoLikenessOptions options = {.scale = 2, .height_scale = 2, .offset = 0.25f};
+    CHECK(meso_check_likeness(&likeness, &c->arena, &c->quilt, &c->swatch, &c->base, &options, &error) == MESO_OK);
     CHECK(c->arena.used == used);
     meso_triangulation_release(&c->base);
     meso_arena_release(&c->arena);

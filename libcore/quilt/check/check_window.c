@@ -40,8 +40,8 @@ static void add_normals(MesoWindow *window)
     MesoMatchPoint *points = window->points;
     for (uint32_t t = 0; t < window->triangle_count; t++) {
         const uint32_t *v = &window->corners[3 * (size_t)t];
-        MesoVec3 a = points[v[0]].position;
-        MesoVec3 area = meso_vec3_cross(meso_vec3_sub(points[v[1]].position, a), meso_vec3_sub(points[v[2]].position, a));
+        MesoVec3 a = points[v[0]].position, b = meso_vec3_sub(points[v[1]].position, a);
+        MesoVec3 area = meso_vec3_cross(b, meso_vec3_sub(points[v[2]].position, a));
         for (int k = 0; k < 3; k++)
             points[v[k]].normal = meso_vec3_add(points[v[k]].normal, area);
     }

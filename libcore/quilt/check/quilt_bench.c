@@ -281,17 +281,20 @@ static void print_check(const Outcome *o)
     printf("  mesh: unplaced %u, open %u, crowded %u, reversed %u, collapsed %u, pinched %u\n", f->unplaced_count,
            f->open_count, f->crowded_count, f->reversed_count, f->collapsed_count, f->pinched_count);
     printf("  elements: whole %u of %.0f by area, changed %u, squeezed %u (volumes %.3f to %.3f), strands %u, "
-           "merged %u, apart %u; triangles %.3f and area %.3f of those by area\n", k->whole_count, k->expected_whole_count,
-           k->changed_count, k->squeezed_count, k->least_volume, k->largest_volume, k->strand_count, k->merged_count,
-           k->apart_count, o->triangles / k->expected_triangle_count, k->area_share);
-    printf("  crossings: %llu between elements, %llu within, %llu of one patch, in %u elements; swatch %.0f; "
-           "%.3f + %.3f + %.3f + %.3f s\n", (unsigned long long)k->crossings.between_count,
-           (unsigned long long)k->crossings.within_count, (unsigned long long)k->crossings.one_patch_count,
-           k->crossings.element_count, k->expected_crossings, k->seconds[0], k->seconds[1], k->seconds[2], k->seconds[3]);
-    printf("  likeness: %u windows %.4f from the swatch (worst %.4f), within it %.4f: ratio %.3f; KS at seams: lengths %.3f, "
-           "angles %.3f\n", k->likeness.window_count, k->likeness.distance, k->likeness.largest_distance,
-           k->likeness.swatch_distance, k->likeness.distance / k->likeness.swatch_distance, k->seams.length_distance,
-           k->seams.angle_distance);
+           "merged %u, apart %u; triangles %.3f and area %.3f of those by area\n", k->whole_count,
+           k->expected_whole_count, k->changed_count, k->squeezed_count, k->least_volume, k->largest_volume,
+           k->strand_count, k->merged_count, k->apart_count, o->triangles / k->expected_triangle_count, k->area_share);
+    printf("  crossings: %llu between elements, %llu within, %llu of one patch, in %u elements; swatch %.0f\n",
+           (unsigned long long)k->crossings.between_count, (unsigned long long)k->crossings.within_count,
+           (unsigned long long)k->crossings.one_patch_count, k->crossings.element_count, k->expected_crossings);
+    printf("  likeness: %.4f from the swatch, worst %.4f, within it %.4f: ratio %.3f; KS at seams: lengths %.3f, "
+           "angles %.3f\n", k->likeness.distance, k->likeness.largest_distance, k->likeness.swatch_distance,
+           k->likeness.distance / k->likeness.swatch_distance, k->seams.length_distance, k->seams.angle_distance);
+    printf("  cover: %u of %u places empty, widest %.3f, in the swatch %.3f; check", k->cover.empty_count,
+           k->cover.place_count, k->cover.widest, k->cover.swatch_widest);
+    for (size_t i = 0; i < sizeof k->seconds / sizeof *k->seconds; i++)
+        printf(" %.2f", k->seconds[i]);
+    printf(" s\n");
 }
 
 static bool is_wanted(const Row *row, int count, char **names)

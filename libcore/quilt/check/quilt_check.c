@@ -108,6 +108,11 @@ static MesoStatus check_seams(const Checking *c, MesoError *error)
     return meso_check_seams(&c->check->seams, c->arena, &c->mesh, error);
 }
 
+static MesoStatus check_cover(const Checking *c, MesoError *error)
+{
+    return meso_check_cover(&c->check->cover, c->arena, c->quilt, c->swatch, c->base, (float)c->scale, error);
+}
+
 static MesoStatus check_likeness(const Checking *c, MesoError *error)
 {
     const MesoLikenessOptions options = {(float)c->scale, (float)c->height_scale, c->offset, c->thread_count};
@@ -116,8 +121,9 @@ static MesoStatus check_likeness(const Checking *c, MesoError *error)
 
 static MesoStatus check_all(Checking *c, const MesoVec3 *positions, MesoError *error)
 {
-    MesoStatus (*const parts[])(const Checking *, MesoError *) = {check_elements, check_crossings, check_seams,
-                                                                  check_likeness};
+    MesoStatus (*const parts[])(const Checking *, MesoError *) = {
+        check_elements, check_crossings, check_seams, check_cover, check_likeness,
+    };
     double start = meso_seconds();
     MesoStatus status = meso_check_mesh_of_quilt(&c->mesh, &c->check->faults, c->arena, c->quilt, positions,
                                                  c->thread_count, error);

@@ -6,6 +6,7 @@
 #ifndef MESO_QUILT_CHECK_H
 #define MESO_QUILT_CHECK_H
 
+#include "libcore/quilt/check/check_cover.h"
 #include "libcore/quilt/check/check_crossings.h"
 #include "libcore/quilt/check/check_likeness.h"
 #include "libcore/quilt/check/check_seams.h"
@@ -36,9 +37,10 @@ typedef struct MesoQuiltCheck {
     double expected_crossings;  /* as many as the swatch has on that area */
 
     MesoSeams seams;
+    MesoCover cover;
     MesoLikeness likeness;
 
-    double seconds[4];          /* mesh and elements, crossings, seams, likeness */
+    double seconds[5];          /* mesh and elements, crossings, seams, cover, likeness */
 } MesoQuiltCheck;
 
 /*

@@ -1,0 +1,52 @@
+/* A strand of two patches: its seam shows where the edges there are shorter, or the tube is bent. */
+#include "libcore/mesh/cut/triangulation_fixture.h"
+#include "libcore/quilt/check/check_seams.h"
+
+enum { AROUND = 12, RINGS = 61 };
+
+/* A tube of RINGS - 1 rows whose upper half is another patch; `squeeze` of the two rows at the seam, `bulge` of the ring
+ * there. */
+static MesoSeams measure(float squeeze, float bulge)
+{
+    MesoArena arena;
+    MesoSeams seams;
+    MesoError error;
+    meso_arena_init(&arena);
+    MesoTriangulation tube = meso_fixture_tube(AROUND, RINGS - 1, 30);
+    uint32_t *patches = MESO_NEW(&arena, uint32_t, tube.triangle_count, &error);
+    uint32_t *elements = MESO_NEW(&arena, uint32_t, tube.triangle_count, &error);
+    CHECK(patches && elements);
+    const uint32_t middle = RINGS / 2;
+    for (uint32_t t = 0; t < tube.triangle_count; t++)
+        patches[t] = t / (2 * AROUND) >= middle;
+    for (uint32_t v = 0; v < AROUND; v++) {
+        MesoVec3 *ring = &tube.positions[middle * AROUND];
+        ring[v].x *= bulge;
+        ring[v].y *= bulge;
+    }
+    for (uint32_t v = 0; v < tube.vertex_count; v++)
+        tube.positions[v].z += v / AROUND > middle ? squeeze : v / AROUND < middle ? -squeeze : 0;
+    const uint32_t vertex_begin[2] = {0, tube.vertex_count}, triangle_begin[2] = {0, tube.triangle_count};
+    const MesoCheckMesh mesh = {
+        .vertex_count = tube.vertex_count, .triangle_count = tube.triangle_count, .element_count = 1,
+        .positions = tube.positions, .corners = tube.corners, .vertex_begin = vertex_begin,
+        .triangle_begin = triangle_begin, .patches = patches, .twins = tube.twins, .elements = elements,
+    };
+    CHECK(meso_check_seams(&seams, &arena, &mesh, &error) == MESO_OK);
+    meso_triangulation_release(&tube);
+    meso_arena_release(&arena);
+    return seams;
+}
+
+int main(void)
+{
+    MesoSeams k = measure(0, 1);
+    /* the ring itself, and of the triangles on both sides of it an upright and a diagonal each; borders do not
+     * count */
+    CHECK(k.seam_edge_count == 5 * AROUND && k.other_edge_count == (3 * RINGS - 2 - 5 - 2) * AROUND);
+    CHECK(k.length_distance < 0.2 && k.angle_distance < 0.2);
+    CHECK(measure(-0.3f, 1).length_distance > 0.35);
+    k = measure(0, 1.2f);
+    CHECK(k.angle_distance > 0.4);
+    return 0;
+}
