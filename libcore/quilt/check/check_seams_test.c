@@ -44,9 +44,9 @@ int main(void)
     /* the ring itself, and of the triangles on both sides of it an upright and a diagonal each; borders do not
      * count */
     CHECK(k.seam_edge_count == 5 * AROUND && k.other_edge_count == (3 * RINGS - 2 - 5 - 2) * AROUND);
-    CHECK(k.length_distance < 0.2 && k.angle_distance < 0.2);
+    CHECK(k.length_distance < 0.2 && k.angle_distance < 0.1);
     CHECK(measure(-0.3f, 1).length_distance > 0.35);
     k = measure(0, 1.2f);
-    CHECK(k.angle_distance > 0.4);
+    CHECK(k.angle_distance > 0.25);
     return 0;
 }
