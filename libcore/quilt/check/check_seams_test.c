@@ -4,8 +4,8 @@
 
 enum { AROUND = 12, RINGS = 61 };
 
-/* A tube of RINGS - 1 rows whose upper half is another patch; `squeeze` of the two rows at the seam, `bulge` of the ring
- * there. */
+/* A tube of RINGS - 1 rows whose upper half is another patch: `squeeze` makes the two rows at the seam higher, `bulge`
+ * the ring there wider. */
 static MesoSeams measure(float squeeze, float bulge)
 {
     MesoArena arena;

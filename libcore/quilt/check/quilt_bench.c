@@ -284,6 +284,8 @@ static void print_check(const Outcome *o)
            "merged %u, apart %u; triangles %.3f and area %.3f of those by area\n", k->whole_count,
            k->expected_whole_count, k->changed_count, k->squeezed_count, k->least_volume, k->largest_volume,
            k->strand_count, k->merged_count, k->apart_count, o->triangles / k->expected_triangle_count, k->area_share);
+    printf("  sections: %u of %u changed, areas %.3f to %.3f, rms %.3f\n", k->sections.changed_count, k->sections.count,
+           k->sections.least, k->sections.largest, k->sections.rms);
     printf("  crossings: %llu between elements, %llu within, %llu of one patch, in %u elements; swatch %.0f\n",
            (unsigned long long)k->crossings.between_count, (unsigned long long)k->crossings.within_count,
            (unsigned long long)k->crossings.one_patch_count, k->crossings.element_count, k->expected_crossings);

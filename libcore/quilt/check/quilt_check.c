@@ -85,6 +85,7 @@ static MesoStatus check_elements(const Checking *c, MesoError *error)
         else
             check->strand_count++;
     }
+    meso_check_sections(&check->sections, &c->mesh, &c->sample, c->quilt, c->swatch, c->scale * c->height_scale);
     check->expected_triangle_count = c->tiles * c->sample.triangle_count;
     check->area_share = area / (sample_area * c->scale * c->scale * c->tiles);
     return MESO_OK;

@@ -10,6 +10,7 @@
 #include "libcore/quilt/check/check_crossings.h"
 #include "libcore/quilt/check/check_likeness.h"
 #include "libcore/quilt/check/check_seams.h"
+#include "libcore/quilt/check/check_sections.h"
 
 typedef struct MesoQuiltCheckOptions {
     float scale;                /* as of MesoQuiltOptions, > 0 */
@@ -32,6 +33,8 @@ typedef struct MesoQuiltCheck {
     uint32_t apart_count;       /* elements that do not hang together */
     double expected_triangle_count;         /* by area */
     double area_share;          /* of all triangles, against what the swatch has on that area */
+
+    MesoSections sections;      /* of strands */
 
     MesoCrossings crossings, swatch_crossings;
     double expected_crossings;  /* as many as the swatch has on that area */
