@@ -62,6 +62,7 @@ int main(int argc, char **argv)
         MESO_NUMBER(0, "mu", "M", "how strongly ends are pulled together (default 1)", &a.mu, 1e-6, 1e6),
         MESO_COUNT(0, "until", "N", "end after N patches (default: all)", &a.until, 1, 1 << 30),
         MESO_TEXT(0, "seeds", "LIST", "one product for each of these seeds: 1-10,20; -o has %d", &a.seeds),
+        MESO_FLAG(0, "check", "measure how good the quilt is, and say it", &a.check),
         MESO_DRACO_OPTIONS(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},

@@ -19,6 +19,7 @@ typedef struct MesoQuiltArguments {
     float patch, lambda, mu;    /* 0: the default */
     uint32_t until;             /* 0: all */
     const char *seeds;          /* --seeds */
+    bool check;                 /* --check */
     struct {
         bool columns, rows, sides, jitter, thickness;
     } given;

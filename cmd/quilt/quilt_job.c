@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "cmd/common/seed_list.h"
+#include "cmd/quilt/quilt_measure.h"
 #include "cmd/quilt/quilt_report.h"
 #include "cmd/quilt/quilt_surface.h"
 #include "cmd/quilt/quilt_swatch.h"
@@ -187,6 +188,14 @@ static MesoStatus write_scene(const Job *job, const MesoQuilt *quilt)
                                                    &(MesoSceneProduct){.scene = &scene, .smaller = "raise --scale"});
 }
 
+static MesoStatus measure(const Job *job, const MesoQuilt *quilt)
+{
+    const MesoQuiltOptions grown = options_of(job, 0, NULL);
+    const MesoQuiltCheckOptions options = {.scale = grown.scale, .height_scale = grown.height_scale,
+                                           .offset = grown.offset, .thread_count = grown.thread_count};
+    return meso_quilt_measure(job->tool, quilt, &job->swatch.swatch, &job->surface.base, &options);
+}
+
 static MesoStatus run_seed(Job *job, uint64_t seed)
 {
     MesoTool *tool = job->tool;
@@ -198,7 +207,7 @@ static MesoStatus run_seed(Job *job, uint64_t seed)
         status = (job->as_quilt ? write_quilt : write_scene)(job, &quilt);
     if (!status)
         meso_quilt_report(tool, &quilt, scale_of(job));
-    return status;
+    return status || !job->arguments->check ? status : measure(job, &quilt);
 }
 
 /* ---- many seeds ---- */

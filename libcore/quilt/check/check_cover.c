@@ -96,14 +96,15 @@ static MesoStatus measure_quilt(MesoCover *cover, MesoArena *scratch, const Meso
     double tile = (double)swatch->size.x * (double)swatch->size.y * scale * scale;
     double wanted = PLACES_A_TILE * meso_places_area(&places) / tile;
     double may = 1.25 * cover->swatch_widest + 0.5 * (double)swatch->mean_edge;
-    float most = (float)(scale * (double)fmaxf(swatch->size.x, swatch->size.y));
+    float most = 2 * (float)(scale * (double)fmaxf(swatch->size.x, swatch->size.y));
+    float border = (float)scale * meso_window_border(swatch);
     cover->place_count = (uint32_t)fmin(fmax(wanted, LEAST_PLACES), MOST_PLACES);
     meso_random_init(&random, 2, 0);
     for (uint32_t i = 0; i < cover->place_count; i++) {
         uint32_t triangle;
         MesoVec3 place = meso_places_next(&places, &random, &triangle);
         float far = meso_nearest_distance(&ground, place, most);
-        if (far == 0 || meso_nearest_distance(&borders, place, most) < far)
+        if (far == 0 || meso_nearest_distance(&borders, place, most) < far + border)
             continue;
         cover->widest = fmax(cover->widest, (double)far / scale);
         cover->empty_count += (double)far / scale > may;

@@ -13,7 +13,8 @@ typedef struct MesoCover {
 /*
  * Places are random, the same in each call, a hundred on each tile's area or so and 2^16 at most. A disc around one is
  * as wide as the nearest triangle of the quilt is far, all of them let down onto the surface; discs that reach beyond
- * a border do not count. It may be a quarter wider than the widest of the swatch, and half a mean edge.
+ * a border do not count, nor such at a whole element's width from it. One may be a quarter wider than the widest of
+ * the swatch, and half a mean edge.
  *
  * scale    as of MesoQuiltOptions
  *

@@ -8,7 +8,7 @@
 
 enum {
     WINDOWS = 32,
-    TRIES = 4 * WINDOWS,    /* some places are too near to a border, or have nothing over them */
+    TRIES = 32 * WINDOWS,   /* some places are too near to a border, or have nothing over them */
     LEAST_POINTS = 12,
     MOST_POINTS = 250,
     PLACES = 16,            /* of the swatch that are looked at more closely */
@@ -31,6 +31,7 @@ typedef struct Comparison {
     MesoNearestMesh sample;         /* the swatch */
     MesoMatchPoint *sample_points;
     float radius, reach;
+    float clear;                    /* no border is so near to a window's middle */
     /* by triangle of the base, the triangles of the quilt whose first corner is over it */
     uint32_t *begin, *triangles;
     MesoPlaces places;
@@ -96,6 +97,7 @@ static MesoStatus prepare_swatch(Comparison *c, MesoError *error)
         c->sample_points[v] = (MesoMatchPoint){swatch->positions[v], swatch->normals[v]};
     c->radius = RADIUS * fminf(swatch->size.x, swatch->size.y);
     c->reach = c->radius + 2 * swatch->mean_edge;
+    c->clear = c->radius + meso_window_border(swatch);
     MesoStatus status = meso_nearest_mesh_build(&c->sample, c->scratch, c->sample_points, swatch->corners,
                                                 swatch->triangle_count, error);
     float longer = fmaxf(swatch->size.x, swatch->size.y);
@@ -110,8 +112,8 @@ static MesoVec3 base_corner(const MesoTriangulation *base, uint32_t corner)
     return base->positions[base->corners[corner]];
 }
 
-/* The triangles of the base within `reach` of a point of `seed`; false where a border is within `radius`. */
-static bool flood(Comparison *c, uint32_t *count, uint32_t seed, MesoVec3 point, float reach, float radius)
+/* The triangles of the base within `reach` of a point of `seed`; false where a border is within `clear`. */
+static bool flood(Comparison *c, uint32_t *count, uint32_t seed, MesoVec3 point, float reach, float clear)
 {
     const MesoTriangulation *base = c->base;
     c->visits[seed] = ++c->visit;
@@ -122,7 +124,7 @@ static bool flood(Comparison *c, uint32_t *count, uint32_t seed, MesoVec3 point,
             uint32_t across = base->twins[h];
             MesoVec3 a = base_corner(base, h), b = base_corner(base, meso_next_corner(h));
             float square = meso_segment_square(meso_vec3_sub(point, a), meso_vec3_sub(b, a));
-            if (across == MESO_NO_INDEX && square <= radius * radius)
+            if (across == MESO_NO_INDEX && square <= clear * clear)
                 return false;
             if (across == MESO_NO_INDEX || square > reach * reach || c->visits[across / 3] == c->visit)
                 continue;
@@ -335,7 +337,7 @@ static MesoStatus measure_quilt_window(MesoLikeness *likeness, Comparison *c, Me
     uint32_t seed, near_count;
     Frame frame = random_frame(c, random, &seed);
     float scale = c->options->scale;
-    if (!flood(c, &near_count, seed, frame.origin, c->reach * scale, c->radius * scale))
+    if (!flood(c, &near_count, seed, frame.origin, fmaxf(c->reach, c->clear) * scale, c->clear * scale))
         return MESO_OK;
     MesoStatus status = take_window(&window, c, &frame, near_count, error);
     if (status)

@@ -19,7 +19,8 @@ typedef struct MesoLikenessOptions {
 } MesoLikenessOptions;
 
 /*
- * Windows lie at random places of the surface, the same in each call, and not where a border is within them. They are
+ * Windows lie at random places of the surface, the same in each call, and not where a border is within them, or within
+ * a whole element's width of them. They are
  * seen in the layer, from their tangent plane: what bends with the surface is straight there. They are turned as
  * the swatch is in them on the whole, laid where the cost of equation 3 is least, and moved until it does not become
  * less.

@@ -13,16 +13,17 @@ typedef struct Case {
 
 /* The swatch, turned by `angle` about the middle of the square, twice as large; `lift` (of the swatch's height) is a
  * wave along one of its sides. */
-static Case laid_out(const char *recipe, double angle, float lift)
+static Case laid_out(const char *recipe, uint32_t columns, double angle, float lift)
 {
     Case c;
     MesoError error;
     MesoPolygonMesh mesh;
     meso_arena_init(&c.arena);
-    CHECK(meso_swatch_make(&mesh, &c.arena, &(MesoSwatchRecipe){.name = recipe, .jitter = 0.1f}, &error) == MESO_OK);
+    const MesoSwatchRecipe made = {.name = recipe, .jitter = 0.1f, .columns = columns, .rows = columns};
+    CHECK(meso_swatch_make(&mesh, &c.arena, &made, &error) == MESO_OK);
     CHECK(meso_swatch_build(&c.swatch, &c.arena, &mesh, &(MesoSwatchOptions){.up = 2}, &error) == MESO_OK);
     const MesoSwatch *s = &c.swatch;
-    float side = 1.2f * fminf(s->size.x, s->size.y);    /* at any angle it has swatch over it */
+    float side = 1.4f * fminf(s->size.x, s->size.y);    /* at any angle it has swatch over it */
     c.base = meso_fixture_sheet(1, 1, side);
     c.quilt = (MesoQuilt){.vertex_count = s->vertex_count, .triangle_count = s->triangle_count,
                           .element_count = s->element_count, .corners = s->corners};
@@ -54,9 +55,9 @@ static MesoLikeness measure(Case *c)
     return likeness;
 }
 
-static void test_same(const char *recipe, double angle)
+static void test_same(const char *recipe, uint32_t columns, double angle)
 {
-    Case c = laid_out(recipe, angle, 0);
+    Case c = laid_out(recipe, columns, angle, 0);
     MesoLikeness k = measure(&c);
     CHECK(k.window_count == 32 && k.swatch_window_count == 32);
     CHECK(k.distance < 0.1 * k.swatch_distance);
@@ -64,15 +65,15 @@ static void test_same(const char *recipe, double angle)
 
 static void test_bent(void)
 {
-    Case c = laid_out("weave", 0.3, 0.5f);
+    Case c = laid_out("weave", 6, 0.3, 0.5f);
     MesoLikeness k = measure(&c);
     CHECK(k.distance > 3 * k.swatch_distance);
 }
 
 int main(void)
 {
-    test_same("weave", 0);
-    test_same("nuts", -2.5);
+    test_same("weave", 6, 0);
+    test_same("nuts", 10, -2.5);
     test_bent();
     return 0;
 }

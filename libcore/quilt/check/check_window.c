@@ -2,6 +2,14 @@
 
 #include "libcore/quilt/match/triangle_distance.h"
 
+float meso_window_border(const MesoSwatch *swatch)
+{
+    float most = 0;
+    for (uint32_t e = 0; e < swatch->element_count; e++)
+        most = swatch->kinds[e] == MESO_ELEMENT_WHOLE ? fmaxf(most, 2 * swatch->radii[e]) : most;
+    return most;
+}
+
 MesoStatus meso_window_init(MesoWindow *window, MesoArena *arena, uint32_t triangle_count, float radius, float reach,
                             uint32_t *locals, MesoError *error)
 {

@@ -16,6 +16,9 @@ typedef struct MesoWindow {
     uint32_t *vertices;         /* [point_count] of that mesh */
 } MesoWindow;
 
+/* How far from a border whole elements may be missing, since they would lie across it: the largest one's width. */
+float meso_window_border(const MesoSwatch *swatch);
+
 /* A mesh whose nearest triangle is asked for. */
 typedef struct MesoNearestMesh {
     const MesoMatchPoint *points;

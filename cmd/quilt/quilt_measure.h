@@ -1,0 +1,12 @@
+/* What meso-quilt --check says of a quilt: how good it is. */
+#ifndef MESO_QUILT_MEASURE_H
+#define MESO_QUILT_MEASURE_H
+
+#include "cmd/common/tool.h"
+#include "libcore/quilt/check/quilt_check.h"
+
+/* Measures a quilt as it lies over its surface, by normals; into the report as "check", and in some lines. */
+MesoStatus meso_quilt_measure(MesoTool *tool, const MesoQuilt *quilt, const MesoSwatch *swatch,
+                              const MesoTriangulation *base, const MesoQuiltCheckOptions *options);
+
+#endif
