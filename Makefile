@@ -14,6 +14,7 @@
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
+#   bench-grow        walks over surfaces: rates and errors
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -162,6 +163,8 @@ bench-decor: $(addprefix $(OUT)/test/libcore/,geodesic/geodesic_bench geodesic/g
 	@for bench in $^; do $$bench; done
 bench-quilt: $(OUT)/test/libcore/quilt/check/quilt_bench
 	@$< --check
+bench-grow: $(OUT)/test/libcore/geodesic/transport/straight_walk_bench
+	@$<
 bench-exact: $(OUT)/test/libcore/geodesic/geodesic_bench
 	@$< --exact
 demo: all generators
@@ -179,6 +182,6 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-reference bench \
-        bench-solve bench-decor bench-quilt bench-exact demo fuzz-run fuzzers benches references install clean
+        bench-solve bench-decor bench-quilt bench-grow bench-exact demo fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

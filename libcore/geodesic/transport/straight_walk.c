@@ -27,20 +27,26 @@ typedef struct Passage {
 
 /* ---- beginnings ---- */
 
+/* Of two corners the one nearer to the walk's line, both being on one side of it, or the one farther along. */
+static bool is_nearer(MesoComplex a, MesoComplex b)
+{
+    return fabs(a.im) < fabs(b.im) || (fabs(a.im) == fabs(b.im) && a.re > b.re);
+}
+
 /*
  * The side that the line of the walk enters the triangle by: from a corner on its left to one on its right. Where
- * rounding, or a heading out of the triangle, puts all on one side, the nearest one is on the other.
+ * rounding, a line along a side, or a heading out of the triangle puts all on one side, the nearest one counts as on the
+ * other.
  */
 static uint32_t entry_side(const MesoComplex corners[3])
 {
-    uint32_t low = 0, high = 0;
+    uint32_t nearest = 0;
     for (uint32_t k = 0; k < 3; k++) {
         if (corners[k].im >= 0 && !(corners[meso_next_side(k)].im >= 0))
             return k;
-        low = corners[k].im < corners[low].im ? k : low;
-        high = corners[k].im > corners[high].im ? k : high;
+        nearest = is_nearer(corners[k], corners[nearest]) ? k : nearest;
     }
-    return corners[low].im >= 0 ? meso_previous_side(low) : high;
+    return corners[nearest].im >= 0 ? meso_previous_side(nearest) : nearest;
 }
 
 static void begin(const MesoWalkGround *ground, Lane *lane, const MesoWalk *walk)
@@ -66,13 +72,14 @@ static double clamp(double x, double low, double high)
     return fmin(fmax(x, low), high);
 }
 
-/* Corners by where the walk sees them. */
-static uint32_t left_corner(const Lane *lane, uint32_t side)
+/* The corner that a side's left end is, for a walk that comes in by it; right for one that leaves. */
+static uint32_t begin_corner(const Lane *lane, uint32_t side)
 {
     return lane->turned ? meso_next_side(side) : side;
 }
 
-static uint32_t right_corner(const Lane *lane, uint32_t side)
+/* The other one. */
+static uint32_t end_corner(const Lane *lane, uint32_t side)
 {
     return lane->turned ? side : meso_next_side(side);
 }
@@ -88,16 +95,16 @@ static void weigh_inside(const Lane *lane, const Passage *passage, double weight
     double far = passage->apex.im > 0 ? clamp(above / passage->apex.im, 0, 1) : 0;
     double right = clamp(along - far * passage->apex.re, 0, 1 - far);
     weight[meso_previous_side(passage->entry)] = far;
-    weight[right_corner(lane, passage->entry)] = right;
-    weight[left_corner(lane, passage->entry)] = 1 - far - right;
+    weight[end_corner(lane, passage->entry)] = right;
+    weight[begin_corner(lane, passage->entry)] = 1 - far - right;
 }
 
-/* Of a point of a side, at `share` of the way from its left end to its right one. */
-static void weigh_side(const Lane *lane, uint32_t side, double share, double weight[3])
+/* Of a point between two corners. */
+static void weigh_between(uint32_t from, uint32_t to, double share, double weight[3])
 {
-    weight[meso_previous_side(side)] = 0;
-    weight[left_corner(lane, side)] = 1 - share;
-    weight[right_corner(lane, side)] = share;
+    weight[0] = weight[1] = weight[2] = 0;
+    weight[from] = 1 - share;
+    weight[to] = share;
 }
 
 /* The heading in the frame of the triangle, from that over the side. */
@@ -131,7 +138,7 @@ static void tell_piece(const MesoWalkGround *ground, const MesoWalkOptions *opti
     MesoComplex corners[3];
     double entered[3];
     meso_walk_corners(ground, triangle, corners);
-    weigh_side(lane, side, lane->share, entered);
+    weigh_between(begin_corner(lane, side), end_corner(lane, side), lane->share, entered);
     piece.ends[0] = meso_walk_point(corners, first ? walk->tip.weight : entered);
     piece.ends[1] = meso_walk_point(corners, weight);
     options->piece(options->context, &piece);
@@ -164,12 +171,21 @@ static void end_inside(const MesoWalkGround *ground, const Lane *lane, const Pas
     finish(ground, lane, walk, weight, MESO_WALK_DONE, 0);
 }
 
+/* Where the walk meets the exit, as a share of it; along a side, where rounding tells nothing, as early as can be. */
+static double share_at_exit(const Lane *lane, const Passage *passage)
+{
+    double share = -passage->left.im / passage->side.im, x = passage->left.re + share * passage->side.re;
+    if (fabs(passage->side.im) < fabs(passage->side.re) && !(x >= 0 && x <= lane->length))
+        share = ((x > lane->length ? lane->length : 0) - passage->left.re) / passage->side.re;
+    return clamp(share, 0, 1);
+}
+
 /* Tells the piece up to the exit, and says where on it that ends. */
-static double reach_side(const MesoWalkGround *ground, const Lane *lane, const Passage *passage, const MesoWalk *walk,
+static double reach_exit(const MesoWalkGround *ground, const Lane *lane, const Passage *passage, const MesoWalk *walk,
                          const MesoWalkOptions *options, double weight[3])
 {
-    double share = clamp(-passage->left.im / passage->side.im, 0, 1);
-    weigh_side(lane, passage->exit, share, weight);
+    double share = share_at_exit(lane, passage);
+    weigh_between(end_corner(lane, passage->exit), begin_corner(lane, passage->exit), share, weight);
     if (options->piece)
         tell_piece(ground, options, lane, walk, passage->exit, weight);
     return share;
@@ -179,7 +195,7 @@ static void end_on_side(const MesoWalkGround *ground, const Lane *lane, const Pa
                         const MesoWalkOptions *options)
 {
     double weight[3];
-    double share = reach_side(ground, lane, passage, walk, options, weight);
+    double share = reach_exit(ground, lane, passage, walk, options, weight);
     double rest = clamp(lane->length - (passage->left.re + share * passage->side.re), 0, lane->length);
     bool border = ground->faces[lane->half_edge / 3].twins[passage->exit] == MESO_NO_INDEX;
     finish(ground, lane, walk, weight, border ? MESO_WALK_BORDER : MESO_WALK_LIMIT, rest);
@@ -201,7 +217,7 @@ ALWAYS_INLINE bool step(const MesoWalkGround *ground, Lane *lane, MesoWalk *walk
     }
     if (options->piece) {
         double weight[3];
-        lane->share = reach_side(ground, lane, &passage, &walks[lane->walk], options, weight);
+        lane->share = reach_exit(ground, lane, &passage, &walks[lane->walk], options, weight);
     }
     __builtin_prefetch(&ground->faces[twin / 3]);
     lane->left = passage.left;

@@ -6,8 +6,7 @@
 #include <stdio.h>
 #include <time.h>
 
-#include "libcore/geodesic/geodesic_fixture.h"
-#include "libcore/geodesic/transport/straight_walk.h"
+#include "libcore/geodesic/transport/walk_fixture.h"
 
 static double cpu_seconds(void)
 {
@@ -16,17 +15,12 @@ static double cpu_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static double uniform(MesoRandom *random)
-{
-    return (double)(meso_random_next(random) >> 11) / 9007199254740992.0;
-}
-
 static void strew(MesoWalk *walks, uint32_t count, const MesoWalkGround *ground, double length)
 {
     MesoRandom random;
     meso_random_init(&random, 5, 0);
     for (uint32_t i = 0; i < count; i++) {
-        double angle = 2 * MESO_PI * uniform(&random);
+        double angle = 2 * MESO_PI * meso_fixture_uniform(&random);
         walks[i] = (MesoWalk){.tip = {meso_random_below(&random, ground->triangle_count), false,
                                       {1 / 3.0, 1 / 3.0, 1 / 3.0}, {cos(angle), sin(angle)}}, .length = length};
     }
@@ -35,17 +29,11 @@ static void strew(MesoWalk *walks, uint32_t count, const MesoWalkGround *ground,
 static void measure(uint32_t columns, uint32_t rows, uint32_t step_millions)
 {
     enum { LONG = 4096, SHORT = 65536 };
-    MesoTriangulation mesh = meso_fixture_torus(columns, rows, 0.4f);
     MesoArena arena;
+    MesoTriangulation mesh = meso_fixture_bumpy_torus(columns, rows);
     MesoWalkGround ground;
     MesoRandom random;
     meso_random_init(&random, 9, 0);
-    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
-        MesoVec3 *p = &mesh.positions[v];
-        float bump = 1 + 0.05f * sinf(11 * p->x) * cosf(13 * p->y) * sinf(9 * p->z);
-        for (float *x = &p->x; x <= &p->z; x++)
-            *x = *x * bump + 1.2f / (float)columns * meso_fixture_signed(&random);
-    }
     meso_arena_init(&arena);
     double start = cpu_seconds();
     CHECK(meso_walk_ground_build(&ground, &arena, &mesh, NULL, 1, NULL) == MESO_OK);
@@ -71,7 +59,7 @@ static void measure(uint32_t columns, uint32_t rows, uint32_t step_millions)
     double seconds = 0;
     while (steps < (uint64_t)step_millions * 1000000) {
         for (uint32_t i = 0; i < SHORT; i++) {
-            meso_tip_turn(&walks[i].tip, uniform(&random) - 0.5);
+            meso_tip_turn(&walks[i].tip, meso_fixture_uniform(&random) - 0.5);
             walks[i].length = 0.01;
         }
         start = cpu_seconds();
@@ -89,10 +77,48 @@ static void measure(uint32_t columns, uint32_t rows, uint32_t step_millions)
     meso_triangulation_release(&mesh);
 }
 
+/* How far from where they began walks end that should return. */
+static void print_errors(const char *what, const MesoTriangulation *mesh, double length, bool back)
+{
+    enum { COUNT = 2000 };
+    MesoArena arena;
+    MesoWalkGround ground;
+    MesoRandom random;
+    double mean = 0, worst = 0;
+    meso_arena_init(&arena);
+    meso_random_init(&random, 3, 0);
+    CHECK(meso_walk_ground_build(&ground, &arena, mesh, NULL, 1, NULL) == MESO_OK);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        MesoTip tip = meso_fixture_tip(&ground, &random);
+        double from[3], to[3];
+        meso_tip_position(mesh, &tip, from);
+        MesoWalk walk = meso_fixture_walk(&ground, tip, length, NULL);
+        if (back)
+            walk = meso_fixture_walk(&ground, meso_fixture_back(walk.tip), length, NULL);
+        CHECK(walk.stop == MESO_WALK_DONE);
+        meso_tip_position(mesh, &walk.tip, to);
+        mean += meso_fixture_apart(from, to) / COUNT;
+        worst = fmax(worst, meso_fixture_apart(from, to));
+    }
+    printf("%7u triangles: %s: error %.1e, at most %.1e\n", mesh->triangle_count, what, mean, worst);
+    meso_arena_release(&arena);
+}
+
+static void measure_errors(uint32_t columns, uint32_t rows, uint32_t frequency)
+{
+    MesoTriangulation torus = meso_fixture_bumpy_torus(columns, rows), ball = meso_fixture_ball(frequency);
+    print_errors("there and back over 1", &torus, 1, true);
+    print_errors("great circles of a unit sphere", &ball, 2 * MESO_PI, false);
+    meso_triangulation_release(&torus);
+    meso_triangulation_release(&ball);
+}
+
 int main(int argc, char **argv)
 {
     uint32_t step_millions = argc > 1 ? (uint32_t)atoi(argv[1]) : 10;
     measure(320, 128, step_millions);
     measure(1280, 512, step_millions);
+    measure_errors(320, 128, 101);
+    measure_errors(1280, 512, 405);
     return 0;
 }

@@ -2,92 +2,27 @@
 #include "libcore/geodesic/transport/straight_walk.h"
 
 #include "libcore/geodesic/exact/exact_fixture.h"
-#include "libcore/geodesic/geodesic_fixture.h"
-
-typedef struct Scene {
-    MesoArena arena;
-    MesoTriangulation mesh;
-    MesoWalkGround ground;
-} Scene;
-
-static void open_scene(Scene *scene, MesoTriangulation mesh)
-{
-    scene->mesh = mesh;
-    meso_arena_init(&scene->arena);
-    CHECK(meso_walk_ground_build(&scene->ground, &scene->arena, &scene->mesh, NULL, 1, NULL) == MESO_OK);
-}
-
-static void close_scene(Scene *scene)
-{
-    meso_arena_release(&scene->arena);
-    meso_triangulation_release(&scene->mesh);
-}
-
-static double uniform(MesoRandom *random)
-{
-    return (double)(meso_random_next(random) >> 11) / 9007199254740992.0;
-}
-
-static MesoTip random_tip(const Scene *scene, MesoRandom *random)
-{
-    double angle = 2 * MESO_PI * uniform(random), a = uniform(random), b = uniform(random);
-    if (a + b > 1) {
-        a = 1 - a;
-        b = 1 - b;
-    }
-    return (MesoTip){meso_random_below(random, scene->ground.triangle_count), false, {1 - a - b, a, b},
-                     {cos(angle), sin(angle)}};
-}
-
-static MesoWalk walked(const Scene *scene, MesoTip tip, double length, const MesoWalkOptions *options)
-{
-    MesoWalk walk = {.tip = tip, .length = length};
-    meso_walks(&scene->ground, &walk, 1, options);
-    double sum = walk.tip.weight[0] + walk.tip.weight[1] + walk.tip.weight[2];
-    CHECK(fabs(sum - 1) < 1e-14);
-    for (uint32_t k = 0; k < 3; k++)
-        CHECK(walk.tip.weight[k] >= 0 && walk.tip.weight[k] <= 1);
-    CHECK(fabs(hypot(walk.tip.heading.re, walk.tip.heading.im) - 1) < 1e-14);
-    CHECK(walk.length >= 0 && walk.length <= length && (walk.length == 0 || walk.stop != MESO_WALK_DONE));
-    return walk;
-}
-
-static void place(const Scene *scene, const MesoTip *tip, double position[3], double heading[3])
-{
-    meso_tip_position(&scene->mesh, tip, position);
-    meso_walk_direction(&scene->mesh, tip->triangle, tip->heading, heading);
-}
-
-static double apart(const double a[3], const double b[3])
-{
-    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-static MesoTip reversed(MesoTip tip)
-{
-    tip.heading = (MesoComplex){-tip.heading.re, -tip.heading.im};
-    return tip;
-}
+#include "libcore/geodesic/transport/walk_fixture.h"
 
 /* ---- formulas ---- */
 
 /* A sheet from 0 to 9 and to 7: straight in the plane, as far as the border. */
 static void test_sheet(void)
 {
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
     uint32_t counts[3] = {0, 0, 0};
-    open_scene(&scene, meso_fixture_sheet(9, 7, 1));
+    meso_walk_scene_init(&scene, meso_fixture_sheet(9, 7, 1));
     meso_random_init(&random, 1, 0);
     for (uint32_t i = 0; i < 2000; i++) {
-        MesoTip tip = random_tip(&scene, &random);
-        double from[3], along[3], to[3], heading[3], length = 8 * uniform(&random);
-        place(&scene, &tip, from, along);
-        MesoWalk walk = walked(&scene, tip, length, NULL);
-        place(&scene, &walk.tip, to, heading);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
+        double from[3], along[3], to[3], heading[3], length = 8 * meso_fixture_uniform(&random);
+        meso_fixture_place(&scene.mesh, &tip, from, along);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, length, NULL);
+        meso_fixture_place(&scene.mesh, &walk.tip, to, heading);
         double way = length - walk.length;
         CHECK(fabs(to[0] - from[0] - way * along[0]) < 1e-13 && fabs(to[1] - from[1] - way * along[1]) < 1e-13);
-        CHECK(apart(along, heading) < 1e-14);
+        CHECK(meso_fixture_apart(along, heading) < 1e-14);
         bool inside = from[0] + length * along[0] > 0 && from[0] + length * along[0] < 9 &&
                       from[1] + length * along[1] > 0 && from[1] + length * along[1] < 7;
         CHECK(inside == (walk.stop == MESO_WALK_DONE));
@@ -95,20 +30,20 @@ static void test_sheet(void)
         counts[walk.stop]++;
         /* from the border it leads nowhere, and back */
         if (!inside)
-            CHECK(walked(&scene, walk.tip, 1, NULL).length > 1 - 1e-13);
-        MesoWalk back = walked(&scene, reversed(walk.tip), way, NULL);
+            CHECK(meso_fixture_walk(&scene.ground, walk.tip, 1, NULL).length > 1 - 1e-13);
+        MesoWalk back = meso_fixture_walk(&scene.ground, meso_fixture_back(walk.tip), way, NULL);
         meso_tip_position(&scene.mesh, &back.tip, to);
-        CHECK(apart(from, to) < 1e-12);
+        CHECK(meso_fixture_apart(from, to) < 1e-12);
     }
     CHECK(counts[MESO_WALK_DONE] > 500 && counts[MESO_WALK_BORDER] > 500 && counts[MESO_WALK_LIMIT] == 0);
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* Along the sides of a sheet and through its vertices, from corners and sides, whichever triangle is asked. */
 static void test_exact_places(void)
 {
-    Scene scene;
-    open_scene(&scene, meso_fixture_sheet(8, 8, 1));
+    MesoWalkScene scene;
+    meso_walk_scene_init(&scene, meso_fixture_sheet(8, 8, 1));
     for (uint32_t t = 0; t < scene.mesh.triangle_count; t++)
         for (uint32_t k = 0; k < 6; k++)
             for (uint32_t turn = 0; turn < 8; turn++) {
@@ -118,59 +53,59 @@ static void test_exact_places(void)
                 tip.weight[(k + 1) % 3] = k < 3 ? 0 : 0.5;
                 CHECK(meso_tip_head(&tip, &scene.mesh, along));
                 meso_tip_position(&scene.mesh, &tip, from);
-                MesoWalk walk = walked(&scene, tip, 2, NULL);
+                MesoWalk walk = meso_fixture_walk(&scene.ground, tip, 2, NULL);
                 meso_tip_position(&scene.mesh, &walk.tip, to);
                 for (uint32_t i = 0; i < 3; i++)
                     from[i] += (2 - walk.length) * along[i];
-                CHECK(apart(from, to) < 1e-14);
+                CHECK(meso_fixture_apart(from, to) < 1e-14);
                 bool near_border = fmin(fmin(to[0], 8 - to[0]), fmin(to[1], 8 - to[1])) < 1e-14;
                 CHECK(walk.stop == MESO_WALK_DONE ? walk.length == 0 : near_border);
             }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* A prism of n sides around z: helices. */
 static void test_tube(void)
 {
     enum { SIDES = 17 };
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
-    open_scene(&scene, meso_fixture_tube(SIDES, 40, 40));
+    meso_walk_scene_init(&scene, meso_fixture_tube(SIDES, 40, 40));
     meso_random_init(&random, 2, 0);
     double side = 2 * sin(MESO_PI / SIDES);
     for (uint32_t i = 0; i < 500; i++) {
-        MesoTip tip = random_tip(&scene, &random);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         double from[3], along[3], to[3];
         meso_tip_position(&scene.mesh, &tip, from);
         from[2] = fmod(from[2], 40);
-        double slope = 1.2 * (uniform(&random) - 0.5);
+        double slope = 1.2 * (meso_fixture_uniform(&random) - 0.5);
         uint32_t column = tip.triangle / 2 % SIDES;
         double middle = 2 * MESO_PI * (column + 0.5) / SIDES;
         double towards[3] = {-sin(middle) * cos(slope), cos(middle) * cos(slope), sin(slope)};
         CHECK(meso_tip_head(&tip, &scene.mesh, towards));
         /* three times around brings it back, as high as the slope says */
         double length = 3 * SIDES * side / cos(slope);
-        MesoWalk walk = walked(&scene, tip, length, NULL);
-        place(&scene, &walk.tip, to, along);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, length, NULL);
+        meso_fixture_place(&scene.mesh, &walk.tip, to, along);
         double rise = (length - walk.length) * sin(slope);
         CHECK(fabs(to[2] - from[2] - rise) < 1e-5);
         if (walk.stop == MESO_WALK_DONE) {
             CHECK(fabs(to[0] - from[0]) < 1e-5 && fabs(to[1] - from[1]) < 1e-5);
-            CHECK(apart(along, towards) < 1e-5);
+            CHECK(meso_fixture_apart(along, towards) < 1e-5);
         } else {
             CHECK(to[2] < 1e-5 || to[2] > 40 - 1e-5);
         }
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* A sheet whose borders are glued into a flat torus: lines of rational slope close, and the same for a Klein bottle. */
 static void test_glued(void)
 {
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
     enum { N = 6 };
-    open_scene(&scene, meso_fixture_sheet(N, N, 1));
+    meso_walk_scene_init(&scene, meso_fixture_sheet(N, N, 1));
     for (uint32_t i = 0; i < N; i++) {
         /* of a square the first triangle has the low and the right side, the second the left and the high one */
         uint32_t low = 3 * (2 * i), high = 3 * (2 * (N * (N - 1) + i) + 1) + 1;
@@ -182,97 +117,83 @@ static void test_glued(void)
     }
     meso_random_init(&random, 3, 0);
     for (uint32_t i = 0; i < 500; i++) {
-        MesoTip tip = random_tip(&scene, &random);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         double from[3], to[3], heading[3];
         int p = (int)meso_random_below(&random, 9) - 4, q = (int)meso_random_below(&random, 9) - 4;
         double towards[3] = {p, q, 0}, length = N * hypot(p, q);
         if (!meso_tip_head(&tip, &scene.mesh, towards))
             continue;
         meso_tip_position(&scene.mesh, &tip, from);
-        MesoWalk walk = walked(&scene, tip, length, NULL);
-        place(&scene, &walk.tip, to, heading);
-        CHECK(walk.stop == MESO_WALK_DONE && apart(from, to) < 1e-12);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, length, NULL);
+        meso_fixture_place(&scene.mesh, &walk.tip, to, heading);
+        CHECK(walk.stop == MESO_WALK_DONE && meso_fixture_apart(from, to) < 1e-12);
         CHECK(fabs(heading[0] * q - heading[1] * p) < 1e-12 && heading[0] * p + heading[1] * q > 0);
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* Great circles come back as nearly as the polyhedron is a sphere. */
 static void test_ball(void)
 {
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
     double mean = 0;
-    open_scene(&scene, meso_fixture_ball(100));
+    meso_walk_scene_init(&scene, meso_fixture_ball(100));
     meso_random_init(&random, 4, 0);
     for (uint32_t i = 0; i < 200; i++) {
-        MesoTip tip = random_tip(&scene, &random);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         double from[3], to[3];
         meso_tip_position(&scene.mesh, &tip, from);
-        MesoWalk walk = walked(&scene, tip, 2 * MESO_PI, NULL);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, 2 * MESO_PI, NULL);
         meso_tip_position(&scene.mesh, &walk.tip, to);
-        CHECK(walk.stop == MESO_WALK_DONE && apart(from, to) < 0.02);
-        mean += apart(from, to) / 200;
+        CHECK(walk.stop == MESO_WALK_DONE && meso_fixture_apart(from, to) < 0.02);
+        mean += meso_fixture_apart(from, to) / 200;
     }
     CHECK(mean < 0.004);
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* ---- conserved ---- */
 
-static MesoTriangulation bumpy_torus(uint32_t columns, uint32_t rows)
-{
-    MesoTriangulation mesh = meso_fixture_torus(columns, rows, 0.4f);
-    MesoRandom random;
-    meso_random_init(&random, 5, 0);
-    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
-        MesoVec3 *p = &mesh.positions[v];
-        float bump = 1 + 0.05f * sinf(11 * p->x) * cosf(13 * p->y) * sinf(9 * p->z);
-        for (float *x = &p->x; x <= &p->z; x++)
-            *x = *x * bump + 1.2f / (float)columns * meso_fixture_signed(&random);
-    }
-    return mesh;
-}
-
 static void test_there_and_back(void)
 {
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
-    open_scene(&scene, bumpy_torus(320, 128));
+    meso_walk_scene_init(&scene, meso_fixture_bumpy_torus(320, 128));
     meso_random_init(&random, 6, 0);
     for (uint32_t i = 0; i < 3000; i++) {
-        MesoTip tip = random_tip(&scene, &random);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         double from[3], along[3], to[3], heading[3];
-        place(&scene, &tip, from, along);
-        MesoWalk there = walked(&scene, tip, 1, NULL);
-        MesoWalk back = walked(&scene, reversed(there.tip), 1, NULL);
-        MesoTip end = reversed(back.tip);
-        place(&scene, &end, to, heading);
-        CHECK(apart(from, to) < 1e-11 && apart(along, heading) < 1e-10);
+        meso_fixture_place(&scene.mesh, &tip, from, along);
+        MesoWalk there = meso_fixture_walk(&scene.ground, tip, 1, NULL);
+        MesoWalk back = meso_fixture_walk(&scene.ground, meso_fixture_back(there.tip), 1, NULL);
+        MesoTip end = meso_fixture_back(back.tip);
+        meso_fixture_place(&scene.mesh, &end, to, heading);
+        CHECK(meso_fixture_apart(from, to) < 1e-11 && meso_fixture_apart(along, heading) < 1e-10);
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* In twenty steps as in one, in company as alone. */
 static void test_steps(void)
 {
     enum { COUNT = 300 };
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
     MesoWalk together[COUNT], alone[COUNT];
-    open_scene(&scene, bumpy_torus(100, 40));
+    meso_walk_scene_init(&scene, meso_fixture_bumpy_torus(100, 40));
     meso_random_init(&random, 7, 0);
     for (uint32_t i = 0; i < COUNT; i++) {
-        MesoTip tip = random_tip(&scene, &random);
-        together[i] = (MesoWalk){.tip = tip, .length = 3 * uniform(&random)};
-        alone[i] = walked(&scene, tip, together[i].length, NULL);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
+        together[i] = (MesoWalk){.tip = tip, .length = 3 * meso_fixture_uniform(&random)};
+        alone[i] = meso_fixture_walk(&scene.ground, tip, together[i].length, NULL);
         MesoTip step = tip;
         double a[3], b[3], along[3], heading[3];
         for (uint32_t k = 0; k < 20; k++)
-            step = walked(&scene, step, together[i].length / 20, NULL).tip;
-        place(&scene, &step, a, along);
-        place(&scene, &alone[i].tip, b, heading);
-        CHECK(apart(a, b) < 1e-11 && apart(along, heading) < 1e-9);
+            step = meso_fixture_walk(&scene.ground, step, together[i].length / 20, NULL).tip;
+        meso_fixture_place(&scene.mesh, &step, a, along);
+        meso_fixture_place(&scene.mesh, &alone[i].tip, b, heading);
+        CHECK(meso_fixture_apart(a, b) < 1e-11 && meso_fixture_apart(along, heading) < 1e-9);
     }
     meso_walks(&scene.ground, together, COUNT, NULL);
     for (uint32_t i = 0; i < COUNT; i++) {
@@ -280,13 +201,13 @@ static void test_steps(void)
         CHECK(memcmp(together[i].tip.weight, alone[i].tip.weight, sizeof alone[i].tip.weight) == 0);
         CHECK(memcmp(&together[i].tip.heading, &alone[i].tip.heading, sizeof alone[i].tip.heading) == 0);
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* ---- pieces ---- */
 
 typedef struct Trail {
-    const Scene *scene;
+    const MesoWalkScene *scene;
     MesoWalkPiece last;
     MesoComplex carried;    /* the first heading, carried across each side */
     double length;
@@ -319,7 +240,7 @@ static void check_piece(void *context, const MesoWalkPiece *piece)
             tip.weight[next] = share;
             meso_tip_position(&trail->scene->mesh, &tip, ends[k]);
         }
-        CHECK(apart(ends[0], ends[1]) < 1e-13);
+        CHECK(meso_fixture_apart(ends[0], ends[1]) < 1e-13);
     }
     MesoComplex way = {piece->ends[1].re - piece->ends[0].re, piece->ends[1].im - piece->ends[0].im};
     trail->length += hypot(way.re, way.im);
@@ -329,15 +250,15 @@ static void check_piece(void *context, const MesoWalkPiece *piece)
 
 static void check_pieces(MesoTriangulation mesh, uint64_t seed)
 {
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
-    open_scene(&scene, mesh);
+    meso_walk_scene_init(&scene, mesh);
     meso_random_init(&random, seed, 0);
     for (uint32_t i = 0; i < 500; i++) {
-        MesoTip tip = random_tip(&scene, &random);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         Trail trail = {.scene = &scene, .carried = tip.heading};
         MesoWalkOptions options = {.piece = check_piece, .context = &trail};
-        MesoWalk walk = walked(&scene, tip, 2, &options), untold = walked(&scene, tip, 2, NULL);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, 2, &options), untold = meso_fixture_walk(&scene.ground, tip, 2, NULL);
         CHECK(memcmp(&walk.tip.weight, &untold.tip.weight, sizeof walk.tip.weight) == 0);
         CHECK(trail.count == walk.crossings + 1 && trail.last.triangle == walk.tip.triangle);
         CHECK(trail.last.turned == walk.tip.turned);
@@ -349,30 +270,18 @@ static void check_pieces(MesoTriangulation mesh, uint64_t seed)
         double sign = walk.tip.turned ? -1 : 1;
         CHECK(hypot(there.re + sign * walk.tip.heading.im, there.im - sign * walk.tip.heading.re) < 1e-14);
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* ---- bands that are wound against themselves ---- */
-
-static MesoVec3 on_band(const MesoFixtureSquares *squares, uint32_t column, uint32_t row)
-{
-    double a = 2 * MESO_PI * column / squares->columns, w = 0.6 * ((double)row / squares->rows - 0.5);
-    double r = 1 + w * cos(a / 2);
-    return (MesoVec3){(float)(r * cos(a)), (float)(r * sin(a)), (float)(w * sin(a / 2))};
-}
-
-static MesoTriangulation moebius(void)
-{
-    return meso_fixture_squares(&(MesoFixtureSquares){60, 8, MESO_SEAM_TWISTED, false, {0, 0}, on_band});
-}
 
 /* A band of flat squares, glued upside down: once around it is turned, on the other side; twice, as it was. */
 static void test_band(void)
 {
     enum { COLUMNS = 10, ROWS = 4 };
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
-    open_scene(&scene, meso_fixture_sheet(COLUMNS, ROWS, 1));
+    meso_walk_scene_init(&scene, meso_fixture_sheet(COLUMNS, ROWS, 1));
     for (uint32_t r = 0; r < ROWS; r++) {
         uint32_t left = 3 * (2 * COLUMNS * r + 1) + 2, right = 3 * (2 * (COLUMNS * (ROWS - r) - 1)) + 1;
         scene.ground.faces[left / 3].twins[left % 3] = right;
@@ -382,29 +291,29 @@ static void test_band(void)
     }
     meso_random_init(&random, 8, 0);
     for (uint32_t i = 0; i < 300; i++) {
-        MesoTip tip = random_tip(&scene, &random);
-        double slope = 0.1 * (uniform(&random) - 0.5), towards[3] = {cos(slope), sin(slope), 0}, from[3], to[3], along[3];
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
+        double slope = 0.1 * (meso_fixture_uniform(&random) - 0.5), towards[3] = {cos(slope), sin(slope), 0}, from[3], to[3], along[3];
         CHECK(meso_tip_head(&tip, &scene.mesh, towards));
         meso_tip_position(&scene.mesh, &tip, from);
-        MesoWalk walk = walked(&scene, tip, COLUMNS / cos(slope), NULL);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, COLUMNS / cos(slope), NULL);
         if (walk.stop != MESO_WALK_DONE)
             continue;
-        place(&scene, &walk.tip, to, along);
+        meso_fixture_place(&scene.mesh, &walk.tip, to, along);
         CHECK(walk.tip.turned && fabs(to[0] - from[0]) < 1e-12);
         CHECK(fabs(to[1] - (ROWS - from[1] - COLUMNS * tan(slope))) < 1e-12);
         CHECK(fabs(along[0] - cos(slope)) < 1e-12 && fabs(along[1] + sin(slope)) < 1e-12);
         /* left is where it was to the walk, which is right to who looks from outside */
         meso_tip_turn(&walk.tip, 0.5);
-        place(&scene, &walk.tip, to, along);
+        meso_fixture_place(&scene.mesh, &walk.tip, to, along);
         CHECK(fabs(along[1] + sin(slope + 0.5)) < 1e-12);
         meso_tip_turn(&walk.tip, -0.5);
-        MesoWalk again = walked(&scene, walk.tip, COLUMNS / cos(slope), NULL);
+        MesoWalk again = meso_fixture_walk(&scene.ground, walk.tip, COLUMNS / cos(slope), NULL);
         if (again.stop != MESO_WALK_DONE)
             continue;
-        place(&scene, &again.tip, to, along);
+        meso_fixture_place(&scene.mesh, &again.tip, to, along);
         CHECK(!again.tip.turned && fabs(to[1] - (from[1] + 2 * COLUMNS * tan(slope))) < 1e-12);
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* ---- parts ---- */
@@ -412,7 +321,7 @@ static void test_band(void)
 /* Walks in a part of a mesh end where it does. */
 static void test_domain(void)
 {
-    Scene scene;
+    MesoWalkScene scene;
     MesoRandom random;
     const uint8_t member[2] = {0, 1};
     MesoDomain domain = {.member = member, .triangle_count = 0};
@@ -421,22 +330,22 @@ static void test_domain(void)
     CHECK(meso_walk_ground_build(&scene.ground, &scene.arena, &scene.mesh, &domain, 2, NULL) == MESO_OK);
     meso_random_init(&random, 9, 0);
     for (uint32_t i = 0; i < 500; i++) {
-        MesoTip tip = random_tip(&scene, &random);
+        MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         if (!scene.mesh.labels[tip.triangle])
             continue;
-        MesoWalk walk = walked(&scene, tip, 20, NULL);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, 20, NULL);
         double p[3];
         meso_tip_position(&scene.mesh, &walk.tip, p);
         CHECK(walk.stop == MESO_WALK_BORDER && scene.mesh.labels[walk.tip.triangle]);
         CHECK(p[1] < 3 + 1e-12 || p[0] < 3 + 1e-12 || p[0] > 6 - 1e-12);
     }
-    close_scene(&scene);
+    meso_walk_scene_release(&scene);
 }
 
 /* ---- meshes that are none ---- */
 
 /* Vertices in few places, on a line, or far apart; sides joined at random, twisted or not. */
-static void break_mesh(Scene *scene, MesoRandom *random)
+static void break_mesh(MesoWalkScene *scene, MesoRandom *random)
 {
     uint32_t kind = meso_random_below(random, 5);
     for (uint32_t v = 0; v < scene->mesh.vertex_count; v++)
@@ -461,14 +370,14 @@ static void test_broken(uint32_t count)
     meso_random_init(&random, 10, 0);
     MesoTriangulation sheet = meso_fixture_torus(4, 3, 0.4f);
     for (uint32_t i = 0; i < count; i++) {
-        Scene scene = {.mesh = sheet};
+        MesoWalkScene scene = {.mesh = sheet};
         meso_arena_init(&scene.arena);
         break_mesh(&scene, &random);
         for (uint32_t k = 0; k < 8; k++) {
-            MesoTip tip = random_tip(&scene, &random);
-            double length = pow(10, 6 * uniform(&random) - 3);
+            MesoTip tip = meso_fixture_tip(&scene.ground, &random);
+            double length = pow(10, 6 * meso_fixture_uniform(&random) - 3);
             MesoWalkOptions options = {.crossing_limit = 2000};
-            MesoWalk walk = walked(&scene, tip, length, &options);
+            MesoWalk walk = meso_fixture_walk(&scene.ground, tip, length, &options);
             CHECK(walk.tip.triangle < scene.ground.triangle_count && walk.crossings <= 2000);
         }
         meso_arena_release(&scene.arena);
@@ -485,9 +394,9 @@ int main(void)
     test_ball();
     test_there_and_back();
     test_steps();
-    check_pieces(bumpy_torus(100, 40), 11);
+    check_pieces(meso_fixture_bumpy_torus(100, 40), 11);
     check_pieces(meso_fixture_sheet(5, 5, 0.7f), 12);
-    check_pieces(moebius(), 13);
+    check_pieces(meso_fixture_moebius(), 13);
     test_band();
     test_domain();
     test_broken(10000);
