@@ -73,8 +73,8 @@ static inline void meso_tip_turn(MesoTip *tip, double angle)
 }
 
 /*
- * What a direction at the tip `from`, in the frame of its triangle, has become after straight walks to `to`, whatever
- * turns were made in between by no more than walking: it keeps its angle to the heading.
+ * What a direction at the tip `from`, in the frame of its triangle, has become at `to`, to where the tip has walked
+ * without a turn, over sides and vertices: it keeps its angle to the heading.
  */
 static inline MesoComplex meso_tip_transport(const MesoTip *from, const MesoTip *to, MesoComplex direction)
 {

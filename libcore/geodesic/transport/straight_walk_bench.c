@@ -104,9 +104,9 @@ static void print_errors(const char *what, const MesoTriangulation *mesh, double
     meso_arena_release(&arena);
 }
 
-static void measure_errors(uint32_t columns, uint32_t rows, uint32_t frequency)
+static void measure_errors(uint32_t columns, uint32_t rows, uint32_t divisions)
 {
-    MesoTriangulation torus = meso_fixture_bumpy_torus(columns, rows), ball = meso_fixture_ball(frequency);
+    MesoTriangulation torus = meso_fixture_bumpy_torus(columns, rows), ball = meso_fixture_sphere(divisions, 0, 0);
     print_errors("there and back over 1", &torus, 1, true);
     print_errors("great circles of a unit sphere", &ball, 2 * MESO_PI, false);
     meso_triangulation_release(&torus);
@@ -118,7 +118,7 @@ int main(int argc, char **argv)
     uint32_t step_millions = argc > 1 ? (uint32_t)atoi(argv[1]) : 10;
     measure(320, 128, step_millions);
     measure(1280, 512, step_millions);
-    measure_errors(320, 128, 101);
-    measure_errors(1280, 512, 405);
+    measure_errors(320, 128, 64);
+    measure_errors(1280, 512, 256);
     return 0;
 }

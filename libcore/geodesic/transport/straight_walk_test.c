@@ -316,7 +316,37 @@ static void test_band(void)
     meso_walk_scene_release(&scene);
 }
 
-/* ---- parts ---- */
+/* ---- grounds ---- */
+
+/* The same record for any number of threads; frames are those of direction fields, whichever side is longest. */
+static void test_ground(void)
+{
+    MesoWalkScene scene;
+    meso_walk_scene_init(&scene, meso_fixture_bumpy_torus(100, 60));
+    for (uint32_t threads = 2; threads <= 7; threads += 5) {
+        MesoWalkGround other;
+        CHECK(meso_walk_ground_build(&other, &scene.arena, &scene.mesh, NULL, threads, NULL) == MESO_OK);
+        CHECK(memcmp(other.faces, scene.ground.faces, scene.mesh.triangle_count * sizeof *other.faces) == 0);
+        CHECK(memcmp(other.lengths, scene.ground.lengths, scene.mesh.triangle_count * sizeof *other.lengths) == 0);
+    }
+    for (uint32_t h = 0; h < 3 * scene.mesh.triangle_count; h++) {
+        MesoComplex along = meso_walk_side(&scene.ground.faces[h / 3], h % 3);
+        double out[3], a[3], b[3];
+        MesoTip tip = {.triangle = h / 3};
+        meso_walk_direction(&scene.mesh, h / 3, along, out);
+        tip.weight[h % 3] = 1;
+        meso_tip_position(&scene.mesh, &tip, a);
+        tip.weight[h % 3] = 0;
+        tip.weight[meso_next_side(h % 3)] = 1;
+        meso_tip_position(&scene.mesh, &tip, b);
+        double length = meso_fixture_apart(a, b);
+        for (uint32_t i = 0; i < 3; i++)
+            a[i] += length * out[i];
+        CHECK(meso_fixture_apart(a, b) < 1e-13);
+        CHECK(length <= scene.ground.lengths[h / 3] * (1 + 1e-14));
+    }
+    meso_walk_scene_release(&scene);
+}
 
 /* Walks in a part of a mesh end where it does. */
 static void test_domain(void)
@@ -398,6 +428,7 @@ int main(void)
     check_pieces(meso_fixture_sheet(5, 5, 0.7f), 12);
     check_pieces(meso_fixture_moebius(), 13);
     test_band();
+    test_ground();
     test_domain();
     test_broken(10000);
     return 0;

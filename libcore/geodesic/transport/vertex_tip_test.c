@@ -170,6 +170,42 @@ static void test_octant(void)
     meso_walk_scene_release(&scene);
 }
 
+/* Vertices in the same place, on lines, or far apart: no tip, or one that can be walked with. */
+static void test_broken(uint32_t count)
+{
+    MesoTriangulation mesh = meso_fixture_torus(4, 3, 0.4f);
+    MesoRandom random;
+    uint32_t tips = 0, none = 0;
+    meso_random_init(&random, 4, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        MesoWalkScene scene = {.mesh = mesh};
+        meso_arena_init(&scene.arena);
+        for (uint32_t v = 0; v < mesh.vertex_count; v++)
+            for (uint32_t k = 0; k < 3; k++) {
+                float x = meso_fixture_signed(&random);
+                const float values[3] = {roundf(x), k ? 0 : roundf(2 * x), x * powf(10, 30 * x)};
+                (&mesh.positions[v].x)[k] = values[i % 3];
+            }
+        CHECK(meso_walk_ground_build(&scene.ground, &scene.arena, &mesh, NULL, 1, NULL) == MESO_OK);
+        for (uint32_t c = 0; c < 3 * mesh.triangle_count; c += 7) {
+            MesoTip tip;
+            if (!meso_vertex_tip(&scene.ground, c, 9 * meso_fixture_signed(&random), &tip)) {
+                none++;
+                continue;
+            }
+            MesoWalkOptions options = {.crossing_limit = 1000};
+            CHECK(mesh.corners[corner_of(&tip)] == mesh.corners[c]);
+            meso_fixture_walk(&scene.ground, tip, 1, &options);
+            tips++;
+            meso_tip_pass_vertex(&scene.ground, &tip, corner_of(&tip) % 3);
+            meso_fixture_walk(&scene.ground, tip, 1, &options);
+        }
+        meso_arena_release(&scene.arena);
+    }
+    CHECK(tips > count && none > 0);
+    meso_triangulation_release(&mesh);
+}
+
 int main(void)
 {
     test_pyramids();
@@ -180,5 +216,6 @@ int main(void)
     check_defects(meso_fixture_bumpy_torus(60, 24), 0);
     check_defects(meso_fixture_ball(12), 2);
     test_octant();
+    test_broken(1000);
     return 0;
 }
