@@ -64,6 +64,23 @@ static void test_exact_places(void)
     meso_walk_scene_release(&scene);
 }
 
+/* Along a border, where no rounding comes in, as far as its end. */
+static void test_border(void)
+{
+    const MesoVec3 positions[3] = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}};
+    const uint32_t corners[3] = {0, 1, 2};
+    MesoWalkScene scene;
+    meso_walk_scene_init(&scene, meso_fixture_triangulation(positions, 3, corners, 1));
+    for (int way = -1; way <= 1; way += 2) {
+        MesoTip tip = {0, false, {0.5, 0.5, 0}, {way, 0}};
+        MesoWalk part = meso_fixture_walk(&scene.ground, tip, 1, NULL);
+        CHECK(part.stop == MESO_WALK_DONE && part.tip.weight[way < 0 ? 0 : 1] == 0.75);
+        MesoWalk all = meso_fixture_walk(&scene.ground, tip, 9, NULL);
+        CHECK(all.stop == MESO_WALK_BORDER && all.tip.weight[way < 0 ? 0 : 1] == 1 && all.length == 7);
+    }
+    meso_walk_scene_release(&scene);
+}
+
 /* A prism of n sides around z: helices. */
 static void test_tube(void)
 {
@@ -419,6 +436,7 @@ int main(void)
 {
     test_sheet();
     test_exact_places();
+    test_border();
     test_tube();
     test_glued();
     test_ball();

@@ -104,6 +104,32 @@ static void test_sheet(void)
     meso_walk_scene_release(&scene);
 }
 
+/* Whether the triangle of `there` is wound against that of `here`, another corner at the vertex. */
+static bool is_turned(const MesoTriangulation *mesh, uint32_t here, uint32_t there)
+{
+    for (int way = 0; way < 2; way++) {
+        MesoFan fan = {here, way == 1};
+        do {
+            if (fan.corner == there)
+                return fan.turned != (way == 1);
+        } while (meso_fan_next(mesh, &fan) && fan.corner != here);
+    }
+    CHECK(false);
+    return false;
+}
+
+static void check_passing(const MesoWalkScene *scene, MesoTip tip)
+{
+    MesoTip on = meso_fixture_back(tip), turned = on;
+    uint32_t before = corner_of(&tip);
+    on.turned = false;
+    turned.turned = true;
+    bool passes = meso_tip_pass_vertex(&scene->ground, &on, before % 3);
+    CHECK(meso_tip_pass_vertex(&scene->ground, &turned, before % 3) == passes);
+    CHECK(!passes || on.turned == is_turned(&scene->mesh, before, corner_of(&on)));
+    CHECK(!passes || turned.turned == !on.turned);
+}
+
 /* The same tip from whichever corner it is asked, all around every vertex. */
 static void check_corners(MesoTriangulation mesh)
 {
@@ -111,15 +137,16 @@ static void check_corners(MesoTriangulation mesh)
     MesoRandom random;
     meso_walk_scene_init(&scene, mesh);
     meso_random_init(&random, 2, 0);
-    for (uint32_t v = 0; v < scene.mesh.vertex_count; v++) {
-        uint32_t corner = scene.mesh.vertex_corner[v];
+    for (uint32_t corner = 0; corner < 3 * scene.mesh.triangle_count; corner++) {
         MesoTip tip, same;
-        if (!meso_vertex_tip(&scene.ground, corner, 6 * meso_fixture_uniform(&random), &tip))
+        if (!meso_vertex_tip(&scene.ground, corner, 12 * meso_fixture_uniform(&random) - 6, &tip))
             continue;
         uint32_t there = corner_of(&tip);
-        CHECK(scene.mesh.corners[there] == v);
+        CHECK(scene.mesh.corners[there] == scene.mesh.corners[corner]);
+        CHECK(tip.turned == is_turned(&scene.mesh, corner, there));
         CHECK(meso_vertex_tip(&scene.ground, there, meso_vertex_angle(&scene.ground, there, tip.heading), &same));
         CHECK(corner_of(&same) == there && !same.turned && heading_gap(&same, &tip) < 1e-12);
+        check_passing(&scene, tip);
         /* it leads into its triangle */
         CHECK(meso_fixture_walk(&scene.ground, tip, 1e-6, NULL).crossings == 0);
     }
