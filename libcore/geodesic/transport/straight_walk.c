@@ -35,8 +35,8 @@ static bool is_nearer(MesoComplex a, MesoComplex b)
 
 /*
  * The side that the line of the walk enters the triangle by: from a corner on its left to one on its right. Where
- * rounding, a line along a side, or a heading out of the triangle puts all on one side, the nearest one counts as on the
- * other.
+ * rounding, a line along a side, or a heading out of the triangle puts all on one side, the nearest one counts as on
+ * the other.
  */
 static uint32_t entry_side(const MesoComplex corners[3])
 {

@@ -46,7 +46,7 @@ typedef struct MesoWalkPiece {
 } MesoWalkPiece;
 
 typedef struct MesoWalkOptions {
-    uint32_t crossing_limit;    /* of a walk; 0: MESO_WALK_CROSSINGS. Only meshes without area let walks stand still */
+    uint32_t crossing_limit;    /* of a walk; 0: MESO_WALK_CROSSINGS; where a mesh has no area, walks may stand still */
     void (*piece)(void *context, const MesoWalkPiece *piece);   /* NULL: pieces are not told */
     void *context;
 } MesoWalkOptions;
@@ -91,7 +91,7 @@ void meso_tip_position(const MesoTriangulation *mesh, const MesoTip *tip, double
 /* A direction in the frame of a triangle, of the length that it has there. O(1). */
 void meso_walk_direction(const MesoTriangulation *mesh, uint32_t triangle, MesoComplex direction, double out[3]);
 
-/* Heads along the part of a vector that lies in the triangle's plane; false, and stays as it is, where there is none. */
+/* Heads along the part of a vector that lies in the triangle's plane; false, and stays, where there is none. */
 bool meso_tip_head(MesoTip *tip, const MesoTriangulation *mesh, const double towards[3]);
 
 #endif

@@ -275,7 +275,8 @@ static void check_pieces(MesoTriangulation mesh, uint64_t seed)
         MesoTip tip = meso_fixture_tip(&scene.ground, &random);
         Trail trail = {.scene = &scene, .carried = tip.heading};
         MesoWalkOptions options = {.piece = check_piece, .context = &trail};
-        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, 2, &options), untold = meso_fixture_walk(&scene.ground, tip, 2, NULL);
+        MesoWalk walk = meso_fixture_walk(&scene.ground, tip, 2, &options);
+        MesoWalk untold = meso_fixture_walk(&scene.ground, tip, 2, NULL);
         CHECK(memcmp(&walk.tip.weight, &untold.tip.weight, sizeof walk.tip.weight) == 0);
         CHECK(trail.count == walk.crossings + 1 && trail.last.triangle == walk.tip.triangle);
         CHECK(trail.last.turned == walk.tip.turned);
@@ -309,7 +310,8 @@ static void test_band(void)
     meso_random_init(&random, 8, 0);
     for (uint32_t i = 0; i < 300; i++) {
         MesoTip tip = meso_fixture_tip(&scene.ground, &random);
-        double slope = 0.1 * (meso_fixture_uniform(&random) - 0.5), towards[3] = {cos(slope), sin(slope), 0}, from[3], to[3], along[3];
+        double slope = 0.1 * (meso_fixture_uniform(&random) - 0.5), towards[3] = {cos(slope), sin(slope), 0};
+        double from[3], to[3], along[3];
         CHECK(meso_tip_head(&tip, &scene.mesh, towards));
         meso_tip_position(&scene.mesh, &tip, from);
         MesoWalk walk = meso_fixture_walk(&scene.ground, tip, COLUMNS / cos(slope), NULL);
