@@ -13,21 +13,10 @@
 #include <string.h>
 
 #include "libcore/geodesic/front_kernel.h"
+#include "libcore/math/four.h"
 
-#ifdef __GNUC__
+#ifdef MESO_HAS_FOUR
 #define MESO_HAS_FRONT_STEP_FOUR 1
-
-typedef float MesoFour __attribute__((vector_size(16)));
-typedef int32_t MesoFourBits __attribute__((vector_size(16)));
-typedef uint64_t MesoFourWords __attribute__((vector_size(16)));
-
-#define MESO_FOUR static inline __attribute__((always_inline))
-
-#ifdef __clang__
-#define MESO_FOUR_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector((a), (b), i, j, k, l)
-#else
-#define MESO_FOUR_SHUFFLE(a, b, i, j, k, l) __builtin_shuffle((a), (b), (MesoFourBits){i, j, k, l})
-#endif
 
 typedef struct MesoEight {
     MesoFour low, high;
@@ -39,31 +28,6 @@ typedef struct MesoFourSides {
     MesoFour squared, l, inverse, sx, sy;
     MesoFourBits counts;        /* d(u), d(i) and l make a triangle */
 } MesoFourSides;
-
-MESO_FOUR MesoFour meso_four_all(float a)
-{
-    return (MesoFour){a, a, a, a};
-}
-
-MESO_FOUR MesoFour meso_four_choose(MesoFourBits which, MesoFour a, MesoFour b)
-{
-    return (MesoFour)((which & (MesoFourBits)a) | (~which & (MesoFourBits)b));
-}
-
-MESO_FOUR MesoFour meso_four_least(MesoFour a, MesoFour b)
-{
-    return meso_four_choose(a < b, a, b);
-}
-
-MESO_FOUR MesoFour meso_four_absolute(MesoFour a)
-{
-    return (MesoFour)((MesoFourBits)a & INT32_MAX);
-}
-
-MESO_FOUR MesoFour meso_four_root(MesoFour a)
-{
-    return (MesoFour){__builtin_sqrtf(a[0]), __builtin_sqrtf(a[1]), __builtin_sqrtf(a[2]), __builtin_sqrtf(a[3])};
-}
 
 /* Each lane has what the next has, and the last what the first has. */
 MESO_FOUR MesoEight meso_eight_next(MesoFour low, MesoFour high)
