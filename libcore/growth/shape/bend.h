@@ -1,0 +1,82 @@
+/*
+ * Bending of terminal shapes from joint to joint (Buron et al., "Dynamic On-Mesh Procedural Generation Control", 2014,
+ * figure 2): along a cubic Bezier B between two points with normals, whose inner control points lie on the tangent
+ * planes of the ends. A point (t, y, z) of a shape comes to
+ *
+ *     P = B(t) + w(t) (y L(t) + z N(t)),     T = B' / |B'|,  N = unit((1 - s) N0(t) + s N1(t)),  L = cross(N, T),
+ *
+ * where N0(t) is the first joint's normal, turned with the tangent the shortest way from there to T(t), N1(t) the
+ * second's, and s = t t (3 - 2 t): the frame does not twist at the joints, and as little as it can between. w is a cubic
+ * Bezier as B is. Normals follow the derivative of this map.
+ *
+ * The inner points of B lie at 2 c / (3 (1 + cos f)) along the tangents, for a chord c that they make the angle f
+ * with: where the paper has them, at thirds, for f = 0, and farther out than there in turns, as an arc of a circle needs;
+ * thirds projected would cut into what bulges. Arcs of 90 degrees are met to 3e-4 of their radius, of 20 to 1e-7.
+ *
+ * What shares a joint meets there in the same floats, along one tangent. So do surfaces: round sections, and any where
+ * neither flares; where a flare meets a change of curvature, tangents across differ by their product.
+ */
+#ifndef MESO_BEND_H
+#define MESO_BEND_H
+
+#include "libcore/growth/shape/terminal_shape.h"
+
+typedef struct MesoJoint {
+    MesoVec3 position;
+    MesoVec3 tangent;   /* unit length, the way that growth goes */
+    MesoVec3 normal;    /* unit length, across the tangent; away from the surface */
+    float width;        /* of the shape's sections, >= 0 */
+    float flare;        /* change of the width with the length along; 0: shapes level off here */
+} MesoJoint;
+
+/* A shape's place: two of the joints. */
+typedef struct MesoSpan {
+    uint32_t from, to;
+} MesoSpan;
+
+/*
+ * A joint over the point `position` of a surface, `lift` above it along `normal`, unit length. Its tangent halves the
+ * angle between `in`, how growth arrives, and `out`, how it goes on, both laid into the tangent plane, of any length: two
+ * headings, or the chords before and behind it. Either may be 0 where strands begin and end. Where the normal lies in the
+ * plane of both chords this is the paper's condition for G1.
+ */
+MesoJoint meso_joint(MesoVec3 position, MesoVec3 normal, MesoVec3 in, MesoVec3 out, float width, float lift);
+
+/* The joint turned about its tangent, by an angle to the right as growth sees it, in radians. */
+MesoJoint meso_joint_roll(MesoJoint joint, float angle);
+
+typedef struct MesoBendFrame {
+    MesoVec3 origin, tangent, left, normal;
+    float width;
+} MesoBendFrame;
+
+/* B, T, L, N and w at t in [0,1]. At 0 and 1 these are the joint's own. */
+MesoBendFrame meso_bend_frame(const MesoJoint *from, const MesoJoint *to, float t);
+
+/* Control points of B. */
+void meso_bend_curve(const MesoJoint *from, const MesoJoint *to, MesoVec3 p[4]);
+
+/* One shape, bent as often as there are spans. */
+typedef struct MesoBending {
+    const MesoTerminalShape *shape;
+    const MesoJoint *joints;
+    uint32_t span_count;
+    const MesoSpan *spans;              /* [span_count] */
+    MesoVec3 *positions, *normals;      /* [span_count * shape->body.vertex_count], span by span */
+    uint8_t *folds;                     /* [span_count] 1: goes through itself, as wide as its curve's radius; or NULL */
+} MesoBending;
+
+/*
+ * Fills positions, normals and folds. Widths of 0, joints in one place and opposite tangents or normals give something
+ * finite, and normals of unit length. The same bytes for any number of threads (0: all cores), and for a span with
+ * whatever others. O(vertices + rings).
+ */
+void meso_bend(const MesoBending *bending, uint32_t thread_count);
+
+/* A body for each span, to `out` [span_count], where meso_bend() puts its vertices; they share uvs, colours and corners. */
+void meso_bent_bodies(const MesoBending *bending, MesoBody *out);
+
+/* All spans as one body, with uvs, colours and corners of its own. MESO_ERR_LIMIT from 2^32 - 1 vertices on. */
+MesoStatus meso_bent_body(const MesoBending *bending, MesoArena *arena, MesoBody *out, MesoError *error);
+
+#endif
