@@ -4,11 +4,11 @@
 
 #include <string.h>
 
-#include "libcore/growth/shape/bend.h"
+#include "libcore/growth/shape/joint.h"
 #include "libcore/math/four.h"
 
-/* Squares of lengths below it have no direction. */
-#define MESO_BEND_TINY 1e-36f
+/* Lengths below it have no direction. */
+#define MESO_BEND_LEAST 1e-17f
 
 typedef struct MesoBendEnd {
     MesoFour3 tangent, normal;
@@ -36,7 +36,7 @@ MESO_FOUR MesoFour3 meso_bend_gather(const MesoVec3 *a, const MesoVec3 *b, const
 /* 1 / sqrt(square), and 0 where that is too small. */
 MESO_FOUR MesoFour meso_bend_inverse_root(MesoFour square)
 {
-    MesoFourBits has = square > MESO_BEND_TINY;
+    MesoFourBits has = square > MESO_BEND_LEAST * MESO_BEND_LEAST;
     MesoFour root = meso_four_root(meso_four_choose(has, square, meso_four_all(1)));
     return (MesoFour)((MesoFourBits)(1 / root) & has);
 }
@@ -174,7 +174,8 @@ typedef struct MesoBendRow {
     MesoBendRing ring;
     MesoFour3 left, normal;     /* times the width */
     MesoFour pitch, turn, twist;
-    MesoFour floor;             /* of what a length along becomes: where shapes fold, normals are still to be had */
+    MesoFour least;             /* that a length along becomes: where shapes fold, normals are still to be had */
+    MesoFour width;             /* not 0: so are they at points */
 } MesoBendRow;
 
 MESO_FOUR void meso_bend_row(MesoBendRow *row, const MesoBendLanes *lanes, float t)
@@ -186,7 +187,8 @@ MESO_FOUR void meso_bend_row(MesoBendRow *row, const MesoBendLanes *lanes, float
     row->pitch = width * row->ring.pitch;
     row->turn = width * row->ring.turn;
     row->twist = width * row->ring.twist;
-    row->floor = 1e-3f * row->ring.speed;
+    row->least = meso_four_most(1e-3f * row->ring.speed, meso_four_all(MESO_BEND_LEAST));
+    row->width = meso_four_most(meso_four_most(width, 1e-6f * row->ring.speed), meso_four_all(MESO_BEND_LEAST));
 }
 
 MESO_FOUR MesoFour3 meso_bend_in_frame(const MesoBendRing *ring, MesoFour along, MesoFour left, MesoFour up)
@@ -202,15 +204,10 @@ MESO_FOUR MesoFour3 meso_bend_in_frame(const MesoBendRing *ring, MesoFour along,
 MESO_FOUR MesoFour3 meso_bend_normal(const MesoBendRow *row, MesoVec3 p, MesoVec3 n, MesoFour g)
 {
     MesoFour a = row->ring.widening * p.y - row->twist * p.z, b = row->ring.widening * p.z + row->twist * p.y;
-    MesoFour along = (row->ring.width * n.x - a * n.y) - b * n.z, stretch = meso_four_most(g, row->floor);
+    MesoFour along = (row->width * n.x - a * n.y) - b * n.z, stretch = meso_four_most(g, row->least);
     MesoFour left = stretch * n.y, up = stretch * n.z;
-    MesoFour square = along * along + (left * left + up * up);
-    MesoFourBits has = square > MESO_BEND_TINY;
-    MesoFour inverse = 1 / meso_four_root(meso_four_choose(has, square, meso_four_all(1)));
-    along = meso_four_choose(has, along * inverse, meso_four_all(n.x));
-    left = meso_four_choose(has, left * inverse, meso_four_all(n.y));
-    up = meso_four_choose(has, up * inverse, meso_four_all(n.z));
-    return meso_bend_in_frame(&row->ring, along, left, up);
+    MesoFour inverse = 1 / meso_four_root(along * along + (left * left + up * up));
+    return meso_bend_in_frame(&row->ring, along * inverse, left * inverse, up * inverse);
 }
 
 /* A lane to each of the four; the bytes behind a vertex are the next's, which is written then, but for the `last`. */
