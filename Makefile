@@ -55,7 +55,8 @@ endif
 # The same bytes everywhere: no contraction, no reassociation; errno and traps are not looked at.
 FLOATS   := -ffp-contract=off -fno-math-errno -fno-trapping-math
 PACKAGES := draco libpng libxxhash jansson openmesh polyclipping zlib
-WARN     := -Wall -Wextra -Wconversion -Wshadow $(WERROR)
+# psabi: how vectors are handed over, which are only handed to what is inlined (lanes.h).
+WARN     := -Wall -Wextra -Wconversion -Wshadow -Wno-psabi $(WERROR)
 CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-only-I osmesa $(PACKAGES) 2>/dev/null)
 CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)

@@ -37,11 +37,6 @@ MESO_FOUR MesoFour meso_four_least(MesoFour a, MesoFour b)
     return meso_four_choose(a < b, a, b);
 }
 
-MESO_FOUR MesoFour meso_four_most(MesoFour a, MesoFour b)
-{
-    return meso_four_choose(a > b, a, b);
-}
-
 MESO_FOUR MesoFour meso_four_absolute(MesoFour a)
 {
     return (MesoFour)((MesoFourBits)a & INT32_MAX);
@@ -50,49 +45,6 @@ MESO_FOUR MesoFour meso_four_absolute(MesoFour a)
 MESO_FOUR MesoFour meso_four_root(MesoFour a)
 {
     return (MesoFour){__builtin_sqrtf(a[0]), __builtin_sqrtf(a[1]), __builtin_sqrtf(a[2]), __builtin_sqrtf(a[3])};
-}
-
-/* ---- four vectors ---- */
-
-typedef struct MesoFour3 {
-    MesoFour x, y, z;
-} MesoFour3;
-
-MESO_FOUR MesoFour3 meso_four3_add(MesoFour3 a, MesoFour3 b)
-{
-    return (MesoFour3){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-MESO_FOUR MesoFour3 meso_four3_sub(MesoFour3 a, MesoFour3 b)
-{
-    return (MesoFour3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-MESO_FOUR MesoFour3 meso_four3_scale(MesoFour3 a, MesoFour s)
-{
-    return (MesoFour3){a.x * s, a.y * s, a.z * s};
-}
-
-/* a + s * b */
-MESO_FOUR MesoFour3 meso_four3_mad(MesoFour3 a, MesoFour s, MesoFour3 b)
-{
-    return (MesoFour3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-MESO_FOUR MesoFour meso_four3_dot(MesoFour3 a, MesoFour3 b)
-{
-    return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-
-MESO_FOUR MesoFour3 meso_four3_cross(MesoFour3 a, MesoFour3 b)
-{
-    return (MesoFour3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-MESO_FOUR MesoFour3 meso_four3_choose(MesoFourBits which, MesoFour3 a, MesoFour3 b)
-{
-    return (MesoFour3){meso_four_choose(which, a.x, b.x), meso_four_choose(which, a.y, b.y),
-                       meso_four_choose(which, a.z, b.z)};
 }
 
 #endif

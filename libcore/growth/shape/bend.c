@@ -3,18 +3,22 @@
 #include "libcore/base/parallel.h"
 #include "libcore/growth/shape/bend_kernel.h"
 
-/* Spans that a thread takes at once; a multiple of four. */
+/* Spans that a thread takes at once; a multiple of the lanes. */
 enum { GRAIN = 1024 };
 
-static MesoVec3 first_of(MesoFour3 a)
+static MesoVec3 first_of(MesoLanes3 a)
 {
     return (MesoVec3){a.x[0], a.y[0], a.z[0]};
 }
 
 static void load_one(MesoBendLanes *lanes, const MesoJoint *from, const MesoJoint *to)
 {
-    const MesoJoint *const four_from[4] = {from, from, from, from}, *const four_to[4] = {to, to, to, to};
-    meso_bend_load(lanes, four_from, four_to);
+    const MesoJoint *all_from[MESO_LANES], *all_to[MESO_LANES];
+    for (uint32_t lane = 0; lane < MESO_LANES; lane++) {
+        all_from[lane] = from;
+        all_to[lane] = to;
+    }
+    meso_bend_load(lanes, all_from, all_to);
 }
 
 MesoBendFrame meso_bend_frame(const MesoJoint *from, const MesoJoint *to, float t)
@@ -35,50 +39,48 @@ void meso_bend_curve(const MesoJoint *from, const MesoJoint *to, MesoVec3 p[4])
         p[i] = first_of(lanes.p[i]);
 }
 
-/* The vertices of four spans, to `positions` and `normals`; returns bits of those that fold. */
-static MesoFourBits bend_four(const MesoTerminalShape *shape, const MesoBendLanes *lanes, MesoVec3 *const positions[4],
-                              MesoVec3 *const normals[4])
+static void bend_group_plain(const MesoTerminalShape *shape, MesoBendGroup *group)
 {
-    MesoFourBits folds = {0, 0, 0, 0};
-    uint32_t last = shape->body.vertex_count - 1;
-    for (uint32_t r = 0; r < shape->ring_count; r++) {
-        MesoBendRow row;
-        meso_bend_row(&row, lanes, shape->along[r]);
-        for (uint32_t v = shape->ring_begin[r]; v < shape->ring_begin[r + 1]; v++) {
-            MesoVec3 p = shape->body.positions[v], n = shape->body.normals[v];
-            MesoFour g = row.ring.speed + (row.pitch * p.z - row.turn * p.y);
-            MesoFour3 at = meso_four3_mad(meso_four3_mad(row.ring.origin, meso_four_all(p.y), row.left),
-                                          meso_four_all(p.z), row.normal);
-            folds |= g < 0;
-            meso_bend_store(positions, v, at, v == last);
-            meso_bend_store(normals, v, meso_bend_normal(&row, p, n, g), v == last);
-        }
-    }
-    return folds;
+    meso_bend_group(shape, group);
 }
 
-/* Where less than four are left, the last is computed several times, and written to the same place. */
+/* The same operations, and so the same bytes, on wider registers. */
+#ifdef __x86_64__
+__attribute__((target("avx2"))) static void bend_group_avx2(const MesoTerminalShape *shape, MesoBendGroup *group)
+{
+    meso_bend_group(shape, group);
+}
+#endif
+
+static void (*best_bend_group(void))(const MesoTerminalShape *, MesoBendGroup *)
+{
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2"))
+        return bend_group_avx2;
+#endif
+    return bend_group_plain;
+}
+
+/* Where less than eight are left, the last is computed several times, and written to the same place. */
 static void bend_range(void *context, uint64_t begin, uint64_t end)
 {
     const MesoBending *bending = context;
-    for (uint64_t first = begin; first < end; first += 4) {
-        const MesoJoint *from[4], *to[4];
-        MesoVec3 *positions[4], *normals[4];
-        uint64_t spans[4];
-        for (uint32_t lane = 0; lane < 4; lane++) {
+    void (*bend)(const MesoTerminalShape *, MesoBendGroup *) = best_bend_group();
+    for (uint64_t first = begin; first < end; first += MESO_LANES) {
+        MesoBendGroup group;
+        uint64_t spans[MESO_LANES];
+        for (uint32_t lane = 0; lane < MESO_LANES; lane++) {
             uint64_t i = first + lane < end ? first + lane : end - 1;
             size_t offset = (size_t)i * bending->shape->body.vertex_count;
             spans[lane] = i;
-            from[lane] = &bending->joints[bending->spans[i].from];
-            to[lane] = &bending->joints[bending->spans[i].to];
-            positions[lane] = bending->positions + offset;
-            normals[lane] = bending->normals + offset;
+            group.from[lane] = &bending->joints[bending->spans[i].from];
+            group.to[lane] = &bending->joints[bending->spans[i].to];
+            group.positions[lane] = bending->positions + offset;
+            group.normals[lane] = bending->normals + offset;
         }
-        MesoBendLanes lanes;
-        meso_bend_load(&lanes, from, to);
-        MesoFourBits folds = bend_four(bending->shape, &lanes, positions, normals);
-        for (uint32_t lane = 0; lane < 4 && bending->folds; lane++)
-            bending->folds[spans[lane]] = folds[lane] != 0;
+        bend(bending->shape, &group);
+        for (uint32_t lane = 0; lane < MESO_LANES && bending->folds; lane++)
+            bending->folds[spans[lane]] = group.folds[lane] != 0;
     }
 }
 

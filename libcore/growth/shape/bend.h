@@ -6,15 +6,16 @@
  *     P = B(t) + w(t) (y L(t) + z N(t)),     T = B' / |B'|,  N = unit((1 - s) N0(t) + s N1(t)),  L = cross(N, T),
  *
  * where N0(t) is the first joint's normal, turned with the tangent the shortest way from there to T(t), N1(t) the
- * second's, and s = t t (3 - 2 t): the frame does not twist at the joints, and as little as it can between. w is a cubic
- * Bezier as B is. Normals follow the derivative of this map.
+ * second's, and s = t t (3 - 2 t): the frame does not twist at the joints, and as little as it can between. w is a
+ * cubic Bezier as B is. Normals follow the derivative of this map.
  *
- * The inner points of B lie at 2 c / (3 (1 + cos f)) along the tangents, for a chord c that they make the angle f
- * with: where the paper has them, at thirds, for f = 0, and farther out than there in turns, as an arc of a circle needs;
- * thirds projected would cut into what bulges. Arcs of 90 degrees are met to 3e-4 of their radius, of 20 to 1e-7.
+ * The inner points of B lie at 2 c / (3 (1 + cos f)) along the tangents, for a chord c that they make the angle f with:
+ * where the paper has them, at thirds, for f = 0, and farther out than there in turns, as an arc of a circle needs;
+ * thirds projected would cut into what bulges. Arcs of 90 degrees are met to 3e-4 of their radius, of 20 to 1e-6.
  *
- * What shares a joint meets there in the same floats, along one tangent. So do surfaces: round sections, and any where
- * neither flares; where a flare meets a change of curvature, tangents across differ by their product.
+ * What shares a joint meets there in the same floats, and lines along the shapes go on in one direction: those on
+ * surfaces too where the joint has no flare. Where it has one and the curvature changes, they break by flare, width and
+ * change of curvature multiplied.
  */
 #ifndef MESO_BEND_H
 #define MESO_BEND_H
@@ -45,7 +46,7 @@ typedef struct MesoBending {
     uint32_t span_count;
     const MesoSpan *spans;              /* [span_count] */
     MesoVec3 *positions, *normals;      /* [span_count * shape->body.vertex_count], span by span */
-    uint8_t *folds;                     /* [span_count] 1: goes through itself, as wide as its curve's radius; or NULL */
+    uint8_t *folds;                     /* [span_count] or NULL; 1: too wide for its curve, and inside out there */
 } MesoBending;
 
 /*
@@ -55,7 +56,7 @@ typedef struct MesoBending {
  */
 void meso_bend(const MesoBending *bending, uint32_t thread_count);
 
-/* A body for each span, to `out` [span_count], where meso_bend() puts its vertices; they share uvs, colours and corners. */
+/* A body for each span, to `out` [span_count], of what meso_bend() makes; they share uvs, colours and corners. */
 void meso_bent_bodies(const MesoBending *bending, MesoBody *out);
 
 /* All spans as one body, with uvs, colours and corners of its own. MESO_ERR_LIMIT from 2^32 - 1 vertices on. */

@@ -1,4 +1,4 @@
-/* Rates of bending on one thread: spans along a helix, of each shape; to memory that is there, and to the same again. */
+/* Rates of bending on one thread, of each shape along a helix: to memory that is there, and to some in the cache. */
 #include <time.h>
 
 #include "libcore/base/check.h"

@@ -1,5 +1,6 @@
 /* Bending: normals against differences of places; what has no direction; threads, lanes, folds, bodies. */
 #include "libcore/growth/shape/bend_fixture.h"
+#include "libcore/growth/shape/bend_kernel.h"
 
 /* The point (t, y, z) and four around it, at `h` both ways along two directions of the plane across `n`. */
 static void differ(const MesoJoint joints[2], MesoVec3 at, MesoVec3 n, float h, MesoVec3 *normal, MesoVec3 *difference)
@@ -42,11 +43,11 @@ static void test_normals(void)
         worst = fmaxf(worst, apart);
         sum += apart;
     }
-    CHECK(worst < 0.01f);
-    CHECK(sum / (100 * (JOINTS - 1)) < 3e-4);
+    CHECK(worst < 2e-3f);
+    CHECK(sum / (100 * (JOINTS - 1)) < 2e-4);
 }
 
-/* All that has no direction somewhere: joints in one place, opposite tangents and normals, no width, lengths of nothing. */
+/* What has no direction somewhere: joints in one place, opposite tangents and normals, no width, hardly a length. */
 static void test_degenerate(void)
 {
     MesoVec3 o = {0, 0, 0}, x = {1, 0, 0}, z = {0, 0, 1}, back = {-1, 0, 0}, down = {0, 0, -1};
@@ -111,13 +112,44 @@ static void test_threads(void)
     meso_arena_release(&arena);
 }
 
+/* The same bytes, whatever registers the machine has. */
+static void test_registers(void)
+{
+    enum { MOST = 64 };
+    MesoJoint joints[MESO_LANES + 1];
+    MesoSpan spans[MESO_LANES];
+    MesoVec3 positions[2][MESO_LANES * MOST], normals[2][MESO_LANES * MOST];
+    MesoArena arena;
+    MesoTerminalShape shape;
+    MesoBendGroup group;
+    meso_arena_init(&arena);
+    CHECK(!meso_builtin_shape(&shape, &arena, MESO_SHAPE_LINK, 0, NULL));
+    uint32_t vertices = shape.body.vertex_count;
+    CHECK(vertices <= MOST);
+    meso_test_strand(joints, MESO_LANES + 1, 9, 0.4f);
+    for (uint32_t i = 0; i < MESO_LANES; i++) {
+        spans[i] = (MesoSpan){i, i + 1};
+        group.from[i] = &joints[i];
+        group.to[i] = &joints[i + 1];
+        group.positions[i] = positions[1] + i * vertices;
+        group.normals[i] = normals[1] + i * vertices;
+    }
+    MesoBending bending = {&shape, joints, MESO_LANES, spans, positions[0], normals[0], NULL};
+    meso_bend(&bending, 1);
+    meso_bend_group(&shape, &group);
+    CHECK(!memcmp(positions[0], positions[1], MESO_LANES * vertices * sizeof(MesoVec3)));
+    CHECK(!memcmp(normals[0], normals[1], MESO_LANES * vertices * sizeof(MesoVec3)));
+    meso_arena_release(&arena);
+}
+
 /* Around a quarter of a circle of radius 1: what is narrower than twice the radius does not go through itself. */
 static void test_folds(void)
 {
     const float widths[2] = {1.8f, 2.4f};
     for (uint32_t i = 0; i < 2; i++) {
         MesoVec3 o = {0, 0, 0}, x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1}, positions[64], normals[64];
-        MesoJoint joints[2] = {meso_joint(o, z, x, x, widths[i], 0), meso_joint((MesoVec3){1, 1, 0}, z, y, y, widths[i], 0)};
+        MesoVec3 corner = {1, 1, 0};
+        MesoJoint joints[2] = {meso_joint(o, z, x, x, widths[i], 0), meso_joint(corner, z, y, y, widths[i], 0)};
         MesoSpan span = {0, 1};
         uint8_t folds = 2;
         MesoArena arena;
@@ -174,6 +206,7 @@ int main(void)
     test_normals();
     test_degenerate();
     test_threads();
+    test_registers();
     test_folds();
     test_bodies();
     return 0;

@@ -17,7 +17,8 @@ static void test_straight(MesoBuiltinShape kind)
     MesoTerminalShape shape;
     meso_arena_init(&arena);
     make_shape(&shape, &arena, kind, 1);
-    meso_test_bend(&shape, meso_joint((MesoVec3){0, 0, 0}, z, x, x, 1, 0), meso_joint(x, z, x, x, 1, 0), positions, normals);
+    MesoJoint from = meso_joint((MesoVec3){0, 0, 0}, z, x, x, 1, 0), to = meso_joint(x, z, x, x, 1, 0);
+    meso_test_bend(&shape, from, to, positions, normals);
     for (uint32_t v = 0; v < shape.body.vertex_count; v++) {
         CHECK(meso_test_apart(positions[v], shape.body.positions[v]) < 3e-7f);
         CHECK(meso_test_apart(normals[v], shape.body.normals[v]) < 1e-6f);
@@ -52,7 +53,7 @@ static void test_arc(float angle, float tolerance)
     for (float t = 0; t <= 1; t += 0.0625f) {
         MesoBendFrame frame = meso_bend_frame(&from, &to, t);
         CHECK(fabsf(meso_vec3_length(frame.origin) - radius) < tolerance * radius);
-        CHECK(meso_test_apart(frame.left, (MesoVec3){-1, 0, 0}) > 1.99f || meso_test_apart(frame.left, (MesoVec3){-1, 0, 0}) < 1e-5f);
+        CHECK(meso_test_apart(frame.left, (MesoVec3){1, 0, 0}) < 1e-5f);
     }
     meso_arena_release(&arena);
 }
@@ -65,7 +66,8 @@ static void test_cone(void)
     MesoTerminalShape shape;
     meso_arena_init(&arena);
     make_shape(&shape, &arena, MESO_SHAPE_TUBE, 2);
-    MesoJoint from = meso_joint((MesoVec3){0, 0, 0}, z, x, x, 1, 0), to = meso_joint((MesoVec3){2, 0, 0}, z, x, x, 0.4f, 0);
+    MesoJoint from = meso_joint((MesoVec3){0, 0, 0}, z, x, x, 1, 0);
+    MesoJoint to = meso_joint((MesoVec3){2, 0, 0}, z, x, x, 0.4f, 0);
     from.flare = to.flare = -0.3f;
     meso_test_bend(&shape, from, to, positions, normals);
     for (uint32_t v = 0; v < shape.body.vertex_count; v++) {

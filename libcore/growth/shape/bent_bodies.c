@@ -38,8 +38,8 @@ MesoStatus meso_bent_body(const MesoBending *bending, MesoArena *arena, MesoBody
     uint32_t times = bending->span_count;
     uint64_t vertices = (uint64_t)times * one->vertex_count, faces = (uint64_t)times * one->face_count;
     if (vertices >= UINT32_MAX || faces >= UINT32_MAX)
-        return meso_fail(error, MESO_ERR_LIMIT, "%u shapes of %u vertices and %u faces are too many for one body", times,
-                         one->vertex_count, one->face_count);
+        return meso_fail(error, MESO_ERR_LIMIT, "%u shapes of %u vertices and %u faces are too many for a body",
+                         times, one->vertex_count, one->face_count);
     *out = *one;
     out->vertex_count = (uint32_t)vertices;
     out->face_count = (uint32_t)faces;

@@ -14,9 +14,9 @@ typedef struct MesoJoint {
 
 /*
  * A joint over the point `position` of a surface, `lift` above it along `normal`, unit length. Its tangent halves the
- * angle between `in`, how growth arrives, and `out`, how it goes on, both laid into the tangent plane, of any length: two
- * headings, or the chords before and behind it. Either may be 0 where strands begin and end. Where the normal lies in the
- * plane of both chords this is the paper's condition for G1.
+ * angle between `in`, how growth arrives, and `out`, how it goes on, both laid into the tangent plane, of any length:
+ * two headings, or the chords before and behind it. Either may be 0 where strands begin and end. Where the normal lies
+ * in the plane of both chords this is the paper's condition for G1 (Buron et al., figure 2; see bend.h).
  */
 MesoJoint meso_joint(MesoVec3 position, MesoVec3 normal, MesoVec3 in, MesoVec3 out, float width, float lift);
 

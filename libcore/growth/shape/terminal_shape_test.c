@@ -1,4 +1,4 @@
-/* Shapes: those that come with the library are closed and look outward; those of meshes are turned, scaled, in rings. */
+/* Shapes that come with the library are closed and look outward; those of meshes are turned, scaled, and in rings. */
 #include "libcore/base/check.h"
 #include "libcore/growth/shape/terminal_shape.h"
 
