@@ -3,7 +3,7 @@
 #define MESO_GRAMMAR_FILE_H
 
 #include "formats/file/input.h"
-#include "libcore/growth/language/grammar.h"
+#include "libcore/growth/language/grammar_read.h"
 
 /*
  * Reads a grammar into `arena`. The files that it names are not opened: their names stand in its sources. `options`

@@ -1,7 +1,7 @@
 /*
  * Grammars that grow over a surface: rules, and what they ask of it. A text becomes maps, fields, shapes, seeds and
- * code; grammar_run.h runs the code, one branch at a time, for an engine that walks. The language is described in
- * README.md; the words of it are tables in grammar_words.c.
+ * code (grammar_read.h); grammar_run.h runs the code, one branch at a time, for an engine that walks. The language is
+ * described in README.md; its words are tables in grammar_words.c.
  */
 #ifndef MESO_GRAMMAR_H
 #define MESO_GRAMMAR_H
@@ -117,16 +117,5 @@ typedef struct MesoGrammarOptions {
     uint32_t setting_count;
     double extent;              /* diagonal of the surface's box in its own units; the unit "extent" of the text */
 } MesoGrammarOptions;
-
-/*
- * Reads `text` [size] into `arena`; `path` is for messages. All names are known, types fit, every rule that comes back
- * to itself makes a step on the way, and nothing runs beyond its bounds: what is read can be run. MESO_ERR_INPUT says
- * "path:line:column: ...", MESO_ERR_USAGE what is wrong with a setting. O(size * most arguments of a rule).
- */
-MesoStatus meso_grammar_read(MesoGrammar *grammar, MesoArena *arena, const char *path, const char *text, size_t size,
-                             const MesoGrammarOptions *options, MesoError *error);
-
-/* "a length", "an angle", "a number", "a condition", "length^2"; in `text` [64]. */
-void meso_grammar_type_text(MesoGrammarType type, char text[64]);
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "libcore/base/check.h"
+#include "libcore/growth/language/grammar_read.h"
 #include "libcore/growth/language/grammar_run.h"
 
 #define HEAD "meso-grow 1\n"

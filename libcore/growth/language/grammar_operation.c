@@ -76,6 +76,6 @@ double meso_grammar_apply(uint16_t operation, double a, double b, double c)
     case MESO_OP_CLAMP: return clamped(a, b, c);
     case MESO_OP_LERP: return a + (b - a) * c;
     case MESO_OP_SMOOTH: return smooth(a, b, c);
-    default: assert(!"not an operation on numbers"); return 0;
+    default: assert(0 && "not an operation on numbers"); return 0;
     }
 }

@@ -4,6 +4,9 @@
 
 #include "libcore/growth/language/grammar_tree.h"
 
+/* "a length", "an angle", "a number", "a condition", "a quantity in length^2"; in `text` [64]. */
+void meso_grammar_type_text(MesoGrammarType type, char text[64]);
+
 /* The type of an expression whose locals have `types`; what does not go together is told to `lexer`. */
 MesoGrammarType meso_type_of(MesoGrammarLexer *lexer, const MesoExpression *expression, const MesoGrammarType *types);
 

@@ -1,4 +1,4 @@
-#include "libcore/growth/language/grammar.h"
+#include "libcore/growth/language/grammar_read.h"
 
 #include "libcore/growth/language/grammar_check.h"
 #include "libcore/growth/language/grammar_compile.h"
