@@ -45,15 +45,19 @@ static uint16_t push(Compiler *c)
     return (uint16_t)c->top++;
 }
 
-static uint16_t push_constant(Compiler *c, double value)
+/* The operand that is this constant: as many as operands can name, then registers into which they are loaded. */
+static uint16_t constant_operand(Compiler *c, double value)
 {
     MesoGrammar *grammar = c->grammar;
-    uint16_t to = push(c);
     if (!meso_parsing(c->parser) ||
         !MESO_PARSE_GROW(c->parser, grammar->constants, grammar->constant_count, c->constant_room))
-        return to;
-    grammar->constants[grammar->constant_count] = value;
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_CONSTANT, .to = to, .target = grammar->constant_count++});
+        return 0;
+    uint32_t number = grammar->constant_count++;
+    grammar->constants[number] = value;
+    if (number < MESO_NO_REGISTER - MESO_CONSTANT_OPERAND)
+        return (uint16_t)(MESO_CONSTANT_OPERAND + number);
+    uint16_t to = push(c);
+    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_CONSTANT, .to = to, .target = number});
     return to;
 }
 
@@ -80,10 +84,9 @@ static void emit_draw(Compiler *c, uint16_t operation, uint16_t to, const MesoEx
     emit(c, (MesoGrammarInstruction){.operation = operation, .to = to, .a = (uint16_t)e->salt, .target = e->index});
 }
 
-/* Draws as operations on a plain one. */
-static void compile_draw(Compiler *c, const MesoExpression *e, uint16_t to, const uint16_t x[3])
+/* Draws as operations on a plain one, in register `u`. */
+static void compile_draw(Compiler *c, const MesoExpression *e, uint16_t to, uint16_t u, const uint16_t x[3])
 {
-    uint16_t u = push(c);
     if (e->operation == MESO_OP_NORMAL) {
         emit_draw(c, MESO_OP_NORMAL, u, e);
         emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MULTIPLY, .to = u, .a = u, .b = x[1]});
@@ -106,21 +109,17 @@ static uint16_t compile_call(Compiler *c, const MesoExpression *e)
     for (uint32_t i = 0; i < e->argument_count; i++)
         x[i] = value_of(c, e->arguments[i]);
     bool draws = e->operation == MESO_OP_RANDOM || e->operation == MESO_OP_NORMAL || e->operation == MESO_OP_CHANCE;
-    if (!draws) {
-        /* Operands are read before the result is written: it may take their place. */
-        c->top = mark;
-        uint16_t to = push(c);
-        bool look = e->operation == MESO_OP_LOOK;
+    bool look = e->operation == MESO_OP_LOOK;
+    uint16_t drawn = draws ? push(c) : 0;
+    /* Operands are read before the result is written: it may take their place. */
+    c->top = mark;
+    uint16_t to = push(c);
+    if (draws)
+        compile_draw(c, e, to, drawn, x);
+    else
         emit(c, (MesoGrammarInstruction){.operation = e->operation, .to = to, .a = x[0], .b = x[1],
                                          .target = look ? e->look : x[2], .more = e->index});
-        return to;
-    }
-    uint16_t to = push(c);
-    compile_draw(c, e, to, x);
-    c->top = mark;
-    uint16_t lower = push(c);
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = lower, .a = to});
-    return lower;
+    return to;
 }
 
 /* The register that holds the value: a local's own, or a new one. */
@@ -129,7 +128,7 @@ static uint16_t value_of(Compiler *c, const MesoExpression *e)
     uint16_t to = 0;
     switch (e->kind) {
     case MESO_EXPRESSION_LOCAL: return (uint16_t)e->index;
-    case MESO_EXPRESSION_CONSTANT: return push_constant(c, e->value);
+    case MESO_EXPRESSION_CONSTANT: return constant_operand(c, e->value);
     case MESO_EXPRESSION_CALL: return compile_call(c, e);
     case MESO_EXPRESSION_QUANTITY:
     case MESO_EXPRESSION_MAP:
@@ -186,7 +185,7 @@ static uint32_t compile_arguments(Compiler *c, const MesoStatement *s)
         if (argument->given)
             compile_value(c, value, argument->expression);
         else if (slots[i].fallback != 0)
-            emit_value(c, value, push_constant(c, slots[i].fallback));
+            emit_value(c, value, constant_operand(c, slots[i].fallback));
         c->top = mark;
         value++;
     }
@@ -226,12 +225,24 @@ static void compile_command(Compiler *c, const MesoStatement *s)
     emit(c, (MesoGrammarInstruction){.operation = s->command->operation, .more = reference});
 }
 
-static void compile_if(Compiler *c, const MesoStatement *s)
+/* A jump, to land() later, where `e` does not hold. */
+static uint32_t jump_unless(Compiler *c, const MesoExpression *e)
 {
     uint32_t mark = c->top;
-    uint16_t a = value_of(c, s->expression);
+    MesoGrammarInstruction jump = {.operation = MESO_OP_JUMP_UNLESS};
+    if (e->kind == MESO_EXPRESSION_CALL && e->operation == MESO_OP_LESS) {
+        jump.operation = MESO_OP_JUMP_UNLESS_LESS;
+        jump.a = value_of(c, e->arguments[0]);
+        jump.b = value_of(c, e->arguments[1]);
+    } else
+        jump.a = value_of(c, e);
     c->top = mark;
-    uint32_t other = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_JUMP_UNLESS, .a = a});
+    return emit(c, jump);
+}
+
+static void compile_if(Compiler *c, const MesoStatement *s)
+{
+    uint32_t other = jump_unless(c, s->expression);
     compile_block(c, &s->block);
     if (s->otherwise.first) {
         uint32_t over = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_JUMP});
@@ -242,15 +253,33 @@ static void compile_if(Compiler *c, const MesoStatement *s)
         land(c, other);
 }
 
-static uint16_t compile_weight(Compiler *c, const MesoArm *arm)
+/* Adds the arm's weight to the sum in register `sum`. */
+static void add_weight(Compiler *c, const MesoArm *arm, uint16_t sum)
 {
     uint32_t mark = c->top;
     uint16_t weight = value_of(c, arm->weight);
     c->top = mark;
-    uint16_t to = push(c), zero = push_constant(c, 0);
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MAXIMUM, .to = to, .a = weight, .b = zero});
-    c->top = (uint32_t)to + 1;
-    return to;
+    uint16_t positive = push(c);
+    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MAXIMUM, .to = positive, .a = weight,
+                                     .b = constant_operand(c, 0)});
+    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_ADD, .to = sum, .a = sum, .b = positive});
+    c->top = mark;
+}
+
+static bool are_constant(const MesoArm *arm)
+{
+    for (; arm; arm = arm->next)
+        if (arm->weight->kind != MESO_EXPRESSION_CONSTANT)
+            return false;
+    return true;
+}
+
+static double constant_sum(const MesoArm *first, const MesoArm *end)
+{
+    double sum = 0;
+    for (const MesoArm *arm = first; arm != end; arm = arm->next)
+        sum += arm->weight->value > 0 ? arm->weight->value : 0;
+    return sum;
 }
 
 /*
@@ -259,34 +288,34 @@ static uint16_t compile_weight(Compiler *c, const MesoArm *arm)
  */
 static void compile_choice(Compiler *c, const MesoStatement *s)
 {
-    uint32_t begin = c->top, arm_count = 0, out = MESO_NO_INDEX;
-    for (const MesoArm *arm = s->arms; arm; arm = arm->next)
-        arm_count++;
-    uint16_t sum = push_constant(c, 0), share = push(c);
-    for (const MesoArm *arm = s->arms; arm && arm_count > 1; arm = arm->next) {
-        uint16_t weight = compile_weight(c, arm);
-        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_ADD, .to = sum, .a = sum, .b = weight});
-        c->top = (uint32_t)share + 1;
-    }
+    bool constant = are_constant(s->arms);
+    uint32_t begin = c->top, out = MESO_NO_INDEX;
+    uint16_t share = push(c), sum = push(c), zero = constant_operand(c, 0);
+    uint16_t all = constant ? constant_operand(c, constant_sum(s->arms, NULL)) : sum;
+    if (!constant)
+        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = sum, .a = zero});
+    for (const MesoArm *arm = s->arms; arm && !constant; arm = arm->next)
+        add_weight(c, arm, sum);
     emit(c, (MesoGrammarInstruction){.operation = MESO_OP_DRAW, .to = share, .a = (uint16_t)s->salt, .target = s->site});
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MULTIPLY, .to = share, .a = share, .b = sum});
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_SUBTRACT, .to = sum, .a = sum, .b = sum});
-    for (const MesoArm *arm = s->arms; arm; arm = arm->next) {
-        uint32_t next = MESO_NO_INDEX;
-        if (arm->next) {
-            uint16_t weight = compile_weight(c, arm);
-            emit(c, (MesoGrammarInstruction){.operation = MESO_OP_ADD, .to = sum, .a = sum, .b = weight});
-            emit(c, (MesoGrammarInstruction){.operation = MESO_OP_LESS, .to = weight, .a = share, .b = sum});
-            next = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_JUMP_UNLESS, .a = weight});
-        }
-        c->top = (uint32_t)share + 1;
+    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MULTIPLY, .to = share, .a = share, .b = all});
+    if (!constant)
+        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = sum, .a = zero});
+    for (const MesoArm *arm = s->arms; arm->next; arm = arm->next) {
+        if (!constant)
+            add_weight(c, arm, sum);
+        uint16_t reached = constant ? constant_operand(c, constant_sum(s->arms, arm->next)) : sum;
+        uint32_t next = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_JUMP_UNLESS_LESS, .a = share, .b = reached});
         compile_block(c, &arm->block);
-        if (!arm->next)
-            break;
         /* Jumps out are a list through their targets until the end is known. */
         out = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_JUMP, .target = out});
         land(c, next);
+        if (!meso_parsing(c->parser))
+            return;
     }
+    const MesoArm *last = s->arms;
+    while (last->next)
+        last = last->next;
+    compile_block(c, &last->block);
     while (out != MESO_NO_INDEX && meso_parsing(c->parser)) {
         uint32_t before = c->grammar->code[out].target;
         land(c, out);
@@ -301,7 +330,7 @@ static void compile_repeat(Compiler *c, const MesoStatement *s)
     uint32_t mark = c->top;
     emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = turns, .a = value_of(c, s->expression)});
     c->top = mark;
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = counter, .a = push_constant(c, -1)});
+    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = counter, .a = constant_operand(c, -1)});
     c->top = mark;
     emit(c, (MesoGrammarInstruction){.operation = MESO_OP_SALT, .to = salt, .a = (uint16_t)s->salt});
     uint32_t loop = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_LOOP, .to = counter, .a = turns, .b = salt});
@@ -348,11 +377,8 @@ static void compile_rule(Compiler *c, uint32_t index)
         c->top = p->local_count;
         if (c->grammar->local_count < p->local_count)
             c->grammar->local_count = p->local_count;
-        if (p->condition) {
-            uint16_t a = value_of(c, p->condition);
-            c->top = p->local_count;
-            next = emit(c, (MesoGrammarInstruction){.operation = MESO_OP_JUMP_UNLESS, .a = a});
-        }
+        if (p->condition)
+            next = jump_unless(c, p->condition);
         compile_block(c, &p->block);
         emit(c, (MesoGrammarInstruction){.operation = MESO_OP_END});
         if (next != MESO_NO_INDEX)

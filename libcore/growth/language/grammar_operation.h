@@ -5,8 +5,8 @@
 #include <stdint.h>
 
 /*
- * Registers are doubles. `to` is where the result goes, `a` and `b` are registers, and so is `target` as the third
- * operand. A truth is 1 or 0.
+ * Registers are doubles. `to` is the one where the result goes; `a` and `b` are registers or, from
+ * MESO_CONSTANT_OPERAND, constants, and so is `target` as the third operand. A truth is 1 or 0.
  */
 typedef enum MesoGrammarOperation {
     MESO_OP_CONSTANT,       /* constants[target] */
@@ -24,6 +24,7 @@ typedef enum MesoGrammarOperation {
     MESO_OP_NORMAL,         /* likewise, of mean 0 and deviation 1 */
     MESO_OP_JUMP,           /* to `target` */
     MESO_OP_JUMP_UNLESS,    /* where not a */
+    MESO_OP_JUMP_UNLESS_LESS,   /* where not a < b */
     MESO_OP_JUMP_IF,
     MESO_OP_LOOP,           /* register `to` counts turns from -1, `a` is how many, `b` the salt; out to `target` */
     MESO_OP_SALT,           /* that with which the turns of a loop begin, within one with the salt a */
@@ -39,7 +40,7 @@ typedef enum MesoGrammarOperation {
     MESO_OP_END             /* of the branch */
 } MesoGrammarOperation;
 
-enum { MESO_NO_REGISTER = UINT16_MAX };
+enum { MESO_CONSTANT_OPERAND = 1 << 15, MESO_NO_REGISTER = UINT16_MAX };
 
 /* What `operation`, from MESO_OP_ADD to MESO_OP_SMOOTH, gives. The same bits on every machine: no library's
  * functions are called but those that IEEE 754 defines. */

@@ -38,37 +38,41 @@ static uint64_t turn_of(const double *r, uint16_t salt)
     return salt == MESO_NO_REGISTER ? 0 : (uint64_t)r[salt];
 }
 
-static double look(const MesoGrowthHost *host, const MesoGrammarInstruction *i, const double *r)
-{
-    double a = i->a == MESO_NO_REGISTER ? 0 : r[i->a], b = i->b == MESO_NO_REGISTER ? 0 : r[i->b];
-    return host->look(host->context, (MesoGrowthLook)i->target, i->more, a, b);
-}
+/* Operands: the upper bit says whether of the registers or of the constants, so that no branch is needed. */
+#define OPERAND(x) (banks[(x) >> 15 & 1][(x) & (MESO_CONSTANT_OPERAND - 1)])
+#define A OPERAND(i->a)
+#define B OPERAND(i->b)
+#define THIRD OPERAND(i->target)
 
 /* Runs until a command is complete. `r` are the registers. */
 static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, MesoGrowthRun *run, double *r,
                     const MesoGrowthHost *host)
 {
     const MesoGrammarInstruction *code = grammar->code, *i = code + run->at;
+    const double *const banks[2] = {r, grammar->constants};
     for (;; i++) {
         switch ((MesoGrammarOperation)i->operation) {
         case MESO_OP_CONSTANT: r[i->to] = grammar->constants[i->target]; continue;
-        case MESO_OP_COPY: r[i->to] = r[i->a]; continue;
+        case MESO_OP_COPY: r[i->to] = A; continue;
         case MESO_OP_STATE: r[i->to] = host->state[i->target]; continue;
-        case MESO_OP_LOOK: r[i->to] = look(host, i, r); continue;
-        case MESO_OP_ADD: r[i->to] = r[i->a] + r[i->b]; continue;
-        case MESO_OP_SUBTRACT: r[i->to] = r[i->a] - r[i->b]; continue;
-        case MESO_OP_MULTIPLY: r[i->to] = r[i->a] * r[i->b]; continue;
-        case MESO_OP_LESS: r[i->to] = r[i->a] < r[i->b]; continue;
+        case MESO_OP_LOOK:
+            r[i->to] = host->look(host->context, (MesoGrowthLook)i->target, i->more,
+                                  i->a == MESO_NO_REGISTER ? 0 : A, i->b == MESO_NO_REGISTER ? 0 : B);
+            continue;
+        case MESO_OP_ADD: r[i->to] = A + B; continue;
+        case MESO_OP_SUBTRACT: r[i->to] = A - B; continue;
+        case MESO_OP_MULTIPLY: r[i->to] = A * B; continue;
+        case MESO_OP_LESS: r[i->to] = A < B; continue;
         case MESO_OP_DIVIDE: case MESO_OP_MINIMUM: case MESO_OP_MAXIMUM: case MESO_OP_MODULO: case MESO_OP_POWER:
         case MESO_OP_LESS_EQUAL: case MESO_OP_EQUAL: case MESO_OP_NOT_EQUAL:
-            r[i->to] = meso_grammar_apply(i->operation, r[i->a], r[i->b], 0);
+            r[i->to] = meso_grammar_apply(i->operation, A, B, 0);
             continue;
         case MESO_OP_NEGATE: case MESO_OP_NOT: case MESO_OP_ABSOLUTE: case MESO_OP_FLOOR: case MESO_OP_CEILING:
         case MESO_OP_ROUND: case MESO_OP_SIGN: case MESO_OP_ROOT: case MESO_OP_SINE: case MESO_OP_COSINE:
-            r[i->to] = meso_grammar_apply(i->operation, r[i->a], 0, 0);
+            r[i->to] = meso_grammar_apply(i->operation, A, 0, 0);
             continue;
         case MESO_OP_CLAMP: case MESO_OP_LERP: case MESO_OP_SMOOTH:
-            r[i->to] = meso_grammar_apply(i->operation, r[i->a], r[i->b], r[i->target]);
+            r[i->to] = meso_grammar_apply(i->operation, A, B, THIRD);
             continue;
         case MESO_OP_DRAW:
             r[i->to] = meso_draw_share(meso_draw_key(run->key, grammar->sites[i->target], turn_of(r, i->a)));
@@ -78,18 +82,22 @@ static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, Meso
             continue;
         case MESO_OP_JUMP: i = code + i->target - 1; continue;
         case MESO_OP_JUMP_UNLESS:
-            if (r[i->a] == 0)
+            if (A == 0)
+                i = code + i->target - 1;
+            continue;
+        case MESO_OP_JUMP_UNLESS_LESS:
+            if (!(A < B))
                 i = code + i->target - 1;
             continue;
         case MESO_OP_JUMP_IF:
-            if (r[i->a] != 0)
+            if (A != 0)
                 i = code + i->target - 1;
             continue;
         case MESO_OP_SALT: r[i->to] = salt_within(r, i->a); continue;
         case MESO_OP_LOOP:
             r[i->to] += 1;
             r[i->b] += 1;
-            if (!(r[i->to] < floor(r[i->a]))) {
+            if (!(r[i->to] < floor(A))) {
                 i = code + i->target - 1;
                 continue;
             }
@@ -98,13 +106,13 @@ static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, Meso
             end_with(command, MESO_GROWTH_FAULT, "too many repetitions");
             break;
         case MESO_OP_RESULT:
-            command->values[0] = r[i->a];
+            command->values[0] = A;
             end_with(command, MESO_GROWTH_END, NULL);
             break;
         case MESO_OP_VALUE:
-            command->values[i->to] = r[i->a];
+            command->values[i->to] = A;
             command->given |= 1u << i->to;
-            if (isfinite(r[i->a]))
+            if (isfinite(A))
                 continue;
             end_with(command, MESO_GROWTH_FAULT, "a value is not finite");
             break;

@@ -208,6 +208,10 @@ static void test_statistics(void)
         counts[(int)turns[i]]++;
     for (uint32_t i = 0; i < 3; i++)
         CHECK(fabs(counts[i] - chances[i] * MANY) < 4 * sqrt(chances[i] * (1 - chances[i]) * MANY));
+    /* The same where weights are known only when it runs. */
+    draws(HEAD "seed A() on vertices rule A() -> choose {\n"
+          "5 + generation: turn(0 rad) 2: turn(1 rad) generation - 9: stop 3: turn(2 rad) 0 * depth: stop }", others, MANY);
+    CHECK(memcmp(turns, others, sizeof turns) == 0);
     draws(HEAD "seed A() on vertices rule A() -> turn(normal(1 rad, 2 rad))", turns, MANY);
     for (uint32_t i = 0; i < MANY; i++) {
         sum += turns[i];
