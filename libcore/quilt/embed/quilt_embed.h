@@ -3,6 +3,7 @@
 #define MESO_QUILT_EMBED_H
 
 #include "libcore/quilt/quilt.h"
+#include "libcore/shell/prisms.h"
 
 /* Heights that occur, and 0. */
 typedef struct MesoQuiltHeights {
@@ -16,6 +17,14 @@ MesoQuiltHeights meso_quilt_heights(const MesoQuilt *quilt);
  * where they vanish. Only positions and corners of the base are read. O(triangles).
  */
 void meso_quilt_directions(MesoVec3 *directions, const MesoTriangulation *base);
+
+/*
+ * directions[vertex_count of the base] under which the layer of such heights neither folds nor meets itself, turned for
+ * least stretch (shell/prisms.h): shorter than 1 in narrow places. Where triangles are wound against each other there is no
+ * such layer, and they are those of meso_quilt_directions(); `report` is zero then. O(n log n). MESO_ERR_MEMORY.
+ */
+MesoStatus meso_quilt_layer(MesoVec3 *directions, MesoPrismReport *report, const MesoTriangulation *base,
+                            MesoQuiltHeights heights, MesoError *error);
 
 /*
  * The place of each vertex over the base:

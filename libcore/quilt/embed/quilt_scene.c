@@ -307,19 +307,19 @@ MesoStatus meso_quilt_show(MesoScene *scene, MesoArena *arena, const MesoQuilt *
                            const MesoTriangulation *base, uint32_t thread_count, MesoError *error)
 {
     MesoArena scratch;
-    MesoStatus status = MESO_ERR_MEMORY;
+    MesoPrismReport report;
+    MesoQuiltHeights heights = meso_quilt_heights(quilt);
     meso_arena_init(&scratch);
     MesoVec3 *directions = MESO_NEW(&scratch, MesoVec3, base->vertex_count, error);
     MesoVec3 *positions = directions ? MESO_NEW(&scratch, MesoVec3, quilt->vertex_count, error) : NULL;
-    if (positions) {
-        meso_quilt_directions(directions, base);
+    MesoStatus status = positions ? meso_quilt_layer(directions, &report, base, heights, error) : MESO_ERR_MEMORY;
+    if (!status) {
         meso_quilt_embed(positions, quilt, base, directions, thread_count);
         status = meso_quilt_scene(scene, arena, quilt, swatch, positions, thread_count, error);
     }
     meso_arena_release(&scratch);
     if (status)
         return status;
-    MesoQuiltHeights heights = meso_quilt_heights(quilt);
     scene->thickness = heights.high - heights.low;
     return MESO_OK;
 }

@@ -21,7 +21,7 @@ MesoStatus meso_quilt_scene(MesoScene *scene, MesoArena *arena, const MesoQuilt 
                             const MesoVec3 *positions, uint32_t thread_count, MesoError *error);
 
 /*
- * The same of a quilt over its base as that is now, along the directions of meso_quilt_directions(). The thickness of
+ * The same of a quilt over its base as that is now, along the directions of meso_quilt_layer(). The thickness of
  * the scene is that of the layer.
  */
 MesoStatus meso_quilt_show(MesoScene *scene, MesoArena *arena, const MesoQuilt *quilt, const MesoSwatch *swatch,
