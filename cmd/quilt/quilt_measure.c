@@ -96,8 +96,10 @@ static void say(const MesoTool *tool, const MesoQuiltCheck *k)
     meso_tool_say(tool, "%llu pairs of triangles cross between elements, %llu within; %.0f in as much of the swatch",
                   (unsigned long long)k->crossings.between_count, (unsigned long long)k->crossings.within_count,
                   k->expected_crossings);
-    meso_tool_say(tool, "%u of %u places are empty; windows are %.4f from the swatch, those of the swatch %.4f",
-                  k->cover.empty_count, k->cover.place_count, k->likeness.distance, k->likeness.swatch_distance);
+    meso_tool_say(tool, "%u of %u places are empty", k->cover.empty_count, k->cover.place_count);
+    if (k->likeness.window_count)
+        meso_tool_say(tool, "%u windows are %.4f from the swatch, those of the swatch %.4f", k->likeness.window_count,
+                      k->likeness.distance, k->likeness.swatch_distance);
 }
 
 MesoStatus meso_quilt_measure(MesoTool *tool, const MesoQuilt *quilt, const MesoSwatch *swatch,

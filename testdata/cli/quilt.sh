@@ -32,7 +32,7 @@ meso-info nuts.quilt | grep '"kind"\|"command"\|"surface"'
 number closed_loops nuts.json
 meso-quilt -q nuts.ply --plane 4x3 -o nuts.glb
 meso-quilt --check nuts.ply --plane 4x3 -o checked.quilt --json=checked.json 2>&1 | sed 1d
-grep -o '"mesh": {[^}]*}' checked.json
+sed -n '/"mesh": {/,/}/p' checked.json
 meso-map nuts.quilt -o again.glb && meso-info again.glb | grep '"kind"'
 
 echo "== the same bytes for any number of threads, and from one run to the next"
