@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/check.h"
+#include "libcore/growth/language/grammar_fixture.h"
 
 static MesoArena arena;
 static MesoGrammar grammar;
@@ -18,19 +19,14 @@ static MesoStatus read(const char *text, size_t size)
 
 static void test_examples(void)
 {
-    static const char *const names[] = {"ivy", "lace", "cracks", "feathers"};
+    static const char *const texts[] = {fixture_ivy, fixture_lace, fixture_cracks, fixture_feathers};
     for (uint32_t i = 0; i < 4; i++) {
-        char path[64];
-        MesoInput input;
-        snprintf(path, sizeof path, "testdata/grammars/%s.grammar", names[i]);
-        CHECK(meso_input_open(&input, path, &error) == MESO_OK);
-        MesoStatus status = meso_grammar_file_read(&grammar, &arena, &input, NULL, &error);
+        MesoStatus status = read(texts[i], strlen(texts[i]));
         if (status)
             fprintf(stderr, "%s\n", error.message);
         CHECK(status == MESO_OK && grammar.seed_count == 1);
         for (uint32_t rule = 0; rule < grammar.rule_count; rule++)
             CHECK(grammar.rules[rule].reached);
-        meso_input_close(&input);
     }
 }
 
