@@ -3,6 +3,7 @@
 #include <assert.h>
 #include <ctype.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -133,4 +134,44 @@ char *meso_seed_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoE
         next += 2;
     }
     return path;
+}
+
+/* ---- runs ---- */
+
+MesoStatus meso_seed_runs(MesoTool *tool, const MesoSeedList *list, MesoStatus (*run)(void *context, uint64_t seed),
+                          void *context)
+{
+    const MesoProvenance provenance = tool->provenance;
+    const char *output = tool->output;
+    json_t *whole = tool->report, *seeds = json_array();
+    MesoStatus status = MESO_OK;
+    for (uint32_t r = 0; r < list->range_count && !status; r++)
+        for (uint32_t i = 0; i < list->ranges[r].count && !status; i++) {
+            uint64_t seed = list->ranges[r].first + i;
+            MesoArenaMark mark = meso_arena_mark(&tool->arena);
+            tool->report = json_object();
+            json_object_set_new(tool->report, "seed", json_integer((json_int_t)seed));
+            status = run(context, seed);
+            json_array_append_new(seeds, tool->report);
+            tool->report = whole;
+            tool->output = output;
+            meso_arena_rewind(&tool->arena, mark);
+        }
+    tool->provenance = provenance;
+    json_object_set_new(whole, "seeds", seeds);
+    return status;
+}
+
+MesoStatus meso_seed_provenance(MesoTool *tool, uint64_t seed, const MesoOptionChange *changes, uint32_t count)
+{
+    char number[32];
+    snprintf(number, sizeof number, "%" PRIu64, seed);
+    MesoOptionChange all[7] = {{"seeds", NULL}, {"seed", number}};
+    assert(count <= 4);
+    for (uint32_t i = 0, n = 2; i < count; i++)
+        if (changes[i].name)
+            all[n++] = changes[i];
+    tool->provenance.seed = seed;
+    tool->provenance.command_line = meso_tool_command(tool, all, &tool->arena, &tool->error);
+    return tool->provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
 }

@@ -1,11 +1,11 @@
-/* Lists of seeds, as --seeds takes them: "1-10,20,30-40x3", and the files that they make. */
+/* Lists of seeds, as --seeds takes them: "1-10,20,30-40x3", and the products that they make. */
 #ifndef MESO_SEED_LIST_H
 #define MESO_SEED_LIST_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "libcore/base/arena.h"
+#include "cmd/common/tool.h"
 
 /* Lines are kept until the end, a few hundred bytes each. */
 enum { MESO_MOST_SEEDS = 10000000 };
@@ -42,5 +42,20 @@ bool meso_seed_path_is_pattern(const char *text);
 
 /* The name for a seed, in `arena`; NULL when memory is out. */
 char *meso_seed_path(const char *pattern, uint64_t seed, MesoArena *arena, MesoError *error);
+
+/* ---- runs ---- */
+
+/*
+ * Calls `run` for one seed after the other until one fails. Each has a report of its own, which the tool's gets a list
+ * of, "seeds"; what `run` changes of the tool's output and provenance, and allocates in its arena, is taken back after.
+ */
+MesoStatus meso_seed_runs(MesoTool *tool, const MesoSeedList *list, MesoStatus (*run)(void *context, uint64_t seed),
+                          void *context);
+
+/*
+ * What the product of a seed says of how it came to be: the command with --seed for --seeds, and `changes` [count],
+ * of which those without a name are left out; at most 4. MESO_ERR_MEMORY.
+ */
+MesoStatus meso_seed_provenance(MesoTool *tool, uint64_t seed, const MesoOptionChange *changes, uint32_t count);
 
 #endif

@@ -1,7 +1,5 @@
 #include "cmd/decor/decor_job.h"
 
-#include <inttypes.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -213,61 +211,34 @@ static MesoStatus name_product(Job *job, const char **name, const char *pattern,
     return *name ? meso_tool_check_output(tool, option, *name) : MESO_ERR_MEMORY;
 }
 
-static MesoStatus run_one_of_many(Job *job, const Names *names, uint64_t seed)
+/* What its seed alone would give. */
+static MesoStatus run_one_of_many(void *context, uint64_t seed)
 {
+    Job *job = context;
     MesoDecorArguments *a = job->arguments;
     MesoTool *tool = job->tool;
-    char number[32];
-    snprintf(number, sizeof number, "%" PRIu64, seed);
-    MesoStatus status = name_product(job, &tool->output, names->output, "-o", seed);
-    if (!status)
-        status = name_product(job, &a->tree, names->tree, "--tree", seed);
-    if (!status)
-        status = name_product(job, &a->lines, names->lines, "--lines", seed);
-    if (status)
-        return status;
-    const MesoOptionChange changes[] = {
-        {"seeds", NULL}, {"seed", number}, {"output", tool->output}, {a->tree ? "tree" : NULL, a->tree},
-        {a->lines ? "lines" : NULL, a->lines}, {NULL, NULL},
-    };
-    tool->provenance.seed = seed;
-    tool->provenance.command_line = meso_tool_command(tool, changes, &tool->arena, &tool->error);
-    return tool->provenance.command_line ? run_seed(job, seed) : MESO_ERR_MEMORY;
-}
-
-/* Each product is what its seed alone would give; the report has a list of them. */
-static MesoStatus run_seeds(Job *job)
-{
-    MesoTool *tool = job->tool;
-    const MesoSeedList *list = &job->seeds;
-    MesoDecorArguments *a = job->arguments;
     const Names names = {tool->output, a->tree, a->lines};
-    const MesoProvenance provenance = tool->provenance;
-    json_t *whole = tool->report, *seeds = json_array();
-    MesoStatus status = MESO_OK;
-    for (uint32_t r = 0; r < list->range_count && !status; r++)
-        for (uint32_t i = 0; i < list->ranges[r].count && !status; i++) {
-            uint64_t seed = list->ranges[r].first + i;
-            MesoArenaMark mark = meso_arena_mark(&tool->arena);
-            tool->report = json_object();
-            json_object_set_new(tool->report, "seed", json_integer((json_int_t)seed));
-            status = run_one_of_many(job, &names, seed);
-            json_array_append_new(seeds, tool->report);
-            tool->report = whole;
-            tool->output = names.output;
-            a->tree = names.tree;
-            a->lines = names.lines;
-            meso_arena_rewind(&tool->arena, mark);
-        }
-    tool->provenance = provenance;
-    json_object_set_new(whole, "seeds", seeds);
+    MesoStatus status = name_product(job, &tool->output, names.output, "-o", seed);
+    if (!status)
+        status = name_product(job, &a->tree, names.tree, "--tree", seed);
+    if (!status)
+        status = name_product(job, &a->lines, names.lines, "--lines", seed);
+    const MesoOptionChange changes[] = {
+        {"output", tool->output}, {a->tree ? "tree" : NULL, a->tree}, {a->lines ? "lines" : NULL, a->lines},
+    };
+    if (!status)
+        status = meso_seed_provenance(tool, seed, changes, 3);
+    if (!status)
+        status = run_seed(job, seed);
+    a->tree = names.tree;
+    a->lines = names.lines;
     return status;
 }
 
 static MesoStatus run_all(Job *job)
 {
     MesoTool *tool = job->tool;
-    return job->arguments->seeds ? run_seeds(job) : run_seed(job, tool->seed);
+    return job->arguments->seeds ? meso_seed_runs(tool, &job->seeds, run_one_of_many, job) : run_seed(job, tool->seed);
 }
 
 /* ---- what goes together ---- */

@@ -1,7 +1,5 @@
 #include "cmd/quilt/quilt_job.h"
 
-#include <inttypes.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -212,45 +210,16 @@ static MesoStatus run_seed(Job *job, uint64_t seed)
 
 /* ---- many seeds ---- */
 
-static MesoStatus run_one_of_many(Job *job, const char *pattern, uint64_t seed)
+/* What its seed alone would give. */
+static MesoStatus run_one_of_many(void *context, uint64_t seed)
 {
+    Job *job = context;
     MesoTool *tool = job->tool;
-    char number[32];
-    snprintf(number, sizeof number, "%" PRIu64, seed);
-    tool->output = meso_seed_path(pattern, seed, &tool->arena, &tool->error);
+    tool->output = meso_seed_path(tool->output, seed, &tool->arena, &tool->error);
     MesoStatus status = tool->output ? meso_tool_check_output(tool, "-o", tool->output) : MESO_ERR_MEMORY;
-    if (status)
-        return status;
-    const MesoOptionChange changes[] = {{"seeds", NULL}, {"seed", number}, {"output", tool->output}, {NULL, NULL}};
-    tool->provenance.seed = seed;
-    tool->provenance.command_line = meso_tool_command(tool, changes, &tool->arena, &tool->error);
-    return tool->provenance.command_line ? run_seed(job, seed) : MESO_ERR_MEMORY;
-}
-
-/* Each product is what its seed alone would give; the report has a list of them. */
-static MesoStatus run_seeds(Job *job)
-{
-    MesoTool *tool = job->tool;
-    const MesoSeedList *list = &job->seeds;
-    const MesoProvenance provenance = tool->provenance;
-    const char *pattern = tool->output;
-    json_t *whole = tool->report, *seeds = json_array();
-    MesoStatus status = MESO_OK;
-    for (uint32_t r = 0; r < list->range_count && !status; r++)
-        for (uint32_t i = 0; i < list->ranges[r].count && !status; i++) {
-            uint64_t seed = list->ranges[r].first + i;
-            MesoArenaMark mark = meso_arena_mark(&tool->arena);
-            tool->report = json_object();
-            json_object_set_new(tool->report, "seed", json_integer((json_int_t)seed));
-            status = run_one_of_many(job, pattern, seed);
-            json_array_append_new(seeds, tool->report);
-            tool->report = whole;
-            tool->output = pattern;
-            meso_arena_rewind(&tool->arena, mark);
-        }
-    tool->provenance = provenance;
-    json_object_set_new(whole, "seeds", seeds);
-    return status;
+    if (!status)
+        status = meso_seed_provenance(tool, seed, &(MesoOptionChange){"output", tool->output}, 1);
+    return status ? status : run_seed(job, seed);
 }
 
 /* ---- the whole ---- */
@@ -305,7 +274,7 @@ MesoStatus meso_quilt_job_run(MesoQuiltArguments *a)
     if (!status)
         status = read_inputs(&job);
     if (!status)
-        status = a->seeds ? run_seeds(&job) : run_seed(&job, a->tool.seed);
+        status = a->seeds ? meso_seed_runs(job.tool, &job.seeds, run_one_of_many, &job) : run_seed(&job, a->tool.seed);
     close_inputs(&job);
     return status;
 }

@@ -53,7 +53,8 @@ static bool solve(Motion *motion, Normals *normals)
  * plane, that of the face which matches it best; the motion that brings all points nearest to their planes is a least
  * squares problem of three unknowns. Weights after Cauchy let points that match nothing count less and less.
  */
-static bool find_motion(Motion *motion, const MesoQuiltStep *step, const MesoQuiltWork *work, double doubtful, double size)
+static bool find_motion(Motion *motion, const MesoQuiltStep *step, const MesoQuiltWork *work, double doubtful,
+                        double size)
 {
     const MesoSwatch *swatch = work->swatch;
     Normals normals = {{{0}}};

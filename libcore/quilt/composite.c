@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/disjoint_sets.h"
+#include "libcore/quilt/swatch/swatch_elements.h"
 
 /* An array that is owned by the composite, half as large again; false where memory is out. */
 static bool enlarge(void *array, uint32_t room, size_t width)
@@ -29,7 +30,7 @@ static MesoStatus out_of_room(MesoError *error, uint32_t room, const char *what)
 
 MesoStatus meso_composite_init(MesoComposite *composite, uint32_t base_count, MesoError *error)
 {
-    *composite = (MesoComposite){.base_count = base_count};
+    *composite = (MesoComposite){0};
     size_t size = ((size_t)base_count + 1) * sizeof(uint32_t);
     composite->triangle_head = malloc(size);
     composite->whole_head = malloc(size);
@@ -228,19 +229,6 @@ static void count_wholes(MesoQuilt *quilt, const Gathering *g)
         }
 }
 
-static uint32_t swatch_element(const MesoSwatch *swatch, uint32_t triangle)
-{
-    uint32_t low = 0, high = swatch->element_count;
-    while (high - low > 1) {
-        uint32_t middle = (low + high) / 2;
-        if (swatch->triangle_begin[middle] <= triangle)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /* `vertex_at`, `triangle_at`: [element_count] where the next one of each element goes. */
 static void fill_strands(MesoQuilt *quilt, Gathering *g, uint32_t *vertex_at, uint32_t *triangle_at)
 {
@@ -251,7 +239,8 @@ static void fill_strands(MesoQuilt *quilt, Gathering *g, uint32_t *vertex_at, ui
             continue;
         uint32_t element = g->set_element[meso_sets_root(g->sets, c->corners[3 * (size_t)t])];
         if (quilt->element_origins[element] == MESO_NO_INDEX)
-            quilt->element_origins[element] = swatch_element(g->swatch, c->triangle_origins[t]);
+            quilt->element_origins[element] =
+                meso_swatch_element(g->swatch, g->swatch->corners[3 * (size_t)c->triangle_origins[t]]);
         uint32_t to = triangle_at[element]++;
         quilt->triangle_origins[to] = c->triangle_origins[t];
         quilt->patches[to] = c->patches[t];

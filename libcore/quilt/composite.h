@@ -20,7 +20,6 @@ typedef struct MesoPlacedWhole {
 } MesoPlacedWhole;
 
 typedef struct MesoComposite {
-    uint32_t base_count;        /* triangles of the base */
     uint32_t vertex_count, triangle_count, whole_count, whole_vertex_count;
     uint32_t vertex_room, triangle_room, whole_room, whole_vertex_room;
     MesoQuiltVertex *vertices;  /* [vertex_count] of strands */
@@ -34,13 +33,13 @@ typedef struct MesoComposite {
     MesoQuiltVertex *whole_vertices;
     uint32_t *caps;             /* [cap_count] the first triangle of each cap */
     uint32_t cap_count, cap_room;
-    uint32_t *triangle_head, *whole_head;   /* [base_count] or MESO_NO_INDEX */
+    uint32_t *triangle_head, *whole_head;   /* by triangle of the base, or MESO_NO_INDEX */
 } MesoComposite;
 
 MesoStatus meso_composite_init(MesoComposite *composite, uint32_t base_count, MesoError *error);
 void meso_composite_release(MesoComposite *composite);
 
-/* Each makes room for one more first. The numbers of what is new, or MESO_NO_INDEX with `error` filled. Amortised O(1). */
+/* Each makes room for one more first. The number of what is new, or MESO_NO_INDEX with `error` filled. Amortised O(1). */
 uint32_t meso_composite_add_vertex(MesoComposite *composite, MesoQuiltVertex vertex, uint32_t origin, MesoError *error);
 uint32_t meso_composite_add_triangle(MesoComposite *composite, const uint32_t *corners, uint32_t origin, uint32_t patch,
                                      MesoError *error);
@@ -59,7 +58,7 @@ static inline bool meso_composite_is_dead(const MesoComposite *composite, uint32
 /* Takes dead triangles and elements out of the lists under a triangle of the base. */
 void meso_composite_tidy(MesoComposite *composite, uint32_t base_triangle);
 
-/* What lives, by element: connected triangles, and whole elements. To `arena`. O(all). MESO_ERR_LIMIT, MESO_ERR_MEMORY. */
+/* What lives, by element: connected triangles, and whole elements. To `arena`. O(all). MESO_ERR_LIMIT, _MEMORY. */
 MesoStatus meso_composite_finish(MesoQuilt *quilt, MesoArena *arena, const MesoComposite *composite,
                                  const MesoSwatch *swatch, MesoError *error);
 

@@ -6,8 +6,10 @@
 /* More points than that tell nothing new. */
 #define POINT_LIMIT 1000
 
-/* Points that vote for the placement in which the quilt just goes on; votes that agree, in mean edges of the swatch; and by
- * how much it may match worse than another one, which would have to be deformed to fit. */
+/*
+ * Points that vote for the placement in which the quilt just goes on; votes that agree, in mean edges of the swatch; and
+ * by how much it may match worse than another one, which would have to be deformed to fit.
+ */
 enum { VOTERS = 64 };
 #define AGREE 0.1f
 #define WORSE_BUT_EXACT 0.1f
@@ -71,7 +73,7 @@ static uint32_t whole_begin(const MesoQuiltWork *work, uint32_t whole, uint32_t 
     return placed->vertex_begin;
 }
 
-/* Normals of a copy are those of the swatch, as far as `turned` (its first vertices on its centre) tells: by triangles. */
+/* Normals of a copy as it lies in the plane: sums of the area vectors around each vertex, at unit length. */
 static void whole_normals(MesoVec3 *normals, const MesoVec3 *points, const MesoSwatch *swatch, uint32_t element)
 {
     uint32_t first = swatch->vertex_begin[element], count = swatch->vertex_begin[element + 1] - first;
@@ -91,7 +93,8 @@ static void whole_normals(MesoVec3 *normals, const MesoVec3 *points, const MesoS
 
 /* Points of the old quilt in the window: vertices of strands, and of whole elements, in even shares. */
 static MesoStatus collect_points(MesoMatchPoint *points, float *weights, uint32_t *origins, uint32_t *count,
-                                 const MesoQuiltStep *step, const MesoQuiltWork *work, MesoVec2 half, MesoArena *scratch, MesoError *error)
+                                 const MesoQuiltStep *step, const MesoQuiltWork *work, MesoVec2 half,
+                                 MesoArena *scratch, MesoError *error)
 {
     Nearness near;
     measure_nearness(&near, step, work);

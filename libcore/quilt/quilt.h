@@ -54,7 +54,7 @@ typedef struct MesoQuiltReport {
     uint32_t border_removed_count;  /* whole elements left out, since they lie across a border */
     uint32_t closed_count;          /* loops of open edges closed at the end */
     uint32_t debris_count;          /* pieces of strands left out, since they were too short */
-    double seconds[6];              /* charts, matching, seams, whole elements, strands, the rest */
+    double seconds[6];              /* charts, matching, seams and fit, whole elements, strands, what is added to the quilt */
 } MesoQuiltReport;
 
 typedef struct MesoQuilt {
@@ -70,9 +70,10 @@ typedef struct MesoQuilt {
 } MesoQuilt;
 
 /*
- * Covers `base`, whose triangles should be small against the swatch (a tenth of its sides; base_refine.h makes them
- * so) and wound alike. Elements come by the place of their first triangle. To `arena`. The same bytes for any number of threads. Time and memory
- * grow with the number of triangles that come out. MESO_ERR_LIMIT, MESO_ERR_INPUT, MESO_ERR_MEMORY.
+ * Covers `base`, whose triangles should be small against the swatch (a tenth of its sides; base/quilt_base.h makes
+ * them so) and wound alike. Strands come by their first triangle, then whole elements. To `arena`. The same bytes for
+ * any number of threads. Time and memory grow with the number of triangles that come out. MESO_ERR_LIMIT,
+ * MESO_ERR_INPUT, MESO_ERR_MEMORY.
  */
 MesoStatus meso_quilt_grow(MesoQuilt *quilt, MesoArena *arena, const MesoTriangulation *base, const MesoSwatch *swatch,
                            const MesoQuiltOptions *options, MesoError *error);

@@ -3,6 +3,7 @@
 
 #include "libcore/base/disjoint_sets.h"
 #include "libcore/quilt/finish/finish_work.h"
+#include "libcore/quilt/swatch/swatch_elements.h"
 
 /*
  * A stub of a round strand that is one and a half times its radius long has points 2.5 radii apart, and none further:
@@ -56,19 +57,6 @@ static MesoStatus find_pieces(Gatherer *g, MesoError *error)
 
 /* ---- small pieces ---- */
 
-static uint32_t swatch_element(const MesoSwatch *swatch, uint32_t vertex)
-{
-    uint32_t low = 0, high = swatch->element_count;
-    while (high - low > 1) {
-        uint32_t middle = (low + high) / 2;
-        if (swatch->vertex_begin[middle] <= vertex)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static void measure_ends(Gatherer *g)
 {
     const MesoSwatch *swatch = g->work->swatch;
@@ -77,7 +65,7 @@ static void measure_ends(Gatherer *g)
         MesoVec3 centre = {0, 0, 0};
         for (uint32_t i = begin; i < end; i++)
             centre = meso_vec3_mad(centre, 1 / (float)(end - begin), swatch->positions[swatch->loop_vertices[i]]);
-        float *reach = &g->reaches[swatch_element(swatch, swatch->loop_vertices[begin])];
+        float *reach = &g->reaches[meso_swatch_element(swatch, swatch->loop_vertices[begin])];
         for (uint32_t i = begin; i < end; i++) {
             MesoVec3 point = swatch->positions[swatch->loop_vertices[i]];
             *reach = fmaxf(*reach, meso_vec3_length(meso_vec3_sub(point, centre)));
