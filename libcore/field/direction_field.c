@@ -12,7 +12,7 @@ static const double settled = 1e-10;
 typedef struct Smoother {
     const MesoTriangulation *mesh;
     uint32_t symmetry;
-    const MesoFrame *frames;        /* [triangle_count] */
+    const MesoTriangleFrame *frames;        /* [triangle_count] */
     MesoComplex *targets;           /* [triangle_count] guides to the power of the symmetry, times how they pull */
     uint8_t *guided;                /* [triangle_count] whether its part of the surface has a guide */
     double mean_area;
@@ -197,7 +197,7 @@ static MesoStatus solve_field(Smoother *s, MesoComplex *field)
 static MesoStatus make_frames(Smoother *s)
 {
     uint32_t n = s->mesh->triangle_count;
-    MesoFrame *frames = MESO_NEW(s->scratch, MesoFrame, n, s->error);
+    MesoTriangleFrame *frames = MESO_NEW(s->scratch, MesoTriangleFrame, n, s->error);
     s->targets = MESO_NEW(s->scratch, MesoComplex, n, s->error);
     s->guided = MESO_NEW(s->scratch, uint8_t, n, s->error);
     s->triplets = MESO_NEW(s->scratch, MesoTriplet, 8 * (size_t)n, s->error);

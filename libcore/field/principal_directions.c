@@ -13,7 +13,7 @@ typedef struct SpaceShape {
 
 typedef struct Bends {
     const MesoTriangulation *mesh;
-    MesoFrame *frames;      /* [triangle_count] */
+    MesoTriangleFrame *frames;      /* [triangle_count] */
     MesoVec3 *normals;      /* [vertex_count] */
     SpaceShape *shapes;     /* [vertex_count] sums by area of the triangles around */
 } Bends;
@@ -24,7 +24,7 @@ typedef struct Bends {
 static void add_normals(const Bends *bends, double (*sums)[3], uint32_t triangle)
 {
     const MesoTriangulation *mesh = bends->mesh;
-    const MesoFrame *f = &bends->frames[triangle];
+    const MesoTriangleFrame *f = &bends->frames[triangle];
     double normal[3] = {f->x[1] * f->y[2] - f->x[2] * f->y[1], f->x[2] * f->y[0] - f->x[0] * f->y[2],
                         f->x[0] * f->y[1] - f->x[1] * f->y[0]};
     double squares[3];
@@ -80,7 +80,7 @@ static Shape triangle_shape(const Bends *bends, uint32_t triangle)
     double a = 0, b = 0, c = 0, right[3] = {0, 0, 0};
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t from = mesh->corners[3 * triangle + k], to = mesh->corners[3 * triangle + (k + 1) % 3];
-        MesoFrame *frame = &bends->frames[triangle];
+        MesoTriangleFrame *frame = &bends->frames[triangle];
         MesoComplex side = meso_frame_in(frame, meso_vec3_sub(mesh->positions[to], mesh->positions[from]));
         MesoComplex bend = meso_frame_in(frame, meso_vec3_sub(bends->normals[to], bends->normals[from]));
         a += side.re * side.re;
@@ -95,7 +95,7 @@ static Shape triangle_shape(const Bends *bends, uint32_t triangle)
 
 static void add_to_vertices(const Bends *bends, uint32_t triangle)
 {
-    const MesoFrame *f = &bends->frames[triangle];
+    const MesoTriangleFrame *f = &bends->frames[triangle];
     Shape shape = triangle_shape(bends, triangle);
     for (uint32_t k = 0; k < 3; k++) {
         SpaceShape *sum = &bends->shapes[bends->mesh->corners[3 * triangle + k]];
@@ -117,7 +117,7 @@ static double applied(const double in[6], const double a[3], const double b[3])
 /* The mean of those of its corners, which are smoother than its own. */
 static Shape mean_shape(const Bends *bends, uint32_t triangle)
 {
-    const MesoFrame *f = &bends->frames[triangle];
+    const MesoTriangleFrame *f = &bends->frames[triangle];
     double in[6] = {0};
     for (uint32_t k = 0; k < 3; k++) {
         const SpaceShape *sum = &bends->shapes[bends->mesh->corners[3 * triangle + k]];
@@ -130,7 +130,7 @@ static Shape mean_shape(const Bends *bends, uint32_t triangle)
 static void set_direction(const Bends *bends, uint32_t triangle, MesoVec3 *direction, float *weight)
 {
     const double flat = 1e-4;   /* radians over a triangle: floats make some 1e-5 of their own */
-    const MesoFrame *frame = &bends->frames[triangle];
+    const MesoTriangleFrame *frame = &bends->frames[triangle];
     Shape shape = mean_shape(bends, triangle);
     double mean = 0.5 * (shape.in[0] + shape.in[2]), half = 0.5 * (shape.in[0] - shape.in[2]);
     double apart = sqrt(half * half + shape.in[1] * shape.in[1]);
@@ -147,7 +147,7 @@ MesoStatus meso_principal_directions(MesoVec3 *directions, float *weights, MesoA
                                      const MesoTriangulation *mesh, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
-    Bends bends = {.mesh = mesh, .frames = MESO_NEW(scratch, MesoFrame, mesh->triangle_count, error),
+    Bends bends = {.mesh = mesh, .frames = MESO_NEW(scratch, MesoTriangleFrame, mesh->triangle_count, error),
                    .shapes = MESO_NEW(scratch, SpaceShape, mesh->vertex_count, error)};
     MesoStatus status = bends.frames && bends.shapes ? MESO_OK : MESO_ERR_MEMORY;
     for (uint32_t t = 0; !status && t < mesh->triangle_count; t++)

@@ -33,7 +33,7 @@ static bool make_unit(double v[3])
     return true;
 }
 
-MesoFrame meso_frame(const MesoTriangulation *mesh, uint32_t triangle)
+MesoTriangleFrame meso_frame(const MesoTriangulation *mesh, uint32_t triangle)
 {
     const double thinnest = 1e-7;   /* of the longest side, below which floats do not tell where its plane is */
     double sides[3][3];
@@ -42,7 +42,7 @@ MesoFrame meso_frame(const MesoTriangulation *mesh, uint32_t triangle)
         side_of(sides[k], mesh, 3 * triangle + k);
         longest = dot(sides[k], sides[k]) > dot(sides[longest], sides[longest]) ? k : longest;
     }
-    MesoFrame frame = {{sides[longest][0], sides[longest][1], sides[longest][2]}, {0}, 0};
+    MesoTriangleFrame frame = {{sides[longest][0], sides[longest][1], sides[longest][2]}, {0}, 0};
     double length = sqrt(dot(frame.x, frame.x));
     if (!make_unit(frame.x))
         frame.x[0] = 1;
@@ -57,14 +57,15 @@ MesoFrame meso_frame(const MesoTriangulation *mesh, uint32_t triangle)
     return frame;
 }
 
-static MesoComplex side_in(const MesoTriangulation *mesh, const MesoFrame *frame, uint32_t half_edge)
+static MesoComplex side_in(const MesoTriangulation *mesh, const MesoTriangleFrame *frame, uint32_t half_edge)
 {
     double side[3];
     side_of(side, mesh, half_edge);
     return (MesoComplex){dot(side, frame->x), dot(side, frame->y)};
 }
 
-MesoComplex meso_frame_turn(const MesoTriangulation *mesh, const MesoFrame *frames, uint32_t half_edge, uint32_t across)
+MesoComplex meso_frame_turn(const MesoTriangulation *mesh, const MesoTriangleFrame *frames, uint32_t half_edge,
+                            uint32_t across)
 {
     MesoComplex here = side_in(mesh, &frames[half_edge / 3], half_edge);
     MesoComplex there = side_in(mesh, &frames[across / 3], across);

@@ -45,21 +45,21 @@ static inline MesoComplex meso_complex_root(MesoComplex a, uint32_t power)
 }
 
 /* x along the longest side, y to its left: the triangle lies there. */
-typedef struct MesoFrame {
+typedef struct MesoTriangleFrame {
     double x[3], y[3];
     double area;
-} MesoFrame;
+} MesoTriangleFrame;
 
-MesoFrame meso_frame(const MesoTriangulation *mesh, uint32_t triangle);
+MesoTriangleFrame meso_frame(const MesoTriangulation *mesh, uint32_t triangle);
 
 /* The part of a vector that lies in the plane. */
-static inline MesoComplex meso_frame_in(const MesoFrame *frame, MesoVec3 v)
+static inline MesoComplex meso_frame_in(const MesoTriangleFrame *frame, MesoVec3 v)
 {
     return (MesoComplex){frame->x[0] * v.x + frame->x[1] * v.y + frame->x[2] * v.z,
                          frame->y[0] * v.x + frame->y[1] * v.y + frame->y[2] * v.z};
 }
 
-static inline MesoVec3 meso_frame_out(const MesoFrame *frame, MesoComplex c)
+static inline MesoVec3 meso_frame_out(const MesoTriangleFrame *frame, MesoComplex c)
 {
     return (MesoVec3){(float)(c.re * frame->x[0] + c.im * frame->y[0]),
                       (float)(c.re * frame->x[1] + c.im * frame->y[1]),
@@ -70,7 +70,7 @@ static inline MesoVec3 meso_frame_out(const MesoFrame *frame, MesoComplex c)
 typedef struct MesoFieldPowers {
     const MesoTriangulation *mesh;
     uint32_t symmetry;
-    const MesoFrame *frames;    /* [triangle_count] */
+    const MesoTriangleFrame *frames;    /* [triangle_count] */
     const MesoComplex *powers;  /* [triangle_count] of length 1 */
 } MesoFieldPowers;
 
@@ -82,7 +82,7 @@ static inline uint32_t meso_frame_across(const MesoTriangulation *mesh, uint32_t
 }
 
 /* What a direction in the frame of `half_edge`'s triangle is times, to be that direction across it. */
-MesoComplex meso_frame_turn(const MesoTriangulation *mesh, const MesoFrame *frames, uint32_t half_edge,
+MesoComplex meso_frame_turn(const MesoTriangulation *mesh, const MesoTriangleFrame *frames, uint32_t half_edge,
                             uint32_t across);
 
 #endif

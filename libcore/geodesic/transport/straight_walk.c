@@ -279,14 +279,14 @@ void meso_tip_position(const MesoTriangulation *mesh, const MesoTip *tip, double
 
 void meso_walk_direction(const MesoTriangulation *mesh, uint32_t triangle, MesoComplex direction, double out[3])
 {
-    MesoFrame frame = meso_frame(mesh, triangle);
+    MesoTriangleFrame frame = meso_frame(mesh, triangle);
     for (uint32_t i = 0; i < 3; i++)
         out[i] = direction.re * frame.x[i] + direction.im * frame.y[i];
 }
 
 bool meso_tip_head(MesoTip *tip, const MesoTriangulation *mesh, const double towards[3])
 {
-    MesoFrame frame = meso_frame(mesh, tip->triangle);
+    MesoTriangleFrame frame = meso_frame(mesh, tip->triangle);
     MesoComplex part = {0, 0};
     for (uint32_t i = 0; i < 3; i++) {
         part.re += frame.x[i] * towards[i];

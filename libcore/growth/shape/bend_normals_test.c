@@ -81,7 +81,7 @@ static void test_threads(void)
     MesoArena arena;
     MesoTerminalShape shape;
     meso_arena_init(&arena);
-    CHECK(!meso_builtin_shape(&shape, &arena, MESO_SHAPE_LEAF, 0, NULL));
+    CHECK(!meso_builtin_shape(&shape, &arena, MESO_BUILTIN_LEAF, 0, NULL));
     MesoJoint *joints = MESO_NEW(&arena, MesoJoint, JOINTS, NULL);
     MesoSpan *spans = MESO_NEW(&arena, MesoSpan, SPANS, NULL);
     uint32_t vertices = shape.body.vertex_count;
@@ -123,7 +123,7 @@ static void test_registers(void)
     MesoTerminalShape shape;
     MesoBendGroup group;
     meso_arena_init(&arena);
-    CHECK(!meso_builtin_shape(&shape, &arena, MESO_SHAPE_LINK, 0, NULL));
+    CHECK(!meso_builtin_shape(&shape, &arena, MESO_BUILTIN_LINK, 0, NULL));
     uint32_t vertices = shape.body.vertex_count;
     CHECK(vertices <= MOST);
     meso_test_strand(joints, MESO_LANES + 1, 9, 0.4f);
@@ -155,7 +155,7 @@ static void test_folds(void)
         MesoArena arena;
         MesoTerminalShape shape;
         meso_arena_init(&arena);
-        CHECK(!meso_builtin_shape(&shape, &arena, MESO_SHAPE_TUBE, 0, NULL));
+        CHECK(!meso_builtin_shape(&shape, &arena, MESO_BUILTIN_TUBE, 0, NULL));
         MesoBending bending = {&shape, joints, 1, &span, positions, normals, &folds};
         meso_bend(&bending, 1);
         CHECK(folds == i);
@@ -173,7 +173,7 @@ static void test_bodies(void)
     MesoArena arena;
     MesoTerminalShape shape;
     meso_arena_init(&arena);
-    CHECK(!meso_builtin_shape(&shape, &arena, MESO_SHAPE_SCALE, 0, NULL));
+    CHECK(!meso_builtin_shape(&shape, &arena, MESO_BUILTIN_SCALE, 0, NULL));
     meso_test_strand(joints, SPANS + 1, 2, 0.2f);
     for (uint32_t i = 0; i < SPANS; i++)
         spans[i] = (MesoSpan){i, i + 1};

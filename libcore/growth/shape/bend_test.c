@@ -40,7 +40,7 @@ static void test_arc(float angle, float tolerance)
     MesoArena arena;
     MesoTerminalShape shape;
     meso_arena_init(&arena);
-    make_shape(&shape, &arena, MESO_SHAPE_TUBE, 4);
+    make_shape(&shape, &arena, MESO_BUILTIN_TUBE, 4);
     meso_test_bend(&shape, circle_joint(0, radius, width), circle_joint(angle, radius, width), positions, normals);
     for (uint32_t v = 0; v < shape.body.vertex_count; v++) {
         MesoVec3 p = positions[v];
@@ -65,7 +65,7 @@ static void test_cone(void)
     MesoArena arena;
     MesoTerminalShape shape;
     meso_arena_init(&arena);
-    make_shape(&shape, &arena, MESO_SHAPE_TUBE, 2);
+    make_shape(&shape, &arena, MESO_BUILTIN_TUBE, 2);
     MesoJoint from = meso_joint((MesoVec3){0, 0, 0}, z, x, x, 1, 0);
     MesoJoint to = meso_joint((MesoVec3){2, 0, 0}, z, x, x, 0.4f, 0);
     from.flare = to.flare = -0.3f;
@@ -137,7 +137,7 @@ static void test_strand(uint64_t seed)
     MesoArena arena;
     MesoTerminalShape tube;
     meso_arena_init(&arena);
-    make_shape(&tube, &arena, MESO_SHAPE_TUBE, 1);
+    make_shape(&tube, &arena, MESO_BUILTIN_TUBE, 1);
     meso_test_strand(joints, JOINTS, seed, 0.2f);
     uint32_t around = tube.ring_begin[1], end = tube.body.vertex_count - around;
     for (uint32_t i = 0; i + 1 < JOINTS; i++) {

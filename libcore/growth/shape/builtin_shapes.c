@@ -69,11 +69,11 @@ static Point scale_place(double u, double v, uint32_t sheet)
 }
 
 static const Recipe recipes[MESO_BUILTIN_SHAPES] = {
-    [MESO_SHAPE_LEAF] = {leaf_place, 2, 2, 2, 4, 2, false, false, true},
-    [MESO_SHAPE_SCALE] = {scale_place, 2, 2, 2, 4, 2, false, false, true},
-    [MESO_SHAPE_BEAD] = {bead_place, 1, 6, 2, 4, 2, true, false, true},
-    [MESO_SHAPE_LINK] = {link_place, 1, 8, 4, 4, 2, true, true, false},
-    [MESO_SHAPE_TUBE] = {tube_place, 1, 6, 2, 2, 1, true, false, false},
+    [MESO_BUILTIN_LEAF] = {leaf_place, 2, 2, 2, 4, 2, false, false, true},
+    [MESO_BUILTIN_SCALE] = {scale_place, 2, 2, 2, 4, 2, false, false, true},
+    [MESO_BUILTIN_BEAD] = {bead_place, 1, 6, 2, 4, 2, true, false, true},
+    [MESO_BUILTIN_LINK] = {link_place, 1, 8, 4, 4, 2, true, true, false},
+    [MESO_BUILTIN_TUBE] = {tube_place, 1, 6, 2, 2, 1, true, false, false},
 };
 
 /* ---- meshes of recipes ---- */

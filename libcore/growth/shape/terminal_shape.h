@@ -36,11 +36,11 @@ MesoStatus meso_terminal_shape_build(MesoTerminalShape *out, MesoArena *arena, c
 /* ---- shapes that come with the library ---- */
 
 typedef enum MesoBuiltinShape {
-    MESO_SHAPE_LEAF,    /* two sheets, widest towards its root; folded along its middle, its tip hanging */
-    MESO_SHAPE_SCALE,   /* a shield: thick at its root, with a round, thin end */
-    MESO_SHAPE_BEAD,    /* a ball that ends in points at 0 and 1 */
-    MESO_SHAPE_LINK,    /* of a chain: a rod bent to an oval, flat on the surface */
-    MESO_SHAPE_TUBE,    /* round, open at both ends; those of a strand join */
+    MESO_BUILTIN_LEAF,    /* two sheets, widest towards its root; folded along its middle, its tip hanging */
+    MESO_BUILTIN_SCALE,   /* a shield: thick at its root, with a round, thin end */
+    MESO_BUILTIN_BEAD,    /* a ball that ends in points at 0 and 1 */
+    MESO_BUILTIN_LINK,    /* of a chain: a rod bent to an oval, flat on the surface */
+    MESO_BUILTIN_TUBE,    /* round, open at both ends; those of a strand join */
     MESO_BUILTIN_SHAPES
 } MesoBuiltinShape;
 

@@ -84,7 +84,7 @@ static void test_builtin(MesoBuiltinShape kind, uint32_t detail)
     meso_arena_init(&arena);
     CHECK(!meso_builtin_shape(&shape, &arena, kind, detail, NULL));
     check_rings(&shape);
-    check_sides(&shape.body, kind == MESO_SHAPE_TUBE);
+    check_sides(&shape.body, kind == MESO_BUILTIN_TUBE);
     check_outward(&shape.body);
     for (uint32_t v = 0; v < shape.body.vertex_count; v++) {
         MesoVec3 p = shape.body.positions[v];
@@ -94,7 +94,7 @@ static void test_builtin(MesoBuiltinShape kind, uint32_t detail)
         CHECK(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
     }
     CHECK(fabsf(widest[0] - 0.5f) < 1e-6f && fabsf(widest[1] - 0.5f) < 1e-6f);
-    if (kind == MESO_SHAPE_LEAF || kind == MESO_SHAPE_SCALE)
+    if (kind == MESO_BUILTIN_LEAF || kind == MESO_BUILTIN_SCALE)
         CHECK(lowest == 0);
     if (detail == 0)
         CHECK(shape.body.face_count <= 64);
@@ -107,8 +107,8 @@ static void test_round(void)
     MesoArena arena;
     MesoTerminalShape bead, tube;
     meso_arena_init(&arena);
-    CHECK(!meso_builtin_shape(&bead, &arena, MESO_SHAPE_BEAD, 3, NULL));
-    CHECK(!meso_builtin_shape(&tube, &arena, MESO_SHAPE_TUBE, 3, NULL));
+    CHECK(!meso_builtin_shape(&bead, &arena, MESO_BUILTIN_BEAD, 3, NULL));
+    CHECK(!meso_builtin_shape(&tube, &arena, MESO_BUILTIN_TUBE, 3, NULL));
     for (uint32_t v = 0; v < bead.body.vertex_count; v++) {
         MesoVec3 p = bead.body.positions[v], n = bead.body.normals[v];
         MesoVec3 exact = {2 * p.x - 1, 2 * p.y, 2 * p.z};

@@ -1,0 +1,88 @@
+/*
+ * Growth: branches that run the rules of a grammar and walk over a surface, round by round. In a round each branch
+ * runs one rule. Steps are proposed by all branches at once against what earlier rounds have grown, and accepted in
+ * the order of generation and branch against what this round has: the result is the same for any number of threads.
+ * ("Dynamic On-Mesh Procedural Generation Control", Buron, Marvie, Guennebaud and Granier 2014, grows in textures and
+ * without collisions.)
+ */
+#ifndef MESO_GROWTH_H
+#define MESO_GROWTH_H
+
+#include "libcore/growth/ground/growth_seeds.h"
+#include "libcore/growth/shape/bend.h"
+
+/* How steps go over the surface: meso_walks(), or another way with the same promises. */
+typedef struct MesoGrowthMarch {
+    void (*walk)(const void *context, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options);
+    const void *context;
+} MesoGrowthMarch;
+
+/* A line of a trace: what was done by a branch. Told in the order in which it is accepted. */
+typedef struct MesoGrowthEvent {
+    uint64_t key;               /* of the branch */
+    uint32_t rule, generation;
+    const MesoGrowthCommand *command;
+    MesoTip tip;                /* after it */
+    bool accepted;
+} MesoGrowthEvent;
+
+typedef struct MesoGrowthOptions {
+    const MesoGrammar *grammar;
+    const MesoGrowthContexts *contexts;
+    const MesoGrowthStarts *starts;
+    const MesoGrowthMarch *march;       /* NULL: straight on over the mesh */
+    uint32_t thread_count;              /* 0: all cores */
+    double generations, elements, length;   /* limits beside the grammar's; 0: none */
+    void (*event)(void *context, const MesoGrowthEvent *event);     /* may be NULL */
+    bool (*progress)(void *context, uint32_t generation, uint64_t element_count);   /* may be NULL; false ends it */
+    void *context;
+} MesoGrowthOptions;
+
+/* A shape from joint to joint, of a step or a place. */
+typedef struct MesoGrowthElement {
+    MesoSpan span;
+    uint32_t shape;             /* of the grammar; MESO_NO_INDEX: a step without one */
+    uint32_t branch;
+    uint32_t rule, generation;
+    float tint;
+    float length;               /* of the branch's way from its seed, at the end of this */
+} MesoGrowthElement;
+
+typedef struct MesoGrowthBranch {
+    uint64_t key;
+    uint32_t parent;            /* MESO_NO_INDEX: it comes from a seed */
+    uint32_t seed;              /* of the grammar */
+    uint32_t element_begin;     /* its first element; elements of a branch need not lie together */
+} MesoGrowthBranch;
+
+typedef enum MesoGrowthEnd {
+    MESO_GROWTH_ALL_DONE, MESO_GROWTH_GENERATIONS, MESO_GROWTH_ELEMENTS, MESO_GROWTH_LENGTH, MESO_GROWTH_STOPPED
+} MesoGrowthEnd;
+
+typedef struct MesoGrowthRuleCount {
+    uint64_t runs, steps, refused, placed, branches, at_borders;
+} MesoGrowthRuleCount;
+
+/* What has grown. */
+typedef struct MesoGrown {
+    uint32_t joint_count, element_count, branch_count;
+    MesoJoint *joints;                  /* [joint_count] */
+    MesoMeshPoint *points;              /* [joint_count] of the surface below each */
+    MesoGrowthElement *elements;        /* [element_count] in the order of growth */
+    MesoGrowthBranch *branches;         /* [branch_count] */
+    MesoGrowthRuleCount *rules;         /* [rule_count] */
+    uint32_t generation_count;
+    double length;                      /* of all steps */
+    MesoGrowthEnd end;
+} MesoGrown;
+
+/*
+ * Grows. Joints of consecutive steps of a branch are the same joint, and so meet in the same floats; a branch's first
+ * step begins at a joint of its own. A step keeps `clear` from what has grown before within the part of the surface
+ * that is joined to it within that distance, and crosses nothing; but what its own branch and its parent's joint made
+ * just before. MESO_ERR_INPUT where a value is no number, by line; MESO_ERR_MEMORY. What has grown until a limit is
+ * told by `end`, and is whole. O(elements * pieces that are near).
+ */
+MesoStatus meso_grow(MesoGrown *grown, MesoArena *arena, const MesoGrowthOptions *options, MesoError *error);
+
+#endif

@@ -1,0 +1,30 @@
+/*
+ * The surface as growth sees it: triangles to walk over, with what rules ask of a place: smooth normals, height,
+ * slope, curvature. All of it is told at a point: a triangle and the weights of its corners.
+ */
+#ifndef MESO_GROWTH_GROUND_H
+#define MESO_GROWTH_GROUND_H
+
+#include "libcore/geodesic/transport/straight_walk.h"
+
+typedef struct MesoGrowthGround {
+    const MesoTriangulation *mesh;
+    MesoWalkGround walk;
+    MesoVec3 *normals;          /* [vertex_count] unit length, outward: of triangles by their angles */
+    float *curvatures;          /* [vertex_count] mean curvature in radians a unit, positive where the surface bulges */
+    MesoVec3 up;                /* unit length */
+    double bottom;              /* of the surface along `up`: heights count from there */
+    double extent;              /* diagonal of its box */
+} MesoGrowthGround;
+
+/* `up` of any length but 0. O(triangles), on `thread_count` threads (0: all cores), the same for any number.
+ * MESO_ERR_MEMORY alone. */
+MesoStatus meso_growth_ground_build(MesoGrowthGround *ground, MesoArena *arena, const MesoTriangulation *mesh,
+                                    MesoVec3 up, uint32_t thread_count, MesoError *error);
+
+MesoVec3 meso_growth_position(const MesoGrowthGround *ground, uint32_t triangle, const double weight[3]);
+
+/* Unit length: the vertices' normals interpolated, as seen from the side that a tip that is `turned` grows on. */
+MesoVec3 meso_growth_normal(const MesoGrowthGround *ground, uint32_t triangle, const double weight[3], bool turned);
+
+#endif
