@@ -19,6 +19,15 @@ static const char *point_text(const MesoVec3 *point, MesoArena *arena, MesoError
     return x && y && z ? meso_arena_print(arena, error, "%s,%s,%s", x, y, z) : NULL;
 }
 
+/* NULL too where the list is empty. */
+static const char *list_text(const MesoTextList *list, MesoArena *arena, MesoError *error)
+{
+    const char *text = list->count ? list->items[0] : NULL;
+    for (uint32_t i = 1; text && i < list->count; i++)
+        text = meso_arena_print(arena, error, "%s,%s", text, list->items[i]);
+    return text;
+}
+
 /* Numbers by their value and not as they were spelled. False when memory is out. */
 static bool value_text(const char **text, const MesoOption *option, MesoArena *arena, MesoError *error)
 {
@@ -39,6 +48,9 @@ static bool value_text(const char **text, const MesoOption *option, MesoArena *a
     case MESO_OPTION_PATTERN:
         *text = *(const char *const *)option->value;
         return true;
+    case MESO_OPTION_LIST:
+        *text = list_text(option->value, arena, error);
+        return *text || ((const MesoTextList *)option->value)->count == 0;
     case MESO_OPTION_COUNT:
         *text = meso_arena_print(arena, error, "%" PRIu32, *count);
         break;

@@ -224,6 +224,15 @@ static MesoStatus set_number(const MesoOption *option, const char *text, MesoErr
     return MESO_OK;
 }
 
+static MesoStatus add_text(const MesoOption *option, const char *text, MesoError *error)
+{
+    MesoTextList *list = option->value;
+    if (list->count == MESO_LIST_MOST)
+        return meso_fail(error, MESO_ERR_USAGE, "option '--%s' is given over %d times", option->name, MESO_LIST_MOST);
+    list->items[list->count++] = text;
+    return MESO_OK;
+}
+
 static MesoStatus set_choice(const MesoOption *option, const char *text, MesoError *error)
 {
     size_t length = strlen(text);
@@ -305,6 +314,8 @@ static MesoStatus set_value(const MesoOption *option, const char *text, MesoErro
     case MESO_OPTION_PATTERN:
         *(const char **)option->value = text ? text : "";
         return MESO_OK;
+    case MESO_OPTION_LIST:
+        return add_text(option, text, error);
     case MESO_OPTION_CHOICE:
         return set_choice(option, text, error);
     case MESO_OPTION_SIZE:

@@ -16,6 +16,7 @@ typedef enum MesoOptionKind {
     MESO_OPTION_SEED,       /* uint64_t */
     MESO_OPTION_NUMBER,     /* float, in [low, high] */
     MESO_OPTION_TEXT,       /* const char *, and no path */
+    MESO_OPTION_LIST,       /* MesoTextList; texts with commas between, and given again, more of them */
     MESO_OPTION_CHOICE,     /* const char *, one of `choices` "a|b|c" */
     MESO_OPTION_SIZE,       /* uint32_t[2], WxH */
     MESO_OPTION_POINT,      /* MesoVec3, X,Y,Z */
@@ -25,6 +26,13 @@ typedef enum MesoOptionKind {
     MESO_OPTION_OUTPUT_OPT, /* const char *, the same; --name or --name=FILE; "" without */
     MESO_OPTION_PATTERN     /* const char *, of the names of files that are written */
 } MesoOptionKind;
+
+enum { MESO_LIST_MOST = 64 };
+
+typedef struct MesoTextList {
+    uint32_t count;
+    const char *items[MESO_LIST_MOST];  /* [count] as they were given, each one or several with commas between */
+} MesoTextList;
 
 /* What a row may add to its kind, for the record of the command. */
 enum {
@@ -66,6 +74,8 @@ typedef struct MesoOption {
                     __VA_ARGS__)
 #define MESO_TEXT(letter, name, argument, help, pointer, ...) \
     MESO_OPTION_ROW(MESO_OPTION_TEXT, letter, name, argument, help, const char *, pointer, __VA_ARGS__)
+#define MESO_LIST(letter, name, argument, help, pointer, ...) \
+    MESO_OPTION_ROW(MESO_OPTION_LIST, letter, name, argument, help, MesoTextList, pointer, __VA_ARGS__)
 #define MESO_CHOICE(letter, name, argument, help, pointer, choices_, ...)                         \
     MESO_OPTION_ROW(MESO_OPTION_CHOICE, letter, name, argument, help, const char *, pointer, .choices = (choices_), \
                     __VA_ARGS__)

@@ -13,6 +13,7 @@ typedef struct Values {
     const char *text, *optional, *choice, *input, *output, *pattern, *folder;
     bool eye_given;
     MesoVec3 point;
+    MesoTextList list;
 } Values;
 
 static Values v;
@@ -27,6 +28,7 @@ static const MesoOption options[] = {
     MESO_NUMBER('n', "number", "X", "a number", &v.number, 1e-4, 1),
     MESO_NUMBER(0, "free", "X", "any number", &v.free_number, 0, 0),
     MESO_TEXT('t', "text", "TEXT", "a text", &v.text),
+    MESO_LIST(0, "set", "A=B", "some texts", &v.list),
     MESO_OUTPUT_FILE_OPT('j', "json", "FILE", "perhaps a text", &v.optional, .more = MESO_OPTION_SILENT),
     MESO_CHOICE(0, "choice", "HOW", "one of them", &v.choice, "auto|none|json"),
     MESO_SIZE(0, "size", "WxH", "a size", v.size, 1, 16384),
@@ -85,6 +87,8 @@ static void test_good(void)
     CHECK(parse("x --json=a --seed=9223372036854775807 --plain 4294967295", &error) == MESO_OK);
     CHECK(strcmp(v.optional, "a") == 0 && v.seed == INT64_MAX && v.plain == UINT32_MAX);
     CHECK(parse("x --count 2 --count 4096 -n 1e-4 -n 1", &error) == MESO_OK && v.count == 4096);
+    CHECK(parse("x --set a=1 --set=b=2,c=3 d", &error) == MESO_OK && v.list.count == 2 && operand_count == 1);
+    CHECK(strcmp(v.list.items[0], "a=1") == 0 && strcmp(v.list.items[1], "b=2,c=3") == 0);
 }
 
 static void test_bad(void)
@@ -191,6 +195,7 @@ static void test_names(void)
     const MesoOptionChange changes[] = {{"seed", "9"}, {"count", NULL}, {"output", "z"}, {NULL, NULL}};
     expect_names("x --seed 7 -c 3 a", changes, "x --seed 9 a");
     expect_names("x a", changes, "x --seed 9 a");
+    expect_names("x --set a=1 a --set b=2,c=3", NULL, "x --set a=1,b=2,c=3 a");
 }
 
 int main(void)

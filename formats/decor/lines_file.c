@@ -1,45 +1,9 @@
 #include "formats/decor/lines_file.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "formats/product/svg_metadata.h"
 #include "libcore/math/box.h"
-
-static MesoStatus print(MesoOutput *output, MesoError *error, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-static MesoStatus print(MesoOutput *output, MesoError *error, const char *format, ...)
-{
-    char text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    int size = vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return meso_output_write(output, text, (size_t)size, error);
-}
-
-/* Text in XML. */
-static MesoStatus put_escaped(const char *text, MesoOutput *output, MesoError *error)
-{
-    MesoStatus status = MESO_OK;
-    for (; *text && !status; text++)
-        status = *text == '<' ? print(output, error, "&lt;") : *text == '&' ? print(output, error, "&amp;")
-            : *text == '>' ? print(output, error, "&gt;") : print(output, error, "%c", *text);
-    return status;
-}
-
-static MesoStatus put_metadata(const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
-{
-    MesoArena arena;
-    meso_arena_init(&arena);
-    const char *text = meso_provenance_text(provenance, &arena, error);
-    MesoStatus status = text ? print(output, error, "<metadata>") : MESO_ERR_MEMORY;
-    if (!status)
-        status = put_escaped(text, output, error);
-    meso_arena_release(&arena);
-    return status ? status : print(output, error, "</metadata>\n");
-}
 
 static MesoStatus put_provenance(const MesoProvenance *provenance, const char *mark, const char *end,
                                  MesoOutput *output, MesoError *error)
@@ -59,13 +23,13 @@ MesoStatus meso_lines_obj_write(const MesoDecor *decor, const MesoProvenance *pr
 {
     MesoStatus status = put_provenance(provenance, "# ", "", output, error);
     for (uint32_t i = 0; i < 2 * decor->line_count && !status; i++)
-        status = print(output, error, "v %.9g %.9g %.9g\n", (double)decor->lines[i].x, (double)decor->lines[i].y,
-                       (double)decor->lines[i].z);
+        status = meso_output_print(output, error, "v %.9g %.9g %.9g\n", (double)decor->lines[i].x,
+                                   (double)decor->lines[i].y, (double)decor->lines[i].z);
     for (uint32_t i = 0; i < decor->line_count && !status; i++) {
         if (i == 0 || decor->line_steps[i] != decor->line_steps[i - 1])
-            status = print(output, error, "g operation.%u\n", decor->line_steps[i]);
+            status = meso_output_print(output, error, "g operation.%u\n", decor->line_steps[i]);
         if (!status)
-            status = print(output, error, "l %u %u\n", 2 * i + 1, 2 * i + 2);
+            status = meso_output_print(output, error, "l %u %u\n", 2 * i + 1, 2 * i + 2);
     }
     return status;
 }
@@ -93,7 +57,7 @@ static View view_of(const MesoDecor *decor)
 static MesoStatus put_path(const MesoDecor *decor, const View *view, uint32_t begin, uint32_t end, bool front,
                            MesoOutput *output, MesoError *error)
 {
-    MesoStatus status = print(output, error, "<path class=\"%s\" d=\"", front ? "front" : "back");
+    MesoStatus status = meso_output_print(output, error, "<path class=\"%s\" d=\"", front ? "front" : "back");
     for (uint32_t i = begin; i < end && !status; i++) {
         const MesoVec3 *p = &decor->lines[2 * (size_t)i];
         if (((double)p[0].z + p[1].z >= 2 * view->middle) != front)
@@ -103,9 +67,9 @@ static MesoStatus put_path(const MesoDecor *decor, const View *view, uint32_t be
             at[2 * k] = ((double)p[k].x - view->box.low.x) * view->scale;
             at[2 * k + 1] = ((double)view->box.high.y - p[k].y) * view->scale;
         }
-        status = print(output, error, "M%.2f %.2fL%.2f %.2f", at[0], at[1], at[2], at[3]);
+        status = meso_output_print(output, error, "M%.2f %.2fL%.2f %.2f", at[0], at[1], at[2], at[3]);
     }
-    return status ? status : print(output, error, "\"/>\n");
+    return status ? status : meso_output_print(output, error, "\"/>\n");
 }
 
 static MesoStatus put_operations(const MesoDecor *decor, const View *view, MesoOutput *output, MesoError *error)
@@ -114,13 +78,13 @@ static MesoStatus put_operations(const MesoDecor *decor, const View *view, MesoO
     for (uint32_t begin = 0, end; begin < decor->line_count && !status; begin = end) {
         for (end = begin + 1; end < decor->line_count && decor->line_steps[end] == decor->line_steps[begin]; end++)
             ;
-        status = print(output, error, "<g id=\"operation.%u\">\n", decor->line_steps[begin]);
+        status = meso_output_print(output, error, "<g id=\"operation.%u\">\n", decor->line_steps[begin]);
         if (!status)
             status = put_path(decor, view, begin, end, false, output, error);
         if (!status)
             status = put_path(decor, view, begin, end, true, output, error);
         if (!status)
-            status = print(output, error, "</g>\n");
+            status = meso_output_print(output, error, "</g>\n");
     }
     return status;
 }
@@ -131,14 +95,15 @@ MesoStatus meso_lines_svg_write(const MesoDecor *decor, const MesoProvenance *pr
     View view = view_of(decor);
     double width = decor->line_count ? ((double)view.box.high.x - view.box.low.x) * view.scale : 0;
     double height = decor->line_count ? ((double)view.box.high.y - view.box.low.y) * view.scale : 0;
-    MesoStatus status = print(output, error,
+    MesoStatus status = meso_output_print(output, error,
                               "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-10 -10 %.2f %.2f\">\n",
                               width + 20, height + 20);
     if (!status)
-        status = put_metadata(provenance, output, error);
+        status = meso_svg_metadata(provenance, output, error);
     if (!status)
-        status = print(output, error, "<style>path{fill:none;stroke:#124;stroke-width:1}.back{stroke:#bcd}</style>\n");
+        status = meso_output_print(output, error, "<style>path{fill:none;stroke:#124;stroke-width:1}"
+                                   ".back{stroke:#bcd}</style>\n");
     if (!status)
         status = put_operations(decor, &view, output, error);
-    return status ? status : print(output, error, "</svg>\n");
+    return status ? status : meso_output_print(output, error, "</svg>\n");
 }

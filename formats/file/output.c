@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -252,6 +253,16 @@ MesoStatus meso_output_write(MesoOutput *output, const void *data, size_t size, 
     }
     output->end += size;
     return MESO_OK;
+}
+
+MesoStatus meso_output_print(MesoOutput *output, MesoError *error, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    int size = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return meso_output_write(output, text, size < (int)sizeof text ? (size_t)size : sizeof text - 1, error);
 }
 
 MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void *data, size_t size,

@@ -25,6 +25,10 @@ char *meso_output_target(const char *path);
 /* Appends. After a failure every later call fails too. */
 MesoStatus meso_output_write(MesoOutput *output, const void *data, size_t size, MesoError *error);
 
+/* Appends text of a printf format, cut after 1023 bytes. */
+MesoStatus meso_output_print(MesoOutput *output, MesoError *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* Writes at `offset`, which may lie anywhere; the end of the file follows the furthest byte. */
 MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void *data, size_t size,
                                 MesoError *error);

@@ -151,6 +151,8 @@ static MesoFileKind kind_of_text(const MesoInput *input)
     if (begins_at(input, mark, "slot,tile"))
         return MESO_FILE_CSV;
     at = skip_comments(input, at);
+    if (begins_at(input, at, "meso-grow "))
+        return MESO_FILE_GRAMMAR;
     if (begins_off(input, at))
         return MESO_FILE_OFF;
     return begins_obj(input, at) ? MESO_FILE_OBJ : MESO_FILE_UNKNOWN;
@@ -193,6 +195,7 @@ const char *meso_file_kind_phrase(MesoFileKind kind)
     case MESO_FILE_SLOTS: return "an assignment (.slots)";
     case MESO_FILE_MODEL: return "a model (.meso)";
     case MESO_FILE_QUILT: return "a quilt (.quilt)";
+    case MESO_FILE_GRAMMAR: return "a grammar (.grammar)";
     case MESO_FILE_OBJ: return "an OBJ mesh";
     case MESO_FILE_PLY: return "a PLY mesh";
     case MESO_FILE_OFF: return "an OFF mesh";

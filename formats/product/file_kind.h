@@ -28,7 +28,8 @@ typedef enum MesoFileKind {
     MESO_FILE_PATTERN = 1 << 18,
     MESO_FILE_MACROS = 1 << 19,         /* of patterns */
     MESO_FILE_REGIONS = 1 << 20,        /* of a finished pattern */
-    MESO_FILE_QUILT = 1 << 21
+    MESO_FILE_QUILT = 1 << 21,
+    MESO_FILE_GRAMMAR = 1 << 22
 } MesoFileKind;
 
 /* All that begin as JSON text. */

@@ -54,6 +54,7 @@ static void test_json(void)
 static void test_text(void)
 {
     expect("v 0 0 0\n", MESO_FILE_OBJ);
+    expect("# ivy\n\nmeso-grow 1\nunit m\n", MESO_FILE_GRAMMAR);
     expect("# a comment\r\r\n# another\n\no Sphere\n", MESO_FILE_OBJ);
     expect("OFF\n4 1 0\n", MESO_FILE_OFF);
     expect("# made by hand\nCOFF\n", MESO_FILE_OFF);

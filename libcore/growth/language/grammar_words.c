@@ -43,7 +43,7 @@ static const MesoGrammarSlot built_in[] = {TEXT("material", false), QUANTITY("de
 static const MesoGrammarSlot tube[] = {TEXT("material", false), QUANTITY("detail", PLAIN, false, 1),
                                        QUANTITY("sides", PLAIN, false, 8), LAST};
 static const MesoGrammarSlot mesh[] = {TEXT("file", true), WORD("along", axes), TEXT("material", false), LAST};
-static const MesoGrammarSlot section[] = {TEXT("file", true), TEXT("material", false), LAST};
+static const MesoGrammarSlot section[] = {TEXT("file", true), TEXT("section", false), TEXT("material", false), LAST};
 static const MesoGrammarSlot poisson[] = {QUANTITY("radius", LENGTH, true, 0), LAST};
 static const MesoGrammarSlot density[] = {REFERENCE("map", MESO_SLOT_MAP, true), QUANTITY("count", PLAIN, true, 0), LAST};
 static const MesoGrammarSlot vertices[] = {QUANTITY("share", PLAIN, false, 1), LAST};

@@ -192,14 +192,13 @@ static MesoStatus make_grid(Grid *grid, MesoArena *scratch, const Recipe *recipe
     return MESO_OK;
 }
 
-MesoStatus meso_builtin_shape(MesoTerminalShape *out, MesoArena *arena, MesoBuiltinShape kind, uint32_t detail,
-                              MesoError *error)
+static MesoStatus build(MesoTerminalShape *out, MesoArena *arena, const Recipe *recipe, uint32_t detail, MesoError *error)
 {
     Grid grid;
     MesoArena scratch;
     meso_arena_init(&scratch);
     uint32_t finest = detail < MESO_SHAPE_DETAIL_MAX ? detail : MESO_SHAPE_DETAIL_MAX;
-    MesoStatus status = make_grid(&grid, &scratch, &recipes[kind], finest, error);
+    MesoStatus status = make_grid(&grid, &scratch, recipe, finest, error);
     if (!status) {
         MesoBody mesh = {grid.vertex_count, grid.triangle_count, 3, grid.positions, grid.normals, grid.uvs, NULL,
                          grid.corners};
@@ -207,4 +206,18 @@ MesoStatus meso_builtin_shape(MesoTerminalShape *out, MesoArena *arena, MesoBuil
     }
     meso_arena_release(&scratch);
     return status;
+}
+
+MesoStatus meso_builtin_shape(MesoTerminalShape *out, MesoArena *arena, MesoBuiltinShape kind, uint32_t detail,
+                              MesoError *error)
+{
+    return build(out, arena, &recipes[kind], detail, error);
+}
+
+MesoStatus meso_tube_shape(MesoTerminalShape *out, MesoArena *arena, uint32_t sides, uint32_t detail, MesoError *error)
+{
+    Recipe recipe = recipes[MESO_BUILTIN_TUBE];
+    recipe.across = sides < 3 ? 3 : sides > MESO_SHAPE_SIDES_MAX ? MESO_SHAPE_SIDES_MAX : sides;
+    recipe.across_more = 0;
+    return build(out, arena, &recipe, detail, error);
 }

@@ -45,7 +45,7 @@ typedef enum MesoBuiltinShape {
 } MesoBuiltinShape;
 
 /* Details beyond it are as it. */
-enum { MESO_SHAPE_DETAIL_MAX = 8 };
+enum { MESO_SHAPE_DETAIL_MAX = 8, MESO_SHAPE_SIDES_MAX = 256 };
 
 /* Names, by number. */
 extern const char *const meso_builtin_shape_names[MESO_BUILTIN_SHAPES];
@@ -57,5 +57,8 @@ extern const char *const meso_builtin_shape_names[MESO_BUILTIN_SHAPES];
  */
 MesoStatus meso_builtin_shape(MesoTerminalShape *out, MesoArena *arena, MesoBuiltinShape kind, uint32_t detail,
                               MesoError *error);
+
+/* A tube of so many sides, from 3 to MESO_SHAPE_SIDES_MAX; its detail is along it. MESO_ERR_MEMORY. */
+MesoStatus meso_tube_shape(MesoTerminalShape *out, MesoArena *arena, uint32_t sides, uint32_t detail, MesoError *error);
 
 #endif
