@@ -112,13 +112,17 @@ static exr_result_t set_camera(Writer *writer)
     }
     camera.m[15] = 1;
 
-    /* Ours has its rows downwards; NDC has y up. */
+    /* OpenEXR's NDC: (0, 0) is the upper left corner of the picture, (1, 1) the lower right one. */
     MesoMatrix ndc = meso_view_clip_from_world(&view, 1, m->width, m->height,
                                                (MesoWindow){0, 0, m->width, m->height});
     for (uint32_t column = 0; column < 4; column++)
-        ndc.m[4 * column + 1] = -ndc.m[4 * column + 1];
+        for (uint32_t row = 0; row < 2; row++)
+            ndc.m[4 * column + row] = 0.5f * (ndc.m[4 * column + row] + ndc.m[4 * column + 3]);
     exr_result_t result = set_matrix(writer->context, "worldToCamera", &camera);
-    return result ? result : set_matrix(writer->context, "worldToNDC", &ndc);
+    if (!result)
+        result = set_matrix(writer->context, "worldToNDC", &ndc);
+    return result ? result : exr_set_screen_window_width(writer->context, 0, 2 * view.tan_half_fov *
+                                                         (float)m->width / (float)m->height);
 }
 
 /* The names of a channel, one a line. */
@@ -154,6 +158,7 @@ static MesoStatus list_names(Writer *writer, MesoArena *arena, MesoError *error)
 
 static exr_result_t describe(Writer *writer, const char *provenance)
 {
+    static const exr_attr_chromaticities_t rec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
     exr_context_t context = writer->context;
     int part;
     exr_result_t result = exr_add_part(context, "image", EXR_STORAGE_SCANLINE, &part);
@@ -166,6 +171,8 @@ static exr_result_t describe(Writer *writer, const char *provenance)
     for (uint32_t i = 0; i < writer->channel_count && !result; i++)
         result = exr_add_channel(context, part, writer->channels[i].name, writer->channels[i].stored,
                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (!result)
+        result = exr_attr_set_chromaticities(context, part, "chromaticities", &rec709);
     if (!result)
         result = exr_attr_set_string(context, part, "meso:provenance", provenance);
     for (uint32_t c = 0; c < MESO_ID_CHANNELS && !result; c++)

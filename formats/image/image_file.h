@@ -12,8 +12,10 @@
  * space), albedo.R albedo.G albedo.B (half), and one layer for each channel of
  * ids after its name: slot, tile (uint, id + 1, 0 where empty). String
  * attributes "meso:provenance" (JSON) and, for each channel with names,
- * "meso:tiles" (the names, one a line); "worldToCamera" and "worldToNDC" are the
- * camera's, with x to the right, y up, and z into the picture, as in Z. Uses
+ * "meso:tiles" (the names, one a line); "worldToCamera" is the camera's, with x to
+ * the right, y up, and z into the picture, as in Z; "worldToNDC" has (0,0) at the
+ * upper left corner of the picture and (1,1) at the lower right one;
+ * "screenWindowWidth" is that of its field of view. Colours are by Rec. 709. Uses
  * `thread_count` threads (0: all cores); the bytes do not depend on it.
  * MESO_ERR_OUTPUT where `output` takes no more.
  */

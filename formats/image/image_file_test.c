@@ -125,6 +125,28 @@ static void check_chunk(exr_context_t file, int y)
     exr_decoding_destroy(file, &decode);
 }
 
+/* Where a point of the world lies in the picture, in OpenEXR's NDC. */
+static void check_at(const exr_attr_m44f_t *ndc, float x, float y, double right, double down)
+{
+    double w = (double)ndc->m[3] * x + (double)ndc->m[7] * y + ndc->m[15];
+    CHECK(fabs(((double)ndc->m[0] * x + (double)ndc->m[4] * y + ndc->m[12]) / w - right) < 1e-6);
+    CHECK(fabs(((double)ndc->m[1] * x + (double)ndc->m[5] * y + ndc->m[13]) / w - down) < 1e-6);
+}
+
+/* The camera is 5 away from the plane of z = 0. */
+static void check_ndc(exr_const_context_t file)
+{
+    const float top = 5 * tanf(15 * 3.14159265f / 180), right = top * WIDTH / HEIGHT;
+    exr_attr_m44f_t ndc;
+    float width;
+    CHECK(exr_attr_get_m44f(file, 0, "worldToNDC", &ndc) == EXR_ERR_SUCCESS);
+    check_at(&ndc, 0, 0, 0.5, 0.5);
+    check_at(&ndc, -right, top, 0, 0);
+    check_at(&ndc, right, -top, 1, 1);
+    CHECK(exr_get_screen_window_width(file, 0, &width) == EXR_ERR_SUCCESS);
+    CHECK(fabsf(width - 2 * right / 5) < 1e-6f);
+}
+
 static void test_exr_values(const char *path)
 {
     exr_context_t file;
@@ -141,6 +163,7 @@ static void test_exr_values(const char *path)
     exr_attr_m44f_t matrix;
     CHECK(exr_attr_get_m44f(file, 0, "worldToCamera", &matrix) == EXR_ERR_SUCCESS);
     CHECK(matrix.m[0] == 1 && matrix.m[5] == 1 && matrix.m[10] == -1 && matrix.m[14] == 5);
+    check_ndc(file);
     CHECK(exr_get_scanlines_per_chunk(file, 0, &rows) == EXR_ERR_SUCCESS && rows == 16);
     for (int y = 0; y < HEIGHT; y += rows)
         check_chunk(file, y);
