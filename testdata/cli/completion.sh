@@ -1,5 +1,5 @@
 # What the shells' completions offer.
-for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-quilt meso-render meso-info; do
+for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-decor meso-quilt meso-grow meso-render meso-info; do
     "$scripts/make-completion" bash "$(command -v $tool)" >$tool.bash
     for shell in zsh fish; do
         "$scripts/make-completion" $shell "$(command -v $tool)" >$tool.$shell

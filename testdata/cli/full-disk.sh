@@ -1,5 +1,5 @@
 # A disk that fills up while each tool writes: one line, status 5, nothing left.
-cp "$fixtures"/vase.* .
+cp "$fixtures"/vase.* "$fixtures/ivy.grammar" .
 mkdir disk
 if mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
     trap 'umount disk' EXIT
@@ -16,6 +16,7 @@ try meso-map -q ../vase.meso -o x.obj
 try meso-map -q ../vase.meso -o x.glb
 try meso-map -q ../vase.meso -o x.drc
 try meso-quilt -q --swatch nuts --plane 4x4 -o x.quilt
+try meso-grow -q ../ivy.grammar ../vase.obj -o x.svg
 try meso-render -q --size 256x256 ../vase.meso -o x.exr
 try meso-render -q --size 256x256 ../vase.meso -o x.png
 head -c 60000 /dev/zero >disk/ballast

@@ -1,0 +1,19 @@
+/* What meso-grow is told. */
+#ifndef MESO_GROW_ARGUMENTS_H
+#define MESO_GROW_ARGUMENTS_H
+
+#include "cmd/common/scene_output.h"
+
+typedef struct MesoGrowArguments {
+    MesoTool tool;
+    MesoSceneOutput output;
+    MesoTextList set;           /* --set: name=value */
+    MesoVec3 up;
+    const char *seeds;          /* --seeds */
+    const char *trace;          /* --trace; NULL: none */
+    uint32_t until;             /* --until; 0: to the end */
+    uint32_t most_generations, most_elements;   /* --generations, --elements */
+    bool partial;               /* --partial */
+} MesoGrowArguments;
+
+#endif
