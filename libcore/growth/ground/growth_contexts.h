@@ -5,35 +5,8 @@
 #ifndef MESO_GROWTH_CONTEXTS_H
 #define MESO_GROWTH_CONTEXTS_H
 
-#include "libcore/growth/ground/growth_ground.h"
+#include "libcore/growth/ground/growth_maps.h"
 #include "libcore/growth/language/grammar_run.h"
-
-typedef enum MesoGrowthDomain {
-    MESO_GROWTH_CONSTANT,       /* values[0], everywhere */
-    MESO_GROWTH_BY_VERTEX,      /* [vertex_count] linear in triangles */
-    MESO_GROWTH_BY_CORNER,      /* [3 * triangle_count] linear in triangles */
-    MESO_GROWTH_BY_TRIANGLE,    /* [triangle_count] */
-    MESO_GROWTH_BY_IMAGE        /* at the corners' uvs: linear in triangles, and so without a seam on the way */
-} MesoGrowthDomain;
-
-typedef enum MesoGrowthWrap {
-    MESO_GROWTH_REPEAT, MESO_GROWTH_CLAMP, MESO_GROWTH_MIRROR
-} MesoGrowthWrap;
-
-/* One channel. uv (0,0) is the lower left corner of the lower left pixel. */
-typedef struct MesoGrowthImage {
-    uint32_t width, height;
-    const float *pixels;        /* [width * height] rows from the top */
-    bool nearest;
-    MesoGrowthWrap wrap;
-} MesoGrowthImage;
-
-typedef struct MesoGrowthMap {
-    MesoGrowthDomain domain;
-    const float *values;
-    MesoGrowthImage image;
-    const MesoVec2 *uvs;        /* [3 * triangle_count] where it is an image */
-} MesoGrowthMap;
 
 typedef enum MesoGrowthFieldKind {
     MESO_GROWTH_TOWARDS,        /* the direction `vector`, laid into the triangle */
@@ -74,7 +47,8 @@ double meso_growth_answer(const MesoGrowthContexts *contexts, const MesoTip *tip
 
 /* Where a field leads at a tip, of length 1 in its triangle's frame; 0 where it leads nowhere. `draw`: for random
  * ones. */
-MesoComplex meso_growth_direction(const MesoGrowthContexts *contexts, uint32_t field, const MesoTip *tip, uint64_t draw);
+MesoComplex meso_growth_direction(const MesoGrowthContexts *contexts, uint32_t field, const MesoTip *tip,
+                                  uint64_t draw);
 
 /*
  * Turns a tip's heading towards a field by `share` of the angle between (MESO_GROWTH_FACE). False, and stays, where

@@ -11,7 +11,9 @@ typedef struct MesoGrowthGround {
     const MesoTriangulation *mesh;
     MesoWalkGround walk;
     MesoVec3 *normals;          /* [vertex_count] unit length, outward: of triangles by their angles */
-    float *curvatures;          /* [vertex_count] mean curvature in radians a unit, positive where the surface bulges */
+    float *curvatures;          /* [vertex_count] mean curvature, radians a unit; above 0 where the surface bulges */
+    uint8_t *against;           /* [triangle_count] bit k: corner k's normal and curvature count the other way here;
+                                 * NULL where all is wound alike */
     MesoVec3 up;                /* unit length */
     double bottom;              /* of the surface along `up`: heights count from there */
     double extent;              /* diagonal of its box */
@@ -26,5 +28,8 @@ MesoVec3 meso_growth_position(const MesoGrowthGround *ground, uint32_t triangle,
 
 /* Unit length: the vertices' normals interpolated, as seen from the side that a tip that is `turned` grows on. */
 MesoVec3 meso_growth_normal(const MesoGrowthGround *ground, uint32_t triangle, const double weight[3], bool turned);
+
+/* Likewise, of the vertices' curvatures. */
+double meso_growth_curvature(const MesoGrowthGround *ground, uint32_t triangle, const double weight[3], bool turned);
 
 #endif
