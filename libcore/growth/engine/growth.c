@@ -1,0 +1,243 @@
+/*
+ * "Dynamic On-Mesh Procedural Generation Control" (Buron, Marvie, Guennebaud and Granier 2014): the growth; exact walks
+ * over the mesh, and strands that do not cross, are ours.
+ */
+#include "libcore/growth/engine/growth.h"
+
+#include <string.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/growth/engine/growth_work.h"
+
+/* Batches of a window, for each thread of several. */
+enum { BATCHES = 16 };
+
+static void march_straight(const void *context, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options)
+{
+    meso_walks(context, walks, count, options);
+}
+
+/* ---- beginnings and ends ---- */
+
+static double least(double limit, double other)
+{
+    return other > 0 && other < limit ? other : limit;
+}
+
+static void *allocate(MesoGrowthWork *work, size_t count, size_t size)
+{
+    void *array = calloc(count ? count : 1, size);
+    if (!array)
+        work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %zu items of %zu bytes", count, size);
+    return array;
+}
+
+/* Where every turn is told, turns are taken one by one, so that they are told as they are. */
+static void size_window(MesoGrowthWork *work)
+{
+    uint32_t threads = work->options->thread_count ? work->options->thread_count : meso_parallel_cores();
+    work->thread_count = work->options->event ? 1 : threads;
+    work->batch_count = work->thread_count == 1 ? 1 : BATCHES * work->thread_count;
+    work->window = work->options->event ? 1 : work->batch_count * MESO_GROWTH_BATCH;
+}
+
+static MesoStatus begin(MesoGrowthWork *work)
+{
+    const MesoGrowthOptions *options = work->options;
+    const MesoGrammarLimits *limits = &work->grammar->limits;
+    size_t window;
+    work->element_limit = least(least(limits->elements, options->elements), INT32_MAX / 2);
+    work->length_limit = least(limits->length, options->length);
+    work->looks = meso_growth_rules_look(work->grammar);
+    work->clears = meso_growth_steps_clear(work->grammar);
+    work->uses_space = work->looks || meso_growth_steps_avoid(work->grammar);
+    size_window(work);
+    window = work->window;
+    work->turns = allocate(work, window, sizeof *work->turns);
+    work->batches = allocate(work, (size_t)work->batch_count + 1, sizeof *work->batches);
+    work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);
+    if (work->looks) {
+        work->befores = allocate(work, window, sizeof *work->befores);
+        work->register_befores = allocate(work, window * work->grammar->local_count, sizeof(double));
+    }
+    if (!work->status && work->uses_space)
+        work->status = meso_growth_space_init(&work->space, work->ground, work->error);
+    for (uint32_t i = 0; work->batches && i <= work->batch_count; i++)
+        work->batches[i].space = work->uses_space ? &work->space : NULL;
+    for (uint32_t i = 0; !work->status && i < options->starts->count; i++)
+        meso_growth_plant(work, &options->starts->starts[i], i);
+    return work->status;
+}
+
+static void release_batch(MesoGrowthBatch *batch)
+{
+    free(batch->pieces);
+    free(batch->linked);
+    free(batch->shoots);
+    free(batch->registers);
+    meso_growth_seen_release(&batch->seen);
+}
+
+static void release(MesoGrowthWork *work)
+{
+    void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->turns, work->befores,
+                            work->register_befores, work->balls, work->joints, work->points, work->elements,
+                            work->branches, work->rules};
+    for (uint32_t i = 0; work->batches && i <= work->batch_count; i++)
+        release_batch(&work->batches[i]);
+    free(work->batches);
+    meso_growth_space_release(&work->space);
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        free(arrays[i]);
+}
+
+/* ---- rounds ---- */
+
+static void try_batches(void *context, uint64_t begin_at, uint64_t end)
+{
+    MesoGrowthWork *work = context;
+    meso_growth_try(work, &work->batches[begin_at / MESO_GROWTH_BATCH], (uint32_t)begin_at, (uint32_t)end);
+}
+
+static bool run_window(MesoGrowthWork *work, uint32_t begin_at, uint32_t count)
+{
+    MesoGrowthBatch *again = &work->batches[work->batch_count];
+    work->window_begin = begin_at;
+    work->since = work->space.kin_count;
+    work->ball_count = 0;
+    again->piece_count = again->shoot_count = 0;
+    meso_parallel_for(work->thread_count, count, MESO_GROWTH_BATCH, try_batches, work);
+    for (uint32_t i = 0; i < count; i++)
+        if (!meso_growth_accept(work, i))
+            return false;
+    return true;
+}
+
+/* Those whose rule goes on, in their order, and then those that have begun. */
+static bool gather_active(MesoGrowthWork *work)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < work->active_count; i++) {
+        const MesoGrowthTip *tip = &work->tips[work->active[i]];
+        if (!tip->rests && !tip->ended)
+            work->active[count++] = work->active[i];
+    }
+    if (!meso_make_room((void **)&work->active, &work->active_room, (uint64_t)count + work->shoot_count + 1,
+                        sizeof *work->active)) {
+        work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %u branches", work->tip_count);
+        return false;
+    }
+    if (work->shoot_count)
+        memcpy(work->active + count, work->shoots, work->shoot_count * sizeof *work->active);
+    work->active_count = count + work->shoot_count;
+    work->shoot_count = 0;
+    return true;
+}
+
+/* Turns of all that are active, until all rest. */
+static bool run_turns(MesoGrowthWork *work)
+{
+    while (work->active_count) {
+        for (uint32_t i = 0; i < work->active_count; i += work->window) {
+            uint32_t rest = work->active_count - i;
+            if (!run_window(work, i, rest < work->window ? rest : work->window))
+                return false;
+        }
+        if (!gather_active(work))
+            return false;
+    }
+    return true;
+}
+
+/* Living branches keep their order; all of them become active. */
+static bool wake(MesoGrowthWork *work)
+{
+    size_t width = work->grammar->local_count;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < work->tip_count; i++) {
+        if (work->tips[i].ended)
+            continue;
+        if (i != count) {
+            work->tips[count] = work->tips[i];
+            memcpy(work->registers + count * width, work->registers + i * width, width * sizeof(double));
+        }
+        work->tips[count].rests = false;
+        work->rules[work->tips[count++].rule].runs++;
+    }
+    work->tip_count = work->active_count = count;
+    if (!meso_make_room((void **)&work->active, &work->active_room, count, sizeof *work->active)) {
+        work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %u branches", count);
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        work->active[i] = i;
+    return true;
+}
+
+static bool goes_on(MesoGrowthWork *work, double generations)
+{
+    const MesoGrowthOptions *options = work->options;
+    bool lives = false;
+    for (uint32_t i = 0; i < work->tip_count && !lives; i++)
+        lives = !work->tips[i].ended;
+    if (!lives)
+        return false;
+    if (!(work->generation < generations))
+        work->end = MESO_GROWTH_GENERATIONS;
+    else if (options->progress &&
+             !options->progress(options->context, (uint32_t)work->generation, work->element_count))
+        work->end = MESO_GROWTH_STOPPED;
+    else
+        return true;
+    return false;
+}
+
+static void grow(MesoGrowthWork *work)
+{
+    double generations = least(work->grammar->limits.generations, work->options->generations);
+    if (!gather_active(work) || !run_turns(work))
+        return;
+    while (goes_on(work, generations) && wake(work)) {
+        work->generation++;
+        if (!run_turns(work))
+            return;
+    }
+}
+
+/* ---- results ---- */
+
+/* A copy in the arena; the array itself goes. */
+static void *keep(MesoArena *arena, void **array, size_t count, size_t size, MesoError *error)
+{
+    void *copy = meso_arena_alloc(arena, count, size, error);
+    if (copy && count)
+        memcpy(copy, *array, count * size);
+    free(*array);
+    *array = NULL;
+    return copy;
+}
+
+#define KEEP(array, count) (grown->array = keep(arena, (void **)&work->array, (count), sizeof *work->array, work->error))
+
+static MesoStatus finish(MesoGrowthWork *work, MesoGrown *grown, MesoArena *arena)
+{
+    *grown = (MesoGrown){.joint_count = work->joint_count, .element_count = work->element_count,
+                         .branch_count = work->branch_count, .generation_count = (uint32_t)work->generation,
+                         .length = work->length, .end = work->end};
+    bool kept = KEEP(joints, grown->joint_count) && KEEP(points, grown->joint_count) &&
+                KEEP(elements, grown->element_count) && KEEP(branches, grown->branch_count) &&
+                KEEP(rules, work->grammar->rule_count);
+    return kept ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_grow(MesoGrown *grown, MesoArena *arena, const MesoGrowthOptions *options, MesoError *error)
+{
+    MesoGrowthWork work = {.options = options, .grammar = options->grammar, .ground = options->contexts->ground,
+                           .error = error};
+    work.march = options->march ? *options->march : (MesoGrowthMarch){march_straight, &work.ground->walk};
+    if (!begin(&work))
+        grow(&work);
+    MesoStatus status = work.status ? work.status : finish(&work, grown, arena);
+    release(&work);
+    return status;
+}

@@ -1,0 +1,281 @@
+#include <string.h>
+
+#include "libcore/growth/engine/growth_work.h"
+#include "libcore/growth/language/grammar_draw.h"
+
+/* Crossings of a step: where a mesh has no area walks may stand still. */
+enum { CROSSINGS = 1 << 16 };
+
+/* Conditions hold at this many places of a step at least, and wherever it goes from triangle to triangle. */
+enum { PLACES = 8 };
+
+/* Site of the draws of other ways. */
+static const uint64_t retry_site = 0x72657472790a17e5u;
+
+/* ---- walks and their pieces ---- */
+
+void meso_growth_collect(void *context, const MesoWalkPiece *piece)
+{
+    MesoGrowthBatch *batch = context;
+    if (piece->ends[0].re == piece->ends[1].re && piece->ends[0].im == piece->ends[1].im)
+        return;
+    if (!meso_make_room((void **)&batch->linked, &batch->linked_room, (uint64_t)batch->linked_count + 1,
+                        sizeof *batch->linked)) {
+        batch->failed = true;
+        return;
+    }
+    uint32_t number = batch->linked_count++, last = batch->last[piece->walk];
+    batch->linked[number] = (MesoGrowthLinkedPiece){
+        {{piece->ends[0], piece->ends[1]}, piece->triangle, piece->turned}, MESO_NO_INDEX};
+    if (last == MESO_NO_INDEX)
+        batch->first[piece->walk] = number;
+    else
+        batch->linked[last].next = number;
+    batch->last[piece->walk] = number;
+    if (batch->space)
+        __builtin_prefetch(&batch->space->heads[piece->triangle]);
+}
+
+void meso_growth_keep_pieces(MesoGrowthBatch *batch, MesoGrowthTurn *turn, uint32_t walk)
+{
+    turn->batch = batch;
+    turn->piece_begin = batch->piece_count;
+    turn->piece_count = 0;
+    for (uint32_t i = batch->first[walk]; i != MESO_NO_INDEX; i = batch->linked[i].next) {
+        if (!meso_make_room((void **)&batch->pieces, &batch->piece_room, (uint64_t)batch->piece_count + 1,
+                            sizeof *batch->pieces)) {
+            batch->failed = true;
+            return;
+        }
+        batch->pieces[batch->piece_count++] = batch->linked[i].piece;
+        turn->piece_count++;
+    }
+}
+
+MesoWalk meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk walk, MesoGrowthTurn *turn)
+{
+    MesoWalkOptions options = {CROSSINGS, turn ? meso_growth_collect : NULL, batch};
+    batch->linked_count = 0;
+    batch->first[0] = batch->last[0] = MESO_NO_INDEX;
+    work->march.walk(work->march.context, &walk, 1, &options);
+    if (turn)
+        meso_growth_keep_pieces(batch, turn, 0);
+    return walk;
+}
+
+double meso_growth_retry_angle(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try)
+{
+    uint64_t key = meso_draw_key(tip->run.key, retry_site, (uint64_t)tip->walks << 32 | try);
+    return (2 * meso_draw_share(key) - 1) * turn->command.values[MESO_GROWTH_RETRY_ANGLE];
+}
+
+static double angle_of_move(const MesoGrowthCommand *command)
+{
+    return command->values[MESO_GROWTH_ANGLE] + (command->values[MESO_GROWTH_AMOUNT] < 0 ? MESO_PI : 0);
+}
+
+MesoWalk meso_growth_walk_of(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try)
+{
+    const MesoGrowthCommand *command = &turn->command;
+    MesoWalk walk = {.tip = tip->at, .length = command->values[MESO_GROWTH_AMOUNT]};
+    double angle = command->order == MESO_GROWTH_STEP ? 0.5 * command->values[MESO_GROWTH_ANGLE] :
+                   command->order == MESO_GROWTH_MOVE ? angle_of_move(command) : 0;
+    if (try > 0)
+        angle += meso_growth_retry_angle(tip, turn, try);
+    if (angle != 0)
+        meso_tip_turn(&walk.tip, angle);
+    walk.length = command->order == MESO_GROWTH_MOVE ? fabs(walk.length) : fmax(walk.length, 0);
+    return walk;
+}
+
+/* ---- conditions ---- */
+
+typedef struct Along {
+    const MesoGrowthWork *work;
+    MesoGrowthBatch *batch;
+    const MesoGrowthTip *tip;
+    MesoGrowthTurn *turn;
+    double registers[MESO_GRAMMAR_REGISTERS];
+} Along;
+
+static bool holds_at(Along *along, const MesoGrowthPiece *piece, double share, double length)
+{
+    const MesoGrowthGround *ground = along->work->ground;
+    MesoComplex by = {piece->ends[1].re - piece->ends[0].re, piece->ends[1].im - piece->ends[0].im};
+    MesoComplex point = {piece->ends[0].re + share * by.re, piece->ends[0].im + share * by.im};
+    MesoTip at = {.triangle = piece->triangle, .turned = piece->turned, .heading = meso_complex_unit(by)};
+    double state[MESO_STATE_COUNT];
+    meso_growth_weigh(&ground->walk, at.triangle, point, at.weight);
+    memcpy(state, along->tip->state, sizeof state);
+    MesoVec3 position = meso_growth_position(ground, at.triangle, at.weight);
+    state[MESO_STATE_LENGTH] += length;
+    state[MESO_STATE_X] = position.x;
+    state[MESO_STATE_Y] = position.y;
+    state[MESO_STATE_Z] = position.z;
+    MesoGrowthAsking asking = {along->work, along->batch, along->tip, along->turn, &at};
+    const MesoGrowthHost host = {&asking, state, meso_growth_look};
+    return meso_growth_value(along->work->grammar, &along->tip->run, along->turn->command.condition, along->registers,
+                             &host) != 0;
+}
+
+static double length_of(const MesoGrowthPiece *piece)
+{
+    return hypot(piece->ends[1].re - piece->ends[0].re, piece->ends[1].im - piece->ends[0].im);
+}
+
+static bool holds_along(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                        const double *registers, MesoGrowthTurn *turn)
+{
+    Along along = {work, batch, tip, turn, {0}};
+    double length = 0, interval = turn->command.values[MESO_GROWTH_AMOUNT] / PLACES;
+    memcpy(along.registers, registers, work->grammar->local_count * sizeof *registers);
+    for (uint32_t i = 0; i < turn->piece_count; i++) {
+        MesoGrowthPiece piece = batch->pieces[turn->piece_begin + i];
+        double size = length_of(&piece), count = fmin(fmax(ceil(size / interval), 1), 1e4);
+        for (double k = i == 0 ? 0 : 1; k <= count; k++)
+            if (!holds_at(&along, &piece, k / count, length + size * k / count))
+                return false;
+        length += size;
+    }
+    return true;
+}
+
+/* ---- judging ---- */
+
+bool meso_growth_collides(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                          const MesoGrowthTurn *turn, uint32_t since)
+{
+    const double *values = turn->command.values;
+    const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin;
+    MesoGrowthAsker asker = meso_growth_asker(tip, since);
+    if (values[MESO_GROWTH_CROSS] == 0 && meso_growth_meets(&work->space, &asker, pieces, turn->piece_count, NULL))
+        return true;
+    return values[MESO_GROWTH_CLEAR] > 0 &&
+           !meso_growth_is_clear(&work->space, &batch->seen, &asker, pieces, turn->piece_count,
+                                 values[MESO_GROWTH_CLEAR], false);
+}
+
+static bool may_be(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                   const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk)
+{
+    if (walk->stop != MESO_WALK_DONE)
+        turn->at_border = walk->stop == MESO_WALK_BORDER;
+    if (walk->stop != MESO_WALK_DONE || !(turn->command.values[MESO_GROWTH_AMOUNT] > 0))
+        return false;
+    if (turn->command.condition != MESO_NO_INDEX && !holds_along(work, batch, tip, registers, turn))
+        return false;
+    return !work->uses_space || !meso_growth_collides(work, batch, tip, turn, 0);
+}
+
+static void end_step(MesoGrowthTurn *turn, const MesoWalk *walk)
+{
+    double angle = turn->command.values[MESO_GROWTH_ANGLE];
+    turn->end = walk->tip;
+    if (angle != 0)
+        meso_tip_turn(&turn->end, 0.5 * angle);
+}
+
+/* Cuts the way at the strand that it meets first. False where it does not get away from where it begins. */
+static bool cut_at(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGrowthTurn *turn,
+                   const MesoGrowthMeeting *meeting)
+{
+    MesoGrowthPiece *pieces = batch->pieces + turn->piece_begin, *last = &pieces[meeting->piece];
+    MesoComplex heading = meso_complex_unit((MesoComplex){last->ends[1].re - last->ends[0].re,
+                                                          last->ends[1].im - last->ends[0].im});
+    turn->length = meeting->along;
+    for (uint32_t i = 0; i < meeting->piece; i++)
+        turn->length += length_of(&pieces[i]);
+    last->ends[1] = meeting->at;
+    turn->piece_count = meeting->piece + 1;
+    turn->end = (MesoTip){.triangle = last->triangle, .turned = last->turned, .heading = heading};
+    meso_growth_weigh(&work->ground->walk, last->triangle, meeting->at, turn->end.weight);
+    return turn->length > 1e-6 * turn->command.values[MESO_GROWTH_AMOUNT];
+}
+
+/* To the strand that a step has met, or come too near to: farther on, by the distance that it must be clear. */
+static bool joins(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                  const double *registers, MesoGrowthTurn *turn)
+{
+    MesoWalk walk = meso_growth_walk_of(tip, turn, 0);
+    MesoGrowthAsker asker = meso_growth_asker(tip, 0);
+    MesoGrowthMeeting meeting;
+    if (!(walk.length > 0))
+        return false;
+    walk.length += fmax(turn->command.values[MESO_GROWTH_CLEAR], 0);
+    meso_growth_walk(work, batch, walk, turn);
+    return meso_growth_meets(&work->space, &asker, batch->pieces + turn->piece_begin, turn->piece_count, &meeting) &&
+           cut_at(work, batch, turn, &meeting) &&
+           (turn->command.condition == MESO_NO_INDEX || holds_along(work, batch, tip, registers, turn));
+}
+
+/* Tries from number `try` on. */
+static void try_others(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, uint32_t try)
+{
+    double tries = fmin(turn->command.values[MESO_GROWTH_RETRIES], 1 << 16);
+    for (; try <= tries; try++) {
+        MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, try), turn);
+        if (may_be(work, batch, tip, registers, turn, &walk)) {
+            turn->outcome = MESO_GROWTH_STEPS;
+            turn->try = try;
+            end_step(turn, &walk);
+            return;
+        }
+    }
+    turn->try = try;
+    turn->outcome = turn->command.join && work->uses_space && joins(work, batch, tip, registers, turn)
+                        ? MESO_GROWTH_JOINS : MESO_GROWTH_REFUSED;
+}
+
+static void judge_step(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk)
+{
+    const double *values = turn->command.values;
+    turn->length = fmax(values[MESO_GROWTH_AMOUNT], 0);
+    if (work->uses_space)
+        meso_growth_depends(turn, tip->position, turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
+    if (may_be(work, batch, tip, registers, turn, walk)) {
+        turn->outcome = MESO_GROWTH_STEPS;
+        end_step(turn, walk);
+    } else {
+        try_others(work, batch, tip, registers, turn, 1);
+    }
+}
+
+static void judge_move(MesoGrowthTurn *turn, const MesoWalk *walk)
+{
+    double angle = angle_of_move(&turn->command);
+    turn->outcome = MESO_GROWTH_MOVES;
+    turn->end = walk->tip;
+    turn->length = fabs(turn->command.values[MESO_GROWTH_AMOUNT]) - walk->length;
+    turn->at_border = walk->stop == MESO_WALK_BORDER;
+    if (angle != 0)
+        meso_tip_turn(&turn->end, -angle);
+}
+
+static void judge_place(MesoGrowthTurn *turn, const MesoWalk *walk)
+{
+    turn->length = turn->command.values[MESO_GROWTH_AMOUNT];
+    turn->outcome = turn->length > 0 ? MESO_GROWTH_PLACES : MESO_GROWTH_NOTHING;
+    turn->end = walk->tip;
+    turn->rest = walk->length;
+}
+
+void meso_growth_judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk)
+{
+    turn->try = 0;
+    if (turn->command.order == MESO_GROWTH_STEP)
+        judge_step(work, batch, tip, registers, turn, walk);
+    else if (turn->command.order == MESO_GROWTH_MOVE)
+        judge_move(turn, walk);
+    else
+        judge_place(turn, walk);
+}
+
+void meso_growth_judge_again(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                             const double *registers, MesoGrowthTurn *turn)
+{
+    turn->length = fmax(turn->command.values[MESO_GROWTH_AMOUNT], 0);
+    try_others(work, batch, tip, registers, turn, turn->try + 1);
+}

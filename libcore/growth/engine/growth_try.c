@@ -1,0 +1,150 @@
+#include <string.h>
+
+#include "libcore/growth/engine/growth_work.h"
+#include "libcore/growth/language/grammar_draw.h"
+
+/* Site of the draws of fields that lead anywhere. */
+static const uint64_t face_site = 0x6661636500f1e1d5u;
+
+/* ---- rules ---- */
+
+static void tell(const MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthCommand *command)
+{
+    MesoGrowthEvent event = {work->branches[tip->branch].key, tip->rule, (uint32_t)tip->state[MESO_STATE_GENERATION],
+                             command, tip->at, true};
+    if (work->options->event)
+        work->options->event(work->options->context, &event);
+}
+
+static void face(const MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrowthCommand *command)
+{
+    uint64_t draw = meso_draw_key(tip->run.key, face_site, tip->faces++);
+    meso_growth_face(work->options->contexts, command->field, command->values[MESO_GROWTH_AMOUNT], draw, &tip->at);
+}
+
+/* A branch that begins, with a copy of the registers. */
+static void shoot(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                  const double *registers, MesoGrowthTurn *turn)
+{
+    uint32_t width = work->grammar->local_count;
+    uint64_t count = (uint64_t)batch->shoot_count + 1;
+    if (!meso_make_room((void **)&batch->shoots, &batch->shoot_room, count, sizeof *batch->shoots) ||
+        !meso_make_room((void **)&batch->registers, &batch->register_room, count * width, sizeof *registers)) {
+        batch->failed = true;
+        return;
+    }
+    batch->shoots[batch->shoot_count] = (MesoGrowthShoot){turn->command.entry, turn->command.key, tip->at};
+    memcpy(batch->registers + (size_t)batch->shoot_count * width, registers, width * sizeof *registers);
+    batch->shoot_count++;
+    turn->shoot_count++;
+}
+
+/* Runs a tip's rule to the next walk or its end. */
+static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGrowthTip *tip, double *stored,
+                     MesoGrowthTurn *turn)
+{
+    double registers[MESO_GRAMMAR_REGISTERS];
+    MesoGrowthAsking asking = {work, batch, tip, turn, &tip->at};
+    const MesoGrowthHost host = {&asking, tip->state, meso_growth_look};
+    size_t size = work->grammar->local_count * sizeof *registers;
+    MesoGrowthCommand *command = &turn->command;
+    memcpy(registers, stored, size);
+    turn->outcome = MESO_GROWTH_NOTHING;
+    turn->looked = turn->at_border = false;
+    turn->ball[3] = -1;
+    turn->batch = batch;
+    turn->shoot_begin = batch->shoot_count;
+    turn->shoot_count = turn->piece_count = 0;
+    for (bool goes_on = true; goes_on && !batch->failed;) {
+        meso_growth_resume(command, work->grammar, &tip->run, registers, &host, tip->done);
+        tip->done = true;
+        if (command->order == MESO_GROWTH_TURN)
+            meso_tip_turn(&tip->at, command->values[MESO_GROWTH_AMOUNT]);
+        else if (command->order == MESO_GROWTH_FACE)
+            face(work, tip, command);
+        else if (command->order == MESO_GROWTH_BRANCH)
+            shoot(work, batch, tip, registers, turn);
+        else
+            goes_on = false;
+        if (goes_on)
+            tell(work, tip, command);
+    }
+    memcpy(stored, registers, size);
+}
+
+static bool walks(const MesoGrowthTurn *turn)
+{
+    return turn->command.order == MESO_GROWTH_STEP || turn->command.order == MESO_GROWTH_MOVE ||
+           turn->command.order == MESO_GROWTH_PLACE;
+}
+
+/* ---- turns ---- */
+
+static double *registers_of(const MesoGrowthWork *work, uint32_t tip)
+{
+    return work->registers + (size_t)tip * work->grammar->local_count;
+}
+
+static void judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t number, MesoGrowthTurn *turn,
+                  const MesoWalk *walk)
+{
+    MesoGrowthTip *tip = &work->tips[number];
+    tip->walks++;
+    meso_growth_judge(work, batch, tip, registers_of(work, number), turn, walk);
+    if (turn->outcome != MESO_GROWTH_REFUSED && turn->outcome != MESO_GROWTH_NOTHING)
+        meso_growth_join(work, tip, turn);
+}
+
+/* Pieces of all walks, each walk's together; they are asked for what lies where they are soon. */
+static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count, bool with_pieces)
+{
+    MesoWalkOptions options = {1 << 16, with_pieces ? meso_growth_collect : NULL, batch};
+    batch->linked_count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        batch->first[i] = batch->last[i] = MESO_NO_INDEX;
+    work->march.walk(work->march.context, batch->walks, count, &options);
+}
+
+void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
+{
+    const uint32_t *active = work->active + work->window_begin;
+    uint32_t count = 0;
+    bool with_pieces = work->uses_space;
+    batch->piece_count = batch->shoot_count = 0;
+    for (uint32_t i = begin; i < end; i++) {
+        MesoGrowthTurn *turn = &work->turns[i];
+        MesoGrowthTip *tip = &work->tips[active[i]];
+        if (work->looks) {
+            work->befores[i] = *tip;
+            memcpy(work->register_befores + (size_t)i * work->grammar->local_count, registers_of(work, active[i]),
+                   work->grammar->local_count * sizeof(double));
+        }
+        run_rule(work, batch, tip, registers_of(work, active[i]), turn);
+        if (!walks(turn))
+            continue;
+        with_pieces |= turn->command.condition != MESO_NO_INDEX;
+        batch->walks[count] = meso_growth_walk_of(tip, turn, 0);
+        batch->walkers[count++] = i;
+    }
+    walk_all(work, batch, count, with_pieces);
+    for (uint32_t i = 0; i < count; i++)
+        meso_growth_keep_pieces(batch, &work->turns[batch->walkers[i]], i);
+    for (uint32_t i = 0; i < count && !batch->failed; i++)
+        judge(work, batch, active[batch->walkers[i]], &work->turns[batch->walkers[i]], &batch->walks[i]);
+}
+
+void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t number)
+{
+    uint32_t active = work->active[work->window_begin + number];
+    MesoGrowthTurn *turn = &work->turns[number];
+    MesoGrowthTip *tip = &work->tips[active];
+    double *registers = registers_of(work, active);
+    *tip = work->befores[number];
+    memcpy(registers, work->register_befores + (size_t)number * work->grammar->local_count,
+           work->grammar->local_count * sizeof *registers);
+    run_rule(work, batch, tip, registers, turn);
+    if (!walks(turn))
+        return;
+    MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, 0), turn);
+    judge(work, batch, active, turn, &walk);
+}

@@ -1,0 +1,210 @@
+/*
+ * Growth under way. Branches take turns in their order; a turn goes on to the next walk, of a step, a move or a placed
+ * shape, and to the end of the rule. What grows is what one turn after the other would give. To have it sooner, the
+ * turns of a window of branches are tried together, against what had grown before (growth_try.c); then each is
+ * accepted, or done again where what the window has grown by then may have changed it (growth_accept.c).
+ */
+#ifndef MESO_GROWTH_WORK_H
+#define MESO_GROWTH_WORK_H
+
+#include "libcore/growth/engine/growth.h"
+#include "libcore/growth/engine/growth_space.h"
+
+/* Branches that one thread tries at a time. */
+enum { MESO_GROWTH_BATCH = 256 };
+
+/* Most spans of a step. */
+enum { MESO_GROWTH_SPANS = 8 };
+
+/* A living branch. */
+typedef struct MesoGrowthTip {
+    MesoTip at;
+    MesoGrowthRun run;
+    double state[MESO_STATE_COUNT];
+    MesoVec3 position, normal;  /* of the surface there */
+    MesoVec3 arrive;            /* how its last step came; 0 where there was none */
+    uint32_t branch, rule;      /* rule: MESO_NO_INDEX before the first */
+    uint32_t joint;             /* that its next step begins at; MESO_NO_INDEX: its own */
+    uint32_t node, shape;       /* shape: of its last step */
+    uint32_t walks, faces;      /* of this run of a rule, so far */
+    float lift, roll;           /* at its joint */
+    bool moved;                 /* away from its node */
+    bool open;                  /* the last step did not say its width at its end */
+    bool done;                  /* whether the last command could be */
+    bool rests;                 /* its rule is done for this generation */
+    bool ended;
+} MesoGrowthTip;
+
+/* A branch that a turn begins. */
+typedef struct MesoGrowthShoot {
+    uint32_t entry;
+    uint64_t key;
+    MesoTip at;                 /* turned, where its parent was */
+} MesoGrowthShoot;
+
+typedef enum MesoGrowthOutcome {
+    MESO_GROWTH_NOTHING, MESO_GROWTH_STEPS, MESO_GROWTH_JOINS, MESO_GROWTH_MOVES, MESO_GROWTH_PLACES,
+    MESO_GROWTH_REFUSED
+} MesoGrowthOutcome;
+
+struct MesoGrowthBatch;
+
+/* What comes of a turn. */
+typedef struct MesoGrowthTurn {
+    MesoGrowthCommand command;
+    MesoGrowthOutcome outcome;
+    MesoTip end;
+    double length, rest;        /* of the way, and what of it lies beyond a border */
+    uint32_t try;               /* that was taken: 0, the first */
+    bool at_border;
+    bool looked;                /* the rule asked for what has grown, within the ball */
+    float ball[4];              /* center and radius of all that the turn depends on */
+    struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
+    uint32_t piece_begin, piece_count, shoot_begin, shoot_count;
+    MesoVec3 position, normal, arrive;  /* at the end */
+    MesoJoint from, to;
+    MesoJoint before;           /* the joint that the branch had, where `from` is another */
+    float lift, roll;           /* at the end */
+    bool shares;                /* `from` is the joint that the branch had */
+} MesoGrowthTurn;
+
+typedef struct MesoGrowthLinkedPiece {
+    MesoGrowthPiece piece;
+    uint32_t next;
+} MesoGrowthLinkedPiece;
+
+/* Where turns are tried: memory of a thread's own. */
+typedef struct MesoGrowthBatch {
+    MesoGrowthPiece *pieces;    /* of turns, each turn's together */
+    MesoGrowthLinkedPiece *linked;      /* of walks under way */
+    MesoGrowthShoot *shoots;
+    double *registers;          /* [shoot_count * local_count] of shoots */
+    uint32_t piece_count, piece_room, linked_count, linked_room, shoot_count, shoot_room, register_room;
+    uint32_t first[MESO_GROWTH_BATCH], last[MESO_GROWTH_BATCH];     /* linked pieces of each walk */
+    MesoWalk walks[MESO_GROWTH_BATCH];
+    uint32_t walkers[MESO_GROWTH_BATCH];
+    MesoGrowthSeen seen;
+    const MesoGrowthSpace *space;       /* NULL: nobody asks where pieces are */
+    bool failed;                /* out of memory */
+} MesoGrowthBatch;
+
+typedef struct MesoGrowthWork {
+    const MesoGrowthOptions *options;
+    const MesoGrammar *grammar;
+    const MesoGrowthGround *ground;
+    MesoGrowthMarch march;
+    MesoGrowthSpace space;
+    bool uses_space;            /* something asks for what has grown */
+    bool looks;                 /* a rule does */
+    bool clears;                /* a step must be clear of it */
+    uint32_t thread_count;
+    double element_limit, length_limit;
+    uint64_t generation;
+
+    MesoGrowthTip *tips;        /* in order */
+    double *registers;          /* [tip_count * local_count] */
+    uint32_t tip_count, tip_room, register_room;
+    uint32_t *active;           /* tips whose rule goes on */
+    uint32_t *shoots;           /* those that have begun since these took their turns */
+    uint32_t active_count, active_room, shoot_count, shoot_room;
+
+    /* the window */
+    uint32_t window, window_begin, batch_count;
+    uint32_t since;             /* the first element that it has grown */
+    MesoGrowthTurn *turns;      /* [window] */
+    MesoGrowthTip *befores;     /* [window] where rules look; before their turns */
+    double *register_befores;
+    MesoGrowthBatch *batches;   /* [batch_count] and one for what is done again */
+    float *balls;               /* [4 * ball_room] of the elements of this window: x, y, z, radius in turn */
+    uint32_t ball_count, ball_room;
+
+    /* what has grown */
+    MesoJoint *joints;
+    MesoMeshPoint *points;
+    MesoGrowthElement *elements;
+    MesoGrowthBranch *branches;
+    MesoGrowthRuleCount *rules;
+    uint32_t joint_count, joint_room, point_room, element_count, element_room, branch_count, branch_room;
+    double length;
+    bool stops;                 /* at a limit: see `end` */
+    MesoGrowthEnd end;
+    MesoStatus status;
+    MesoError *error;
+} MesoGrowthWork;
+
+/* ---- growth_try.c: turns ---- */
+
+/* Of tips active[begin..end), into the window's turns from `begin` on. */
+void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end);
+
+/* Again, one alone, from before it, against all that has grown. */
+void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t turn);
+
+/* ---- growth_step.c: walks ---- */
+
+/* What comes of the walk of a turn; tries others where a step may not be. */
+void meso_growth_judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk);
+
+/* The same from the next try on, where what has grown since has made the last one wrong. */
+void meso_growth_judge_again(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                             const double *registers, MesoGrowthTurn *turn);
+
+/* Whether a step that was found good is in the way of what has grown `since`. */
+bool meso_growth_collides(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                          const MesoGrowthTurn *turn, uint32_t since);
+
+/* The walk of a turn's command at its tip, with the heading of one of its tries. */
+MesoWalk meso_growth_walk_of(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try);
+
+/* Adds a ball to that of a turn. */
+void meso_growth_depends(MesoGrowthTurn *turn, MesoVec3 center, double radius);
+
+MesoGrowthAsker meso_growth_asker(const MesoGrowthTip *tip, uint32_t since);
+
+/* Collects pieces of walks: of MesoWalkOptions. `context`: the batch. */
+void meso_growth_collect(void *context, const MesoWalkPiece *piece);
+
+/* Gives the pieces of walk number `walk` to a turn. */
+void meso_growth_keep_pieces(MesoGrowthBatch *batch, MesoGrowthTurn *turn, uint32_t walk);
+
+/* By how much another way is turned from the first. */
+double meso_growth_retry_angle(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try);
+
+/* Walks from a tip, alone; pieces go to the turn where there is one. */
+MesoWalk meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk walk, MesoGrowthTurn *turn);
+
+/* ---- growth_host.c: what rules ask ---- */
+
+typedef struct MesoGrowthAsking {
+    const MesoGrowthWork *work;
+    MesoGrowthBatch *batch;
+    const MesoGrowthTip *tip;
+    MesoGrowthTurn *turn;
+    const MesoTip *at;          /* where is asked */
+} MesoGrowthAsking;
+
+/* A look-up of a host whose context this is. */
+double meso_growth_look(void *asking, MesoGrowthLook look, uint32_t map, double a, double b);
+
+/* Whether rules of a grammar look for what has grown, and whether any step must be clear of it, or may not cross it. */
+bool meso_growth_rules_look(const MesoGrammar *grammar);
+bool meso_growth_steps_clear(const MesoGrammar *grammar);
+bool meso_growth_steps_avoid(const MesoGrammar *grammar);
+
+/* ---- growth_joints.c ---- */
+
+/* Joints at both ends of what a turn makes. */
+void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn);
+
+MesoVec3 meso_growth_direction_in_space(const MesoGrowthGround *ground, uint32_t triangle, MesoComplex direction);
+
+/* ---- growth_accept.c ---- */
+
+/* Accepts turn number `turn` of the window; false where growth stops. */
+bool meso_growth_accept(MesoGrowthWork *work, uint32_t turn);
+
+/* A branch at a place of its own. False where memory is out. */
+bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint32_t number);
+
+#endif
