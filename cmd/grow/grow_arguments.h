@@ -9,6 +9,7 @@ typedef struct MesoGrowArguments {
     MesoSceneOutput output;
     MesoTextList set;           /* --set: name=value */
     MesoVec3 up;
+    const char *surface;        /* --surface: a material; NULL: it is not shown */
     const char *seeds;          /* --seeds */
     const char *trace;          /* --trace; NULL: none */
     uint32_t until;             /* --until; 0: to the end */

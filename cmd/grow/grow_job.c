@@ -5,6 +5,7 @@
 
 #include "cmd/common/input_kind.h"
 #include "cmd/common/seed_list.h"
+#include "cmd/grow/grow_backdrop.h"
 #include "cmd/grow/grow_contexts.h"
 #include "cmd/grow/grow_report.h"
 #include "cmd/grow/grow_shapes.h"
@@ -160,6 +161,8 @@ static MesoStatus write_product(const Job *job, const MesoGrown *grown, MesoOutp
         return write_drawing(job, grown, trace);
     MesoStatus status = meso_growth_show(&scene, &tool->arena, grown, &job->grammar, &job->shapes, tool->threads,
                                          &folds, &tool->error);
+    if (!status && job->arguments->surface)
+        status = meso_grow_backdrop(&scene, tool, &job->surface.polygons, job->arguments->surface);
     if (status) {
         meso_output_discard(trace);
         return status;

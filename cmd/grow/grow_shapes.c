@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cmd/grow/grow_material.h"
 #include "cmd/grow/grow_section.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/model/scene_of_mesh.h"
@@ -36,36 +37,15 @@ static const MesoMaterial LOOKS[MESO_BUILTIN_SHAPES] = {
 };
 static const MesoMaterial PLAIN = {{0.6f, 0.6f, 0.6f}, 0.5f, 0};
 
-static float linear_of(uint32_t byte)
-{
-    float x = (float)byte / 255;
-    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
-}
-
-/* "NAME", "NAME #rrggbb", and behind that roughness and metallic. The colour is as in pictures (sRGB). */
-static bool read_material(const char *text, MesoMaterial *look, char name[64])
-{
-    unsigned red, green, blue;
-    float roughness = look->roughness, metallic = look->metallic;
-    int end = 0, count = sscanf(text, "%63[^# ] #%2x%2x%2x%n %f %f", name, &red, &green, &blue, &end, &roughness,
-                                &metallic);
-    if (count == 1 && strlen(name) == strlen(text))
-        return true;
-    if (count < 4 || strspn(text + end, " 0123456789.") != strlen(text + end) || roughness > 1 || metallic > 1)
-        return false;
-    *look = (MesoMaterial){{linear_of(red), linear_of(green), linear_of(blue)}, roughness, metallic};
-    return true;
-}
-
 /* Materials of one name are one. */
 static MesoStatus add_material(Maker *m, uint32_t shape, const char *text, MesoMaterial look, const char *otherwise)
 {
-    char name[64];
+    char name[MESO_GROW_NAME];
     MesoError *error = &m->tool->error;
     snprintf(name, sizeof name, "%s", otherwise);
-    if (text && *text && !read_material(text, &look, name))
-        return meso_fail(error, MESO_ERR_INPUT, "material '%s': a name is wanted, or NAME #rrggbb, and behind it "
-                         "roughness and metallic from 0 to 1", text);
+    MesoStatus status = text && *text ? meso_grow_material(&look, name, text, error) : MESO_OK;
+    if (status)
+        return status;
     uint32_t at = 0;
     while (at < m->material_count && strcmp(m->material_names[at], name) != 0)
         at++;
