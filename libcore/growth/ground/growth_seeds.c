@@ -136,6 +136,7 @@ MesoStatus meso_growth_seeds(MesoGrowthStarts *out, MesoArena *arena, const Meso
                              .thread_count = thread_count, .error = error};
         if (places && places->begin) {
             work.points = places->points + places->begin[i];
+            work.breaks = places->breaks ? places->breaks + places->begin[i] : NULL;
             work.point_count = places->begin[i + 1] - places->begin[i];
         }
         meso_arena_init(&scratch);

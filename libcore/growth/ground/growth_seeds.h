@@ -15,8 +15,9 @@ typedef struct MesoGrowthStart {
 typedef struct MesoGrowthPlaces {
     uint32_t count;
     const MesoMeshPoint *points;        /* [count] */
+    const uint8_t *breaks;              /* [count] 1: nothing leads here from the point before; NULL: none */
     const uint32_t *begin;              /* [seed_count + 1] into points; for points and curves. A curve's are the
-                                         * corners of one polyline, open, straight in space between them */
+                                         * corners of polylines, open, straight in space between them */
 } MesoGrowthPlaces;
 
 typedef struct MesoGrowthStarts {

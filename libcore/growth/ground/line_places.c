@@ -35,8 +35,8 @@ MesoStatus meso_places_at(MesoSeedWork *work)
         p[i] = (float)x;
     }
     MesoMeshPoint point;
-    MesoStatus status = meso_growth_snap(work->contexts->ground, work->arena, &(MesoVec3){p[0], p[1], p[2]}, 1, &point,
-                                         1, work->error);
+    MesoVec3 from = {p[0], p[1], p[2]};
+    MesoStatus status = meso_growth_snap(work->contexts->ground->mesh, work->arena, &from, 1, &point, 1, work->error);
     if (status)
         return status;
     at = place_of(&point);
@@ -271,7 +271,7 @@ MesoStatus meso_places_border(MesoSeedWork *work)
 static MesoStatus snap_curve(MesoSeedWork *work, const Line *line, MesoArena *scratch)
 {
     MesoMeshPoint *points = MESO_NEW(scratch, MesoMeshPoint, line->place_count, work->error);
-    MesoStatus status = points ? meso_growth_snap(work->contexts->ground, scratch, line->curve, line->place_count,
+    MesoStatus status = points ? meso_growth_snap(work->contexts->ground->mesh, scratch, line->curve, line->place_count,
                                                   points, work->thread_count, work->error) : MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < line->place_count && !status; i++) {
         MesoSurfacePlace at = place_of(&points[i]);
@@ -286,11 +286,13 @@ MesoStatus meso_places_curve(MesoSeedWork *work)
     if (work->point_count < 2)
         return meso_places_points(work);
     meso_arena_init(&scratch);
-    Line line = {.count = work->point_count - 1};
-    line.parts = MESO_NEW(&scratch, Part, line.count, work->error);
+    Line line = {.count = 0};
+    line.parts = MESO_NEW(&scratch, Part, work->point_count, work->error);
     MesoStatus status = line.parts ? MESO_OK : MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < line.count && !status; i++) {
-        Part *part = &line.parts[i];
+    for (uint32_t i = 0; i + 1 < work->point_count && !status; i++) {
+        if (work->breaks && work->breaks[i + 1])
+            continue;
+        Part *part = &line.parts[line.count++];
         part->ends[0] = place_of(&work->points[i]);
         part->ends[1] = place_of(&work->points[i + 1]);
         part->length = apart(position_of(work, &part->ends[0]), position_of(work, &part->ends[1]));

@@ -22,6 +22,7 @@ typedef struct MesoSeedWork {
     uint64_t job;
     uint32_t thread_count;
     const MesoMeshPoint *points;    /* [point_count] that a file names for it */
+    const uint8_t *breaks;          /* likewise; may be NULL */
     uint32_t point_count;
     MesoSeedPlace *places;          /* [count] found, in order */
     uint32_t count, room;

@@ -55,6 +55,7 @@ typedef struct MesoGrammarSource {
     const char *name;           /* NULL where it was written where it is used */
     MesoGrammarSourceKind kind;
     bool reversed;              /* a field the other way round */
+    uint32_t line;              /* of the text */
     MesoGrammarValue values[MESO_GRAMMAR_ARGUMENTS];
 } MesoGrammarSource;
 

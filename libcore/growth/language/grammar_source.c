@@ -144,7 +144,7 @@ const MesoGrammarSourceWord *meso_parse_source(MesoGrammarParser *parser, MesoGr
     }
     meso_parse_advance(parser);
     meso_parse_arguments(parser, &at, word->slots, arguments);
-    *source = (MesoGrammarSource){.kind = word->kind};
+    *source = (MesoGrammarSource){.kind = word->kind, .line = at.line};
     for (uint32_t i = 0; word->slots[i].name; i++)
         source->values[i] = finish_value(parser, family, &word->slots[i], &arguments[i]);
     return meso_parsing(parser) ? word : NULL;
