@@ -27,7 +27,7 @@ static MesoStatus fail_without(const MesoGrowSources *s, const char *name, const
     if (named && named->width == 0)
         return meso_grow_source_fail(s, MESO_ERR_INPUT, "'%s' of the surface holds names, no numbers: region(\"NAME\") "
                                      "is 1 where one of them stands", name);
-    if (nearest.best)
+    if (nearest.best && strcmp(nearest.best, name) != 0)
         return meso_grow_source_fail(s, MESO_ERR_INPUT, "the surface has no %s '%s'; is '%s' meant?", what, name,
                                      nearest.best);
     return meso_grow_source_fail(s, MESO_ERR_INPUT, "the surface has no %s '%s'", what, name);
@@ -134,7 +134,7 @@ static MesoStatus find_vector(const MesoGrowSources *s, Number numbers[3])
             find_components(s, name, "_", domains[d], numbers))
             return MESO_OK;
     }
-    return fail_without(s, name, "attribute of three numbers");
+    return fail_without(s, name, "attribute of three numbers,");
 }
 
 MesoStatus meso_grow_attribute_vectors(MesoGrowSources *s, MesoVec3 **vectors)
