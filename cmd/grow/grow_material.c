@@ -20,7 +20,8 @@ static bool read_material(const char *text, MesoMaterial *look, char name[MESO_G
                                 &metallic);
     if (count == 1 && strlen(name) == strlen(text))
         return true;
-    if (count < 4 || strspn(text + end, " 0123456789.") != strlen(text + end) || roughness > 1 || metallic > 1)
+    const char *digits = strchr(text, '#');
+    if (count < 4 || !digits || strspn(digits + 1, "0123456789abcdefABCDEF") != 6 || strspn(text + end, " 0123456789.") != strlen(text + end) || roughness > 1 || metallic > 1)
         return false;
     *look = (MesoMaterial){{linear_of(red), linear_of(green), linear_of(blue)}, roughness, metallic};
     return true;
