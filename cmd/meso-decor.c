@@ -7,7 +7,7 @@ static const MesoToolInfo DECOR_TOOL = {
     .synopsis = "meso-decor [options] PATTERN SURFACE -o " MESO_SCENE_OUTPUT_NAMES,
     .purpose = "Decorate a surface with a recursive geodesic pattern.",
     .examples = "meso-decor rings.pattern.json vase.obj -o vase.meso\n"
-                "meso-decor --tree vase.json --lines vase.svg rings.pattern.json vase.obj -o vase.glb\n"
+                "meso-decor --tree t.json --lines t.svg rings.pattern.json vase.obj -o v.glb\n"
                 "meso-decor --until 3 rings.pattern.json vase.obj -o step3.meso\n"
                 "meso-decor --seeds 1-10 wild.pattern.json vase.obj -o vase-%d.meso",
     .words = "1 .json\n"
