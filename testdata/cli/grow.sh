@@ -1,5 +1,5 @@
 # Grammars on surfaces: products, limits, seeds, threads, traces; and what cannot be.
-cp "$fixtures"/*.grammar "$fixtures/crack.tiles.json" "$fixtures/vase.obj" .
+cp "$fixtures"/*.grammar "$fixtures/crack.tiles.json" "$fixtures/paint.png" "$fixtures/vase.obj" .
 try() { "$@"; echo "status $?"; }
 grammar() { printf 'meso-grow 1\n%s\n' "$1"; }
 count() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p" "$2" | head -n 1; }
@@ -9,6 +9,10 @@ for name in ivy lace cracks scales feathers chains coral; do
     meso-grow -q $name.grammar vase.obj -o $name.meso --json=$name.json
     echo "$name: $? $(count seeds $name.json) seeds, $(count elements $name.json) elements"
 done
+
+"$generators/make_column" >column.obj
+meso-grow -q painted.grammar column.obj -o painted.meso --json=painted.json
+echo "painted: $? $(count seeds painted.json) seeds, $(count elements painted.json) elements"
 
 echo "== kinds of products; the surface below"
 for kind in ply obj glb drc svg; do
