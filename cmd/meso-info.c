@@ -7,6 +7,7 @@
 
 #include "cmd/common/tool.h"
 #include "cmd/info/info_describe.h"
+#include "cmd/info/info_grammar.h"
 #include "cmd/info/info_quilt.h"
 #include "formats/file/container.h"
 #include "formats/json/json_text.h"
@@ -89,6 +90,8 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
         MesoStatus status = put_kind(facts, "slots", error);
         return status ? status : meso_info_slots(facts, arena, input, error);
     }
+    if (kind == MESO_FILE_GRAMMAR)
+        return meso_info_grammar(facts, arena, input, error);
     if (kind & MESO_FILES_OF_JSON)
         return meso_info_json(facts, arena, input, error);
     if (has_extension(input->path, ".obj") || has_extension(input->path, ".off") ||
@@ -96,8 +99,8 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
         return meso_info_mesh(facts, arena, input, error);
     return meso_fail(error, MESO_ERR_INPUT,
                      "%s: no kind of file that is known here: .slots or a listing of slots, .meso, .quilt, "
-                     ".tiles.json or a prototype's tile set, constraints, report, pattern, .jsonl of seeds, .obj, .ply, "
-                     ".off, .glb, .drc, .exr, .png",
+                     ".tiles.json or a prototype's tile set, constraints, report, pattern, .grammar, .jsonl of seeds, .obj, "
+                     ".ply, .off, .glb, .drc, .exr, .png",
                      input->path);
 }
 

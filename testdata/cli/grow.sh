@@ -14,6 +14,8 @@ done
 meso-grow -q painted.grammar column.obj -o painted.meso --json=painted.json
 echo "painted: $? $(count seeds painted.json) seeds, $(count elements painted.json) elements"
 
+meso-info lace.grammar | grep -v "bytes\|xxh3"
+
 echo "== kinds of products; the surface below"
 for kind in ply obj glb drc svg; do
     meso-grow -q --until 3 ivy.grammar vase.obj -o ivy.$kind && test -s ivy.$kind && echo $kind
