@@ -5,7 +5,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/decor/decor_work.h"
-#include "libcore/decor/region/vertex_normals.h"
+#include "libcore/mesh/point/vertex_normals.h"
 #include "libcore/mesh/cut/triangle_area.h"
 
 /* ---- what steps share ---- */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
-#include "libcore/decor/region/vertex_normals.h"
+#include "libcore/mesh/point/vertex_normals.h"
 
 typedef struct Building {
     MesoScene *scene;

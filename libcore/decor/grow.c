@@ -8,7 +8,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/decor/decor_work.h"
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 
 /* A leaf that may be expanded, with what groups and rules ask. */
 typedef struct Bud {

@@ -1,6 +1,6 @@
 #include "libcore/decor/border_chains.h"
 #include "libcore/decor/operators.h"
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 #include "libcore/geodesic/exact/geodesic_path.h"
 
 /* A weight above this is a vertex, below it none at all. */

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "libcore/decor/decor_work.h"
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 
 /* Candidates of one scope. */
 typedef struct Selection {

@@ -2,7 +2,7 @@
 
 #include "libcore/base/grow.h"
 #include "libcore/decor/border_chains.h"
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 
 /* A set being filled in one region. */
 typedef struct Seeding {

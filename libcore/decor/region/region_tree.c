@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 #include "libcore/mesh/cut/triangle_area.h"
 
 MesoStatus meso_region_tree_init(MesoRegionTree *tree, MesoArena *arena, const MesoTriangulation *mesh,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "libcore/base/parallel.h"
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 #include "libcore/shell/box_tree.h"
 
 /* Points times triangles: below this all triangles are looked at, which needs no tree. */

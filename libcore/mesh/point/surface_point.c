@@ -1,4 +1,4 @@
-#include "libcore/decor/region/surface_point.h"
+#include "libcore/mesh/point/surface_point.h"
 
 typedef struct Point {
     double x, y, z;

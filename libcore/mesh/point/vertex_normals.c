@@ -1,4 +1,4 @@
-#include "libcore/decor/region/vertex_normals.h"
+#include "libcore/mesh/point/vertex_normals.h"
 
 #include <string.h>
 

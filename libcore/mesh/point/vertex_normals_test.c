@@ -1,5 +1,5 @@
 /* Normals are unit vectors whatever the scale of the surface, and +Z where there is no direction. */
-#include "libcore/decor/region/vertex_normals.h"
+#include "libcore/mesh/point/vertex_normals.h"
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
 static void test_scale(float size)
