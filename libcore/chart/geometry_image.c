@@ -350,8 +350,11 @@ static MesoStatus point_across(Builder *b, uint32_t half_edge, uint32_t across)
     set_turn(&there, &out, &in);
     set_turn(&back, &in, &out);
     for (uint32_t i = 0; i < count && !status; i++) {
-        there.from = texel_along(image, half_edge, &out, (i + 0.5) / count);
-        back.from = texel_along(image, across, &in, (i + 0.5) / count);
+        double at = (i + 0.5) / count;
+        there.from = texel_along(image, half_edge, &out, at);
+        there.share = (float)at;
+        back.from = texel_along(image, across, &in, at);
+        back.share = (float)(alike ? 1 - at : at);
         status = add_pair(b, &there, &back);
     }
     return status;
@@ -365,6 +368,7 @@ static MesoStatus point_nowhere(Builder *b, uint32_t half_edge)
     MesoTexelPointer pointer = {.half_edge = half_edge, .to = MESO_NO_INDEX, .turn = {1, 0}};
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < count && !status; i++) {
+        pointer.share = (float)((i + 0.5) / count);
         pointer.from = texel_along(b->image, half_edge, &out, (i + 0.5) / count);
         if (pointer.from != MESO_NO_INDEX)
             status = add_pointer(b, &pointer);
@@ -372,14 +376,21 @@ static MesoStatus point_nowhere(Builder *b, uint32_t half_edge)
     return status;
 }
 
-static int compare_pointers(const void *a, const void *b)
+/* By all but where on the side they lead over it. */
+static int compare_ways(const MesoTexelPointer *p, const MesoTexelPointer *q)
 {
-    const MesoTexelPointer *p = a, *q = b;
     if (p->from != q->from)
         return p->from < q->from ? -1 : 1;
     if (p->to != q->to)
         return p->to < q->to ? -1 : 1;
     return p->half_edge < q->half_edge ? -1 : p->half_edge > q->half_edge;
+}
+
+static int compare_pointers(const void *a, const void *b)
+{
+    const MesoTexelPointer *p = a, *q = b;
+    int order = compare_ways(p, q);
+    return order ? order : p->share < q->share ? -1 : p->share > q->share;
 }
 
 /* Sorts them, each once, and tells the texels where theirs begin. */
@@ -389,7 +400,7 @@ static void order_pointers(MesoGeometryImage *image)
     if (image->pointer_count)
         qsort(image->pointers, image->pointer_count, sizeof *image->pointers, compare_pointers);
     for (uint32_t i = 0; i < image->pointer_count; i++)
-        if (kept == 0 || compare_pointers(&image->pointers[kept - 1], &image->pointers[i]) != 0)
+        if (kept == 0 || compare_ways(&image->pointers[kept - 1], &image->pointers[i]) != 0)
             image->pointers[kept++] = image->pointers[i];
     image->pointer_count = kept;
     for (uint32_t i = kept; i-- > 0;)

@@ -13,6 +13,7 @@
 typedef struct MesoTexelPointer {
     uint32_t from, to;      /* texels; `to` is MESO_NO_INDEX where the surface ends */
     uint32_t half_edge;     /* over which it leads, of the chart that it leaves */
+    float share;            /* where on that, from 0 where it begins to 1 */
     bool mirrored;          /* directions are to be conjugated first */
     double turn[2];         /* and then multiplied by this complex number of length 1, to go on in the other chart */
 } MesoTexelPointer;
