@@ -187,7 +187,8 @@ static void weigh(const Flat *flat, double x, double y, double weight[3])
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t far = (k + 2) % 3;
         double distance = flat->normal_x[k] * (x - flat->x[k]) + flat->normal_y[k] * (y - flat->y[k]);
-        heights[far] = flat->normal_x[k] * (flat->x[far] - flat->x[k]) + flat->normal_y[k] * (flat->y[far] - flat->y[k]);
+        heights[far] = flat->normal_x[k] * (flat->x[far] - flat->x[k]) +
+                       flat->normal_y[k] * (flat->y[far] - flat->y[k]);
         weight[far] = distance / heights[far];
         depth = fmin(depth, distance);
     }
@@ -291,6 +292,11 @@ typedef struct Border {
     bool left;
 } Border;
 
+static double length_of(const Border *border)
+{
+    return sqrt(border->along[0] * border->along[0] + border->along[1] * border->along[1]);
+}
+
 static Border border_of(const MesoGeometryImage *image, uint32_t half_edge, bool reversed)
 {
     const MesoVec2 *uv = image->uv;
@@ -344,7 +350,7 @@ static MesoStatus point_across(Builder *b, uint32_t half_edge, uint32_t across)
     const MesoGeometryImage *image = b->image;
     bool alike = b->mesh->corners[across] != b->mesh->corners[half_edge];
     Border out = border_of(image, half_edge, false), in = border_of(image, across, alike);
-    uint32_t count = 1 + (uint32_t)(2 * fmax(hypot(out.along[0], out.along[1]), hypot(in.along[0], in.along[1])));
+    uint32_t count = 1 + (uint32_t)(2 * fmax(length_of(&out), length_of(&in)));
     MesoTexelPointer there = {.half_edge = half_edge}, back = {.half_edge = across};
     MesoStatus status = MESO_OK;
     set_turn(&there, &out, &in);
@@ -364,7 +370,7 @@ static MesoStatus point_across(Builder *b, uint32_t half_edge, uint32_t across)
 static MesoStatus point_nowhere(Builder *b, uint32_t half_edge)
 {
     Border out = border_of(b->image, half_edge, false);
-    uint32_t count = 1 + (uint32_t)(2 * hypot(out.along[0], out.along[1]));
+    uint32_t count = 1 + (uint32_t)(2 * length_of(&out));
     MesoTexelPointer pointer = {.half_edge = half_edge, .to = MESO_NO_INDEX, .turn = {1, 0}};
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < count && !status; i++) {

@@ -88,7 +88,8 @@ static void tell_piece(const MesoChartTell *tell, const MesoChartPlace *from, ui
     if (!tell || !tell->options->piece)
         return;
     MesoComplex corners[3];
-    MesoWalkPiece piece = {tell->walk, from->triangle, from->turned, (uint8_t)enters, (uint8_t)leaves, {{0, 0}, {0, 0}}};
+    MesoWalkPiece piece = {tell->walk, from->triangle, from->turned, (uint8_t)enters, (uint8_t)leaves,
+                           {{0, 0}, {0, 0}}};
     meso_walk_corners(tell->ground, from->triangle, corners);
     piece.ends[0] = meso_walk_point(corners, from->weight);
     piece.ends[1] = meso_walk_point(corners, weight);
@@ -118,7 +119,7 @@ uint32_t meso_chart_walk(const MesoGeometryImage *image, const MesoTriangulation
 {
     MesoComplex way = {to[0] - place->at[0], to[1] - place->at[1]}, seen[3];
     Line line = {image, {place->at[0], place->at[1]}, meso_complex_conjugate(meso_complex_unit(way)),
-                 hypot(way.re, way.im)};
+                 sqrt(way.re * way.re + way.im * way.im)};
     double weight[3];
     see(&line, place->triangle, seen);
     uint32_t entry = entry_side(seen), enters = 3;

@@ -251,12 +251,8 @@ static void jump(March *m, uint32_t half_edge)
     const MesoTexelPointer *pointer = find_pointer(m);
     MesoTip from = tip_of(m);
     MesoChartPlace place = pointer ? land(m, pointer) : step_over(m, half_edge);
-    if (!pointer || by->metric) {
-        m->heading = carry(by, &m->place, &place, m->heading);
-    } else {
-        ChartMap here = map_of(by, m->place.triangle), there = map_of(by, place.triangle);
-        m->heading = from_texels(&there, turn_with(pointer, to_texels(&here, m->heading)));
-    }
+    /* by both tangents of both charts: an angle in a texture alone says little where a chart is sheared */
+    m->heading = carry(by, &m->place, &place, m->heading);
     m->place = place;
     m->crossings++;
     pay(m, &from);
@@ -266,13 +262,20 @@ static void jump(March *m, uint32_t half_edge)
 
 /* ---- in a chart ---- */
 
-/* To the middle of the texel, where that is the chart's. */
+/* To the middle of the texel, where that is the chart's, and not back: small steps would lead nowhere. */
 static void snap(const March *m, double to[2])
 {
     const MesoGeometryImage *image = m->by->image;
     uint32_t texel = meso_texel_at(image, to[0], to[1]);
-    if (meso_texel_chart(image, texel) == image->triangle_chart[m->place.triangle])
-        meso_texel_place(image, texel, to);
+    if (meso_texel_chart(image, texel) != image->triangle_chart[m->place.triangle])
+        return;
+    double middle[2], x = to[0] - m->place.at[0], y = to[1] - m->place.at[1];
+    meso_texel_place(image, texel, middle);
+    double ahead = (middle[0] - m->place.at[0]) * x + (middle[1] - m->place.at[1]) * y;
+    if (ahead > 0.5 * (x * x + y * y)) {
+        to[0] = middle[0];
+        to[1] = middle[1];
+    }
 }
 
 /* Straight on for the rest of the way, or with `metric` for a texel. Returns the half-edge where the chart ends. */
@@ -281,7 +284,7 @@ static uint32_t go(March *m)
     const MesoTextureMarch *by = m->by;
     ChartMap map = map_of(by, m->place.triangle);
     MesoComplex pace = to_texels(&map, m->heading), d = meso_complex_unit(pace);
-    double scale = by->metric ? hypot(pace.re, pace.im) : by->image->texels_per_unit;
+    double scale = by->metric ? sqrt(pace.re * pace.re + pace.im * pace.im) : by->image->texels_per_unit;
     double length = m->left * scale, texels = by->metric ? fmin(length, 1) : length;
     bool last = texels == length;
     MesoChartPlace before = m->place;
@@ -290,7 +293,7 @@ static uint32_t go(March *m)
     if (by->snaps && last)
         snap(m, to);
     uint32_t half_edge = meso_chart_walk(by->image, by->mesh, &m->place, to, &tell, &m->crossings);
-    double gone = hypot(m->place.at[0] - before.at[0], m->place.at[1] - before.at[1]);
+    double x = m->place.at[0] - before.at[0], y = m->place.at[1] - before.at[1], gone = sqrt(x * x + y * y);
     m->gone += gone;
     m->left = half_edge == MESO_NO_INDEX && last ? 0 : m->left - gone / scale;
     if (by->metric) {

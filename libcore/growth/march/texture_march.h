@@ -2,7 +2,7 @@
  * Steps through the texels of a geometry image, as "Dynamic On-Mesh Procedural Generation Control" (Buron, Marvie,
  * Guennebaud and Granier 2014) has them: straight on in a chart's texture; back from the background to the chart's last
  * texel; along one of the pointers around it, that which leads nearest to where the march was heading in space; and on
- * from there, turned as the charts are to each other.
+ * from there, turned as the charts' tangents are to each other in space.
  *
  * What is straight in a chart is not on the surface, and is not as long: that is the way's own error, at any number of
  * texels. With `metric` each texel's step asks the chart for its first fundamental form, and goes as far and in the
@@ -24,7 +24,7 @@ typedef struct MesoTextureMarch {
     const MesoWalkGround *ground;       /* of that mesh */
     const MesoGeometryImage *image;     /* of that mesh */
     uint32_t neighbourhood;     /* texels around the last one in which pointers are looked for; 0: 2 */
-    bool snaps;                 /* steps and jumps end in the middle of texels, as the paper's */
+    bool snaps;                 /* steps and jumps end in the middle of texels, as the paper's: steps of some texels */
     bool metric;
     void (*jump)(void *context, const MesoTextureJump *jump);   /* NULL: jumps are not told */
     void *context;

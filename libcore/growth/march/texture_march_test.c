@@ -128,6 +128,26 @@ static void test_none_is_lost(void)
     }
 }
 
+/* Many small steps, of less than a texel, too, come as far as they should at least. */
+static void test_small_steps(void)
+{
+    MesoMarchScene scene;
+    meso_march_scene_init(&scene, meso_fixture_sphere(24, 0.3f, 5), 0.3f, 1024);
+    for (uint32_t kind = 0; kind < 4; kind++) {
+        scene.march.snaps = kind & 1;
+        scene.march.metric = kind & 2;
+        for (uint32_t i = 0; i < 60; i++) {
+            double length = i % 2 ? 0.0005 : 0.004, apart;
+            MesoTip tip = meso_fixture_tip(&scene.walk.ground, &random_numbers), first = tip;
+            for (uint32_t s = 0; s < 0.5 / length; s++)
+                tip = march(&scene, tip, length, NULL).tip;
+            apart = meso_fixture_texels_apart(&scene, &first, &tip) / scene.image.texels_per_unit;
+            CHECK(apart > 0.97 * 2 * sin(0.25) && (scene.march.snaps || apart < 1.03 * 2 * sin(0.25)));
+        }
+    }
+    meso_march_scene_release(&scene);
+}
+
 /* ---- pieces ---- */
 
 typedef struct Trail {
@@ -226,6 +246,7 @@ int main(void)
     test_unrolled();
     test_metric();
     test_none_is_lost();
+    test_small_steps();
     test_pieces();
     test_ends();
     return 0;
