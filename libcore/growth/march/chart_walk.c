@@ -115,7 +115,7 @@ static bool ends_before(const Line *line, MesoComplex begin, MesoComplex end)
 }
 
 uint32_t meso_chart_walk(const MesoGeometryImage *image, const MesoTriangulation *mesh, MesoChartPlace *place,
-                         const double to[2], const MesoChartTell *tell, uint32_t *crossings)
+                         const double to[2], const MesoChartTell *tell, uint32_t *crossings, uint32_t limit)
 {
     MesoComplex way = {to[0] - place->at[0], to[1] - place->at[1]}, seen[3];
     Line line = {image, {place->at[0], place->at[1]}, meso_complex_conjugate(meso_complex_unit(way)),
@@ -136,9 +136,10 @@ uint32_t meso_chart_walk(const MesoGeometryImage *image, const MesoTriangulation
         double share = share_of(&line, begin, end);
         weigh_on(exit, share, weight);
         tell_piece(tell, place, enters, exit, weight);
-        if (image->seams[place->triangle] >> exit & 1) {
+        bool is_seam = image->seams[place->triangle] >> exit & 1;
+        if (is_seam || *crossings >= limit) {
             *place = meso_chart_place(image, place->triangle, place->turned, weight);
-            return half_edge;
+            return is_seam ? half_edge : MESO_NO_INDEX;
         }
         cross(image, mesh, place, half_edge, share);
         see(&line, place->triangle, seen);

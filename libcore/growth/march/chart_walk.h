@@ -24,12 +24,12 @@ MesoChartPlace meso_chart_place(const MesoGeometryImage *image, uint32_t triangl
 
 /*
  * Goes straight to a point in texels, or to the end of the chart before it: then returns the half-edge there, and
- * MESO_NO_INDEX else. Signs alone decide, as in straight_walk.h: it comes to an end in any chart.
+ * MESO_NO_INDEX else. Signs alone decide, as in straight_walk.h.
  *
  * tell       NULL: nothing is told
- * crossings  sides that are crossed are added
+ * crossings  sides that are crossed are added; it stops where there are `limit`: triangles without area have no end
  */
 uint32_t meso_chart_walk(const MesoGeometryImage *image, const MesoTriangulation *mesh, MesoChartPlace *place,
-                         const double to[2], const MesoChartTell *tell, uint32_t *crossings);
+                         const double to[2], const MesoChartTell *tell, uint32_t *crossings, uint32_t limit);
 
 #endif

@@ -10,7 +10,7 @@ enum { JUMPS_EXACT = 4, JUMPS_FREE = 16 };
 typedef struct March {
     const MesoTextureMarch *by;
     const MesoWalkOptions *options;
-    uint32_t number, crossings;
+    uint32_t number, crossings, limit;
     MesoChartPlace place;
     MesoComplex heading;        /* in the frame of the triangle, of length 1 */
     double left;                /* of the length */
@@ -215,7 +215,7 @@ static MesoChartPlace land(const March *m, const MesoTexelPointer *pointer)
     MesoComplex there = point_of(image, mesh->twins[pointer->half_edge], turns ? share : 1 - share);
     MesoComplex off = turn_with(pointer, (MesoComplex){m->place.at[0] - here.re, m->place.at[1] - here.im});
     const double to[2] = {there.re + off.re, there.im + off.im};
-    uint32_t end = meso_chart_walk(image, mesh, &place, to, NULL, &crossings);
+    uint32_t end = meso_chart_walk(image, mesh, &place, to, NULL, &crossings, MESO_WALK_CROSSINGS);
     return end == MESO_NO_INDEX ? place : nearest_on(image, end, place.turned, to);
 }
 
@@ -292,10 +292,10 @@ static uint32_t go(March *m)
     MesoChartTell tell = {by->ground, m->options, m->number};
     if (by->snaps && last)
         snap(m, to);
-    uint32_t half_edge = meso_chart_walk(by->image, by->mesh, &m->place, to, &tell, &m->crossings);
+    uint32_t half_edge = meso_chart_walk(by->image, by->mesh, &m->place, to, &tell, &m->crossings, m->limit);
     double x = m->place.at[0] - before.at[0], y = m->place.at[1] - before.at[1], gone = sqrt(x * x + y * y);
     m->gone += gone;
-    m->left = half_edge == MESO_NO_INDEX && last ? 0 : m->left - gone / scale;
+    m->left = half_edge == MESO_NO_INDEX && last && m->crossings < m->limit ? 0 : fmax(m->left - gone / scale, 0);
     if (by->metric) {
         m->heading = carry(by, &before, &m->place, m->heading);
     } else if (m->place.triangle != before.triangle) {
@@ -307,12 +307,14 @@ static uint32_t go(March *m)
 
 static void march(March *m, MesoWalk *walk)
 {
-    uint32_t limit = m->options->crossing_limit ? m->options->crossing_limit : MESO_WALK_CROSSINGS;
+    m->limit = m->options->crossing_limit ? m->options->crossing_limit : MESO_WALK_CROSSINGS;
     walk->stop = MESO_WALK_DONE;
-    while (m->left > 0) {
+    for (uint32_t legs = 1; m->left > 0; legs++) {
         uint32_t half_edge = go(m);
         bool border = half_edge != MESO_NO_INDEX && m->by->mesh->twins[half_edge] == MESO_NO_INDEX;
-        if (border || (m->crossings >= limit && m->left > 0)) {
+        /* where texels have next to no length, there is no end of them */
+        bool limited = m->left > 0 && (m->crossings >= m->limit || legs >= m->limit);
+        if (border || limited) {
             walk->stop = border ? MESO_WALK_BORDER : MESO_WALK_LIMIT;
             break;
         }

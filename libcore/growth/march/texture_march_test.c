@@ -239,6 +239,39 @@ CHECK(meso_fixture_texels_apart(&scene, &part.tip, &whole.tip) < 0.1);
     meso_march_scene_release(&scene);
 }
 
+/* ---- meshes that are none ---- */
+
+/* Vertices in few places, on a line, or far apart. */
+static void break_positions(MesoTriangulation *mesh, uint32_t kind)
+{
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        for (uint32_t i = 0; i < 3; i++) {
+            float x = meso_fixture_signed(&random_numbers);
+            const float values[5] = {roundf(x), i ? 0 : x, x * powf(10, 10 * meso_fixture_signed(&random_numbers)),
+                                     i == 2 ? 0 : roundf(2 * x), i ? 1e-30f * x : x};
+            (&mesh->positions[v].x)[i] = values[kind];
+        }
+}
+
+static void test_broken(void)
+{
+    for (uint32_t i = 0; i < 400; i++) {
+        MesoMarchScene scene;
+        MesoTriangulation mesh = meso_fixture_torus(4, 3, 0.4f);
+        break_positions(&mesh, i % 5);
+        meso_march_scene_init(&scene, mesh, 0, 64);
+        for (uint32_t k = 0; k < 8; k++) {
+            MesoTip tip = meso_fixture_tip(&scene.walk.ground, &random_numbers);
+            double length = pow(10, 6 * meso_fixture_uniform(&random_numbers) - 3);
+            scene.march.snaps = k & 1;
+            scene.march.metric = k & 2;
+            MesoWalk walk = march(&scene, tip, length, &(MesoWalkOptions){2000, NULL, NULL});
+            CHECK(walk.crossings <= 2001);
+        }
+        meso_march_scene_release(&scene);
+    }
+}
+
 int main(void)
 {
     meso_random_init(&random_numbers, 11, 0);
@@ -249,5 +282,6 @@ int main(void)
     test_small_steps();
     test_pieces();
     test_ends();
+    test_broken();
     return 0;
 }
