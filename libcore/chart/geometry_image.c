@@ -33,7 +33,7 @@ static MesoStatus set_uvs(Builder *b, const MesoVec2 *corner_uv)
     for (size_t c = 0; c < count; c++) {
         if (!isfinite(corner_uv[c].x) || !isfinite(corner_uv[c].y))
             return meso_fail(b->error, MESO_ERR_INPUT, "face %u has coordinates that are no numbers",
-                             b->mesh->faces[c / 3]);
+                             b->mesh->faces[c / 3] + 1);
         low[0] = fmin(low[0], corner_uv[c].x), high[0] = fmax(high[0], corner_uv[c].x);
         low[1] = fmin(low[1], corner_uv[c].y), high[1] = fmax(high[1], corner_uv[c].y);
     }
@@ -153,7 +153,7 @@ static MesoStatus draw_triangle(Builder *b, uint32_t triangle)
                 continue;
             if (depth > overlap_depth && b->depths[i] > overlap_depth)
                 return meso_fail(b->error, MESO_ERR_INPUT, "faces %u and %u have the same coordinates within",
-                                 b->mesh->faces[texel->triangle], b->mesh->faces[triangle]);
+                                 b->mesh->faces[texel->triangle] + 1, b->mesh->faces[triangle] + 1);
             if (texel->triangle == MESO_NO_INDEX || (float)depth > b->depths[i]) {
                 texel->triangle = triangle;
                 b->depths[i] = (float)depth;

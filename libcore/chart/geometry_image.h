@@ -36,7 +36,7 @@ typedef struct MesoGeometryImage {
     double texels_per_unit;     /* on average */
 } MesoGeometryImage;
 
-enum { MESO_GEOMETRY_IMAGE_LEAST = 16, MESO_GEOMETRY_IMAGE_MOST = 8192 };
+enum { MESO_GEOMETRY_IMAGE_LEAST = 16, MESO_GEOMETRY_IMAGE_MOST = 4096 };
 
 /*
  * Draws a mesh into an image by its coordinates; any box of them is laid into the square, two texels from its border.
@@ -47,7 +47,7 @@ enum { MESO_GEOMETRY_IMAGE_LEAST = 16, MESO_GEOMETRY_IMAGE_MOST = 8192 };
  * corner_uv  [3 * triangle_count] by corner; in the same place in two charts only where they meet
  * normals    [vertex_count] of unit length; NULL: those of the triangles
  *
- * Every pointer that leads somewhere has one that leads back. O(texels + triangles). MESO_ERR_INPUT, with the faces,
+ * Every pointer that leads somewhere has one that leads back. O(texels + triangles). MESO_ERR_INPUT, by faces from 1,
  * where two triangles lie over one centre of a texel, or coordinates are not finite; MESO_ERR_USAGE for a size out of
  * bounds; MESO_ERR_MEMORY.
  */
