@@ -1,5 +1,6 @@
 /* meso-grow: lets a grammar grow over a surface. */
 #include "cmd/grow/grow_job.h"
+#include "libcore/chart/geometry_image.h"
 
 #define OUTPUTS "OUT.meso|.ply|.obj|.glb|.drc|.svg"
 
@@ -30,6 +31,12 @@ int main(int argc, char **argv)
         MESO_LIST(0, "set", "NAME=VALUE", "a parameter of the grammar; several with commas between, or given again",
                   &a.set),
         MESO_POINT(0, "up", "X,Y,Z", "which way is up on the surface (default 0,1,0)", &a.up),
+        MESO_CHOICE(0, "march", "WAY", "how steps go: straight over the mesh (default), or through a texture, to its "
+                    "texels, or by its metric", &a.march, "mesh|texture|texel|metric"),
+        MESO_CHOICE(0, "atlas", "WHICH", "charts of the texture: own (default), or uv, the surface's", &a.atlas,
+                    "own|uv"),
+        MESO_COUNT(0, "texels", "N", "along a side of the texture (default 1024)", &a.texels,
+                   MESO_GEOMETRY_IMAGE_LEAST, MESO_GEOMETRY_IMAGE_MOST),
         MESO_COUNT(0, "until", "N", "end after N generations (default: when nothing grows any more)", &a.until, 1,
                    1 << 30),
         MESO_COUNT(0, "generations", "N", "most generations, beside the grammar's limit (default 1000000)",

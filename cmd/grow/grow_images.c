@@ -3,40 +3,20 @@
 #include <string.h>
 
 #include "cmd/grow/grow_sources.h"
+#include "cmd/grow/grow_uvs.h"
 #include "formats/image/image_read.h"
 #include "libcore/base/grow.h"
 
 /* ---- texture coordinates ---- */
 
-static const MesoAttribute *find_uvs(const MesoPolygonMesh *mesh)
-{
-    const MesoAttribute *uvs = meso_polygon_attribute_on(mesh, "uv", MESO_ON_CORNERS);
-    return uvs ? uvs : meso_polygon_attribute_on(mesh, "uv", MESO_ON_VERTICES);
-}
-
 static MesoStatus take_uvs(MesoGrowSources *s)
 {
-    const MesoTriangulation *mesh = s->ground->mesh;
-    const MesoAttribute *uvs = find_uvs(s->polygons);
-    if (!uvs || uvs->width < 2)
-        return meso_grow_source_fail(s, MESO_ERR_INPUT, "an image needs texture coordinates, and the surface has none: "
-                                     "an OBJ has them as 'vt', a PLY as s and t, or u and v, of vertices");
-    s->uvs = MESO_NEW(&s->tool->arena, MesoVec2, 3 * (size_t)mesh->triangle_count, &s->tool->error);
-    if (!s->uvs)
-        return MESO_ERR_MEMORY;
-    for (uint32_t c = 0; c < 3 * mesh->triangle_count; c++) {
-        uint32_t face = mesh->faces[c / 3], corner = 3 * face + c % 3;
-        bool by_corner = uvs->domain == MESO_ON_CORNERS;
-        uint32_t entry = meso_attribute_entry(uvs, by_corner ? corner : s->polygons->corners[corner]);
-        if (entry == MESO_NO_INDEX)
-            return meso_grow_source_fail(s, MESO_ERR_INPUT, "an image needs texture coordinates, and face %u of the "
-                                         "surface's triangles has none", face + 1);
-        s->uvs[c] = meso_attribute_vec2(uvs, entry);
-        if (!isfinite(s->uvs[c].x) || !isfinite(s->uvs[c].y))
-            return meso_grow_source_fail(s, MESO_ERR_INPUT, "a texture coordinate of face %u of the surface's "
-                                         "triangles is not finite", face + 1);
-    }
-    return MESO_OK;
+    MesoError error = {0};
+    MesoStatus status = meso_grow_uvs(&s->uvs, &s->tool->arena, s->polygons, s->ground->mesh, &error);
+    if (status == MESO_ERR_INPUT)
+        return meso_grow_source_fail(s, status, "an image needs %s", error.message);
+    s->tool->error = status ? error : s->tool->error;
+    return status;
 }
 
 /* ---- pictures ---- */

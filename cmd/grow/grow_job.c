@@ -7,6 +7,7 @@
 #include "cmd/common/seed_list.h"
 #include "cmd/grow/grow_backdrop.h"
 #include "cmd/grow/grow_contexts.h"
+#include "cmd/grow/grow_march.h"
 #include "cmd/grow/grow_report.h"
 #include "cmd/grow/grow_shapes.h"
 #include "cmd/grow/grow_surface.h"
@@ -25,6 +26,7 @@ typedef struct Job {
     const char *folder;         /* of the grammar */
     MesoSeedList seeds;
     MesoGrowSurface surface;
+    MesoGrowMarch march;
     MesoGrammar grammar;
     MesoGrowthShapes shapes;
     MesoGrowthContexts contexts;
@@ -124,6 +126,8 @@ static MesoStatus read_inputs(Job *job)
     if (!status)
         status = read_grammar(job);
     if (!status)
+        status = meso_grow_march_init(&job->march, job->arguments, &job->surface);
+    if (!status)
         status = meso_grow_shapes(&job->shapes, tool, &job->grammar, job->folder);
     return status ? status : meso_grow_contexts(&job->contexts, &job->places, tool, &job->grammar,
                                                 &job->surface.polygons, &job->surface.ground, job->folder);
@@ -194,6 +198,7 @@ static MesoStatus grow(Job *job, MesoGrown *grown, MesoGrowthStarts *starts, uin
                                           tool->threads, &tool->error);
     const MesoGrowthOptions options = {
         .grammar = &job->grammar, .contexts = &job->contexts, .starts = starts, .thread_count = tool->threads,
+        .march = job->march.march.walk ? &job->march.march : NULL,
         .generations = least_of(a->until, a->most_generations ? a->most_generations : MOST_GENERATIONS),
         .elements = a->most_elements ? a->most_elements : MOST_ELEMENTS,
         .event = trace->output ? trace_event : NULL, .context = trace};
