@@ -14,9 +14,10 @@ enum { MAX_THREADS = 1024 };
 
 typedef struct Loop {
     uint64_t count, grain;
-    void (*body)(void *context, uint64_t begin, uint64_t end);
+    void (*body)(void *context, uint32_t worker, uint64_t begin, uint64_t end);
     void *context;
     atomic_uint_fast64_t next;      /* range that nobody has taken yet */
+    atomic_uint_fast32_t workers;   /* that have come */
 } Loop;
 
 uint32_t meso_parallel_cores(void)
@@ -31,23 +32,24 @@ uint32_t meso_parallel_cores(void)
 static void *take_ranges(void *argument)
 {
     Loop *loop = argument;
+    uint32_t worker = (uint32_t)atomic_fetch_add(&loop->workers, 1);
     uint64_t range_count = loop->count / loop->grain + (loop->count % loop->grain != 0);
     for (;;) {
         uint64_t range = atomic_fetch_add(&loop->next, 1);
         if (range >= range_count)
             return NULL;
         uint64_t begin = range * loop->grain, rest = loop->count - begin;
-        loop->body(loop->context, begin, begin + (rest < loop->grain ? rest : loop->grain));
+        loop->body(loop->context, worker, begin, begin + (rest < loop->grain ? rest : loop->grain));
     }
 }
 
-void meso_parallel_for(uint32_t thread_count, uint64_t count, uint64_t grain,
-                       void (*body)(void *context, uint64_t begin, uint64_t end), void *context)
+void meso_parallel_team(uint32_t worker_count, uint64_t count, uint64_t grain,
+                        void (*body)(void *context, uint32_t worker, uint64_t begin, uint64_t end), void *context)
 {
-    assert(grain > 0);
+    assert(grain > 0 && worker_count > 0);
     Loop loop = {.count = count, .grain = grain, .body = body, .context = context};
     pthread_t threads[MAX_THREADS];
-    uint32_t wanted = thread_count ? thread_count : meso_parallel_cores();
+    uint32_t wanted = worker_count;
     if (wanted > MAX_THREADS)
         wanted = MAX_THREADS;
     if (wanted > 1 && wanted > (count + grain - 1) / grain)
@@ -60,4 +62,24 @@ void meso_parallel_for(uint32_t thread_count, uint64_t count, uint64_t grain,
     take_ranges(&loop);
     for (uint32_t i = 0; i < started; i++)
         pthread_join(threads[i], NULL);
+}
+
+/* A loop whose body does not ask who runs it. */
+typedef struct PlainLoop {
+    void (*body)(void *context, uint64_t begin, uint64_t end);
+    void *context;
+} PlainLoop;
+
+static void run_plain(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+{
+    const PlainLoop *loop = context;
+    (void)worker;
+    loop->body(loop->context, begin, end);
+}
+
+void meso_parallel_for(uint32_t thread_count, uint64_t count, uint64_t grain,
+                       void (*body)(void *context, uint64_t begin, uint64_t end), void *context)
+{
+    PlainLoop loop = {body, context};
+    meso_parallel_team(thread_count ? thread_count : meso_parallel_cores(), count, grain, run_plain, &loop);
 }

@@ -14,6 +14,13 @@
 void meso_parallel_for(uint32_t thread_count, uint64_t count, uint64_t grain,
                        void (*body)(void *context, uint64_t begin, uint64_t end), void *context);
 
+/*
+ * The same, and says which of `worker_count` threads, at least one, runs the range: what belongs to a worker, such as
+ * scratch, is used by no two at once.
+ */
+void meso_parallel_team(uint32_t worker_count, uint64_t count, uint64_t grain,
+                        void (*body)(void *context, uint32_t worker, uint64_t begin, uint64_t end), void *context);
+
 /* Threads that `thread_count` 0 stands for. */
 uint32_t meso_parallel_cores(void);
 

@@ -1,5 +1,5 @@
 #include "libcore/decor/operators.h"
-#include "libcore/geodesic/voronoi.h"
+#include "libcore/geodesic/cells/voronoi.h"
 
 MesoStatus meso_decor_voronoi(MesoSplit *split, MesoSplitTarget *target, const MesoDomain *domain, MesoError *error)
 {
@@ -12,7 +12,7 @@ MesoStatus meso_decor_voronoi(MesoSplit *split, MesoSplitTarget *target, const M
         target->idle = "cells need two points or more";
         return MESO_OK;
     }
-    const MesoVoronoiQuery query = {domain, seeds.point_count, seeds.point_list};
+    const MesoVoronoiQuery query = {domain, seeds.point_count, seeds.point_list, work->options->threads};
     return meso_voronoi_trace(&split->lines, NULL, NULL, work->scratch, &work->decor->mesh, work->solver, &query,
                               error);
 }

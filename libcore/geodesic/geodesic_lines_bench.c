@@ -4,7 +4,7 @@
 #include "libcore/geodesic/geodesic_samples.h"
 #include "libcore/geodesic/isoline.h"
 #include "libcore/geodesic/streamline.h"
-#include "libcore/geodesic/voronoi.h"
+#include "libcore/geodesic/cells/voronoi.h"
 #include "libcore/geodesic/geodesic_fixture.h"
 
 enum { DIVISIONS = 224, ROUNDS = 5, LEVELS = 100 };

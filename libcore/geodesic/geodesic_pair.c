@@ -1,17 +1,21 @@
 /*
- * Two fields at once. What a solve writes to is small beside the rings: the second thread has rows, states and queues
- * of its own, copied when the solver has changed, and reads the solver's rings.
+ * Several fields at once. What a solve writes to is small beside the rings: each thread has rows, states and queues of
+ * its own, copied when the solver has changed, and reads the solver's rings.
  */
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "libcore/base/parallel.h"
 #include "libcore/geodesic/geodesic_solver.h"
 
-/* Below so many triangles a thread takes longer to start than it saves. */
-enum { WORTH_A_THREAD = 4096 };
+/*
+ * Below so many triangles a thread takes longer to start than it saves; and below one for so many of the mesh's vertices,
+ * longer to be made alike.
+ */
+enum { WORTH_A_THREAD = 4096, WORTH_A_COPY = 8 };
 
-/* ---- the second solver ---- */
+/* ---- twins ---- */
 
 void meso_geodesic_twin_release(MesoGeodesicSolver *twin)
 {
@@ -57,16 +61,35 @@ static void copy_state(MesoGeodesicSolver *twin, const MesoGeodesicSolver *solve
     twin->graph = NULL;
 }
 
-static MesoStatus bring_up(MesoGeodesicSolver *solver, MesoError *error)
+static MesoStatus bring_up(const MesoGeodesicSolver *solver, MesoGeodesicSolver **twin, MesoError *error)
 {
-    if (!solver->twin)
-        solver->twin = calloc(1, sizeof *solver->twin);
-    if (!solver->twin || !make_room(solver->twin, solver->vertex_room))
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: two distances of %u vertices", solver->vertex_count);
-    if (!solver->twin_is_like)
-        copy_state(solver->twin, solver);
-    solver->twin_is_like = true;
+    if (!*twin)
+        *twin = calloc(1, sizeof **twin);
+    if (!*twin || !make_room(*twin, solver->vertex_room))
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: more distances of %u vertices", solver->vertex_count);
+    if (!(*twin)->is_like)
+        copy_state(*twin, solver);
+    (*twin)->is_like = true;
     return MESO_OK;
+}
+
+MesoStatus meso_geodesic_team(MesoGeodesicSolver *solver, uint32_t count, MesoGeodesicSolver **team, MesoError *error)
+{
+    assert(count > 0 && count <= MESO_TEAM_MOST);
+    MesoStatus status = MESO_OK;
+    team[0] = solver;
+    for (uint32_t i = 1; i < count && !status; i++) {
+        status = bring_up(solver, &solver->twins[i - 1], error);
+        team[i] = solver->twins[i - 1];
+    }
+    return status;
+}
+
+bool meso_geodesic_team_is_worth(const MesoGeodesicSolver *solver, const MesoDomain *domain)
+{
+    uint32_t size = domain && domain->triangles ? domain->triangle_count : solver->mesh->triangle_count;
+    bool is_like = solver->twins[0] && solver->twins[0]->is_like;
+    return size >= WORTH_A_THREAD && (is_like || size >= solver->vertex_count / WORTH_A_COPY);
 }
 
 /* ---- both ---- */
@@ -87,25 +110,17 @@ static void solve_some(void *context, uint64_t begin, uint64_t end)
                                               &pair->errors[i]);
 }
 
-static bool is_worth_a_thread(const MesoGeodesicSolver *solver, const MesoGeodesicQuery *query)
-{
-    const MesoDomain *domain = query->domain;
-    return (domain && domain->triangles ? domain->triangle_count : solver->mesh->triangle_count) >= WORTH_A_THREAD;
-}
-
 MesoStatus meso_geodesic_solve_pair(MesoGeodesicSolver *solver, const MesoGeodesicQuery *queries,
                                     float *const *distances, uint32_t thread_count, MesoError *error)
 {
     Pair pair = {{solver, solver}, queries, distances, {MESO_OK, MESO_OK}, {{0}}};
     uint32_t threads = thread_count ? thread_count : meso_parallel_cores();
-    if (threads > 1 && (!is_worth_a_thread(solver, &queries[0]) || !is_worth_a_thread(solver, &queries[1])))
+    if (threads > 1 && (!meso_geodesic_team_is_worth(solver, queries[0].domain) ||
+                        !meso_geodesic_team_is_worth(solver, queries[1].domain)))
         threads = 1;
-    if (threads > 1) {
-        MesoStatus status = bring_up(solver, error);
-        if (status)
-            return status;
-        pair.solvers[1] = solver->twin;
-    }
+    MesoStatus status = threads > 1 ? meso_geodesic_team(solver, 2, pair.solvers, error) : MESO_OK;
+    if (status)
+        return status;
     meso_parallel_for(threads, 2, 1, solve_some, &pair);
     for (int i = 0; i < 2; i++)
         if (pair.status[i]) {

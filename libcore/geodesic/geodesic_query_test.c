@@ -320,7 +320,7 @@ static void check_pair(MesoGeodesicSolver *solver, const MesoGeodesicQuery *quer
         for (int i = 0; i < 2; i++)
             CHECK(memcmp(one[i], both[i], mesh->vertex_count * sizeof(float)) == 0);
     }
-    CHECK(solver->twin && solver->twin_is_like);
+    CHECK(solver->twins[0] && solver->twins[0]->is_like);
     for (int i = 0; i < 2; i++) {
         free(one[i]);
         free(both[i]);

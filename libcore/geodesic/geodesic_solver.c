@@ -101,7 +101,9 @@ static void note_change(MesoGeodesicSolver *solver)
 {
     meso_geodesic_graph_release(solver->graph);
     solver->graph = NULL;
-    solver->twin_is_like = false;
+    for (uint32_t i = 0; i < MESO_TEAM_MOST - 1; i++)
+        if (solver->twins[i])
+            solver->twins[i]->is_like = false;
 }
 
 MesoStatus meso_geodesic_set_positions(MesoGeodesicSolver *solver, const MesoVec3 *positions, MesoError *error)
@@ -144,7 +146,8 @@ void meso_geodesic_release(MesoGeodesicSolver *solver)
     if (!solver)
         return;
     meso_geodesic_graph_release(solver->graph);
-    meso_geodesic_twin_release(solver->twin);
+    for (uint32_t i = 0; i < MESO_TEAM_MOST - 1; i++)
+        meso_geodesic_twin_release(solver->twins[i]);
     meso_buckets_release(&solver->buckets);
     meso_one_rings_release(&solver->rings);
     free(solver->rows);
@@ -206,13 +209,6 @@ static void clear_distances(const MesoTriangulation *mesh, const MesoDomain *dom
     }
 }
 
-static void take_distance(MesoGeodesicSolver *solver, uint32_t vertex, float unit, float *distance)
-{
-    distance[vertex] = fabsf(solver->rows[vertex].distance) * unit;
-    solver->rows[vertex].distance = INFINITY;
-    solver->states[vertex] &= (uint8_t)~MESO_VERTEX_QUEUED;
-}
-
 /* Hands the distances out, and leaves the rows as they were. `all`: of vertices without distance, too. */
 static void take_distances(MesoGeodesicSolver *solver, bool all, float *distance)
 {
@@ -220,10 +216,10 @@ static void take_distances(MesoGeodesicSolver *solver, bool all, float *distance
     uint32_t count = all ? solver->vertex_count : solver->touched_count;
     if (all)
         for (uint32_t v = 0; v < count; v++)
-            take_distance(solver, v, unit, distance);
+            distance[v] = meso_geodesic_take(solver, v, unit);
     else
         for (uint32_t i = 0; i < count; i++)
-            take_distance(solver, solver->touched[i], unit, distance);
+            distance[solver->touched[i]] = meso_geodesic_take(solver, solver->touched[i], unit);
 }
 
 /* The rows' positions without their scale, which as a power of two leaves no trace. */
@@ -268,11 +264,11 @@ static MesoStatus run_exact(const MesoGeodesicRun *run, MesoArena *arena, MesoEr
     return status;
 }
 
-/* Lets the engine fill the rows. */
-static MesoStatus run_engine(const MesoGeodesicRun *run, MesoError *error)
+MesoStatus meso_geodesic_run(const MesoGeodesicRun *run, MesoError *error)
 {
     MesoArena arena;
     MesoGeodesicSolver *solver = run->solver;
+    solver->touched_count = 0;
     MesoStatus status = MESO_OK;
     switch (solver->engine) {
     case MESO_GEODESIC_FRONTS:
@@ -303,8 +299,7 @@ MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQue
     bool all = !query->keep && (!query->domain || !query->domain->member);
     if (!query->keep && !all)
         clear_distances(solver->mesh, query->domain, distance);
-    solver->touched_count = 0;
-    MesoStatus status = run_engine(&run, error);
+    MesoStatus status = meso_geodesic_run(&run, error);
     take_distances(solver, all, distance);
     if (touched) {
         *touched = solver->touched;

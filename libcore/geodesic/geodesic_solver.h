@@ -21,6 +21,9 @@ enum {
     MESO_VERTEX_MARKED = 8      /* for a while: its ring is to be made again; its line ends here */
 };
 
+/* Solvers that one mesh is solved with at once, at most: each has 21 bytes a vertex. */
+enum { MESO_TEAM_MOST = 8 };
+
 typedef struct MesoGeodesicGraph MesoGeodesicGraph;
 
 /* Single precision squares what is between 1e-19 and 1e19 alone: rows are scaled by a power of two to a size near 1. */
@@ -37,8 +40,9 @@ struct MesoGeodesicSolver {
     MesoOneRings rings;
     MesoBuckets buckets;
     MesoGeodesicGraph *graph;   /* of the graph engine; NULL: to be made before the next solve */
-    MesoGeodesicSolver *twin;   /* that solves beside this one, and has its rings; NULL: not wanted yet */
-    bool twin_is_like;          /* nothing has changed since it was made so */
+    MesoGeodesicSolver *twins[MESO_TEAM_MOST - 1];  /* that solve beside this one, and have its rings; NULL: not wanted
+                                                       yet */
+    bool is_like;               /* of a twin: nothing has changed since it was made so */
 };
 
 /* One solve, in the rows' units. */
@@ -65,6 +69,33 @@ static inline bool meso_geodesic_lowers(const MesoGeodesicRun *run, uint32_t ver
         solver->touched[solver->touched_count++] = vertex;
     return true;
 }
+
+/*
+ * Lets the engine find distances, as meso_geodesic_solve() does, and leaves them in the rows of the vertices that are
+ * listed as touched; each of them is to be taken from there before the next solve.
+ */
+MesoStatus meso_geodesic_run(const MesoGeodesicRun *run, MesoError *error);
+
+/* The distance of a row in scene units, which the row has no more then. */
+static inline float meso_geodesic_take(MesoGeodesicSolver *solver, uint32_t vertex, float unit)
+{
+    float distance = __builtin_fabsf(solver->rows[vertex].distance) * unit;
+    solver->rows[vertex].distance = INFINITY;
+    solver->states[vertex] &= (uint8_t)~MESO_VERTEX_QUEUED;
+    return distance;
+}
+
+/* Whether a domain is large enough for threads: below it they take longer to start, or to be made alike, than they save. */
+bool meso_geodesic_team_is_worth(const MesoGeodesicSolver *solver, const MesoDomain *domain);
+
+/*
+ * Solvers for threads, one each: the solver itself, and twins that solve as it does and read its rings.
+ *
+ * team  [count] of them; count is 1 to MESO_TEAM_MOST
+ *
+ * O(vertices) for each twin that is new, or that the mesh has changed behind. MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_geodesic_team(MesoGeodesicSolver *solver, uint32_t count, MesoGeodesicSolver **team, MesoError *error);
 
 /*
  * Makes points of seeds where a line ends or turns sharply, before anything but seeds has a distance: what starts there

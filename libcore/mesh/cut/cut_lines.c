@@ -22,6 +22,33 @@ MesoStatus meso_cut_add_segment(MesoCutLines *lines, MesoArena *arena, MesoCutSe
     return MESO_OK;
 }
 
+/* Twice as many as now at least, so that many small additions do not copy all of it each time. */
+static bool reserve(void **array, MesoArena *arena, uint32_t count, uint32_t *room, uint64_t wanted, size_t size,
+                    MesoError *error)
+{
+    if (wanted <= *room)
+        return true;
+    uint64_t larger = wanted < 2 * (uint64_t)*room ? 2 * (uint64_t)*room : wanted;
+    larger = larger > UINT32_MAX ? UINT32_MAX : larger;
+    if (wanted > larger) {
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory: lines of more than %u nodes or segments", UINT32_MAX);
+        return false;
+    }
+    *array = meso_arena_enlarge(arena, *array, count, larger, size, error);
+    *room = (uint32_t)larger;
+    return *array != NULL;
+}
+
+MesoStatus meso_cut_lines_reserve(MesoCutLines *lines, MesoArena *arena, uint64_t node_count, uint64_t segment_count,
+                                  MesoError *error)
+{
+    return reserve((void **)&lines->nodes, arena, lines->node_count, &lines->node_room, node_count,
+                   sizeof *lines->nodes, error) &&
+                   reserve((void **)&lines->segments, arena, lines->segment_count, &lines->segment_room, segment_count,
+                           sizeof *lines->segments, error)
+               ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 MesoVec3 meso_cut_node_position(const MesoTriangulation *mesh, const MesoCutNode *node)
 {
     if (node->kind == MESO_AT_VERTEX)

@@ -39,6 +39,10 @@ MesoStatus meso_cut_add_node(MesoCutLines *lines, MesoArena *arena, MesoCutNode 
                              MesoError *error);
 MesoStatus meso_cut_add_segment(MesoCutLines *lines, MesoArena *arena, MesoCutSegment added, MesoError *error);
 
+/* Room for so many in all. Amortised O(1) for each that is added. MESO_ERR_MEMORY alone. */
+MesoStatus meso_cut_lines_reserve(MesoCutLines *lines, MesoArena *arena, uint64_t node_count, uint64_t segment_count,
+                                  MesoError *error);
+
 /* Where a node lies. */
 MesoVec3 meso_cut_node_position(const MesoTriangulation *mesh, const MesoCutNode *node);
 

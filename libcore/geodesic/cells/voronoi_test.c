@@ -1,11 +1,11 @@
-#include "libcore/geodesic/voronoi.h"
+#include "libcore/geodesic/cells/voronoi.h"
 
 #include <string.h>
 
 #include "libcore/geodesic/exact/exact_geodesic.h"
 #include "libcore/geodesic/geodesic_fixture.h"
 #include "libcore/geodesic/geodesic_solver.h"
-#include "libcore/geodesic/nearest_seeds.h"
+#include "libcore/geodesic/cells/nearest_seeds.h"
 #include "libcore/geodesic/regions_fixture.h"
 #include "libcore/mesh/cut/mesh_domain.h"
 
@@ -165,7 +165,7 @@ static void check_round(MesoGeodesicSolver *solver, const MesoDomain *domain, co
     const MesoTriangulation *mesh = solver->mesh;
     uint32_t *cell = malloc(mesh->vertex_count * sizeof *cell);
     float *distance = malloc(mesh->vertex_count * sizeof *distance);
-    MesoVoronoiQuery query = {domain, seed_count, seeds};
+    MesoVoronoiQuery query = {domain, seed_count, seeds, 0};
     MesoCutLines lines = {0};
     CHECK(cell && distance);
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
@@ -244,7 +244,7 @@ static void test_whole_cells(void)
     enum { SEEDS = 3000, ROOM = 1000000 };
     MesoRandom random;
     MesoMeshPoint seeds[SEEDS];
-    MesoNearestSeeds nearest = {.seed_count = SEEDS, .seeds = seeds};
+    MesoNearestSeeds nearest = {.seed_count = SEEDS, .seeds = seeds, .threads = 1};
     MesoCutLines lines = {0};
     uint32_t cells = 0, parts = 0;
     uint8_t has_vertex[SEEDS] = {0};

@@ -19,6 +19,7 @@ typedef struct MesoNearestSeeds {
     const MesoDomain *domain;       /* the caller's, as in voronoi.h */
     uint32_t seed_count;
     const MesoMeshPoint *seeds;     /* [seed_count] likewise */
+    uint32_t threads;               /* 1 to MESO_TEAM_MOST of geodesic_solver.h */
     MesoDomainVertices vertices;
     MesoSeedSlots *slots;           /* [vertices.count] */
     float *snap;                    /* [vertex_count] of the mesh: a difference of distances that is none */

@@ -21,6 +21,7 @@ typedef struct MesoVoronoiQuery {
     const MesoDomain *domain;       /* NULL: everywhere */
     uint32_t seed_count;
     const MesoMeshPoint *seeds;     /* [seed_count] in triangles of the domain */
+    uint32_t threads;               /* 0: all cores; what is found is the same for any number */
 } MesoVoronoiQuery;
 
 /*

@@ -1,20 +1,31 @@
-#include "libcore/geodesic/nearest_seeds.h"
+#include "libcore/geodesic/cells/nearest_seeds.h"
+
+#include <stdatomic.h>
 
 #include "libcore/base/grow.h"
+#include "libcore/base/parallel.h"
+#include "libcore/geodesic/geodesic_solver.h"
 #include "libcore/mesh/cut/cut_keys.h"
 #include "libcore/mesh/cut/cut_lines.h"
 
 enum { SLOTS = MESO_NEAREST_SEEDS };
 
+/* Vertices of the mesh that one thread goes through at a time; how often a thread comes back for more seeds. */
+enum { VERTEX_GRAIN = 1 << 15, SEED_RANGES = 16 };
+
 typedef struct Finder {
     const MesoTriangulation *mesh;
-    MesoGeodesicSolver *solver;
     MesoNearestSeeds *nearest;
+    uint32_t team_count;
+    MesoGeodesicSolver *team[MESO_TEAM_MOST];
+    MesoStatus status[MESO_TEAM_MOST];
+    MesoError errors[MESO_TEAM_MOST];
     uint64_t *order;            /* [seed_count] by triangles: what one seed has touched, the next finds in the caches */
     MesoGeodesicSeed *planted;  /* [3 * seed_count] in that order */
     uint32_t *planted_begin;    /* [seed_count + 1] */
+    float *together;            /* [vertex_count] distances from the nearest of all seeds */
     float *bound;               /* [vertex_count] what distances from a seed have to be below to matter; then `snap` */
-    float *front;               /* [vertex_count] distances of a solve; as `bound` before and after it */
+    atomic_uchar *locks;        /* [vertices.count] of slots, with more threads than one */
     MesoArena *arena;
     MesoError *error;
 } Finder;
@@ -27,17 +38,14 @@ static MesoStatus make_room(Finder *finder)
                                                   finder->nearest->domain, finder->error);
     if (status)
         return status;
-    finder->nearest->slots = MESO_NEW(finder->arena, MesoSeedSlots, finder->nearest->vertices.count, finder->error);
+    uint32_t count = finder->nearest->vertices.count;
+    finder->nearest->slots = MESO_NEW(finder->arena, MesoSeedSlots, count, finder->error);
     finder->bound = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
-    finder->front = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
-    if (!finder->nearest->slots || !finder->bound || !finder->front)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < finder->nearest->vertices.count; i++)
-        for (uint32_t k = 0; k < SLOTS; k++) {
-            finder->nearest->slots[i].distance[k] = INFINITY;
-            finder->nearest->slots[i].seed[k] = MESO_NO_INDEX;
-        }
-    return MESO_OK;
+    finder->together = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
+    if (finder->team_count > 1)
+        finder->locks = MESO_NEW(finder->arena, atomic_uchar, count, finder->error);
+    return finder->nearest->slots && finder->bound && finder->together && (finder->locks || finder->team_count == 1)
+               ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* A seed at a vertex is that vertex; the corners of its triangle know one that is inside. Returns how many. */
@@ -79,13 +87,21 @@ static MesoStatus plant_all(Finder *finder)
     return MESO_OK;
 }
 
-/* Distances from the nearest of all seeds, in `front`. */
-static MesoStatus solve_together(Finder *finder)
+static MesoStatus solve_together(Finder *finder, MesoError *error)
 {
     const MesoNearestSeeds *nearest = finder->nearest;
     MesoGeodesicQuery all = {.domain = nearest->domain, .seed_count = finder->planted_begin[nearest->seed_count],
                              .seeds = finder->planted, .target = MESO_NO_INDEX};
-    return meso_geodesic_solve(finder->solver, &all, finder->front, NULL, NULL, finder->error);
+    return meso_geodesic_solve(finder->team[0], &all, finder->together, NULL, NULL, error);
+}
+
+static void clear_slots(const MesoNearestSeeds *nearest)
+{
+    for (uint32_t i = 0; i < nearest->vertices.count; i++)
+        for (uint32_t k = 0; k < SLOTS; k++) {
+            nearest->slots[i].distance[k] = INFINITY;
+            nearest->slots[i].seed[k] = MESO_NO_INDEX;
+        }
 }
 
 /* The square of a vertex's longest side, in `bound`. */
@@ -105,18 +121,33 @@ static void find_longest_sides(Finder *finder)
     }
 }
 
+/* What bounds follow from: the one solve that cannot be divided, and beside it all that does not need it. */
+static void prepare_some(void *context, uint64_t begin, uint64_t end)
+{
+    Finder *finder = context;
+    for (uint64_t i = begin; i < end; i++) {
+        if (i == 0) {
+            finder->status[0] = solve_together(finder, &finder->errors[0]);
+            continue;
+        }
+        clear_slots(finder->nearest);
+        find_longest_sides(finder);
+    }
+}
+
 /*
  * A front has to go where its seed is the nearest of a vertex, or of the other end of one of its sides: there each of
  * two seeds is nearer or farther by the side's length at most. A little more, for what rounding and fronts that mix
  * take off the least distance.
  */
-static void find_bounds(Finder *finder)
+static void find_bounds(void *context, uint64_t begin, uint64_t end)
 {
     const float reach = 2.1f;
-    find_longest_sides(finder);
-    for (uint32_t v = meso_domain_vertex_from(&finder->nearest->vertices, 0); v != MESO_NO_INDEX;
-         v = meso_domain_vertex_from(&finder->nearest->vertices, v + 1))
-        finder->front[v] = finder->bound[v] = finder->front[v] + reach * sqrtf(finder->bound[v]);
+    const Finder *finder = context;
+    const MesoDomainVertices *vertices = &finder->nearest->vertices;
+    for (uint32_t v = meso_domain_vertex_from(vertices, (uint32_t)begin); v < end;
+         v = meso_domain_vertex_from(vertices, v + 1))
+        finder->bound[v] = finder->together[v] + reach * sqrtf(finder->bound[v]);
 }
 
 static bool comes_before(float distance, uint32_t seed, const MesoSeedSlots *slots, uint32_t k)
@@ -140,21 +171,41 @@ static void put_slot(MesoSeedSlots *slots, uint32_t seed, float distance)
     }
 }
 
-/* Distances from the seed that is number `i` of the order, where it matters. */
-static MesoStatus solve_alone(Finder *finder, uint32_t i)
+/* Whoever comes first: the least of all that are put are the same then. */
+static void put_in_turn(const Finder *finder, uint32_t vertex, uint32_t seed, float distance)
 {
-    const uint32_t *touched, *begin = &finder->planted_begin[i];
-    uint32_t touched_count;
-    MesoGeodesicQuery one = {.domain = finder->nearest->domain, .seed_count = begin[1] - begin[0],
-                             .seeds = finder->planted + begin[0], .target = MESO_NO_INDEX, .keep = true};
-    MesoStatus status = meso_geodesic_solve(finder->solver, &one, finder->front, &touched, &touched_count,
-                                            finder->error);
-    for (uint32_t k = 0; k < touched_count && !status; k++) {
-        uint32_t v = touched[k];
-        put_slot(meso_seed_slots(finder->nearest, v), (uint32_t)finder->order[i], finder->front[v]);
-        finder->front[v] = finder->bound[v];
+    uint32_t number = meso_domain_vertex_number(&finder->nearest->vertices, vertex);
+    if (!finder->locks) {
+        put_slot(&finder->nearest->slots[number], seed, distance);
+        return;
+    }
+    while (atomic_exchange_explicit(&finder->locks[number], 1, memory_order_acquire))
+        continue;
+    put_slot(&finder->nearest->slots[number], seed, distance);
+    atomic_store_explicit(&finder->locks[number], 0, memory_order_release);
+}
+
+/* Distances from the seed that is number `i` of the order, where it matters. */
+static MesoStatus solve_alone(const Finder *finder, MesoGeodesicSolver *solver, uint64_t i, MesoError *error)
+{
+    const uint32_t *begin = &finder->planted_begin[i];
+    MesoGeodesicQuery query = {.domain = finder->nearest->domain, .seed_count = begin[1] - begin[0],
+                               .seeds = finder->planted + begin[0], .target = MESO_NO_INDEX, .keep = true};
+    MesoGeodesicRun run = {solver, &query, INFINITY, finder->bound};
+    MesoStatus status = meso_geodesic_run(&run, error);
+    float unit = 1 / solver->scale;
+    for (uint32_t k = 0; k < solver->touched_count; k++) {
+        uint32_t v = solver->touched[k];
+        put_in_turn(finder, v, (uint32_t)finder->order[i], meso_geodesic_take(solver, v, unit));
     }
     return status;
+}
+
+static void solve_some(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+{
+    Finder *finder = context;
+    for (uint64_t i = begin; i < end && !finder->status[worker]; i++)
+        finder->status[worker] = solve_alone(finder, finder->team[worker], i, &finder->errors[worker]);
 }
 
 /*
@@ -162,31 +213,48 @@ static MesoStatus solve_alone(Finder *finder, uint32_t i)
  * all of its triangles. Along a side of length l the distances of two seeds come nearer by 2 l at most, and bounds are
  * a little more than that above the distance.
  */
-static void find_snaps(Finder *finder)
+static void find_snaps(void *context, uint64_t begin, uint64_t end)
 {
-    MesoNearestSeeds *nearest = finder->nearest;
-    nearest->snap = finder->bound;
-    for (uint32_t v = meso_domain_vertex_from(&nearest->vertices, 0); v != MESO_NO_INDEX;
-         v = meso_domain_vertex_from(&nearest->vertices, v + 1))
-        nearest->snap[v] = MESO_CUT_SNAP * (finder->bound[v] - meso_seed_slots(nearest, v)->distance[0]);
+    const Finder *finder = context;
+    const MesoDomainVertices *vertices = &finder->nearest->vertices;
+    for (uint32_t v = meso_domain_vertex_from(vertices, (uint32_t)begin); v < end;
+         v = meso_domain_vertex_from(vertices, v + 1))
+        finder->nearest->snap[v] =
+            MESO_CUT_SNAP * (finder->bound[v] - meso_seed_slots(finder->nearest, v)->distance[0]);
+}
+
+static MesoStatus first_failure(const Finder *finder)
+{
+    for (uint32_t i = 0; i < finder->team_count; i++)
+        if (finder->status[i]) {
+            if (finder->error)
+                *finder->error = finder->errors[i];
+            return finder->status[i];
+        }
+    return MESO_OK;
 }
 
 MesoStatus meso_nearest_seeds_find(MesoNearestSeeds *nearest, MesoArena *arena, const MesoTriangulation *mesh,
                                    MesoGeodesicSolver *solver, MesoError *error)
 {
-    Finder finder = {.mesh = mesh, .solver = solver, .nearest = nearest, .arena = arena, .error = error};
-    MesoStatus status = make_room(&finder);
+    Finder finder = {.mesh = mesh, .nearest = nearest, .arena = arena, .error = error,
+                     .team_count = nearest->threads};
+    MesoStatus status = meso_geodesic_team(solver, finder.team_count, finder.team, error);
+    if (!status)
+        status = make_room(&finder);
     if (!status)
         status = plant_all(&finder);
-    if (!status)
-        status = solve_together(&finder);
     if (status)
         return status;
-    find_bounds(&finder);
-    for (uint32_t i = 0; i < nearest->seed_count && !status; i++)
-        status = solve_alone(&finder, i);
-    find_snaps(&finder);
-    return status;
+    uint32_t vertex_count = mesh->vertex_count, team_count = finder.team_count, seed_count = nearest->seed_count;
+    meso_parallel_for(team_count, 2, 1, prepare_some, &finder);
+    if (!finder.status[0]) {
+        meso_parallel_for(team_count, vertex_count, VERTEX_GRAIN, find_bounds, &finder);
+        meso_parallel_team(team_count, seed_count, seed_count / (SEED_RANGES * team_count) + 1, solve_some, &finder);
+        nearest->snap = finder.bound;
+        meso_parallel_for(team_count, vertex_count, VERTEX_GRAIN, find_snaps, &finder);
+    }
+    return first_failure(&finder);
 }
 
 /* ---- cells that hang together ---- */
