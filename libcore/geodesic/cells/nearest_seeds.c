@@ -13,6 +13,12 @@ enum { SLOTS = MESO_NEAREST_SEEDS };
 /* Vertices of the mesh that one thread goes through at a time; how often a thread comes back for more seeds. */
 enum { VERTEX_GRAIN = 1 << 15, SEED_RANGES = 16 };
 
+/* Vertices a seed from which on few are near a border: close bounds take longer to find there than they save. */
+enum { LARGE_CELL = 32 };
+
+/* Of the longest side at a vertex: two seeds' distances come nearer to each other along it by twice its length at most. */
+static const float FAR = 2.1f;
+
 typedef struct Finder {
     const MesoTriangulation *mesh;
     MesoNearestSeeds *nearest;
@@ -24,7 +30,9 @@ typedef struct Finder {
     MesoGeodesicSeed *planted;  /* [3 * seed_count] in that order */
     uint32_t *planted_begin;    /* [seed_count + 1] */
     float *together;            /* [vertex_count] distances from the nearest of all seeds */
-    float *bound;               /* [vertex_count] what distances from a seed have to be below to matter; then `snap` */
+    float *longest;             /* [vertex_count] squares of the longest sides */
+    float *wanted;              /* [vertex_count] up to which distance one from a seed is wanted; then `snap` */
+    float *bound;               /* [vertex_count] what distances from a seed have to be below to matter */
     atomic_uchar *locks;        /* [vertices.count] of slots, with more threads than one */
     MesoArena *arena;
     MesoError *error;
@@ -40,12 +48,15 @@ static MesoStatus make_room(Finder *finder)
         return status;
     uint32_t count = finder->nearest->vertices.count;
     finder->nearest->slots = MESO_NEW(finder->arena, MesoSeedSlots, count, finder->error);
-    finder->bound = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
-    finder->together = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
+    float **of_vertices[] = {&finder->together, &finder->longest, &finder->wanted, &finder->bound};
+    for (uint32_t i = 0; i < sizeof of_vertices / sizeof *of_vertices; i++) {
+        *of_vertices[i] = MESO_NEW(finder->arena, float, finder->mesh->vertex_count, finder->error);
+        if (!*of_vertices[i])
+            return MESO_ERR_MEMORY;
+    }
     if (finder->team_count > 1)
         finder->locks = MESO_NEW(finder->arena, atomic_uchar, count, finder->error);
-    return finder->nearest->slots && finder->bound && finder->together && (finder->locks || finder->team_count == 1)
-               ? MESO_OK : MESO_ERR_MEMORY;
+    return finder->nearest->slots && (finder->locks || finder->team_count == 1) ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* A seed at a vertex is that vertex; the corners of its triangle know one that is inside. Returns how many. */
@@ -104,7 +115,6 @@ static void clear_slots(const MesoNearestSeeds *nearest)
         }
 }
 
-/* The square of a vertex's longest side, in `bound`. */
 static void find_longest_sides(Finder *finder)
 {
     const MesoTriangulation *mesh = finder->mesh;
@@ -115,8 +125,8 @@ static void find_longest_sides(Finder *finder)
             uint32_t a = corners[k], b = corners[k == 2 ? 0 : k + 1];
             MesoVec3 side = meso_vec3_sub(mesh->positions[a], mesh->positions[b]);
             float square = meso_vec3_dot(side, side);
-            finder->bound[a] = square > finder->bound[a] ? square : finder->bound[a];
-            finder->bound[b] = square > finder->bound[b] ? square : finder->bound[b];
+            finder->longest[a] = square > finder->longest[a] ? square : finder->longest[a];
+            finder->longest[b] = square > finder->longest[b] ? square : finder->longest[b];
         }
     }
 }
@@ -140,14 +150,81 @@ static void prepare_some(void *context, uint64_t begin, uint64_t end)
  * two seeds is nearer or farther by the side's length at most. A little more, for what rounding and fronts that mix
  * take off the least distance.
  */
-static void find_bounds(void *context, uint64_t begin, uint64_t end)
+static void find_simple_bounds(void *context, uint64_t begin, uint64_t end)
 {
-    const float reach = 2.1f;
     const Finder *finder = context;
     const MesoDomainVertices *vertices = &finder->nearest->vertices;
     for (uint32_t v = meso_domain_vertex_from(vertices, (uint32_t)begin); v < end;
          v = meso_domain_vertex_from(vertices, v + 1))
-        finder->bound[v] = finder->together[v] + reach * sqrtf(finder->bound[v]);
+        finder->bound[v] = finder->together[v] + FAR * sqrtf(finder->longest[v]);
+}
+
+/*
+ * A seed's distance is wanted where it is the nearest of a vertex, or of the other end of one of its sides: there it is
+ * farther by the side's length at most. A little more, for what rounding and fronts that mix take off the least
+ * distance.
+ */
+static float wanted_at(const Finder *finder, uint32_t v, float *shortest)
+{
+    const float reach = 1.05f;
+    const MesoGeodesicSolver *solver = finder->team[0];
+    const MesoGeodesicRow *row = &solver->rows[v];
+    MesoOneRing ring = meso_one_ring(&solver->rings, v);
+    float wanted = finder->together[v], unit = 1 / solver->scale;
+    *shortest = INFINITY;
+    for (uint32_t k = 0; k < ring.count; k++) {
+        const MesoGeodesicRow *end = &solver->rows[ring.spokes[k]];
+        float side = unit * meso_vec3_length((MesoVec3){end->x - row->x, end->y - row->y, end->z - row->z});
+        float distance = finder->together[ring.spokes[k]] + reach * side;
+        wanted = distance > wanted ? distance : wanted;
+        *shortest = side < *shortest ? side : *shortest;
+    }
+    return wanted;
+}
+
+/*
+ * What is wanted at a vertex comes from vertices around it that are nearer, and so a front has to go on up to what is
+ * wanted at any of their neighbours. And for what comes to those from beyond, on by half of the longest side, or by
+ * all of it where sides are so unlike that fronts go far around.
+ */
+static void find_wanted(void *context, uint64_t begin, uint64_t end)
+{
+    const float near = 1.5f, far = FAR, unlike = 3;
+    const Finder *finder = context;
+    const MesoDomainVertices *vertices = &finder->nearest->vertices;
+    for (uint32_t v = meso_domain_vertex_from(vertices, (uint32_t)begin); v < end;
+         v = meso_domain_vertex_from(vertices, v + 1)) {
+        float longest = sqrtf(finder->longest[v]), shortest;
+        finder->wanted[v] = wanted_at(finder, v, &shortest);
+        finder->bound[v] = finder->together[v] + (longest > unlike * shortest ? far : near) * longest;
+    }
+}
+
+static void find_close_bounds(void *context, uint64_t begin, uint64_t end)
+{
+    const Finder *finder = context;
+    const MesoDomainVertices *vertices = &finder->nearest->vertices;
+    for (uint32_t v = meso_domain_vertex_from(vertices, (uint32_t)begin); v < end;
+         v = meso_domain_vertex_from(vertices, v + 1)) {
+        MesoOneRing ring = meso_one_ring(&finder->team[0]->rings, v);
+        float bound = finder->bound[v] > finder->wanted[v] ? finder->bound[v] : finder->wanted[v];
+        for (uint32_t k = 0; k < ring.count; k++) {
+            float wanted = finder->wanted[ring.spokes[k]];
+            bound = wanted > bound ? wanted : bound;
+        }
+        finder->bound[v] = bound;
+    }
+}
+
+static void find_bounds(Finder *finder)
+{
+    uint32_t threads = finder->team_count, count = finder->mesh->vertex_count;
+    if (finder->nearest->vertices.count / LARGE_CELL >= finder->nearest->seed_count) {
+        meso_parallel_for(threads, count, VERTEX_GRAIN, find_simple_bounds, finder);
+        return;
+    }
+    meso_parallel_for(threads, count, VERTEX_GRAIN, find_wanted, finder);
+    meso_parallel_for(threads, count, VERTEX_GRAIN, find_close_bounds, finder);
 }
 
 static bool comes_before(float distance, uint32_t seed, const MesoSeedSlots *slots, uint32_t k)
@@ -208,19 +285,16 @@ static void solve_some(void *context, uint32_t worker, uint64_t begin, uint64_t 
         finder->status[worker] = solve_alone(finder, finder->team[worker], i, &finder->errors[worker]);
 }
 
-/*
- * Borders that would cross a side within MESO_CUT_SNAP of its length from the vertex are to go through the vertex, in
- * all of its triangles. Along a side of length l the distances of two seeds come nearer by 2 l at most, and bounds are
- * a little more than that above the distance.
- */
+/* Borders that would cross a side within MESO_CUT_SNAP of its length from the vertex are to go through the vertex. */
 static void find_snaps(void *context, uint64_t begin, uint64_t end)
 {
     const Finder *finder = context;
     const MesoDomainVertices *vertices = &finder->nearest->vertices;
     for (uint32_t v = meso_domain_vertex_from(vertices, (uint32_t)begin); v < end;
-         v = meso_domain_vertex_from(vertices, v + 1))
-        finder->nearest->snap[v] =
-            MESO_CUT_SNAP * (finder->bound[v] - meso_seed_slots(finder->nearest, v)->distance[0]);
+         v = meso_domain_vertex_from(vertices, v + 1)) {
+        float far = finder->together[v] + FAR * sqrtf(finder->longest[v]);
+        finder->nearest->snap[v] = MESO_CUT_SNAP * (far - meso_seed_slots(finder->nearest, v)->distance[0]);
+    }
 }
 
 static MesoStatus first_failure(const Finder *finder)
@@ -249,9 +323,9 @@ MesoStatus meso_nearest_seeds_find(MesoNearestSeeds *nearest, MesoArena *arena, 
     uint32_t vertex_count = mesh->vertex_count, team_count = finder.team_count, seed_count = nearest->seed_count;
     meso_parallel_for(team_count, 2, 1, prepare_some, &finder);
     if (!finder.status[0]) {
-        meso_parallel_for(team_count, vertex_count, VERTEX_GRAIN, find_bounds, &finder);
+        find_bounds(&finder);
         meso_parallel_team(team_count, seed_count, seed_count / (SEED_RANGES * team_count) + 1, solve_some, &finder);
-        nearest->snap = finder.bound;
+        nearest->snap = finder.wanted;
         meso_parallel_for(team_count, vertex_count, VERTEX_GRAIN, find_snaps, &finder);
     }
     return first_failure(&finder);
