@@ -260,16 +260,19 @@ static void add_star(MesoBorderTracer *tracer, uint32_t triangle, const Change *
         add_segment(tracer, triangle, &outline[i], middle);
 }
 
-/* Whether all corners know the same one seed as the nearest, or one of them none at all. */
-static bool is_in_one_cell(const MesoSeedSlots *const slots[3])
+/* Whether two vertices know the same one seed as the nearest. */
+static bool is_in_one_cell(const MesoSeedSlots *a, const MesoSeedSlots *b)
 {
-    bool same = true;
-    for (uint32_t k = 0; k < 3; k++) {
+    return a->seed[0] == b->seed[0] && a->distance[1] > a->distance[0] && b->distance[1] > b->distance[0];
+}
+
+/* Whether no border comes to a triangle: its corners are in one cell, or one of them in none. */
+static bool is_clear(const MesoSeedSlots *const slots[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
         if (slots[k]->seed[0] == MESO_NO_INDEX)
             return true;
-        same = same && slots[k]->seed[0] == slots[0]->seed[0] && slots[k]->distance[1] > slots[k]->distance[0];
-    }
-    return same;
+    return is_in_one_cell(slots[0], slots[1]) && is_in_one_cell(slots[0], slots[2]);
 }
 
 static MesoStatus trace_triangle(MesoBorderTracer *tracer, uint32_t place)
@@ -279,13 +282,17 @@ static MesoStatus trace_triangle(MesoBorderTracer *tracer, uint32_t place)
     const MesoSeedSlots *slots[3] = {meso_seed_slots(tracer->nearest, corners[0]),
                                      meso_seed_slots(tracer->nearest, corners[1]),
                                      meso_seed_slots(tracer->nearest, corners[2])};
-    tracer->crossed[place] = !is_in_one_cell(slots);
+    tracer->crossed[place] = !is_clear(slots);
     if (!tracer->crossed[place])
         return MESO_OK;
     Outline outline = {.seed = MESO_NO_INDEX};
     MesoStatus status = MESO_OK;
-    for (uint32_t k = 0; k < 3 && !status; k++)
-        status = add_side(tracer, 3 * triangle + k, find_edge(tracer, triangle, place, k), &outline);
+    for (uint32_t k = 0; k < 3 && !status; k++) {
+        const MesoSeedSlots *begin = slots[k], *end = slots[k == 2 ? 0 : k + 1];
+        EdgeCells whole = {{begin->seed[0], begin->seed[0]}, MESO_NO_INDEX};
+        status = add_side(tracer, 3 * triangle + k,
+                          is_in_one_cell(begin, end) ? &whole : find_edge(tracer, triangle, place, k), &outline);
+    }
     if (!status && outline.seed != outline.first)
         status = change_at_vertex(tracer, &outline, corners[0], outline.first);
     if (status || outline.count == 0)
