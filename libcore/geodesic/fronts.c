@@ -14,6 +14,7 @@ typedef struct Fronts {
     const MesoGeodesicRun *run;
     MesoGeodesicSolver *solver;
     uint64_t visits;
+    uint32_t next;  /* place in the current bucket, of two at once */
     bool hasty;     /* out of patience */
 } Fronts;
 
@@ -100,6 +101,12 @@ ALWAYS_INLINE void tell_domain(Fronts *fronts, uint32_t vertex, FrontStep step)
     end_window(fronts, vertex, &window, step);
 }
 
+/* Whether the triangles around a vertex are told of in one step. */
+ALWAYS_INLINE bool is_one_step(const Fronts *fronts, uint32_t vertex, MesoOneRing ring, bool everywhere)
+{
+    return ring.count - 2 <= 6 && (everywhere || !(fronts->solver->states[vertex] & MESO_VERTEX_WALLED));
+}
+
 ALWAYS_INLINE void tell(Fronts *fronts, uint32_t vertex, bool everywhere, FrontStep step)
 {
     MesoGeodesicSolver *solver = fronts->solver;
@@ -141,6 +148,14 @@ ALWAYS_INLINE void look_ahead(const MesoGeodesicSolver *solver, const MesoBucket
     }
 }
 
+ALWAYS_INLINE void end_bucket(Fronts *fronts)
+{
+    MesoBuckets *buckets = &fronts->solver->buckets;
+    buckets->open[buckets->current % MESO_BUCKET_COUNT].count = 0;
+    meso_bits_clear(buckets->filled, (uint32_t)buckets->current % MESO_BUCKET_COUNT);
+    fronts->hasty = fronts->visits > PATIENCE * (uint64_t)fronts->solver->touched_count + PATIENCE_LEAST;
+}
+
 /* Vertices that come into the bucket meanwhile are behind the others. */
 ALWAYS_INLINE void empty_bucket(Fronts *fronts, bool everywhere, FrontStep step)
 {
@@ -155,9 +170,7 @@ ALWAYS_INLINE void empty_bucket(Fronts *fronts, bool everywhere, FrontStep step)
         tell(fronts, vertex, everywhere, step);
         fronts->visits++;
     }
-    bucket->count = 0;
-    meso_bits_clear(solver->buckets.filled, (uint32_t)solver->buckets.current % MESO_BUCKET_COUNT);
-    fronts->hasty = fronts->visits > PATIENCE * (uint64_t)solver->touched_count + PATIENCE_LEAST;
+    end_bucket(fronts);
 }
 
 /* Opens the window anew from the nearest vertex beyond it. */
@@ -214,19 +227,85 @@ ALWAYS_INLINE void propagate(Fronts *fronts, bool everywhere, FrontStep step)
         empty_bucket(fronts, everywhere, step);
 }
 
-static void propagate_plain(Fronts *fronts, bool everywhere)
+/* ---- two at once ---- */
+
+/* The next vertex that is due, and is no more; MESO_NO_INDEX at the end. */
+ALWAYS_INLINE uint32_t next_due(Fronts *fronts)
+{
+    MesoGeodesicSolver *solver = fronts->solver;
+    do {
+        const MesoBucket *bucket = &solver->buckets.open[solver->buckets.current % MESO_BUCKET_COUNT];
+        while (fronts->next < bucket->count) {
+            uint32_t vertex = bucket->vertices[fronts->next++];
+            if (!(solver->states[vertex] & MESO_VERTEX_QUEUED))
+                continue;
+            solver->states[vertex] &= (uint8_t)~MESO_VERTEX_QUEUED;
+            fronts->visits++;
+            return vertex;
+        }
+        end_bucket(fronts);
+        fronts->next = 0;
+    } while (!solver->buckets.out_of_memory && next_bucket(solver));
+    return MESO_NO_INDEX;
+}
+
+/*
+ * A step of the one and a step of the other, and then what each tells. They do not wait for each other, as steps of one
+ * do, of which the next cannot begin before it is known what the last has told.
+ */
+ALWAYS_INLINE void propagate_two(Fronts fronts[2], bool everywhere, FrontStep step)
+{
+    uint32_t due[2] = {next_due(&fronts[0]), next_due(&fronts[1])};
+    while (due[0] != MESO_NO_INDEX && due[1] != MESO_NO_INDEX) {
+        MesoOneRing rings[2];
+        uint32_t lowered[2] = {0, 0};
+        float found[2][8];
+        for (uint32_t k = 0; k < 2; k++) {
+            const MesoGeodesicSolver *solver = fronts[k].solver;
+            float least = fronts[k].hasty ? __builtin_fabsf(solver->rows[due[k]].distance) : 0;
+            rings[k] = meso_one_ring(&solver->rings, due[k]);
+            if (is_one_step(&fronts[k], due[k], rings[k], everywhere))
+                lowered[k] = step(&(MesoFrontStep){solver->rows, due[k], rings[k].spokes, rings[k].count,
+                                                   rings[k].closed, least}, found[k]);
+            else
+                tell(&fronts[k], due[k], everywhere, step);
+        }
+        for (uint32_t k = 0; k < 2; k++) {
+            for (; lowered[k]; lowered[k] &= lowered[k] - 1) {
+                uint32_t i = (uint32_t)__builtin_ctz(lowered[k]);
+                lower(fronts[k].run, rings[k].spokes[i], found[k][i]);
+            }
+            due[k] = next_due(&fronts[k]);
+        }
+    }
+    for (uint32_t k = 0; k < 2; k++)
+        for (; due[k] != MESO_NO_INDEX; due[k] = next_due(&fronts[k]))
+            tell(&fronts[k], due[k], everywhere, step);
+}
+
+/* ---- for the machine ---- */
+
+ALWAYS_INLINE void propagate_some(Fronts *fronts, uint32_t count, bool everywhere, FrontStep step)
+{
+    if (count == 2)
+        propagate_two(fronts, everywhere, step);
+    else
+        propagate(fronts, everywhere, step);
+}
+
+static void propagate_plain(Fronts *fronts, uint32_t count, bool everywhere)
 {
 #ifdef MESO_HAS_FRONT_STEP_FOUR
-    propagate(fronts, everywhere, meso_front_step_four);
+    propagate_some(fronts, count, everywhere, meso_front_step_four);
 #else
-    propagate(fronts, everywhere, meso_front_step_plain);
+    propagate_some(fronts, count, everywhere, meso_front_step_plain);
 #endif
 }
 
 #ifdef MESO_HAS_FRONT_STEP_AVX2
-__attribute__((target("avx2"))) static void propagate_avx2(Fronts *fronts, bool everywhere)
+__attribute__((target("avx2"))) static void propagate_avx2(Fronts *fronts, uint32_t count, bool everywhere)
 {
-    propagate(fronts, everywhere, meso_front_step_avx2);
+    propagate_some(fronts, count, everywhere, meso_front_step_avx2);
 }
 
 static bool machine_has_avx2(void)
@@ -234,9 +313,9 @@ static bool machine_has_avx2(void)
     return __builtin_cpu_supports("avx2");
 }
 #else
-static void propagate_avx2(Fronts *fronts, bool everywhere)
+static void propagate_avx2(Fronts *fronts, uint32_t count, bool everywhere)
 {
-    propagate_plain(fronts, everywhere);
+    propagate_plain(fronts, count, everywhere);
 }
 
 static bool machine_has_avx2(void)
@@ -261,17 +340,22 @@ static void plant_seeds(const MesoGeodesicRun *run)
     }
 }
 
-bool meso_fronts_run(const MesoGeodesicRun *run)
+bool meso_fronts_run(const MesoGeodesicRun *runs, uint32_t count)
 {
-    Fronts fronts = {run, run->solver, 0, false};
-    const MesoDomain *domain = run->query->domain;
-    bool everywhere = !domain || !domain->member;
-    meso_buckets_clear(&run->solver->buckets);
-    plant_seeds(run);
-    meso_geodesic_round_ends(run);
-    if (run->solver->plain || !machine_has_avx2())
-        propagate_plain(&fronts, everywhere);
+    Fronts fronts[2];
+    const MesoDomain *domain = runs[0].query->domain;
+    bool everywhere = !domain || !domain->member, in_memory = true;
+    for (uint32_t k = 0; k < count; k++) {
+        fronts[k] = (Fronts){.run = &runs[k], .solver = runs[k].solver};
+        meso_buckets_clear(&runs[k].solver->buckets);
+        plant_seeds(&runs[k]);
+        meso_geodesic_round_ends(&runs[k]);
+    }
+    if (runs[0].solver->plain || !machine_has_avx2())
+        propagate_plain(fronts, count, everywhere);
     else
-        propagate_avx2(&fronts, everywhere);
-    return !run->solver->buckets.out_of_memory;
+        propagate_avx2(fronts, count, everywhere);
+    for (uint32_t k = 0; k < count; k++)
+        in_memory = in_memory && !runs[k].solver->buckets.out_of_memory;
+    return in_memory;
 }

@@ -272,7 +272,7 @@ MesoStatus meso_geodesic_run(const MesoGeodesicRun *run, MesoError *error)
     MesoStatus status = MESO_OK;
     switch (solver->engine) {
     case MESO_GEODESIC_FRONTS:
-        if (!meso_fronts_run(run))
+        if (!meso_fronts_run(run, 1))
             status = meso_fail(error, MESO_ERR_MEMORY, "out of memory: a front of %u vertices", solver->touched_count);
         break;
     case MESO_GEODESIC_GRAPH:
@@ -288,6 +288,19 @@ MesoStatus meso_geodesic_run(const MesoGeodesicRun *run, MesoError *error)
         break;
     }
     return status;
+}
+
+MesoStatus meso_geodesic_run_two(const MesoGeodesicRun runs[2], MesoError *error)
+{
+    if (runs[0].solver->engine != MESO_GEODESIC_FRONTS) {
+        MesoStatus status = meso_geodesic_run(&runs[0], error), other = meso_geodesic_run(&runs[1], error);
+        return status ? status : other;
+    }
+    runs[0].solver->touched_count = runs[1].solver->touched_count = 0;
+    if (!meso_fronts_run(runs, 2))
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: fronts of %u vertices",
+                         runs[0].solver->touched_count + runs[1].solver->touched_count);
+    return MESO_OK;
 }
 
 MesoStatus meso_geodesic_solve(MesoGeodesicSolver *solver, const MesoGeodesicQuery *query, float *distance,

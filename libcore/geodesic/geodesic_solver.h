@@ -76,6 +76,12 @@ static inline bool meso_geodesic_lowers(const MesoGeodesicRun *run, uint32_t ver
  */
 MesoStatus meso_geodesic_run(const MesoGeodesicRun *run, MesoError *error);
 
+/*
+ * The same for two runs in the same domain, without targets, on two solvers: small ones take less time together, and
+ * find what each finds alone.
+ */
+MesoStatus meso_geodesic_run_two(const MesoGeodesicRun runs[2], MesoError *error);
+
 /* The distance of a row in scene units, which the row has no more then. */
 static inline float meso_geodesic_take(MesoGeodesicSolver *solver, uint32_t vertex, float unit)
 {
@@ -103,8 +109,8 @@ MesoStatus meso_geodesic_team(MesoGeodesicSolver *solver, uint32_t count, MesoGe
  */
 void meso_geodesic_round_ends(const MesoGeodesicRun *run);
 
-/* Fills the rows' distances from the seeds in them. False where memory is out. */
-bool meso_fronts_run(const MesoGeodesicRun *run);
+/* Fills the rows' distances from the seeds in them, of one run or of two. False where memory is out. */
+bool meso_fronts_run(const MesoGeodesicRun *runs, uint32_t count);
 
 /* The same by paths in the solver's graph, which has to be there. */
 void meso_geodesic_graph_run(const MesoGeodesicRun *run);

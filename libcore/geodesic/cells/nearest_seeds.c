@@ -21,8 +21,9 @@ static const float FAR = 2.1f;
 typedef struct Finder {
     const MesoTriangulation *mesh;
     MesoNearestSeeds *nearest;
-    uint32_t team_count;
-    MesoGeodesicSolver *team[MESO_TEAM_MOST];
+    bool small;                 /* cells are */
+    uint32_t worker_count, team_count;
+    MesoGeodesicSolver *team[MESO_TEAM_MOST];       /* of small cells, two for each worker */
     MesoStatus status[MESO_TEAM_MOST];
     MesoError errors[MESO_TEAM_MOST];
     uint64_t *order;            /* [seed_count] by triangles: what one seed has touched, the next finds in the caches */
@@ -53,9 +54,9 @@ static MesoStatus make_room(Finder *finder)
         if (!*of_vertices[i])
             return MESO_ERR_MEMORY;
     }
-    if (finder->team_count > 1)
+    if (finder->worker_count > 1)
         finder->locks = MESO_NEW(finder->arena, atomic_uchar, count, finder->error);
-    return finder->nearest->slots && (finder->locks || finder->team_count == 1) ? MESO_OK : MESO_ERR_MEMORY;
+    return finder->nearest->slots && (finder->locks || finder->worker_count == 1) ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* A seed at a vertex is that vertex; the corners of its triangle know one that is inside. Returns how many. */
@@ -95,6 +96,18 @@ static MesoStatus plant_all(Finder *finder)
             begin + plant(finder->mesh, &finder->nearest->seeds[(uint32_t)finder->order[i]], finder->planted + begin);
     }
     return MESO_OK;
+}
+
+/* Of small cells each worker has two solvers, as far as there are so many. */
+static MesoStatus make_team(Finder *finder, MesoGeodesicSolver *solver)
+{
+    const MesoNearestSeeds *nearest = finder->nearest;
+    finder->small = nearest->vertices.count / LARGE_CELL < nearest->seed_count;
+    finder->team_count = finder->worker_count;
+    if (finder->small && 2 * finder->worker_count <= MESO_TEAM_MOST &&
+        meso_geodesic_team_is_worth(solver, nearest->domain))
+        finder->team_count = 2 * finder->worker_count;
+    return meso_geodesic_team(solver, finder->team_count, finder->team, finder->error);
 }
 
 static MesoStatus solve_together(Finder *finder, MesoError *error)
@@ -217,8 +230,8 @@ static void find_close_bounds(void *context, uint64_t begin, uint64_t end)
 
 static void find_bounds(Finder *finder)
 {
-    uint32_t threads = finder->team_count, count = finder->mesh->vertex_count;
-    if (finder->nearest->vertices.count / LARGE_CELL >= finder->nearest->seed_count) {
+    uint32_t threads = finder->worker_count, count = finder->mesh->vertex_count;
+    if (!finder->small) {
         meso_parallel_for(threads, count, VERTEX_GRAIN, find_simple_bounds, finder);
         return;
     }
@@ -261,27 +274,41 @@ static void put_in_turn(const Finder *finder, uint32_t vertex, uint32_t seed, fl
     atomic_store_explicit(&finder->locks[number], 0, memory_order_release);
 }
 
-/* Distances from the seed that is number `i` of the order, where it matters. */
-static MesoStatus solve_alone(const Finder *finder, MesoGeodesicSolver *solver, uint64_t i, MesoError *error)
+/* Hands out what a run for the seed that is number `i` of the order has found. */
+static void put_touched(const Finder *finder, MesoGeodesicSolver *solver, uint64_t i)
 {
-    const uint32_t *begin = &finder->planted_begin[i];
-    MesoGeodesicQuery query = {.domain = finder->nearest->domain, .seed_count = begin[1] - begin[0],
-                               .seeds = finder->planted + begin[0], .target = MESO_NO_INDEX, .keep = true};
-    MesoGeodesicRun run = {solver, &query, INFINITY, finder->bound};
-    MesoStatus status = meso_geodesic_run(&run, error);
     float unit = 1 / solver->scale;
     for (uint32_t k = 0; k < solver->touched_count; k++) {
         uint32_t v = solver->touched[k];
         put_in_turn(finder, v, (uint32_t)finder->order[i], meso_geodesic_take(solver, v, unit));
     }
+}
+
+/* Distances from each of one or two seeds, of the order from number `i` on, where they matter. */
+static MesoStatus solve_alone(const Finder *finder, MesoGeodesicSolver *const *solvers, uint64_t i, uint32_t count,
+                              MesoError *error)
+{
+    MesoGeodesicQuery queries[2];
+    MesoGeodesicRun runs[2];
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t *begin = &finder->planted_begin[i + k];
+        queries[k] = (MesoGeodesicQuery){.domain = finder->nearest->domain, .seed_count = begin[1] - begin[0],
+                                         .seeds = finder->planted + begin[0], .target = MESO_NO_INDEX, .keep = true};
+        runs[k] = (MesoGeodesicRun){solvers[k], &queries[k], INFINITY, finder->bound};
+    }
+    MesoStatus status = count == 2 ? meso_geodesic_run_two(runs, error) : meso_geodesic_run(&runs[0], error);
+    for (uint32_t k = 0; k < count; k++)
+        put_touched(finder, solvers[k], i + k);
     return status;
 }
 
 static void solve_some(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Finder *finder = context;
-    for (uint64_t i = begin; i < end && !finder->status[worker]; i++)
-        finder->status[worker] = solve_alone(finder, finder->team[worker], i, &finder->errors[worker]);
+    uint32_t step = finder->team_count / finder->worker_count;
+    for (uint64_t i = begin; i < end && !finder->status[worker]; i += step)
+        finder->status[worker] = solve_alone(finder, &finder->team[step * worker], i, i + step <= end ? step : 1,
+                                             &finder->errors[worker]);
 }
 
 /* Borders that would cross a side within MESO_CUT_SNAP of its length from the vertex are to go through the vertex. */
@@ -298,7 +325,7 @@ static void find_snaps(void *context, uint64_t begin, uint64_t end)
 
 static MesoStatus first_failure(const Finder *finder)
 {
-    for (uint32_t i = 0; i < finder->team_count; i++)
+    for (uint32_t i = 0; i < finder->worker_count; i++)
         if (finder->status[i]) {
             if (finder->error)
                 *finder->error = finder->errors[i];
@@ -311,21 +338,21 @@ MesoStatus meso_nearest_seeds_find(MesoNearestSeeds *nearest, MesoArena *arena, 
                                    MesoGeodesicSolver *solver, MesoError *error)
 {
     Finder finder = {.mesh = mesh, .nearest = nearest, .arena = arena, .error = error,
-                     .team_count = nearest->threads};
-    MesoStatus status = meso_geodesic_team(solver, finder.team_count, finder.team, error);
-    if (!status)
-        status = make_room(&finder);
+                     .worker_count = nearest->threads};
+    MesoStatus status = make_room(&finder);
     if (!status)
         status = plant_all(&finder);
+    if (!status)
+        status = make_team(&finder, solver);
     if (status)
         return status;
-    uint32_t vertex_count = mesh->vertex_count, team_count = finder.team_count, seed_count = nearest->seed_count;
-    meso_parallel_for(team_count, 2, 1, prepare_some, &finder);
+    uint32_t threads = finder.worker_count, vertex_count = mesh->vertex_count, seed_count = nearest->seed_count;
+    meso_parallel_for(threads, 2, 1, prepare_some, &finder);
     if (!finder.status[0]) {
         find_bounds(&finder);
-        meso_parallel_team(team_count, seed_count, seed_count / (SEED_RANGES * team_count) + 1, solve_some, &finder);
+        meso_parallel_team(threads, seed_count, 2 * (seed_count / (2 * SEED_RANGES * threads) + 1), solve_some, &finder);
         nearest->snap = finder.wanted;
-        meso_parallel_for(team_count, vertex_count, VERTEX_GRAIN, find_snaps, &finder);
+        meso_parallel_for(threads, vertex_count, VERTEX_GRAIN, find_snaps, &finder);
     }
     return first_failure(&finder);
 }
