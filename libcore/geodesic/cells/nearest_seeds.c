@@ -1,6 +1,7 @@
 #include "libcore/geodesic/cells/nearest_seeds.h"
 
 #include <stdatomic.h>
+#include <string.h>
 
 #include "libcore/base/parallel.h"
 #include "libcore/geodesic/geodesic_solver.h"
@@ -239,24 +240,25 @@ static void find_bounds(Finder *finder)
     meso_parallel_for(threads, count, VERTEX_GRAIN, find_close_bounds, finder);
 }
 
-static bool comes_before(float distance, uint32_t seed, const MesoSeedSlots *slots, uint32_t k)
+/* Greater the farther a seed is, and of equal ones the higher its number: bits of distances are in their order. */
+static uint64_t slot_key(float distance, uint32_t seed)
 {
-    return distance < slots->distance[k] || (distance == slots->distance[k] && seed < slots->seed[k]);
+    uint32_t bits;
+    memcpy(&bits, &distance, sizeof bits);
+    return (uint64_t)bits << 32 | seed;
 }
 
+/* Without branches, which would go either way as often. */
 static void put_slot(MesoSeedSlots *slots, uint32_t seed, float distance)
 {
-    uint32_t k = SLOTS;
-    while (k > 0 && comes_before(distance, seed, slots, k - 1)) {
-        k--;
-        if (k + 1 < SLOTS) {
-            slots->distance[k + 1] = slots->distance[k];
-            slots->seed[k + 1] = slots->seed[k];
-        }
-    }
-    if (k < SLOTS) {
-        slots->distance[k] = distance;
-        slots->seed[k] = seed;
+    uint64_t moved = slot_key(distance, seed);
+    for (uint32_t k = 0; k < SLOTS; k++) {
+        uint64_t held = slot_key(slots->distance[k], slots->seed[k]);
+        uint64_t nearer = moved < held ? moved : held;
+        uint32_t bits = (uint32_t)(nearer >> 32);
+        moved = moved < held ? held : moved;
+        memcpy(&slots->distance[k], &bits, sizeof bits);
+        slots->seed[k] = (uint32_t)nearer;
     }
 }
 
