@@ -121,6 +121,29 @@ static void test_parallel(void)
     meso_parallel_for(2, 0, 1, add_range, NULL);
 }
 
+typedef struct Team {
+    uint8_t touched[1003], busy[4];
+} Team;
+
+static void add_range_alone(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+{
+    Team *team = context;
+    CHECK(worker < 4 && team->busy[worker]++ == 0);
+    add_range(team->touched, begin, end);
+    team->busy[worker]--;
+}
+
+static void test_team(void)
+{
+    for (uint32_t workers = 1; workers <= 4; workers++) {
+        Team team = {{0}, {0}};
+        meso_parallel_team(workers, 1003, 10, add_range_alone, &team);
+        for (int i = 0; i < 1003; i++)
+            CHECK(team.touched[i] == 1);
+    }
+    meso_parallel_team(2, 0, 1, add_range_alone, NULL);
+}
+
 int main(void)
 {
     test_arena();
@@ -129,5 +152,6 @@ int main(void)
     test_bits();
     test_index_map();
     test_parallel();
+    test_team();
     return 0;
 }

@@ -327,6 +327,27 @@ static void check_pair(MesoGeodesicSolver *solver, const MesoGeodesicQuery *quer
     }
 }
 
+/* What two runs in turn find is what each finds alone, to the bit. */
+static void check_turns(MesoGeodesicSolver *solver, const MesoGeodesicQuery *queries)
+{
+    const MesoTriangulation *mesh = solver->mesh;
+    MesoGeodesicSolver *team[2];
+    MesoGeodesicRun runs[2];
+    CHECK(meso_geodesic_team(solver, 2, team, NULL) == MESO_OK);
+    for (int i = 0; i < 2; i++)
+        runs[i] = (MesoGeodesicRun){team[i], &queries[i], INFINITY, NULL};
+    CHECK(meso_geodesic_run_two(runs, NULL) == MESO_OK);
+    for (int i = 0; i < 2; i++) {
+        float *one = new_field(mesh, INFINITY), *turn = new_field(mesh, INFINITY);
+        for (uint32_t k = 0; k < team[i]->touched_count; k++)
+            turn[team[i]->touched[k]] = meso_geodesic_take(team[i], team[i]->touched[k], 1 / solver->scale);
+        solve(solver, &queries[i], one);
+        CHECK(memcmp(one, turn, mesh->vertex_count * sizeof(float)) == 0);
+        free(one);
+        free(turn);
+    }
+}
+
 static void cut_some(MesoTriangulation *mesh, MesoGeodesicSolver *solver)
 {
     MesoArena arena;
@@ -350,8 +371,17 @@ static void test_pair(void)
         MesoTriangulation mesh = meso_fixture_torus(64, 36, 0.4f);
         MesoGeodesicSolver *solver = new_solver(&mesh, engine, false);
         check_pair(solver, queries);
+        check_turns(solver, queries);
         cut_some(&mesh, solver);
         check_pair(solver, queries);
+        check_turns(solver, queries);
+        const MesoDomain whole = {(const uint8_t[1]){1}, 0, NULL};
+        const MesoGeodesicQuery walled[2] = {{&whole, &point, 1, 0, MESO_NO_INDEX, false},
+                                             {&whole, line, 3, 0, MESO_NO_INDEX, false}};
+        solver->plain = true;
+        check_turns(solver, walled);
+        solver->plain = false;
+        check_turns(solver, walled);
         for (uint32_t v = 0; v < mesh.vertex_count; v++)
             mesh.positions[v].x *= 3;
         CHECK(meso_geodesic_set_positions(solver, mesh.positions, NULL) == MESO_OK);
