@@ -1,11 +1,13 @@
 /* Lines and points on a sphere of a million triangles. */
 #include <time.h>
 
+#include "libcore/base/clock.h"
+#include "libcore/base/parallel.h"
+#include "libcore/geodesic/cells/voronoi.h"
+#include "libcore/geodesic/geodesic_fixture.h"
 #include "libcore/geodesic/geodesic_samples.h"
 #include "libcore/geodesic/isoline.h"
 #include "libcore/geodesic/streamline.h"
-#include "libcore/geodesic/cells/voronoi.h"
-#include "libcore/geodesic/geodesic_fixture.h"
 
 enum { DIVISIONS = 224, ROUNDS = 5, LEVELS = 100 };
 
@@ -49,12 +51,13 @@ static void bench_isolines(const MesoTriangulation *mesh)
     free(field);
 }
 
-static void bench_cells(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, uint32_t seed_count)
+static void bench_cells(const MesoTriangulation *mesh, MesoGeodesicSolver *solver, uint32_t seed_count,
+                        uint32_t threads)
 {
     MesoRandom random;
     MesoMeshPoint *seeds = malloc(seed_count * sizeof *seeds);
-    MesoVoronoiQuery query = {.seed_count = seed_count, .seeds = seeds};
-    double best = 1e9;
+    MesoVoronoiQuery query = {.seed_count = seed_count, .seeds = seeds, .threads = threads};
+    double best = 1e9, best_wall = 1e9;
     CHECK(seeds);
     meso_random_init(&random, 1, 0);
     for (uint32_t i = 0; i < seed_count; i++)
@@ -63,12 +66,14 @@ static void bench_cells(const MesoTriangulation *mesh, MesoGeodesicSolver *solve
         MesoArena arena;
         MesoCutLines lines = {0};
         meso_arena_init(&arena);
-        double start = cpu_seconds();
+        double start = cpu_seconds(), start_wall = meso_seconds();
         CHECK(meso_voronoi_trace(&lines, NULL, NULL, &arena, mesh, solver, &query, NULL) == MESO_OK);
         best = fmin(best, cpu_seconds() - start);
+        best_wall = fmin(best_wall, meso_seconds() - start_wall);
         meso_arena_release(&arena);
     }
-    printf("Voronoi cells, %u on %u triangles: %.1f ms\n", seed_count, mesh->triangle_count, 1e3 * best);
+    printf("Voronoi cells, %u on %u triangles: %.1f ms by %u threads, %.1f ms of processors\n", seed_count,
+           mesh->triangle_count, 1e3 * best_wall, threads ? threads : meso_parallel_cores(), 1e3 * best);
     free(seeds);
 }
 
@@ -128,7 +133,8 @@ int main(void)
     for (uint32_t count = 10; count <= 10000; count *= 10)
         bench_samples(&mesh, solver, count);
     for (uint32_t count = 10; count <= 100000; count *= 10)
-        bench_cells(&mesh, solver, count);
+        for (uint32_t threads = 0; threads < 2; threads++)
+            bench_cells(&mesh, solver, count, threads);
     meso_geodesic_release(solver);
     meso_triangulation_release(&mesh);
     return 0;

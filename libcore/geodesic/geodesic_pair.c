@@ -10,8 +10,8 @@
 #include "libcore/geodesic/geodesic_solver.h"
 
 /*
- * Below so many triangles a thread takes longer to start than it saves; and below one for so many of the mesh's vertices,
- * longer to be made alike.
+ * Below so many triangles a thread takes longer to start than it saves; and below one for so many of the mesh's
+ * vertices, longer to be made alike.
  */
 enum { WORTH_A_THREAD = 4096, WORTH_A_COPY = 8 };
 

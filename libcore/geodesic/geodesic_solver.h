@@ -91,7 +91,7 @@ static inline float meso_geodesic_take(MesoGeodesicSolver *solver, uint32_t vert
     return distance;
 }
 
-/* Whether a domain is large enough for threads: below it they take longer to start, or to be made alike, than they save. */
+/* Whether a domain is large enough for threads: in smaller ones they cost more than they save. */
 bool meso_geodesic_team_is_worth(const MesoGeodesicSolver *solver, const MesoDomain *domain);
 
 /*

@@ -161,7 +161,7 @@ static uint32_t place_in_range(const MesoBorderTracer *tracer, uint32_t triangle
     return low;
 }
 
-/* What side `k` of the range's triangle number `place` is divided into: as the triangle across knows, if that was before. */
+/* What side `k` of the range's triangle number `place` is divided into: as the triangle across, if that came first. */
 static const EdgeCells *find_edge(MesoBorderTracer *tracer, uint32_t triangle, uint32_t place, uint32_t k)
 {
     const MesoTriangulation *mesh = tracer->mesh;

@@ -1,4 +1,6 @@
 /* Cells that hang together, and borders through vertices: what the nearest seeds become before borders are drawn. */
+#include <stdatomic.h>
+
 #include "libcore/base/grow.h"
 #include "libcore/base/parallel.h"
 #include "libcore/geodesic/cells/nearest_seeds.h"
@@ -12,6 +14,7 @@ typedef struct Joiner {
     MesoNearestSeeds *nearest;
     uint64_t *joined;           /* a bit a vertex number: sides within its cell lead to the cell's nearest vertex */
     uint64_t *met;              /* likewise, on the walk that is under way */
+    atomic_uchar *descends;     /* by vertex number: 1 where a side of its cell leads nearer to the seed */
     uint32_t met_count, met_room, stray_count, stray_room;
     uint32_t *met_list, *strays;    /* vertices; strays are to be looked at yet */
     MesoArena *arena;
@@ -30,16 +33,8 @@ static bool is_nearer(const Joiner *joiner, uint32_t a, uint32_t b)
     return to_a != to_b ? to_a < to_b : a < b;
 }
 
-/* Other threads may set bits of the same word. */
-static void set_shared_bit(uint64_t *bits, uint32_t i)
-{
-    uint64_t bit = (uint64_t)1 << i % 64;
-    if (!(__atomic_load_n(&bits[i / 64], __ATOMIC_RELAXED) & bit))
-        __atomic_fetch_or(&bits[i / 64], bit, __ATOMIC_RELAXED);
-}
-
-/* Marks, in `met`, the vertices that have a side to one of their cell that is nearer to the seed. */
-static void mark_descents(void *context, uint64_t begin, uint64_t end)
+/* Notes the vertices that have a side to one of their cell that is nearer to the seed; two threads may note the same. */
+static void note_descents(void *context, uint64_t begin, uint64_t end)
 {
     const Joiner *joiner = context;
     const MesoTriangulation *mesh = joiner->mesh;
@@ -47,8 +42,9 @@ static void mark_descents(void *context, uint64_t begin, uint64_t end)
         const uint32_t *corners = mesh->corners + 3 * (size_t)meso_domain_triangle(joiner->domain, (uint32_t)i);
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t a = corners[k], b = corners[k == 2 ? 0 : k + 1];
+            uint32_t farther = number_of(joiner, is_nearer(joiner, a, b) ? b : a);
             if (meso_seed_slots(joiner->nearest, a)->seed[0] == meso_seed_slots(joiner->nearest, b)->seed[0])
-                set_shared_bit(joiner->met, number_of(joiner, is_nearer(joiner, a, b) ? b : a));
+                atomic_store_explicit(&joiner->descends[farther], 1, memory_order_relaxed);
         }
     }
 }
@@ -74,7 +70,7 @@ static MesoStatus list_strays(Joiner *joiner, uint32_t seed_count)
     for (uint32_t v = meso_domain_vertex_from(vertices, 0); v != MESO_NO_INDEX && !status;
          v = meso_domain_vertex_from(vertices, v + 1)) {
         uint32_t seed = meso_seed_slots(joiner->nearest, v)->seed[0], stray = v;
-        if (seed == MESO_NO_INDEX || meso_bits_test(joiner->met, number_of(joiner, v)))
+        if (seed == MESO_NO_INDEX || joiner->descends[number_of(joiner, v)])
             continue;
         if (first[seed] == MESO_NO_INDEX || is_nearer(joiner, v, first[seed])) {
             stray = first[seed];
@@ -161,13 +157,12 @@ static MesoStatus join_cells(Joiner *joiner, uint32_t seed_count)
     uint32_t words = meso_bits_words(joiner->nearest->vertices.count);
     joiner->joined = MESO_NEW(joiner->arena, uint64_t, words, joiner->error);
     joiner->met = MESO_NEW(joiner->arena, uint64_t, words, joiner->error);
-    if (!joiner->joined || !joiner->met)
+    joiner->descends = MESO_NEW(joiner->arena, atomic_uchar, joiner->nearest->vertices.count, joiner->error);
+    if (!joiner->joined || !joiner->met || !joiner->descends)
         return MESO_ERR_MEMORY;
-    meso_parallel_for(joiner->nearest->threads, meso_domain_size(joiner->domain, joiner->mesh), GRAIN, mark_descents,
+    meso_parallel_for(joiner->nearest->threads, meso_domain_size(joiner->domain, joiner->mesh), GRAIN, note_descents,
                       joiner);
     MesoStatus status = list_strays(joiner, seed_count);
-    for (uint32_t w = 0; w < words; w++)
-        joiner->met[w] = 0;
     for (uint32_t i = 0; i < joiner->stray_count && !status; i++)
         status = settle_part(joiner, joiner->strays[i]);
     return status;

@@ -16,7 +16,7 @@ enum { VERTEX_GRAIN = 1 << 15, SEED_RANGES = 16 };
 /* Vertices a seed from which on few are near a border: close bounds take longer to find there than they save. */
 enum { LARGE_CELL = 32 };
 
-/* Of the longest side at a vertex: two seeds' distances come nearer to each other along it by twice its length at most. */
+/* Of the longest side at a vertex: along it distances of two seeds come nearer by twice its length at most. */
 static const float FAR = 2.1f;
 
 typedef struct Finder {
@@ -348,13 +348,14 @@ MesoStatus meso_nearest_seeds_find(MesoNearestSeeds *nearest, MesoArena *arena, 
         status = make_team(&finder, solver);
     if (status)
         return status;
-    uint32_t threads = finder.worker_count, vertex_count = mesh->vertex_count, seed_count = nearest->seed_count;
+    uint32_t threads = finder.worker_count, seed_count = nearest->seed_count;
+    uint64_t grain = 2 * (seed_count / (2 * SEED_RANGES * (uint64_t)threads) + 1);
     meso_parallel_for(threads, 2, 1, prepare_some, &finder);
     if (!finder.status[0]) {
         find_bounds(&finder);
-        meso_parallel_team(threads, seed_count, 2 * (seed_count / (2 * SEED_RANGES * threads) + 1), solve_some, &finder);
+        meso_parallel_team(threads, seed_count, grain, solve_some, &finder);
         nearest->snap = finder.wanted;
-        meso_parallel_for(threads, vertex_count, VERTEX_GRAIN, find_snaps, &finder);
+        meso_parallel_for(threads, mesh->vertex_count, VERTEX_GRAIN, find_snaps, &finder);
     }
     return first_failure(&finder);
 }

@@ -32,7 +32,8 @@ static inline MesoSeedSlots *meso_seed_slots(const MesoNearestSeeds *nearest, ui
 
 /*
  * Finds, for the domain and seeds in `nearest`, those that are the nearest of a vertex or of the other end of one of
- * its sides, to the last bit as a solve for each seed alone finds them. Errors as of meso_geodesic_solve().
+ * its sides, as a solve for each seed alone finds them but for rounding; the same for any number of threads. Errors as
+ * of meso_geodesic_solve().
  */
 MesoStatus meso_nearest_seeds_find(MesoNearestSeeds *nearest, MesoArena *arena, const MesoTriangulation *mesh,
                                    MesoGeodesicSolver *solver, MesoError *error);

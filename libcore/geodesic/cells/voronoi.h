@@ -32,10 +32,12 @@ typedef struct MesoVoronoiQuery {
  *           Only those of the domain's triangles are written. May be NULL
  * distance  [vertex_count] from that seed, likewise; INFINITY where there is none
  *
- * A solve for all seeds, and one for each that goes little beyond its cell: cells are those of separate solves, to the
- * last bit. Measured against one propagation that carries three seeds a vertex: faster from a thousand seeds on, since
- * the fronts of a cell stay in the nearest caches. 40 bytes of scratch a vertex of the domain and 60 a seed, and 20 a
- * side that borders are near. Errors as of meso_geodesic_solve().
+ * A solve for all seeds, and one for each that goes little beyond its cell: cells are those of separate solves but for
+ * rounding. Measured against one propagation that carries three seeds a vertex: faster from a thousand seeds on, since
+ * the fronts of a cell stay in the nearest caches; solves run side by side, and two in turn on each thread where cells
+ * are small. Lines are the same bytes for any number of threads. 41 bytes of scratch a vertex of the domain, 60 a seed
+ * and twice the lines that are added; and 21 a vertex of the mesh for each solver more, of 8 at most, that `solver`
+ * keeps. Errors as of meso_geodesic_solve().
  */
 MesoStatus meso_voronoi_trace(MesoCutLines *lines, uint32_t *cell, float *distance, MesoArena *arena,
                               const MesoTriangulation *mesh, MesoGeodesicSolver *solver, const MesoVoronoiQuery *query,
