@@ -20,6 +20,7 @@ struct MesoArenaBlock {
     size_t size;
     size_t used;
     size_t dirty;           /* bytes that were handed out once: not zero now */
+    void *adopted;          /* from elsewhere; the block has no room then */
 };
 
 static size_t round_up(size_t size)
@@ -98,6 +99,19 @@ void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *e
     return data;
 }
 
+bool meso_arena_adopt(MesoArena *arena, void *adopted, MesoError *error)
+{
+    MesoArenaBlock *block = calloc(1, sizeof *block);
+    if (!block) {
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory: %zu bytes", sizeof *block);
+        return false;
+    }
+    block->adopted = adopted;
+    block->previous = arena->head;
+    arena->head = block;
+    return true;
+}
+
 char *meso_arena_copy_text(MesoArena *arena, const char *text, MesoError *error)
 {
     size_t size = strlen(text) + 1;
@@ -131,6 +145,7 @@ void meso_arena_rewind(MesoArena *arena, MesoArenaMark mark)
         MesoArenaBlock *block = arena->head;
         assert(block);
         arena->head = block->previous;
+        free(block->adopted);
         free(block);
     }
     if (arena->head)

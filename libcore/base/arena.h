@@ -6,6 +6,7 @@
 #ifndef MESO_ARENA_H
 #define MESO_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "libcore/base/error.h"
@@ -50,6 +51,12 @@ char *meso_arena_copy_text(MesoArena *arena, const char *text, MesoError *error)
 /* Printf into the arena; NULL on failure as above. */
 char *meso_arena_print(MesoArena *arena, MesoError *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/*
+ * Takes over a block of malloc(), as if it had been allocated here now. False with MESO_ERR_MEMORY in `error`, and the
+ * block still the caller's, where memory is out.
+ */
+bool meso_arena_adopt(MesoArena *arena, void *block, MesoError *error);
 
 /* What is allocated after `mark` is given back by the rewind to it. */
 MesoArenaMark meso_arena_mark(const MesoArena *arena);

@@ -58,20 +58,22 @@ bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint3
     MesoGrowthTip tip = {.at = start->tip, .rule = MESO_NO_INDEX, .joint = MESO_NO_INDEX, .shape = MESO_NO_INDEX,
                          .branch = work->branch_count, .node = MESO_GROWTH_ROOT | number, .done = true};
     tip.run = meso_growth_begin(work->grammar->seeds[start->seed].entry, start->key);
-    tip.position = meso_growth_position(work->ground, tip.at.triangle, tip.at.weight);
-    tip.normal = meso_growth_normal(work->ground, tip.at.triangle, tip.at.weight, tip.at.turned);
-    tip.state[MESO_STATE_X] = tip.position.x;
-    tip.state[MESO_STATE_Y] = tip.position.y;
-    tip.state[MESO_STATE_Z] = tip.position.z;
+    tip.foot = meso_growth_foot(work->ground, &tip.at);
+    tip.state[MESO_STATE_X] = tip.foot.position.x;
+    tip.state[MESO_STATE_Y] = tip.foot.position.y;
+    tip.state[MESO_STATE_Z] = tip.foot.position.z;
     return add_branch(work, start->key, MESO_NO_INDEX, start->seed) && add_tip(work, &tip, NULL);
 }
 
-static bool begin_branches(MesoGrowthWork *work, const MesoGrowthTip *parent, const MesoGrowthTurn *turn)
+static bool begin_branches(MesoGrowthWork *work, uint32_t number, const MesoGrowthTurn *turn)
 {
     const MesoGrowthBatch *batch = turn->batch;
+    if (!turn->shoot_count)
+        return true;
+    const MesoGrowthTip parent = work->tips[number];    /* tips may move */
     for (uint32_t i = turn->shoot_begin; i < turn->shoot_begin + turn->shoot_count; i++) {
         const MesoGrowthShoot *shoot = &batch->shoots[i];
-        MesoGrowthTip tip = *parent;
+        MesoGrowthTip tip = parent;
         tip.at = shoot->at;
         tip.run = meso_growth_begin(shoot->entry, shoot->key);
         tip.state[MESO_STATE_DEPTH]++;
@@ -81,11 +83,11 @@ static bool begin_branches(MesoGrowthWork *work, const MesoGrowthTip *parent, co
         tip.walks = tip.faces = 0;
         tip.done = true;
         tip.rests = tip.ended = false;
-        if (!add_branch(work, shoot->key, parent->branch, work->branches[parent->branch].seed) ||
+        if (!add_branch(work, shoot->key, parent.branch, work->branches[parent.branch].seed) ||
             !add_tip(work, &tip, batch->registers + (size_t)i * work->grammar->local_count))
             return false;
     }
-    counts_of(work, parent)->branches += turn->shoot_count;
+    counts_of(work, &parent)->branches += turn->shoot_count;
     return true;
 }
 
@@ -123,7 +125,7 @@ static bool occupy(MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGro
     if (!work->uses_space)
         return true;
     return meso_growth_space_add(&work->space, kin, turn->batch->pieces + turn->piece_begin, turn->piece_count) &&
-           add_ball(work, tip->position, turn->length);
+           add_ball(work, tip->foot.position, turn->length);
 }
 
 static bool add_element(MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn, MesoSpan span,
@@ -144,12 +146,11 @@ static bool add_element(MesoGrowthWork *work, const MesoGrowthTip *tip, const Me
 static void go_to(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 {
     tip->at = turn->end;
-    tip->position = turn->position;
-    tip->normal = turn->normal;
+    tip->foot = turn->foot;
     tip->state[MESO_STATE_LENGTH] += turn->length;
-    tip->state[MESO_STATE_X] = turn->position.x;
-    tip->state[MESO_STATE_Y] = turn->position.y;
-    tip->state[MESO_STATE_Z] = turn->position.z;
+    tip->state[MESO_STATE_X] = turn->foot.position.x;
+    tip->state[MESO_STATE_Y] = turn->foot.position.y;
+    tip->state[MESO_STATE_Z] = turn->foot.position.z;
 }
 
 static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrowthTurn *turn)
@@ -205,10 +206,11 @@ static void accept_move(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 
 static void tell(const MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 {
+    if (!work->options->event)
+        return;
     MesoGrowthEvent event = {work->branches[tip->branch].key, tip->rule, (uint32_t)tip->state[MESO_STATE_GENERATION],
                              &turn->command, tip->at, turn->outcome != MESO_GROWTH_REFUSED};
-    if (work->options->event)
-        work->options->event(work->options->context, &event);
+    work->options->event(work->options->context, &event);
 }
 
 static void begin_rule(MesoGrowthWork *work, uint32_t number, const MesoGrowthCommand *command)
@@ -303,7 +305,7 @@ bool meso_growth_accept(MesoGrowthWork *work, uint32_t number)
         work->status = meso_fail(work->error, MESO_ERR_INPUT, "line %u: %s", command->line, command->fault);
         return false;
     }
-    if (!fits(work, turn) || !begin_branches(work, &work->tips[active], turn))
+    if (!fits(work, turn) || !begin_branches(work, active, turn))
         return false;
     MesoGrowthTip *tip = &work->tips[active];
     if (!accept_walk(work, tip, turn))

@@ -2,11 +2,30 @@
 
 static const MesoVec3 nowhere = {0, 0, 0};
 
-MesoVec3 meso_growth_direction_in_space(const MesoGrowthGround *ground, uint32_t triangle, MesoComplex direction)
+/* As meso_frame() has it, by what the walk knows of the triangle. */
+MesoGrowthFooting meso_growth_foot(const MesoGrowthGround *ground, const MesoTip *at)
 {
-    double out[3];
-    meso_walk_direction(ground->mesh, triangle, direction, out);
-    return (MesoVec3){(float)out[0], (float)out[1], (float)out[2]};
+    const MesoTriangulation *mesh = ground->mesh;
+    const MesoWalkFace *face = &ground->walk.faces[at->triangle];
+    const uint32_t *c = &mesh->corners[3 * (size_t)at->triangle];
+    uint32_t base = meso_walk_base(face);
+    MesoVec3 p[3] = {mesh->positions[c[0]], mesh->positions[c[1]], mesh->positions[c[2]]};
+    MesoVec3 along = meso_vec3_sub(p[meso_next_side(base)], p[base]), over = meso_vec3_sub(p[meso_previous_side(base)],
+                                                                                         p[base]);
+    float length = (float)ground->walk.lengths[at->triangle];
+    MesoComplex apex = face->apexes[base];
+    MesoGrowthFooting foot = {.x = meso_vec3_scale(along, length > 0 ? 1 / length : 0)};
+    float height = length * (float)apex.im;
+    foot.y = meso_vec3_scale(meso_vec3_mad(over, -(float)apex.re, along), height > 0 ? 1 / height : 0);
+    for (uint32_t k = 0; k < 3; k++)
+        foot.position = meso_vec3_mad(foot.position, (float)at->weight[k], p[k]);
+    foot.normal = meso_growth_normal(ground, at->triangle, at->weight, at->turned);
+    return foot;
+}
+
+static MesoVec3 in_space(const MesoGrowthFooting *foot, MesoComplex direction)
+{
+    return meso_vec3_mad(meso_vec3_scale(foot->x, (float)direction.re), (float)direction.im, foot->y);
 }
 
 static bool is_given(const MesoGrowthCommand *command, MesoGrowthValue value)
@@ -17,12 +36,13 @@ static bool is_given(const MesoGrowthCommand *command, MesoGrowthValue value)
 static float width_from(const MesoGrowthCommand *command, double otherwise)
 {
     double width = is_given(command, MESO_GROWTH_WIDTH) ? command->values[MESO_GROWTH_WIDTH] : otherwise;
-    return (float)fmax(width, 0);
+    return width > 0 ? (float)width : 0;
 }
 
 static float width_to(const MesoGrowthCommand *command, float from)
 {
-    return is_given(command, MESO_GROWTH_END_WIDTH) ? (float)fmax(command->values[MESO_GROWTH_END_WIDTH], 0) : from;
+    double width = command->values[MESO_GROWTH_END_WIDTH];
+    return !is_given(command, MESO_GROWTH_END_WIDTH) ? from : width > 0 ? (float)width : 0;
 }
 
 static MesoJoint rolled(MesoJoint joint, float roll)
@@ -30,10 +50,23 @@ static MesoJoint rolled(MesoJoint joint, float roll)
     return roll == 0 ? joint : meso_joint_roll(joint, roll);
 }
 
-/* The joint that a tip is at, now that it goes on towards `out`. */
-static MesoJoint begin_joint(const MesoGrowthTip *tip, MesoVec3 out, float width, float lift, float roll)
+/* Of length 1, and across the normal; 0 where it has no such part. */
+static MesoVec3 laid_flat(MesoVec3 v, MesoVec3 normal)
 {
-    return rolled(meso_joint(tip->position, tip->normal, tip->arrive, out, width, lift), roll);
+    MesoVec3 flat = meso_vec3_mad(v, -meso_vec3_dot(v, normal), normal);
+    float square = meso_vec3_dot(flat, flat);
+    return meso_vec3_scale(flat, square > 1e-12f ? 1 / sqrtf(square) : 0);
+}
+
+/* As meso_joint() makes it, of directions that are laid flat. */
+static MesoJoint joint_of(const MesoGrowthFooting *foot, MesoVec3 in, MesoVec3 out, float width, float lift)
+{
+    MesoVec3 sum = meso_vec3_add(in, out);
+    float square = meso_vec3_dot(sum, sum);
+    if (!(square > 1e-6f))
+        return meso_joint(foot->position, foot->normal, in, out, width, lift);
+    return (MesoJoint){meso_vec3_mad(foot->position, lift, foot->normal), meso_vec3_scale(sum, 1 / sqrtf(square)),
+                       foot->normal, width, 0};
 }
 
 /* Where a step's own width begins with another than the joint has, it has a joint of its own in the same place. */
@@ -48,11 +81,12 @@ static void join_step(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 o
     turn->lift = lift;
     turn->roll = roll;
     turn->shares = has && (width == had || (tip->open && tip->shape == command->shape));
-    turn->from = begin_joint(tip, out, width, lift_from, roll_from);
-    if (has && !turn->shares)
-        turn->before = begin_joint(tip, out, had, lift_from, roll_from);
-    turn->to = rolled(meso_joint(turn->position, turn->normal, turn->arrive, nowhere, width_to(command, width), lift),
-                      roll);
+    turn->from = rolled(joint_of(&tip->foot, tip->arrive, out, width, lift_from), roll_from);
+    if (has && !turn->shares) {
+        turn->before = turn->from;
+        turn->before.width = had;
+    }
+    turn->to = rolled(joint_of(&turn->foot, turn->arrive, nowhere, width_to(command, width), lift), roll);
 }
 
 /* Turns a vector about a unit axis. */
@@ -82,9 +116,9 @@ static void join_place(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 
     const MesoGrowthCommand *command = &turn->command;
     float width = width_from(command, turn->length), lift = (float)command->values[MESO_GROWTH_LIFT];
     float roll = (float)command->values[MESO_GROWTH_ROLL], angle = (float)command->values[MESO_GROWTH_ANGLE];
-    MesoVec3 end = meso_vec3_mad(turn->position, (float)turn->rest, turn->arrive);
-    turn->from = meso_joint(tip->position, tip->normal, nowhere, out, width, lift);
-    turn->to = meso_joint(end, turn->normal, turn->arrive, nowhere, width_to(command, width), lift);
+    turn->from = joint_of(&tip->foot, nowhere, out, width, lift);
+    turn->to = joint_of(&turn->foot, turn->arrive, nowhere, width_to(command, width), lift);
+    turn->to.position = meso_vec3_mad(turn->to.position, (float)turn->rest, turn->arrive);
     if (angle != 0)
         tilt(turn, angle);
     turn->from = rolled(turn->from, roll);
@@ -93,16 +127,14 @@ static void join_place(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 
 
 void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn)
 {
-    const MesoGrowthGround *ground = work->ground;
-    turn->position = meso_growth_position(ground, turn->end.triangle, turn->end.weight);
-    turn->normal = meso_growth_normal(ground, turn->end.triangle, turn->end.weight, turn->end.turned);
+    turn->foot = meso_growth_foot(work->ground, &turn->end);
     if (turn->outcome == MESO_GROWTH_MOVES)
         return;
     MesoTip start = tip->at;
     if (turn->try > 0 && turn->outcome == MESO_GROWTH_STEPS)
         meso_tip_turn(&start, meso_growth_retry_angle(tip, turn, turn->try));
-    MesoVec3 out = meso_growth_direction_in_space(ground, start.triangle, start.heading);
-    turn->arrive = meso_growth_direction_in_space(ground, turn->end.triangle, turn->end.heading);
+    MesoVec3 out = laid_flat(in_space(&tip->foot, start.heading), tip->foot.normal);
+    turn->arrive = laid_flat(in_space(&turn->foot, turn->end.heading), turn->foot.normal);
     if (turn->outcome == MESO_GROWTH_PLACES)
         join_place(tip, turn, out);
     else

@@ -5,23 +5,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
-/* Room for `count` elements of `size` bytes, and for half as many again where it must move; false: out of memory, or
- * of numbers, and nothing has changed. New elements are not set. */
+/*
+ * Room for `count` elements of `size` bytes, and for many more where the array must move: pages that are not written to
+ * cost nothing. False: out of memory, or of numbers, and nothing has changed. New elements are not set.
+ */
+bool meso_make_more_room(void **array, uint32_t *room, uint64_t count, size_t size);
+
 static inline bool meso_make_room(void **array, uint32_t *room, uint64_t count, size_t size)
 {
-    if (count <= *room)
-        return true;
-    uint64_t more = count + count / 2 + 64;
-    if (count >= INT32_MAX)
-        return false;
-    void *larger = realloc(*array, (size_t)more * size);
-    if (!larger)
-        return false;
-    *array = larger;
-    *room = (uint32_t)more;
-    return true;
+    return count <= *room || meso_make_more_room(array, room, count, size);
 }
 
 #endif

@@ -4,6 +4,7 @@
  */
 #include "libcore/growth/engine/growth.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcore/base/parallel.h"
@@ -78,7 +79,7 @@ static void release_batch(MesoGrowthBatch *batch)
     meso_growth_seen_release(&batch->seen);
 }
 
-static void release(MesoGrowthWork *work)
+void meso_growth_release(MesoGrowthWork *work)
 {
     void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->turns, work->befores,
                             work->register_befores, work->balls, work->joints, work->points, work->elements,
@@ -206,38 +207,43 @@ static void grow(MesoGrowthWork *work)
 
 /* ---- results ---- */
 
-/* A copy in the arena; the array itself goes. */
-static void *keep(MesoArena *arena, void **array, size_t count, size_t size, MesoError *error)
+/* The array, as the arena's own. */
+static void *keep(MesoArena *arena, void **array, MesoError *error)
 {
-    void *copy = meso_arena_alloc(arena, count, size, error);
-    if (copy && count)
-        memcpy(copy, *array, count * size);
-    free(*array);
+    void *kept = *array ? *array : malloc(1);
+    if (!kept || !meso_arena_adopt(arena, kept, error))
+        return NULL;
     *array = NULL;
-    return copy;
+    return kept;
 }
 
-#define KEEP(array, count) (grown->array = keep(arena, (void **)&work->array, (count), sizeof *work->array, work->error))
+#define KEEP(array) (grown->array = keep(arena, (void **)&work->array, work->error))
 
 static MesoStatus finish(MesoGrowthWork *work, MesoGrown *grown, MesoArena *arena)
 {
     *grown = (MesoGrown){.joint_count = work->joint_count, .element_count = work->element_count,
                          .branch_count = work->branch_count, .generation_count = (uint32_t)work->generation,
                          .length = work->length, .end = work->end};
-    bool kept = KEEP(joints, grown->joint_count) && KEEP(points, grown->joint_count) &&
-                KEEP(elements, grown->element_count) && KEEP(branches, grown->branch_count) &&
-                KEEP(rules, work->grammar->rule_count);
+    bool kept = KEEP(joints) && KEEP(points) && KEEP(elements) && KEEP(branches) && KEEP(rules);
     return kept ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_growth_run(MesoGrowthWork *work, const MesoGrowthOptions *options, MesoError *error)
+{
+    *work = (MesoGrowthWork){.options = options, .grammar = options->grammar, .ground = options->contexts->ground,
+                             .error = error};
+    work->march = options->march ? *options->march : (MesoGrowthMarch){march_straight, &work->ground->walk};
+    if (!begin(work))
+        grow(work);
+    return work->status;
 }
 
 MesoStatus meso_grow(MesoGrown *grown, MesoArena *arena, const MesoGrowthOptions *options, MesoError *error)
 {
-    MesoGrowthWork work = {.options = options, .grammar = options->grammar, .ground = options->contexts->ground,
-                           .error = error};
-    work.march = options->march ? *options->march : (MesoGrowthMarch){march_straight, &work.ground->walk};
-    if (!begin(&work))
-        grow(&work);
-    MesoStatus status = work.status ? work.status : finish(&work, grown, arena);
-    release(&work);
+    MesoGrowthWork work;
+    MesoStatus status = meso_growth_run(&work, options, error);
+    if (!status)
+        status = finish(&work, grown, arena);
+    meso_growth_release(&work);
     return status;
 }

@@ -20,7 +20,7 @@ MesoStatus meso_growth_space_init(MesoGrowthSpace *space, const MesoGrowthGround
 void meso_growth_space_release(MesoGrowthSpace *space)
 {
     free(space->heads);
-    free(space->pieces);
+    free(space->blocks);
     free(space->kin);
 }
 
@@ -31,21 +31,40 @@ void meso_growth_seen_release(MesoGrowthSeen *seen)
     free(seen->ends);
 }
 
+static void add_piece(MesoGrowthSpace *space, const MesoGrowthPiece *piece, uint32_t element)
+{
+    uint32_t *head = &space->heads[piece->triangle];
+    if (*head == MESO_NO_INDEX || space->blocks[*head].count == MESO_GROWTH_LANES) {
+        space->blocks[space->block_count].count = 0;
+        space->blocks[space->block_count].next = *head;
+        *head = space->block_count++;
+    }
+    MesoGrowthBlock *block = &space->blocks[*head];
+    uint32_t lane = block->count++;
+    block->x0[lane] = piece->ends[0].re;
+    block->y0[lane] = piece->ends[0].im;
+    block->x1[lane] = piece->ends[1].re;
+    block->y1[lane] = piece->ends[1].im;
+    block->element[lane] = element;
+}
+
 bool meso_growth_space_add(MesoGrowthSpace *space, MesoGrowthKin kin, const MesoGrowthPiece *pieces, uint32_t count)
 {
     if (!meso_make_room((void **)&space->kin, &space->kin_room, (uint64_t)space->kin_count + 1, sizeof *space->kin) ||
-        !meso_make_room((void **)&space->pieces, &space->piece_room, (uint64_t)space->piece_count + count,
-                        sizeof *space->pieces))
+        !meso_make_room((void **)&space->blocks, &space->block_room, (uint64_t)space->block_count + count,
+                        sizeof *space->blocks))
         return false;
     uint32_t element = space->kin_count;
     space->kin[space->kin_count++] = kin;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t *head = &space->heads[pieces[i].triangle];
-        space->pieces[space->piece_count] = (MesoGrowthPlacedPiece){{pieces[i].ends[0], pieces[i].ends[1]}, element,
-                                                                    *head};
-        *head = space->piece_count++;
-    }
+    for (uint32_t i = 0; i < count; i++)
+        add_piece(space, &pieces[i], element);
     return true;
+}
+
+static inline void load_lane(const MesoGrowthBlock *block, uint32_t lane, MesoComplex ends[2])
+{
+    ends[0] = (MesoComplex){block->x0[lane], block->y0[lane]};
+    ends[1] = (MesoComplex){block->x1[lane], block->y1[lane]};
 }
 
 /* ---- kin ---- */
@@ -115,11 +134,25 @@ static inline bool lies_apart(const Segment *s, const MesoComplex ends[2])
     return fmax(a, b) < -s->slack || fmin(a, b) > s->square + s->slack;
 }
 
-static inline bool segments_meet(const Segment *s, const MesoComplex s_ends[2], const MesoComplex t_ends[2],
-                                 double size)
+/* Bit i: both ends of piece i surely lie on one side of a segment. */
+static inline uint32_t lanes_apart(const Segment *s, const MesoGrowthBlock *block)
 {
-    if (side_of(s, t_ends[0]) * side_of(s, t_ends[1]) > 0)
-        return false;
+    uint32_t apart = 0;
+    double from[MESO_GROWTH_LANES], to[MESO_GROWTH_LANES];
+    for (uint32_t i = 0; i < MESO_GROWTH_LANES; i++) {
+        from[i] = s->along.re * (block->y0[i] - s->from.im) - s->along.im * (block->x0[i] - s->from.re);
+        to[i] = s->along.re * (block->y1[i] - s->from.im) - s->along.im * (block->x1[i] - s->from.re);
+    }
+    for (uint32_t i = 0; i < MESO_GROWTH_LANES; i++) {
+        bool left = (from[i] > s->slack) & (to[i] > s->slack), right = (from[i] < -s->slack) & (to[i] < -s->slack);
+        apart |= (uint32_t)(left | right) << i;
+    }
+    return apart;
+}
+
+/* Whether two do, of which the other is not on one side of the first. */
+static bool segments_meet(const Segment *s, const MesoComplex s_ends[2], const MesoComplex t_ends[2], double size)
+{
     Segment t = segment(t_ends, size);
     return side_of(&t, s_ends[0]) * side_of(&t, s_ends[1]) <= 0 && !lies_apart(s, t_ends) && !lies_apart(&t, s_ends);
 }
@@ -135,55 +168,112 @@ static bool are_alike(const Segment *s, MesoComplex other_end)
     return side_of(s, other_end) == 0 && share_of(s, other_end) > 0;
 }
 
-/* Where a segment that meets another does; as a share of it and a point of the other. */
-static double place_meeting(const Segment *s, const MesoComplex ends[2], MesoComplex *at)
+/*
+ * Where a segment meets another, along it, and the point there: as near to the other as rounding allows, but not beyond
+ * it.
+ */
+static double place_meeting(const Segment *s, const MesoComplex ends[2], double size, MesoComplex *at)
 {
-    MesoComplex other = {ends[1].re - ends[0].re, ends[1].im - ends[0].im};
-    MesoComplex to = {s->from.re - ends[0].re, s->from.im - ends[0].im};
-    double area = other.re * s->along.im - other.im * s->along.re;
+    Segment t = segment(ends, size);
+    MesoComplex to = {s->from.re - t.from.re, s->from.im - t.from.im};
+    double area = t.along.re * s->along.im - t.along.im * s->along.re;
     double share = area != 0 ? (to.re * s->along.im - to.im * s->along.re) / area : 0;
+    double length = sqrt(s->square), side = t.along.re * to.im - t.along.im * to.re;
     share = fmin(fmax(share, 0), 1);
-    *at = (MesoComplex){ends[0].re + share * other.re, ends[0].im + share * other.im};
-    return fmin(fmax(share_of(s, *at), 0), s->square);
+    MesoComplex met = {t.from.re + share * t.along.re, t.from.im + share * t.along.im};
+    double along = length > 0 ? fmin(fmax(share_of(s, met) / length, 0), length) : 0;
+    *at = met;
+    for (double back = rounding * size / 4; back < along; back *= 2) {
+        double turn = t.along.re * (at->im - t.from.im) - t.along.im * (at->re - t.from.re);
+        if (turn * side > 0 && fabs(turn) > t.slack / 4)
+            break;
+        at->re = met.re - back / length * s->along.re;
+        at->im = met.im - back / length * s->along.im;
+    }
+    return along;
+}
+
+/* A piece of the way that asks. */
+typedef struct Probe {
+    const MesoGrowthSpace *space;
+    const MesoGrowthAsker *asker;
+    const MesoGrowthPiece *piece;
+    Segment segment;
+    double size;                /* of its triangle */
+    bool begins;                /* the way begins here */
+} Probe;
+
+/* What begins or ends where the way begins does not meet it there. */
+static bool is_root_of(const Probe *probe, uint32_t element, const MesoComplex ends[2])
+{
+    if (!probe->begins || !is_joined(probe->space, probe->asker, element))
+        return false;
+    bool begins = is_same(ends[0], probe->segment.from);
+    return (begins || is_same(ends[1], probe->segment.from)) && !are_alike(&probe->segment, ends[begins]);
+}
+
+static bool meets_lane(const Probe *probe, const MesoGrowthBlock *block, uint32_t lane, MesoComplex ends[2])
+{
+    uint32_t element = block->element[lane];
+    load_lane(block, lane, ends);
+    return element >= probe->asker->since && segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) &&
+           !probe->space->kin[element].placed && !is_root_of(probe, element, ends);
+}
+
+/* The nearest meeting in a block, where it is nearer than `first`; where that is NULL, any. */
+static bool meets_in_block(const Probe *probe, const MesoGrowthBlock *block, MesoGrowthMeeting *first)
+{
+    uint32_t left = ((1u << block->count) - 1) & ~lanes_apart(&probe->segment, block);
+    bool meets = false;
+    for (; left; left &= left - 1) {
+        MesoComplex ends[2], at;
+        if (!meets_lane(probe, block, (uint32_t)__builtin_ctz(left), ends))
+            continue;
+        if (!first)
+            return true;
+        double along = place_meeting(&probe->segment, ends, probe->size, &at);
+        if (along < first->along)
+            *first = (MesoGrowthMeeting){.at = at, .along = along};
+        meets = true;
+    }
+    return meets;
 }
 
 static bool piece_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *piece,
-                        bool first_piece, MesoGrowthMeeting *first)
+                        bool begins, MesoGrowthMeeting *first)
 {
-    double size = space->ground->walk.lengths[piece->triangle], nearest = INFINITY;
-    Segment s = segment(piece->ends, size);
-    for (uint32_t i = space->heads[piece->triangle]; i != MESO_NO_INDEX; i = space->pieces[i].next) {
-        const MesoGrowthPlacedPiece *other = &space->pieces[i];
-        if (other->element < asker->since)
+    uint32_t number = space->heads[piece->triangle];
+    if (number == MESO_NO_INDEX)
+        return false;
+    Probe probe = {space, asker, piece, .size = space->ground->walk.lengths[piece->triangle], .begins = begins};
+    probe.segment = segment(piece->ends, probe.size);
+    bool meets = false;
+    while (number != MESO_NO_INDEX) {
+        const MesoGrowthBlock *block = &space->blocks[number];
+        if (block->element[block->count - 1] < asker->since)
             break;
-        if (!segments_meet(&s, piece->ends, other->ends, size) || space->kin[other->element].placed)
-            continue;
-        if (first_piece && is_joined(space, asker, other->element)) {
-            bool begins = is_same(other->ends[0], s.from), ends = is_same(other->ends[1], s.from);
-            if ((begins || ends) && !are_alike(&s, other->ends[begins]))
-                continue;
-        }
-        if (!first)
+        if (block->next != MESO_NO_INDEX)
+            __builtin_prefetch(&space->blocks[block->next]);
+        meets |= meets_in_block(&probe, block, first);
+        if (meets && !first)
             return true;
-        MesoComplex at;
-        double along = place_meeting(&s, other->ends, &at);
-        if (along < nearest) {
-            nearest = along;
-            *first = (MesoGrowthMeeting){.at = at, .along = sqrt(s.square) > 0 ? along / sqrt(s.square) : 0};
-        }
+        number = block->next;
     }
-    return nearest < INFINITY;
+    return meets;
 }
 
 bool meso_growth_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *pieces,
                        uint32_t count, MesoGrowthMeeting *first)
 {
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        if (first)
+            first->along = INFINITY;
         if (piece_meets(space, asker, &pieces[i], i == 0, first)) {
             if (first)
                 first->piece = i;
             return true;
         }
+    }
     return false;
 }
 
@@ -339,20 +429,30 @@ typedef struct Search {
     bool placed_count;
 } Search;
 
+/* Whether a piece that is too near counts. */
+static bool counts(const Search *search, uint32_t element)
+{
+    double kin = MESO_GROWTH_KIN * search->clear;
+    return (search->placed_count && search->space->kin[element].placed) ||
+           !(meso_growth_way_to(search->space, search->asker, element, kin) < kin);
+}
+
 static bool triangle_is_clear(const Search *search, uint32_t triangle, double corners[3][3])
 {
     const MesoGrowthSpace *space = search->space;
-    for (uint32_t i = space->heads[triangle]; i != MESO_NO_INDEX; i = space->pieces[i].next) {
-        const MesoGrowthPlacedPiece *other = &space->pieces[i];
-        double ends[6], kin = MESO_GROWTH_KIN * search->clear;
-        if (other->element < search->asker->since)
-            break;
-        lift_ends(&space->ground->walk, triangle, corners, other->ends, ends);
-        if (!is_within(search->seen->ends, search->count, ends, search->clear * search->clear))
-            continue;
-        bool counts = search->placed_count && space->kin[other->element].placed;
-        if (counts || !(meso_growth_way_to(space, search->asker, other->element, kin) < kin))
-            return false;
+    double square = search->clear * search->clear;
+    for (uint32_t i = space->heads[triangle]; i != MESO_NO_INDEX; i = space->blocks[i].next) {
+        const MesoGrowthBlock *block = &space->blocks[i];
+        for (uint32_t lane = block->count; lane-- > 0;) {
+            MesoComplex flat[2];
+            double ends[6];
+            if (block->element[lane] < search->asker->since)
+                return true;
+            load_lane(block, lane, flat);
+            lift_ends(&space->ground->walk, triangle, corners, flat, ends);
+            if (is_within(search->seen->ends, search->count, ends, square) && counts(search, block->element[lane]))
+                return false;
+        }
     }
     return true;
 }

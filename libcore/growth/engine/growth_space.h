@@ -25,11 +25,15 @@ typedef struct MesoGrowthPiece {
     bool turned;
 } MesoGrowthPiece;
 
-typedef struct MesoGrowthPlacedPiece {
-    MesoComplex ends[2];
-    uint32_t element;
-    uint32_t next;              /* older one of the same triangle */
-} MesoGrowthPlacedPiece;
+/* Pieces of one triangle, as many as are tested at a time; the last of them are the newest. */
+enum { MESO_GROWTH_LANES = 4 };
+
+typedef struct MesoGrowthBlock {
+    double x0[MESO_GROWTH_LANES], y0[MESO_GROWTH_LANES], x1[MESO_GROWTH_LANES], y1[MESO_GROWTH_LANES];  /* ends */
+    uint32_t element[MESO_GROWTH_LANES];
+    uint32_t count;
+    uint32_t next;              /* older ones of the same triangle */
+} MesoGrowthBlock;
 
 /* An element's place in its tree. */
 typedef struct MesoGrowthKin {
@@ -40,10 +44,10 @@ typedef struct MesoGrowthKin {
 
 typedef struct MesoGrowthSpace {
     const MesoGrowthGround *ground;
-    uint32_t *heads;            /* [triangle_count] newest piece */
-    MesoGrowthPlacedPiece *pieces;
+    uint32_t *heads;            /* [triangle_count] newest block */
+    MesoGrowthBlock *blocks;
     MesoGrowthKin *kin;
-    uint32_t piece_count, piece_room, kin_count, kin_room;
+    uint32_t block_count, block_room, kin_count, kin_room;
 } MesoGrowthSpace;
 
 /* Who asks. */

@@ -84,7 +84,7 @@ MesoWalk meso_growth_walk_of(const MesoGrowthTip *tip, const MesoGrowthTurn *tur
         angle += meso_growth_retry_angle(tip, turn, try);
     if (angle != 0)
         meso_tip_turn(&walk.tip, angle);
-    walk.length = command->order == MESO_GROWTH_MOVE ? fabs(walk.length) : fmax(walk.length, 0);
+    walk.length = walk.length > 0 ? walk.length : command->order == MESO_GROWTH_MOVE ? -walk.length : 0;
     return walk;
 }
 
@@ -231,9 +231,9 @@ static void judge_step(const MesoGrowthWork *work, MesoGrowthBatch *batch, const
                        const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk)
 {
     const double *values = turn->command.values;
-    turn->length = fmax(values[MESO_GROWTH_AMOUNT], 0);
-    if (work->uses_space)
-        meso_growth_depends(turn, tip->position, turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
+    turn->length = values[MESO_GROWTH_AMOUNT] > 0 ? values[MESO_GROWTH_AMOUNT] : 0;
+    if (work->looks || work->clears)
+        meso_growth_depends(turn, tip->foot.position, turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
     if (may_be(work, batch, tip, registers, turn, walk)) {
         turn->outcome = MESO_GROWTH_STEPS;
         end_step(turn, walk);

@@ -10,10 +10,11 @@ static const uint64_t face_site = 0x6661636500f1e1d5u;
 
 static void tell(const MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthCommand *command)
 {
+    if (!work->options->event)
+        return;
     MesoGrowthEvent event = {work->branches[tip->branch].key, tip->rule, (uint32_t)tip->state[MESO_STATE_GENERATION],
                              command, tip->at, true};
-    if (work->options->event)
-        work->options->event(work->options->context, &event);
+    work->options->event(work->options->context, &event);
 }
 
 static void face(const MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrowthCommand *command)
@@ -105,6 +106,28 @@ static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_
     work->march.walk(work->march.context, batch->walks, count, &options);
 }
 
+/* Memory of what is read next comes while the others are read. */
+static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch, uint32_t count)
+{
+    const MesoTriangulation *mesh = work->ground->mesh;
+    for (uint32_t i = 0; i < count; i++)
+        __builtin_prefetch(&mesh->corners[3 * (size_t)batch->walks[i].tip.triangle]);
+    for (uint32_t i = 0; work->uses_space && i < batch->piece_count; i++) {
+        uint32_t head = work->space.heads[batch->pieces[i].triangle];
+        if (head != MESO_NO_INDEX) {
+            __builtin_prefetch(&work->space.blocks[head]);
+            __builtin_prefetch(&work->space.blocks[head].y0);
+            __builtin_prefetch(&work->space.blocks[head].element);
+        }
+    }
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t vertex = mesh->corners[3 * (size_t)batch->walks[i].tip.triangle + k];
+            __builtin_prefetch(&mesh->positions[vertex]);
+            __builtin_prefetch(&work->ground->normals[vertex]);
+        }
+}
+
 void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
 {
     const uint32_t *active = work->active + work->window_begin;
@@ -129,6 +152,7 @@ void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begi
     walk_all(work, batch, count, with_pieces);
     for (uint32_t i = 0; i < count; i++)
         meso_growth_keep_pieces(batch, &work->turns[batch->walkers[i]], i);
+    fetch_ahead(work, batch, count);
     for (uint32_t i = 0; i < count && !batch->failed; i++)
         judge(work, batch, active[batch->walkers[i]], &work->turns[batch->walkers[i]], &batch->walks[i]);
 }

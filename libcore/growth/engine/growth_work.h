@@ -16,12 +16,18 @@ enum { MESO_GROWTH_BATCH = 256 };
 /* Most spans of a step. */
 enum { MESO_GROWTH_SPANS = 8 };
 
+/* A point of the surface in space. */
+typedef struct MesoGrowthFooting {
+    MesoVec3 position, normal;
+    MesoVec3 x, y;              /* the frame of its triangle */
+} MesoGrowthFooting;
+
 /* A living branch. */
 typedef struct MesoGrowthTip {
     MesoTip at;
     MesoGrowthRun run;
     double state[MESO_STATE_COUNT];
-    MesoVec3 position, normal;  /* of the surface there */
+    MesoGrowthFooting foot;     /* of `at`, but for its heading */
     MesoVec3 arrive;            /* how its last step came; 0 where there was none */
     uint32_t branch, rule;      /* rule: MESO_NO_INDEX before the first */
     uint32_t joint;             /* that its next step begins at; MESO_NO_INDEX: its own */
@@ -61,7 +67,8 @@ typedef struct MesoGrowthTurn {
     float ball[4];              /* center and radius of all that the turn depends on */
     struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
     uint32_t piece_begin, piece_count, shoot_begin, shoot_count;
-    MesoVec3 position, normal, arrive;  /* at the end */
+    MesoGrowthFooting foot;     /* of `end` */
+    MesoVec3 arrive;
     MesoJoint from, to;
     MesoJoint before;           /* the joint that the branch had, where `from` is another */
     float lift, roll;           /* at the end */
@@ -132,6 +139,12 @@ typedef struct MesoGrowthWork {
     MesoError *error;
 } MesoGrowthWork;
 
+/* ---- growth.c ---- */
+
+/* All of it; what has grown stays in `work`, which is to be released. */
+MesoStatus meso_growth_run(MesoGrowthWork *work, const MesoGrowthOptions *options, MesoError *error);
+void meso_growth_release(MesoGrowthWork *work);
+
 /* ---- growth_try.c: turns ---- */
 
 /* Of tips active[begin..end), into the window's turns from `begin` on. */
@@ -197,7 +210,7 @@ bool meso_growth_steps_avoid(const MesoGrammar *grammar);
 /* Joints at both ends of what a turn makes. */
 void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn);
 
-MesoVec3 meso_growth_direction_in_space(const MesoGrowthGround *ground, uint32_t triangle, MesoComplex direction);
+MesoGrowthFooting meso_growth_foot(const MesoGrowthGround *ground, const MesoTip *at);
 
 /* ---- growth_accept.c ---- */
 

@@ -187,6 +187,56 @@ static MesoStatus make_vertices(Showing *s, MesoArena *arena, MesoArena *scratch
     return MESO_OK;
 }
 
+/* ---- the box ---- */
+
+enum { BOX_GRAIN = 1 << 16, BOX_LANES = 12 };
+
+typedef struct Measuring {
+    const MesoVec3 *positions;
+    MesoBox *boxes;             /* [one a range] */
+} Measuring;
+
+/* Four points at a time. */
+static void measure_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Measuring *measuring = context;
+    const float *p = &measuring->positions[begin].x, *stop = p + 3 * (end - begin);
+    MesoBox box = meso_box_empty();
+    float low[BOX_LANES], high[BOX_LANES];
+    for (uint32_t i = 0; i < BOX_LANES; i++) {
+        low[i] = INFINITY;
+        high[i] = -INFINITY;
+    }
+    for (; stop - p >= BOX_LANES; p += BOX_LANES)
+        for (uint32_t i = 0; i < BOX_LANES; i++) {
+            low[i] = p[i] < low[i] ? p[i] : low[i];
+            high[i] = p[i] > high[i] ? p[i] : high[i];
+        }
+    for (; p < stop; p += 3)
+        meso_box_add(&box, (MesoVec3){p[0], p[1], p[2]});
+    for (uint32_t i = 0; i < BOX_LANES && end - begin >= BOX_LANES / 3; i += 3) {
+        meso_box_add(&box, (MesoVec3){low[i], low[i + 1], low[i + 2]});
+        meso_box_add(&box, (MesoVec3){high[i], high[i + 1], high[i + 2]});
+    }
+    measuring->boxes[begin / BOX_GRAIN] = box;
+}
+
+static MesoStatus measure(MesoScene *scene, const Showing *s, MesoArena *scratch, uint32_t thread_count,
+                          MesoError *error)
+{
+    size_t total = s->vertex_begin[s->shapes->count], ranges = total / BOX_GRAIN + 1;
+    Measuring measuring = {s->positions, MESO_NEW(scratch, MesoBox, ranges, error)};
+    scene->box = meso_box_empty();
+    if (!measuring.boxes)
+        return MESO_ERR_MEMORY;
+    meso_parallel_for(thread_count, total, BOX_GRAIN, measure_range, &measuring);
+    for (size_t i = 0; i * BOX_GRAIN < total; i++) {
+        meso_box_add(&scene->box, measuring.boxes[i].low);
+        meso_box_add(&scene->box, measuring.boxes[i].high);
+    }
+    return MESO_OK;
+}
+
 /* ---- the scene ---- */
 
 static MesoBody body_of(const Showing *s, const Run *run)
@@ -270,6 +320,8 @@ static MesoStatus show(MesoScene *scene, Showing *s, MesoArena *arena, MesoArena
     if (!status)
         status = make_vertices(s, arena, scratch, thread_count, folds, error);
     if (!status)
+        status = measure(scene, s, scratch, thread_count, error);
+    if (!status)
         status = set_bodies(scene, s, arena, error);
     if (!status)
         status = set_channels(scene, s, arena, error);
@@ -289,7 +341,5 @@ MesoStatus meso_growth_show(MesoScene *scene, MesoArena *arena, const MesoGrown 
     meso_arena_init(&scratch);
     MesoStatus status = show(scene, &showing, arena, &scratch, thread_count, folds, error);
     meso_arena_release(&scratch);
-    if (!status)
-        meso_scene_measure(scene);
     return status;
 }
