@@ -32,6 +32,11 @@ static void test_arena(void)
     CHECK(again == scratch);
     for (int i = 0; i < 2000; i++)
         CHECK(again[i] == 0);
+    mark = meso_arena_mark(&arena);
+    CHECK(meso_arena_adopt(&arena, malloc(100), &error) && meso_arena_adopt(&arena, malloc(1), &error));
+    memset(MESO_NEW(&arena, char, 50, &error), 1, 50);
+    meso_arena_rewind(&arena, mark);
+    CHECK(meso_arena_adopt(&arena, malloc(1), &error));
     CHECK(strcmp(meso_arena_print(&arena, &error, "%d-%s", 7, "x"), "7-x") == 0);
     meso_arena_release(&arena);
     CHECK(arena.head == NULL && arena.used == 0);

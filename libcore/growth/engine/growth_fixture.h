@@ -54,16 +54,19 @@ static inline void meso_scenery_read(MesoGrowthScenery *scenery, const char *tex
                                              .fields = fields, .noise = 1};
 }
 
+/* The seeds of the grammar in turn. */
 static inline void meso_scenery_strew(MesoGrowthScenery *scenery, uint32_t count, uint64_t seed)
 {
     MesoRandom random;
     meso_random_init(&random, seed, 0);
     scenery->starts = (MesoGrowthStarts){count, MESO_NEW(&scenery->arena, MesoGrowthStart, count, NULL)};
     CHECK(scenery->starts.starts);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t of = i % scenery->grammar.seed_count;
         scenery->starts.starts[i] = (MesoGrowthStart){
-            meso_fixture_tip(&scenery->ground.walk, &random), 0,
-            meso_growth_seed_key(seed, scenery->grammar.seeds[0].site, i)};
+            meso_fixture_tip(&scenery->ground.walk, &random), of,
+            meso_growth_seed_key(seed, scenery->grammar.seeds[of].site, i)};
+    }
 }
 
 static inline MesoGrowthOptions meso_scenery_options(const MesoGrowthScenery *scenery, uint32_t thread_count)

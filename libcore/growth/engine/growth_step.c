@@ -3,9 +3,6 @@
 #include "libcore/growth/engine/growth_work.h"
 #include "libcore/growth/language/grammar_draw.h"
 
-/* Crossings of a step: where a mesh has no area walks may stand still. */
-enum { CROSSINGS = 1 << 16 };
-
 /* Conditions hold at this many places of a step at least, and wherever it goes from triangle to triangle. */
 enum { PLACES = 8 };
 
@@ -54,7 +51,7 @@ void meso_growth_keep_pieces(MesoGrowthBatch *batch, MesoGrowthTurn *turn, uint3
 
 MesoWalk meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk walk, MesoGrowthTurn *turn)
 {
-    MesoWalkOptions options = {CROSSINGS, turn ? meso_growth_collect : NULL, batch};
+    MesoWalkOptions options = {MESO_GROWTH_CROSSINGS, turn ? meso_growth_collect : NULL, batch};
     batch->linked_count = 0;
     batch->first[0] = batch->last[0] = MESO_NO_INDEX;
     work->march.walk(work->march.context, &walk, 1, &options);

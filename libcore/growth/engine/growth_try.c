@@ -99,7 +99,7 @@ static void judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t n
 /* Pieces of all walks, each walk's together; they are asked for what lies where they are soon. */
 static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count, bool with_pieces)
 {
-    MesoWalkOptions options = {1 << 16, with_pieces ? meso_growth_collect : NULL, batch};
+    MesoWalkOptions options = {MESO_GROWTH_CROSSINGS, with_pieces ? meso_growth_collect : NULL, batch};
     batch->linked_count = 0;
     for (uint32_t i = 0; i < count; i++)
         batch->first[i] = batch->last[i] = MESO_NO_INDEX;

@@ -13,8 +13,8 @@
 /* Branches that one thread tries at a time. */
 enum { MESO_GROWTH_BATCH = 256 };
 
-/* Most spans of a step. */
-enum { MESO_GROWTH_SPANS = 8 };
+/* Sides that a step may cross: where a mesh has no area walks may stand still. */
+enum { MESO_GROWTH_CROSSINGS = 1 << 14 };
 
 /* A point of the surface in space. */
 typedef struct MesoGrowthFooting {
@@ -139,7 +139,7 @@ typedef struct MesoGrowthWork {
     MesoError *error;
 } MesoGrowthWork;
 
-/* ---- growth.c ---- */
+/* ---- growth_rounds.c ---- */
 
 /* All of it; what has grown stays in `work`, which is to be released. */
 MesoStatus meso_growth_run(MesoGrowthWork *work, const MesoGrowthOptions *options, MesoError *error);
