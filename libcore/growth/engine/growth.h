@@ -74,6 +74,9 @@ typedef struct MesoGrown {
     uint32_t generation_count;
     double length;                      /* of all steps */
     MesoGrowthEnd end;
+    uint64_t divided;                   /* steps that are several elements, since one would be below the surface */
+    uint64_t raised;                    /* elements that are raised for that */
+    float depth;                        /* of the deepest axis below the surface, as a share of its element's length */
 } MesoGrown;
 
 /*

@@ -80,6 +80,7 @@ static bool begin_branches(MesoGrowthWork *work, uint32_t number, const MesoGrow
         tip.branch = work->branch_count;
         tip.joint = MESO_NO_INDEX;
         tip.arrive = (MesoVec3){0, 0, 0};
+        tip.raise = 0;
         tip.walks = tip.faces = 0;
         tip.done = true;
         tip.rests = tip.ended = false;
@@ -153,6 +154,27 @@ static void go_to(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
     tip->state[MESO_STATE_Z] = turn->foot.position.z;
 }
 
+static void note_depth(MesoGrowthWork *work, const MesoGrowthTurn *turn)
+{
+    work->depth = turn->depth > work->depth ? turn->depth : work->depth;
+    work->divided += turn->middle_count > 0;
+    work->raised += turn->raise > 0;
+}
+
+/* Elements from joint to joint of a step, which begins at the joint `from`; the last joint, or MESO_NO_INDEX. */
+static uint32_t add_spans(MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t from)
+{
+    const MesoGrowthMiddle *middles = turn->batch->middles + turn->middle_begin;
+    uint32_t spans = turn->middle_count + 1;
+    for (uint32_t i = 0; i < spans && from != MESO_NO_INDEX; i++) {
+        bool last = i + 1 == spans;
+        uint32_t to = add_joint(work, last ? turn->to : middles[i].joint, last ? &turn->end : &middles[i].at);
+        double length = tip->state[MESO_STATE_LENGTH] + turn->length * (i + 1) / spans;
+        from = to != MESO_NO_INDEX && add_element(work, tip, turn, (MesoSpan){from, to}, length) ? to : MESO_NO_INDEX;
+    }
+    return from;
+}
+
 static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 {
     uint32_t from = tip->joint;
@@ -162,11 +184,10 @@ static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrow
         work->joints[from] = turn->before;
     if (!turn->shares)
         from = add_joint(work, turn->from, &tip->at);
-    uint32_t to = from == MESO_NO_INDEX ? MESO_NO_INDEX : add_joint(work, turn->to, &turn->end);
-    double length = tip->state[MESO_STATE_LENGTH] + turn->length;
-    if (to == MESO_NO_INDEX || !occupy(work, tip, turn) ||
-        !add_element(work, tip, turn, (MesoSpan){from, to}, length))
+    uint32_t to = add_spans(work, tip, turn, from);
+    if (to == MESO_NO_INDEX || !occupy(work, tip, turn))
         return fail_memory(work);
+    note_depth(work, turn);
     counts_of(work, tip)->steps++;
     work->length += turn->length;
     tip->node = work->space.kin_count - 1;
@@ -176,6 +197,7 @@ static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrow
     tip->state[MESO_STATE_WIDTH] = turn->to.width;
     tip->lift = turn->lift;
     tip->roll = turn->roll;
+    tip->raise = turn->raise;
     tip->open = !(turn->command.given >> MESO_GROWTH_END_WIDTH & 1);
     tip->moved = false;
     go_to(tip, turn);
@@ -190,6 +212,7 @@ static bool accept_place(MesoGrowthWork *work, const MesoGrowthTip *tip, const M
     if (to == MESO_NO_INDEX || !occupy(work, tip, turn) ||
         !add_element(work, tip, turn, (MesoSpan){from, to}, tip->state[MESO_STATE_LENGTH]))
         return fail_memory(work);
+    note_depth(work, turn);
     counts_of(work, tip)->placed++;
     return true;
 }
@@ -199,6 +222,7 @@ static void accept_move(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
     go_to(tip, turn);
     tip->joint = MESO_NO_INDEX;
     tip->arrive = (MesoVec3){0, 0, 0};
+    tip->raise = 0;
     tip->moved |= turn->length > 0;
 }
 
@@ -269,7 +293,7 @@ static void bring_up_to_date(MesoGrowthWork *work, uint32_t number)
 static bool fits(MesoGrowthWork *work, const MesoGrowthTurn *turn)
 {
     bool grows = is_step(turn) || turn->outcome == MESO_GROWTH_PLACES;
-    if (grows && !(work->element_count < work->element_limit))
+    if (grows && !(work->element_count + turn->middle_count < work->element_limit))
         return stop_at(work, MESO_GROWTH_ELEMENTS);
     if (is_step(turn) && work->length + turn->length > work->length_limit)
         return stop_at(work, MESO_GROWTH_LENGTH);

@@ -69,8 +69,21 @@ static MesoJoint joint_of(const MesoGrowthFooting *foot, MesoVec3 in, MesoVec3 o
                        foot->normal, width, 0};
 }
 
+MesoJoint meso_growth_joint_on(const MesoGrowthGround *ground, const MesoTip *at, float width, float lift, float roll)
+{
+    MesoGrowthFooting foot = meso_growth_foot(ground, at);
+    return rolled(joint_of(&foot, nowhere, laid_flat(in_space(&foot, at->heading), foot.normal), width, lift), roll);
+}
+
+/* Whether a shape is the same all along, so that several of it are one. */
+static bool is_alike_along(const MesoGrammar *grammar, uint32_t shape)
+{
+    return shape == MESO_NO_INDEX || grammar->shapes[shape].kind == MESO_SHAPE_TUBE ||
+           grammar->shapes[shape].kind == MESO_SHAPE_SECTION;
+}
+
 /* Where a step's own width begins with another than the joint has, it has a joint of its own in the same place. */
-static void join_step(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 out)
+static void join_step(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 out)
 {
     const MesoGrowthCommand *command = &turn->command;
     bool has = tip->joint != MESO_NO_INDEX;
@@ -81,12 +94,13 @@ static void join_step(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 o
     turn->lift = lift;
     turn->roll = roll;
     turn->shares = has && (width == had || (tip->open && tip->shape == command->shape));
-    turn->from = rolled(joint_of(&tip->foot, tip->arrive, out, width, lift_from), roll_from);
+    turn->from = rolled(joint_of(&tip->foot, tip->arrive, out, width, lift_from + (has ? tip->raise : 0)), roll_from);
+    turn->to = rolled(joint_of(&turn->foot, turn->arrive, nowhere, width_to(command, width), lift), roll);
+    meso_growth_surface(work, tip, turn, is_alike_along(work->grammar, command->shape), lift_from, roll_from);
     if (has && !turn->shares) {
         turn->before = turn->from;
         turn->before.width = had;
     }
-    turn->to = rolled(joint_of(&turn->foot, turn->arrive, nowhere, width_to(command, width), lift), roll);
 }
 
 /* Turns a vector about a unit axis. */
@@ -111,7 +125,8 @@ static void tilt(MesoGrowthTurn *turn, float angle)
     }
 }
 
-static void join_place(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 out)
+/* Placed shapes are raised for themselves alone. */
+static void join_place(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 out)
 {
     const MesoGrowthCommand *command = &turn->command;
     float width = width_from(command, turn->length), lift = (float)command->values[MESO_GROWTH_LIFT];
@@ -119,14 +134,20 @@ static void join_place(const MesoGrowthTip *tip, MesoGrowthTurn *turn, MesoVec3 
     turn->from = joint_of(&tip->foot, nowhere, out, width, lift);
     turn->to = joint_of(&turn->foot, turn->arrive, nowhere, width_to(command, width), lift);
     turn->to.position = meso_vec3_mad(turn->to.position, (float)turn->rest, turn->arrive);
-    if (angle != 0)
+    if (angle != 0) {
         tilt(turn, angle);
+    } else {
+        MesoGrowthTip apart = *tip;
+        apart.raise = 0;
+        meso_growth_surface(work, &apart, turn, false, lift, roll);
+    }
     turn->from = rolled(turn->from, roll);
     turn->to = rolled(turn->to, roll);
 }
 
 void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn)
 {
+    turn->middle_count = 0;
     turn->foot = meso_growth_foot(work->ground, &turn->end);
     if (turn->outcome == MESO_GROWTH_MOVES)
         return;
@@ -136,7 +157,7 @@ void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, Meso
     MesoVec3 out = laid_flat(in_space(&tip->foot, start.heading), tip->foot.normal);
     turn->arrive = laid_flat(in_space(&turn->foot, turn->end.heading), turn->foot.normal);
     if (turn->outcome == MESO_GROWTH_PLACES)
-        join_place(tip, turn, out);
+        join_place(work, tip, turn, out);
     else
-        join_step(tip, turn, out);
+        join_step(work, tip, turn, out);
 }

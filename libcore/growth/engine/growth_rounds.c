@@ -75,6 +75,7 @@ static void release_batch(MesoGrowthBatch *batch)
     free(batch->pieces);
     free(batch->linked);
     free(batch->shoots);
+    free(batch->middles);
     free(batch->registers);
     meso_growth_seen_release(&batch->seen);
 }
@@ -106,7 +107,7 @@ static bool run_window(MesoGrowthWork *work, uint32_t begin_at, uint32_t count)
     work->window_begin = begin_at;
     work->since = work->space.kin_count;
     work->ball_count = 0;
-    again->piece_count = again->shoot_count = 0;
+    again->piece_count = again->shoot_count = again->middle_count = 0;
     meso_parallel_for(work->thread_count, count, MESO_GROWTH_BATCH, try_batches, work);
     for (uint32_t i = 0; i < count; i++)
         if (!meso_growth_accept(work, i))
@@ -223,7 +224,8 @@ static MesoStatus finish(MesoGrowthWork *work, MesoGrown *grown, MesoArena *aren
 {
     *grown = (MesoGrown){.joint_count = work->joint_count, .element_count = work->element_count,
                          .branch_count = work->branch_count, .generation_count = (uint32_t)work->generation,
-                         .length = work->length, .end = work->end};
+                         .length = work->length, .end = work->end, .divided = work->divided,
+                         .raised = work->raised, .depth = work->depth};
     bool kept = KEEP(joints) && KEEP(points) && KEEP(elements) && KEEP(branches) && KEEP(rules);
     return kept ? MESO_OK : MESO_ERR_MEMORY;
 }

@@ -97,9 +97,9 @@ static void judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t n
 }
 
 /* Pieces of all walks, each walk's together; they are asked for what lies where they are soon. */
-static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count, bool with_pieces)
+static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count)
 {
-    MesoWalkOptions options = {MESO_GROWTH_CROSSINGS, with_pieces ? meso_growth_collect : NULL, batch};
+    MesoWalkOptions options = {MESO_GROWTH_CROSSINGS, meso_growth_collect, batch};
     batch->linked_count = 0;
     for (uint32_t i = 0; i < count; i++)
         batch->first[i] = batch->last[i] = MESO_NO_INDEX;
@@ -132,8 +132,7 @@ void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begi
 {
     const uint32_t *active = work->active + work->window_begin;
     uint32_t count = 0;
-    bool with_pieces = work->uses_space;
-    batch->piece_count = batch->shoot_count = 0;
+    batch->piece_count = batch->shoot_count = batch->middle_count = 0;
     for (uint32_t i = begin; i < end; i++) {
         MesoGrowthTurn *turn = &work->turns[i];
         MesoGrowthTip *tip = &work->tips[active[i]];
@@ -145,11 +144,10 @@ void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begi
         run_rule(work, batch, tip, registers_of(work, active[i]), turn);
         if (!walks(turn))
             continue;
-        with_pieces |= turn->command.condition != MESO_NO_INDEX;
         batch->walks[count] = meso_growth_walk_of(tip, turn, 0);
         batch->walkers[count++] = i;
     }
-    walk_all(work, batch, count, with_pieces);
+    walk_all(work, batch, count);
     for (uint32_t i = 0; i < count; i++)
         meso_growth_keep_pieces(batch, &work->turns[batch->walkers[i]], i);
     fetch_ahead(work, batch, count);

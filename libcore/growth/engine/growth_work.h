@@ -34,6 +34,7 @@ typedef struct MesoGrowthTip {
     uint32_t node, shape;       /* shape: of its last step */
     uint32_t walks, faces;      /* of this run of a rule, so far */
     float lift, roll;           /* at its joint */
+    float raise;                /* of its joint, over its lift: so that its last shape is not below the surface */
     bool moved;                 /* away from its node */
     bool open;                  /* the last step did not say its width at its end */
     bool done;                  /* whether the last command could be */
@@ -72,8 +73,16 @@ typedef struct MesoGrowthTurn {
     MesoJoint from, to;
     MesoJoint before;           /* the joint that the branch had, where `from` is another */
     float lift, roll;           /* at the end */
+    float raise;                /* over them */
+    float depth;                /* below the surface, as a share of its length, that is left */
+    uint32_t middle_begin, middle_count;    /* joints between, of a step that is several elements */
     bool shares;                /* `from` is the joint that the branch had */
 } MesoGrowthTurn;
+
+typedef struct MesoGrowthMiddle {
+    MesoJoint joint;
+    MesoTip at;
+} MesoGrowthMiddle;
 
 typedef struct MesoGrowthLinkedPiece {
     MesoGrowthPiece piece;
@@ -86,6 +95,8 @@ typedef struct MesoGrowthBatch {
     MesoGrowthLinkedPiece *linked;      /* of walks under way */
     MesoGrowthShoot *shoots;
     double *registers;          /* [shoot_count * local_count] of shoots */
+    MesoGrowthMiddle *middles;
+    uint32_t middle_count, middle_room;
     uint32_t piece_count, piece_room, linked_count, linked_room, shoot_count, shoot_room, register_room;
     uint32_t first[MESO_GROWTH_BATCH], last[MESO_GROWTH_BATCH];     /* linked pieces of each walk */
     MesoWalk walks[MESO_GROWTH_BATCH];
@@ -133,6 +144,8 @@ typedef struct MesoGrowthWork {
     MesoGrowthRuleCount *rules;
     uint32_t joint_count, joint_room, point_room, element_count, element_room, branch_count, branch_room;
     double length;
+    float depth;
+    uint64_t divided, raised;
     bool stops;                 /* at a limit: see `end` */
     MesoGrowthEnd end;
     MesoStatus status;
@@ -211,6 +224,15 @@ bool meso_growth_steps_avoid(const MesoGrammar *grammar);
 void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn);
 
 MesoGrowthFooting meso_growth_foot(const MesoGrowthGround *ground, const MesoTip *at);
+
+/* A joint on a straight way over a point. */
+MesoJoint meso_growth_joint_on(const MesoGrowthGround *ground, const MesoTip *at, float width, float lift, float roll);
+
+/* ---- growth_depth.c ---- */
+
+/* Divides a step, or raises a shape, where it would be below the surface. `lift` and `roll` are those it begins with. */
+void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, bool divides,
+                         float lift, float roll);
 
 /* ---- growth_accept.c ---- */
 

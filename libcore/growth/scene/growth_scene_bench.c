@@ -83,7 +83,7 @@ int main(int argc, char **argv)
     printf("tube %u vertices %u faces\n", shape.body.vertex_count, shape.body.face_count);
     for (int big = 0; big < (getenv("N") ? 1 : 2); big++) {
         MesoGrowthScenery scenery = {0};
-        meso_scenery_init(&scenery, big ? meso_fixture_bumpy_torus(640, 256) : meso_fixture_bumpy_torus(250, 100));
+        meso_scenery_init(&scenery, big ? meso_fixture_torus(640, 256, 0.4f) : meso_fixture_torus(250, 100, 0.4f));
         for (uint32_t threads = 1; threads <= (getenv("THREADS") ? (uint32_t)atoi(getenv("THREADS")) : 2); threads++) {
             measure("crossing", &scenery, &shape, ", cross: true", "", getenv("N") ? (uint32_t)atoi(getenv("N")) : 250000, getenv("PACE") ? atof(getenv("PACE")) : 0.008, threads, true);
             measure("exact", &scenery, &shape, "", " else retry(3, 70 deg)", getenv("N") ? (uint32_t)atoi(getenv("N")) : 250000, getenv("PACE") ? atof(getenv("PACE")) : 0.008, threads, true);

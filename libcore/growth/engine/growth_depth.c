@@ -1,0 +1,238 @@
+/*
+ * Curves that would go below the surface. Where the axis of an element lies deeper than a hundredth of its length, a
+ * step whose shape is one all along is divided, with joints on the surface between, and what is still deeper is raised:
+ * triangles are flat, but curves follow the smooth normals.
+ */
+#include "libcore/growth/engine/growth_work.h"
+
+enum { COARSE = 24, SAMPLES = 64, MOST_SPANS = 8 };
+
+/* Of an element's length; less than a hundredth, since what lies between the points, or beside the curve, counts too. */
+static const float tolerance = 0.005f;
+
+/* What is not deeper than this is raised at once. */
+static const float shallow = 0.03f;
+
+/* A point of the way. */
+typedef struct Sample {
+    MesoVec3 position;
+    float along;
+} Sample;
+
+typedef struct Curve {
+    MesoVec3 p[4], normals[2];
+    float begin, end;           /* along the way */
+} Curve;
+
+static MesoVec3 point_of(const MesoGrowthGround *ground, uint32_t triangle, MesoComplex at)
+{
+    double weight[3];
+    meso_growth_weigh(&ground->walk, triangle, at, weight);
+    return meso_growth_position(ground, triangle, weight);
+}
+
+static float length_of(const MesoGrowthPiece *piece)
+{
+    float x = (float)(piece->ends[1].re - piece->ends[0].re), y = (float)(piece->ends[1].im - piece->ends[0].im);
+    return sqrtf(x * x + y * y);
+}
+
+static Sample sample_at(const MesoGrowthWork *work, const MesoGrowthPiece *piece, double share, float along)
+{
+    MesoComplex a = piece->ends[0], by = {piece->ends[1].re - a.re, piece->ends[1].im - a.im};
+    MesoComplex at = {a.re + share * by.re, a.im + share * by.im};
+    return (Sample){point_of(work->ground, piece->triangle, at), along + (float)share * length_of(piece)};
+}
+
+/* Ends of pieces, or of some, and points between. */
+static uint32_t sample_finely(const MesoGrowthWork *work, const MesoGrowthTurn *turn, Sample samples[SAMPLES])
+{
+    const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin;
+    uint32_t count = 0, stride = turn->piece_count / SAMPLES + 1, parts = SAMPLES / turn->piece_count;
+    float along = 0;
+    for (uint32_t i = 0; i < turn->piece_count; i++) {
+        for (uint32_t k = 1; i % stride == 0 && k <= parts + !parts && count < SAMPLES; k++)
+            samples[count++] = sample_at(work, &pieces[i], (double)k / (parts + !parts), along);
+        along += length_of(&pieces[i]);
+    }
+    return count;
+}
+
+static MesoVec3 in_frame(const MesoGrowthFooting *foot, MesoComplex from, MesoComplex to, float share)
+{
+    MesoVec3 p = meso_vec3_mad(foot->position, share * (float)(to.re - from.re), foot->x);
+    return meso_vec3_mad(p, share * (float)(to.im - from.im), foot->y);
+}
+
+/* The middles of the first piece and the last, and ends between: in their triangles' frames, where these are all. */
+static uint32_t sample_coarsely(const MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn,
+                                Sample samples[COARSE])
+{
+    const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin, *first = pieces;
+    const MesoGrowthPiece *last = &pieces[turn->piece_count - 1];
+    float along = length_of(first), total = (float)turn->length;
+    uint32_t count = 0, stride = turn->piece_count / (COARSE - 2) + 1;
+    samples[count++] = (Sample){in_frame(&tip->foot, first->ends[0], first->ends[1], 0.5f), 0.5f * along};
+    if (turn->piece_count == 1)
+        return count;
+    samples[count++] = (Sample){in_frame(&tip->foot, first->ends[0], first->ends[1], 1), along};
+    for (uint32_t i = 1; i + 1 < turn->piece_count; i++) {
+        if (i % stride == 0)
+            samples[count++] = sample_at(work, &pieces[i], 1, along);
+        along += length_of(&pieces[i]);
+    }
+    samples[count++] = (Sample){in_frame(&turn->foot, last->ends[1], last->ends[0], 0.5f), 0.5f * (along + total)};
+    return count;
+}
+
+/* As bend.h has it. */
+static Curve curve_between(const MesoJoint *from, const MesoJoint *to, float begin, float end)
+{
+    MesoVec3 chord = meso_vec3_sub(to->position, from->position);
+    float length = meso_vec3_length(chord), inverse = length > 0 ? 1 / length : 0;
+    float first = meso_vec3_dot(from->tangent, chord) * inverse, last = meso_vec3_dot(to->tangent, chord) * inverse;
+    float reach = length * (2.0f / 3), a = reach / (1 + (first > 0 ? first : 0)), b = reach / (1 + (last > 0 ? last : 0));
+    return (Curve){{from->position, meso_vec3_mad(from->position, a, from->tangent),
+                    meso_vec3_mad(to->position, -b, to->tangent), to->position},
+                   {from->normal, to->normal}, begin, end};
+}
+
+static MesoVec3 curve_point(const Curve *curve, float t)
+{
+    float r = 1 - t;
+    MesoVec3 p = meso_vec3_scale(curve->p[0], r * r * r);
+    p = meso_vec3_mad(p, 3 * r * r * t, curve->p[1]);
+    p = meso_vec3_mad(p, 3 * r * t * t, curve->p[2]);
+    return meso_vec3_mad(p, t * t * t, curve->p[3]);
+}
+
+/* How deep a curve lies below those of the points that are beside it. */
+static float depth_of(const Curve *curve, const Sample *samples, uint32_t count)
+{
+    float deepest = 0, length = curve->end - curve->begin;
+    for (uint32_t i = 0; i < count; i++) {
+        float t = length > 0 ? (samples[i].along - curve->begin) / length : 2;
+        if (!(t > 0 && t < 1))
+            continue;
+        MesoVec3 normal = meso_vec3_lerp(curve->normals[0], curve->normals[1], t);
+        MesoVec3 up = meso_vec3_sub(samples[i].position, curve_point(curve, t));
+        float square = meso_vec3_dot(normal, normal);
+        float depth = square > 0.01f ? meso_vec3_dot(up, normal) / sqrtf(square) : 0;
+        deepest = depth > deepest ? depth : deepest;
+    }
+    return deepest;
+}
+
+/* ---- joints between ---- */
+
+/* Where the way is at a distance from its begin. */
+static MesoTip tip_along(const MesoGrowthWork *work, const MesoGrowthTurn *turn, float along)
+{
+    const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin, *piece = pieces;
+    for (uint32_t i = 0; i + 1 < turn->piece_count && along > length_of(piece); i++)
+        along -= length_of(piece++);
+    MesoComplex a = piece->ends[0], by = {piece->ends[1].re - a.re, piece->ends[1].im - a.im};
+    double length = length_of(piece), share = length > 0 ? fmin(along / length, 1) : 0;
+    MesoTip tip = {.triangle = piece->triangle, .turned = piece->turned, .heading = meso_complex_unit(by)};
+    meso_growth_weigh(&work->ground->walk, tip.triangle, (MesoComplex){a.re + share * by.re, a.im + share * by.im},
+                      tip.weight);
+    return tip;
+}
+
+static float mix(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+
+/* Joints of the way at equal distances, `count` of them. */
+static bool make_middles(const MesoGrowthWork *work, MesoGrowthTurn *turn, float lift, float roll, uint32_t count)
+{
+    MesoGrowthBatch *batch = turn->batch;
+    batch->middle_count = turn->middle_begin;
+    if (!meso_make_room((void **)&batch->middles, &batch->middle_room, (uint64_t)batch->middle_count + count,
+                        sizeof *batch->middles)) {
+        batch->failed = true;
+        return false;
+    }
+    for (uint32_t k = 1; k <= count; k++) {
+        float t = (float)k / (float)(count + 1);
+        MesoGrowthMiddle *middle = &batch->middles[batch->middle_count++];
+        middle->at = tip_along(work, turn, t * (float)turn->length);
+        middle->joint = meso_growth_joint_on(work->ground, &middle->at, mix(turn->from.width, turn->to.width, t),
+                                             mix(lift, turn->lift, t), mix(roll, turn->roll, t));
+    }
+    turn->middle_count = count;
+    return true;
+}
+
+/* Of all spans, as a share of their length. */
+static float depth_of_spans(const MesoGrowthTurn *turn, const Sample *samples, uint32_t count)
+{
+    const MesoGrowthMiddle *middles = turn->batch->middles + turn->middle_begin;
+    uint32_t spans = turn->middle_count + 1;
+    float length = (float)turn->length / (float)spans, deepest = 0;
+    for (uint32_t i = 0; i < spans; i++) {
+        const MesoJoint *from = i == 0 ? &turn->from : &middles[i - 1].joint;
+        const MesoJoint *to = i + 1 == spans ? &turn->to : &middles[i].joint;
+        Curve curve = curve_between(from, to, length * (float)i, length * (float)(i + 1));
+        float depth = depth_of(&curve, samples, count) / length;
+        deepest = depth > deepest ? depth : deepest;
+    }
+    return deepest;
+}
+
+/* ---- turns ---- */
+
+static void raise_joint(MesoJoint *joint, float by)
+{
+    joint->position = meso_vec3_mad(joint->position, by, joint->normal);
+}
+
+static void raise_all(const MesoGrowthTip *tip, MesoGrowthTurn *turn, float by)
+{
+    MesoGrowthMiddle *middles = turn->batch->middles + turn->middle_begin;
+    turn->raise += by;
+    if (turn->raise > tip->raise)
+        raise_joint(&turn->from, fminf(by, turn->raise - tip->raise));
+    for (uint32_t i = 0; i < turn->middle_count; i++)
+        raise_joint(&middles[i].joint, by);
+    raise_joint(&turn->to, by);
+}
+
+/* Raised, a curve may still be deep where only its other end was: so twice. */
+static void bring_up(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, bool divides,
+                     float lift, float roll)
+{
+    Sample samples[SAMPLES];
+    uint32_t count = sample_finely(work, turn, samples);
+    turn->depth = depth_of_spans(turn, samples, count);
+    for (uint32_t spans = 2; divides && turn->depth > tolerance && spans <= MOST_SPANS; spans *= 2) {
+        if (!make_middles(work, turn, lift, roll, spans - 1))
+            return;
+        turn->depth = depth_of_spans(turn, samples, count);
+    }
+    for (int pass = 0; pass < 2 && turn->depth > tolerance; pass++) {
+        raise_all(tip, turn, 1.25f * turn->depth * (float)turn->length / (float)(turn->middle_count + 1));
+        turn->depth = depth_of_spans(turn, samples, count);
+    }
+}
+
+void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, bool divides,
+                         float lift, float roll)
+{
+    Sample samples[COARSE];
+    turn->middle_begin = turn->batch->middle_count;
+    turn->middle_count = 0;
+    turn->raise = turn->depth = 0;
+    float flat = meso_vec3_dot(tip->foot.normal, turn->foot.normal);
+    if (turn->piece_count == 0 || (turn->piece_count == 1 && flat > 0.9998f))
+        return;
+    uint32_t count = sample_coarsely(work, tip, turn, samples);
+    turn->depth = depth_of_spans(turn, samples, count);
+    if (turn->depth > shallow)
+        bring_up(work, tip, turn, divides, lift, roll);
+    else if (turn->depth > tolerance) {
+        raise_all(tip, turn, 1.5f * turn->depth * (float)turn->length);
+        turn->depth = 0;
+    }
+}
