@@ -14,7 +14,7 @@
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
-#   bench-grow        walks over surfaces and marches through textures: rates and errors
+#   bench-grow        walks over surfaces and marches through textures: rates and errors; growth with its geometry
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -164,7 +164,8 @@ bench-decor: $(addprefix $(OUT)/test/libcore/,geodesic/geodesic_bench geodesic/g
 	@for bench in $^; do $$bench; done
 bench-quilt: $(OUT)/test/libcore/quilt/check/quilt_bench
 	@$< --check
-bench-grow: $(addprefix $(OUT)/test/libcore/,geodesic/transport/straight_walk_bench growth/march/texture_march_bench)
+bench-grow: $(addprefix $(OUT)/test/libcore/,geodesic/transport/straight_walk_bench growth/march/texture_march_bench \
+            growth/scene/growth_scene_bench)
 	@for bench in $^; do $$bench; done
 bench-exact: $(OUT)/test/libcore/geodesic/geodesic_bench
 	@$< --exact

@@ -52,7 +52,7 @@ typedef struct MesoGrowthBranch {
     uint64_t key;
     uint32_t parent;            /* MESO_NO_INDEX: it comes from a seed */
     uint32_t seed;              /* of the grammar */
-    uint32_t element_begin;     /* its first element; elements of a branch need not lie together */
+    uint32_t element_begin;     /* its first element, or MESO_NO_INDEX; elements of a branch need not lie together */
 } MesoGrowthBranch;
 
 typedef enum MesoGrowthEnd {
@@ -80,11 +80,23 @@ typedef struct MesoGrown {
 } MesoGrown;
 
 /*
- * Grows. Joints of consecutive steps of a branch are the same joint, and so meet in the same floats; a branch's first
- * step begins at a joint of its own. A step keeps `clear` from what has grown before within the part of the surface
- * that is joined to it within that distance, and crosses nothing; but what its own branch and its parent's joint made
- * just before. MESO_ERR_INPUT where a value is no number, by line; MESO_ERR_MEMORY. What has grown until a limit is
- * told by `end`, and is whole. O(elements * pieces that are near).
+ * Grows: what one branch after another would, each taking turns to its next step, move or placed shape, in the order of
+ * their ages, until the rules of a generation are done. So look-ups, too, see all that older branches have grown.
+ *
+ * A step crosses nothing that has grown, but what begins or ends where it begins, there; and keeps `clear` from it, in
+ * space, as far as the surface is joined to it within that distance: but for kin, which is nearer than four times that
+ * along the strands and branchings. Placed shapes may be crossed. In rules, clear() sees all of them, kin or not; and of
+ * strands what is not kin. A step that is refused is tried at other angles, in the order of draws of its branch; one
+ * that joins ends at the first strand on its way, within `clear` behind its length.
+ *
+ * The length of a step that turns is its chord's. Joints of consecutive steps of a branch are the same joint, and so
+ * meet in the same floats, but where a step's width differs from the one that the last has said to end with, or from
+ * another shape's; then they are two in one place. A branch's first step begins at a joint of its own. Lift and roll
+ * are those at the end of a step. Where an axis would be below the surface a tube's or a section's step becomes several
+ * elements, and joints are raised. A placed shape is as wide as it is long where nothing else is said, follows the
+ * surface, and goes on straight beyond a border. What has grown until a limit is told by `end`, and is whole.
+ *
+ * MESO_ERR_INPUT where a value is no number, by line; MESO_ERR_MEMORY. O(elements * pieces that are near).
  */
 MesoStatus meso_grow(MesoGrown *grown, MesoArena *arena, const MesoGrowthOptions *options, MesoError *error);
 

@@ -1,19 +1,44 @@
-/* Growth and its geometry in memory: the paper's scene, by the time of the process and by the clock. */
+/*
+ * Growth and its geometry in memory, as in "Dynamic On-Mesh Procedural Generation Control" (Buron et al. 2014): 18
+ * seeds, 250 thousand terminals of 24 triangles, on tori. Best of some rounds, by the time of the process and by the
+ * clock.
+ *
+ *   growth_scene_bench [MILLIONS]    and so many million terminals without geometry, with the most memory used
+ */
 #include <sys/resource.h>
 
 #include "libcore/base/clock.h"
 #include "libcore/growth/engine/growth_fixture.h"
 #include "libcore/growth/scene/growth_scene.h"
 
-#define ROUNDS (getenv("N") ? 1 : 5)
+enum { SEEDS = 18, ROUNDS = 5 };
 
-/* 12 vertices and 24 triangles... */
+typedef struct Case {
+    const char *name;
+    const char *step;           /* more arguments of the step, and what is done where it is refused */
+    const char *otherwise;
+    uint32_t elements;
+    double pace;
+    bool shows;
+} Case;
+
+static const Case cases[] = {
+    {"strands may cross", ", cross: true", "", 250000, 0.005, true},
+    {"strands do not cross", "", " else retry(3, 70 deg)", 250000, 0.005, true},
+    {"8.84 M polygons, may cross", ", cross: true", "", 368334, 0.005, true},
+};
+
 static const char rules[] =
-    "meso-grow 1\nunit m\nshape cord = tube(sides: 6)\nparam pace = 1 cm\nlimit elements %u\n"
-    "seed Shoot(10 mm) on vertices\n"
-    "rule Shoot(w) -> {\n turn(normal(0, 12 deg))\n"
-    " step(pace, shape: cord, width: w, end: 0.99*w%s)%s\n"
-    " choose { 80%%: Shoot(0.99*w) 20%%: { branch { turn(normal(45 deg, 8 deg)) Shoot(0.8*w) } Shoot(0.99*w) } } }\n";
+    "meso-grow 1\nparam pace = 1 cm\nshape cord = tube(sides: 6)\nlimit elements %u\nseed Shoot(4 mm) on vertices\n"
+    "rule Shoot(w) -> {\n"
+    "  turn(normal(0, 12 deg))\n"
+    "  step(pace, shape: cord, width: w, end: 0.995*w%s)%s\n"
+    "  choose { 85%%: Shoot(0.995*w)  15%%: { branch { turn(normal(60 deg, 8 deg)) Shoot(0.8*w) } Shoot(0.99*w) } }\n"
+    "}\n";
+
+typedef struct Times {
+    double grow, all, clock;
+} Times;
 
 static double cpu_seconds(void)
 {
@@ -22,73 +47,94 @@ static double cpu_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void measure(const char *what, MesoGrowthScenery *scenery, const MesoTerminalShape *shape, const char *more,
-                    const char *otherwise, uint32_t elements, double pace, uint32_t thread_count, bool shows)
+static void read_case(MesoGrowthScenery *scenery, const Case *one)
 {
-    char text[2000], setting[60];
-    const char *only = getenv("ONLY");
-    if (only && !strstr(what, only))
-        return;
-    snprintf(text, sizeof text, rules, elements, more, otherwise);
-    snprintf(setting, sizeof setting, "pace=%.9g m", pace);
-    MesoGrammarSetting settings = {setting};
-    MesoGrammarOptions options = {&settings, 1, 1};
-    MesoError error;
-    if (meso_grammar_read(&scenery->grammar, &scenery->arena, "bench", text, strlen(text), &options, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-        exit(1);
+    char text[1000], pace[40];
+    MesoError error = {0};
+    snprintf(text, sizeof text, rules, one->elements, one->step, one->otherwise);
+    snprintf(pace, sizeof pace, "pace=%.9g m", one->pace);
+    const MesoGrammarSetting setting = {pace};
+    const MesoGrammarOptions options = {&setting, 1, 1};
+    CHECK(!meso_grammar_read(&scenery->grammar, &scenery->arena, "bench", text, strlen(text), &options, &error));
+    scenery->contexts = (MesoGrowthContexts){.ground = &scenery->ground};
+    meso_scenery_strew(scenery, SEEDS, 5);
+}
+
+/* Once; adds to the best times. */
+static void time_once(MesoGrowthScenery *scenery, const MesoTerminalShape *shape, const Case *one,
+                      uint32_t thread_count, Times *best, MesoGrown *grown, uint64_t *refused)
+{
+    static const char *const names[] = {"cord"};
+    const MesoMaterial material = {{1, 1, 1}, 1, 0};
+    const uint32_t material_of[] = {0};
+    const MesoGrowthShapes shapes = {1, shape, names, 1, &material, names, material_of};
+    MesoScene scene;
+    MesoArena arena;
+    meso_arena_init(&arena);
+    double start = cpu_seconds(), clock = meso_seconds();
+    *grown = meso_scenery_grow(scenery, &arena, thread_count);
+    double middle = cpu_seconds();
+    if (one->shows)
+        CHECK(!meso_growth_show(&scene, &arena, grown, &scenery->grammar, &shapes, thread_count, NULL, NULL));
+    best->grow = fmin(best->grow, middle - start);
+    best->all = fmin(best->all, cpu_seconds() - start);
+    best->clock = fmin(best->clock, meso_seconds() - clock);
+    *refused = grown->rules[0].refused;
+    meso_arena_release(&arena);
+}
+
+static void measure(MesoGrowthScenery *scenery, const MesoTerminalShape *shape, const Case *one, uint32_t thread_count,
+                    int rounds)
+{
+    Times best = {INFINITY, INFINITY, INFINITY};
+    MesoGrown grown;
+    uint64_t refused = 0;
+    read_case(scenery, one);
+    for (int i = 0; i < rounds; i++)
+        time_once(scenery, shape, one, thread_count, &best, &grown, &refused);
+    printf("grow %-26s %7u faces, %8u terminals, %5.2f M triangles, %6llu refused, %u %s: growth %.0f ms, with "
+           "geometry %.0f ms, by the clock %.0f ms\n", one->name, scenery->mesh.triangle_count, grown.element_count,
+           1e-6 * grown.element_count * shape->body.face_count, (unsigned long long)refused, thread_count,
+           thread_count == 1 ? "thread" : "threads", 1e3 * best.grow, 1e3 * best.all, 1e3 * best.clock);
+}
+
+static void measure_on(MesoTriangulation mesh, const MesoTerminalShape *shape)
+{
+    MesoGrowthScenery scenery = {0};
+    meso_scenery_init(&scenery, mesh);
+    for (uint32_t threads = 1; threads <= 2; threads++)
+        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+            measure(&scenery, shape, &cases[i], threads, ROUNDS);
+    meso_scenery_release(&scenery);
+}
+
+/* Linear: as many again take twice the time, and memory. */
+static void measure_many(const MesoTerminalShape *shape, double millions)
+{
+    MesoGrowthScenery scenery = {0};
+    meso_scenery_init(&scenery, meso_fixture_torus(1280, 512, 0.4f));
+    for (int half = 1; half >= 0; half--) {
+        struct rusage before, after;
+        uint32_t elements = (uint32_t)(1e6 * millions / (1 + half));
+        const Case many = {"many, do not cross", "", " else retry(3, 70 deg)", elements, 0.9 / sqrt(elements), false};
+        getrusage(RUSAGE_SELF, &before);
+        measure(&scenery, shape, &many, 1, 1);
+        getrusage(RUSAGE_SELF, &after);
+        printf("     at most %.0f bytes a terminal\n", 1024.0 * (double)(after.ru_maxrss - before.ru_maxrss) / elements);
     }
-    scenery->contexts.ground = &scenery->ground;
-    meso_scenery_strew(scenery, 18, 5);
-    double best = 1e9, best_grow = 1e9, best_clock = 1e9;
-    uint32_t grown_count = 0, generations = 0;
-    uint64_t triangles = 0, refused = 0;
-    for (int i = 0; i < ROUNDS; i++) {
-        MesoArena arena;
-        meso_arena_init(&arena);
-        double start = cpu_seconds(), clock = meso_seconds();
-        MesoGrown grown = meso_scenery_grow(scenery, &arena, thread_count);
-        double mid = cpu_seconds();
-        MesoScene scene = {0};
-        const char *names[] = {"cord"};
-        MesoMaterial material = {{1, 1, 1}, 1, 0};
-        const uint32_t material_of[] = {0};
-        MesoGrowthShapes shapes = {1, shape, names, 1, &material, names, material_of};
-        if (shows)
-            CHECK(!meso_growth_show(&scene, &arena, &grown, &scenery->grammar, &shapes, thread_count, NULL, NULL));
-        double end = cpu_seconds(), clock_end = meso_seconds();
-        if (end - start < best) {
-            best = end - start;
-            best_grow = mid - start;
-        }
-        best_clock = fmin(best_clock, clock_end - clock);
-        grown_count = grown.element_count;
-        refused = grown.rules[0].refused;
-        generations = grown.generation_count;
-        triangles = (uint64_t)grown.element_count * shape->body.face_count;
-        meso_arena_release(&arena);
-    }
-    printf("%-24s %8u faces %8u elements %4u generations %7llu refused %5.2f M triangles, %u threads: grow %.1f ms, all %.1f ms cpu, %.1f ms clock, %.0f ns an element\n", what,
-           scenery->mesh.triangle_count, grown_count, generations, (unsigned long long)refused, 1e-6 * (double)triangles, thread_count, 1e3 * best_grow, 1e3 * best,
-           1e3 * best_clock, 1e9 * best_grow / grown_count);
+    meso_scenery_release(&scenery);
 }
 
 int main(int argc, char **argv)
 {
     MesoArena arena;
     MesoTerminalShape shape;
-    (void)argc, (void)argv;
     meso_arena_init(&arena);
     CHECK(!meso_builtin_shape(&shape, &arena, MESO_BUILTIN_TUBE, 0, NULL));
-    printf("tube %u vertices %u faces\n", shape.body.vertex_count, shape.body.face_count);
-    for (int big = 0; big < (getenv("N") ? 1 : 2); big++) {
-        MesoGrowthScenery scenery = {0};
-        meso_scenery_init(&scenery, big ? meso_fixture_torus(640, 256, 0.4f) : meso_fixture_torus(250, 100, 0.4f));
-        for (uint32_t threads = 1; threads <= (getenv("THREADS") ? (uint32_t)atoi(getenv("THREADS")) : 2); threads++) {
-            measure("crossing", &scenery, &shape, ", cross: true", "", getenv("N") ? (uint32_t)atoi(getenv("N")) : 250000, getenv("PACE") ? atof(getenv("PACE")) : 0.008, threads, true);
-            measure("exact", &scenery, &shape, "", " else retry(3, 70 deg)", getenv("N") ? (uint32_t)atoi(getenv("N")) : 250000, getenv("PACE") ? atof(getenv("PACE")) : 0.008, threads, true);
-        }
-        meso_scenery_release(&scenery);
-    }
+    measure_on(meso_fixture_torus(250, 100, 0.4f), &shape);
+    measure_on(meso_fixture_torus(640, 256, 0.4f), &shape);
+    if (argc > 1)
+        measure_many(&shape, atof(argv[1]));
+    meso_arena_release(&arena);
     return 0;
 }
