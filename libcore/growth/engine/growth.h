@@ -85,8 +85,8 @@ typedef struct MesoGrown {
  *
  * A step crosses nothing that has grown, but what begins or ends where it begins, there; and keeps `clear` from it, in
  * space, as far as the surface is joined to it within that distance: but for kin, which is nearer than four times that
- * along the strands and branchings. Placed shapes may be crossed. In rules, clear() sees all of them, kin or not; and of
- * strands what is not kin. A step that is refused is tried at other angles, in the order of draws of its branch; one
+ * along the strands and branchings. Placed shapes may be crossed. In rules, clear() sees all of them, kin or not, and
+ * of strands what is not kin. A step that is refused is tried at other angles, in the order of draws of its branch; one
  * that joins ends at the first strand on its way, within `clear` behind its length.
  *
  * The length of a step that turns is its chord's. Joints of consecutive steps of a branch are the same joint, and so

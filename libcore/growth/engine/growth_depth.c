@@ -7,7 +7,7 @@
 
 enum { COARSE = 24, SAMPLES = 64, MOST_SPANS = 8 };
 
-/* Of an element's length; less than a hundredth, since what lies between the points, or beside the curve, counts too. */
+/* Of an element's length; below a hundredth, since what lies between the points, or beside the curve, counts too. */
 static const float tolerance = 0.005f;
 
 /* What is not deeper than this is raised at once. */
@@ -91,7 +91,8 @@ static Curve curve_between(const MesoJoint *from, const MesoJoint *to, float beg
     MesoVec3 chord = meso_vec3_sub(to->position, from->position);
     float length = meso_vec3_length(chord), inverse = length > 0 ? 1 / length : 0;
     float first = meso_vec3_dot(from->tangent, chord) * inverse, last = meso_vec3_dot(to->tangent, chord) * inverse;
-    float reach = length * (2.0f / 3), a = reach / (1 + (first > 0 ? first : 0)), b = reach / (1 + (last > 0 ? last : 0));
+    float reach = length * (2.0f / 3);
+    float a = reach / (1 + (first > 0 ? first : 0)), b = reach / (1 + (last > 0 ? last : 0));
     return (Curve){{from->position, meso_vec3_mad(from->position, a, from->tangent),
                     meso_vec3_mad(to->position, -b, to->tangent), to->position},
                    {from->normal, to->normal}, begin, end};

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the longest side of a triangle: by so much may points on its sides be rounded in one of the two triangles there. */
+/* Of the longest side of a triangle: by so much may points on sides be rounded in one of the two triangles there. */
 static const double rounding = 4e-15;
 
 MesoStatus meso_growth_space_init(MesoGrowthSpace *space, const MesoGrowthGround *ground, MesoError *error)

@@ -84,8 +84,9 @@ bool meso_growth_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *aske
                        uint32_t count, MesoGrowthMeeting *first);
 
 /*
- * Whether all elements keep the distance `clear` from a way, as far as the surface is joined to it within that distance;
- * but what is kin to it; kin that is placed counts where `placed_count`. O(triangles within the distance, and pieces there).
+ * Whether all elements keep the distance `clear` from a way, as far as the surface is joined to it within that
+ * distance; but what is kin to it; kin that is placed counts where `placed_count`. O(triangles within the distance, and
+ * pieces there).
  */
 bool meso_growth_is_clear(const MesoGrowthSpace *space, MesoGrowthSeen *seen, const MesoGrowthAsker *asker,
                           const MesoGrowthPiece *pieces, uint32_t count, double clear, bool placed_count);

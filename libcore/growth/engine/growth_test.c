@@ -92,7 +92,8 @@ static void test_joints(void)
         const MesoJoint *joint = &grown.joints[i];
         const double weight[3] = {grown.points[i].weight[0], grown.points[i].weight[1], grown.points[i].weight[2]};
         MesoVec3 below = meso_growth_position(&scenery.ground, grown.points[i].triangle, weight);
-        CHECK(fabsf(meso_vec3_length(joint->tangent) - 1) < 1e-5f && fabsf(meso_vec3_length(joint->normal) - 1) < 1e-5f);
+        CHECK(fabsf(meso_vec3_length(joint->tangent) - 1) < 1e-5f);
+        CHECK(fabsf(meso_vec3_length(joint->normal) - 1) < 1e-5f);
         CHECK(fabsf(meso_vec3_dot(joint->tangent, joint->normal)) < 1e-5f);
         CHECK(meso_vec3_length(meso_vec3_sub(joint->position, below)) < 0.06f);
     }
@@ -139,7 +140,8 @@ static void test_depth(const char *shape, uint32_t divisions, float most, bool d
     MesoGrowthScenery scenery;
     char text[300];
     snprintf(text, sizeof text, "meso-grow 1\nshape cord = %s\nlimit generations 8\nseed A() on vertices\n"
-             "rule A() -> { turn(normal(0, 20 deg)) step(70 cm, normal(0, 10 deg), shape: cord, width: 1 cm, cross: true)\n"
+             "rule A() -> { turn(normal(0, 20 deg))\n"
+             " step(70 cm, normal(0, 10 deg), shape: cord, width: 1 cm, cross: true)\n"
              " place cord(50 cm, width: 1 cm) A() }\n", shape);
     prepare(&scenery, meso_fixture_sphere(divisions, 0, 1), text, 18);
     MesoGrown grown = meso_scenery_grow(&scenery, &scenery.arena, 1);
@@ -263,7 +265,8 @@ static void test_conditions(void)
     prepare(&scenery, meso_fixture_sheet(20, 20, 0.1f),
             "meso-grow 1\nshape cord = tube\nlimit generations 200\nlimit elements 3000\nseed A() on vertices\n"
             "rule A() : x > 0.5 m and x < 1.5 m -> { turn(normal(0, 30 deg))\n"
-            " step(15 cm, shape: cord, width: 1 cm, cross: true) while x > 0.5 m and x < 1.5 m else retry(20, 180 deg)\n"
+            " step(15 cm, shape: cord, width: 1 cm, cross: true) while x > 0.5 m and x < 1.5 m\n"
+            "  else retry(20, 180 deg)\n"
             " branch { turn(80 deg) A() } A() }\n", 30);
     MesoGrown grown = meso_scenery_grow(&scenery, &scenery.arena, 1);
     CHECK(grown.element_count == 3000 && grown.rules[0].at_borders > 10);

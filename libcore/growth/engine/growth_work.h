@@ -230,7 +230,7 @@ MesoJoint meso_growth_joint_on(const MesoGrowthGround *ground, const MesoTip *at
 
 /* ---- growth_depth.c ---- */
 
-/* Divides a step, or raises a shape, where it would be below the surface. `lift` and `roll` are those it begins with. */
+/* Divides a step, or raises a shape, where it would be below the surface. `lift` and `roll` are those at its begin. */
 void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, bool divides,
                          float lift, float roll);
 

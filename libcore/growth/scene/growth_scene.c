@@ -22,7 +22,7 @@ typedef struct Showing {
     MesoVec3 *positions, *normals;
     MesoMeshColor *colors;      /* NULL where nothing is tinted */
     size_t *vertex_begin;       /* [shape count + 1] */
-    MesoBody *patterns;         /* [shape count] corners and uvs of the longest run of each; others have the first of them */
+    MesoBody *patterns;         /* [shape count] corners and uvs of the longest run; others have the first of them */
 } Showing;
 
 /* ---- order ---- */

@@ -120,7 +120,8 @@ static void measure_many(const MesoTerminalShape *shape, double millions)
         getrusage(RUSAGE_SELF, &before);
         measure(&scenery, shape, &many, 1, 1);
         getrusage(RUSAGE_SELF, &after);
-        printf("     at most %.0f bytes a terminal\n", 1024.0 * (double)(after.ru_maxrss - before.ru_maxrss) / elements);
+        double bytes = 1024.0 * (double)(after.ru_maxrss - before.ru_maxrss);
+        printf("     at most %.0f bytes a terminal\n", bytes / elements);
     }
     meso_scenery_release(&scenery);
 }
