@@ -11,7 +11,7 @@ enum { COARSE = 24, SAMPLES = 64, MOST_SPANS = 8 };
 static const float tolerance = 0.005f;
 
 /* What is not deeper than this is raised at once. */
-static const float shallow = 0.03f;
+static const float shallow = 0.06f;
 
 /* A point of the way. */
 typedef struct Sample {
@@ -58,10 +58,16 @@ static uint32_t sample_finely(const MesoGrowthWork *work, const MesoGrowthTurn *
     return count;
 }
 
-static MesoVec3 in_frame(const MesoGrowthFooting *foot, MesoComplex from, MesoComplex to, float share)
+/* A point of a piece that begins, or ends, at a tip: in the tip's triangle by its frame, which is at hand. */
+static Sample sample_from(const MesoGrowthWork *work, const MesoGrowthPiece *piece, uint32_t triangle,
+                          const MesoGrowthFooting *foot, uint32_t end, float share, float along)
 {
+    MesoComplex from = piece->ends[end], to = piece->ends[1 - end];
+    if (piece->triangle != triangle)
+        return sample_at(work, piece, end ? 1 - share : share, along);
     MesoVec3 p = meso_vec3_mad(foot->position, share * (float)(to.re - from.re), foot->x);
-    return meso_vec3_mad(p, share * (float)(to.im - from.im), foot->y);
+    return (Sample){meso_vec3_mad(p, share * (float)(to.im - from.im), foot->y),
+                    along + (end ? 1 - share : share) * length_of(piece)};
 }
 
 /* The middles of the first piece and the last, and ends between: in their triangles' frames, where these are all. */
@@ -70,18 +76,18 @@ static uint32_t sample_coarsely(const MesoGrowthWork *work, const MesoGrowthTip 
 {
     const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin, *first = pieces;
     const MesoGrowthPiece *last = &pieces[turn->piece_count - 1];
-    float along = length_of(first), total = (float)turn->length;
-    uint32_t count = 0, stride = turn->piece_count / (COARSE - 2) + 1;
-    samples[count++] = (Sample){in_frame(&tip->foot, first->ends[0], first->ends[1], 0.5f), 0.5f * along};
+    float along = length_of(first);
+    uint32_t count = 0, stride = turn->piece_count / (COARSE - 3) + 1;
+    samples[count++] = sample_from(work, first, tip->at.triangle, &tip->foot, 0, 0.5f, 0);
     if (turn->piece_count == 1)
         return count;
-    samples[count++] = (Sample){in_frame(&tip->foot, first->ends[0], first->ends[1], 1), along};
+    samples[count++] = sample_from(work, first, tip->at.triangle, &tip->foot, 0, 1, 0);
     for (uint32_t i = 1; i + 1 < turn->piece_count; i++) {
         if (i % stride == 0)
             samples[count++] = sample_at(work, &pieces[i], 1, along);
         along += length_of(&pieces[i]);
     }
-    samples[count++] = (Sample){in_frame(&turn->foot, last->ends[1], last->ends[0], 0.5f), 0.5f * (along + total)};
+    samples[count++] = sample_from(work, last, turn->end.triangle, &turn->foot, 1, 0.5f, along);
     return count;
 }
 

@@ -30,7 +30,7 @@ static void shoot(const MesoGrowthWork *work, MesoGrowthBatch *batch, const Meso
     uint32_t width = work->grammar->local_count;
     uint64_t count = (uint64_t)batch->shoot_count + 1;
     if (!meso_make_room((void **)&batch->shoots, &batch->shoot_room, count, sizeof *batch->shoots) ||
-        !meso_make_room((void **)&batch->registers, &batch->register_room, count * width, sizeof *registers)) {
+        !meso_make_room((void **)&batch->registers, &batch->register_room, count * width + 1, sizeof *registers)) {
         batch->failed = true;
         return;
     }
