@@ -12,6 +12,7 @@
 #include "libcore/quilt/base/quilt_base.h"
 #include "libcore/quilt/embed/quilt_scene.h"
 #include "libcore/quilt/finish/quilt_finish.h"
+#include "libcore/quilt/settle/quilt_settle.h"
 
 static const uint64_t TRIANGLE_LIMIT = (uint64_t)1 << 30;
 
@@ -136,7 +137,13 @@ static MesoStatus grow(Job *job, MesoQuilt *quilt, MesoQuiltBase *base, uint64_t
                                       .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
     meso_tool_progress_begin(tool, "quilting", "triangles");
     MesoStatus status = meso_quilt_grow(quilt, &tool->arena, &base->mesh, &job->swatch.swatch, &options, &tool->error);
-    return status ? status : meso_quilt_finish(quilt, &tool->arena, base, &job->swatch.swatch, &finish, &tool->error);
+    if (!status)
+        status = meso_quilt_finish(quilt, &tool->arena, base, &job->swatch.swatch, &finish, &tool->error);
+    const MesoSettleOptions settle = {.scale = options.scale, .height_scale = options.height_scale,
+                                      .offset = options.offset, .overhang = finish.overhang,
+                                      .partial = options.step_limit > 0};
+    return status ? status : meso_quilt_settle(quilt, &tool->arena, &job->surface.base, &job->swatch.swatch, &settle,
+                                               &tool->error);
 }
 
 static MesoStatus make_quilt(Job *job, MesoQuilt *quilt, uint64_t seed)

@@ -15,7 +15,7 @@ static void put_counts(json_t *object, const MesoQuilt *quilt)
         {"shrunk_patches", r->shrunk_count}, {"removed_elements", r->removed_count},
         {"skipped_triangles", r->skipped_count}, {"border_sections", r->border_count},
         {"border_removed_elements", r->border_removed_count}, {"closed_loops", r->closed_count},
-        {"debris", r->debris_count},
+        {"debris", r->debris_count}, {"settled_elements", r->settled_count}, {"added_elements", r->added_count},
     };
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         json_object_set_new(object, counts[i].key, json_integer((json_int_t)counts[i].count));

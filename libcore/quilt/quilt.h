@@ -54,6 +54,8 @@ typedef struct MesoQuiltReport {
     uint32_t border_removed_count;  /* whole elements left out, since they lie across a border */
     uint32_t closed_count;          /* loops of open edges closed at the end */
     uint32_t debris_count;          /* pieces of strands left out, since they were too short */
+    uint32_t settled_count;         /* whole elements that are as in the swatch in space; of this, quilt_settle.h */
+    uint32_t added_count;           /* whole elements added where there was room */
     double seconds[6];              /* charts, matching, seams and fit, whole elements, strands, what is added to the quilt */
 } MesoQuiltReport;
 

@@ -24,6 +24,7 @@ enum {
 typedef struct Comparison {
     const MesoQuilt *quilt;
     const MesoSwatch *swatch;
+    const MesoVec3 *positions;      /* or NULL */
     const MesoTriangulation *base;
     const MesoLikenessOptions *options;
     MesoArena *scratch;
@@ -38,7 +39,15 @@ typedef struct Comparison {
     uint32_t *visits, visit;        /* [triangle_count of the base] the last window that has seen it */
     uint32_t *queue;
     uint32_t *locals, *sample_locals;
+    uint32_t *stand_of;             /* [vertex_count of the quilt] the whole element that it is of, or MESO_NO_INDEX */
+    struct Stand *stands;           /* [element_count] */
 } Comparison;
+
+/* Where a whole element stands: its middle in space and in the layer, and what is up there. */
+typedef struct Stand {
+    MesoVec3 middle, foot, up;
+    float height;
+} Stand;
 
 /* Where a window is laid on the swatch. */
 typedef struct Placing {
@@ -134,16 +143,80 @@ static bool flood(Comparison *c, uint32_t *count, uint32_t seed, MesoVec3 point,
     return true;
 }
 
-static MesoVec3 place_in(const Comparison *c, const Frame *frame, uint32_t vertex)
+static MesoVec3 foot_of(const Comparison *c, const MesoQuiltVertex *q)
 {
-    const MesoQuiltVertex *q = &c->quilt->vertices[vertex];
     const float weights[3] = {1 - q->b1 - q->b2, q->b1, q->b2};
     MesoVec3 foot = {0, 0, 0};
     for (uint32_t k = 0; k < 3; k++)
         foot = meso_vec3_mad(foot, weights[k], base_corner(c->base, 3 * q->triangle + k));
-    foot = meso_vec3_scale(meso_vec3_sub(foot, frame->origin), 1 / c->options->scale);
-    return (MesoVec3){meso_vec3_dot(foot, frame->x), meso_vec3_dot(foot, frame->y),
-                      (q->height - c->options->offset) / c->options->height_scale};
+    return foot;
+}
+
+static MesoVec3 normal_of(const Comparison *c, uint32_t triangle)
+{
+    MesoVec3 a = base_corner(c->base, 3 * triangle), b = meso_vec3_sub(base_corner(c->base, 3 * triangle + 1), a);
+    return meso_vec3_cross(b, meso_vec3_sub(base_corner(c->base, 3 * triangle + 2), a));
+}
+
+static void find_stand(Comparison *c, uint32_t element)
+{
+    uint32_t first = c->quilt->vertex_begin[element], end = c->quilt->vertex_begin[element + 1];
+    Stand *stand = &c->stands[element];
+    float share = 1 / (float)(end - first);
+    for (uint32_t v = first; v < end; v++) {
+        const MesoQuiltVertex *q = &c->quilt->vertices[v];
+        stand->middle = meso_vec3_mad(stand->middle, share, c->positions[v]);
+        stand->foot = meso_vec3_mad(stand->foot, share, foot_of(c, q));
+        stand->height += share * q->height;
+        stand->up = meso_vec3_add(stand->up, meso_vec3_direction(normal_of(c, q->triangle), (MesoVec3){0, 0, 0}));
+        c->stand_of[v] = element;
+    }
+    stand->up = meso_vec3_direction(stand->up, (MesoVec3){0, 0, 1});
+}
+
+static MesoStatus find_stands(Comparison *c, MesoError *error)
+{
+    if (!c->positions)
+        return MESO_OK;
+    c->stand_of = MESO_NEW(c->scratch, uint32_t, c->quilt->vertex_count, error);
+    c->stands = MESO_NEW(c->scratch, Stand, c->quilt->element_count, error);
+    if (!c->stand_of || !c->stands)
+        return MESO_ERR_MEMORY;
+    memset(c->stand_of, 0xff, c->quilt->vertex_count * sizeof *c->stand_of);
+    for (uint32_t e = 0; e < c->quilt->element_count; e++)
+        if (c->swatch->kinds[c->quilt->element_origins[e]] == MESO_ELEMENT_WHOLE)
+            find_stand(c, e);
+    return MESO_OK;
+}
+
+/* The shortest turn that takes `from` to `to`. */
+static MesoVec3 turned_with(MesoVec3 v, MesoVec3 from, MesoVec3 to)
+{
+    float cosine = meso_vec3_dot(from, to);
+    if (cosine < -0.9f)
+        return v;
+    MesoVec3 axis = meso_vec3_cross(from, to), moved = meso_vec3_mad(meso_vec3_scale(v, cosine), 1, meso_vec3_cross(axis, v));
+    return meso_vec3_mad(moved, meso_vec3_dot(axis, v) / (1 + cosine), axis);
+}
+
+static MesoVec3 place_in(const Comparison *c, const Frame *frame, uint32_t vertex)
+{
+    const MesoQuiltVertex *q = &c->quilt->vertices[vertex];
+    const float scale = c->options->scale;
+    MesoVec3 foot, beside = {0, 0, 0};
+    float height = q->height;
+    if (c->positions && c->stand_of[vertex] != MESO_NO_INDEX) {
+        const Stand *stand = &c->stands[c->stand_of[vertex]];
+        MesoVec3 normal = meso_vec3_cross(frame->x, frame->y);
+        beside = turned_with(meso_vec3_sub(c->positions[vertex], stand->middle), stand->up, normal);
+        foot = stand->foot;
+        height = stand->height + meso_vec3_dot(beside, normal);
+    } else {
+        foot = foot_of(c, q);
+    }
+    MesoVec3 at = meso_vec3_add(meso_vec3_sub(foot, frame->origin), beside);
+    return (MesoVec3){meso_vec3_dot(at, frame->x) / scale, meso_vec3_dot(at, frame->y) / scale,
+                      (height - c->options->offset) / c->options->height_scale};
 }
 
 /* A place, and the plane there. */
@@ -407,17 +480,20 @@ static MesoStatus measure_all(MesoLikeness *likeness, Comparison *c, MesoError *
 }
 
 MesoStatus meso_check_likeness(MesoLikeness *likeness, MesoArena *scratch, const MesoQuilt *quilt,
-                               const MesoSwatch *swatch, const MesoTriangulation *base,
+                               const MesoSwatch *swatch, const MesoVec3 *positions, const MesoTriangulation *base,
                                const MesoLikenessOptions *options, MesoError *error)
 {
     *likeness = (MesoLikeness){0};
     if (quilt->triangle_count == 0 || base->triangle_count == 0)
         return MESO_OK;
-    Comparison c = {.quilt = quilt, .swatch = swatch, .base = base, .options = options, .scratch = scratch};
+    Comparison c = {.quilt = quilt, .swatch = swatch, .positions = positions, .base = base, .options = options,
+                    .scratch = scratch};
     MesoArenaMark mark = meso_arena_mark(scratch);
     MesoStatus status = sort_triangles(&c, error);
     if (!status)
         status = prepare_base(&c, error);
+    if (!status)
+        status = find_stands(&c, error);
     if (!status)
         status = prepare_swatch(&c, error);
     if (!status)

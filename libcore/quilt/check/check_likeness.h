@@ -21,15 +21,17 @@ typedef struct MesoLikenessOptions {
 /*
  * Windows lie at random places of the surface, the same in each call, and not where a border is within them, or within
  * a whole element's width of them. They are
- * seen in the layer, from their tangent plane: what bends with the surface is straight there. They are turned as
+ * seen in the layer, from their tangent plane: what bends with the surface is straight there. Whole elements, which need
+ * not bend, are seen as they are in space, standing where the layer has their middle. Windows are turned as
  * the swatch is in them on the whole, laid where the cost of equation 3 is least, and moved until it does not become
  * less.
  *
- * `base` is what the quilt's places refer to. MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(quilt + base) and the windows, which
+ * `base` is what the quilt's places refer to, `positions` [quilt->vertex_count] where they are in space; without, NULL,
+ * whole elements are seen in the layer too. MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(quilt + base) and the windows, which
  * are up to 32; where triangles of the base are large against the swatch, O(quilt) for each.
  */
 MesoStatus meso_check_likeness(MesoLikeness *likeness, MesoArena *scratch, const MesoQuilt *quilt,
-                               const MesoSwatch *swatch, const MesoTriangulation *base,
+                               const MesoSwatch *swatch, const MesoVec3 *positions, const MesoTriangulation *base,
                                const MesoLikenessOptions *options, MesoError *error);
 
 #endif

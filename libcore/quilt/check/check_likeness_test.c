@@ -48,7 +48,8 @@ static MesoLikeness measure(Case *c)
     MesoError error;
     size_t used = c->arena.used;
     const MesoLikenessOptions options = {.scale = 2, .height_scale = 2, .offset = 0.25f};
-    CHECK(meso_check_likeness(&likeness, &c->arena, &c->quilt, &c->swatch, &c->base, &options, &error) == MESO_OK);
+    CHECK(meso_check_likeness(&likeness, &c->arena, &c->quilt, &c->swatch, NULL, &c->base, &options,
+                              &error) == MESO_OK);
     CHECK(c->arena.used == used);
     meso_triangulation_release(&c->base);
     meso_arena_release(&c->arena);

@@ -20,6 +20,7 @@
 #include "libcore/quilt/check/quilt_check.h"
 #include "libcore/quilt/embed/quilt_embed.h"
 #include "libcore/quilt/finish/quilt_finish.h"
+#include "libcore/quilt/settle/quilt_settle.h"
 #include "libcore/quilt/swatch/swatch_make.h"
 #include "libcore/shell/prisms.h"
 
@@ -60,7 +61,7 @@ typedef struct Outcome {
     bool done;
     char failure[sizeof ((MesoError *)0)->message];
     uint32_t base_triangles, base_vertices, swatch_triangles, swatch_vertices, triangles, vertices, elements;
-    double preparation, base, field, growth, finish, prisms, embedding;     /* seconds */
+    double preparation, base, field, growth, finish, settling, prisms, embedding;   /* seconds */
     double bytes;               /* of the process at its largest, before the check */
     MesoQuiltReport report;
     MesoQuiltCheck check;
@@ -68,7 +69,7 @@ typedef struct Outcome {
 
 static double seconds_of(const Outcome *o)
 {
-    return o->base + o->field + o->growth + o->finish + o->prisms + o->embedding;
+    return o->base + o->field + o->growth + o->finish + o->settling + o->prisms + o->embedding;
 }
 
 typedef struct Run {
@@ -176,6 +177,16 @@ static MesoStatus finish(Run *run)
     return status;
 }
 
+static MesoStatus settle(Run *run)
+{
+    MesoStatus status = meso_quilt_settle(&run->quilt, &run->arena, &run->surface, &run->swatch,
+                                          &(MesoSettleOptions){.scale = run->scale,
+                                                               .overhang = 0.5f * run->scale * run->swatch.mean_edge},
+                                          &run->error);
+    run->outcome->settling = lap(run);
+    return status;
+}
+
 static MesoStatus embed(Run *run)
 {
     MesoVec3 *directions = MESO_NEW(&run->arena, MesoVec3, run->surface.vertex_count, &run->error);
@@ -210,7 +221,7 @@ static void fill_outcome(Run *run)
 
 static void run_row(const Row *row, Outcome *outcome, bool check)
 {
-    MesoStatus (*const steps[])(Run *) = {make_swatch, make_surface, make_guide, make_base, grow, finish, embed};
+    MesoStatus (*const steps[])(Run *) = {make_swatch, make_surface, make_guide, make_base, grow, finish, settle, embed};
     Run run = {.row = row, .outcome = outcome, .since = meso_seconds()};
     meso_arena_init(&run.arena);
     MesoStatus status = MESO_OK;
@@ -264,10 +275,10 @@ static void print_row(const Row *row, const Outcome *o)
         return;
     }
     printf("%-20s %6u %6u | %6u %6u | %8u (%8u) %7u (%7u) %5u (%5u) | %7.3f s (%5.1f min) %6.0fx | %5.3f + %5.3f %5.3f "
-           "%6.3f %5.3f %5.3f %5.3f | %5.1f\n", name, o->base_triangles, o->base_vertices, o->swatch_triangles,
+           "%6.3f %5.3f %6.3f %5.3f %5.3f | %5.1f\n", name, o->base_triangles, o->base_vertices, o->swatch_triangles,
            o->swatch_vertices, o->triangles, p->triangles, o->vertices, p->vertices, o->elements, p->elements,
            seconds_of(o), p->minutes, 60 * p->minutes / seconds_of(o), o->preparation, o->field, o->base, o->growth,
-           o->finish, o->prisms, o->embedding, o->bytes / o->triangles);
+           o->finish, o->settling, o->prisms, o->embedding, o->bytes / o->triangles);
 }
 
 static void print_check(const Outcome *o)
@@ -278,6 +289,7 @@ static void print_check(const Outcome *o)
     printf("  patches %u, joins %u, caps %u, closed %u, debris %u, removed %u, skipped %u, retries %u, shrunk %u\n",
            r->patch_count, r->join_count, r->cap_count, r->closed_count, r->debris_count, r->removed_count,
            r->skipped_count, r->retry_count, r->shrunk_count);
+    printf("  settled %u, added %u\n", r->settled_count, r->added_count);
     printf("  mesh: unplaced %u, open %u, crowded %u, reversed %u, collapsed %u, pinched %u\n", f->unplaced_count,
            f->open_count, f->crowded_count, f->reversed_count, f->collapsed_count, f->pinched_count);
     printf("  elements: whole %u of %.0f by area, changed %u, squeezed %u (volumes %.3f to %.3f), strands %u, "
@@ -314,9 +326,9 @@ int main(int argc, char **argv)
     uint64_t triangles = 0, published_triangles = 0;
     double seconds = 0, preparation = 0, minutes = 0;
     uint32_t failed_count = 0;
-    printf("%-20s %13s | %13s | %19s %17s %13s | %32s | %5s + %5s %5s %6s %5s %5s %5s | bytes a triangle\n",
+    printf("%-20s %13s | %13s | %19s %17s %13s | %32s | %5s + %5s %5s %6s %5s %6s %5s %5s | bytes a triangle\n",
            "surface + swatch", "surface f v", "swatch f v", "faces (paper)", "vertices (paper)", "elements",
-           "seconds (paper) faster", "prep", "field", "base", "growth", "end", "prism", "embed");
+           "seconds (paper) faster", "prep", "field", "base", "growth", "end", "settle", "prism", "embed");
     for (size_t r = 0; r < ROW_COUNT; r++) {
         const Row *row = &ROWS[r];
         if (!is_wanted(row, argc - 1 - check, argv + 1 + check))

@@ -33,14 +33,19 @@ static bool segment_crosses(MesoVec3 p, MesoVec3 q, const MesoVec3 *t)
     return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
 }
 
-static bool triangles_cross(const MesoBodyPart *a, uint32_t s, const MesoBodyPart *b, uint32_t t)
+bool meso_triangles_cross(const MesoVec3 *p, const MesoVec3 *q)
 {
-    MesoVec3 p[3] = {corner(a, s, 0), corner(a, s, 1), corner(a, s, 2)};
-    MesoVec3 q[3] = {corner(b, t, 0), corner(b, t, 1), corner(b, t, 2)};
     for (int k = 0; k < 3; k++)
         if (segment_crosses(p[k], p[(k + 1) % 3], q) || segment_crosses(q[k], q[(k + 1) % 3], p))
             return true;
     return false;
+}
+
+static bool parts_cross(const MesoBodyPart *a, uint32_t s, const MesoBodyPart *b, uint32_t t)
+{
+    const MesoVec3 p[3] = {corner(a, s, 0), corner(a, s, 1), corner(a, s, 2)};
+    const MesoVec3 q[3] = {corner(b, t, 0), corner(b, t, 1), corner(b, t, 2)};
+    return meso_triangles_cross(p, q);
 }
 
 /* Triangles of `b` that are looked at together. */
@@ -72,7 +77,7 @@ static bool meets_chunk(const MesoBodyPart *a, const MesoBodyPart *b, const Chun
         if (!boxes_meet(&box, common))
             continue;
         for (uint32_t i = 0; i < chunk->count; i++)
-            if (boxes_meet(&box, &chunk->boxes[i]) && triangles_cross(a, s, b, chunk->triangles[i]))
+            if (boxes_meet(&box, &chunk->boxes[i]) && parts_cross(a, s, b, chunk->triangles[i]))
                 return true;
     }
     return false;

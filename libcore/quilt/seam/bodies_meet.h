@@ -20,4 +20,7 @@ typedef struct MesoBodyPart {
  */
 bool meso_bodies_meet(const MesoBodyPart *a, const MesoBodyPart *b);
 
+/* The same of two triangles: p[3], q[3]. */
+bool meso_triangles_cross(const MesoVec3 *p, const MesoVec3 *q);
+
 #endif

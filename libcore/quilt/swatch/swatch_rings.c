@@ -148,7 +148,7 @@ static const MesoMakerMaterial RINGS[2] = {{"gold", {{0.95f, 0.73f, 0.35f}, 0.25
 static const MesoMakerMaterial NUTS[1] = {{"zinc", {{0.66f, 0.69f, 0.72f}, 0.35f, 1}}};
 
 const MesoSwatchMethod meso_swatch_ring_methods[3] = {
-    {{.name = "mail", .columns = 2, .rows = 8, .sides = 12, .thickness = 0.15f}, 1, 2, 2, MAIL, 2, make_mail},
+    {{.name = "mail", .columns = 2, .rows = 8, .sides = 12, .thickness = 0.12f}, 1, 2, 2, MAIL, 2, make_mail},
     {{.name = "rings", .columns = 3, .rows = 3, .sides = 12, .thickness = 0.1f}, 1, 1, 2, RINGS, 2, make_rings},
     {{.name = "nuts", .columns = 4, .rows = 4, .sides = 18, .thickness = 0.45f}, 1, 2, 2, NUTS, 1, make_nuts},
 };
