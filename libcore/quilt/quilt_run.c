@@ -4,6 +4,7 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/quilt/quilt_work.h"
+#include "libcore/quilt/whole_roots.h"
 
 /* Margins of a patch are made tighter by steps where its seed is not covered. */
 static const float TIGHTNESS[] = {1, 0.5f, 0.25f, 0.1f};
@@ -283,13 +284,15 @@ static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, 
         status = meso_composite_init(&work->composite, work->base->triangle_count, error);
     if (status)
         return status;
+    work->roots = MESO_NEW(scratch, uint32_t, swatch->element_count, error);
     work->covers = MESO_NEW(scratch, uint8_t, count, error);
     work->chart_triangles = MESO_NEW(scratch, uint32_t, count, error);
     front->triangles = MESO_NEW(scratch, uint32_t, count, error);
     front->constraints = MESO_NEW(scratch, float, count, error);
     front->listed = MESO_NEW(scratch, uint8_t, count, error);
-    if (!work->covers || !work->chart_triangles || !front->triangles || !front->constraints || !front->listed)
+    if (!work->roots || !work->covers || !work->chart_triangles || !front->triangles || !front->constraints || !front->listed)
         return MESO_ERR_MEMORY;
+    meso_whole_roots(work->roots, swatch);
     memset(work->chart_triangles, 0xff, count * sizeof *work->chart_triangles);
     return MESO_OK;
 }

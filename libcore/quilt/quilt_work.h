@@ -33,6 +33,7 @@ typedef struct MesoQuiltWork {
     const MesoSwatch *swatch;
     MesoQuiltOptions options;   /* with defaults filled in */
     MesoMatchField field;
+    uint32_t *roots;            /* [swatch->element_count] whole_roots.h */
     MesoComposite composite;
     uint8_t *covers;            /* [triangle_count] MesoCover */
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */

@@ -141,11 +141,32 @@ static uint32_t element_size(const MesoSwatch *swatch, uint32_t element)
     return swatch->vertex_begin[element + 1] - swatch->vertex_begin[element];
 }
 
-/* Whether a pair, or a new element alone, lies on the new side. */
-static bool is_new(const WholeWork *w, MesoVec3 centre, uint32_t old)
+/* On which side an element stands: where it grows from a strand, else its centre. */
+static float side_of_new(const WholeWork *w, uint32_t element)
 {
-    float side = seam_at(w->step, centre);
-    return (old == MESO_NO_INDEX ? side : 0.5f * (side + seam_at(w->step, w->step->old.centres[old]))) > 0;
+    uint32_t root = w->work->roots[element];
+    const MesoSwatch *swatch = w->work->swatch;
+    MesoVec3 at = root == MESO_NO_INDEX ? swatch->centres[element] : swatch->positions[root];
+    return seam_at(w->step, meso_step_warp(w->step, meso_step_from_swatch(w->step, at)));
+}
+
+static float side_of_old(const WholeWork *w, uint32_t old)
+{
+    const MesoPlacedWhole *placed = &w->work->composite.wholes[w->step->old.wholes[old]];
+    uint32_t root = w->work->roots[placed->element];
+    MesoVec3 at = w->step->old.centres[old];
+    if (root != MESO_NO_INDEX) {
+        uint32_t v = placed->vertex_begin + root - w->work->swatch->vertex_begin[placed->element];
+        meso_quilt_plane_to(&w->step->plane, w->work->composite.whole_vertices[v], &at);
+    }
+    return seam_at(w->step, at);
+}
+
+/* Whether a pair, or a new element alone, lies on the new side. */
+static bool is_new(const WholeWork *w, uint32_t element, uint32_t old)
+{
+    float side = side_of_new(w, element);
+    return (old == MESO_NO_INDEX ? side : 0.5f * (side + side_of_old(w, old))) > 0;
 }
 
 static void plan_new(WholeWork *w, const MesoWholePairs *pairs)
@@ -155,7 +176,7 @@ static void plan_new(WholeWork *w, const MesoWholePairs *pairs)
         uint32_t element = pairs->elements[i], old = pairs->partners[i];
         MesoVec3 centre = meso_step_warp(w->step, meso_step_from_swatch(w->step, swatch->centres[element]));
         MesoQuiltVertex place;
-        if (!is_new(w, centre, old) || !lay_out(w, element, &place))
+        if (!is_new(w, element, old) || !lay_out(w, element, &place))
             continue;
         if (old != MESO_NO_INDEX)
             w->plan->old_dies[old] = true;
@@ -176,7 +197,7 @@ static void plan_new(WholeWork *w, const MesoWholePairs *pairs)
 static void find_leavers(WholeWork *w, const MesoWholePairs *pairs)
 {
     for (uint32_t i = 0; i < w->step->old.whole_count; i++)
-        w->plan->old_dies[i] = seam_at(w->step, w->step->old.centres[i]) > 0;
+        w->plan->old_dies[i] = side_of_old(w, i) > 0;
     for (uint32_t i = 0; i < pairs->count; i++)
         if (pairs->partners[i] != MESO_NO_INDEX)
             w->plan->old_dies[pairs->partners[i]] = false;

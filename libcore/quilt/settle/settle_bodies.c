@@ -296,8 +296,12 @@ static bool find_body(MesoSettleBody *body, const MesoSettleWork *work, const Me
     float beyond;
     if (!meso_settle_locate(&body->place, &beyond, work, middle))
         return false;
-    if (!fit(body, &positions[first], kind->points, count, meso_settle_up(work, body->place)) ||
-        !meso_settle_locate(&body->place, &beyond, work, body->pose.origin))
+    if (!fit(body, &positions[first], kind->points, count, meso_settle_up(work, body->place)))
+        return false;
+    if (kind->root != MESO_NO_INDEX)    /* a leaf stays at its stem */
+        body->pose.origin = meso_vec3_sub(positions[first + kind->root],
+                                          meso_settle_to_space(&body->pose, kind->points[kind->root]));
+    if (!meso_settle_locate(&body->place, &beyond, work, body->pose.origin))
         return false;
     meso_settle_set_root(work, body);
     body->stays = beyond > 0 || is_at_border(work, quilt, element);

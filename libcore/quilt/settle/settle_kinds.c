@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "libcore/quilt/settle/settle_work.h"
+#include "libcore/quilt/whole_roots.h"
 
 /* An element is carried by another one whose reach is more than twice its own, and within half of which its centre stands. */
 #define CARRIED 0.5f
@@ -190,10 +191,11 @@ MesoStatus meso_settle_find_kinds(MesoSettleWork *work, MesoError *error)
 {
     uint32_t count = work->swatch->element_count;
     uint32_t *carriers = MESO_NEW(work->arena, uint32_t, count, error);
+    uint32_t *roots = MESO_NEW(work->arena, uint32_t, count, error);
     work->kinds = MESO_NEW(work->arena, MesoSettleKind, count, error);
     work->members = MESO_NEW(work->arena, uint32_t, count, error);
     work->kind_of = MESO_NEW(work->arena, uint32_t, count, error);
-    if (!carriers || !work->kinds || !work->members || !work->kind_of)
+    if (!carriers || !roots || !work->kinds || !work->members || !work->kind_of)
         return MESO_ERR_MEMORY;
     for (uint32_t e = 0; e < count; e++)
         carriers[e] = work->swatch->kinds[e] == MESO_ELEMENT_WHOLE ? carrier_of(work->swatch, e) : MESO_NO_INDEX;
@@ -202,8 +204,13 @@ MesoStatus meso_settle_find_kinds(MesoSettleWork *work, MesoError *error)
             carriers[e] = carriers[carriers[e]];
     list_members(work, carriers);
     MesoStatus status = MESO_OK;
-    for (uint32_t k = 0; k < work->kind_count && !status; k++)
-        status = shape_kind(work, &work->kinds[k], error);
+    meso_whole_roots(roots, work->swatch);
+    for (uint32_t k = 0; k < work->kind_count && !status; k++) {
+        MesoSettleKind *kind = &work->kinds[k];
+        uint32_t first = work->members[kind->member_begin], root = roots[first];
+        kind->root = root == MESO_NO_INDEX ? root : root - work->swatch->vertex_begin[first];
+        status = shape_kind(work, kind, error);
+    }
     return status ? status : find_relations(work, error);
 }
 

@@ -20,6 +20,7 @@ typedef struct MesoSettleKind {
     MesoSphereTree spheres;
     float reach;                /* of its points from the centre */
     float height;               /* of the centre above the surface */
+    uint32_t root;              /* the point where it grows from a strand, or MESO_NO_INDEX */
     uint32_t relation_begin, relation_end;
 } MesoSettleKind;
 

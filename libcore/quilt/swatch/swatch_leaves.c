@@ -1,4 +1,4 @@
-/* Leaves: ivy, whose leaves grow from its stems, and scales. */
+/* Leaves: ivy, whose leaves stand by its stems, and scales. */
 #include <math.h>
 
 #include "libcore/quilt/swatch/swatch_maker.h"
@@ -17,16 +17,20 @@ static const double IVY[IVY_STATIONS][4] = {{0.10, 0.10, 0.014, 0.014}, {0.15, 0
 #define IVY_SIZE 1.15
 #define IVY_STRAY 0.04
 
+/* A stalk ends so far from the stem. */
+#define IVY_GAP 0.006
+
 typedef struct Stem {
     double length, offset, drift, swing, phase, radius;
-    uint32_t sides;             /* even: leaves grow to both sides */
+    uint32_t sides;             /* even: it is alike to both sides, where leaves begin */
 } Stem;
 
-/* A leaf grows from a quad of the stem, to the side and a little ahead; all alike, so that those of neighbours mesh. */
+/* A leaf begins at the stem, to the side and a little ahead; all alike, so that those of neighbours mesh. */
 typedef struct Leaf {
     double x, y, z;             /* where it begins, in the middle of the stem */
     double ahead_x, ahead_y;    /* its way, of length 1 */
     double size, rise;
+    double begin;               /* where its stalk begins, as a part of the size */
 } Leaf;
 
 static double stem_y(const Stem *stem, double x)
@@ -61,51 +65,42 @@ static uint32_t add_leaf_point(MesoSwatchMaker *maker, const Leaf *leaf, double 
 }
 
 /*
- * In place of the stem's quad `base`, counter-clockwise from outside, of which corner `lowest` becomes the lower
- * side of the rib: rings of four, the rib below, an edge, the rib above, the other edge; the blade is folded along
- * the rib.
+ * Rings of four, the rib below, an edge, the rib above, the other edge; the blade is folded along the rib. It is an element
+ * of its own, whose stalk ends where the stem's side is, without touching it: it stays whole wherever the stem is cut.
  */
-static void add_leaf(MesoSwatchMaker *maker, const Leaf *leaf, const uint32_t base[4], uint32_t lowest)
+static void add_leaf(MesoSwatchMaker *maker, const Leaf *leaf)
 {
     uint32_t ring = maker->vertex_count;
-    for (uint32_t i = 0; i < IVY_STATIONS; i++) {
-        const double *at = IVY[i];
-        double lift = 0.3 * at[2];
-        add_leaf_point(maker, leaf, at[0], 0, -at[3]);
-        add_leaf_point(maker, leaf, at[1], at[2], lift);
-        add_leaf_point(maker, leaf, at[0], 0, at[3]);
-        add_leaf_point(maker, leaf, at[1], -at[2], lift);
+    for (uint32_t i = 0; i <= IVY_STATIONS; i++) {
+        const double *at = IVY[i ? i - 1 : 0];
+        double along = i ? at[0] : leaf->begin, edge = i ? at[1] : leaf->begin, lift = 0.3 * at[2];
+        add_leaf_point(maker, leaf, along, 0, -at[3]);
+        add_leaf_point(maker, leaf, edge, at[2], lift);
+        add_leaf_point(maker, leaf, along, 0, at[3]);
+        add_leaf_point(maker, leaf, edge, -at[2], lift);
     }
-    for (uint32_t k = 0; k < 4; k++) {
-        uint32_t l = (k + 1) % 4;
-        uint32_t v[4] = {base[(lowest + k) % 4], base[(lowest + l) % 4], ring + l, ring + k};
-        MesoVec2 uv[4] = {{(float)k / 4, 0}, {(float)(k + 1) / 4, 0}, {(float)(k + 1) / 4, 0}, {(float)k / 4, 0}};
-        meso_maker_face(maker, v, uv, 1);
-    }
-    meso_maker_tube(maker, ring, IVY_STATIONS, 4, false, 1);
+    meso_maker_tube(maker, ring, IVY_STATIONS + 1, 4, false, 1);
+    meso_maker_fan(maker, ring, 4, add_leaf_point(maker, leaf, leaf->begin, 0, 0), false, 1);
     uint32_t tip = add_leaf_point(maker, leaf, IVY_TIP, 0, 0.02);
-    meso_maker_fan(maker, ring + 4 * (IVY_STATIONS - 1), 4, tip, true, 1);
+    meso_maker_fan(maker, ring + 4 * IVY_STATIONS, 4, tip, true, 1);
 }
 
-/* A leaf between rings `ring` and the next, to the left of the stem's way or to the right. */
-static void add_leaf_at(MesoSwatchMaker *maker, const Stem *stem, uint32_t ring, double x, bool right)
+/* A leaf beside the stem at `x`, to the left of its way or to the right. */
+static void add_leaf_at(MesoSwatchMaker *maker, const Stem *stem, double x, bool right)
 {
     double turn = 0.35 + 2 * meso_maker_stray(maker, IVY_STRAY), length = hypot(turn, 1);
-    Leaf leaf = {x, stem_y(stem, x), 0, turn / length, (right ? -1 : 1) / length, 0, 0};
+    Leaf leaf = {.x = x, .y = stem_y(stem, x), .ahead_x = turn / length, .ahead_y = (right ? -1 : 1) / length};
     leaf.size = IVY_SIZE + 2 * meso_maker_stray(maker, IVY_STRAY);
     leaf.rise = 0.6 + 2 * meso_maker_stray(maker, IVY_STRAY);
-    uint32_t s = right ? stem->sides / 2 : 0, a = ring + s, b = a + stem->sides, next = (s + 1) % stem->sides - s;
-    uint32_t base[4] = {a, a + next, b + next, b};
-    add_leaf(maker, &leaf, base, right ? 2 : 0);
+    double across = fabs(leaf.ahead_y - stem_slope(stem, x) * leaf.ahead_x) / hypot(1, stem_slope(stem, x));
+    leaf.begin = (stem->radius / across + IVY_GAP) / leaf.size;
+    add_leaf(maker, &leaf);
 }
 
-/* The tube of the stem, but for the quads from which leaves grow: of every third band one, on the side in turn. */
 static void add_stem_faces(MesoSwatchMaker *maker, const Stem *stem, uint32_t first, uint32_t bands)
 {
     for (uint32_t r = 0; r < bands; r++)
         for (uint32_t s = 0; s < stem->sides; s++) {
-            if (r % 3 == 1 && s == (r / 3 % 2 ? stem->sides / 2 : 0))
-                continue;
             uint32_t a = first + r * stem->sides, b = a + stem->sides, t = (s + 1) % stem->sides;
             float u0 = (float)s / (float)stem->sides, u1 = (float)(s + 1) / (float)stem->sides;
             float v0 = (float)r / (float)bands, v1 = (float)(r + 1) / (float)bands;
@@ -136,7 +131,7 @@ static void add_ivy(MesoSwatchMaker *maker, const Stem *stem)
     }
     add_stem_faces(maker, stem, first, bands);
     for (uint32_t r = 1; r < bands; r += 3)
-        add_leaf_at(maker, stem, first + r * stem->sides, 0.25 + 0.5 * (r / 3), r / 3 % 2);
+        add_leaf_at(maker, stem, 0.25 + 0.5 * (r / 3), r / 3 % 2);
 }
 
 static void make_ivy(MesoSwatchMaker *maker)
