@@ -91,18 +91,33 @@ static bool place_body(Settling *s, uint32_t b, MesoQuiltVertex *places)
     return true;
 }
 
-static void place_bodies(Settling *s, MesoQuiltHeights *heights)
+/* A rigid body that the layer is too low for is bent with it; one that does not fit then either is kept as it was. */
+static MesoStatus place_or_bend(Settling *s, uint32_t b, MesoQuiltVertex *places, MesoError *error)
+{
+    MesoSettleBody *body = &s->work.bodies[b];
+    s->kept[b] = !place_body(s, b, places);
+    if (!s->kept[b] || body->points || body->element == MESO_NO_INDEX)
+        return MESO_OK;
+    MesoStatus status = meso_settle_bend(body, &s->work, &s->positions[s->before->vertex_begin[body->element]], error);
+    s->kept[b] = !body->points || !place_body(s, b, places);
+    return status;
+}
+
+static MesoStatus place_bodies(Settling *s, MesoQuiltHeights *heights, MesoError *error)
 {
     for (uint32_t b = 0; b < s->work.body_count; b++) {
         if (s->work.bodies[b].gone || s->kept[b])
             continue;
         MesoQuiltVertex *places = &s->places[s->place_begin[b]];
-        s->kept[b] = !place_body(s, b, places);
+        MesoStatus status = place_or_bend(s, b, places, error);
+        if (status)
+            return status;
         for (uint32_t i = 0; i < s->work.kinds[s->work.bodies[b].kind].point_count && !s->kept[b]; i++) {
             heights->low = fminf(heights->low, places[i].height);
             heights->high = fmaxf(heights->high, places[i].height);
         }
     }
+    return MESO_OK;
 }
 
 /* The layer has to be as high as the bodies are, which says anew where in it they are. */
@@ -125,17 +140,16 @@ static MesoStatus place_all(Settling *s, MesoError *error)
         return MESO_ERR_MEMORY;
     MesoQuiltHeights old = meso_quilt_heights(s->before), heights = {0, 0}, unused = {0, 0};
     for (uint32_t e = 0; e < s->before->element_count; e++)     /* strands keep their heights */
-        for (uint32_t v = s->before->vertex_begin[e]; s->body_of[e] == MESO_NO_INDEX && v < s->before->vertex_begin[e + 1]; v++) {
+        for (uint32_t v = s->before->vertex_begin[e];
+             s->body_of[e] == MESO_NO_INDEX && v < s->before->vertex_begin[e + 1]; v++) {
             heights.low = fminf(heights.low, s->before->vertices[v].height);
             heights.high = fmaxf(heights.high, s->before->vertices[v].height);
         }
-    place_bodies(s, &heights);
-    if (heights.low == old.low && heights.high == old.high)
-        return MESO_OK;
-    MesoStatus status = make_layer(s, heights, error);
-    if (!status)
-        place_bodies(s, &unused);
-    return status;
+    MesoStatus status = place_bodies(s, &heights, error);
+    if (status || (heights.low == old.low && heights.high == old.high))
+        return status;
+    status = make_layer(s, heights, error);
+    return status ? status : place_bodies(s, &unused, error);
 }
 
 /* ---- the quilt ---- */

@@ -28,8 +28,10 @@ typedef struct MesoSettleOptions {
  *   added; what still cuts another one gives way, or goes if it was added.
  * - Where they reach through each other, or lie over each other: they stay where and as they were, bent with the layer, but
  *   of nearly their own volume; what is added cuts nothing.
+ * - Where there are strands, elements stand where the strands have them; such that grow from a strand, with that place of
+ *   theirs.
  * - Vertices get the triangle, the weights and the height that have the layer put them where they are. Where the layer is
- *   too low for that, an element stays as it was.
+ *   too low for that, an element is bent too.
  *
  * surface  that the quilt's places refer to, with twins
  *

@@ -257,24 +257,25 @@ static double volume_of(const MesoVec3 *points, const uint32_t *corners, uint32_
     return sum / 6;
 }
 
-/* As the layer bends it, but of nearly the volume that it has in the swatch: linked ones still go through each other then. */
-static MesoStatus bend(MesoSettleBody *body, const MesoSettleWork *work, const MesoVec3 *positions, MesoError *error)
+MesoStatus meso_settle_bend(MesoSettleBody *body, const MesoSettleWork *work, const MesoVec3 *positions, MesoError *error)
 {
     const MesoSettleKind *kind = &work->kinds[body->kind];
     double volume = volume_of(positions, kind->corners, kind->triangle_count);
     double share = volume / volume_of(kind->points, kind->corners, kind->triangle_count);
     double wanted = share < 1 - VOLUME_PLAY ? 1 - VOLUME_PLAY : share > 1 + VOLUME_PLAY ? 1 + VOLUME_PLAY : share;
-    MesoVec3 middle = {0, 0, 0};
-    if (!(share > 0))
+    if (!(share > 0) || kind->member_end - kind->member_begin != 1)
         return MESO_OK;
     body->points = MESO_NEW(work->arena, MesoVec3, kind->point_count, error);
     if (!body->points)
         return MESO_ERR_MEMORY;
+    MesoVec3 still = {0, 0, 0};
     for (uint32_t i = 0; i < kind->point_count; i++)
-        middle = meso_vec3_mad(middle, 1 / (float)kind->point_count, positions[i]);
+        still = meso_vec3_mad(still, 1 / (float)kind->point_count, positions[i]);
+    if (kind->root != MESO_NO_INDEX)
+        still = positions[kind->root];
     float scale = (float)cbrt(wanted / share);
     for (uint32_t i = 0; i < kind->point_count; i++)
-        body->points[i] = meso_vec3_mad(middle, scale, meso_vec3_sub(positions[i], middle));
+        body->points[i] = meso_vec3_mad(still, scale, meso_vec3_sub(positions[i], still));
     return MESO_OK;
 }
 
@@ -330,9 +331,8 @@ MesoStatus meso_settle_find_bodies(MesoSettleWork *work, const MesoQuilt *quilt,
         MesoSettleBody body;
         if (work->kind_of[quilt->element_origins[e]] == MESO_NO_INDEX || !find_body(&body, work, quilt, positions, e))
             continue;
-        const MesoSettleKind *kind = &work->kinds[body.kind];
-        if (work->linked && kind->member_end - kind->member_begin == 1)
-            status = bend(&body, work, &positions[quilt->vertex_begin[e]], error);
+        if (work->linked)
+            status = meso_settle_bend(&body, work, &positions[quilt->vertex_begin[e]], error);
         if (!status && meso_settle_add_body(work, &body, error) == MESO_NO_INDEX)
             status = error ? error->status : MESO_ERR_MEMORY;
     }

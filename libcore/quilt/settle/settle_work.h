@@ -101,6 +101,12 @@ static inline MesoVec3 meso_settle_body_point(const MesoSettleWork *work, const 
                          meso_settle_to_space(&body->pose, work->kinds[body->kind].points[point]));
 }
 
+/*
+ * Makes a body as the layer bends it, `positions` [point_count of its kind], but of nearly the volume that it has in the
+ * swatch. One that carries others stays as it is.
+ */
+MesoStatus meso_settle_bend(MesoSettleBody *body, const MesoSettleWork *work, const MesoVec3 *positions, MesoError *error);
+
 /* A body's root, of its place. */
 void meso_settle_set_root(const MesoSettleWork *work, MesoSettleBody *body);
 
