@@ -77,13 +77,26 @@ static MesoStatus arrange(Settling *s, MesoError *error)
 
 /* ---- back into the layer ---- */
 
+/* From the place before it along the body, or from where the vertex was. */
+static bool place_point(MesoQuiltVertex *place, float *beyond, const Settling *s, const MesoSettleBody *body, uint32_t i)
+{
+    MesoVec3 point = meso_settle_body_point(&s->work, body, i);
+    if (meso_settle_locate(place, beyond, &s->work, point))
+        return true;
+    uint32_t element = body->element;
+    if (element == MESO_NO_INDEX || i >= s->before->vertex_begin[element + 1] - s->before->vertex_begin[element])
+        return false;
+    *place = s->before->vertices[s->before->vertex_begin[element] + i];
+    return meso_settle_locate(place, beyond, &s->work, point);
+}
+
 static bool place_body(Settling *s, uint32_t b, MesoQuiltVertex *places)
 {
     const MesoSettleBody *body = &s->work.bodies[b];
     MesoQuiltVertex place = body->place;
     float beyond, overhang = body->stays ? INFINITY : s->work.options.overhang;
     for (uint32_t i = 0; i < s->work.kinds[body->kind].point_count; i++) {
-        if (!meso_settle_locate(&place, &beyond, &s->work, meso_settle_body_point(&s->work, body, i)) || beyond > overhang ||
+        if (!place_point(&place, &beyond, s, body, i) || beyond > overhang ||
             place.height < s->work.low || place.height > s->work.high)
             return false;
         places[i] = place;

@@ -8,6 +8,9 @@ enum { NEWTON_LIMIT = 8, WALK_LIMIT = 256 };
 /* Weights that may be less than 0 without another triangle being looked for: places on an edge. */
 #define WEIGHT_SLACK 1e-6
 
+/* Weights less than that are those of a place that is not to be solved for in this triangle. */
+#define FAR_OUTSIDE 1.0
+
 typedef struct Prism {
     MesoVec3d p[3], d[3];
 } Prism;
@@ -29,9 +32,13 @@ static MesoVec3d mix(const MesoVec3d *v, const double *b)
     return meso_vec3d_mad(meso_vec3d_mad(meso_vec3d_scale(v[0], b[0]), b[1], v[1]), b[2], v[2]);
 }
 
-/* Solves sum b_i (p_i + h d_i) = x from where it begins; false where that does not come near. */
+/*
+ * Solves sum b_i (p_i + h d_i) = x from where it begins; false where that does not come near, and b says then which way it
+ * is. Far outside of the prism one step says as much: the prism's sides meet somewhere.
+ */
 static bool solve(double *b, double *h, const Prism *prism, MesoVec3d x)
 {
+    const double first_height = *h;
     for (int i = 0; i < NEWTON_LIMIT; i++) {
         MesoVec3d corner[3];
         for (int k = 0; k < 3; k++)
@@ -46,6 +53,10 @@ static bool solve(double *b, double *h, const Prism *prism, MesoVec3d x)
         b[2] += t;
         b[0] = 1 - b[1] - b[2];
         *h += meso_vec3d_det(u, v, miss) / det;
+        if (i == 0 && (b[0] < -FAR_OUTSIDE || b[1] < -FAR_OUTSIDE || b[2] < -FAR_OUTSIDE)) {
+            *h = first_height;
+            return false;
+        }
         if (fabs(s) < 1e-9 && fabs(t) < 1e-9)
             return true;
     }
@@ -87,10 +98,11 @@ bool meso_settle_locate(MesoQuiltVertex *place, float *beyond, const MesoSettleW
     double h = (double)place->height, b[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
     for (int step = 0; step < WALK_LIMIT; step++) {
         Prism prism = prism_of(work, triangle);
-        if (!solve(b, &h, &prism, x))
-            return false;
+        bool found = solve(b, &h, &prism, x);
         uint32_t out = way_out(work, triangle, b);
         uint32_t next = out == MESO_NO_INDEX ? out : work->surface->twins[3 * (size_t)triangle + (out + 1) % 3] / 3;
+        if ((out == MESO_NO_INDEX || next == before) && !found)
+            return false;
         if (out == MESO_NO_INDEX || next == before) {
             *beyond = distance_beyond(work, triangle, &prism, b);
             *place = (MesoQuiltVertex){triangle, (float)b[1], (float)b[2], (float)h};
