@@ -6,7 +6,10 @@
 #define EMPTY 0.5f
 #define ROOM 0.8f
 
-enum { FILL_ROUNDS = 3, SETTLE_STEPS = 8 };
+/* Steps around a place in search of one where a linked body cuts nothing. */
+#define NUDGE 0.06f
+
+enum { FILL_ROUNDS = 3, SETTLE_STEPS = 8, THREADINGS = 7 };
 
 /* Whether a body has another one nearer than `far`. */
 static bool is_taken(const MesoSettleWork *work, const MesoSettleBody *body, float far)
@@ -54,6 +57,26 @@ static bool is_over_surface(const MesoSettleWork *work, const MesoSettleBody *bo
     return true;
 }
 
+/* Looks around a place for one where a body cuts nothing. */
+static MesoStatus thread_in(bool *meets, MesoSettleBody *body, const MesoSettleWork *work, MesoError *error)
+{
+    static const float ways[7][2] = {{0, 0}, {1, 0}, {0.5f, 0.87f}, {-0.5f, 0.87f}, {-1, 0}, {-0.5f, -0.87f}, {0.5f, -0.87f}};
+    const MesoSettleBody first = *body;
+    *meets = true;
+    for (uint32_t i = 0; i < THREADINGS && *meets; i++) {
+        float step = NUDGE * work->spacing * (float)(1 + i / 7);
+        MesoVec3 way = meso_vec3_mad(meso_vec3_scale(first.pose.x, step * ways[i % 7][0]), step * ways[i % 7][1],
+                                     first.pose.y);
+        *body = first;
+        if (i && !meso_settle_move(work, body, meso_vec3_add(first.root, way)))
+            continue;
+        MesoStatus status = meso_settle_meets(meets, work, body, error);
+        if (status)
+            return status;
+    }
+    return MESO_OK;
+}
+
 static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t relation, uint32_t *added,
                                MesoError *error)
 {
@@ -63,11 +86,11 @@ static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t rel
         return MESO_OK;
     for (int i = 0; i < SETTLE_STEPS; i++)
         meso_settle_relax_body(work, &body, MESO_NO_INDEX);
-    if (is_taken(work, &body, ROOM * work->spacing) || !is_over_surface(work, &body))
+    if (is_taken(work, &body, (work->linked ? EMPTY : ROOM) * work->spacing) || !is_over_surface(work, &body))
         return MESO_OK;
     if (work->linked) {
         bool meets;
-        MesoStatus status = meso_settle_meets(&meets, work, &body, error);
+        MesoStatus status = thread_in(&meets, &body, work, error);
         if (status || meets)
             return status;
     }
