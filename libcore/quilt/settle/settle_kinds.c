@@ -89,7 +89,7 @@ static MesoStatus shape_kind(MesoSettleWork *work, MesoSettleKind *kind, MesoErr
 
 /* ---- relations ---- */
 
-/* Offsets to another kind, and to its copies in the tiles around; `visit` is asked whether to go on. */
+/* Offsets to another kind, and to its copies in the tiles around. */
 typedef struct Images {
     MesoVec3 offsets[9];
     uint32_t count;

@@ -21,7 +21,7 @@ typedef struct MesoSwatchRecipe {
  * rings        Japanese 4-in-1: flat rings, joined by upright ones
  * nuts         hexagonal nuts with a hole and chamfers, whose cross-section is given
  * apples       apples, and a stem in each
- * ivy          stems along x, from which leaves grow; two columns are a wave
+ * ivy          stems along x, by which leaves stand, elements of their own; two columns are a wave
  * scales       closed scales, row over row
  *
  * Nothing cuts anything else, unless strands are made thicker. Strands have open ends at the tile's sides. Without

@@ -19,6 +19,8 @@ typedef struct Settling {
     MesoQuiltVertex *places;    /* [point_count] of all bodies, one after the other */
     uint32_t *place_begin;      /* [body_count] */
     bool *kept;                 /* [body_count] it stays as it was */
+    uint32_t *kept_bodies;      /* [kept_count] those */
+    uint32_t kept_count;
     bool alone;                 /* there are no strands */
 } Settling;
 
@@ -199,9 +201,10 @@ static uint32_t carrier_of(const Settling *s, uint32_t element)
     const MesoSettleWork *work = &s->work;
     uint32_t origin = s->before->element_origins[element], best = MESO_NO_INDEX;
     float least = INFINITY;
-    for (uint32_t b = 0; b < work->body_count; b++) {
+    for (uint32_t i = 0; i < s->kept_count; i++) {
+        uint32_t b = s->kept_bodies[i];
         const MesoSettleBody *body = &work->bodies[b];
-        if (!s->kept[b] || body->patch != s->before->patches[s->before->triangle_begin[element]])
+        if (body->patch != s->before->patches[s->before->triangle_begin[element]])
             continue;
         const MesoSettleKind *kind = &work->kinds[body->kind];
         bool carries = false;
@@ -225,8 +228,12 @@ static MesoStatus list_sources(Sources *sources, Settling *s, MesoError *error)
     for (uint32_t b = 0; b < work->body_count; b++)
         most += work->kinds[work->bodies[b].kind].member_end - work->kinds[work->bodies[b].kind].member_begin;
     sources->list = MESO_NEW(work->arena, Source, most, error);
-    if (!sources->list)
+    s->kept_bodies = MESO_NEW(work->arena, uint32_t, work->body_count, error);
+    if (!sources->list || !s->kept_bodies)
         return MESO_ERR_MEMORY;
+    for (uint32_t b = 0; b < work->body_count; b++)
+        if (s->kept[b])
+            s->kept_bodies[s->kept_count++] = b;
     for (uint32_t e = 0; e < before->element_count; e++) {
         uint32_t origin = before->element_origins[e], b = s->body_of[e];
         bool carried = work->swatch->kinds[origin] == MESO_ELEMENT_WHOLE && work->kind_of[origin] == MESO_NO_INDEX;
