@@ -86,7 +86,7 @@ static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t rel
         return MESO_OK;
     for (int i = 0; i < SETTLE_STEPS; i++)
         meso_settle_relax_body(work, &body, MESO_NO_INDEX);
-    if (is_taken(work, &body, (work->linked ? EMPTY : ROOM) * work->spacing) || !is_over_surface(work, &body))
+    if (is_taken(work, &body, ROOM * work->spacing) || !is_over_surface(work, &body))
         return MESO_OK;
     if (work->linked) {
         bool meets;

@@ -9,7 +9,10 @@
 /* How far beyond the heights that there are a body may reach, as a share of their range: the surface bends under it. */
 #define HEIGHT_SLACK 0.3f
 
-enum { RELAX_ROUNDS = 24 };
+/* Heights as a share of their range that make no other layer. */
+#define SAME_HEIGHT 0.002f
+
+enum { RELAX_ROUNDS = 24, LAYER_ROUNDS = 4 };
 
 typedef struct Settling {
     MesoSettleWork work;
@@ -118,8 +121,26 @@ static MesoStatus place_or_bend(Settling *s, uint32_t b, MesoQuiltVertex *places
     return status;
 }
 
+static void add_height(MesoQuiltHeights *heights, float height)
+{
+    heights->low = fminf(heights->low, height);
+    heights->high = fmaxf(heights->high, height);
+}
+
+static bool are_alike(MesoQuiltHeights a, MesoQuiltHeights b)
+{
+    float most = SAME_HEIGHT * (b.high - b.low);
+    return fabsf(a.low - b.low) <= most && fabsf(a.high - b.high) <= most;
+}
+
+/* `heights`: those that the layer has to have then, with strands and what is kept. */
 static MesoStatus place_bodies(Settling *s, MesoQuiltHeights *heights, MesoError *error)
 {
+    const MesoQuilt *before = s->before;
+    *heights = (MesoQuiltHeights){0, 0};
+    for (uint32_t e = 0; e < before->element_count; e++)
+        for (uint32_t v = before->vertex_begin[e]; s->body_of[e] == MESO_NO_INDEX && v < before->vertex_begin[e + 1]; v++)
+            add_height(heights, before->vertices[v].height);
     for (uint32_t b = 0; b < s->work.body_count; b++) {
         if (s->work.bodies[b].gone || s->kept[b])
             continue;
@@ -127,10 +148,8 @@ static MesoStatus place_bodies(Settling *s, MesoQuiltHeights *heights, MesoError
         MesoStatus status = place_or_bend(s, b, places, error);
         if (status)
             return status;
-        for (uint32_t i = 0; i < s->work.kinds[s->work.bodies[b].kind].point_count && !s->kept[b]; i++) {
-            heights->low = fminf(heights->low, places[i].height);
-            heights->high = fmaxf(heights->high, places[i].height);
-        }
+        for (uint32_t i = 0; i < s->work.kinds[s->work.bodies[b].kind].point_count && !s->kept[b]; i++)
+            add_height(heights, places[i].height);
     }
     return MESO_OK;
 }
@@ -153,18 +172,15 @@ static MesoStatus place_all(Settling *s, MesoError *error)
     s->places = MESO_NEW(work->arena, MesoQuiltVertex, count, error);
     if (!s->places)
         return MESO_ERR_MEMORY;
-    MesoQuiltHeights old = meso_quilt_heights(s->before), heights = {0, 0}, unused = {0, 0};
-    for (uint32_t e = 0; e < s->before->element_count; e++)     /* strands keep their heights */
-        for (uint32_t v = s->before->vertex_begin[e];
-             s->body_of[e] == MESO_NO_INDEX && v < s->before->vertex_begin[e + 1]; v++) {
-            heights.low = fminf(heights.low, s->before->vertices[v].height);
-            heights.high = fmaxf(heights.high, s->before->vertices[v].height);
-        }
-    MesoStatus status = place_bodies(s, &heights, error);
-    if (status || (heights.low == old.low && heights.high == old.high))
-        return status;
-    status = make_layer(s, heights, error);
-    return status ? status : place_bodies(s, &unused, error);
+    MesoQuiltHeights made = meso_quilt_heights(s->before), wanted;
+    MesoStatus status = place_bodies(s, &wanted, error);
+    for (int i = 0; i < LAYER_ROUNDS && !status && !are_alike(made, wanted); i++) {
+        made = wanted;
+        status = make_layer(s, made, error);
+        if (!status)
+            status = place_bodies(s, &wanted, error);
+    }
+    return status;
 }
 
 /* ---- the quilt ---- */
