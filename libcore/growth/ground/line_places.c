@@ -188,15 +188,15 @@ static MesoStatus place_along(MesoSeedWork *work, const MesoGrammarValue *spacin
 
 /* ---- borders ---- */
 
-/* The next half-edge of a border, counter-clockwise as the triangle of this one is wound. */
+/* The next half-edge of a border; turned ones are gone along from their end. */
 static uint32_t next_on_border(const MesoTriangulation *mesh, uint32_t half_edge, bool turned, bool *next_turned)
 {
     /* the fan around the end vertex, from this triangle away from the border */
     uint32_t corner = turned ? half_edge : meso_next_corner(half_edge);
-    MesoFan fan = {corner, turned};
+    MesoFan fan = {corner, !turned};
     while (meso_fan_next(mesh, &fan))
         continue;
-    *next_turned = fan.turned;
+    *next_turned = !fan.turned;
     return meso_fan_exit(fan);
 }
 

@@ -6,12 +6,13 @@
  */
 #include <stdlib.h>
 
+#include "libcore/growth/ground/dart_sight.h"
 #include "libcore/growth/ground/seed_places.h"
 
 enum {
     NO_LINK = 0,
     DEPTH_LIMIT = 23,       /* up to here floats tell corners apart */
-    CELL_LIMIT = 1 << 30
+    CELL_LIMIT = 1 << 26
 };
 
 /* Of the distance: uncovered cells smaller than this are left. */
@@ -24,12 +25,12 @@ static const double FINENESS = 1.0 / 128;
 typedef struct Cell {
     float weights[3][2];    /* of its corners: those of the triangle's second and third corner */
     uint32_t triangle;
-    uint32_t children;      /* the first of four; 0: none */
+    uint32_t children;      /* the first of those that are not covered; 0: none */
     uint32_t views;         /* the first link */
-    uint16_t depth;
+    uint8_t depth, child_count;
     bool done;              /* covered */
     float size;             /* how far its corners are from its middle at most */
-    double radius;          /* at its middle */
+    float radius;           /* at its middle */
     uint64_t hash;
 } Cell;
 
@@ -39,7 +40,7 @@ typedef struct Link {
 } Link;
 
 typedef struct Seen {
-    MesoReachView view;
+    MesoDartView view;
     double radius;          /* of the dart */
 } Seen;
 
@@ -55,7 +56,7 @@ typedef struct Board {
     const MesoWalkGround *ground;
     const MesoGrammarValue *radius;
     bool varies;
-    MesoReach *reach;
+    MesoDartSight sight;
     MesoArena *arena;
     Cell *cells;            /* [cell_count] the triangles come first */
     Link *links;
@@ -74,7 +75,14 @@ static void cell_weights(const Cell *cell, double s, double t, double weight[3])
     double r = 1 - s - t;
     weight[1] = r * (double)cell->weights[0][0] + s * (double)cell->weights[1][0] + t * (double)cell->weights[2][0];
     weight[2] = r * (double)cell->weights[0][1] + s * (double)cell->weights[1][1] + t * (double)cell->weights[2][1];
-    weight[0] = fmax(1 - weight[1] - weight[2], 0);
+    weight[0] = 1 - weight[1] - weight[2];
+    weight[0] = weight[0] > 0 ? weight[0] : 0;
+}
+
+/* Weights of its middle as views want them. */
+static double middle_of(const Cell *cell, uint32_t c)
+{
+    return ((double)cell->weights[0][c] + (double)cell->weights[1][c] + (double)cell->weights[2][c]) / 3;
 }
 
 static double size_of(const Board *board, const Cell *cell)
@@ -92,14 +100,25 @@ static double size_of(const Board *board, const Cell *cell)
     return size;
 }
 
-/* The distance at a point; not above 0: no seeds there. Where it is no number the status says so. */
+/* Of the extent, too: a distance that varies and is smaller is none, for it may go down to 0. */
+static const double LEAST = 1.0 / 4096;
+
+/* The distance at a point; 0: no seeds there. Where it is no number the status says so. */
 static double radius_at(Board *board, uint32_t triangle, const double weight[3], uint64_t draw)
 {
     MesoSurfacePlace at = {triangle, {weight[0], weight[1], weight[2]}};
     double radius = board->varies ? meso_place_number(board->work, board->radius, &at, draw) : board->radius->number;
     if (!isfinite(radius) && !board->status)
         board->status = meso_place_fault(board->work, board->radius, "the radius");
-    return radius;
+    return !board->varies || radius > LEAST * board->work->contexts->ground->extent ? radius : 0;
+}
+
+static MesoStatus find_radius(Board *board, Cell *cell)
+{
+    double middle[3];
+    cell_weights(cell, 1.0 / 3, 1.0 / 3, middle);
+    cell->radius = (float)radius_at(board, cell->triangle, middle, cell->hash);
+    return board->status;
 }
 
 static MesoStatus add_cell(Board *board, const Cell *cell)
@@ -110,47 +129,27 @@ static MesoStatus add_cell(Board *board, const Cell *cell)
     board->cells = MESO_GROW(board->arena, board->cells, board->cell_count, board->cell_room, 1024, board->work->error);
     if (!board->cells)
         return MESO_ERR_MEMORY;
-    Cell *added = &board->cells[board->cell_count++];
-    *added = *cell;
-    double middle[3];
-    cell_weights(added, 1.0 / 3, 1.0 / 3, middle);
-    added->size = (float)size_of(board, added);
-    added->radius = radius_at(board, added->triangle, middle, added->hash);
-    return board->status;
-}
-
-/* The four come behind all others; children are 0 until then, as no child is the first cell. */
-static MesoStatus cut(Board *board, uint32_t index)
-{
-    static const float at[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5f, 0}, {0.5f, 0.5f}, {0, 0.5f}};
-    static const uint8_t parts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {4, 5, 3}};
-    uint32_t children = board->cell_count;
-    for (uint32_t i = 0; i < 4; i++) {
-        const Cell *cell = &board->cells[index];
-        Cell part = {.triangle = cell->triangle, .depth = (uint16_t)(cell->depth + 1),
-                     .hash = meso_draw_mix(cell->hash + i + 1)};
-        for (uint32_t k = 0; k < 3; k++) {
-            const float *w = at[parts[i][k]];
-            for (uint32_t c = 0; c < 2; c++)
-                part.weights[k][c] = (1 - w[0] - w[1]) * cell->weights[0][c] + w[0] * cell->weights[1][c] +
-                                     w[1] * cell->weights[2][c];
-        }
-        MesoStatus status = add_cell(board, &part);
-        if (status)
-            return status;
-    }
-    board->cells[index].children = children;
+    board->cells[board->cell_count++] = *cell;
     return MESO_OK;
 }
 
-/* ---- views ---- */
-
-static double middle_distance(const Board *board, const Cell *cell, const MesoReachView *view)
+/* One of four. */
+static Cell part_of(const Cell *cell, uint32_t part)
 {
-    double middle[3];
-    cell_weights(cell, 1.0 / 3, 1.0 / 3, middle);
-    return meso_view_distance(board->ground, view, middle);
+    static const float at[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5f, 0}, {0.5f, 0.5f}, {0, 0.5f}};
+    static const uint8_t parts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {4, 5, 3}};
+    Cell out = {.triangle = cell->triangle, .depth = (uint8_t)(cell->depth + 1), .size = 0.5f * cell->size,
+                .hash = meso_draw_mix(cell->hash + part + 1)};
+    for (uint32_t k = 0; k < 3; k++) {
+        const float *w = at[parts[part][k]];
+        for (uint32_t c = 0; c < 2; c++)
+            out.weights[k][c] = (1 - w[0] - w[1]) * cell->weights[0][c] + w[0] * cell->weights[1][c] +
+                                w[1] * cell->weights[2][c];
+    }
+    return out;
 }
+
+/* ---- views ---- */
 
 static MesoStatus link_view(Board *board, Cell *cell, uint32_t view)
 {
@@ -165,28 +164,39 @@ static MesoStatus link_view(Board *board, Cell *cell, uint32_t view)
 static void cover(Board *board, Cell *cell)
 {
     cell->done = true;
-    for (uint32_t i = 0; cell->children && i < 4; i++)
+    for (uint32_t i = 0; i < cell->child_count; i++)
         cover(board, &board->cells[cell->children + i]);
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+typedef enum Meeting { MEETING_NONE, MEETING_SOME, MEETING_COVERS } Meeting;
+
+static Meeting meet(const Board *board, const Cell *cell, const Seen *seen)
+{
+    double distance = meso_dart_distance(&seen->view, middle_of(cell, 0), middle_of(cell, 1));
+    double size = (double)cell->size;
+    if (distance + size < larger(seen->radius, (double)cell->radius))
+        return MEETING_COVERS;
+    return distance - size > (board->varies ? 2 : 1) * seen->radius ? MEETING_NONE : MEETING_SOME;
 }
 
 /* Gives a view to a cell, or to those that it was cut into. */
 static MesoStatus give_view(Board *board, Cell *cell, uint32_t number)
 {
-    const Seen *seen = &board->seen[number];
-    MesoStatus status = MESO_OK;
-    if (cell->done)
-        return MESO_OK;
-    double distance = middle_distance(board, cell, &seen->view), size = (double)cell->size;
-    if (distance + size < fmax(seen->radius, cell->radius)) {
+    Meeting meeting = cell->done ? MEETING_NONE : meet(board, cell, &board->seen[number]);
+    if (meeting == MEETING_COVERS)
         cover(board, cell);
+    if (meeting != MEETING_SOME)
         return MESO_OK;
-    }
-    if (distance - size > (board->varies ? 2 : 1) * seen->radius)
-        return MESO_OK;
-    if (!cell->children)
+    if (!cell->child_count)
         return link_view(board, cell, number);
     bool done = true;
-    for (uint32_t i = 0; i < 4 && !status; i++) {
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < cell->child_count && !status; i++) {
         Cell *child = &board->cells[cell->children + i];
         status = give_view(board, child, number);
         done &= child->done;
@@ -195,7 +205,7 @@ static MesoStatus give_view(Board *board, Cell *cell, uint32_t number)
     return status;
 }
 
-static void take_view(void *context, const MesoReachView *view)
+static void take_view(void *context, const MesoDartView *view)
 {
     Board *board = context;
     Cell *root = &board->cells[view->triangle];
@@ -216,7 +226,7 @@ static bool fits(const Board *board, const Cell *cell, const double weight[3], d
 {
     for (uint32_t l = cell->views; l != NO_LINK; l = board->links[l].next) {
         const Seen *seen = &board->seen[board->links[l].view];
-        if (meso_view_distance(board->ground, &seen->view, weight) < fmax(radius, seen->radius))
+        if (meso_dart_distance(&seen->view, weight[1], weight[2]) < larger(radius, seen->radius))
             return false;
     }
     return true;
@@ -235,8 +245,8 @@ static MesoStatus throw_dart(Board *board, uint32_t index)
     board->dart_radius = radius;
     MesoStatus status = meso_place_add(board->work, &at, cell->hash);
     if (!status)
-        status = meso_reach_tell(board->reach, &at, board->varies ? 2 * radius : radius, take_view, board,
-                                 board->work->error);
+        status = meso_dart_look(&board->sight, &at, board->varies ? 2 * radius : radius, take_view, board,
+                                board->work->error);
     return status ? status : board->status;
 }
 
@@ -249,7 +259,8 @@ static MesoStatus queue_cell(Board *board, uint32_t index)
         return MESO_ERR_MEMORY;
     const Cell *cell = &board->cells[index];
     /* first come those that an even rain would hit first */
-    double area = meso_place_area(board->mesh, cell->triangle) * pow(0.25, cell->depth) / (cell->radius * cell->radius);
+    double radius = (double)cell->radius;
+    double area = meso_place_area(board->mesh, cell->triangle) * ldexp(1, -2 * cell->depth) / (radius * radius);
     double share = meso_draw_share(meso_draw_key(board->work->job, cell->hash, 0));
     board->next[board->next_count++] = (Turn){-log(1 - share) / area, cell->hash, index};
     return MESO_OK;
@@ -258,20 +269,49 @@ static MesoStatus queue_cell(Board *board, uint32_t index)
 /* Cells in which nothing can be, and those that are as small as is told apart, are let go. */
 static bool is_over(const Board *board, const Cell *cell)
 {
-    double least = cell->radius > 0 ? LEFT_OVER * cell->radius : FINENESS * board->work->contexts->ground->extent;
+    double least = cell->radius > 0 ? LEFT_OVER * (double)cell->radius
+                                    : FINENESS * board->work->contexts->ground->extent;
     return cell->done || cell->depth >= DEPTH_LIMIT || (double)cell->size <= least;
+}
+
+/* A part of a cell with what it has of the cell's views; covered ones are not kept. */
+static MesoStatus add_part(Board *board, uint32_t index, uint32_t part)
+{
+    Cell cell = part_of(&board->cells[index], part);
+    MesoStatus status = find_radius(board, &cell);
+    for (uint32_t l = board->cells[index].views; l != NO_LINK && !status; l = board->links[l].next) {
+        uint32_t view = board->links[l].view;
+        Meeting meeting = meet(board, &cell, &board->seen[view]);
+        if (meeting == MEETING_COVERS)
+            return MESO_OK;
+        if (meeting == MEETING_SOME)
+            status = link_view(board, &cell, view);
+    }
+    if (!status && !is_over(board, &cell))
+        status = add_cell(board, &cell);
+    return status;
+}
+
+/* Cuts a cell into the parts that are not covered. */
+static MesoStatus cut(Board *board, uint32_t index)
+{
+    uint32_t children = board->cell_count;
+    MesoStatus status = MESO_OK;
+    for (uint32_t part = 0; part < 4 && !status; part++)
+        status = add_part(board, index, part);
+    Cell *cell = &board->cells[index];
+    cell->children = children;
+    cell->child_count = (uint8_t)(board->cell_count - children);
+    cell->done |= cell->child_count == 0;
+    return status;
 }
 
 static MesoStatus pass_on(Board *board, uint32_t index)
 {
     MesoStatus status = cut(board, index);
-    for (uint32_t i = 0; i < 4 && !status; i++) {
-        uint32_t child = board->cells[index].children + i;
-        for (uint32_t l = board->cells[index].views; l != NO_LINK && !status; l = board->links[l].next)
-            status = give_view(board, &board->cells[child], board->links[l].view);
-        if (!status && !is_over(board, &board->cells[child]))
-            status = queue_cell(board, child);
-    }
+    uint32_t children = board->cells[index].children, count = board->cells[index].child_count;
+    for (uint32_t i = 0; i < count && !status; i++)
+        status = queue_cell(board, children + i);
     return status;
 }
 
@@ -319,7 +359,7 @@ static bool is_too_large(const Board *board, const Cell *cell)
 {
     double size = (double)cell->size;
     bool coarse = board->varies && size > FINENESS * board->work->contexts->ground->extent;
-    return cell->depth < DEPTH_LIMIT && (coarse || (cell->radius > 0 && size > 0.5 * cell->radius));
+    return cell->depth < DEPTH_LIMIT && (coarse || (cell->radius > 0 && size > (double)cell->radius));
 }
 
 static MesoStatus begin_cell(Board *board, uint32_t index)
@@ -327,8 +367,8 @@ static MesoStatus begin_cell(Board *board, uint32_t index)
     if (!is_too_large(board, &board->cells[index]))
         return is_over(board, &board->cells[index]) ? MESO_OK : queue_cell(board, index);
     MesoStatus status = cut(board, index);
-    uint32_t children = board->cells[index].children;
-    for (uint32_t i = 0; i < 4 && !status; i++)
+    uint32_t children = board->cells[index].children, count = board->cells[index].child_count;
+    for (uint32_t i = 0; i < count && !status; i++)
         status = begin_cell(board, children + i);
     return status;
 }
@@ -342,8 +382,11 @@ static MesoStatus begin_triangles(Board *board)
         for (uint32_t k = 0; k < 3; k++)
             if (order[k] > 0)
                 root.weights[k][order[k] - 1] = 1;
-        status = add_cell(board, &root);
-        board->cells[t].done = !status && !(meso_place_area(board->mesh, t) > 0);
+        root.size = (float)size_of(board, &root);
+        status = find_radius(board, &root);
+        root.done = !(meso_place_area(board->mesh, t) > 0);
+        if (!status)
+            status = add_cell(board, &root);
     }
     for (uint32_t t = 0; t < board->mesh->triangle_count && !status; t++)
         status = begin_cell(board, t);
@@ -362,12 +405,13 @@ MesoStatus meso_places_poisson(MesoSeedWork *work)
     meso_arena_init(&arena);
     board.arena = &arena;
     board.links = meso_arena_enlarge(&arena, NULL, 0, board.link_room = 1024, sizeof *board.links, work->error);
-    MesoStatus status = board.links ? meso_reach_init(&board.reach, &arena, board.mesh, board.ground,
-                                                      work->thread_count, work->error) : MESO_ERR_MEMORY;
+    MesoStatus status = board.links ? meso_dart_sight_init(&board.sight, &arena, board.mesh, board.ground,
+                                                           work->thread_count, work->error) : MESO_ERR_MEMORY;
     if (!status)
         status = begin_triangles(&board);
     if (!status)
         status = run_rounds(&board);
+    meso_dart_sight_release(&board.sight);
     meso_arena_release(&arena);
     return status;
 }

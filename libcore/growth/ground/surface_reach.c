@@ -166,6 +166,15 @@ static MesoStatus light_triangle(MesoReach *reach, MesoFan fan, double distance,
     return see_side(reach, opposite, out.length, view);
 }
 
+/* A vertex sees all of the triangles around it. */
+static void tell_around(const MesoReach *reach, uint32_t corner, double distance)
+{
+    MesoComplex corners[3];
+    meso_walk_corners(reach->ground, corner / 3, corners);
+    reach->view(reach->context, &(MesoReachView){.triangle = corner / 3, .side = 3, .x = corners[corner % 3].re,
+                                                 .y = corners[corner % 3].im, .base = distance});
+}
+
 /* Goes around, from the fan's triangle on, whose far spoke lies at the angle `at` from the ray that comes in. */
 static MesoStatus light_fan(MesoReach *reach, MesoFan fan, double at, const Shadow *shadow)
 {
@@ -185,6 +194,8 @@ static MesoStatus light_fan(MesoReach *reach, MesoFan fan, double at, const Shad
             double inward = fan.turned ? corner_angle(reach, far) : 0;
             status = see_vertex(reach, far, shadow->distance + spoke.length, inward);
         }
+        if (!status && at + angle > shadow->low)
+            tell_around(reach, fan.corner, shadow->distance);
         if (!status && at + angle > shadow->low)
             status = light_triangle(reach, fan, shadow->distance, shadow->low - at, shadow->high - at,
                                     at + angle <= shadow->high);

@@ -61,6 +61,51 @@ static uint32_t compare(MesoTriangulation mesh, double distance, uint32_t count)
     return reached;
 }
 
+typedef struct Pair {
+    const MesoWalkGround *ground;
+    const MesoTip *to;
+    double least;
+} Pair;
+
+static void tell_pair(void *context, const MesoReachView *view)
+{
+    Pair *pair = context;
+    if (view->triangle == pair->to->triangle)
+        pair->least = fmin(pair->least, meso_view_distance(pair->ground, view, pair->to->weight));
+}
+
+static double distance_between(MesoReach *reach, const MesoWalkGround *ground, const MesoTip *from, const MesoTip *to,
+                               double within)
+{
+    Pair pair = {ground, to, INFINITY};
+    MesoSurfacePlace place = {from->triangle, {from->weight[0], from->weight[1], from->weight[2]}};
+    CHECK(meso_reach_tell(reach, &place, within, tell_pair, &pair, NULL) == MESO_OK);
+    return pair.least;
+}
+
+/* Points of triangles: as far there as back, behind saddles too, which see all of the triangles around them. */
+static void compare_ways(MesoTriangulation mesh, double within, uint32_t count)
+{
+    MesoWalkScene scene;
+    MesoReach *reach;
+    MesoRandom random;
+    uint32_t met = 0;
+    meso_walk_scene_init(&scene, mesh);
+    meso_random_init(&random, 8, 0);
+    CHECK(meso_reach_init(&reach, &scene.arena, &scene.mesh, &scene.ground, 1, NULL) == MESO_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        MesoTip a = meso_fixture_tip(&scene.ground, &random);
+        MesoWalk walk = {.tip = a, .length = within * meso_fixture_uniform(&random)};
+        meso_walks(&scene.ground, &walk, 1, NULL);
+        double there = distance_between(reach, &scene.ground, &a, &walk.tip, within);
+        double back = distance_between(reach, &scene.ground, &walk.tip, &a, within);
+        CHECK(there > within || fabs(there - back) < 1e-7 * within);
+        met += there <= within;
+    }
+    CHECK(met > count / 2);
+    meso_walk_scene_release(&scene);
+}
+
 /* Nine by nine squares without three columns from the top down to row 3: paths bend at borders. */
 static MesoTriangulation make_u(void)
 {
@@ -85,5 +130,8 @@ int main(void)
     CHECK(compare(meso_fixture_sphere(2, 0, 1), 20, 5) > 100);
     CHECK(compare(meso_fixture_bumpy_torus(24, 12), 0.7, 30) > 300);
     CHECK(compare(meso_fixture_moebius(), 0.5, 30) > 300);
+    compare_ways(meso_fixture_sphere(20, 0.5f, 2), 0.15, 4000);
+    compare_ways(meso_fixture_bumpy_torus(24, 12), 0.4, 4000);
+    compare_ways(make_u(), 4, 1000);
     return 0;
 }
