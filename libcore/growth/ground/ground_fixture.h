@@ -36,8 +36,8 @@ static inline void meso_ground_scene_release(MesoGroundScene *scene)
 static inline void meso_ground_scene_read(MesoGroundScene *scene, const char *text)
 {
     MesoError error;
-    if (meso_grammar_read(&scene->grammar, &scene->arena, "test", text, strlen(text), &(MesoGrammarOptions){0},
-                          &error)) {
+    MesoGrammarOptions options = {.extent = scene->ground.extent > 0 ? scene->ground.extent : 1};
+    if (meso_grammar_read(&scene->grammar, &scene->arena, "test", text, strlen(text), &options, &error)) {
         fprintf(stderr, "%s\n", error.message);
         exit(1);
     }

@@ -343,12 +343,72 @@ static void test_errors(void)
     fail(HEAD "\n\nseed A() on poisson(1 m / (x - x) * 1 m)" RULE, MESO_ERR_INPUT,
          "line 3: the radius is no number at a place");
     fail(HEAD "\nseed A() on border(1 m * 0)" RULE, MESO_ERR_INPUT, "line 2: the spacing is not above 0");
+    fail(HEAD "seed A() on poisson(0.1 mm)" RULE, MESO_ERR_LIMIT,
+         "the radius of 'poisson' is too small for so much surface");
     fail(HEAD "\nseed A() on poisson(-1 m)" RULE, MESO_ERR_INPUT, "line 2: the radius of 'poisson' is not above 0");
     meso_ground_scene_release(&scene);
 }
 
+/* ---- meshes that are none ---- */
+
+/* Vertices in one place, in rows, far off; triangles without area. */
+static void break_mesh(MesoTriangulation *mesh, MesoRandom *random)
+{
+    uint32_t kind = meso_random_below(random, 5);
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        MesoVec3 *p = &mesh->positions[v];
+        bool chosen = meso_random_below(random, 3) == 0;
+        if (kind == 0 && chosen)
+            *p = mesh->positions[meso_random_below(random, mesh->vertex_count)];
+        if (kind == 1)
+            p->y = p->z = chosen ? 0 : p->y;
+        if (kind == 2 && chosen)
+            *p = meso_vec3_scale(*p, powf(10, 5 * meso_fixture_signed(random)));
+        if (kind == 3)
+            *p = (MesoVec3){meso_fixture_signed(random), meso_fixture_signed(random), meso_fixture_signed(random)};
+        if (kind == 4)
+            *p = (MesoVec3){0, 0, 0};
+    }
+}
+
+/* Every kind of seeds comes to an end, at places that are some. */
+static void test_broken(uint32_t count)
+{
+    static const char *const texts[] = {
+        HEAD "seed A() on poisson(0.1 extent) face up" RULE,
+        HEAD "seed A() on poisson((0.12 + 0.06 * noise(0.3 extent)) * 1 extent) face up" RULE,
+        HEAD "map d = attribute(\"d\") seed A() on density(d, 50)" RULE, HEAD "seed A() on border(0.1 extent)" RULE,
+        HEAD "seed A() on vertices(0.5) seed A() on at(1 m, 0, 0) where slope < 90 deg" RULE,
+    };
+    static float one = 1;
+    MesoRandom random;
+    meso_random_init(&random, 6, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        MesoTriangulation mesh = i % 2 ? meso_fixture_torus(4, 3, 0.4f) : meso_fixture_sheet(3, 3, 0.7f);
+        break_mesh(&mesh, &random);
+        meso_ground_scene_init(&scene, mesh);
+        scene.maps[0] = (MesoGrowthMap){.values = &one};
+        MesoGrowthStarts starts;
+        MesoError error;
+        meso_ground_scene_read(&scene, texts[i / 2 % 5]);
+        MesoStatus status = meso_growth_seeds(&starts, &scene.arena, &scene.grammar, &scene.contexts, NULL, i, 1,
+                                              &error);
+        CHECK(status == MESO_OK);
+        for (uint32_t s = 0; s < starts.count; s++) {
+            const MesoTip *tip = &starts.starts[s].tip;
+            CHECK(tip->triangle < mesh.triangle_count);
+            CHECK(fabs(tip->weight[0] + tip->weight[1] + tip->weight[2] - 1) < 1e-12);
+            for (uint32_t k = 0; k < 3; k++)
+                CHECK(tip->weight[k] >= 0 && tip->weight[k] <= 1);
+            CHECK(fabs(hypot(tip->heading.re, tip->heading.im) - 1) < 1e-12);
+        }
+        meso_ground_scene_release(&scene);
+    }
+}
+
 int main(void)
 {
+    test_broken(150);
     test_poisson();
     test_fine();
     test_varying();

@@ -12,7 +12,8 @@
 enum {
     NO_LINK = 0,
     DEPTH_LIMIT = 23,       /* up to here floats tell corners apart */
-    CELL_LIMIT = 1 << 26
+    CELL_LIMIT = 1 << 25,
+    DART_LIMIT = 1 << 24    /* about, of a distance that does not vary */
 };
 
 /* Of the distance: uncovered cells smaller than this are left. */
@@ -121,11 +122,15 @@ static MesoStatus find_radius(Board *board, Cell *cell)
     return board->status;
 }
 
+static MesoStatus fail_too_many(const Board *board)
+{
+    return meso_fail(board->work->error, MESO_ERR_LIMIT, "the radius of 'poisson' is too small for so much surface");
+}
+
 static MesoStatus add_cell(Board *board, const Cell *cell)
 {
     if (board->cell_count >= CELL_LIMIT)
-        return meso_fail(board->work->error, MESO_ERR_LIMIT,
-                         "the radius of 'poisson' is too small for so much surface");
+        return fail_too_many(board);
     board->cells = MESO_GROW(board->arena, board->cells, board->cell_count, board->cell_room, 1024, board->work->error);
     if (!board->cells)
         return MESO_ERR_MEMORY;
@@ -216,8 +221,10 @@ static void take_view(void *context, const MesoDartView *view)
         board->status = MESO_ERR_MEMORY;
         return;
     }
+    uint32_t link_count = board->link_count;
     board->seen[board->seen_count] = (Seen){*view, board->dart_radius};
-    board->status = give_view(board, root, board->seen_count++);
+    board->status = give_view(board, root, board->seen_count);
+    board->seen_count += board->link_count > link_count;
 }
 
 /* ---- darts ---- */
@@ -364,6 +371,8 @@ static bool is_too_large(const Board *board, const Cell *cell)
 
 static MesoStatus begin_cell(Board *board, uint32_t index)
 {
+    if (board->cells[index].done)
+        return MESO_OK;
     if (!is_too_large(board, &board->cells[index]))
         return is_over(board, &board->cells[index]) ? MESO_OK : queue_cell(board, index);
     MesoStatus status = cut(board, index);
@@ -373,9 +382,18 @@ static MesoStatus begin_cell(Board *board, uint32_t index)
     return status;
 }
 
+/* Discs of half the radius cover some 0.55 of the surface. */
+static MesoStatus check_count(const Board *board)
+{
+    double area = 0, radius = board->radius->number;
+    for (uint32_t t = 0; t < board->mesh->triangle_count && !board->varies; t++)
+        area += meso_place_area(board->mesh, t);
+    return 0.7 * area > DART_LIMIT * radius * radius ? fail_too_many(board) : MESO_OK;
+}
+
 static MesoStatus begin_triangles(Board *board)
 {
-    MesoStatus status = MESO_OK;
+    MesoStatus status = check_count(board);
     for (uint32_t t = 0; t < board->mesh->triangle_count && !status; t++) {
         uint32_t order[3];
         Cell root = {.triangle = t, .hash = meso_place_triangle(board->mesh, t, order)};

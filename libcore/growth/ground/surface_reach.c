@@ -3,7 +3,8 @@
 #include "libcore/base/grow.h"
 #include "libcore/base/parallel.h"
 
-enum { VIEW_LIMIT = 1 << 20 };
+/* As many views as a triangle has hardly ever, and where triangles have no area may have without an end. */
+enum { VIEWS_A_TRIANGLE = 32, VIEWS_AT_LEAST = 4096, VIEW_LIMIT = 1 << 24 };
 
 struct MesoReach {
     const MesoTriangulation *mesh;
@@ -14,7 +15,7 @@ struct MesoReach {
     uint32_t number;
     MesoArena *arena;
     MesoReachView *queue;       /* [count] views to come, first in first out */
-    uint32_t first, count, room;
+    uint32_t first, count, room, limit;
     double distance;
     void (*view)(void *context, const MesoReachView *view);
     void *context;
@@ -110,7 +111,7 @@ static MesoStatus see_side(MesoReach *reach, uint32_t h, double length, MesoReac
 {
     const MesoWalkFace *face = &reach->ground->faces[h / 3];
     uint32_t twin = face->twins[h % 3];
-    if (twin == MESO_NO_INDEX || !(view.end - view.begin > 1e-12 * length) || reach->count >= VIEW_LIMIT)
+    if (twin == MESO_NO_INDEX || !(view.end - view.begin > 1e-12 * length) || reach->count >= reach->limit)
         return MESO_OK;
     view.triangle = twin / 3;
     view.side = twin % 3;
@@ -364,6 +365,8 @@ MesoStatus meso_reach_init(MesoReach **out, MesoArena *arena, const MesoTriangul
     if (!reach)
         return MESO_ERR_MEMORY;
     *reach = (MesoReach){.mesh = mesh, .ground = ground, .arena = arena};
+    uint64_t limit = VIEWS_AT_LEAST + (uint64_t)VIEWS_A_TRIANGLE * mesh->triangle_count;
+    reach->limit = limit < VIEW_LIMIT ? (uint32_t)limit : VIEW_LIMIT;
     reach->angles = MESO_NEW(arena, double, mesh->vertex_count, error);
     reach->known = MESO_NEW(arena, double, mesh->vertex_count, error);
     reach->met = MESO_NEW(arena, uint32_t, mesh->vertex_count, error);

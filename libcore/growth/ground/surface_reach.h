@@ -37,7 +37,8 @@ MesoStatus meso_reach_init(MesoReach **reach, MesoArena *arena, const MesoTriang
  *
  * place   not nearer to a corner than 1e-9 of the weights, for views to have a direction; it is moved there where it is
  *
- * O(triangles^1.5) within the distance, as a rule. After 2^20 views no more are told. MESO_ERR_MEMORY alone.
+ * O(triangles^1.5) within the distance, as a rule. After 32 views for each triangle of the surface, and
+ * 4096, no more are told: triangles without area may have them without end. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_reach_tell(MesoReach *reach, const MesoSurfacePlace *place, double distance,
                            void (*view)(void *context, const MesoReachView *view), void *context, MesoError *error);
