@@ -30,8 +30,8 @@ typedef struct MesoGrowthStarts {
  * key, where there is none or it leads nowhere), at most `count` are taken. Places keep their numbers, and so their
  * keys, whether or not those before them are taken. Poisson radii may be expressions of the place: no seed is within
  * the radius of another then, where they change by less than half of the way, and there is none where the radius is
- * below a 4096th of the surface's extent. MESO_ERR_INPUT where a value is no number, with the line of the grammar's text;
- * MESO_ERR_LIMIT for more than 2^31 places; MESO_ERR_MEMORY.
+ * below a 4096th of the surface's extent. MESO_ERR_INPUT where a value is no number, with the line of the grammar's
+ * text; MESO_ERR_LIMIT for more than 2^31 places, or some 2^24 of `poisson`; MESO_ERR_MEMORY.
  */
 MesoStatus meso_growth_seeds(MesoGrowthStarts *out, MesoArena *arena, const MesoGrammar *grammar,
                              const MesoGrowthContexts *contexts, const MesoGrowthPlaces *places, uint64_t seed,
