@@ -2,6 +2,7 @@
 
 #include "libcore/geodesic/transport/walk_fixture.h"
 #include "libcore/growth/ground/ground_fixture.h"
+#include "libcore/growth/ground/map_picture.h"
 
 static MesoGroundScene scene;
 
@@ -130,6 +131,39 @@ static void test_images(void)
     meso_ground_scene_release(&scene);
 }
 
+/* A map drawn over coordinates that fill three quarters of a picture, read as an image, is the map. */
+static void test_picture(void)
+{
+    enum { SIZE = 64, WIDTH = 80 };
+    MesoRandom random;
+    meso_ground_scene_init(&scene, meso_fixture_sheet(6, 6, 1));
+    uint32_t triangles = scene.mesh.triangle_count, empty = 0;
+    float *by_vertex = malloc(scene.mesh.vertex_count * sizeof(float)), *pixels = malloc(WIDTH * SIZE * sizeof(float));
+    MesoVec2 *uvs = malloc(3 * triangles * sizeof *uvs);
+    CHECK(by_vertex && pixels && uvs);
+    for (uint32_t v = 0; v < scene.mesh.vertex_count; v++)
+        by_vertex[v] = 2 * scene.mesh.positions[v].x - scene.mesh.positions[v].y;
+    for (uint32_t c = 0; c < 3 * triangles; c++) {
+        MesoVec3 p = scene.mesh.positions[scene.mesh.corners[c]];
+        uvs[c] = (MesoVec2){0.1f + p.x / 12, 0.9f - p.y / 8};
+    }
+    MesoGrowthMap map = {.domain = MESO_GROWTH_BY_VERTEX, .values = by_vertex};
+    CHECK(meso_map_picture(pixels, WIDTH, SIZE, &scene.ground, &map, uvs, &scene.arena, NULL) == MESO_OK);
+    MesoGrowthMap image = {.domain = MESO_GROWTH_BY_IMAGE, .uvs = uvs,
+                           .image = {WIDTH, SIZE, pixels, false, MESO_GROWTH_REPEAT}};
+    meso_random_init(&random, 4, 0);
+    for (uint32_t i = 0; i < 2000; i++) {
+        MesoTip tip = meso_fixture_tip(&scene.ground.walk, &random);
+        double value = meso_map_value(&scene.ground, &map, tip.triangle, tip.weight);
+        CHECK(is_near(meso_map_value(&scene.ground, &image, tip.triangle, tip.weight), value, 0.3));
+    }
+    for (uint32_t i = 0; i < WIDTH * SIZE; i++)
+        empty += isnan(pixels[i]) ? 1 : 0;
+    CHECK(empty > WIDTH * SIZE / 2 && empty < 5 * WIDTH * SIZE / 8);
+    free(by_vertex), free(pixels), free(uvs);
+    meso_ground_scene_release(&scene);
+}
+
 static void test_sphere(void)
 {
     MesoRandom random;
@@ -215,6 +249,7 @@ int main(void)
 {
     test_maps();
     test_images();
+    test_picture();
     test_sphere();
     test_given();
     test_moebius();
