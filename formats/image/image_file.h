@@ -29,4 +29,15 @@ MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenan
 MesoStatus meso_png_write(const MesoImage *image, const float *background,
                           const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
 
+/* Numbers: `low` is black, `high` is white, with nothing in between but a line; transparent where they are NaN. */
+typedef struct MesoPngValues {
+    uint32_t width, height;
+    const float *values;        /* [width * height] rows from the top */
+    float low, high;            /* not equal */
+} MesoPngValues;
+
+/* Of 16 bits, grey and alpha, with provenance: image_read.h finds the shares between `low` and `high` again. */
+MesoStatus meso_png_write_values(const MesoPngValues *values, const MesoProvenance *provenance, MesoOutput *output,
+                                 MesoError *error);
+
 #endif

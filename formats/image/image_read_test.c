@@ -415,6 +415,30 @@ static void test_words(void)
     meso_arena_release(&arena);
 }
 
+/* Numbers that are written as PNG are read as their shares, to 16 bits. */
+static void test_values(const char *path)
+{
+    static const MesoProvenance provenance = {.tool = "meso-try", .command_line = "meso-try"};
+    const float numbers[6] = {-2, 0, 1, 3.5f, NAN, 6};
+    const double shares[6] = {0, 0, 0.25, 0.875, 0, 1};
+    MesoArena arena;
+    MesoInput input;
+    MesoOutput *output;
+    MesoPicture picture;
+    meso_arena_init(&arena);
+    CHECK(meso_output_open(&output, path, &error) == MESO_OK);
+    MesoStatus status = meso_png_write_values(&(MesoPngValues){3, 2, numbers, 0, 4}, &provenance, output, &error);
+    CHECK(meso_output_finish(output, status, &error) == MESO_OK);
+    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
+    CHECK(meso_image_read(&picture, &arena, &input, &error) == MESO_OK);
+    CHECK(picture.width == 3 && picture.height == 2 && picture.channel_count == 2);
+    CHECK(strcmp(picture.channel_names[0], "Y") == 0 && strcmp(picture.channel_names[1], "A") == 0);
+    for (uint32_t i = 0; i < 6; i++)
+        CHECK(fabs((double)picture.values[i] - shares[i]) < 1e-5 && picture.values[6 + i] == (i != 4));
+    meso_input_close(&input);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     char folder[] = "/tmp/meso-image-read-XXXXXX", path[64];
@@ -425,6 +449,7 @@ int main(void)
     test_written(path);
     test_exr(path);
     test_sampling(path);
+    test_values(path);
     test_words();
     unlink(path);
     CHECK(rmdir(folder) == 0);

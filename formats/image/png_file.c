@@ -95,44 +95,71 @@ static void on_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-static void write_image(png_structp png, png_infop info, const MesoImage *image,
-                        const float *background, char *provenance, uint8_t *row)
+/* What is written, row by row from the top. */
+typedef struct Rows {
+    uint32_t width, height;
+    int depth, color_type;
+    bool is_srgb;
+    void (*fill)(const struct Rows *rows, size_t y, uint8_t *row);
+    const MesoImage *image;
+    const float *background;
+    const float *values;        /* [width * height] numbers as they are, from `low` to `high` */
+    float low, high;
+} Rows;
+
+static void fill_picture(const Rows *rows, size_t y, uint8_t *row)
 {
-    size_t bytes = background ? 3 : 4;
-    png_set_IHDR(png, info, image->width, image->height, 8,
-                 background ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+    size_t bytes = rows->background ? 3 : 4;
+    const float *color = rows->image->color + 4 * y * rows->width;
+    for (size_t x = 0; x < rows->width; x++)
+        if (rows->background)
+            over_background(color + 4 * x, rows->background, row + bytes * x);
+        else
+            with_alpha(color + 4 * x, row + bytes * x);
+}
+
+/* Grey and alpha, of 16 bits, the high byte first. */
+static void fill_values(const Rows *rows, size_t y, uint8_t *row)
+{
+    const float *values = rows->values + y * rows->width;
+    for (size_t x = 0; x < rows->width; x++) {
+        float share = (values[x] - rows->low) / (rows->high - rows->low);
+        uint32_t grey = isnan(share) ? 0 : (uint32_t)(fminf(fmaxf(share, 0), 1) * 65535 + 0.5f);
+        row[4 * x] = (uint8_t)(grey >> 8);
+        row[4 * x + 1] = (uint8_t)grey;
+        row[4 * x + 2] = row[4 * x + 3] = isnan(values[x]) ? 0 : 255;
+    }
+}
+
+static void write_rows(png_structp png, png_infop info, const Rows *rows, char *provenance, uint8_t *row)
+{
+    png_set_IHDR(png, info, rows->width, rows->height, rows->depth, rows->color_type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (rows->is_srgb)
+        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_text text = {.compression = PNG_ITXT_COMPRESSION_NONE, .key = (png_charp)"meso:provenance",
                      .text = provenance};
     png_set_text(png, info, &text, 1);
     png_set_compression_level(png, 6);
     png_write_info(png, info);
-    for (size_t y = 0; y < image->height; y++) {
-        const float *color = image->color + 4 * y * image->width;
-        for (size_t x = 0; x < image->width; x++)
-            if (background)
-                over_background(color + 4 * x, background, row + bytes * x);
-            else
-                with_alpha(color + 4 * x, row + bytes * x);
+    for (size_t y = 0; y < rows->height; y++) {
+        rows->fill(rows, y, row);
         png_write_row(png, row);
     }
     png_write_end(png, info);
 }
 
 /* libpng leaves by a jump: what it would clobber lives in the caller. */
-static MesoStatus write_or_fail(png_structp png, png_infop info, Stream *stream,
-                                const MesoImage *image, const float *background, char *provenance,
+static MesoStatus write_or_fail(png_structp png, png_infop info, Stream *stream, const Rows *rows, char *provenance,
                                 uint8_t *row)
 {
     if (setjmp(png_jmpbuf(png)))
         return stream->status;
-    write_image(png, info, image, background, provenance, row);
+    write_rows(png, info, rows, provenance, row);
     return MESO_OK;
 }
 
-static MesoStatus write_png(Stream *stream, const MesoImage *image, const float *background,
-                            char *provenance, uint8_t *row)
+static MesoStatus write_png(Stream *stream, const Rows *rows, char *provenance, uint8_t *row)
 {
     png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, on_error, on_warning, stream, allocate,
                                                 release);
@@ -140,7 +167,7 @@ static MesoStatus write_png(Stream *stream, const MesoImage *image, const float 
     MesoStatus status;
     if (info) {
         png_set_write_fn(png, stream, write_stream, flush_stream);
-        status = write_or_fail(png, info, stream, image, background, provenance, row);
+        status = write_or_fail(png, info, stream, rows, provenance, row);
     } else {
         status = meso_fail(stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
     }
@@ -148,8 +175,7 @@ static MesoStatus write_png(Stream *stream, const MesoImage *image, const float 
     return status;
 }
 
-MesoStatus meso_png_write(const MesoImage *image, const float *background,
-                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+static MesoStatus write_with(const Rows *rows, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
     meso_arena_init(&arena);
@@ -157,9 +183,30 @@ MesoStatus meso_png_write(const MesoImage *image, const float *background,
     MesoStatus status = MESO_ERR_MEMORY;
     const char *text = meso_provenance_text(provenance, &arena, error);
     char *copy = text ? meso_arena_copy_text(&arena, text, error) : NULL;
-    uint8_t *row = copy ? MESO_NEW(&arena, uint8_t, 4 * (size_t)image->width, error) : NULL;
+    uint8_t *row = copy ? MESO_NEW(&arena, uint8_t, 4 * (size_t)rows->width, error) : NULL;
     if (row)
-        status = write_png(&stream, image, background, copy, row);
+        status = write_png(&stream, rows, copy, row);
     meso_arena_release(&arena);
     return status;
+}
+
+MesoStatus meso_png_write(const MesoImage *image, const float *background,
+                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+{
+    const Rows rows = {
+        .width = image->width, .height = image->height, .depth = 8, .is_srgb = true, .fill = fill_picture,
+        .color_type = background ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, .image = image,
+        .background = background,
+    };
+    return write_with(&rows, provenance, output, error);
+}
+
+MesoStatus meso_png_write_values(const MesoPngValues *values, const MesoProvenance *provenance, MesoOutput *output,
+                                 MesoError *error)
+{
+    const Rows rows = {
+        .width = values->width, .height = values->height, .depth = 16, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA,
+        .fill = fill_values, .values = values->values, .low = values->low, .high = values->high,
+    };
+    return write_with(&rows, provenance, output, error);
 }
