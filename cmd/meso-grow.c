@@ -47,6 +47,8 @@ int main(int argc, char **argv)
                   &a.partial),
         MESO_OUTPUT_FILE(0, "trace", "FILE", "write what each branch did as lines of JSON", &a.trace,
                          .more = MESO_OPTION_SILENT),
+        MESO_TEXT(0, "show-map", "NAME=FILE", "write a map of the grammar as a PNG over the texture coordinates",
+                  &a.show_map, .more = MESO_OPTION_SILENT),
         MESO_TEXT(0, "surface", "MATERIAL", "show the surface too, made of this: \"clay\", \"clay #a8653f 0.7\"",
                   &a.surface),
         MESO_TEXT(0, "seeds", "LIST", "one product for each of these seeds: 1-10,20; -o has %d", &a.seeds),

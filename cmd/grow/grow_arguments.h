@@ -12,6 +12,7 @@ typedef struct MesoGrowArguments {
     const char *surface;        /* --surface: a material; NULL: it is not shown */
     const char *seeds;          /* --seeds */
     const char *trace;          /* --trace; NULL: none */
+    const char *show_map;       /* --show-map: NAME=FILE; NULL: none */
     const char *march, *atlas;  /* --march, --atlas; NULL: the default */
     uint32_t texels;            /* --texels; 0: the default */
     uint32_t until;             /* --until; 0: to the end */

@@ -10,6 +10,7 @@
 #include "cmd/grow/grow_march.h"
 #include "cmd/grow/grow_report.h"
 #include "cmd/grow/grow_shapes.h"
+#include "cmd/grow/grow_show_map.h"
 #include "cmd/grow/grow_surface.h"
 #include "formats/growth/grammar_file.h"
 #include "formats/growth/growth_svg.h"
@@ -129,8 +130,13 @@ static MesoStatus read_inputs(Job *job)
         status = meso_grow_march_init(&job->march, job->arguments, &job->surface);
     if (!status)
         status = meso_grow_shapes(&job->shapes, tool, &job->grammar, job->folder);
-    return status ? status : meso_grow_contexts(&job->contexts, &job->places, tool, &job->grammar,
-                                                &job->surface.polygons, &job->surface.ground, job->folder);
+    if (!status)
+        status = meso_grow_contexts(&job->contexts, &job->places, tool, &job->grammar, &job->surface.polygons,
+                                    &job->surface.ground, job->folder);
+    if (!status && job->arguments->show_map)
+        status = meso_grow_show_map(tool, job->arguments->show_map, &job->grammar, &job->contexts,
+                                    &job->surface.polygons);
+    return status;
 }
 
 static void close_inputs(Job *job)
