@@ -7,8 +7,8 @@ static const float CLEARANCE = 0.05f;
  * long go; a round on 200 points costs 2 and 6 microseconds. */
 enum { TAUT_ROUNDS = 30, BEND_ROUNDS = 60 };
 
-/* Segments of a line that one box is kept for. */
-enum { RUN = 8 };
+/* Centres so many cells around a segment have their distance from it; others hear of it from their neighbours. */
+#define NEAR 2.5f
 
 /* ---- tracing ---- */
 
@@ -123,47 +123,62 @@ static void pull_taut(MesoSeamLine *line, const Slide *slides)
     }
 }
 
-static float length_between(MesoVec2 a, MesoVec2 b)
+/*
+ * The bend at a point q between p and r is (r - q) / |r - q| - (q - p) / |q - p|, linear in all three while lengths
+ * stand still: `factors` of p, q and r. Its energy is its square over the length that it is spread over: `weight`.
+ */
+typedef struct Bend {
+    float factors[3], weight;
+} Bend;
+
+static float inverse_length(MesoVec2 a, MesoVec2 b)
 {
     float length = meso_vec2_length(meso_vec2_sub(a, b));
-    return length > 0.1f ? length : 0.1f;
+    return length > 0.1f ? 1 / length : 10;
 }
 
-/*
- * What one bend adds to the sums whose quotient is the move of a point that makes the bends around it least. The bend
- * at q between p and r is (r - q) / |r - q| - (q - p) / |q - p|, its energy its square over the length that it is
- * spread over; lengths stand still meanwhile. `which` of the three is the one that moves: 0, 1, 2.
- */
-static void add_bend(const MesoVec2 p[3], int which, bool along_x, float *pull, float *stiffness)
-{
-    float before = 1 / length_between(p[0], p[1]), after = 1 / length_between(p[1], p[2]);
-    const float factors[3] = {before, -(before + after), after};
-    float bend = 0;
-    for (int k = 0; k < 3; k++)
-        bend += factors[k] * (along_x ? p[k].x : p[k].y);
-    float weight = before * after / (before + after);
-    *pull += weight * bend * factors[which];
-    *stiffness += weight * factors[which] * factors[which];
-}
-
-static void unbend(MesoSeamLine *line, const Slide *slides)
+/* No bend at an end. */
+static void measure_bends(Bend *bends, const MesoSeamLine *line)
 {
     for (uint32_t i = 0; i < line->count; i++) {
-        uint32_t chain[5] = {MESO_NO_INDEX, line->previous[i], i, line->next[i], MESO_NO_INDEX};
-        if (chain[1] != MESO_NO_INDEX)
-            chain[0] = line->previous[chain[1]];
-        if (chain[3] != MESO_NO_INDEX)
-            chain[4] = line->next[chain[3]];
+        uint32_t before = line->previous[i], after = line->next[i];
+        bends[i] = (Bend){0};
+        if (before == MESO_NO_INDEX || after == MESO_NO_INDEX)
+            continue;
+        float p = inverse_length(line->points[before], line->points[i]);
+        float r = inverse_length(line->points[i], line->points[after]);
+        bends[i] = (Bend){{p, -(p + r), r}, p * r / (p + r)};
+    }
+}
+
+/* What the bend at a point adds to the sums whose quotient is the move of one of its three points: 0, 1, 2. */
+static void add_bend(const MesoSeamLine *line, const Bend *bends, uint32_t at, int which, bool along_x, float *pull,
+                     float *stiffness)
+{
+    if (at == MESO_NO_INDEX || !(bends[at].weight > 0))
+        return;
+    const uint32_t chain[3] = {line->previous[at], at, line->next[at]};
+    float bend = 0;
+    for (int k = 0; k < 3; k++)
+        bend += bends[at].factors[k] * (along_x ? line->points[chain[k]].x : line->points[chain[k]].y);
+    float factor = bends[at].weight * bends[at].factors[which];
+    *pull += factor * bend;
+    *stiffness += factor * bends[at].factors[which];
+}
+
+/* Each point to where the three bends that it is part of are least. */
+static void unbend(MesoSeamLine *line, const Slide *slides, Bend *bends)
+{
+    measure_bends(bends, line);
+    for (uint32_t i = 0; i < line->count; i++) {
+        bool along_x = slides[i].along_x;
         float pull = 0, stiffness = 0;
-        for (int k = 0; k < 3; k++) {
-            if (chain[k] == MESO_NO_INDEX || chain[k + 1] == MESO_NO_INDEX || chain[k + 2] == MESO_NO_INDEX)
-                continue;
-            MesoVec2 p[3] = {line->points[chain[k]], line->points[chain[k + 1]], line->points[chain[k + 2]]};
-            add_bend(p, 2 - k, slides[i].along_x, &pull, &stiffness);
-        }
+        add_bend(line, bends, line->previous[i], 2, along_x, &pull, &stiffness);
+        add_bend(line, bends, i, 1, along_x, &pull, &stiffness);
+        add_bend(line, bends, line->next[i], 0, along_x, &pull, &stiffness);
         if (stiffness > 0) {
             MesoVec2 p = line->points[i];
-            slide_to(line, slides, i, (slides[i].along_x ? p.x : p.y) - pull / stiffness);
+            slide_to(line, slides, i, (along_x ? p.x : p.y) - pull / stiffness);
         }
     }
 }
@@ -185,124 +200,108 @@ MesoStatus meso_seam_line_trace(MesoSeamLine *line, MesoArena *arena, const uint
     meso_arena_rewind(arena, mark);
 
     Slide *slides = slides_of(line, arena, error);
-    if (!slides)
+    Bend *bends = MESO_NEW(arena, Bend, line->count, error);
+    if (!slides || !bends)
         return MESO_ERR_MEMORY;
     for (int round = 0; round < TAUT_ROUNDS; round++)
         pull_taut(line, slides);
     for (int round = 0; round < BEND_ROUNDS; round++)
-        unbend(line, slides);
+        unbend(line, slides, bends);
     meso_arena_rewind(arena, mark);
     return MESO_OK;
 }
 
 /* ---- distances ---- */
 
-/* Segments in the order of the line, in runs that are near each other, and the box of each run. */
-typedef struct Runs {
-    uint32_t segment_count, run_count;
-    MesoVec2 *from, *to;        /* [segment_count] */
-    MesoVec2 *low, *high;       /* [run_count] */
-} Runs;
+/* For each centre the nearest point of the line that it has heard of, and the square of the distance to it. */
+typedef struct Feet {
+    uint32_t columns, rows;
+    MesoVec2 *feet;
+    float *squares;
+} Feet;
 
-static void add_to_box(Runs *runs, uint32_t run, MesoVec2 p)
-{
-    runs->low[run].x = p.x < runs->low[run].x ? p.x : runs->low[run].x;
-    runs->low[run].y = p.y < runs->low[run].y ? p.y : runs->low[run].y;
-    runs->high[run].x = p.x > runs->high[run].x ? p.x : runs->high[run].x;
-    runs->high[run].y = p.y > runs->high[run].y ? p.y : runs->high[run].y;
-}
-
-static void add_segment(Runs *runs, MesoVec2 from, MesoVec2 to)
-{
-    uint32_t s = runs->segment_count++, run = s / RUN;
-    runs->from[s] = from;
-    runs->to[s] = to;
-    if (s % RUN == 0) {
-        runs->low[run] = runs->high[run] = from;
-        runs->run_count++;
-    }
-    add_to_box(runs, run, from);
-    add_to_box(runs, run, to);
-}
-
-static void add_chain(Runs *runs, uint8_t *seen, const MesoSeamLine *line, uint32_t first)
-{
-    if (line->previous[first] == MESO_NO_INDEX && line->next[first] == MESO_NO_INDEX)
-        add_segment(runs, line->points[first], line->points[first]);
-    for (uint32_t i = first; line->next[i] != MESO_NO_INDEX && !seen[i]; i = line->next[i]) {
-        seen[i] = 1;
-        add_segment(runs, line->points[i], line->points[line->next[i]]);
-    }
-}
-
-static MesoStatus gather_runs(Runs *runs, MesoArena *scratch, const MesoSeamLine *line, MesoError *error)
-{
-    uint32_t most = line->count / RUN + 1;
-    uint8_t *seen = MESO_NEW(scratch, uint8_t, line->count, error);
-    *runs = (Runs){.from = MESO_NEW(scratch, MesoVec2, line->count, error),
-                   .to = MESO_NEW(scratch, MesoVec2, line->count, error),
-                   .low = MESO_NEW(scratch, MesoVec2, most, error),
-                   .high = MESO_NEW(scratch, MesoVec2, most, error)};
-    if (!seen || !runs->from || !runs->to || !runs->low || !runs->high)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < line->count; i++)
-        if (line->previous[i] == MESO_NO_INDEX)
-            add_chain(runs, seen, line, i);
-    for (uint32_t i = 0; i < line->count; i++)
-        if (line->previous[i] != MESO_NO_INDEX)
-            add_chain(runs, seen, line, i);
-    return MESO_OK;
-}
-
-static float square_to_box(MesoVec2 p, MesoVec2 low, MesoVec2 high)
-{
-    float x = p.x < low.x ? low.x - p.x : p.x > high.x ? p.x - high.x : 0;
-    float y = p.y < low.y ? low.y - p.y : p.y > high.y ? p.y - high.y : 0;
-    return x * x + y * y;
-}
-
-static float square_to_segment(MesoVec2 p, MesoVec2 a, MesoVec2 b)
+static MesoVec2 foot_on_segment(MesoVec2 p, MesoVec2 a, MesoVec2 b)
 {
     MesoVec2 along = meso_vec2_sub(b, a), off = meso_vec2_sub(p, a);
     float square = along.x * along.x + along.y * along.y;
     float t = square > 0 ? clamped((off.x * along.x + off.y * along.y) / square, 0, 1) : 0;
-    float x = off.x - t * along.x, y = off.y - t * along.y;
-    return x * x + y * y;
+    return (MesoVec2){a.x + t * along.x, a.y + t * along.y};
 }
 
-/* The square of the distance; runs farther than `limit` are not looked into. */
-static float least_square(const Runs *runs, MesoVec2 p, float limit)
+static void hear_of(Feet *feet, size_t cell, MesoVec2 centre, MesoVec2 foot)
 {
-    float least = limit * limit;
-    for (uint32_t run = 0; run < runs->run_count; run++) {
-        if (square_to_box(p, runs->low[run], runs->high[run]) >= least)
-            continue;
-        uint32_t end = (run + 1) * RUN < runs->segment_count ? (run + 1) * RUN : runs->segment_count;
-        for (uint32_t s = run * RUN; s < end; s++) {
-            float square = square_to_segment(p, runs->from[s], runs->to[s]);
-            least = square < least ? square : least;
-        }
+    float x = centre.x - foot.x, y = centre.y - foot.y, square = x * x + y * y;
+    if (square < feet->squares[cell]) {
+        feet->squares[cell] = square;
+        feet->feet[cell] = foot;
     }
-    return least;
+}
+
+/* Centres from `low` - NEAR on; to below `high` + NEAR. */
+static void near_range(float low, float high, uint32_t count, uint32_t range[2])
+{
+    range[0] = low > NEAR ? (uint32_t)(low - NEAR) : 0;
+    range[1] = (uint32_t)(high + NEAR) + 1;
+    range[1] = range[1] < count ? range[1] : count;
+}
+
+/* Centres around a segment have their distance from it. */
+static void tell_around(Feet *feet, MesoVec2 a, MesoVec2 b)
+{
+    uint32_t i[2], j[2];
+    near_range(a.x < b.x ? a.x : b.x, a.x < b.x ? b.x : a.x, feet->columns, i);
+    near_range(a.y < b.y ? a.y : b.y, a.y < b.y ? b.y : a.y, feet->rows, j);
+    for (uint32_t y = j[0]; y < j[1]; y++)
+        for (uint32_t x = i[0]; x < i[1]; x++) {
+            MesoVec2 centre = {(float)x, (float)y};
+            hear_of(feet, (size_t)y * feet->columns + x, centre, foot_on_segment(centre, a, b));
+        }
+}
+
+/* What the neighbours in `y` + `dy` and beside know, from side to side and back. */
+static void sweep_row(Feet *feet, uint32_t y, int dy)
+{
+    uint32_t columns = feet->columns;
+    size_t row = (size_t)y * columns;
+    const MesoVec2 *from = dy && !(dy < 0 ? y == 0 : y + 1 == feet->rows) ? &feet->feet[dy < 0 ? row - columns : row + columns]
+                                                                          : NULL;
+    for (uint32_t x = 0; x < columns; x++) {
+        MesoVec2 centre = {(float)x, (float)y};
+        for (uint32_t k = x > 0 ? x - 1 : 0; from && k <= x + 1 && k < columns; k++)
+            hear_of(feet, row + x, centre, from[k]);
+        if (x > 0)
+            hear_of(feet, row + x, centre, feet->feet[row + x - 1]);
+    }
+    for (uint32_t x = columns - 1; x-- > 0;)
+        hear_of(feet, row + x, (MesoVec2){(float)x, (float)y}, feet->feet[row + x + 1]);
+}
+
+/* By two sweeps (Danielsson, "Euclidean distance mapping", 1980). */
+static void spread_feet(Feet *feet)
+{
+    for (uint32_t y = 0; y < feet->rows; y++)
+        sweep_row(feet, y, -1);
+    for (uint32_t y = feet->rows; y-- > 0;)
+        sweep_row(feet, y, 1);
 }
 
 MesoStatus meso_seam_line_distances(float *values, MesoArena *scratch, const MesoSeamLine *line, const uint8_t *sides,
                                     uint32_t columns, uint32_t rows, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
-    Runs runs;
-    if (gather_runs(&runs, scratch, line, error) != MESO_OK)
+    size_t count = (size_t)columns * rows;
+    Feet feet = {columns, rows, MESO_NEW(scratch, MesoVec2, count, error), values};
+    if (!feet.feet)
         return MESO_ERR_MEMORY;
-    for (uint32_t j = 0; j < rows; j++) {
-        /* No two neighbours differ by more than what is between them; a little more makes up for rounding. */
-        float limit = j > 0 ? fabsf(values[(size_t)(j - 1) * columns]) + 1.01f : 2 * (float)(columns + rows);
-        for (uint32_t i = 0; i < columns; i++) {
-            size_t c = (size_t)j * columns + i;
-            float distance = sqrtf(least_square(&runs, (MesoVec2){(float)i, (float)j}, limit));
-            values[c] = sides[c] ? distance : -distance;
-            limit = distance + 1.01f;
-        }
+    for (size_t c = 0; c < count; c++) {
+        feet.feet[c] = (MesoVec2){INFINITY, INFINITY};
+        values[c] = INFINITY;
     }
+    for (uint32_t i = 0; i < line->count; i++)
+        tell_around(&feet, line->points[i], line->points[line->next[i] == MESO_NO_INDEX ? i : line->next[i]]);
+    spread_feet(&feet);
+    for (size_t c = 0; c < count; c++)
+        values[c] = sides[c] ? sqrtf(values[c]) : -sqrtf(values[c]);
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
 }

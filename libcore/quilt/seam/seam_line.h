@@ -23,8 +23,9 @@ MesoStatus meso_seam_line_trace(MesoSeamLine *line, MesoArena *arena, const uint
                                 uint32_t rows, MesoError *error);
 
 /*
- * Distances from the line to all centres in cells, negative on side 0: exact, but for rounding. At least one cell of
- * each side. O(columns * rows * (1 + count / 8)) at worst. MESO_ERR_MEMORY alone.
+ * Distances from the line to all centres in cells, negative on side 0: exact, but for rounding, to 2 cells from it, and
+ * beyond too large by a tenth of a cell at most. At least one cell of each side. O(columns * rows). MESO_ERR_MEMORY
+ * alone.
  */
 MesoStatus meso_seam_line_distances(float *values, MesoArena *scratch, const MesoSeamLine *line, const uint8_t *sides,
                                     uint32_t columns, uint32_t rows, MesoError *error);
