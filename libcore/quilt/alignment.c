@@ -6,6 +6,10 @@
 #define DOUBTFUL_FIRST 1.0
 #define DOUBTFUL_LAST 0.05
 
+/* Points that are asked, and the move, in mean edges, after which it fits. */
+#define POINT_LIMIT 400
+#define MOVE_LEAST 1e-4
+
 /* Angles: at most, and such as are only noise. */
 #define ANGLE_MOST 0.15
 #define ANGLE_LEAST 3e-4
@@ -58,7 +62,8 @@ static bool find_motion(Motion *motion, const MesoQuiltStep *step, const MesoQui
 {
     const MesoSwatch *swatch = work->swatch;
     Normals normals = {{{0}}};
-    for (uint32_t i = 0; i < step->point_count; i++) {
+    uint32_t stride = step->point_count / POINT_LIMIT + 1;
+    for (uint32_t i = 0; i < step->point_count; i += stride) {
         MesoMatchPoint p = step->points[i];
         MesoVec2 turned = meso_step_unturn(step, (MesoVec2){p.normal.x, p.normal.y});
         uint32_t face;
@@ -95,6 +100,8 @@ bool meso_quilt_align(MesoQuiltStep *step, const MesoQuiltWork *work)
         step->turn_sin = (float)(s * cos_angle - c * sin_angle);
         step->match.shift.x += (float)motion.x;
         step->match.shift.y += (float)motion.y;
+        if (angle == 0 && fabs(motion.x) + fabs(motion.y) < MOVE_LEAST * edge)
+            break;
         doubtful = doubtful / 2 > DOUBTFUL_LAST ? doubtful / 2 : DOUBTFUL_LAST;
     }
     return true;

@@ -14,6 +14,12 @@ enum { VOTERS = 64 };
 #define AGREE 0.1f
 #define WORSE_BUT_EXACT 0.1f
 
+/* How far the middle of what is not done lies from a seed, as a share of how far it is looked for. */
+#define BACK_SHARE 0.25f
+
+/* A window that reaches back leaves room for placements. */
+#define WINDOW_MOST 0.8f
+
 /* How far from what is not done points are worth something, as a share of the swatch's shorter side. */
 #define NEAR_SHARE 0.3f
 
@@ -220,11 +226,20 @@ static void place_freely(MesoMatch *match, const MesoQuiltStep *step, const Meso
     *match = (MesoMatch){.shift = {0.5f * size.x + x * room.x, 0.5f * size.y + y * room.y}};
 }
 
+/* What must match: that share of the swatch's sides, and as far back as its middle has moved away from what is done. */
+static MesoVec2 window_half(const MesoQuiltWork *work)
+{
+    MesoVec3 size = work->swatch->size;
+    float share = work->options.patch, back = BACK_SHARE * work->seed_reach / work->options.scale;
+    float most = 0.5f * fmaxf(share, WINDOW_MOST);
+    return (MesoVec2){fminf(0.5f * share * size.x + back, most * size.x),
+                      fminf(0.5f * share * size.y + back, most * size.y)};
+}
+
 MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted, MesoQuiltStep *step,
                             const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
-    MesoVec3 size = work->swatch->size;
-    MesoVec2 half = {0.5f * work->options.patch * size.x, 0.5f * work->options.patch * size.y};
+    MesoVec2 half = window_half(work);
     MesoMatchPoint *points = MESO_NEW(arena, MesoMatchPoint, POINT_LIMIT, error);
     float *weights = MESO_NEW(arena, float, POINT_LIMIT, error);
     step->point_origins = MESO_NEW(arena, uint32_t, POINT_LIMIT, error);

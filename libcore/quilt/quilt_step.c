@@ -96,14 +96,11 @@ typedef struct Candidate {
     float flaws;            /* strands that end, or are cut along */
 } Candidate;
 
-/* The seam of a placement, and what meets there. */
-static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+/* What meets at the seam. */
+static MesoStatus meet(Candidate *c, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
-    MesoQuiltStep *step = &c->step;
-    step->warp = (MesoThinPlate){0};
-    MesoStatus status = meso_quilt_seam(step, work, arena, error);
-    if (!status)
-        status = meso_strands_cut_old(&c->old_side, step, work, 0, arena, error);
+    const MesoQuiltStep *step = &c->step;
+    MesoStatus status = meso_strands_cut_old(&c->old_side, step, work, 0, arena, error);
     if (!status)
         status = meso_strands_cut_new(&c->new_side, step, work, 0, arena, error);
     if (!status)
@@ -111,6 +108,14 @@ static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoAre
     if (!status)
         status = meso_quilt_pair_wholes(&c->wholes, step, work, arena, error);
     return status;
+}
+
+/* The seam of a placement, and what meets there. */
+static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+{
+    c->step.warp = (MesoThinPlate){0};
+    MesoStatus status = meso_quilt_seam(&c->step, work, arena, error);
+    return status ? status : meet(c, work, arena, error);
 }
 
 /* The placement with the fewest ends; of equal ones the one that matches best. */
@@ -147,14 +152,17 @@ static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQ
     return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, arena, error);
 }
 
-/* The placement made exact, and the warp that takes up what is left. The step becomes the candidate's. */
+/*
+ * The placement made exact, by less than a voxel or so, and the warp that takes up what is left. The seam for which it
+ * was chosen stays, but where sides may fit vertex by vertex. The step becomes the candidate's.
+ */
 static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     Pull *pulls;
     uint32_t count;
     MesoStatus status = MESO_OK;
     if (meso_quilt_align(&c->step, work))
-        status = try_placement(c, work, arena, error);
+        status = work->welds ? try_placement(c, work, arena, error) : meet(c, work, arena, error);
     *step = c->step;
     if (!status)
         status = collect_pulls(&pulls, &count, step, &c->old_side, &c->new_side, &c->wholes, work, arena, error);

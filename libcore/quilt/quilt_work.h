@@ -38,6 +38,7 @@ typedef struct MesoQuiltWork {
     uint8_t *covers;            /* [triangle_count] MesoCover */
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
     MesoQuiltTally tally;       /* of all steps */
+    bool welds;                 /* the swatch has strands and is periodic: patches may fit vertex by vertex */
 
     /* lengths in units of the swatch */
     float gap;          /* strands end so far before the seam, on both sides */
@@ -46,6 +47,7 @@ typedef struct MesoQuiltWork {
     float whole_margin;         /* how far whole elements reach, and so the rim moves in */
     float widening;     /* how far a patch reaches into what is done */
     float chart_radius;
+    float seed_reach;   /* in the surface's units: how far around a seed a patch looks for what is not done */
     float seeds_apart;  /* in the surface's units: charts around such seeds do not touch */
 } MesoQuiltWork;
 

@@ -62,6 +62,7 @@ typedef struct Outcome {
     char failure[sizeof ((MesoError *)0)->message];
     uint32_t base_triangles, base_vertices, swatch_triangles, swatch_vertices, triangles, vertices, elements;
     double preparation, base, field, growth, finish, settling, prisms, embedding;   /* seconds */
+    double cores;               /* seconds of all cores, before the check */
     double bytes;               /* of the process at its largest, before the check */
     MesoQuiltReport report;
     MesoQuiltCheck check;
@@ -216,6 +217,7 @@ static void fill_outcome(Run *run)
     o->vertices = run->quilt.vertex_count;
     o->elements = run->quilt.element_count;
     o->report = run->quilt.report;
+    o->cores = (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec;
     o->bytes = 1024 * (double)usage.ru_maxrss;
 }
 
@@ -290,6 +292,8 @@ static void print_check(const Outcome *o)
            r->patch_count, r->join_count, r->cap_count, r->closed_count, r->debris_count, r->removed_count,
            r->skipped_count, r->retry_count, r->shrunk_count);
     printf("  settled %u, added %u\n", r->settled_count, r->added_count);
+    printf("  cores %.2f s; charts %.2f, matching %.2f, seams %.2f, wholes %.2f, strands %.2f, adding %.2f\n", o->cores,
+           r->seconds[0], r->seconds[1], r->seconds[2], r->seconds[3], r->seconds[4], r->seconds[5]);
     printf("  mesh: unplaced %u, open %u, crowded %u, reversed %u, collapsed %u, pinched %u\n", f->unplaced_count,
            f->open_count, f->crowded_count, f->reversed_count, f->collapsed_count, f->pinched_count);
     printf("  elements: whole %u of %.0f by area, changed %u, squeezed %u (volumes %.3f to %.3f), strands %u, "
