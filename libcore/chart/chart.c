@@ -59,14 +59,54 @@ static void keep_if_fit(Flattening *flattening, MesoPoint *kept, const MesoPoint
     flattening->fits = true;
 }
 
-/* A conformal map, then rigid steps from it; the last of them that fits. */
-static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoArena *scratch,
-                              const MesoChartOptions *options, double bound, MesoError *error)
+/*
+ * A place for a triangle's corner `k`: beyond the side of the two others, as in the triangle's own plane, but no farther
+ * from the middle than it is along the surface.
+ */
+static MesoPoint unfold(const MesoFlatTriangle *flat, const uint32_t *corner, uint32_t k, const MesoPoint *places,
+                        double distance)
+{
+    MesoPoint a = places[corner[(k + 1) % 3]], b = places[corner[(k + 2) % 3]];
+    MesoPoint g = flat->gradients[k], h = flat->gradients[(k + 2) % 3];
+    double square = g.x * g.x + g.y * g.y, x = b.x - a.x, y = b.y - a.y;
+    double along = -(g.x * h.x + g.y * h.y) / square, up = 1 / (2 * flat->area * square);   /* in sides */
+    MesoPoint p = {a.x + along * x - up * y, a.y + along * y + up * x};
+    double length = sqrt(p.x * p.x + p.y * p.y), by = length > distance ? distance / length : 1;
+    return (MesoPoint){by * p.x, by * p.y};
+}
+
+/* The seed as it is, then each triangle beside those before it. */
+static void unfold_all(Flattening *flattening, MesoPoint *places, const MesoChartGrowth *growth)
 {
     const MesoDisk *disk = &flattening->disk;
-    MesoPoint *places = MESO_NEW(scratch, MesoPoint, disk->vertex_count, error);
-    if (!places)
-        return MESO_ERR_MEMORY;
+    const MesoPoint *seed = flattening->seed;
+    MesoPoint centre = {(seed[0].x + seed[1].x + seed[2].x) / 3, (seed[0].y + seed[1].y + seed[2].y) / 3};
+    uint32_t known = 3;
+    for (uint32_t k = 0; k < 3; k++)
+        places[disk->corners[k]] = (MesoPoint){seed[k].x - centre.x, seed[k].y - centre.y};
+    for (uint32_t t = 1; t < disk->triangle_count; t++)
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint32_t *corner = &disk->corners[3 * (size_t)t];
+            if (corner[k] != known)
+                continue;
+            places[known] = unfold(&disk->triangles[t], corner, k, places, growth->distances[known]);
+            known++;
+        }
+}
+
+static void relax(Flattening *flattening, MesoPoint *kept, MesoPoint *places, MesoRigidSteps *steps,
+                  uint32_t relaxations, double bound)
+{
+    for (uint32_t i = 0; i < relaxations; i++) {
+        meso_rigid_step(steps, places);
+        keep_if_fit(flattening, kept, places, bound);
+    }
+}
+
+static MesoStatus begin_conformal(Flattening *flattening, MesoPoint *kept, MesoPoint *places, MesoArena *scratch,
+                                  double bound, MesoError *error)
+{
+    const MesoDisk *disk = &flattening->disk;
     MesoStatus status = meso_flatten_conformal(places, scratch, disk, error);
     if (status)
         return status;
@@ -77,20 +117,40 @@ static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoArena
         flat += disk->triangles[t].area * meso_jacobian_area(&map);
         whole += disk->triangles[t].area;
     }
-    if (!(flat > 0))
-        return MESO_OK;
-    scale_places(places, disk->vertex_count, sqrt(whole / flat));
-    keep_if_fit(flattening, kept, places, bound);
-    if (options->relaxations == 0)
-        return MESO_OK;
-    MesoRigidSteps *steps = meso_rigid_steps_new(scratch, disk, error);
-    if (!steps)
-        return error->status;
-    for (uint32_t i = 0; i < options->relaxations; i++) {
-        meso_rigid_step(steps, places);
+    if (flat > 0) {
+        scale_places(places, disk->vertex_count, sqrt(whole / flat));
         keep_if_fit(flattening, kept, places, bound);
     }
     return MESO_OK;
+}
+
+/* Area scales that differ by more show that what is unfolded was no good beginning. */
+#define UNFOLDED_RATIO 1.5
+
+/* From triangles unfolded, if that will do, or else from a conformal map: rigid steps, and the last of them that fits. */
+static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoArena *scratch,
+                              const MesoChartGrowth *growth, const MesoChartOptions *options, double bound,
+                              MesoError *error)
+{
+    MesoPoint *places = MESO_NEW(scratch, MesoPoint, flattening->disk.vertex_count, error);
+    if (!places)
+        return MESO_ERR_MEMORY;
+    MesoRigidSteps *steps = NULL;
+    if (options->relaxations) {
+        steps = meso_rigid_steps_new(scratch, &flattening->disk, error);
+        if (!steps)
+            return error->status;
+    }
+    if (options->unfold && steps) {
+        unfold_all(flattening, places, growth);
+        relax(flattening, kept, places, steps, options->relaxations, fmin(bound, UNFOLDED_RATIO));
+        if (flattening->fits)
+            return MESO_OK;
+    }
+    MesoStatus status = begin_conformal(flattening, kept, places, scratch, bound, error);
+    if (!status && steps)
+        relax(flattening, kept, places, steps, options->relaxations, bound);
+    return status;
 }
 
 /* The seed's centroid to 0,0, its first side along x, the area as on the surface. */
@@ -137,7 +197,7 @@ static MesoStatus flatten_first(Flattening *flattening, MesoChartMaker *maker, c
         memcpy(kept, flattening->seed, sizeof flattening->seed);
         flattening->fits = true;
     } else {
-        status = find_places(flattening, kept, scratch, options, bound, error);
+        status = find_places(flattening, kept, scratch, growth, options, bound, error);
     }
     /* equations without a solution: with what has been found before */
     status = status == MESO_ERR_INPUT ? MESO_OK : status;

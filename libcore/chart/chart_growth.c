@@ -194,6 +194,7 @@ static MesoStatus add_triangle(Grower *grower, uint32_t triangle, double reach)
         if (*number == MESO_NO_INDEX) {
             *number = growth->vertex_count++;
             growth->vertices[*number] = vertex;
+            growth->distances[*number] = grower->flood.distances[grower->maker->vertex_numbers[vertex]];
         }
         growth->corners[3 * (size_t)n + k] = *number;
     }
@@ -243,7 +244,8 @@ static MesoStatus run_triangles(Grower *grower, uint32_t seed)
     Flood *flood = &grower->flood;
     flood->chart_vertices = MESO_NEW(grower->arena, uint32_t, flood->count, grower->error);
     grower->growth->vertices = MESO_NEW(grower->arena, uint32_t, flood->count, grower->error);
-    if (!flood->chart_vertices || !grower->growth->vertices)
+    grower->growth->distances = MESO_NEW(grower->arena, double, flood->count, grower->error);
+    if (!flood->chart_vertices || !grower->growth->vertices || !grower->growth->distances)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < flood->count; i++)
         flood->chart_vertices[i] = MESO_NO_INDEX;

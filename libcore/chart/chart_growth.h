@@ -12,6 +12,7 @@ typedef struct MesoChartGrowth {
     uint32_t *vertex_ends;  /* [triangle_count] how many vertices the triangles up to this one have */
     double *reaches;        /* [triangle_count] ascending: the radius from which on it belongs */
     uint32_t *vertices;     /* [vertex_count] of the mesh */
+    double *distances;      /* [vertex_count] along the surface from the seed's centroid */
 } MesoChartGrowth;
 
 /* On the maker's scratch; until meso_chart_growth_forget() its triangle_numbers say where a triangle stands. */

@@ -200,7 +200,7 @@ static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *
 {
     MesoQuiltStep *step = &patch->step;
     MesoChartOptions options = {.radius = step->tightness * work->chart_radius * work->options.scale, .largest_ratio = 4,
-                                .relaxations = 4};
+                                .relaxations = 4, .unfold = true};
     MesoStatus status = meso_chart_grow(&step->chart, arena, step->maker, step->seed, &options, error);
     if (status)
         return status;

@@ -47,8 +47,8 @@ typedef struct Builder {
     MesoVoxelGrid grid;
     uint32_t begins[MESO_MATCH_BINS + 1];
     uint32_t *list;         /* [triangle_count] faces by bin */
-    float *distances;       /* [bins * voxels] to the nearest face of a bin */
-    uint32_t *nearest;      /* [bins * voxels] that face */
+    float *distances;       /* [bins * voxels] to the nearest face of a bin: where the field's costs come to be */
+    uint32_t *nearest;      /* [bins * voxels] that face: where its faces do */
     char *scratch;
     size_t scratch_size;    /* of each bin */
 } Builder;
@@ -80,13 +80,12 @@ static MesoStatus place_voxels(MesoMatchField *field, const MesoSwatch *swatch, 
 static MesoStatus allocate(Builder *builder, MesoArena *arena, MesoError *error)
 {
     MesoMatchField *field = builder->field;
-    size_t cells = MESO_MATCH_BINS * meso_voxel_count(&builder->grid), faces = field->swatch->triangle_count;
     builder->scratch_size = meso_nearest_faces_scratch(&builder->grid);
-    builder->list = MESO_NEW(arena, uint32_t, faces, error);
-    builder->distances = MESO_NEW(arena, float, cells, error);
-    builder->nearest = MESO_NEW(arena, uint32_t, cells, error);
+    builder->list = MESO_NEW(arena, uint32_t, field->swatch->triangle_count, error);
+    builder->distances = field->costs;
+    builder->nearest = field->faces;
     builder->scratch = meso_arena_alloc(arena, MESO_MATCH_BINS, builder->scratch_size, error);
-    return builder->list && builder->distances && builder->nearest && builder->scratch ? MESO_OK : MESO_ERR_MEMORY;
+    return builder->list && builder->scratch ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static void sort_faces(Builder *builder)
@@ -190,6 +189,7 @@ static float largest_cost(const Best *best, uint32_t count)
     return larger(larger(a, b), larger(c, d));
 }
 
+/* All that is known of a stretch is loaded before what is best takes its place. */
 static void combine_stretch(const Builder *builder, size_t at, uint32_t count)
 {
     const MesoMatchField *field = builder->field;

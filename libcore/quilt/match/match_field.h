@@ -43,7 +43,7 @@ typedef struct MesoMatchField {
  * voxel         side of a voxel, > 0; about the mean edge or less
  * thread_count  0: all cores; the same bytes for any number
  *
- * O(676 * voxels); 16 * 26 bytes a voxel of memory, half of it kept. MESO_ERR_INPUT for a swatch without faces or a
+ * O(676 * voxels); 8 * 26 bytes a voxel of memory. MESO_ERR_INPUT for a swatch without faces or a
  * side that is not positive, MESO_ERR_LIMIT for more than 2^24 voxels, MESO_ERR_MEMORY.
  */
 MesoStatus meso_match_field_build(MesoMatchField *field, MesoArena *arena, const MesoSwatch *swatch, float lambda,
