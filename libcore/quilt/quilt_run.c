@@ -221,8 +221,17 @@ static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, 
         extend_front(front, round->work, &round->patches[i].step.chart);
     else if (error)
         *error = round->errors[i];
+    for (int k = 0; k < MESO_QUILT_TRIALS; k++)
+        meso_arena_release(&round->patches[i].trial_arenas[k]);
     meso_arena_release(&round->arenas[i]);
     return status;
+}
+
+/* Cores that so many patches at the same time leave to each of them. */
+static void share_threads(MesoQuiltWork *work, uint32_t patch_count)
+{
+    uint32_t threads = work->options.thread_count ? work->options.thread_count : meso_parallel_cores();
+    work->trial_threads = threads > patch_count ? threads / patch_count : 1;
 }
 
 /* A seed that its patch could not cover: with margins made tighter; in the end it counts as done, so that there is an end. */
@@ -232,6 +241,7 @@ static MesoStatus insist(Round *round, uint32_t seed, Front *front, MesoError *e
     bool done = false;
     for (int attempt = 1; attempt < TIGHTNESS_COUNT && !done; attempt++) {
         begin_patch(round, 0, seed, TIGHTNESS[attempt]);
+        share_threads(work, 1);
         prepare_range(round, 0, 1);
         MesoStatus status = end_patch(round, 0, &done, front, error);
         if (status)
@@ -251,6 +261,7 @@ static MesoStatus run_round(Round *round, const Seed *seeds, Front *front, MesoE
     bool done[MESO_QUILT_PATCHES];
     for (uint32_t i = 0; i < round->count; i++)
         begin_patch(round, i, seeds[i].triangle, TIGHTNESS[0]);
+    share_threads(round->work, round->count);
     meso_parallel_for(round->work->options.thread_count, round->count, 1, prepare_range, round);
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < round->count; i++) {

@@ -1,9 +1,9 @@
 /* One patch of a quilt. */
 #include "libcore/base/clock.h"
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/quilt_work.h"
 
-/* Placements that are looked at closely, and how far from each other sections may lie beside their way. */
-#define CANDIDATE_COUNT 4
+/* How far from each other sections of a placement may lie beside their way. */
 #define REACH_BEFORE_WARP 3.0f
 
 /* Ways that are not worth a warp, in mean edges of the swatch. */
@@ -118,27 +118,67 @@ static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoAre
     return status ? status : meet(c, work, arena, error);
 }
 
-/* The placement with the fewest ends; of equal ones the one that matches best. */
-static MesoStatus choose_placement(Candidate *best, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
-                                   MesoError *error)
+/* Placements of one step, side by side. */
+typedef struct Trials {
+    const MesoQuiltWork *work;
+    Candidate candidates[MESO_QUILT_TRIALS];
+    MesoArena *arenas;          /* one for each */
+    MesoStatus statuses[MESO_QUILT_TRIALS];
+    MesoError errors[MESO_QUILT_TRIALS];
+    uint32_t first;             /* that the range begins with */
+} Trials;
+
+static void try_range(void *context, uint64_t begin, uint64_t end)
 {
-    MesoMatch matches[CANDIDATE_COUNT];
-    uint32_t found, chosen = 0;
-    double clock = meso_seconds();
-    MesoStatus status = meso_quilt_place(matches, &found, CANDIDATE_COUNT, step, work, arena, error);
-    step->tally->report.seconds[1] += meso_seconds() - clock;
-    best->flaws = INFINITY;
-    for (uint32_t i = 0; !status && i < found && best->flaws > 0; i++) {
-        Candidate candidate = {.step = *step};
-        meso_quilt_choose(&candidate.step, work, matches[i]);
-        status = try_placement(&candidate, work, arena, error);
-        if (!status && candidate.flaws < best->flaws) {
-            *best = candidate;
-            chosen = i;
+    Trials *trials = context;
+    for (uint64_t i = trials->first + begin; i < trials->first + end; i++)
+        trials->statuses[i] = try_placement(&trials->candidates[i], trials->work, &trials->arenas[i], &trials->errors[i]);
+}
+
+/* The first one; where that leaves flaws, the others as well. Which has the fewest. */
+static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, MesoError *error)
+{
+    const uint32_t ends[3] = {0, 1, count};
+    *chosen = 0;
+    for (int k = 0; k < 2 && (k == 0 || trials->candidates[0].flaws > 0); k++) {
+        trials->first = ends[k];
+        meso_parallel_for(trials->work->trial_threads, ends[k + 1] - ends[k], 1, try_range, trials);
+        for (uint32_t i = ends[k]; i < ends[k + 1]; i++) {
+            if (trials->statuses[i]) {
+                if (error)
+                    *error = trials->errors[i];
+                return trials->statuses[i];
+            }
+            if (trials->candidates[i].flaws < trials->candidates[*chosen].flaws)
+                *chosen = i;
         }
     }
+    return MESO_OK;
+}
+
+/* The placement with the fewest ends; of equal ones the one that matches best. */
+static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, const MesoQuiltWork *work, MesoArena *arena,
+                                   MesoError *error)
+{
+    MesoQuiltStep *step = &patch->step;
+    MesoMatch matches[MESO_QUILT_TRIALS];
+    uint32_t found, chosen;
+    double clock = meso_seconds();
+    MesoStatus status = meso_quilt_place(matches, &found, MESO_QUILT_TRIALS, step, work, arena, error);
+    step->tally->report.seconds[1] += meso_seconds() - clock;
+    Trials trials = {.work = work, .arenas = patch->trial_arenas};
+    for (uint32_t i = 0; i < found && !status; i++) {
+        trials.candidates[i].step = *step;
+        meso_quilt_choose(&trials.candidates[i].step, work, matches[i]);
+    }
+    if (!status)
+        status = run_trials(&trials, found, &chosen, error);
     if (status)
         return status;
+    *best = trials.candidates[chosen];
+    for (uint32_t i = 0; i < found; i++)
+        if (i != chosen)
+            meso_arena_release(&patch->trial_arenas[i]);
     step->tally->report.retry_count += chosen > 0;
     step->tally->cost_sum += best->step.match.cost;
     return MESO_OK;
@@ -222,7 +262,7 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
     clocks[1] = meso_seconds();
     Candidate c;
     if (!status)
-        status = choose_placement(&c, step, work, arena, error);
+        status = choose_placement(&c, patch, work, arena, error);
     if (!status)
         status = fit(&c, step, work, arena, error);
     clocks[2] = meso_seconds();

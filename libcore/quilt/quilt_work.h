@@ -22,6 +22,9 @@ typedef enum MesoCover {
  * are few. It is no matter of threads: the result depends on it. */
 enum { MESO_QUILT_PATCHES = 4 };
 
+/* Placements of a patch that are looked at closely. */
+enum { MESO_QUILT_TRIALS = 4 };
+
 typedef struct MesoQuiltTally {
     MesoQuiltReport report;
     double cost_sum, square_sum;
@@ -38,6 +41,7 @@ typedef struct MesoQuiltWork {
     uint8_t *covers;            /* [triangle_count] MesoCover */
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
     MesoQuiltTally tally;       /* of all steps */
+    uint32_t trial_threads;     /* for placements of one patch: cores that are not at work on other patches */
     bool welds;                 /* the swatch has strands and is periodic: patches may fit vertex by vertex */
 
     /* lengths in units of the swatch */
@@ -231,6 +235,7 @@ typedef struct MesoQuiltPatch {
     MesoStrandJoint joint;
     MesoWholePlan wholes;
     bool laid_out;              /* marks in the work are to be taken back */
+    MesoArena trial_arenas[MESO_QUILT_TRIALS];
 } MesoQuiltPatch;
 
 MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error);
