@@ -5,12 +5,13 @@
 #include "libcore/mesh/cut/triangulation_fixture.h"
 #include "libcore/quilt/swatch/swatch_make.h"
 
-static MesoSwatch make_swatch(MesoArena *arena, const char *name, float jitter)
+/* `sides` of cross-sections: 0 for the usual ones, few for what is to take little time. */
+static MesoSwatch make_swatch(MesoArena *arena, const char *name, float jitter, uint32_t sides)
 {
     MesoError error;
     MesoPolygonMesh mesh;
     MesoSwatch swatch;
-    MesoSwatchRecipe recipe = {.name = name, .jitter = jitter};
+    MesoSwatchRecipe recipe = {.name = name, .jitter = jitter, .sides = sides};
     CHECK(meso_swatch_make(&mesh, arena, &recipe, &error) == MESO_OK);
     CHECK(meso_swatch_build(&swatch, arena, &mesh, &(MesoSwatchOptions){.up = -1, .periodic = -1}, &error) == MESO_OK);
     return swatch;
@@ -59,15 +60,15 @@ static void test_periodic_strands(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoSwatch swatch = make_swatch(&arena, "weave", 0);
+    MesoSwatch swatch = make_swatch(&arena, "weave", 0, 0);
     CHECK(swatch.periodic_x && swatch.periodic_y);
-    MesoTriangulation base = meso_fixture_sheet(32, 32, 0.5f);
+    MesoTriangulation base = meso_fixture_sheet(24, 24, 0.5f);
     MesoQuilt quilt = grow(&arena, &base, &swatch, 2);
     check_quilt(&quilt, &base, &swatch);
     CHECK(quilt.report.weld_count == quilt.report.patch_count && quilt.report.patch_count > 8);
     CHECK(quilt.report.join_count == 0 && quilt.report.cap_count == 0 && quilt.report.skipped_count == 0);
     CHECK(quilt.report.deformation_largest < 1e-5);
-    CHECK(quilt.element_count >= 32 && quilt.element_count <= 34);     /* 16 each way; at borders one may be halved */
+    CHECK(quilt.element_count >= 24 && quilt.element_count <= 26);     /* 12 each way; at borders one may be halved */
     meso_triangulation_release(&base);
     meso_arena_release(&arena);
 }
@@ -77,8 +78,8 @@ static void test_whole_elements(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoSwatch swatch = make_swatch(&arena, "nuts", 0);
-    MesoTriangulation base = meso_fixture_sheet(32, 32, 0.5f);
+    MesoSwatch swatch = make_swatch(&arena, "nuts", 0, 0);
+    MesoTriangulation base = meso_fixture_sheet(24, 24, 0.5f);
     MesoQuilt quilt = grow(&arena, &base, &swatch, 2);
     check_quilt(&quilt, &base, &swatch);
     for (uint32_t e = 0; e < quilt.element_count; e++) {
@@ -87,7 +88,7 @@ static void test_whole_elements(void)
               swatch.triangle_begin[origin + 1] - swatch.triangle_begin[origin]);
     }
     /* those whose centre lies where they fit whole: a reach away from the border */
-    double density = swatch.element_count / ((double)swatch.size.x * swatch.size.y), inner = 16 - 2 * (double)swatch.radii[0];
+    double density = swatch.element_count / ((double)swatch.size.x * swatch.size.y), inner = 12 - 2 * (double)swatch.radii[0];
     CHECK(fabs(quilt.element_count - density * inner * inner) < 0.1 * density * inner * inner);
     meso_triangulation_release(&base);
     meso_arena_release(&arena);
@@ -98,8 +99,8 @@ static void test_threads(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoSwatch swatch = make_swatch(&arena, "wire", 0.08f);
-    MesoTriangulation base = meso_fixture_sheet(28, 28, 0.5f);
+    MesoSwatch swatch = make_swatch(&arena, "wire", 0.08f, 5);
+    MesoTriangulation base = meso_fixture_sheet(22, 22, 0.5f);
     MesoQuilt one = grow(&arena, &base, &swatch, 1);
     check_quilt(&one, &base, &swatch);
     CHECK(one.report.join_count > 50);
@@ -122,8 +123,8 @@ static void test_limit(void)
     MesoQuilt quilt;
     MesoError error;
     meso_arena_init(&arena);
-    MesoSwatch swatch = make_swatch(&arena, "wire", 0.08f);
-    MesoTriangulation base = meso_fixture_sheet(28, 28, 0.5f);
+    MesoSwatch swatch = make_swatch(&arena, "wire", 0.08f, 5);
+    MesoTriangulation base = meso_fixture_sheet(22, 22, 0.5f);
     MesoQuiltOptions options = {.scale = 1, .triangle_limit = 1000};
     CHECK(meso_quilt_grow(&quilt, &arena, &base, &swatch, &options, &error) == MESO_ERR_LIMIT);
     CHECK_TEXT(error.message, "the quilt has more than 1000 triangles");

@@ -19,7 +19,8 @@ static Case laid_out(const char *recipe, uint32_t columns, double angle, float l
     MesoError error;
     MesoPolygonMesh mesh;
     meso_arena_init(&c.arena);
-    const MesoSwatchRecipe made = {.name = recipe, .jitter = 0.1f, .columns = columns, .rows = columns};
+    const MesoSwatchRecipe made = {.name = recipe, .jitter = 0.1f, .columns = columns, .rows = columns,
+                                   .sides = 6};
     CHECK(meso_swatch_make(&mesh, &c.arena, &made, &error) == MESO_OK);
     CHECK(meso_swatch_build(&c.swatch, &c.arena, &mesh, &(MesoSwatchOptions){.up = 2}, &error) == MESO_OK);
     const MesoSwatch *s = &c.swatch;
@@ -74,7 +75,7 @@ static void test_bent(void)
 int main(void)
 {
     test_same("weave", 6, 0);
-    test_same("nuts", 10, -2.5);
+    test_same("rings", 10, -2.5);
     test_bent();
     return 0;
 }
