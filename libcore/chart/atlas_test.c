@@ -42,7 +42,7 @@ static MesoAtlas check_atlas(const MesoTriangulation *mesh, MesoChartOptions opt
 /* Closed, with a handle, open at two ends, bumpy; cells small and large. */
 static void test_surfaces(void)
 {
-    const MesoChartOptions usual = {0, 4, 4, false};
+    const MesoChartOptions usual = {0, 4, 4};
     MesoTriangulation sphere = meso_fixture_sphere(8, 0.3f, 3), torus = meso_fixture_torus(40, 16, 0.3f);
     MesoTriangulation tube = meso_fixture_cylinder(24, 30, 0.1f, false), bumpy = meso_fixture_bumpy(20, 30, 0.5f);
     MesoAtlas atlas = check_atlas(&sphere, usual);
@@ -50,8 +50,8 @@ static void test_surfaces(void)
     CHECK(check_atlas(&torus, usual).largest_ratio < 3);
     CHECK(check_atlas(&tube, usual).largest_ratio < 1.3f);
     CHECK(check_atlas(&bumpy, usual).largest_ratio < 4);
-    check_atlas(&torus, (MesoChartOptions){0.1f, 4, 4, false});
-    check_atlas(&torus, (MesoChartOptions){10, 2, 0, false});
+    check_atlas(&torus, (MesoChartOptions){0.1f, 4, 4});
+    check_atlas(&torus, (MesoChartOptions){10, 2, 0});
     meso_triangulation_release(&sphere);
     meso_triangulation_release(&torus);
     meso_triangulation_release(&tube);
@@ -62,10 +62,10 @@ static void test_surfaces(void)
 static void test_plane(void)
 {
     MesoTriangulation plane = meso_fixture_flat(20, 20, 0.1f);
-    MesoAtlas atlas = check_atlas(&plane, (MesoChartOptions){3, 4, 4, false});
+    MesoAtlas atlas = check_atlas(&plane, (MesoChartOptions){3, 4, 4});
     CHECK(atlas.chart_count == 1 && atlas.largest_ratio < 1.001f);
     plane.triangle_count = 0;
-    CHECK(meso_atlas_build(&atlas, &arena, &plane, &(MesoChartOptions){3, 4, 4, false}, NULL) == MESO_OK);
+    CHECK(meso_atlas_build(&atlas, &arena, &plane, &(MesoChartOptions){3, 4, 4}, NULL) == MESO_OK);
     CHECK(atlas.chart_count == 0);
     meso_triangulation_release(&plane);
 }

@@ -60,8 +60,8 @@ static void keep_if_fit(Flattening *flattening, MesoPoint *kept, const MesoPoint
 }
 
 /*
- * A place for a triangle's corner `k`: beyond the side of the two others, as in the triangle's own plane, but no farther
- * from the middle than it is along the surface.
+ * A place for a triangle's corner `k`: beyond the side of the two others, as in the triangle's own plane, but no
+ * farther from the middle than it is along the surface.
  */
 static MesoPoint unfold(const MesoFlatTriangle *flat, const uint32_t *corner, uint32_t k, const MesoPoint *places,
                         double distance)
@@ -127,11 +127,12 @@ static MesoStatus begin_conformal(Flattening *flattening, MesoPoint *kept, MesoP
 /* Area scales that differ by more show that what is unfolded was no good beginning. */
 #define UNFOLDED_RATIO 1.5
 
-/* From triangles unfolded, if that will do, or else from a conformal map: rigid steps, and the last of them that fits. */
-static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoArena *scratch,
+/* Rigid steps from triangles unfolded, if that will do, or else from a conformal map: the last of them that fits. */
+static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoChartMaker *maker,
                               const MesoChartGrowth *growth, const MesoChartOptions *options, double bound,
                               MesoError *error)
 {
+    MesoArena *scratch = &maker->scratch;
     MesoPoint *places = MESO_NEW(scratch, MesoPoint, flattening->disk.vertex_count, error);
     if (!places)
         return MESO_ERR_MEMORY;
@@ -141,7 +142,7 @@ static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoArena
         if (!steps)
             return error->status;
     }
-    if (options->unfold && steps) {
+    if (maker->unfolds && steps) {
         unfold_all(flattening, places, growth);
         relax(flattening, kept, places, steps, options->relaxations, fmin(bound, UNFOLDED_RATIO));
         if (flattening->fits)
@@ -197,7 +198,7 @@ static MesoStatus flatten_first(Flattening *flattening, MesoChartMaker *maker, c
         memcpy(kept, flattening->seed, sizeof flattening->seed);
         flattening->fits = true;
     } else {
-        status = find_places(flattening, kept, scratch, growth, options, bound, error);
+        status = find_places(flattening, kept, maker, growth, options, bound, error);
     }
     /* equations without a solution: with what has been found before */
     status = status == MESO_ERR_INPUT ? MESO_OK : status;

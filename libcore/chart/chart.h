@@ -23,7 +23,6 @@ typedef struct MesoChartOptions {
     float radius;           /* along the surface, from the seed's centroid */
     float largest_ratio;    /* of area scales; 0: 4 */
     uint32_t relaxations;   /* steps as rigid as possible, after the conformal map */
-    bool unfold;            /* they begin from triangles unfolded one after another where that does: half the time */
 } MesoChartOptions;
 
 /*

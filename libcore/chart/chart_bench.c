@@ -22,7 +22,8 @@ static double cpu_seconds(void)
 /* Charts of about `wanted` triangles: of seeds spread over the sheet, all in one time. */
 static void time_charts(MesoChartMaker *maker, uint32_t wanted, uint32_t relaxations, bool unfold)
 {
-    MesoChartOptions options = {0.158f * sqrtf((float)wanted / 6.2831853f), 4, relaxations, unfold};
+    MesoChartOptions options = {0.158f * sqrtf((float)wanted / 6.2831853f), 4, relaxations};
+    maker->unfolds = unfold;
     double best = INFINITY, triangles = 0, ratio = 1, shrunk = 0;
     for (uint32_t round = 0; round < ROUNDS; round++) {
         MesoArena arena;
@@ -40,15 +41,16 @@ static void time_charts(MesoChartMaker *maker, uint32_t wanted, uint32_t relaxat
         best = fmin(best, cpu_seconds() - start);
         meso_arena_release(&arena);
     }
-    printf("%4u triangles wanted, %u rigid steps%s: %6.0f triangles, %.3f ms a chart, %.0f of %d shrunk, ratio to %.2f\n",
-           wanted, relaxations, unfold ? " from triangles unfolded" : "", triangles / SEEDS, 1e3 * best / SEEDS, shrunk, (int)SEEDS, ratio);
+    printf("%4u triangles wanted, %u rigid steps%s: %6.0f triangles, %.3f ms a chart, %.0f of %d shrunk, "
+           "ratio to %.2f\n", wanted, relaxations, unfold ? " from triangles unfolded" : "", triangles / SEEDS, 1e3 * best / SEEDS, shrunk,
+           (int)SEEDS, ratio);
 }
 
 static void time_atlas(const MesoTriangulation *mesh)
 {
     MesoArena arena;
     MesoAtlas atlas;
-    MesoChartOptions options = {0, 4, 4, false};
+    MesoChartOptions options = {0, 4, 4};
     meso_arena_init(&arena);
     double start = cpu_seconds();
     CHECK(meso_atlas_build(&atlas, &arena, mesh, &options, NULL) == MESO_OK);

@@ -8,6 +8,8 @@
 typedef struct MesoChartMaker {
     const MesoTriangulation *mesh;
     const uint8_t *taken;       /* [triangle_count] 1: not for charts; NULL: none is. The caller's */
+    bool unfolds;               /* charts begin from triangles unfolded one after another where that does, in half the
+                                   time. The caller's; false at first */
     uint32_t *vertex_numbers;   /* [vertex_count] and [triangle_count]; MESO_NO_INDEX between charts */
     uint32_t *triangle_numbers;
     MesoArena scratch;

@@ -46,7 +46,7 @@ static void test_plane(void)
     for (uint32_t i = 0; i < 12; i++) {
         MesoChartOptions options = usual;
         options.relaxations = i < 4 || i >= 8 ? 4 : 0;
-        options.unfold = i >= 8;
+        maker.unfolds = i >= 8;
         MesoChart chart = grow(&maker, seeds[i % 4], options);
         CHECK(chart.radius == 1 && chart.area_ratio < 1.001f);
         CHECK(distance_error(&chart, &mesh) < 1e-5);
@@ -85,7 +85,8 @@ static void test_tube(void)
     MesoChartMaker maker = make(&mesh);
     for (uint32_t seed = 0; seed < mesh.triangle_count; seed += 311) {
         for (int unfold = 0; unfold < 2; unfold++) {
-            MesoChart chart = grow(&maker, seed, (MesoChartOptions){2, 4, 6, unfold});
+            maker.unfolds = unfold;
+            MesoChart chart = grow(&maker, seed, (MesoChartOptions){2, 4, 6});
             CHECK(chart.radius == 2 && chart.triangle_count > 500);
             CHECK(chart.area_ratio < 1.2f);
         }
@@ -100,6 +101,7 @@ static void check_charts(const MesoTriangulation *mesh, MesoChartOptions options
     uint32_t largest = 0;
     for (uint32_t seed = 0; seed < mesh->triangle_count; seed += step) {
         MesoArenaMark mark = meso_arena_mark(&arena);
+        maker.unfolds = seed / step % 2;
         uint32_t count = grow(&maker, seed, options).triangle_count;
         largest = count > largest ? count : largest;
         meso_arena_rewind(&arena, mark);
@@ -111,21 +113,17 @@ static void check_charts(const MesoTriangulation *mesh, MesoChartOptions options
 static void test_curved(void)
 {
     MesoTriangulation sphere = meso_fixture_sphere(10, 0.3f, 3);
-    const MesoChartOptions unfold = {1, 4, 4, true};
     check_charts(&sphere, usual, 97, 300);
-    check_charts(&sphere, unfold, 97, 300);
-    check_charts(&sphere, (MesoChartOptions){10, 4, 4, false}, 307, 500);      /* all of it is asked for */
-    check_charts(&sphere, (MesoChartOptions){10, 1.5f, 0, false}, 307, 50);
+    check_charts(&sphere, (MesoChartOptions){10, 4, 4}, 307, 500);      /* all of it is asked for */
+    check_charts(&sphere, (MesoChartOptions){10, 1.5f, 0}, 307, 50);
     MesoTriangulation torus = meso_fixture_torus(40, 16, 0.3f);
     check_charts(&torus, usual, 97, 200);
-    check_charts(&torus, unfold, 97, 200);
-    check_charts(&torus, (MesoChartOptions){10, 4, 4, false}, 307, 300);       /* around both ways */
+    check_charts(&torus, (MesoChartOptions){10, 4, 4}, 307, 300);       /* around both ways */
     MesoTriangulation bumpy = meso_fixture_bumpy(30, 30, 0.5f);
     check_charts(&bumpy, usual, 171, 200);
-    check_charts(&bumpy, unfold, 171, 200);
-    check_charts(&bumpy, (MesoChartOptions){5, 0, 10, false}, 523, 200);
+    check_charts(&bumpy, (MesoChartOptions){5, 0, 10}, 523, 200);
     MesoTriangulation spikes = meso_fixture_bumpy(16, 16, 20);
-    check_charts(&spikes, (MesoChartOptions){5, 4, 4, false}, 47, 2);
+    check_charts(&spikes, (MesoChartOptions){5, 4, 4}, 47, 2);
     meso_triangulation_release(&sphere);
     meso_triangulation_release(&torus);
     meso_triangulation_release(&bumpy);
@@ -142,7 +140,7 @@ static void test_one_triangle(void)
         MesoVec3 positions[3] = {{s, s, 0}, {s, 4 * s, 0}, {s, s, 4 * s}};
         MesoTriangulation mesh = meso_fixture_triangulation(positions, 3, corners, 1);
         MesoChartMaker maker = make(&mesh);
-        MesoChart chart = grow(&maker, 0, (MesoChartOptions){s, 4, 4, false});
+        MesoChart chart = grow(&maker, 0, (MesoChartOptions){s, 4, 4});
         CHECK(chart.triangle_count == 1 && fabsf(chart.places[1].x - chart.places[0].x - 3 * s) < 1e-5f * s);
         MesoVec2 along = meso_chart_direction(&chart, &mesh, 0, (MesoVec3){0, 0, 2});
         CHECK(fabsf(along.x) < 1e-5f && fabsf(along.y - 2) < 1e-5f);
@@ -175,7 +173,7 @@ static void test_moebius(void)
             corners[3 * v + k] = (v + k) % 5;
     }
     MesoTriangulation mesh = meso_fixture_triangulation(positions, 5, corners, 5);
-    check_charts(&mesh, (MesoChartOptions){100, 100, 4, false}, 1, 1);
+    check_charts(&mesh, (MesoChartOptions){100, 100, 4}, 1, 1);
     meso_triangulation_release(&mesh);
 }
 

@@ -15,8 +15,8 @@ enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
 #define VOXELS_MOST 128
 
 /*
- * How far around its seed a patch looks for what is not done, in sides of the swatch, to have its middle there: a quarter
- * fewer patches, and so fewer seams. Not so where elements are whole, which are matched by many neighbours alone, nor
+ * How far around its seed a patch looks for what is not done, in sides of the swatch, to have its middle there: a
+ * quarter fewer patches, and so fewer seams. Not so where elements are whole, which are matched by many neighbours alone, nor
  * where the swatch is periodic: the more of it lies on the older quilt, the more often it just goes on.
  */
 #define SEED_REACH 0.2f

@@ -5,8 +5,8 @@
 #include <string.h>
 
 /* Cells of the grid along the longer side of the swatch: between these, and some 1.5 edges of the swatch wide. */
-#define CELLS_LEAST 64
-#define CELLS_MOST 160
+#define CELLS_LEAST 48
+#define CELLS_MOST 96
 
 /* Cells around what a patch has to do with in which its seam may end. */
 #define FREE_CELLS 3.0f

@@ -132,7 +132,8 @@ static void try_range(void *context, uint64_t begin, uint64_t end)
 {
     Trials *trials = context;
     for (uint64_t i = trials->first + begin; i < trials->first + end; i++)
-        trials->statuses[i] = try_placement(&trials->candidates[i], trials->work, &trials->arenas[i], &trials->errors[i]);
+        trials->statuses[i] = try_placement(&trials->candidates[i], trials->work, &trials->arenas[i],
+                                            &trials->errors[i]);
 }
 
 /* The first one; where that leaves flaws, the others as well. Which has the fewest. */
@@ -240,7 +241,8 @@ static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *
 {
     MesoQuiltStep *step = &patch->step;
     MesoChartOptions options = {.radius = step->tightness * work->chart_radius * work->options.scale, .largest_ratio = 4,
-                                .relaxations = 4, .unfold = true};
+                                .relaxations = 4};
+    step->maker->unfolds = true;
     MesoStatus status = meso_chart_grow(&step->chart, arena, step->maker, step->seed, &options, error);
     if (status)
         return status;

@@ -53,7 +53,7 @@ static void time_map(uint32_t columns, float height)
     double best[2] = {INFINITY, INFINITY};
     CHECK(directions);
     meso_arena_init(&arena);
-    CHECK(meso_atlas_build(&atlas, &arena, &mesh, &(MesoChartOptions){0, 4, 4, false}, NULL) == MESO_OK);
+    CHECK(meso_atlas_build(&atlas, &arena, &mesh, &(MesoChartOptions){0, 4, 4}, NULL) == MESO_OK);
     CHECK(meso_prisms_build(directions, NULL, &arena, &mesh, &(MesoPrismOptions){0, height, false}, NULL) == MESO_OK);
     for (uint32_t round = 0; round < ROUNDS; round++) {
         double start = cpu_milliseconds();

@@ -16,7 +16,7 @@ static MesoAtlas charts_of(const MesoTriangulation *mesh, float radius)
 {
     MesoAtlas atlas;
     MesoError error;
-    CHECK(meso_atlas_build(&atlas, &arena, mesh, &(MesoChartOptions){radius, 4, 4, false}, &error) == MESO_OK);
+    CHECK(meso_atlas_build(&atlas, &arena, mesh, &(MesoChartOptions){radius, 4, 4}, &error) == MESO_OK);
     return atlas;
 }
 

@@ -39,9 +39,9 @@ typedef struct Row {
 } Row;
 
 /*
- * The paper's ivy has 700 triangles, which are two stems of ours with four leaves each: patches of so little are hardly
- * more than seams. Ours is four times that. Its chair has two swatches: two rows of ours, whose figures are shared out by
- * their triangles.
+ * The paper's ivy has 700 triangles, which are two stems of ours with four leaves each: patches of so little are
+ * hardly more than seams. Ours is four times that. Its chair has two swatches: two rows of ours, whose figures are
+ * shared out by their triangles.
  */
 static const Row ROWS[] = {
     {"plane", bench_plane, {.name = "wire", .jitter = 0.05f}, 0, {74792, 37839, 27, 3}},

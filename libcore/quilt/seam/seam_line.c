@@ -263,8 +263,8 @@ static void sweep_row(Feet *feet, uint32_t y, int dy)
 {
     uint32_t columns = feet->columns;
     size_t row = (size_t)y * columns;
-    const MesoVec2 *from = dy && !(dy < 0 ? y == 0 : y + 1 == feet->rows) ? &feet->feet[dy < 0 ? row - columns : row + columns]
-                                                                          : NULL;
+    bool is_first = dy < 0 ? y == 0 : y + 1 == feet->rows;
+    const MesoVec2 *from = is_first ? NULL : &feet->feet[dy < 0 ? row - columns : row + columns];
     for (uint32_t x = 0; x < columns; x++) {
         MesoVec2 centre = {(float)x, (float)y};
         for (uint32_t k = x > 0 ? x - 1 : 0; from && k <= x + 1 && k < columns; k++)
