@@ -378,8 +378,8 @@ static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, 
     front->listed = MESO_NEW(scratch, uint8_t, count, error);
     front->seen = MESO_NEW(scratch, uint8_t, count, error);
     front->around = MESO_NEW(scratch, uint32_t, count, error);
-    if (!work->roots || !work->covers || !work->chart_triangles || !front->triangles || !front->constraints || !front->listed ||
-        !front->seen || !front->around)
+    if (!work->roots || !work->covers || !work->chart_triangles || !front->triangles || !front->constraints ||
+        !front->listed || !front->seen || !front->around)
         return MESO_ERR_MEMORY;
     meso_whole_roots(work->roots, swatch);
     memset(work->chart_triangles, 0xff, count * sizeof *work->chart_triangles);
