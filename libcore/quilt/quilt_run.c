@@ -367,6 +367,8 @@ static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, 
     MesoStatus status = meso_match_field_build(&work->field, scratch, swatch, work->options.lambda / swatch->mean_edge,
                                                choose_voxel(swatch), work->options.thread_count, error);
     if (!status)
+        status = meso_strands_find_rings(&work->rings, swatch, scratch, error);
+    if (!status)
         status = meso_composite_init(&work->composite, work->base->triangle_count, error);
     if (status)
         return status;

@@ -39,21 +39,20 @@ typedef struct Pull {
 
 /* Pairs of sections and of whole elements near the seam. */
 static MesoStatus collect_pulls(Pull **pulls, uint32_t *count, const MesoQuiltStep *step,
-                                const MesoStrandSide *old_side, const MesoStrandSide *new_side,
+                                const MesoStrandSide *new_side, const MesoRingShares *shares,
                                 const MesoWholePairs *wholes, const MesoQuiltWork *work, MesoArena *arena,
                                 MesoError *error)
 {
     *count = 0;
-    *pulls = MESO_NEW(arena, Pull, (size_t)new_side->section_count + wholes->count, error);
+    *pulls = MESO_NEW(arena, Pull, (size_t)new_side->section_count + shares->pull_count + wholes->count, error);
     if (!*pulls)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < new_side->section_count; s++) {
-        uint32_t partner = new_side->partners[s];
-        if (partner == MESO_NO_INDEX)
-            continue;
-        MesoVec3 from = new_side->sections[s].centre;
-        (*pulls)[(*count)++] = (Pull){from, meso_vec3_sub(old_side->sections[partner].centre, from)};
+        if (new_side->partners[s] != MESO_NO_INDEX)
+            (*pulls)[(*count)++] = (Pull){new_side->sections[s].centre, new_side->besides[s]};
     }
+    for (uint32_t i = 0; i < shares->pull_count; i++)
+        (*pulls)[(*count)++] = (Pull){shares->pulls_from[i], shares->pulls_apart[i]};
     for (uint32_t i = 0; i < wholes->count; i++) {
         uint32_t partner = wholes->partners[i];
         MesoVec3 from = meso_step_from_swatch(step, work->swatch->centres[wholes->elements[i]]);
@@ -91,6 +90,7 @@ static MesoStatus fit_warp(MesoQuiltStep *step, const Pull *pulls, uint32_t coun
 
 typedef struct Candidate {
     MesoQuiltStep step;     /* with the placement and its seam */
+    MesoRingShares shares;
     MesoStrandSide old_side, new_side;
     MesoWholePairs wholes;
     float flaws;            /* strands that end, or are cut along */
@@ -99,10 +99,9 @@ typedef struct Candidate {
 /* What meets at the seam. */
 static MesoStatus meet(Candidate *c, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
-    const MesoQuiltStep *step = &c->step;
-    MesoStatus status = meso_strands_cut_old(&c->old_side, step, work, 0, arena, error);
-    if (!status)
-        status = meso_strands_cut_new(&c->new_side, step, work, 0, arena, error);
+    MesoQuiltStep *step = &c->step;
+    step->warp = (MesoThinPlate){0};
+    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
     if (!status)
         status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, arena, error);
     if (!status)
@@ -185,11 +184,11 @@ static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, const
     return MESO_OK;
 }
 
-/* The new side is cut again where placement or warp have moved it. */
+/* Both sides are cut again where placement or warp have moved it. */
 static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, float reach, MesoArena *arena,
                             MesoError *error)
 {
-    MesoStatus status = meso_strands_cut_new(&c->new_side, step, work, 0, arena, error);
+    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
     return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, arena, error);
 }
 
@@ -206,7 +205,7 @@ static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *wo
         status = work->welds ? try_placement(c, work, arena, error) : meet(c, work, arena, error);
     *step = c->step;
     if (!status)
-        status = collect_pulls(&pulls, &count, step, &c->old_side, &c->new_side, &c->wholes, work, arena, error);
+        status = collect_pulls(&pulls, &count, step, &c->new_side, &c->shares, &c->wholes, work, arena, error);
     if (status || !count)
         return status;
     step->tally->report.correspondence_count += count;
@@ -253,6 +252,8 @@ static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *
     patch->laid_out = true;
     if (!status)
         status = meso_old_geometry_load(step, work, arena, error);
+    if (!status)
+        status = meso_strands_old_rings(&step->old_rings, &step->old, work, arena, error);
     return status ? status : meso_quilt_ground(step, work, arena, error);
 }
 

@@ -31,12 +31,26 @@ typedef struct MesoQuiltTally {
     uint64_t moved_count;
 } MesoQuiltTally;
 
+/*
+ * Rings of strands: vertices that lie equally far along a strand. A strand is cut between two of them, where its middle
+ * line crosses the seam.
+ */
+typedef struct MesoStrandRings {
+    uint32_t count;
+    uint32_t *of_vertex;        /* [vertex_count] ring, or MESO_NO_INDEX where there is no strand */
+    MesoVec3 *middles;          /* [count] */
+    MesoVec2 *axes;             /* [count] unit, along the strand as seen from above, either way; 0, 0: unknown */
+    float *reaches;             /* [count] the largest distance of a vertex from the middle */
+    float *steps;               /* [count] mean distance to the next rings */
+} MesoStrandRings;
+
 typedef struct MesoQuiltWork {
     const MesoTriangulation *base;
     const MesoSwatch *swatch;
     MesoQuiltOptions options;   /* with defaults filled in */
     MesoMatchField field;
     uint32_t *roots;            /* [swatch->element_count] whole_roots.h */
+    MesoStrandRings rings;      /* of the swatch */
     MesoComposite composite;
     uint8_t *covers;            /* [triangle_count] MesoCover */
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
@@ -90,6 +104,7 @@ typedef struct MesoQuiltStep {
     MesoChart chart;
     MesoQuiltPlane plane;
     MesoOldGeometry old;
+    MesoStrandRings old_rings;  /* of what is there */
     MesoSeamGround ground;
     MesoMatchPoint *points;     /* [point_count] of the older quilt, that the placement is to match */
     float *point_weights;
@@ -172,6 +187,27 @@ MesoStatus meso_quilt_plan_wholes(MesoWholePlan *plan, const MesoWholePairs *pai
 MesoStatus meso_quilt_commit_wholes(const MesoWholePlan *plan, const MesoQuiltStep *step, MesoQuiltWork *work,
                                     MesoError *error);
 
+/* Rings of all strands of a swatch. Some scratch stays in the arena. */
+MesoStatus meso_strands_find_rings(MesoStrandRings *rings, const MesoSwatch *swatch, MesoArena *arena, MesoError *error);
+/* Those of what is there: rings of the swatch, as far as they hang together. */
+MesoStatus meso_strands_old_rings(MesoStrandRings *rings, const MesoOldGeometry *old, const MesoQuiltWork *work,
+                                  MesoArena *arena, MesoError *error);
+
+/*
+ * How far each ring lies on its own side of the seam, in the plane's units. A strand that both sides have is seen where
+ * it lies between both, so that one of them has it, and only one.
+ */
+typedef struct MesoRingShares {
+    float *old_values;          /* [old_rings.count] */
+    float *new_values;          /* [rings.count of the swatch] -INFINITY: not on the chart */
+    MesoVec3 *places;           /* [vertex_count of the swatch] of strands, warped */
+    uint32_t pull_count;
+    MesoVec3 *pulls_from, *pulls_apart;     /* [pull_count] middles of new rings, and the way to the older strand from there */
+} MesoRingShares;
+
+MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                              MesoArena *arena, MesoError *error);
+
 /* Strands of one side, cut at a distance `gap` before the seam. Cut at 0, equal strands of both sides have equal sections. */
 typedef struct MesoStrandSide {
     uint32_t vertex_count, triangle_count;
@@ -186,13 +222,13 @@ typedef struct MesoStrandSide {
     MesoVec3 *axes;             /* [sections] along the strand, away from this side */
     uint32_t *partners;         /* [sections] of the other side, or MESO_NO_INDEX */
     MesoVec3 *moves;            /* [sections] what each is to move by */
+    MesoVec3 *besides;          /* [sections] of the new side: what it lies beside the older strand, turned around */
+    float *steps;               /* [sections] from ring to ring there */
     uint32_t section_count;
 } MesoStrandSide;
 
-MesoStatus meso_strands_cut_old(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap,
-                                MesoArena *arena, MesoError *error);
-MesoStatus meso_strands_cut_new(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap,
-                                MesoArena *arena, MesoError *error);
+MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
+                            const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
 /*
  * Pairs sections that lie across the seam from each other, nearest first, up to `reach` times a strand's own reach beside
  * its way. `flaws`: strands that end, or are cut along.
@@ -204,8 +240,8 @@ typedef struct MesoStrandJoint {
     MesoStrandSide old_side, new_side;
 } MesoStrandJoint;
 
-MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_at_seam,
-                             const MesoStrandSide *new_at_seam, const MesoQuiltStep *step, const MesoQuiltWork *work,
+MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_side,
+                             const MesoStrandSide *new_side, const MesoQuiltStep *step, const MesoQuiltWork *work,
                              MesoArena *arena, MesoError *error);
 /* Joins them in the composite, and closes what has no partner. */
 MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,

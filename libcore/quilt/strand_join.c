@@ -2,6 +2,8 @@
 #include "libcore/quilt/quilt_work.h"
 #include "libcore/quilt/seam/band_deform.h"
 
+#include <string.h>
+
 /* Rings of triangles on both sides that the deformation spreads over. */
 #define BAND_RINGS 8
 
@@ -20,72 +22,6 @@ typedef struct Joiner {
 } Joiner;
 
 /* ---- moves ---- */
-
-/* The section at the seam that a section before it belongs to: the nearest; MESO_NO_INDEX where none is near. */
-static uint32_t section_at_seam(const MesoStrandSide *at_seam, const MesoSection *section, float gap)
-{
-    uint32_t best = MESO_NO_INDEX;
-    float least = 3 * gap + 0.5f * section->reach;
-    for (uint32_t s = 0; s < at_seam->section_count; s++) {
-        float distance = meso_vec3_length(meso_vec3_sub(at_seam->sections[s].centre, section->centre));
-        if (distance < least) {
-            least = distance;
-            best = s;
-        }
-    }
-    return best;
-}
-
-/*
- * Pairs sections as those at the seam that they belong to are paired, and has them move half of the way between the
- * centres there. Others keep what meso_strands_pair() has said, if both cross the seam: what does not is only grazed by
- * the seam, and is to be closed.
- */
-static MesoStatus pair_by_seam(MesoStrandJoint *joint, const MesoStrandSide *old_at_seam,
-                               const MesoStrandSide *new_at_seam, float gap, MesoArena *scratch, MesoError *error)
-{
-    MesoStrandSide *old_side = &joint->old_side, *new_side = &joint->new_side;
-    MesoArenaMark mark = meso_arena_mark(scratch);
-    uint32_t *old_here = MESO_NEW(scratch, uint32_t, old_side->section_count, error);
-    uint32_t *new_here = MESO_NEW(scratch, uint32_t, new_side->section_count, error);
-    if (!old_here || !new_here)
-        return MESO_ERR_MEMORY;
-    for (uint32_t s = 0; s < old_side->section_count; s++)
-        old_here[s] = section_at_seam(old_at_seam, &old_side->sections[s], gap);
-    for (uint32_t s = 0; s < new_side->section_count; s++)
-        new_here[s] = section_at_seam(new_at_seam, &new_side->sections[s], gap);
-    for (uint32_t s = 0; s < old_side->section_count; s++) {
-        uint32_t other = old_side->partners[s];
-        if (other != MESO_NO_INDEX && (old_here[s] == MESO_NO_INDEX || new_here[other] == MESO_NO_INDEX)) {
-            old_side->partners[s] = new_side->partners[other] = MESO_NO_INDEX;
-            continue;
-        }
-        uint32_t there = old_here[s] == MESO_NO_INDEX ? MESO_NO_INDEX : old_at_seam->partners[old_here[s]];
-        for (uint32_t n = 0; there != MESO_NO_INDEX && n < new_side->section_count; n++) {
-            if (new_here[n] != there || new_side->partners[n] == s)
-                continue;
-            if (other != MESO_NO_INDEX && new_here[other] == there)
-                break;      /* two of them: the nearer one is the partner already */
-            if (other != MESO_NO_INDEX)
-                new_side->partners[other] = MESO_NO_INDEX;
-            if (new_side->partners[n] != MESO_NO_INDEX)
-                old_side->partners[new_side->partners[n]] = MESO_NO_INDEX;
-            old_side->partners[s] = other = n;
-            new_side->partners[n] = s;
-        }
-    }
-    for (uint32_t s = 0; s < old_side->section_count; s++) {
-        uint32_t other = old_side->partners[s];
-        if (other == MESO_NO_INDEX)
-            continue;
-        MesoVec3 way = meso_vec3_sub(new_at_seam->sections[new_here[other]].centre,
-                                     old_at_seam->sections[old_here[s]].centre);
-        old_side->moves[s] = meso_vec3_scale(way, 0.5f);
-        new_side->moves[other] = meso_vec3_scale(way, -0.5f);
-    }
-    meso_arena_rewind(scratch, mark);
-    return MESO_OK;
-}
 
 /* How far vertices have moved, those that have. */
 static void count_moves(MesoQuiltTally *tally, float edge, const MesoVec3 *before, const MesoVec3 *after, uint32_t count)
@@ -141,27 +77,29 @@ static MesoStatus fail(MesoError *error)
     return error ? error->status : MESO_ERR_MEMORY;
 }
 
-/* Made vertices of the older side are new in the composite; kept ones have moved. */
+/* Vertices of the older side have moved; where two ends of strands touch in one, the second gets a new one. */
 static MesoStatus commit_old_vertices(Joiner *j, MesoError *error)
 {
     const MesoStrandSide *side = j->old_side;
     const MesoClip *clip = &side->clip;
     MesoComposite *composite = &j->work->composite;
-    for (uint32_t i = 0; i < clip->kept_count; i++) {
-        uint32_t local = clip->vertices[i], name = j->old_names[i] = side->vertices[local];
+    uint8_t *taken = MESO_NEW(j->arena, uint8_t, side->vertex_count, error);
+    if (!taken)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < clip->kept_count + clip->made_count; i++) {
+        uint32_t local = i < clip->kept_count ? clip->vertices[i] : clip->ends[2 * (size_t)(i - clip->kept_count)];
+        uint32_t name = side->vertices[local];
         MesoVec3 a = side->positions[local], b = side->clipped[i];
-        MesoQuiltVertex place;
-        if ((a.x != b.x || a.y != b.y || a.z != b.z) && meso_quilt_plane_from(&j->step->plane, b, &place))
-            composite->vertices[name] = place;
-    }
-    for (uint32_t i = clip->kept_count; i < clip->kept_count + clip->made_count; i++) {
-        uint32_t near = side->vertices[clip->ends[2 * (i - clip->kept_count)]];
-        MesoQuiltVertex place;
-        if (!meso_quilt_plane_from(&j->step->plane, side->clipped[i], &place))
-            place = composite->vertices[near];  /* at the rim: as near as can be */
-        j->old_names[i] = meso_composite_add_vertex(composite, place, composite->vertex_origins[near], error);
-        if (j->old_names[i] == MESO_NO_INDEX)
+        MesoQuiltVertex place = composite->vertices[name];
+        if (a.x != b.x || a.y != b.y || a.z != b.z)
+            meso_quilt_plane_from(&j->step->plane, b, &place);      /* at the rim it stays where it is */
+        if (taken[local])
+            name = meso_composite_add_vertex(composite, place, composite->vertex_origins[name], error);
+        if (name == MESO_NO_INDEX)
             return fail(error);
+        composite->vertices[name] = place;
+        taken[local] = 1;
+        j->old_names[i] = name;
     }
     return MESO_OK;
 }
@@ -186,26 +124,27 @@ static MesoStatus commit_new_vertices(Joiner *j, MesoError *error)
     return MESO_OK;
 }
 
-/* Old triangles that are crossed or lie on the new side die; pieces of the crossed ones come instead. */
+/* Old triangles that are not kept die; those that have another vertex now come anew. */
 static MesoStatus commit_old_triangles(Joiner *j, MesoError *error)
 {
     const MesoStrandSide *side = j->old_side;
     const MesoClip *clip = &side->clip;
     MesoComposite *composite = &j->work->composite;
-    for (uint32_t t = 0; t < clip->triangle_count; t++) {
-        const uint32_t *corner = &clip->corners[3 * (size_t)t];
-        uint32_t from = side->triangles[clip->origins[t]];
-        if (corner[0] < clip->kept_count && corner[1] < clip->kept_count && corner[2] < clip->kept_count)
-            continue;
-        uint32_t names[3] = {j->old_names[corner[0]], j->old_names[corner[1]], j->old_names[corner[2]]};
-        if (meso_composite_add_triangle(composite, names, composite->triangle_origins[from], composite->patches[from],
-                                        error) == MESO_NO_INDEX)
-            return fail(error);
-    }
     for (uint32_t t = 0; t < side->triangle_count; t++) {
         const uint32_t *corner = &side->corners[3 * (size_t)t];
         if (!(side->values[corner[0]] > 0 && side->values[corner[1]] > 0 && side->values[corner[2]] > 0))
             composite->corners[3 * (size_t)side->triangles[t]] = MESO_NO_INDEX;
+    }
+    for (uint32_t t = 0; t < clip->triangle_count; t++) {
+        const uint32_t *corner = &clip->corners[3 * (size_t)t];
+        uint32_t from = side->triangles[clip->origins[t]];
+        uint32_t names[3] = {j->old_names[corner[0]], j->old_names[corner[1]], j->old_names[corner[2]]};
+        if (memcmp(names, &composite->corners[3 * (size_t)from], sizeof names) == 0)
+            continue;
+        if (meso_composite_add_triangle(composite, names, composite->triangle_origins[from], composite->patches[from],
+                                        error) == MESO_NO_INDEX)
+            return fail(error);
+        composite->corners[3 * (size_t)from] = MESO_NO_INDEX;
     }
     return MESO_OK;
 }
@@ -322,26 +261,15 @@ static MesoStatus close_sections(Joiner *j, const uint32_t *old_looks, const uin
     return status;
 }
 
-MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_at_seam,
-                             const MesoStrandSide *new_at_seam, const MesoQuiltStep *step, const MesoQuiltWork *work,
-                             MesoArena *arena, MesoError *error)
+MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_side, const MesoStrandSide *new_side,
+                             const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
-    MesoStrandSide *old_side = &joint->old_side, *new_side = &joint->new_side;
-    float flaws;
-    MesoStatus status = meso_strands_cut_old(old_side, step, work, work->gap, arena, error);
+    *joint = (MesoStrandJoint){.old_side = *old_side, .new_side = *new_side};
+    MesoStatus status = deform_side(&joint->old_side, step, work, arena, error);
     if (!status)
-        status = meso_strands_cut_new(new_side, step, work, work->gap, arena, error);
-    if (!status)
-        status = meso_strands_pair(old_side, new_side, &flaws, MESO_REACH_LAST, arena, error);
-    if (status)
-        return status;
-    status = pair_by_seam(joint, old_at_seam, new_at_seam, work->gap, arena, error);
-    if (!status)
-        status = deform_side(old_side, step, work, arena, error);
-    if (!status)
-        status = deform_side(new_side, step, work, arena, error);
-    measure_again(old_side);
-    measure_again(new_side);
+        status = deform_side(&joint->new_side, step, work, arena, error);
+    measure_again(&joint->old_side);
+    measure_again(&joint->new_side);
     return status;
 }
 

@@ -9,11 +9,6 @@
 /* Sections are one where their lengths differ by less than this factor. */
 #define LENGTH_RATIO 2.0f
 
-static float seam_at(const MesoQuiltStep *step, MesoVec3 p)
-{
-    return meso_seam_at(&step->seam, (MesoVec2){p.x, p.y});
-}
-
 /* ---- sections ---- */
 
 /*
@@ -69,7 +64,7 @@ static void sum_covariances(float *sums, const MesoStrandSide *side, const uint3
     }
 }
 
-static MesoStatus find_sections(MesoStrandSide *side, MesoArena *arena, MesoError *error)
+static MesoStatus find_sections(MesoStrandSide *side, const float *steps, MesoArena *arena, MesoError *error)
 {
     const MesoClip *clip = &side->clip;
     side->section_count = 0;
@@ -78,9 +73,11 @@ static MesoStatus find_sections(MesoStrandSide *side, MesoArena *arena, MesoErro
     side->axes = MESO_NEW(arena, MesoVec3, most, error);
     side->partners = MESO_NEW(arena, uint32_t, most, error);
     side->moves = MESO_NEW(arena, MesoVec3, most, error);
+    side->besides = MESO_NEW(arena, MesoVec3, most, error);
+    side->steps = MESO_NEW(arena, float, most, error);
     uint32_t *section_of = MESO_NEW(arena, uint32_t, clip->made_count, error);
     float *sums = MESO_NEW(arena, float, 6 * (size_t)most, error);
-    if (!side->sections || !side->axes || !side->partners || !side->moves || !section_of || !sums)
+    if (!side->sections || !side->axes || !side->partners || !side->moves || !side->besides || !side->steps || !section_of || !sums)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < clip->made_count; i++)
         section_of[i] = MESO_NO_INDEX;
@@ -91,6 +88,7 @@ static MesoStatus find_sections(MesoStrandSide *side, MesoArena *arena, MesoErro
         meso_section_measure(section);
         for (uint32_t i = 0; i < section->count; i++)
             section_of[section->vertices[i] - clip->kept_count] = side->section_count;
+        side->steps[side->section_count] = steps[clip->ends[2 * (size_t)(section->vertices[0] - clip->kept_count)]];
         side->partners[side->section_count++] = MESO_NO_INDEX;
     }
     sum_covariances(sums, side, section_of);
@@ -99,9 +97,10 @@ static MesoStatus find_sections(MesoStrandSide *side, MesoArena *arena, MesoErro
     return MESO_OK;
 }
 
-static MesoStatus cut_side(MesoStrandSide *side, MesoArena *arena, MesoError *error)
+/* `steps` [vertex_count] of each vertex's ring. */
+static MesoStatus cut_side(MesoStrandSide *side, const float *steps, MesoArena *arena, MesoError *error)
 {
-    MesoStatus status = meso_clip_positive(&side->clip, arena, side->values, side->vertex_count, side->corners,
+    MesoStatus status = meso_clip_whole(&side->clip, arena, side->values, side->vertex_count, side->corners,
                                            side->triangle_count, error);
     if (status)
         return status;
@@ -109,7 +108,7 @@ static MesoStatus cut_side(MesoStrandSide *side, MesoArena *arena, MesoError *er
     if (!side->clipped)
         return MESO_ERR_MEMORY;
     meso_clip_positions(side->clipped, &side->clip, side->positions);
-    return find_sections(side, arena, error);
+    return find_sections(side, steps, arena, error);
 }
 
 /* ---- both sides ---- */
@@ -145,8 +144,19 @@ static void add_triangle(MesoStrandSide *side, uint32_t *numbers, const uint32_t
     side->triangles[side->triangle_count++] = triangle;
 }
 
-MesoStatus meso_strands_cut_old(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap,
-                                MesoArena *arena, MesoError *error)
+/* The steps of the rings that a side's vertices are in. */
+static float *steps_of(const MesoStrandSide *side, const uint32_t *numbers, const MesoStrandRings *rings,
+                       uint32_t vertex_count, MesoArena *arena, MesoError *error)
+{
+    float *steps = MESO_NEW(arena, float, side->vertex_count, error);
+    for (uint32_t v = 0; steps && v < vertex_count; v++)
+        if (numbers[v] != MESO_NO_INDEX)
+            steps[numbers[v]] = rings->steps[rings->of_vertex[v]];
+    return steps;
+}
+
+static MesoStatus cut_old(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltStep *step,
+                          const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     const MesoOldGeometry *old = &step->old;
     MesoStatus status = side_room(side, arena, old->vertex_count, old->triangle_count, error);
@@ -155,7 +165,7 @@ MesoStatus meso_strands_cut_old(MesoStrandSide *side, const MesoQuiltStep *step,
     if (status || !values || !numbers)
         return MESO_ERR_MEMORY;
     for (uint32_t v = 0; v < old->vertex_count; v++) {
-        values[v] = -seam_at(step, old->positions[v]) - gap;
+        values[v] = shares->old_values[step->old_rings.of_vertex[v]];
         numbers[v] = MESO_NO_INDEX;
     }
     float band = BAND_EDGES * work->swatch->mean_edge;
@@ -164,61 +174,41 @@ MesoStatus meso_strands_cut_old(MesoStrandSide *side, const MesoQuiltStep *step,
         if (values[corner[0]] < band || values[corner[1]] < band || values[corner[2]] < band)
             add_triangle(side, numbers, corner, old->triangles[t], old->positions, values, old->vertices);
     }
-    return cut_side(side, arena, error);
+    float *steps = steps_of(side, numbers, &step->old_rings, old->vertex_count, arena, error);
+    return steps ? cut_side(side, steps, arena, error) : MESO_ERR_MEMORY;
 }
 
-/* The new side's vertices, warped; those that lie outside of the chart have no value. */
-static void lay_out(MesoVec3 *positions, float *values, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap)
-{
-    const MesoSwatch *swatch = work->swatch;
-    for (uint32_t e = 0; e < swatch->element_count; e++) {
-        if (swatch->kinds[e] != MESO_ELEMENT_STRAND)
-            continue;
-        for (uint32_t v = swatch->vertex_begin[e]; v < swatch->vertex_begin[e + 1]; v++) {
-            MesoVec3 p = meso_step_from_swatch(step, swatch->positions[v]);
-            values[v] = -INFINITY;
-            if (p.x < step->plane.low.x || p.y < step->plane.low.y || p.x > step->plane.high.x ||
-                p.y > step->plane.high.y)
-                continue;
-            positions[v] = meso_step_warp(step, p);
-            values[v] = seam_at(step, positions[v]) - gap;
-        }
-    }
-}
-
-static bool is_on_chart(const MesoQuiltStep *step, MesoVec3 p)
-{
-    float b1, b2;
-    return meso_quilt_plane_locate(&step->plane, (MesoVec2){p.x, p.y}, &b1, &b2) != MESO_NO_INDEX;
-}
-
-MesoStatus meso_strands_cut_new(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, float gap,
-                                MesoArena *arena, MesoError *error)
+static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltWork *work,
+                          MesoArena *arena, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
     MesoStatus status = side_room(side, arena, swatch->vertex_count, swatch->triangle_count, error);
-    MesoVec3 *positions = MESO_NEW(arena, MesoVec3, swatch->vertex_count, error);
     float *values = MESO_NEW(arena, float, swatch->vertex_count, error);
     uint32_t *numbers = MESO_NEW(arena, uint32_t, swatch->vertex_count, error);
-    if (status || !positions || !values || !numbers)
+    if (status || !values || !numbers)
         return MESO_ERR_MEMORY;
-    lay_out(positions, values, step, work, gap);
     for (uint32_t v = 0; v < swatch->vertex_count; v++) {
+        uint32_t ring = work->rings.of_vertex[v];
+        values[v] = ring == MESO_NO_INDEX ? -INFINITY : shares->new_values[ring];
         numbers[v] = MESO_NO_INDEX;
-        if (values[v] > -INFINITY && !is_on_chart(step, positions[v]))
-            values[v] = -INFINITY;
     }
-    for (uint32_t e = 0; e < swatch->element_count; e++) {
-        if (swatch->kinds[e] != MESO_ELEMENT_STRAND)
-            continue;
-        for (uint32_t t = swatch->triangle_begin[e]; t < swatch->triangle_begin[e + 1]; t++) {
-            const uint32_t *corner = &swatch->corners[3 * (size_t)t];
-            float a = values[corner[0]], b = values[corner[1]], c = values[corner[2]];
-            if ((a > 0 || b > 0 || c > 0) && a > -INFINITY && b > -INFINITY && c > -INFINITY)
-                add_triangle(side, numbers, corner, t, positions, values, NULL);
-        }
+    for (uint32_t t = 0; t < swatch->triangle_count; t++) {
+        const uint32_t *corner = &swatch->corners[3 * (size_t)t];
+        float a = values[corner[0]], b = values[corner[1]], c = values[corner[2]];
+        if ((a > 0 || b > 0 || c > 0) && a > -INFINITY && b > -INFINITY && c > -INFINITY)
+            add_triangle(side, numbers, corner, t, shares->places, values, NULL);
     }
-    return cut_side(side, arena, error);
+    float *steps = steps_of(side, numbers, &work->rings, swatch->vertex_count, arena, error);
+    return steps ? cut_side(side, steps, arena, error) : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
+                            const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+{
+    MesoStatus status = meso_strands_share(shares, step, work, arena, error);
+    if (!status)
+        status = cut_old(old_side, shares, step, work, arena, error);
+    return status ? status : cut_new(new_side, shares, work, arena, error);
 }
 
 /* ---- pairs ---- */
@@ -292,6 +282,23 @@ static float count_flaws(const MesoStrandSide *side, float usual)
     return flaws;
 }
 
+/*
+ * What both sections of a pair are to move by, so that strands meet: each goes on along its axis to the middle between
+ * them; what they are apart there, beside their way, they share. And along it, so that from one to the other it is a step.
+ */
+static void find_moves(MesoStrandSide *old_side, uint32_t i, MesoStrandSide *new_side, uint32_t j)
+{
+    MesoVec3 a = old_side->axes[i], b = new_side->axes[j], from = old_side->sections[i].centre;
+    MesoVec3 axis = meso_vec3_unit(meso_vec3_sub(a, b), a), apart = meso_vec3_sub(new_side->sections[j].centre, from);
+    float along = meso_vec3_dot(apart, axis), step = 0.5f * (old_side->steps[i] + new_side->steps[j]);
+    MesoVec3 beside = meso_vec3_mad(apart, -0.5f * along, meso_vec3_sub(a, b));
+    beside = meso_vec3_mad(beside, -meso_vec3_dot(beside, axis), axis);
+    MesoVec3 nearer = meso_vec3_scale(axis, 0.5f * (along - step));
+    old_side->moves[i] = meso_vec3_mad(nearer, 0.5f, beside);
+    new_side->moves[j] = meso_vec3_scale(old_side->moves[i], -1);
+    new_side->besides[j] = meso_vec3_scale(beside, -1);
+}
+
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
                              MesoArena *scratch, MesoError *error)
 {
@@ -322,6 +329,9 @@ MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side,
             new_side->partners[j] = i;
         }
     }
+    for (uint32_t i = 0; i < old_side->section_count; i++)
+        if (old_side->partners[i] != MESO_NO_INDEX)
+            find_moves(old_side, i, new_side, old_side->partners[i]);
     *flaws = count_flaws(old_side, usual) + count_flaws(new_side, usual);
     meso_arena_rewind(scratch, mark);
     return MESO_OK;

@@ -33,6 +33,16 @@ typedef struct MesoClip {
 MesoStatus meso_clip_positive(MesoClip *clip, MesoArena *arena, const float *values, uint32_t vertex_count,
                               const uint32_t *corners, uint32_t triangle_count, MesoError *error);
 
+/*
+ * Keeps the triangles of which all three vertices are positive, so that nothing is cut but along edges. Made vertices
+ * stand for those along the border: one for each fan of kept triangles there, each at its vertex (both ends are that, the
+ * share is 0); such vertices are not among the kept ones. Border edges that the mesh had before are in no loop. Manifold,
+ * oriented meshes give manifold, oriented ones. To `arena`. O(vertices + triangles). MESO_ERR_INPUT where triangles at
+ * the border are wound against each other or three meet in an edge; MESO_ERR_MEMORY.
+ */
+MesoStatus meso_clip_whole(MesoClip *clip, MesoArena *arena, const float *values, uint32_t vertex_count,
+                           const uint32_t *corners, uint32_t triangle_count, MesoError *error);
+
 /* Positions of kept and made vertices [kept_count + made_count], from those of the mesh. */
 void meso_clip_positions(MesoVec3 *to, const MesoClip *clip, const MesoVec3 *positions);
 
