@@ -103,7 +103,8 @@ static MesoStatus meet(Candidate *c, const MesoQuiltWork *work, MesoArena *arena
     step->warp = (MesoThinPlate){0};
     MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
     if (!status)
-        status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, arena, error);
+        status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, &c->shares, step, work,
+                                   arena, error);
     if (!status)
         status = meso_quilt_pair_wholes(&c->wholes, step, work, arena, error);
     return status;
@@ -189,7 +190,8 @@ static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQ
                             MesoError *error)
 {
     MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
-    return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, arena, error);
+    return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, &c->shares, step,
+                                               work, arena, error);
 }
 
 /*

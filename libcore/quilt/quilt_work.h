@@ -38,8 +38,9 @@ typedef struct MesoQuiltTally {
 typedef struct MesoStrandRings {
     uint32_t count;
     uint32_t *of_vertex;        /* [vertex_count] ring, or MESO_NO_INDEX where there is no strand */
+    uint32_t *sizes;            /* [count] vertices */
     MesoVec3 *middles;          /* [count] */
-    MesoVec2 *axes;             /* [count] unit, along the strand as seen from above, either way; 0, 0: unknown */
+    MesoVec3 *axes;             /* [count] unit, along the strand, either way; 0: unknown */
     float *reaches;             /* [count] the largest distance of a vertex from the middle */
     float *steps;               /* [count] mean distance to the next rings */
 } MesoStrandRings;
@@ -200,6 +201,8 @@ MesoStatus meso_strands_old_rings(MesoStrandRings *rings, const MesoOldGeometry 
 typedef struct MesoRingShares {
     float *old_values;          /* [old_rings.count] */
     float *new_values;          /* [rings.count of the swatch] -INFINITY: not on the chart */
+    MesoVec3 *old_ways, *new_ways;      /* [the same] beside a strand, to where the other side has it; 0: it has not */
+    uint8_t *old_has, *new_has; /* [the same] whether it has */
     MesoVec3 *places;           /* [vertex_count of the swatch] of strands, warped */
     uint32_t pull_count;
     MesoVec3 *pulls_from, *pulls_apart;     /* [pull_count] middles of new rings, and the way to the older strand from there */
@@ -222,8 +225,8 @@ typedef struct MesoStrandSide {
     MesoVec3 *axes;             /* [sections] along the strand, away from this side */
     uint32_t *partners;         /* [sections] of the other side, or MESO_NO_INDEX */
     MesoVec3 *moves;            /* [sections] what each is to move by */
-    MesoVec3 *besides;          /* [sections] of the new side: what it lies beside the older strand, turned around */
-    float *steps;               /* [sections] from ring to ring there */
+    MesoVec3 *besides;          /* [sections] the way to the partner's strand, beside both */
+    uint32_t *rings;            /* [sections] ring of each */
     uint32_t section_count;
 } MesoStrandSide;
 
@@ -234,6 +237,7 @@ MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, 
  * its way. `flaws`: strands that end, or are cut along.
  */
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
+                             const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                              MesoArena *scratch, MesoError *error);
 /* Both sides moved half of the way to each other, as their sections at the seam say. */
 typedef struct MesoStrandJoint {

@@ -82,24 +82,25 @@ static void number_rings(MesoStrandRings *rings, uint32_t *sets, uint32_t vertex
 
 static MesoStatus ring_room(MesoStrandRings *rings, MesoArena *arena, MesoError *error)
 {
+    rings->sizes = MESO_NEW(arena, uint32_t, rings->count, error);
     rings->middles = MESO_NEW(arena, MesoVec3, rings->count, error);
-    rings->axes = MESO_NEW(arena, MesoVec2, rings->count, error);
+    rings->axes = MESO_NEW(arena, MesoVec3, rings->count, error);
     rings->reaches = MESO_NEW(arena, float, rings->count, error);
     rings->steps = MESO_NEW(arena, float, rings->count, error);
-    return rings->middles && rings->axes && rings->reaches && rings->steps ? MESO_OK : MESO_ERR_MEMORY;
+    return rings->sizes && rings->middles && rings->axes && rings->reaches && rings->steps ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static void find_middles(MesoStrandRings *rings, float *counts, const MesoVec3 *positions, uint32_t vertex_count)
+static void find_middles(MesoStrandRings *rings, const MesoVec3 *positions, uint32_t vertex_count)
 {
     for (uint32_t v = 0; v < vertex_count; v++) {
         uint32_t r = rings->of_vertex[v];
         if (r == MESO_NO_INDEX)
             continue;
         rings->middles[r] = meso_vec3_add(rings->middles[r], positions[v]);
-        counts[r]++;
+        rings->sizes[r]++;
     }
     for (uint32_t r = 0; r < rings->count; r++)
-        rings->middles[r] = meso_vec3_scale(rings->middles[r], 1 / counts[r]);
+        rings->middles[r] = meso_vec3_scale(rings->middles[r], 1 / (float)rings->sizes[r]);
     for (uint32_t v = 0; v < vertex_count; v++) {
         uint32_t r = rings->of_vertex[v];
         if (r == MESO_NO_INDEX)
@@ -118,35 +119,48 @@ static MesoVec2 longer_axis(const float *moments)
     return norm > 0 ? (MesoVec2){axis.x / norm, axis.y / norm} : (MesoVec2){0, 0};
 }
 
+/* Means over edges to other rings: first which way they go as seen from above, then the direction itself. */
+static void find_axes(MesoStrandRings *rings, float *moments, float *edges, const uint32_t *corners, uint32_t corner_count)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        for (uint32_t c = 0; c < corner_count; c++) {
+            uint32_t ends[2] = {rings->of_vertex[corners[c]], rings->of_vertex[corners[meso_next_corner(c)]]};
+            if (ends[0] == ends[1] || ends[0] == MESO_NO_INDEX || ends[1] == MESO_NO_INDEX)
+                continue;
+            MesoVec3 d = meso_vec3_sub(rings->middles[ends[1]], rings->middles[ends[0]]);
+            for (int k = 0; k < 2; k++) {
+                float *m = &moments[3 * (size_t)ends[k]];
+                if (turn) {
+                    MesoVec2 axis = longer_axis(m);
+                    float side = d.x * axis.x + d.y * axis.y < 0 ? -1 : 1;
+                    rings->axes[ends[k]] = meso_vec3_mad(rings->axes[ends[k]], side, d);
+                    continue;
+                }
+                m[0] += d.x * d.x;
+                m[1] += d.x * d.y;
+                m[2] += d.y * d.y;
+                rings->steps[ends[k]] += meso_vec3_length(d);
+                edges[ends[k]]++;
+            }
+        }
+    }
+    for (uint32_t r = 0; r < rings->count; r++) {
+        rings->axes[r] = meso_vec3_unit(rings->axes[r], (MesoVec3){0, 0, 0});
+        rings->steps[r] = edges[r] > 0 ? rings->steps[r] / edges[r] : 0;
+    }
+}
+
 /* `scratch` gives back what it lends. */
 static MesoStatus measure_rings(MesoStrandRings *rings, const MesoVec3 *positions, uint32_t vertex_count,
                                 const uint32_t *corners, uint32_t triangle_count, MesoArena *scratch, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
-    float *counts = MESO_NEW(scratch, float, rings->count, error);
     float *edges = MESO_NEW(scratch, float, rings->count, error);
     float *moments = MESO_NEW(scratch, float, 3 * (size_t)rings->count, error);
-    if (!counts || !edges || !moments)
+    if (!edges || !moments)
         return MESO_ERR_MEMORY;
-    find_middles(rings, counts, positions, vertex_count);
-    for (uint32_t c = 0; c < 3 * triangle_count; c++) {
-        uint32_t ends[2] = {rings->of_vertex[corners[c]], rings->of_vertex[corners[meso_next_corner(c)]]};
-        if (ends[0] == ends[1] || ends[0] == MESO_NO_INDEX || ends[1] == MESO_NO_INDEX)
-            continue;
-        MesoVec3 d = meso_vec3_sub(rings->middles[ends[1]], rings->middles[ends[0]]);
-        for (int k = 0; k < 2; k++) {
-            float *m = &moments[3 * (size_t)ends[k]];
-            m[0] += d.x * d.x;
-            m[1] += d.x * d.y;
-            m[2] += d.y * d.y;
-            rings->steps[ends[k]] += meso_vec3_length(d);
-            edges[ends[k]]++;
-        }
-    }
-    for (uint32_t r = 0; r < rings->count; r++) {
-        rings->axes[r] = longer_axis(&moments[3 * (size_t)r]);
-        rings->steps[r] = edges[r] > 0 ? rings->steps[r] / edges[r] : 0;
-    }
+    find_middles(rings, positions, vertex_count);
+    find_axes(rings, moments, edges, corners, 3 * triangle_count);
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
 }

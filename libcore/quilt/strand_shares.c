@@ -6,26 +6,27 @@
  * and along by no more than so many steps from ring to ring; and go the same way, by the cosine.
  */
 #define BESIDE_MOST 1.2f
-#define ALONG_MOST 1.0f
+#define ALONG_MOST 0.6f
 #define COSINE_LEAST 0.8f
 
 /* Rings so many reaches from the seam are looked at; and of those that go along it, so many pull. */
 #define BAND_REACHES 1.5f
 enum { PULLS_MOST = 60 };
 
-/* Cells from the chart's rim in which nothing is changed. */
-#define RIM_CELLS 1.0f
+/* Rings with a vertex so near to the chart's rim, in mean edges of the swatch, stay as they are. */
+#define RIM_EDGES 1.0f
 
 /* The rings of one side as they lie in the plane. */
 typedef struct RingSide {
     const MesoStrandRings *rings;
     const MesoVec3 *middles;    /* [rings->count] */
-    const MesoVec2 *axes;       /* [rings->count] */
+    const MesoVec3 *axes;       /* [rings->count] */
     float *values;              /* [rings->count] positive on this side */
+    uint8_t *fixed;             /* [rings->count] it reaches to the chart's rim: old ones stay, new ones do not come */
     uint32_t near_count;
     uint32_t *near;             /* [near_count] rings near the seam */
-    MesoVec3 *ways;             /* [near_count] beside the strand, to the same one of the other side */
-    uint8_t *has_other;         /* [near_count] */
+    MesoVec3 *ways;             /* [rings->count] beside the strand, to the same one of the other side */
+    uint8_t *has_other;         /* [rings->count] */
 } RingSide;
 
 static float seam_at(const MesoQuiltStep *step, MesoVec3 p)
@@ -33,51 +34,79 @@ static float seam_at(const MesoQuiltStep *step, MesoVec3 p)
     return meso_seam_at(&step->seam, (MesoVec2){p.x, p.y});
 }
 
-static bool is_at_rim(const MesoQuiltStep *step, MesoVec3 p)
+/* From the chart's rim; -1 outside of the plane's box. */
+static float rim_at(const MesoQuiltStep *step, MesoVec3 p)
 {
     const MesoSeamGround *g = &step->ground;
     float x = (p.x - g->low.x) / g->cell, y = (p.y - g->low.y) / g->cell;
     if (!(x >= 0 && y >= 0 && x < (float)g->columns && y < (float)g->rows))
-        return true;
-    return g->rim[(size_t)(uint32_t)y * g->columns + (size_t)x] <= RIM_CELLS * g->cell;
+        return -1;
+    return g->rim[(size_t)(uint32_t)y * g->columns + (size_t)x];
 }
 
 /* ---- the sides ---- */
 
-static MesoStatus list_near(RingSide *side, MesoArena *arena, MesoError *error)
+/* Rings near the seam, and such as would change sides but for the rim, with room around. */
+static MesoStatus list_near(RingSide *side, const MesoQuiltStep *step, MesoArena *arena, MesoError *error)
 {
     side->near = MESO_NEW(arena, uint32_t, side->rings->count, error);
     side->ways = MESO_NEW(arena, MesoVec3, side->rings->count, error);
     side->has_other = MESO_NEW(arena, uint8_t, side->rings->count, error);
     if (!side->near || !side->ways || !side->has_other)
         return MESO_ERR_MEMORY;
-    for (uint32_t r = 0; r < side->rings->count; r++)
-        if (fabsf(side->values[r]) < BAND_REACHES * side->rings->reaches[r])
+    for (uint32_t r = 0; r < side->rings->count; r++) {
+        float reach = BAND_REACHES * side->rings->reaches[r];
+        if (fabsf(side->values[r]) < reach || fabsf(rim_at(step, side->middles[r])) < reach)
             side->near[side->near_count++] = r;
+    }
     return MESO_OK;
 }
 
-/* What reaches out of the chart stays as it is. */
-static void hold_rim(float *values, const MesoQuiltStep *step)
+static MesoStatus side_room(RingSide *side, const MesoStrandRings *rings, MesoArena *arena, MesoError *error)
+{
+    *side = (RingSide){.rings = rings, .values = MESO_NEW(arena, float, rings->count, error),
+                       .fixed = MESO_NEW(arena, uint8_t, rings->count, error)};
+    return side->values && side->fixed ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* Rings that reach out of the chart, and those next to them. */
+static void fix_old(uint8_t *fixed, const MesoQuiltStep *step, const MesoQuiltWork *work)
 {
     const MesoOldGeometry *old = &step->old;
+    const MesoStrandRings *rings = &step->old_rings;
     for (uint32_t v = 0; v < old->vertex_count; v++) {
-        float *value = &values[step->old_rings.of_vertex[v]];
-        if (*value <= 0 && is_at_rim(step, old->positions[v]))
-            *value = 0.1f * step->ground.cell;
+        uint32_t r = rings->of_vertex[v], of_swatch = work->rings.of_vertex[work->composite.vertex_origins[old->vertices[v]]];
+        fixed[r] |= rings->sizes[r] < work->rings.sizes[of_swatch] ||
+                    rim_at(step, old->positions[v]) < RIM_EDGES * work->swatch->mean_edge;
+    }
+    for (uint32_t c = 0; c < 3 * old->triangle_count; c++) {
+        uint32_t a = rings->of_vertex[old->corners[c]], b = rings->of_vertex[old->corners[meso_next_corner(c)]];
+        if (fixed[a] == 1 && !fixed[b])
+            fixed[b] = 2;
+        if (fixed[b] == 1 && !fixed[a])
+            fixed[a] = 2;
     }
 }
 
-static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, MesoArena *arena, MesoError *error)
+static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
+                           MesoError *error)
 {
     const MesoStrandRings *rings = &step->old_rings;
-    *side = (RingSide){.rings = rings, .middles = rings->middles, .axes = rings->axes,
-                       .values = MESO_NEW(arena, float, rings->count, error)};
-    if (!side->values)
-        return MESO_ERR_MEMORY;
+    MesoStatus status = side_room(side, rings, arena, error);
+    if (status)
+        return status;
+    side->middles = rings->middles;
+    side->axes = rings->axes;
     for (uint32_t r = 0; r < rings->count; r++)
         side->values[r] = -seam_at(step, rings->middles[r]);
-    return list_near(side, arena, error);
+    fix_old(side->fixed, step, work);
+    return list_near(side, step, arena, error);
+}
+
+static bool is_on_chart(const MesoQuiltStep *step, MesoVec3 p)
+{
+    float b1, b2;
+    return meso_quilt_plane_locate(&step->plane, (MesoVec2){p.x, p.y}, &b1, &b2) != MESO_NO_INDEX;
 }
 
 static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep *step, const MesoQuiltWork *work,
@@ -85,33 +114,27 @@ static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep
 {
     const MesoStrandRings *rings = &work->rings;
     MesoVec3 *middles = MESO_NEW(arena, MesoVec3, rings->count, error);
-    MesoVec2 *axes = MESO_NEW(arena, MesoVec2, rings->count, error);
-    *side = (RingSide){.rings = rings, .middles = middles, .axes = axes,
-                       .values = MESO_NEW(arena, float, rings->count, error)};
-    if (!middles || !axes || !side->values)
+    MesoVec3 *axes = MESO_NEW(arena, MesoVec3, rings->count, error);
+    MesoStatus status = side_room(side, rings, arena, error);
+    if (!middles || !axes || status)
         return MESO_ERR_MEMORY;
+    side->middles = middles;
+    side->axes = axes;
     for (uint32_t r = 0; r < rings->count; r++) {
+        MesoVec2 flat = meso_step_turn(step, (MesoVec2){rings->axes[r].x, rings->axes[r].y});
+        axes[r] = (MesoVec3){flat.x, flat.y, rings->axes[r].z};
         middles[r] = meso_step_warp(step, meso_step_from_swatch(step, rings->middles[r]));
-        axes[r] = meso_step_turn(step, rings->axes[r]);
         side->values[r] = seam_at(step, middles[r]);
+        side->fixed[r] = rim_at(step, middles[r]) < 0;
     }
-    const MesoQuiltPlane *plane = &step->plane;
     for (uint32_t v = 0; v < work->swatch->vertex_count; v++) {
         uint32_t r = rings->of_vertex[v];
-        float b1, b2;
-        if (r == MESO_NO_INDEX || side->values[r] == -INFINITY)
+        if (r == MESO_NO_INDEX || rim_at(step, middles[r]) < 0)
             continue;
-        MesoVec3 p = meso_step_from_swatch(step, work->swatch->positions[v]);
-        bool outside = p.x < plane->low.x || p.y < plane->low.y || p.x > plane->high.x || p.y > plane->high.y;
-        if (!outside) {
-            places[v] = meso_step_warp(step, p);
-            outside = is_at_rim(step, places[v]) ||
-                      meso_quilt_plane_locate(plane, (MesoVec2){places[v].x, places[v].y}, &b1, &b2) == MESO_NO_INDEX;
-        }
-        if (outside)
-            side->values[r] = -INFINITY;
+        places[v] = meso_step_warp(step, meso_step_from_swatch(step, work->swatch->positions[v]));
+        side->fixed[r] = side->fixed[r] || !is_on_chart(step, places[v]);
     }
-    return list_near(side, arena, error);
+    return list_near(side, step, arena, error);
 }
 
 /* ---- strands that both have ---- */
@@ -122,44 +145,60 @@ static bool way_beside(MesoVec3 *way, float *distance, const RingSide *a, uint32
     MesoVec3 apart = meso_vec3_sub(b->middles[j], a->middles[i]);
     float reach = a->rings->reaches[i] > b->rings->reaches[j] ? a->rings->reaches[i] : b->rings->reaches[j];
     float step = a->rings->steps[i] > b->rings->steps[j] ? a->rings->steps[i] : b->rings->steps[j];
-    MesoVec2 axis = a->axes[i];
-    float along = apart.x * axis.x + apart.y * axis.y;
-    if (fabsf(along) > ALONG_MOST * step || fabsf(axis.x * b->axes[j].x + axis.y * b->axes[j].y) < COSINE_LEAST)
+    float along = meso_vec3_dot(apart, a->axes[i]), cosine = meso_vec3_dot(a->axes[i], b->axes[j]);
+    if (fabsf(along) > ALONG_MOST * step || fabsf(cosine) < COSINE_LEAST)
         return false;
-    *way = (MesoVec3){apart.x - along * axis.x, apart.y - along * axis.y, apart.z};
+    *way = meso_vec3_mad(apart, -along, a->axes[i]);
     *distance = meso_vec3_length(*way) + 0.5f * fabsf(along);
     return meso_vec3_length(*way) < BESIDE_MOST * reach;
 }
 
-static void find_others(RingSide *a, const RingSide *b)
+static void find_others(RingSide *a, const RingSide *b, uint8_t *meets_fixed)
 {
     for (uint32_t m = 0; m < a->near_count; m++) {
         float least = INFINITY, distance;
         MesoVec3 way;
+        uint32_t r = a->near[m];
         for (uint32_t n = 0; n < b->near_count; n++)
-            if (way_beside(&way, &distance, a, a->near[m], b, b->near[n]) && distance < least) {
+            if (way_beside(&way, &distance, a, r, b, b->near[n]) && distance < least) {
                 least = distance;
-                a->ways[m] = way;
-                a->has_other[m] = 1;
+                a->ways[r] = way;
+                a->has_other[r] = 1;
+                meets_fixed[r] = b->fixed[b->near[n]];
             }
     }
 }
 
-/* From the middle between both: what is positive on one side is negative on the other. */
-static void share_out(RingSide *side, const MesoQuiltStep *step, float sign)
+/*
+ * From the middle between both: what is positive on one side is negative on the other. Where the rim holds one of them,
+ * the older strand stays. New rings that are not on the chart end there, open, where nothing older goes on.
+ */
+static void share_out(RingSide *side, const uint8_t *meets_fixed, const MesoQuiltStep *step, bool is_new)
 {
-    for (uint32_t m = 0; m < side->near_count; m++)
-        if (side->has_other[m]) {
-            uint32_t r = side->near[m];
-            side->values[r] = sign * seam_at(step, meso_vec3_mad(side->middles[r], 0.5f, side->ways[m]));
-        }
+    float little = 0.1f * step->ground.cell;
+    for (uint32_t m = 0; m < side->near_count; m++) {
+        uint32_t r = side->near[m];
+        float seam = seam_at(step, meso_vec3_mad(side->middles[r], 0.5f, side->ways[r]));
+        if (side->has_other[r])
+            side->values[r] = is_new ? seam : -seam;
+    }
+    for (uint32_t r = 0; r < side->rings->count; r++) {
+        if (!side->fixed[r] && !meets_fixed[r])
+            continue;
+        if (!is_new)
+            side->values[r] = side->values[r] > little ? side->values[r] : little;
+        else if (side->fixed[r] && !side->has_other[r])
+            side->values[r] = -INFINITY;
+        else
+            side->values[r] = side->values[r] < -little ? side->values[r] : -little;
+    }
 }
 
-static MesoStatus list_pulls(MesoRingShares *shares, const RingSide *side, MesoArena *arena, MesoError *error)
+static MesoStatus list_pulls(MesoRingShares *shares, const RingSide *side, const uint8_t *meets_fixed, MesoArena *arena, MesoError *error)
 {
     uint32_t count = 0, number = 0;
     for (uint32_t m = 0; m < side->near_count; m++)
-        count += side->has_other[m];
+        count += side->has_other[side->near[m]] && !meets_fixed[side->near[m]];
     uint32_t stride = count / PULLS_MOST + 1;
     shares->pulls_from = MESO_NEW(arena, MesoVec3, count / stride + 1, error);
     shares->pulls_apart = MESO_NEW(arena, MesoVec3, count / stride + 1, error);
@@ -167,9 +206,9 @@ static MesoStatus list_pulls(MesoRingShares *shares, const RingSide *side, MesoA
         return MESO_ERR_MEMORY;
     shares->pull_count = 0;
     for (uint32_t m = 0; m < side->near_count; m++)
-        if (side->has_other[m] && number++ % stride == 0) {
+        if (side->has_other[side->near[m]] && !meets_fixed[side->near[m]] && number++ % stride == 0) {
             shares->pulls_from[shares->pull_count] = side->middles[side->near[m]];
-            shares->pulls_apart[shares->pull_count++] = side->ways[m];
+            shares->pulls_apart[shares->pull_count++] = side->ways[side->near[m]];
         }
     return MESO_OK;
 }
@@ -181,17 +220,24 @@ MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step,
     *shares = (MesoRingShares){.places = MESO_NEW(arena, MesoVec3, work->swatch->vertex_count, error)};
     if (!shares->places)
         return MESO_ERR_MEMORY;
-    MesoStatus status = make_old(&old_side, step, arena, error);
+    MesoStatus status = make_old(&old_side, step, work, arena, error);
     if (!status)
         status = make_new(&new_side, shares->places, step, work, arena, error);
     if (status)
         return status;
-    find_others(&old_side, &new_side);
-    find_others(&new_side, &old_side);
-    share_out(&old_side, step, -1);
-    share_out(&new_side, step, 1);
-    hold_rim(old_side.values, step);
+    uint8_t *old_meets = MESO_NEW(arena, uint8_t, old_side.rings->count, error);
+    uint8_t *new_meets = MESO_NEW(arena, uint8_t, new_side.rings->count, error);
+    if (!old_meets || !new_meets)
+        return MESO_ERR_MEMORY;
+    find_others(&old_side, &new_side, old_meets);
+    find_others(&new_side, &old_side, new_meets);
+    share_out(&old_side, old_meets, step, false);
+    share_out(&new_side, new_meets, step, true);
     shares->old_values = old_side.values;
     shares->new_values = new_side.values;
-    return list_pulls(shares, &new_side, arena, error);
+    shares->old_ways = old_side.ways;
+    shares->new_ways = new_side.ways;
+    shares->old_has = old_side.has_other;
+    shares->new_has = new_side.has_other;
+    return list_pulls(shares, &new_side, new_meets, arena, error);
 }

@@ -64,7 +64,7 @@ static void sum_covariances(float *sums, const MesoStrandSide *side, const uint3
     }
 }
 
-static MesoStatus find_sections(MesoStrandSide *side, const float *steps, MesoArena *arena, MesoError *error)
+static MesoStatus find_sections(MesoStrandSide *side, const uint32_t *rings, MesoArena *arena, MesoError *error)
 {
     const MesoClip *clip = &side->clip;
     side->section_count = 0;
@@ -74,10 +74,10 @@ static MesoStatus find_sections(MesoStrandSide *side, const float *steps, MesoAr
     side->partners = MESO_NEW(arena, uint32_t, most, error);
     side->moves = MESO_NEW(arena, MesoVec3, most, error);
     side->besides = MESO_NEW(arena, MesoVec3, most, error);
-    side->steps = MESO_NEW(arena, float, most, error);
+    side->rings = MESO_NEW(arena, uint32_t, most, error);
     uint32_t *section_of = MESO_NEW(arena, uint32_t, clip->made_count, error);
     float *sums = MESO_NEW(arena, float, 6 * (size_t)most, error);
-    if (!side->sections || !side->axes || !side->partners || !side->moves || !side->besides || !side->steps || !section_of || !sums)
+    if (!side->sections || !side->axes || !side->partners || !side->moves || !side->besides || !side->rings || !section_of || !sums)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < clip->made_count; i++)
         section_of[i] = MESO_NO_INDEX;
@@ -88,7 +88,7 @@ static MesoStatus find_sections(MesoStrandSide *side, const float *steps, MesoAr
         meso_section_measure(section);
         for (uint32_t i = 0; i < section->count; i++)
             section_of[section->vertices[i] - clip->kept_count] = side->section_count;
-        side->steps[side->section_count] = steps[clip->ends[2 * (size_t)(section->vertices[0] - clip->kept_count)]];
+        side->rings[side->section_count] = rings[clip->ends[2 * (size_t)(section->vertices[0] - clip->kept_count)]];
         side->partners[side->section_count++] = MESO_NO_INDEX;
     }
     sum_covariances(sums, side, section_of);
@@ -97,8 +97,8 @@ static MesoStatus find_sections(MesoStrandSide *side, const float *steps, MesoAr
     return MESO_OK;
 }
 
-/* `steps` [vertex_count] of each vertex's ring. */
-static MesoStatus cut_side(MesoStrandSide *side, const float *steps, MesoArena *arena, MesoError *error)
+/* `rings` [vertex_count] of each vertex. */
+static MesoStatus cut_side(MesoStrandSide *side, const uint32_t *rings, MesoArena *arena, MesoError *error)
 {
     MesoStatus status = meso_clip_whole(&side->clip, arena, side->values, side->vertex_count, side->corners,
                                            side->triangle_count, error);
@@ -108,7 +108,7 @@ static MesoStatus cut_side(MesoStrandSide *side, const float *steps, MesoArena *
     if (!side->clipped)
         return MESO_ERR_MEMORY;
     meso_clip_positions(side->clipped, &side->clip, side->positions);
-    return find_sections(side, steps, arena, error);
+    return find_sections(side, rings, arena, error);
 }
 
 /* ---- both sides ---- */
@@ -144,15 +144,15 @@ static void add_triangle(MesoStrandSide *side, uint32_t *numbers, const uint32_t
     side->triangles[side->triangle_count++] = triangle;
 }
 
-/* The steps of the rings that a side's vertices are in. */
-static float *steps_of(const MesoStrandSide *side, const uint32_t *numbers, const MesoStrandRings *rings,
-                       uint32_t vertex_count, MesoArena *arena, MesoError *error)
+/* The rings that a side's vertices are in. */
+static uint32_t *rings_of(const MesoStrandSide *side, const uint32_t *numbers, const MesoStrandRings *rings,
+                          uint32_t vertex_count, MesoArena *arena, MesoError *error)
 {
-    float *steps = MESO_NEW(arena, float, side->vertex_count, error);
-    for (uint32_t v = 0; steps && v < vertex_count; v++)
+    uint32_t *here = MESO_NEW(arena, uint32_t, side->vertex_count, error);
+    for (uint32_t v = 0; here && v < vertex_count; v++)
         if (numbers[v] != MESO_NO_INDEX)
-            steps[numbers[v]] = rings->steps[rings->of_vertex[v]];
-    return steps;
+            here[numbers[v]] = rings->of_vertex[v];
+    return here;
 }
 
 static MesoStatus cut_old(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltStep *step,
@@ -174,8 +174,8 @@ static MesoStatus cut_old(MesoStrandSide *side, const MesoRingShares *shares, co
         if (values[corner[0]] < band || values[corner[1]] < band || values[corner[2]] < band)
             add_triangle(side, numbers, corner, old->triangles[t], old->positions, values, old->vertices);
     }
-    float *steps = steps_of(side, numbers, &step->old_rings, old->vertex_count, arena, error);
-    return steps ? cut_side(side, steps, arena, error) : MESO_ERR_MEMORY;
+    uint32_t *rings = rings_of(side, numbers, &step->old_rings, old->vertex_count, arena, error);
+    return rings ? cut_side(side, rings, arena, error) : MESO_ERR_MEMORY;
 }
 
 static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltWork *work,
@@ -198,8 +198,8 @@ static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, co
         if ((a > 0 || b > 0 || c > 0) && a > -INFINITY && b > -INFINITY && c > -INFINITY)
             add_triangle(side, numbers, corner, t, shares->places, values, NULL);
     }
-    float *steps = steps_of(side, numbers, &work->rings, swatch->vertex_count, arena, error);
-    return steps ? cut_side(side, steps, arena, error) : MESO_ERR_MEMORY;
+    uint32_t *rings = rings_of(side, numbers, &work->rings, swatch->vertex_count, arena, error);
+    return rings ? cut_side(side, rings, arena, error) : MESO_ERR_MEMORY;
 }
 
 MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
@@ -282,24 +282,37 @@ static float count_flaws(const MesoStrandSide *side, float usual)
     return flaws;
 }
 
+typedef struct Pairing {
+    MesoStrandSide *old_side, *new_side;
+    const MesoRingShares *shares;
+    const MesoStrandRings *old_rings, *new_rings;
+} Pairing;
+
 /*
- * What both sections of a pair are to move by, so that strands meet: each goes on along its axis to the middle between
- * them; what they are apart there, beside their way, they share. And along it, so that from one to the other it is a step.
+ * What both sections of a pair are to move by, so that strands meet. Beside their way as their rings say, each of which
+ * knows where the other side has its strand; else each goes on along its axis to the middle between both. And along it,
+ * so that it is a step from one to the other.
  */
-static void find_moves(MesoStrandSide *old_side, uint32_t i, MesoStrandSide *new_side, uint32_t j)
+static void find_moves(const Pairing *p, uint32_t i, uint32_t j)
 {
-    MesoVec3 a = old_side->axes[i], b = new_side->axes[j], from = old_side->sections[i].centre;
-    MesoVec3 axis = meso_vec3_unit(meso_vec3_sub(a, b), a), apart = meso_vec3_sub(new_side->sections[j].centre, from);
-    float along = meso_vec3_dot(apart, axis), step = 0.5f * (old_side->steps[i] + new_side->steps[j]);
+    MesoVec3 a = p->old_side->axes[i], b = p->new_side->axes[j];
+    MesoVec3 axis = meso_vec3_unit(meso_vec3_sub(a, b), a);
+    MesoVec3 apart = meso_vec3_sub(p->new_side->sections[j].centre, p->old_side->sections[i].centre);
+    uint32_t old_ring = p->old_side->rings[i], new_ring = p->new_side->rings[j];
+    float along = meso_vec3_dot(apart, axis), step = 0.5f * (p->old_rings->steps[old_ring] + p->new_rings->steps[new_ring]);
     MesoVec3 beside = meso_vec3_mad(apart, -0.5f * along, meso_vec3_sub(a, b));
+    if (p->shares->old_has[old_ring] && p->shares->new_has[new_ring])
+        beside = meso_vec3_scale(meso_vec3_sub(p->shares->old_ways[old_ring], p->shares->new_ways[new_ring]), 0.5f);
     beside = meso_vec3_mad(beside, -meso_vec3_dot(beside, axis), axis);
     MesoVec3 nearer = meso_vec3_scale(axis, 0.5f * (along - step));
-    old_side->moves[i] = meso_vec3_mad(nearer, 0.5f, beside);
-    new_side->moves[j] = meso_vec3_scale(old_side->moves[i], -1);
-    new_side->besides[j] = meso_vec3_scale(beside, -1);
+    p->old_side->moves[i] = meso_vec3_mad(nearer, 0.5f, beside);
+    p->new_side->moves[j] = meso_vec3_scale(p->old_side->moves[i], -1);
+    p->old_side->besides[i] = beside;
+    p->new_side->besides[j] = meso_vec3_scale(beside, -1);
 }
 
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
+                             const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                              MesoArena *scratch, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
@@ -329,9 +342,10 @@ MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side,
             new_side->partners[j] = i;
         }
     }
+    const Pairing pairing = {old_side, new_side, shares, &step->old_rings, &work->rings};
     for (uint32_t i = 0; i < old_side->section_count; i++)
         if (old_side->partners[i] != MESO_NO_INDEX)
-            find_moves(old_side, i, new_side, old_side->partners[i]);
+            find_moves(&pairing, i, old_side->partners[i]);
     *flaws = count_flaws(old_side, usual) + count_flaws(new_side, usual);
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
