@@ -203,6 +203,7 @@ typedef struct MesoRingShares {
     float *new_values;          /* [rings.count of the swatch] -INFINITY: not on the chart */
     MesoVec3 *old_ways, *new_ways;      /* [the same] beside a strand, to where the other side has it; 0: it has not */
     uint8_t *old_has, *new_has; /* [the same] whether it has */
+    const MesoVec3 *new_axes;   /* [rings.count of the swatch] as they lie in the plane */
     MesoVec3 *places;           /* [vertex_count of the swatch] of strands, warped */
     uint32_t pull_count;
     MesoVec3 *pulls_from, *pulls_apart;     /* [pull_count] middles of new rings, and the way to the older strand from there */
@@ -225,6 +226,7 @@ typedef struct MesoStrandSide {
     MesoVec3 *axes;             /* [sections] along the strand, away from this side */
     uint32_t *partners;         /* [sections] of the other side, or MESO_NO_INDEX */
     MesoVec3 *moves;            /* [sections] what each is to move by */
+    MesoVec3 *turns;            /* [sections] what its axis is to turn to */
     MesoVec3 *besides;          /* [sections] the way to the partner's strand, beside both */
     uint32_t *rings;            /* [sections] ring of each */
     uint32_t section_count;

@@ -5,13 +5,16 @@
 #include <string.h>
 
 /* Rings of triangles on both sides that the deformation spreads over. */
-#define BAND_RINGS 8
+#define BAND_RINGS 10
 
 /* Weight of the places of a section against the shape of its strand: they are to be met. */
 #define SECTION_WEIGHT 1e4
 
 /* Moves that are not worth it, in mean edges of the swatch. */
 #define MOVE_LEAST 1e-4f
+
+/* Cosine of a turn that is not worth it. */
+#define TURN_LEAST 0.9999999f
 
 typedef struct Joiner {
     const MesoStrandSide *old_side, *new_side;
@@ -38,6 +41,14 @@ static void count_moves(MesoQuiltTally *tally, float edge, const MesoVec3 *befor
     }
 }
 
+/* `v` turned by what turns the direction `from` into `to`. */
+static MesoVec3 turned(MesoVec3 v, MesoVec3 from, MesoVec3 to)
+{
+    MesoVec3 sum = meso_vec3_add(from, to);
+    float share = meso_vec3_dot(v, sum) / (1 + meso_vec3_dot(from, to));
+    return meso_vec3_mad(meso_vec3_mad(v, -share, sum), 2 * meso_vec3_dot(v, from), to);
+}
+
 /* Moves the sections that have a partner; the strands behind follow over some rings. */
 static MesoStatus deform_side(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work,
                               MesoArena *arena, MesoError *error)
@@ -50,11 +61,14 @@ static MesoStatus deform_side(MesoStrandSide *side, const MesoQuiltStep *step, c
     for (uint32_t s = 0; s < side->section_count; s++) {
         const MesoSection *section = &side->sections[s];
         if (side->partners[s] == MESO_NO_INDEX ||
-            meso_vec3_length(side->moves[s]) < MOVE_LEAST * work->swatch->mean_edge)
+            (meso_vec3_length(side->moves[s]) < MOVE_LEAST * work->swatch->mean_edge &&
+             meso_vec3_dot(side->axes[s], side->turns[s]) > TURN_LEAST))
             continue;
         for (uint32_t i = 0; i < section->count; i++) {
             uint32_t v = section->vertices[i];
-            pulls[pull_count++] = (MesoBandPull){{v, 0, 0}, {1, 0, 0}, meso_vec3_add(side->clipped[v], side->moves[s])};
+            MesoVec3 off = turned(meso_vec3_sub(side->clipped[v], section->centre), side->axes[s], side->turns[s]);
+            MesoVec3 target = meso_vec3_add(meso_vec3_add(section->centre, off), side->moves[s]);
+            pulls[pull_count++] = (MesoBandPull){{v, 0, 0}, {1, 0, 0}, target};
         }
     }
     if (!pull_count)

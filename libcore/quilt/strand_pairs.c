@@ -88,6 +88,8 @@ static void find_moves(const Pairing *p, uint32_t i, uint32_t j)
     MesoVec3 nearer = meso_vec3_scale(axis, 0.5f * (along - step));
     p->old_side->moves[i] = meso_vec3_mad(nearer, 0.5f, beside);
     p->new_side->moves[j] = meso_vec3_scale(p->old_side->moves[i], -1);
+    p->old_side->turns[i] = axis;
+    p->new_side->turns[j] = meso_vec3_scale(axis, -1);
     p->old_side->besides[i] = beside;
     p->new_side->besides[j] = meso_vec3_scale(beside, -1);
 }

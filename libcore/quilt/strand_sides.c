@@ -6,60 +6,15 @@
 
 /* ---- sections ---- */
 
-/*
- * The direction along a strand, away from its side: the one that is most at right angles to the triangles at the
- * section, the smallest axis of the sum of n n^T. By inverse iteration on the adjugate, which has the same axes.
- */
-static MesoVec3 strand_axis(const MesoSection *section, const float *covariance)
+/* Along the strand, away from its side. */
+static MesoVec3 axis_of(const MesoSection *section, MesoVec3 along)
 {
-    double a = covariance[0], b = covariance[1], c = covariance[2], d = covariance[3], e = covariance[4];
-    double f = covariance[5], shift = 1e-6 * (a + d + f);
-    a += shift;
-    d += shift;
-    f += shift;
-    /* adjugate of the symmetric a b c / b d e / c e f */
-    double m[6] = {d * f - e * e, c * e - b * f, b * e - c * d, a * f - c * c, b * c - a * e, a * d - b * b};
-    MesoVec3 unit = meso_vec3_unit(section->area, (MesoVec3){1, 0, 0});
-    double x = unit.x, y = unit.y, z = unit.z;
-    for (int i = 0; i < 8; i++) {
-        double u = m[0] * x + m[1] * y + m[2] * z, v = m[1] * x + m[3] * y + m[4] * z;
-        double w = m[2] * x + m[4] * y + m[5] * z, length = sqrt(u * u + v * v + w * w);
-        if (!(length > 0))
-            return unit;
-        x = u / length;
-        y = v / length;
-        z = w / length;
-    }
-    MesoVec3 axis = {(float)x, (float)y, (float)z};
-    return meso_vec3_dot(axis, section->area) < 0 ? meso_vec3_scale(axis, -1) : axis;
+    if (meso_vec3_length(along) == 0)
+        return meso_vec3_unit(section->area, (MesoVec3){1, 0, 0});
+    return meso_vec3_dot(along, section->area) < 0 ? meso_vec3_scale(along, -1) : along;
 }
 
-/* Sums of n n^T over the triangles at each section: six numbers each. */
-static void sum_covariances(float *sums, const MesoStrandSide *side, const uint32_t *section_of)
-{
-    const MesoClip *clip = &side->clip;
-    for (uint32_t t = 0; t < clip->triangle_count; t++) {
-        const uint32_t *corner = &clip->corners[3 * (size_t)t];
-        uint32_t section = MESO_NO_INDEX;
-        for (int k = 0; k < 3; k++)
-            if (corner[k] >= clip->kept_count && section_of[corner[k] - clip->kept_count] != MESO_NO_INDEX)
-                section = section_of[corner[k] - clip->kept_count];
-        if (section == MESO_NO_INDEX)
-            continue;
-        MesoVec3 a = side->clipped[corner[0]];
-        MesoVec3 n = meso_vec3_cross(meso_vec3_sub(side->clipped[corner[1]], a), meso_vec3_sub(side->clipped[corner[2]], a));
-        n = meso_vec3_unit(n, (MesoVec3){0, 0, 0});
-        float *sum = &sums[6 * (size_t)section];
-        sum[0] += n.x * n.x;
-        sum[1] += n.x * n.y;
-        sum[2] += n.x * n.z;
-        sum[3] += n.y * n.y;
-        sum[4] += n.y * n.z;
-        sum[5] += n.z * n.z;
-    }
-}
-
-static MesoStatus find_sections(MesoStrandSide *side, const uint32_t *rings, MesoArena *arena, MesoError *error)
+static MesoStatus find_sections(MesoStrandSide *side, const uint32_t *rings, const MesoVec3 *axes, MesoArena *arena, MesoError *error)
 {
     const MesoClip *clip = &side->clip;
     side->section_count = 0;
@@ -70,30 +25,23 @@ static MesoStatus find_sections(MesoStrandSide *side, const uint32_t *rings, Mes
     side->moves = MESO_NEW(arena, MesoVec3, most, error);
     side->besides = MESO_NEW(arena, MesoVec3, most, error);
     side->rings = MESO_NEW(arena, uint32_t, most, error);
-    uint32_t *section_of = MESO_NEW(arena, uint32_t, clip->made_count, error);
-    float *sums = MESO_NEW(arena, float, 6 * (size_t)most, error);
-    if (!side->sections || !side->axes || !side->partners || !side->moves || !side->besides || !side->rings || !section_of || !sums)
+    side->turns = MESO_NEW(arena, MesoVec3, most, error);
+    if (!side->sections || !side->axes || !side->partners || !side->moves || !side->besides || !side->rings || !side->turns)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < clip->made_count; i++)
-        section_of[i] = MESO_NO_INDEX;
     for (uint32_t l = clip->open_count; l < clip->loop_count; l++) {
         MesoSection *section = &side->sections[side->section_count];
         *section = (MesoSection){.count = clip->loop_begin[l + 1] - clip->loop_begin[l],
                                  .vertices = &clip->loops[clip->loop_begin[l]], .positions = side->clipped};
         meso_section_measure(section);
-        for (uint32_t i = 0; i < section->count; i++)
-            section_of[section->vertices[i] - clip->kept_count] = side->section_count;
         side->rings[side->section_count] = rings[clip->ends[2 * (size_t)(section->vertices[0] - clip->kept_count)]];
+        side->axes[side->section_count] = axis_of(section, axes[side->rings[side->section_count]]);
         side->partners[side->section_count++] = MESO_NO_INDEX;
     }
-    sum_covariances(sums, side, section_of);
-    for (uint32_t s = 0; s < side->section_count; s++)
-        side->axes[s] = strand_axis(&side->sections[s], &sums[6 * (size_t)s]);
     return MESO_OK;
 }
 
-/* `rings` [vertex_count] of each vertex. */
-static MesoStatus cut_side(MesoStrandSide *side, const uint32_t *rings, MesoArena *arena, MesoError *error)
+/* `rings` [vertex_count] of each vertex; `axes` by ring. */
+static MesoStatus cut_side(MesoStrandSide *side, const uint32_t *rings, const MesoVec3 *axes, MesoArena *arena, MesoError *error)
 {
     MesoStatus status = meso_clip_whole(&side->clip, arena, side->values, side->vertex_count, side->corners,
                                            side->triangle_count, error);
@@ -103,7 +51,7 @@ static MesoStatus cut_side(MesoStrandSide *side, const uint32_t *rings, MesoAren
     if (!side->clipped)
         return MESO_ERR_MEMORY;
     meso_clip_positions(side->clipped, &side->clip, side->positions);
-    return find_sections(side, rings, arena, error);
+    return find_sections(side, rings, axes, arena, error);
 }
 
 /* ---- both sides ---- */
@@ -170,7 +118,7 @@ static MesoStatus cut_old(MesoStrandSide *side, const MesoRingShares *shares, co
             add_triangle(side, numbers, corner, old->triangles[t], old->positions, values, old->vertices);
     }
     uint32_t *rings = rings_of(side, numbers, &step->old_rings, old->vertex_count, arena, error);
-    return rings ? cut_side(side, rings, arena, error) : MESO_ERR_MEMORY;
+    return rings ? cut_side(side, rings, step->old_rings.axes, arena, error) : MESO_ERR_MEMORY;
 }
 
 static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltWork *work,
@@ -194,7 +142,7 @@ static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, co
             add_triangle(side, numbers, corner, t, shares->places, values, NULL);
     }
     uint32_t *rings = rings_of(side, numbers, &work->rings, swatch->vertex_count, arena, error);
-    return rings ? cut_side(side, rings, arena, error) : MESO_ERR_MEMORY;
+    return rings ? cut_side(side, rings, shares->new_axes, arena, error) : MESO_ERR_MEMORY;
 }
 
 MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
