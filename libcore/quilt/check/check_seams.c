@@ -7,12 +7,13 @@ typedef struct Distribution {
     uint64_t counts[2][BINS];
 } Distribution;
 
+/* Vertices between triangles of different patches, and elements that have such. */
 static void mark_seams(uint8_t *at_seam, uint8_t *has_seam, const MesoCheckMesh *mesh)
 {
     for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++) {
         uint32_t across = mesh->twins[h];
         if (across != MESO_NO_INDEX && mesh->patches[h / 3] != mesh->patches[across / 3])
-            at_seam[h / 3] = has_seam[mesh->elements[h / 3]] = 1;
+            at_seam[mesh->corners[h]] = at_seam[mesh->corners[across]] = has_seam[mesh->elements[h / 3]] = 1;
     }
 }
 
@@ -77,7 +78,7 @@ MesoStatus meso_check_seams(MesoSeams *seams, MesoArena *scratch, const MesoChec
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
     *seams = (MesoSeams){0};
-    uint8_t *at_seam = MESO_NEW(scratch, uint8_t, mesh->triangle_count, error);
+    uint8_t *at_seam = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
     uint8_t *has_seam = MESO_NEW(scratch, uint8_t, mesh->element_count, error);
     Distribution *lengths = MESO_NEW(scratch, Distribution, 1, error);
     Distribution *angles = MESO_NEW(scratch, Distribution, 1, error);
@@ -87,9 +88,9 @@ MesoStatus meso_check_seams(MesoSeams *seams, MesoArena *scratch, const MesoChec
     double unit = mean_length(mesh);
     for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++) {
         uint32_t across = mesh->twins[h];
-        if (across == MESO_NO_INDEX || across < h || !has_seam[mesh->elements[h / 3]])
+        if (across == MESO_NO_INDEX || !has_seam[mesh->elements[h / 3]])
             continue;
-        uint32_t other = !at_seam[h / 3] && !at_seam[across / 3];
+        uint32_t other = !at_seam[mesh->corners[h]];
         lengths->counts[other][length_bin(edge_length(mesh, h), unit)]++;
         angles->counts[other][angle_bin(normal_of(mesh, h / 3), normal_of(mesh, across / 3))]++;
     }

@@ -4,7 +4,10 @@
 
 #include "libcore/quilt/check/check_mesh.h"
 
-/* Edges of triangles with a neighbour of another patch, against all others of those elements that have such. */
+/*
+ * Edges that leave vertices between triangles of different patches, against all others of those elements that have such.
+ * Each edge leaves both of its ends: so seams have edges of each direction in the same shares as all else.
+ */
 typedef struct MesoSeams {
     uint64_t seam_edge_count, other_edge_count;
     /* statistics of Kolmogorov and Smirnov, 0 to 1: lengths of edges, and angles between the normals on both sides */
