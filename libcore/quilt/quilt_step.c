@@ -274,7 +274,7 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
     if (!status && !step->warp.count)
         status = meso_strands_try_weld(&patch->weld, &patch->welded, &c.old_side, &c.new_side, step, work, arena, error);
     if (!status && !patch->welded)
-        status = meso_strands_plan(&patch->joint, &c.old_side, &c.new_side, step, work, arena, error);
+        status = meso_strands_plan(&patch->joint, &c.old_side, &c.new_side, &c.shares, step, work, arena, error);
     clocks[3] = meso_seconds();
     if (!status)
         status = meso_quilt_plan_wholes(&patch->wholes, &c.wholes, step, work, arena, error);

@@ -43,6 +43,7 @@ typedef struct MesoStrandRings {
     MesoVec3 *axes;             /* [count] unit, along the strand, either way; 0: unknown */
     float *reaches;             /* [count] the largest distance of a vertex from the middle */
     float *steps;               /* [count] mean distance to the next rings */
+    uint32_t *next;             /* [2 * count] rings next to each, the first two of them; or MESO_NO_INDEX */
 } MesoStrandRings;
 
 typedef struct MesoQuiltWork {
@@ -203,7 +204,7 @@ typedef struct MesoRingShares {
     float *new_values;          /* [rings.count of the swatch] -INFINITY: not on the chart */
     MesoVec3 *old_ways, *new_ways;      /* [the same] beside a strand, to where the other side has it; 0: it has not */
     uint8_t *old_has, *new_has; /* [the same] whether it has */
-    const MesoVec3 *new_axes;   /* [rings.count of the swatch] as they lie in the plane */
+    const MesoVec3 *new_middles, *new_axes;     /* [rings.count of the swatch] as they lie in the plane */
     MesoVec3 *places;           /* [vertex_count of the swatch] of strands, warped */
     uint32_t pull_count;
     MesoVec3 *pulls_from, *pulls_apart;     /* [pull_count] middles of new rings, and the way to the older strand from there */
@@ -234,6 +235,10 @@ typedef struct MesoStrandSide {
 
 MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
                             const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* The same as `shares` has it already. */
+MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, const MesoRingShares *shares,
+                                   const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
+                                   MesoError *error);
 /*
  * Pairs sections that lie across the seam from each other, nearest first, up to `reach` times a strand's own reach beside
  * its way. `flaws`: strands that end, or are cut along.
@@ -241,13 +246,16 @@ MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, 
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
                              const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                              MesoArena *scratch, MesoError *error);
+/* Takes rings at ends without partner away, as far as they lie in other strands; whether there were any. */
+bool meso_strands_draw_back(MesoRingShares *shares, const MesoStrandSide *old_side, const MesoStrandSide *new_side,
+                            const MesoQuiltStep *step, const MesoQuiltWork *work);
 /* Both sides moved half of the way to each other, as their sections at the seam say. */
 typedef struct MesoStrandJoint {
     MesoStrandSide old_side, new_side;
 } MesoStrandJoint;
 
 MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_side,
-                             const MesoStrandSide *new_side, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                             const MesoStrandSide *new_side, MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                              MesoArena *arena, MesoError *error);
 /* Joins them in the composite, and closes what has no partner. */
 MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,

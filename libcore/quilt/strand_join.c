@@ -276,15 +276,27 @@ static MesoStatus close_sections(Joiner *j, const uint32_t *old_looks, const uin
 }
 
 MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_side, const MesoStrandSide *new_side,
-                             const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+                             MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                             MesoArena *arena, MesoError *error)
 {
     *joint = (MesoStrandJoint){.old_side = *old_side, .new_side = *new_side};
-    MesoStatus status = deform_side(&joint->old_side, step, work, arena, error);
+    MesoStatus status = MESO_OK;
+    if (meso_strands_draw_back(shares, old_side, new_side, step, work)) {
+        float flaws;
+        status = meso_strands_cut_shared(&joint->old_side, &joint->new_side, shares, step, work, arena, error);
+        if (!status)
+            status = meso_strands_pair(&joint->old_side, &joint->new_side, &flaws, MESO_REACH_LAST, shares, step, work,
+                                       arena, error);
+    }
+    if (!status)
+        status = deform_side(&joint->old_side, step, work, arena, error);
     if (!status)
         status = deform_side(&joint->new_side, step, work, arena, error);
+    if (status)
+        return status;
     measure_again(&joint->old_side);
     measure_again(&joint->new_side);
-    return status;
+    return MESO_OK;
 }
 
 MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,

@@ -87,7 +87,10 @@ static MesoStatus ring_room(MesoStrandRings *rings, MesoArena *arena, MesoError 
     rings->axes = MESO_NEW(arena, MesoVec3, rings->count, error);
     rings->reaches = MESO_NEW(arena, float, rings->count, error);
     rings->steps = MESO_NEW(arena, float, rings->count, error);
-    return rings->sizes && rings->middles && rings->axes && rings->reaches && rings->steps ? MESO_OK : MESO_ERR_MEMORY;
+    rings->next = MESO_NEW(arena, uint32_t, 2 * (size_t)rings->count, error);
+    if (rings->next)
+        memset(rings->next, 0xff, 2 * (size_t)rings->count * sizeof *rings->next);
+    return rings->sizes && rings->middles && rings->axes && rings->next && rings->reaches && rings->steps ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static void find_middles(MesoStrandRings *rings, const MesoVec3 *positions, uint32_t vertex_count)
@@ -119,6 +122,15 @@ static MesoVec2 longer_axis(const float *moments)
     return norm > 0 ? (MesoVec2){axis.x / norm, axis.y / norm} : (MesoVec2){0, 0};
 }
 
+static void add_next(MesoStrandRings *rings, uint32_t ring, uint32_t other)
+{
+    uint32_t *next = &rings->next[2 * (size_t)ring];
+    if (next[0] == MESO_NO_INDEX)
+        next[0] = other;
+    else if (next[0] != other && next[1] == MESO_NO_INDEX)
+        next[1] = other;
+}
+
 /* Means over edges to other rings: first which way they go as seen from above, then the direction itself. */
 static void find_axes(MesoStrandRings *rings, float *moments, float *edges, const uint32_t *corners, uint32_t corner_count)
 {
@@ -139,6 +151,7 @@ static void find_axes(MesoStrandRings *rings, float *moments, float *edges, cons
                 m[0] += d.x * d.x;
                 m[1] += d.x * d.y;
                 m[2] += d.y * d.y;
+                add_next(rings, ends[k], ends[1 - k]);
                 rings->steps[ends[k]] += meso_vec3_length(d);
                 edges[ends[k]]++;
             }

@@ -237,6 +237,7 @@ MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step,
     shares->new_values = new_side.values;
     shares->old_ways = old_side.ways;
     shares->new_ways = new_side.ways;
+    shares->new_middles = new_side.middles;
     shares->new_axes = new_side.axes;
     shares->old_has = old_side.has_other;
     shares->new_has = new_side.has_other;

@@ -145,11 +145,17 @@ static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, co
     return rings ? cut_side(side, rings, shares->new_axes, arena, error) : MESO_ERR_MEMORY;
 }
 
+MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, const MesoRingShares *shares,
+                                   const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
+                                   MesoError *error)
+{
+    MesoStatus status = cut_old(old_side, shares, step, work, arena, error);
+    return status ? status : cut_new(new_side, shares, work, arena, error);
+}
+
 MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
                             const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     MesoStatus status = meso_strands_share(shares, step, work, arena, error);
-    if (!status)
-        status = cut_old(old_side, shares, step, work, arena, error);
-    return status ? status : cut_new(new_side, shares, work, arena, error);
+    return status ? status : meso_strands_cut_shared(old_side, new_side, shares, step, work, arena, error);
 }
