@@ -11,7 +11,10 @@
 
 /* Rings so many reaches from the seam are looked at; and of those that go along it, so many pull. */
 #define BAND_REACHES 1.5f
-enum { PULLS_MOST = 60 };
+enum { PULLS_MOST = 24 };
+
+/* New rings so many mean edges of the swatch on the old side are of no interest. */
+#define DEEP_EDGES 6.0f
 
 /* Rings with a vertex so near to the chart's rim, in mean edges of the swatch, stay as they are. */
 #define RIM_EDGES 1.0f
@@ -127,9 +130,10 @@ static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep
         side->values[r] = seam_at(step, middles[r]);
         side->fixed[r] = rim_at(step, middles[r]) < 0;
     }
+    float deep = -DEEP_EDGES * work->swatch->mean_edge;
     for (uint32_t v = 0; v < work->swatch->vertex_count; v++) {
         uint32_t r = rings->of_vertex[v];
-        if (r == MESO_NO_INDEX || rim_at(step, middles[r]) < 0)
+        if (r == MESO_NO_INDEX || side->values[r] < deep || rim_at(step, middles[r]) < 0)
             continue;
         places[v] = meso_step_warp(step, meso_step_from_swatch(step, work->swatch->positions[v]));
         side->fixed[r] = side->fixed[r] || !is_on_chart(step, places[v]);
@@ -155,12 +159,21 @@ static bool way_beside(MesoVec3 *way, float *distance, const RingSide *a, uint32
 
 static void find_others(RingSide *a, const RingSide *b, uint8_t *meets_fixed)
 {
+    float farthest = 0;     /* that rings of one strand are apart */
+    for (uint32_t k = 0; k < 2; k++)
+        for (uint32_t m = 0; m < (k ? a : b)->near_count; m++) {
+            const RingSide *side = k ? a : b;
+            uint32_t r = side->near[m];
+            float far = BESIDE_MOST * side->rings->reaches[r] + ALONG_MOST * side->rings->steps[r];
+            farthest = far > farthest ? far : farthest;
+        }
     for (uint32_t m = 0; m < a->near_count; m++) {
         float least = INFINITY, distance;
         MesoVec3 way;
         uint32_t r = a->near[m];
         for (uint32_t n = 0; n < b->near_count; n++)
-            if (way_beside(&way, &distance, a, r, b, b->near[n]) && distance < least) {
+            if (fabsf(b->middles[b->near[n]].x - a->middles[r].x) < farthest &&
+                way_beside(&way, &distance, a, r, b, b->near[n]) && distance < least) {
                 least = distance;
                 a->ways[r] = way;
                 a->has_other[r] = 1;
