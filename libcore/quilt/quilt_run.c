@@ -321,7 +321,6 @@ static void choose_lengths(MesoQuiltWork *work)
     o->turn_count = o->turn_count ? o->turn_count : 1;
     /* some edges of the swatch, but little of it where it is small and coarse */
     float edge = swatch->mean_edge, side = swatch->size.x < swatch->size.y ? swatch->size.x : swatch->size.y;
-    work->gap = 0.5f * edge;
     work->ring = least(2 * edge, 0.05f * side);
     work->strand_margin = least(4 * edge, 0.1f * side);
     work->widening = least(5 * edge, 0.12f * side);

@@ -94,6 +94,43 @@ static void test_whole_elements(void)
     meso_arena_release(&arena);
 }
 
+/* Edges shorter than that, on a plane. */
+static uint32_t count_short(const MesoQuilt *quilt, const MesoTriangulation *base, float length)
+{
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < 3 * quilt->triangle_count; c++) {
+        MesoVec3 ends[2];
+        for (int k = 0; k < 2; k++) {
+            MesoQuiltVertex v = quilt->vertices[quilt->corners[k ? meso_next_corner(c) : c]];
+            const uint32_t *corner = &base->corners[3 * (size_t)v.triangle];
+            MesoVec3 p = meso_vec3_scale(base->positions[corner[0]], 1 - v.b1 - v.b2);
+            p = meso_vec3_mad(p, v.b1, base->positions[corner[1]]);
+            ends[k] = meso_vec3_mad(p, v.b2, base->positions[corner[2]]);
+            ends[k].z += v.height;
+        }
+        count += meso_vec3_length(meso_vec3_sub(ends[0], ends[1])) < length;
+    }
+    return count;
+}
+
+/*
+ * Irregular ribbons, so dense that seams run along some of them: they are cut across all the same, between their rings, so
+ * that no edge is short, and hardly one ends.
+ */
+static void test_dense_strands(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoSwatch swatch = make_swatch(&arena, "weave", 0.1f);
+    MesoTriangulation base = meso_fixture_sheet(32, 32, 0.5f);
+    MesoQuilt quilt = grow(&arena, &base, &swatch, 2);
+    check_quilt(&quilt, &base, &swatch);
+    CHECK(quilt.report.join_count > 200 && quilt.report.cap_count < 10 && quilt.report.skipped_count == 0);
+    CHECK(count_short(&quilt, &base, 0.3f * swatch.mean_edge) == 0);
+    meso_triangulation_release(&base);
+    meso_arena_release(&arena);
+}
+
 /* Irregular strands: joined, and the same for any number of threads. */
 static void test_threads(void)
 {
@@ -136,6 +173,7 @@ int main(void)
 {
     test_periodic_strands();
     test_whole_elements();
+    test_dense_strands();
     test_threads();
     test_limit();
     return 0;

@@ -61,7 +61,6 @@ typedef struct MesoQuiltWork {
     bool welds;                 /* the swatch has strands and is periodic: patches may fit vertex by vertex */
 
     /* lengths in units of the swatch */
-    float gap;          /* strands end so far before the seam, on both sides */
     float ring;         /* at the rim of a patch, where nothing is changed */
     float strand_margin;        /* from there on strands no longer fray */
     float whole_margin;         /* how far whole elements reach, and so the rim moves in */
@@ -202,7 +201,7 @@ MesoStatus meso_strands_old_rings(MesoStrandRings *rings, const MesoOldGeometry 
 typedef struct MesoRingShares {
     float *old_values;          /* [old_rings.count] */
     float *new_values;          /* [rings.count of the swatch] -INFINITY: not on the chart */
-    MesoVec3 *old_ways, *new_ways;      /* [the same] beside a strand, to where the other side has it; 0: it has not */
+    MesoVec3 *old_ways, *new_ways;      /* [the same] beside a strand, to where the other side has it */
     uint8_t *old_has, *new_has; /* [the same] whether it has */
     const MesoVec3 *new_middles, *new_axes;     /* [rings.count of the swatch] as they lie in the plane */
     MesoVec3 *places;           /* [vertex_count of the swatch] of strands, warped */
@@ -213,11 +212,11 @@ typedef struct MesoRingShares {
 MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                               MesoArena *arena, MesoError *error);
 
-/* Strands of one side, cut at a distance `gap` before the seam. Cut at 0, equal strands of both sides have equal sections. */
+/* Strands of one side, cut between the rings that it has and those that it has not. */
 typedef struct MesoStrandSide {
     uint32_t vertex_count, triangle_count;
     MesoVec3 *positions;        /* [vertex_count] */
-    float *values;              /* [vertex_count] positive where kept */
+    float *values;              /* [vertex_count] those of their rings: positive where kept */
     uint32_t *vertices;         /* [vertex_count] of the composite, or of the swatch */
     uint32_t *triangles;        /* [triangle_count] of the composite, or of the swatch */
     uint32_t *corners;          /* [3 * triangle_count] */
@@ -235,18 +234,19 @@ typedef struct MesoStrandSide {
 
 MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
                             const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
-/* The same as `shares` has it already. */
+/* The same, as `shares` says already. */
 MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, const MesoRingShares *shares,
                                    const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
                                    MesoError *error);
 /*
- * Pairs sections that lie across the seam from each other, nearest first, up to `reach` times a strand's own reach beside
- * its way. `flaws`: strands that end, or are cut along.
+ * Pairs sections that lie across the seam from each other, up to `reach` times a strand's own reach beside its way: as
+ * many as can be, those nearest to each other on the whole; and says what they are to move by. `flaws`: strands that end.
+ * O(sections^3) at worst.
  */
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
                              const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                              MesoArena *scratch, MesoError *error);
-/* Takes rings at ends without partner away, as far as they lie in other strands; whether there were any. */
+/* Takes away rings at ends without partner that lie in other strands, in `shares`; whether there were any. */
 bool meso_strands_draw_back(MesoRingShares *shares, const MesoStrandSide *old_side, const MesoStrandSide *new_side,
                             const MesoQuiltStep *step, const MesoQuiltWork *work);
 /* Both sides moved half of the way to each other, as their sections at the seam say. */

@@ -103,7 +103,8 @@ static void find_middles(MesoStrandRings *rings, const MesoVec3 *positions, uint
         rings->sizes[r]++;
     }
     for (uint32_t r = 0; r < rings->count; r++)
-        rings->middles[r] = meso_vec3_scale(rings->middles[r], 1 / (float)rings->sizes[r]);
+        if (rings->sizes[r])
+            rings->middles[r] = meso_vec3_scale(rings->middles[r], 1 / (float)rings->sizes[r]);
     for (uint32_t v = 0; v < vertex_count; v++) {
         uint32_t r = rings->of_vertex[v];
         if (r == MESO_NO_INDEX)
