@@ -6,8 +6,11 @@
 /* Sections are one where their lengths differ by less than this factor. */
 #define LENGTH_RATIO 2.0f
 
+/* Thin strands reach as far as others: so many steps from ring to ring. */
+#define THIN_STEPS 2.5f
+
 /* What a strand less costs, in squares of a quarter of a section's usual length. */
-#define NO_PARTNER 20.0f
+#define NO_PARTNER 40.0f
 
 static int compare_floats(const void *a, const void *b)
 {
@@ -32,10 +35,11 @@ static float usual_length(float *lengths, const MesoStrandSide *old_side, const 
  * long sections, which must not reach further for that.
  */
 static float distance_beside(const MesoSection *a, MesoVec3 a_axis, const MesoSection *b, MesoVec3 b_axis, float reach,
-                             float usual)
+                             float usual, float least)
 {
     float larger = a->reach > b->reach ? a->reach : b->reach, most = 0.25f * usual;
     larger = larger < most ? larger : most;
+    larger = larger > least ? larger : least;
     if (a->length > LENGTH_RATIO * b->length || b->length > LENGTH_RATIO * a->length)
         return INFINITY;
     MesoVec3 apart = meso_vec3_sub(b->centre, a->centre);
@@ -184,7 +188,8 @@ MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side,
         old_side->partners[i] = MESO_NO_INDEX;
         for (uint32_t j = 0; j < new_side->section_count; j++) {
             float distance = distance_beside(&old_side->sections[i], old_side->axes[i], &new_side->sections[j],
-                                             new_side->axes[j], reach, usual) / (0.25f * usual);
+                                             new_side->axes[j], reach, usual,
+                                             THIN_STEPS * work->rings.steps[new_side->rings[j]]) / (0.25f * usual);
             if (distance < INFINITY)
                 a.links[a.link_count++] = (Link){i, j, distance * distance};
         }

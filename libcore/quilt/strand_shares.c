@@ -3,9 +3,11 @@
 
 /*
  * Rings of one strand, as both sides have it: they lie beside each other by no more than so many times a ring's reach,
- * and along by no more than so many steps from ring to ring; and go the same way, by the cosine.
+ * and along by no more than so many steps from ring to ring; and go the same way, by the cosine. Thin strands reach so
+ * many steps.
  */
 #define BESIDE_MOST 1.2f
+#define THIN_STEPS 2.5f
 #define ALONG_MOST 0.6f
 #define COSINE_LEAST 0.8f
 
@@ -31,6 +33,12 @@ typedef struct RingSide {
     MesoVec3 *ways;             /* [rings->count] beside the strand, to the same one of the other side */
     uint8_t *has_other;         /* [rings->count] */
 } RingSide;
+
+static float reach_of(const MesoStrandRings *rings, uint32_t r)
+{
+    float thin = THIN_STEPS * rings->steps[r];
+    return rings->reaches[r] > thin ? rings->reaches[r] : thin;
+}
 
 static float seam_at(const MesoQuiltStep *step, MesoVec3 p)
 {
@@ -58,7 +66,7 @@ static MesoStatus list_near(RingSide *side, const MesoQuiltStep *step, MesoArena
     if (!side->near || !side->ways || !side->has_other)
         return MESO_ERR_MEMORY;
     for (uint32_t r = 0; r < side->rings->count; r++) {
-        float reach = BAND_REACHES * side->rings->reaches[r];
+        float reach = BAND_REACHES * reach_of(side->rings, r);
         if (fabsf(side->values[r]) < reach || fabsf(rim_at(step, side->middles[r])) < reach)
             side->near[side->near_count++] = r;
     }
@@ -147,14 +155,14 @@ static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep
 static bool way_beside(MesoVec3 *way, float *distance, const RingSide *a, uint32_t i, const RingSide *b, uint32_t j)
 {
     MesoVec3 apart = meso_vec3_sub(b->middles[j], a->middles[i]);
-    float reach = a->rings->reaches[i] > b->rings->reaches[j] ? a->rings->reaches[i] : b->rings->reaches[j];
+    float a_reach = reach_of(a->rings, i), b_reach = reach_of(b->rings, j);
     float step = a->rings->steps[i] > b->rings->steps[j] ? a->rings->steps[i] : b->rings->steps[j];
     float along = meso_vec3_dot(apart, a->axes[i]), cosine = meso_vec3_dot(a->axes[i], b->axes[j]);
     if (fabsf(along) > ALONG_MOST * step || fabsf(cosine) < COSINE_LEAST)
         return false;
     *way = meso_vec3_mad(apart, -along, a->axes[i]);
     *distance = meso_vec3_length(*way) + 0.5f * fabsf(along);
-    return meso_vec3_length(*way) < BESIDE_MOST * reach;
+    return meso_vec3_length(*way) < BESIDE_MOST * (a_reach > b_reach ? a_reach : b_reach);
 }
 
 static void find_others(RingSide *a, const RingSide *b, uint8_t *meets_fixed)
@@ -164,7 +172,7 @@ static void find_others(RingSide *a, const RingSide *b, uint8_t *meets_fixed)
         for (uint32_t m = 0; m < (k ? a : b)->near_count; m++) {
             const RingSide *side = k ? a : b;
             uint32_t r = side->near[m];
-            float far = BESIDE_MOST * side->rings->reaches[r] + ALONG_MOST * side->rings->steps[r];
+            float far = BESIDE_MOST * reach_of(side->rings, r) + ALONG_MOST * side->rings->steps[r];
             farthest = far > farthest ? far : farthest;
         }
     for (uint32_t m = 0; m < a->near_count; m++) {
