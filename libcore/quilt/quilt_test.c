@@ -126,7 +126,7 @@ static void test_dense_strands(void)
     MesoQuilt quilt = grow(&arena, &base, &swatch, 2);
     check_quilt(&quilt, &base, &swatch);
     CHECK(quilt.report.join_count > 200 && quilt.report.cap_count < 10 && quilt.report.skipped_count == 0);
-    CHECK(count_short(&quilt, &base, 0.3f * swatch.mean_edge) == 0);
+    CHECK(count_short(&quilt, &base, 0.2f * swatch.mean_edge) == 0);
     meso_triangulation_release(&base);
     meso_arena_release(&arena);
 }
