@@ -15,6 +15,7 @@
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/mesh/orientation.h"
+#include "libcore/quilt/embed/quilt_lay.h"
 #include "libcore/tiling/strand/expansion.h"
 
 static const MesoToolInfo MAP_TOOL = {
@@ -46,6 +47,7 @@ typedef struct MapArguments {
     const char *mesh_path;
     bool strict;
     bool pairs;                 /* --quads-from-triangles */
+    const char *embedding;      /* --embed; NULL: as the quilt says */
     MesoSceneOutput output;
 } MapArguments;
 
@@ -62,6 +64,8 @@ static MesoStatus check_operands(const MapArguments *a, MesoError *error)
                          "2 operands: give TILES SURFACE SLOTS, MODEL alone, or QUILT SURFACE with a name in .quilt");
     if (a->mesh_path && a->tool.operand_count < 3)
         return meso_fail(error, MESO_ERR_USAGE, "--mesh-path is for TILES; a model holds its meshes");
+    if (a->embedding && a->tool.operand_count == 3)
+        return meso_fail(error, MESO_ERR_USAGE, "--embed is for quilts, not for TILES");
     if (a->strict && a->tool.operand_count < 3)
         return meso_fail(error, MESO_ERR_USAGE, "--strict is for SURFACE; a model was made of one already");
     return MESO_OK;
@@ -268,20 +272,32 @@ static MesoStatus check_mapping(const MapArguments *a, const MesoInput *input, c
     return MESO_OK;
 }
 
+static MesoStatus check_quilt(const MapArguments *a, const MesoInput *input, const MesoSceneReading *reading,
+                              MesoError *error)
+{
+    if (a->embedding && !reading->quilt)
+        return meso_fail(error, MESO_ERR_USAGE, "--embed is for quilts; '%s' is none", input->path);
+    return MESO_OK;
+}
+
 static MesoStatus read_model(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
 {
-    MesoSceneReading reading = {.thread_count = a->tool.threads, .remap = merge_options, .context = a};
+    MesoSceneReading reading = {.thread_count = a->tool.threads, .remap = merge_options, .context = a,
+                                .embedding = a->embedding};
     MesoStatus status = meso_tool_read_scene(&a->tool, &mapped->scene, &inputs->tiles, a->tool.operands[0], &reading);
     mapped->tiling = reading.tiling;
+    if (!status)
+        status = check_quilt(a, &inputs->tiles, &reading, error);
     return status ? status : check_mapping(a, &inputs->tiles, reading.tiling, error);
 }
 
-/* A quilt over another surface of the same faces. */
+/* A quilt over another surface of the same faces, or a finer one of the same texture coordinates. */
 static MesoStatus read_quilt(MapArguments *a, Inputs *inputs, Mapped *mapped, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     MesoPolygonMesh mesh;
-    MesoSceneReading reading = {.thread_count = tool->threads, .surface = &mesh, .surface_path = tool->operands[1]};
+    MesoSceneReading reading = {.thread_count = tool->threads, .surface = &mesh, .surface_input = &inputs->surface,
+                                .embedding = a->embedding};
     MesoStatus status = meso_tool_open_place(tool, &inputs->surface, tool->operands[1], &MESO_PLACE_SURFACE);
     if (!status)
         status = meso_polygon_mesh_read(&mesh, &tool->arena, &inputs->surface, tool->threads, error);
@@ -376,6 +392,8 @@ int main(int argc, char **argv)
                     &a.mesh_path, .more = MESO_OPTION_OUTWARD),
         MESO_STRICT_OPTION(a.strict),
         MESO_PAIRS_OPTION(a.pairs),
+        MESO_CHOICE(0, "embed", "HOW", "of a quilt: how it lies over its surface (default: as it was made)", &a.embedding,
+                    MESO_QUILT_EMBEDDING_NAMES),
         MESO_DRACO_OPTIONS(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},

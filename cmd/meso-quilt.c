@@ -26,7 +26,7 @@ static const MesoToolInfo QUILT_TOOL = {
 int main(int argc, char **argv)
 {
     MesoQuiltArguments a = {.output = MESO_SCENE_OUTPUT_DEFAULTS, .up = "auto", .periodic = "auto", .turns = 1,
-                            .guide = "smooth"};
+                            .guide = "smooth", .embedding = "prisms"};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.output.to,
                     "meso|quilt|ply|obj|glb|drc", .more = MESO_OPTION_OUTWARD),
@@ -55,6 +55,9 @@ int main(int argc, char **argv)
         MESO_TEXT(0, "guide", "HOW", "where the swatch's x axis points: smooth (default), auto (along curvature), u, "
                   "v, none, field=ATTRIBUTE, or a file of directions", &a.guide),
         MESO_COUNT(0, "turns", "N", "rotations that the swatch may take: 1 (default), 2, 4, ...", &a.turns, 1, 64),
+        MESO_CHOICE(0, "embed", "HOW", "how the layer lies over the surface: along directions of least stretch "
+                    "(prisms, default), along normals, or by charts with a shell map", &a.embedding,
+                    MESO_QUILT_EMBEDDING_NAMES),
         MESO_GROUP("Growth"),
         MESO_NUMBER(0, "patch", "P", "what of a patch must match, as a share of the swatch (default 0.55)", &a.patch,
                     0.05, 0.95),

@@ -3,6 +3,7 @@
 #define MESO_QUILT_ARGUMENTS_H
 
 #include "cmd/common/scene_output.h"
+#include "libcore/quilt/embed/quilt_lay.h"
 
 typedef struct MesoQuiltArguments {
     MesoTool tool;
@@ -19,6 +20,7 @@ typedef struct MesoQuiltArguments {
     float patch, lambda, mu;    /* 0: the default */
     uint32_t until;             /* 0: all */
     const char *seeds;          /* --seeds */
+    const char *embedding;      /* --embed, of MESO_QUILT_EMBEDDING_NAMES */
     bool check;                 /* --check */
     struct {
         bool columns, rows, sides, jitter, thickness;

@@ -9,6 +9,7 @@
 #include "cmd/quilt/quilt_report.h"
 #include "cmd/quilt/quilt_surface.h"
 #include "cmd/quilt/quilt_swatch.h"
+#include "libcore/base/clock.h"
 #include "libcore/quilt/base/quilt_base.h"
 #include "libcore/quilt/embed/quilt_scene.h"
 #include "libcore/quilt/finish/quilt_finish.h"
@@ -29,6 +30,7 @@ typedef struct Job {
     MesoQuiltSwatch swatch;
     MesoQuiltSurface surface;
     MesoSeedList seeds;
+    MesoQuiltTimes times;       /* of the swatch and the surface */
     bool as_quilt;              /* the product is a .quilt */
 } Job;
 
@@ -129,35 +131,52 @@ static MesoQuiltOptions options_of(const Job *job, uint64_t seed, const MesoVec3
         .thread_count = job->tool->threads, .progress = meso_tool_progress, .context = job->tool};
 }
 
-static MesoStatus grow(Job *job, MesoQuilt *quilt, MesoQuiltBase *base, uint64_t seed)
+/* Seconds since `*since`, which is now from then on. */
+static double lap(double *since)
+{
+    double before = *since;
+    *since = meso_seconds();
+    return *since - before;
+}
+
+static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, uint64_t seed)
 {
     MesoTool *tool = job->tool;
+    MesoQuilt *quilt = &result->quilt;
+    double since = meso_seconds();
     MesoQuiltOptions options = options_of(job, seed, base->guide);
     const MesoFinishOptions finish = {.scale = options.scale,
                                       .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
     meso_tool_progress_begin(tool, "quilting", "triangles");
     MesoStatus status = meso_quilt_grow(quilt, &tool->arena, &base->mesh, &job->swatch.swatch, &options, &tool->error);
+    result->times.growth = lap(&since);
     if (!status)
         status = meso_quilt_finish(quilt, &tool->arena, base, &job->swatch.swatch, &finish, &tool->error);
+    result->times.finish = lap(&since);
     const MesoSettleOptions settle = {.scale = options.scale, .height_scale = options.height_scale,
                                       .offset = options.offset, .overhang = finish.overhang,
                                       .partial = options.step_limit > 0};
-    return status ? status : meso_quilt_settle(quilt, &tool->arena, &job->surface.base, &job->swatch.swatch, &settle,
-                                               &tool->error);
+    /* Rigid bodies are found in the layer of prisms; other layers bend what lies in them. */
+    if (!status && meso_quilt_embedding_named(job->arguments->embedding) == MESO_QUILT_PRISMS)
+        status = meso_quilt_settle(quilt, &tool->arena, &job->surface.base, &job->swatch.swatch, &settle, &tool->error);
+    result->times.settling = lap(&since);
+    return status;
 }
 
-static MesoStatus make_quilt(Job *job, MesoQuilt *quilt, uint64_t seed)
+static MesoStatus make_quilt(Job *job, MesoQuiltResult *result, uint64_t seed)
 {
     MesoTool *tool = job->tool;
+    double since = meso_seconds();
     const MesoSwatch *swatch = &job->swatch.swatch;
     MesoQuiltBase base;
     float scale = scale_of(job), shorter = fminf(swatch->size.x, swatch->size.y);
     float diagonal = sqrtf(swatch->size.x * swatch->size.x + swatch->size.y * swatch->size.y);
     MesoStatus status = meso_quilt_base_build(&base, &tool->arena, &job->surface.base, job->surface.guide,
                                               EDGE_SHARE * scale * shorter, 0.5f * scale * diagonal, &tool->error);
+    result->times.base = lap(&since);
     if (!status) {
         json_object_set_new(tool->report, "base_triangles", json_integer(base.mesh.triangle_count));
-        status = grow(job, quilt, &base, seed);
+        status = grow(job, result, &base, seed);
         meso_quilt_base_release(&base);
     }
     if (status == MESO_ERR_INPUT || status == MESO_ERR_LIMIT)
@@ -165,14 +184,33 @@ static MesoStatus make_quilt(Job *job, MesoQuilt *quilt, uint64_t seed)
     return status;
 }
 
+/* Where it lies: what the report says of stretch is told of a .quilt too. */
+static MesoStatus lay_out(Job *job, MesoQuiltResult *result)
+{
+    MesoTool *tool = job->tool;
+    const MesoQuilt *quilt = &result->quilt;
+    double since = meso_seconds();
+    if (quilt->element_count == 0)
+        return meso_fail(&tool->error, MESO_ERR_INPUT, "no element of the swatch fits onto the surface: lower --scale");
+    result->positions = MESO_NEW(&tool->arena, MesoVec3, quilt->vertex_count, &tool->error);
+    if (!result->positions)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_quilt_lay(result->positions, &result->lay, quilt, &job->surface.base,
+                                       meso_quilt_embedding_named(job->arguments->embedding), tool->threads,
+                                       &tool->error);
+    result->times.embedding = lap(&since);
+    return status;
+}
+
 /* ---- products ---- */
 
-static MesoStatus write_quilt(const Job *job, const MesoQuilt *quilt)
+static MesoStatus write_quilt(const Job *job, const MesoQuiltResult *result)
 {
     MesoTool *tool = job->tool;
     MesoOutput *output = NULL;
     struct stat file;
-    const MesoQuiltFile product = {*quilt, job->swatch.swatch, job->surface.base, job->surface.mark};
+    const MesoQuiltFile product = {result->quilt, job->swatch.swatch, job->surface.base, job->surface.mark,
+                                   meso_quilt_embedding_named(job->arguments->embedding), job->surface.uvs};
     MesoStatus status = meso_output_open(&output, tool->output, &tool->error);
     if (!status)
         status = meso_quilt_write(&product, &tool->provenance, output, &tool->error);
@@ -183,36 +221,39 @@ static MesoStatus write_quilt(const Job *job, const MesoQuilt *quilt)
     return status;
 }
 
-static MesoStatus write_scene(const Job *job, const MesoQuilt *quilt)
+static MesoStatus write_scene(const Job *job, const MesoQuiltResult *result)
 {
     MesoTool *tool = job->tool;
     MesoScene scene;
-    MesoStatus status = meso_quilt_show(&scene, &tool->arena, quilt, &job->swatch.swatch, &job->surface.base,
-                                        tool->threads, &tool->error);
+    MesoQuiltHeights heights = meso_quilt_heights(&result->quilt);
+    MesoStatus status = meso_quilt_scene(&scene, &tool->arena, &result->quilt, &job->swatch.swatch, result->positions,
+                                         tool->threads, &tool->error);
+    scene.thickness = heights.high - heights.low;
     return status ? status : meso_tool_write_scene(tool, &job->arguments->output,
                                                    &(MesoSceneProduct){.scene = &scene, .smaller = "raise --scale"});
 }
 
-static MesoStatus measure(const Job *job, const MesoQuilt *quilt)
+static MesoStatus measure(const Job *job, const MesoQuiltResult *result)
 {
     const MesoQuiltOptions grown = options_of(job, 0, NULL);
     const MesoQuiltCheckOptions options = {.scale = grown.scale, .height_scale = grown.height_scale,
                                            .offset = grown.offset, .thread_count = grown.thread_count};
-    return meso_quilt_measure(job->tool, quilt, &job->swatch.swatch, &job->surface.base, &options);
+    return meso_quilt_measure(job->tool, &result->quilt, &job->swatch.swatch, result->positions, &job->surface.base,
+                              &options);
 }
 
 static MesoStatus run_seed(Job *job, uint64_t seed)
 {
     MesoTool *tool = job->tool;
-    MesoQuilt quilt;
-    MesoStatus status = make_quilt(job, &quilt, seed);
-    if (!status && quilt.element_count == 0)
-        status = meso_fail(&tool->error, MESO_ERR_INPUT, "no element of the swatch fits onto the surface: lower --scale");
+    MesoQuiltResult result = {.times = job->times};
+    MesoStatus status = make_quilt(job, &result, seed);
     if (!status)
-        status = (job->as_quilt ? write_quilt : write_scene)(job, &quilt);
+        status = lay_out(job, &result);
     if (!status)
-        meso_quilt_report(tool, &quilt, scale_of(job));
-    return status || !job->arguments->check ? status : measure(job, &quilt);
+        status = (job->as_quilt ? write_quilt : write_scene)(job, &result);
+    if (!status)
+        status = meso_quilt_report(tool, &result, &job->swatch.swatch, scale_of(job));
+    return status || !job->arguments->check ? status : measure(job, &result);
 }
 
 /* ---- many seeds ---- */
@@ -243,10 +284,13 @@ static MesoStatus read_inputs(Job *job)
     MesoQuiltArguments *a = job->arguments;
     MesoTool *tool = job->tool;
     const char *const *operands = tool->operands;
+    double since = meso_seconds();
     MesoStatus status = meso_quilt_swatch_read(&job->swatch, a, &job->swatch_input, a->swatch ? NULL : operands[0]);
+    job->times.swatch = lap(&since);
     if (!status)
         status = meso_quilt_surface_read(&job->surface, a, &job->surface_input,
                                          a->plane ? NULL : operands[tool->operand_count - 1]);
+    job->times.surface = lap(&since);
     if (status)
         return status;
     meso_quilt_swatch_report(tool->report, &job->swatch);

@@ -1,7 +1,6 @@
 #include "cmd/quilt/quilt_measure.h"
 
 #include "formats/json/json_text.h"
-#include "libcore/quilt/embed/quilt_embed.h"
 
 typedef struct Count {
     const char *key;
@@ -103,19 +102,11 @@ static void say(const MesoTool *tool, const MesoQuiltCheck *k)
 }
 
 MesoStatus meso_quilt_measure(MesoTool *tool, const MesoQuilt *quilt, const MesoSwatch *swatch,
-                              const MesoTriangulation *base, const MesoQuiltCheckOptions *options)
+                              const MesoVec3 *positions, const MesoTriangulation *base,
+                              const MesoQuiltCheckOptions *options)
 {
-    MesoArena *arena = &tool->arena;
-    MesoArenaMark mark = meso_arena_mark(arena);
     MesoQuiltCheck check;
-    MesoVec3 *directions = MESO_NEW(arena, MesoVec3, base->vertex_count, &tool->error);
-    MesoVec3 *positions = MESO_NEW(arena, MesoVec3, quilt->vertex_count, &tool->error);
-    if (!directions || !positions)
-        return MESO_ERR_MEMORY;
-    meso_quilt_directions(directions, base);
-    meso_quilt_embed(positions, quilt, base, directions, tool->threads);
-    MesoStatus status = meso_quilt_check(&check, arena, quilt, swatch, positions, base, options, &tool->error);
-    meso_arena_rewind(arena, mark);
+    MesoStatus status = meso_quilt_check(&check, &tool->arena, quilt, swatch, positions, base, options, &tool->error);
     if (status)
         return status;
     json_t *object = json_object();

@@ -5,8 +5,9 @@
 #include "cmd/common/tool.h"
 #include "libcore/quilt/check/quilt_check.h"
 
-/* Measures a quilt as it lies over its surface, by normals; into the report as "check", and in some lines. */
+/* Measures a quilt where it lies, at `positions`; into the report as "check", and in some lines. */
 MesoStatus meso_quilt_measure(MesoTool *tool, const MesoQuilt *quilt, const MesoSwatch *swatch,
-                              const MesoTriangulation *base, const MesoQuiltCheckOptions *options);
+                              const MesoVec3 *positions, const MesoTriangulation *base,
+                              const MesoQuiltCheckOptions *options);
 
 #endif

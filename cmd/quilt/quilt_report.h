@@ -3,9 +3,22 @@
 #define MESO_QUILT_REPORT_H
 
 #include "cmd/common/tool.h"
-#include "libcore/quilt/quilt.h"
+#include "libcore/quilt/embed/quilt_lay.h"
 
-/* Counts, costs and deformations into the report, times too with -v; and one line. */
-void meso_quilt_report(MesoTool *tool, const MesoQuilt *quilt, float scale);
+/* Seconds, beside those of growth. */
+typedef struct MesoQuiltTimes {
+    double swatch, surface;     /* read, with what is found about periods, and the directions */
+    double base, growth, finish, settling, embedding;
+} MesoQuiltTimes;
+
+typedef struct MesoQuiltResult {
+    MesoQuilt quilt;
+    MesoQuiltLay lay;
+    MesoVec3 *positions;        /* [quilt.vertex_count] */
+    MesoQuiltTimes times;
+} MesoQuiltResult;
+
+/* Counts, costs, deformations, stretch and times into the report, and one line with -v. MESO_ERR_MEMORY alone. */
+MesoStatus meso_quilt_report(MesoTool *tool, const MesoQuiltResult *result, const MesoSwatch *swatch, float scale);
 
 #endif

@@ -111,6 +111,26 @@ static MesoStatus triangulate(MesoQuiltSurface *s, MesoQuiltArguments *a)
     return MESO_OK;
 }
 
+/* Texture coordinates, so that the quilt can be carried over; not those that are not everywhere. */
+static MesoStatus keep_texture(MesoQuiltSurface *s, MesoQuiltArguments *a)
+{
+    uint32_t without;
+    MesoVec2 *uvs;
+    const MesoTriangulation *base = &s->base;
+    MesoTool *tool = &a->tool;
+    MesoStatus status = meso_corner_uvs(&uvs, &tool->arena, &s->polygons, &without, &tool->error);
+    if (status || !uvs)
+        return status;
+    s->uvs = MESO_NEW(&tool->arena, MesoVec2, 3 * (size_t)base->triangle_count, &tool->error);
+    for (uint32_t c = 0; s->uvs && c < 3 * base->triangle_count; c++) {
+        uint32_t corner = 3 * base->faces[c / 3], vertex = base->origins[base->corners[c]];
+        while (s->polygons.corners[corner] != vertex)
+            corner++;
+        s->uvs[c] = uvs[corner];
+    }
+    return s->uvs ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 MesoStatus meso_quilt_surface_read(MesoQuiltSurface *s, MesoQuiltArguments *a, MesoInput *input, const char *path)
 {
     MesoStatus status = a->plane ? make_plane(&s->polygons, a) : read_file(&s->polygons, a, input, path);
@@ -124,6 +144,8 @@ MesoStatus meso_quilt_surface_read(MesoQuiltSurface *s, MesoQuiltArguments *a, M
         status = cut_faces(s, a);
     if (!status)
         status = triangulate(s, a);
+    if (!status)
+        status = keep_texture(s, a);
     return status ? status : meso_quilt_guide_find(&s->guide, &s->polygons, &s->base, a);
 }
 

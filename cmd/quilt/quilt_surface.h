@@ -3,12 +3,13 @@
 #define MESO_QUILT_SURFACE_H
 
 #include "cmd/quilt/quilt_arguments.h"
-#include "formats/quilt/quilt_file.h"
+#include "formats/quilt/quilt_move.h"
 
 typedef struct MesoQuiltSurface {
     MesoPolygonMesh polygons;       /* triangles; attributes of faces, vertices and corners are kept */
     MesoSurfaceMark mark;           /* of what the file has */
     MesoTriangulation base;         /* owned, with `origins` and `faces` by `polygons` */
+    MesoVec2 *uvs;                  /* [3 * base.triangle_count] by corner of the base; NULL: it has none */
     MesoVec3 *guide;                /* [base.triangle_count], or NULL */
     float longest_side;             /* of the box around it */
 } MesoQuiltSurface;

@@ -2,9 +2,10 @@
 
 #include <stddef.h>
 
+#include "formats/mesh/mesh_read.h"
 #include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
-#include "formats/quilt/quilt_file.h"
+#include "formats/quilt/quilt_move.h"
 #include "libcore/quilt/embed/quilt_scene.h"
 #include "libcore/tiling/strand/expansion.h"
 
@@ -48,13 +49,18 @@ enum { METHOD_COUNT = sizeof METHODS / sizeof *METHODS };
 static MesoStatus read_quilt(MesoScene *scene, MesoArena *arena, const MesoInput *input, MesoSceneReading *reading,
                              MesoError *error)
 {
+    uint32_t face;
     MesoQuiltFile file;
     MesoStatus status = meso_quilt_read(&file, &reading->provenance, arena, input, error);
-    if (!status && reading->surface)
-        status = meso_quilt_move_base(&file, reading->surface, error)
-                     ? meso_fail_prefix(error, reading->surface_path) : MESO_OK;
-    return status ? status : meso_quilt_show(scene, arena, &file.quilt, &file.swatch, &file.base, reading->thread_count,
-                                             error);
+    if (!status && reading->surface) {
+        status = meso_quilt_move(&file, arena, reading->surface, &face, error);
+        if (status)
+            return meso_mesh_fail_at_face(reading->surface_input, face, error);
+    }
+    if (status)
+        return status;
+    MesoQuiltEmbedding how = reading->embedding ? meso_quilt_embedding_named(reading->embedding) : file.embedding;
+    return meso_quilt_show(scene, arena, &file.quilt, &file.swatch, &file.base, how, reading->thread_count, error);
 }
 
 MesoStatus meso_scene_read(MesoScene *scene, MesoArena *arena, const MesoInput *input, MesoSceneReading *reading,

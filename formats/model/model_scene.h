@@ -14,9 +14,10 @@ typedef struct MesoSceneReading {
     /* May change the mapping options that a tiling was stored with; NULL: they stay. */
     void (*remap)(void *context, MesoMapOptions *options);
     void *context;
-    /* Where a quilt's surface has moved to: a mesh of the same faces, and its name; or NULL. */
+    /* Where a quilt's surface has moved to (quilt_move.h), and the file that it was read from; or NULL. */
     const MesoPolygonMesh *surface;
-    const char *surface_path;
+    const MesoInput *surface_input;
+    const char *embedding;      /* how it lies over it, of MESO_QUILT_EMBEDDING_NAMES; NULL: as the quilt says */
     const MesoModel *tiling;    /* gets the model, in the arena, where it is one of tiles; else NULL */
     bool quilt;                 /* gets whether it is one */
     const char *provenance;     /* gets the provenance, in the arena */

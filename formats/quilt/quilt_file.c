@@ -7,7 +7,7 @@
 #include "formats/json/json_text.h"
 #include "formats/scene/material_json.h"
 
-enum { MINOR = 0 };
+enum { MINOR = 1 };
 
 /* How the numbers of everything lie in the file. */
 typedef struct StoredHead {
@@ -16,7 +16,7 @@ typedef struct StoredHead {
 } StoredHead;
 
 typedef struct StoredSurface {
-    uint32_t vertices, faces, corners, zero;
+    uint32_t vertices, faces, corners, embedding;
     uint64_t hash[2];
 } StoredSurface;
 
@@ -65,11 +65,14 @@ static void add_quilt(MesoContainer *container, const MesoQuilt *q)
     meso_container_add(container, "elemorig", q->element_origins, elements * index);
 }
 
-static void add_base(MesoContainer *container, const MesoTriangulation *base)
+static void add_base(MesoContainer *container, const MesoQuiltFile *file)
 {
+    const MesoTriangulation *base = &file->base;
     meso_container_add(container, "basepos", base->positions, base->vertex_count * sizeof *base->positions);
     meso_container_add(container, "basecorn", base->corners, base->triangle_count * 3 * sizeof *base->corners);
     meso_container_add(container, "baseorig", base->origins, base->vertex_count * sizeof *base->origins);
+    meso_container_add(container, "baseuv", file->base_uvs,
+                       file->base_uvs ? base->triangle_count * 3 * sizeof *file->base_uvs : 0);
 }
 
 static void add_swatch(MesoContainer *container, const MesoSwatch *s)
@@ -89,14 +92,14 @@ static MesoStatus write_chunks(const MesoQuiltFile *file, const char *provenance
     const StoredHead head = {
         file->quilt.vertex_count, file->quilt.triangle_count, file->quilt.element_count, file->base.vertex_count,
         file->base.triangle_count, file->swatch.vertex_count, file->swatch.triangle_count, file->swatch.element_count};
-    const StoredSurface surface = {file->surface.vertex_count, file->surface.face_count, file->surface.corner_count, 0,
-                                   {file->surface.hash[0], file->surface.hash[1]}};
+    const StoredSurface surface = {file->surface.vertex_count, file->surface.face_count, file->surface.corner_count,
+                                   file->embedding, {file->surface.hash[0], file->surface.hash[1]}};
     MesoContainer container = {.kind = "quilt", .major = MESO_QUILT_MAJOR, .minor = MINOR};
     meso_container_add(&container, "prov", provenance, strlen(provenance));
     meso_container_add(&container, "head", &head, sizeof head);
     meso_container_add(&container, "surface", &surface, sizeof surface);
     add_quilt(&container, &file->quilt);
-    add_base(&container, &file->base);
+    add_base(&container, file);
     add_swatch(&container, &file->swatch);
     meso_container_add(&container, "looks", looks, strlen(looks));
     return meso_container_write(&container, output, error);
@@ -263,6 +266,18 @@ static MesoStatus read_quilt(const Reading *in)
 
 /* ---- base and swatch ---- */
 
+/* Of version 1.0 there are no texture coordinates. */
+static MesoStatus read_texture(const Reading *in)
+{
+    uint64_t bytes;
+    void *uvs = NULL;
+    const uint64_t count = 3 * (uint64_t)in->head.base_triangles;
+    MesoStatus status = meso_container_find(in->container, "baseuv", &bytes)
+                            ? take_optional(in, "baseuv", count, sizeof(MesoVec2), &uvs) : MESO_OK;
+    in->file->base_uvs = uvs;
+    return status ? status : check_uvs(in, "baseuv", uvs, count);
+}
+
 static MesoStatus read_base(const Reading *in)
 {
     MesoTriangulation *base = &in->file->base;
@@ -272,6 +287,10 @@ static MesoStatus read_base(const Reading *in)
         return MESO_ERR_INPUT;
     in->file->surface = (MesoSurfaceMark){surface->vertices, surface->faces, surface->corners,
                                           {surface->hash[0], surface->hash[1]}};
+    if (surface->embedding >= MESO_QUILT_EMBEDDINGS)
+        return meso_fail(in->error, MESO_ERR_INPUT, "%s: chunk 'surface': it lies over it in way %u, which is not known",
+                         in->path, surface->embedding);
+    in->file->embedding = surface->embedding;
     base->vertex_count = in->head.base_vertices;
     base->triangle_count = in->head.base_triangles;
     if (!(base->positions = take(in, "basepos", base->vertex_count, sizeof *base->positions)) ||
@@ -282,8 +301,9 @@ static MesoStatus read_base(const Reading *in)
     if (!status)
         status = check_indices(in, "basecorn", base->corners, 3 * (uint64_t)base->triangle_count, base->vertex_count,
                                0);
-    return status ? status : check_indices(in, "baseorig", base->origins, base->vertex_count, surface->vertices,
-                                           MESO_NO_INDEX);
+    if (!status)
+        status = check_indices(in, "baseorig", base->origins, base->vertex_count, surface->vertices, MESO_NO_INDEX);
+    return status ? status : read_texture(in);
 }
 
 static MesoStatus check_twins(const Reading *in)
@@ -414,29 +434,4 @@ MesoStatus meso_quilt_read(MesoQuiltFile *file, const char **provenance, MesoAre
 bool meso_quilt_recognise(const MesoInput *input)
 {
     return meso_container_recognise(input) && input->size >= 16 && memcmp(input->data + 8, "quilt\0\0", 8) == 0;
-}
-
-/* ---- another surface of the same faces ---- */
-
-static MesoStatus compare_counts(const char *what, uint32_t count, uint32_t wanted, MesoError *error)
-{
-    return count == wanted ? MESO_OK
-                           : meso_fail(error, MESO_ERR_INPUT, "has %u %s; the surface of the quilt has %u", count, what,
-                                       wanted);
-}
-
-MesoStatus meso_quilt_move_base(MesoQuiltFile *file, const MesoPolygonMesh *mesh, MesoError *error)
-{
-    MesoSurfaceMark mark = meso_surface_mark(mesh), *wanted = &file->surface;
-    MesoStatus status = compare_counts("vertices", mark.vertex_count, wanted->vertex_count, error);
-    if (!status)
-        status = compare_counts("faces", mark.face_count, wanted->face_count, error);
-    if (!status)
-        status = compare_counts("corners", mark.corner_count, wanted->corner_count, error);
-    if (!status && memcmp(mark.hash, wanted->hash, sizeof mark.hash) != 0)
-        status = meso_fail(error, MESO_ERR_INPUT, "joins its vertices otherwise than the surface of the quilt does");
-    for (uint32_t v = 0; v < file->base.vertex_count && !status; v++)
-        if (file->base.origins[v] != MESO_NO_INDEX)
-            file->base.positions[v] = mesh->positions[file->base.origins[v]];
-    return status;
 }

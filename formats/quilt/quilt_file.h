@@ -1,11 +1,12 @@
 /*
- * Quilts (.quilt), version 1.0: the layer above a surface, with the surface itself, so that it can be embedded anew.
+ * Quilts (.quilt), version 1.1: the layer above a surface, with the surface itself, so that it can be embedded anew.
  * Chunks:
  *
  *     prov      provenance, JSON text
  *     head      u32[8]: vertices, triangles and elements of the quilt; vertices and triangles of the base; vertices,
  *               triangles and elements of the swatch
- *     surface   what the base was made of: u32[4] vertices, faces, corners, 0; u64[2] hash of its faces
+ *     surface   what the base was made of: u32[3] vertices, faces, corners; u32 how the quilt lies over it, of
+ *               MesoQuiltEmbedding (1.0: 0); u64[2] hash of its faces
  *     vertex    {u32 triangle of the base; f32 weights of its corners 1 and 2; f32 height} a vertex
  *     origin    u32 a vertex: vertex of the swatch          corner    u32[3] a triangle
  *     triorig   u32 a triangle: triangle of the swatch      patch     u32 a triangle: step that has placed it
@@ -13,6 +14,7 @@
  *     elemorig  u32 an element: element of the swatch
  *     basepos   f32[3] a vertex of the base                 basecorn  u32[3] a triangle of it
  *     baseorig  u32 a vertex of the base: vertex of the surface's file
+ *     baseuv    f32[2] a corner of the base, or empty; version 1.0 has none
  *     swpos     f32[3] a vertex of the swatch               swcorn    u32[3] a triangle of it
  *     swtwin    u32[3] a triangle: half-edge across, 2^32 - 1 for none
  *     swmat     u32 a triangle: material
@@ -24,7 +26,7 @@
 
 #include "formats/file/container.h"
 #include "formats/product/provenance.h"
-#include "libcore/quilt/quilt.h"
+#include "libcore/quilt/embed/quilt_lay.h"
 
 enum { MESO_QUILT_MAJOR = 1 };
 
@@ -41,6 +43,8 @@ typedef struct MesoQuiltFile {
     MesoSwatch swatch;          /* of a file: what meso_quilt_scene() reads of it */
     MesoTriangulation base;     /* of a file: positions, corners, and `origins` by the surface's file, in an arena */
     MesoSurfaceMark surface;
+    MesoQuiltEmbedding embedding;
+    MesoVec2 *base_uvs;         /* [3 * base.triangle_count] texture coordinates of the base's corners, or NULL */
 } MesoQuiltFile;
 
 /* Vertices of the base that are none of the surface's stand as vertex 2^32 - 1. O(size). */
@@ -56,11 +60,5 @@ MesoStatus meso_quilt_read(MesoQuiltFile *file, const char **provenance, MesoAre
 
 /* True where `input` begins as a quilt. */
 bool meso_quilt_recognise(const MesoInput *input);
-
-/*
- * The base of `file` moved to where `mesh`, of the same faces as the surface that it was made of, has its vertices.
- * MESO_ERR_INPUT where it has other faces, with what differs.
- */
-MesoStatus meso_quilt_move_base(MesoQuiltFile *file, const MesoPolygonMesh *mesh, MesoError *error);
 
 #endif

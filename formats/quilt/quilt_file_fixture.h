@@ -24,11 +24,21 @@ static inline MesoPolygonMesh quilt_file_fixture_surface(MesoArena *arena)
     return mesh;
 }
 
+static inline MesoVec2 quilt_file_fixture_uv(MesoVec3 place)
+{
+    return (MesoVec2){place.x / 4, place.y / 4};
+}
+
 static inline MesoQuiltFile quilt_file_fixture(MesoArena *arena)
 {
     QuiltFixture f = quilt_fixture(arena);
     MesoPolygonMesh mesh = quilt_file_fixture_surface(arena);
-    return (MesoQuiltFile){f.quilt, f.swatch, f.base, meso_surface_mark(&mesh)};
+    MesoError error;
+    MesoVec2 *uvs = MESO_NEW(arena, MesoVec2, 3 * (size_t)f.base.triangle_count, &error);
+    CHECK(uvs);
+    for (uint32_t c = 0; c < 3 * f.base.triangle_count; c++)
+        uvs[c] = quilt_file_fixture_uv(f.base.positions[f.base.corners[c]]);
+    return (MesoQuiltFile){f.quilt, f.swatch, f.base, meso_surface_mark(&mesh), MESO_QUILT_CHARTS, uvs};
 }
 
 static inline MesoProvenance quilt_file_fixture_provenance(void)

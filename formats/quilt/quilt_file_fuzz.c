@@ -20,7 +20,8 @@ static void check_scene(const MesoQuiltFile *file, MesoArena *arena)
 {
     MesoScene scene;
     MesoError error;
-    CHECK(meso_quilt_show(&scene, arena, &file->quilt, &file->swatch, &file->base, 1, &error) == MESO_OK);
+    CHECK(meso_quilt_show(&scene, arena, &file->quilt, &file->swatch, &file->base, file->embedding, 1,
+                          &error) == MESO_OK);
     for (uint32_t b = 0; b < scene.body_count; b++) {
         const MesoBody *body = &scene.bodies[b];
         for (uint32_t c = 0; c < 3 * body->face_count; c++)

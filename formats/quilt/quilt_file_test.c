@@ -1,7 +1,8 @@
-/* Quilt files: round trip to the bit, every kind of wrong chunk, every damaged byte, surfaces of the same faces. */
+/* Quilt files: round trip to the bit, every kind of wrong chunk, every damaged byte. */
 #include "formats/quilt/quilt_file.h"
 
 #include "formats/file/container_fixture.h"
+#include "formats/file/container_memory.h"
 #include "formats/quilt/quilt_file_fixture.h"
 
 static MesoArena arena;
@@ -37,6 +38,8 @@ static void test_round_trip(void)
     CHECK(memcmp(back.swatch.corner_uvs, file.swatch.corner_uvs, 36 * sizeof(MesoVec2)) == 0);
     CHECK_TEXT(back.swatch.material_names[1], "gold");
     CHECK(memcmp(back.base.positions, file.base.positions, file.base.vertex_count * sizeof(MesoVec3)) == 0);
+    CHECK(back.embedding == MESO_QUILT_CHARTS);
+    CHECK(memcmp(back.base_uvs, file.base_uvs, 3 * file.base.triangle_count * sizeof *back.base_uvs) == 0);
     CHECK(strstr(provenance, "\"command\":\"meso-try\",\"seed\":5"));
 
     /* A quilt of the quilt has the same bytes. */
@@ -74,6 +77,29 @@ static void test_missing_chunks(void)
         snprintf(message, sizeof message, "file: chunk '%s' is missing", names[i]);
         expect(names[i], NULL, UINT64_MAX, message);
     }
+}
+
+/* A surface may have no texture coordinates; version 1.0 has no chunk for them. */
+static void test_without_texture(void)
+{
+    MesoContainer container;
+    MesoQuiltFile file;
+    MesoInput whole, input;
+    MesoError error;
+    size_t size;
+    CHECK(meso_input_open(&whole, test_path(&folder, "a.quilt"), &error) == MESO_OK);
+    CHECK(meso_container_read(&container, &whole, "quilt", 1, &error) == MESO_OK);
+    for (uint32_t pass = 0; pass < 3; pass++) {
+        if (pass > 0)           /* empty, then under another name */
+            container_fixture_change(&container, "baseuv", NULL, pass == 1 ? 0 : UINT64_MAX);
+        uint8_t *bytes = container_to_memory(&container, &size);
+        meso_input_wrap(&input, "file", bytes, size);
+        CHECK(meso_quilt_read(&file, NULL, &arena, &input, &error) == MESO_OK);
+        CHECK(!file.base_uvs == (pass > 0));
+        free(bytes);
+    }
+    meso_input_close(&whole);
+    expect("baseuv", "1234", 4, "file: chunk 'baseuv' has 4 bytes, not 12 times 8");
 }
 
 /* One number of a chunk of the good file, replaced. */
@@ -123,6 +149,8 @@ static void test_wrong_numbers(void)
     expect_number("basepos", 3, nan, "file: chunk 'basepos': vertex 1 is not finite, or too far away");
     expect_number("basecorn", 0, 6, "file: chunk 'basecorn': number 0 is 6, of 6");
     expect_number("baseorig", 0, 6, "file: chunk 'baseorig': number 0 is 6, of 6");
+    expect_number("baseuv", 3, nan, "file: chunk 'baseuv': number 1 is not finite");
+    expect_number("surface", 3, 3, "file: chunk 'surface': it lies over it in way 3, which is not known");
     expect_number("swpos", 0, far, "file: chunk 'swpos': vertex 0 is not finite, or too far away");
     expect_number("swcorn", 0, 8, "file: chunk 'swcorn': number 0 is 8, of 8");
     expect_number("swtwin", 0, 36, "file: chunk 'swtwin': number 0 is 36, of 36");
@@ -132,26 +160,6 @@ static void test_wrong_numbers(void)
     expect("looks", "{\"materials\": 1}", 16, "file: chunk 'looks': materials: an array is needed here, not a number");
     expect("looks", "{}", 2, "file: chunk 'swmat': number 0 is 0, of 0");
     expect("prov", "[]", 2, "file: chunk 'prov': is not an object");
-}
-
-static void test_move(void)
-{
-    MesoQuiltFile file = quilt_file_fixture(&arena);
-    MesoPolygonMesh mesh = quilt_file_fixture_surface(&arena);
-    MesoError error;
-    mesh.positions[4].z = 7;
-    CHECK(meso_quilt_move_base(&file, &mesh, &error) == MESO_OK);
-    for (uint32_t v = 0; v < file.base.vertex_count; v++)
-        CHECK(file.base.positions[v].z == (file.base.origins[v] == 4 ? 7 : 0));
-    uint32_t turned = mesh.corners[0];
-    mesh.corners[0] = mesh.corners[1];
-    mesh.corners[1] = turned;
-    CHECK(meso_quilt_move_base(&file, &mesh, &error) == MESO_ERR_INPUT);
-    CHECK_TEXT(error.message, "joins its vertices otherwise than the surface of the quilt does");
-    mesh.face_count--;
-    CHECK(meso_quilt_move_base(&file, &mesh, &error) == MESO_ERR_INPUT);
-    CHECK_TEXT(error.message, "has 3 faces; the surface of the quilt has 4");
-    meso_triangulation_release(&file.base);
 }
 
 /* Numbers of sides count, not only corners: two quads are no triangle and a pentagon. */
@@ -172,9 +180,9 @@ int main(void)
     folder = test_folder_make();
     test_round_trip();
     test_missing_chunks();
+    test_without_texture();
     test_wrong_numbers();
     container_fixture_damage(&fixture);
-    test_move();
     test_mark();
     test_folder_remove(&folder);
     meso_arena_release(&arena);

@@ -304,19 +304,17 @@ MesoStatus meso_quilt_scene(MesoScene *scene, MesoArena *arena, const MesoQuilt 
 }
 
 MesoStatus meso_quilt_show(MesoScene *scene, MesoArena *arena, const MesoQuilt *quilt, const MesoSwatch *swatch,
-                           const MesoTriangulation *base, uint32_t thread_count, MesoError *error)
+                           const MesoTriangulation *base, MesoQuiltEmbedding embedding, uint32_t thread_count,
+                           MesoError *error)
 {
     MesoArena scratch;
-    MesoPrismReport report;
     MesoQuiltHeights heights = meso_quilt_heights(quilt);
     meso_arena_init(&scratch);
-    MesoVec3 *directions = MESO_NEW(&scratch, MesoVec3, base->vertex_count, error);
-    MesoVec3 *positions = directions ? MESO_NEW(&scratch, MesoVec3, quilt->vertex_count, error) : NULL;
-    MesoStatus status = positions ? meso_quilt_layer(directions, &report, base, heights, error) : MESO_ERR_MEMORY;
-    if (!status) {
-        meso_quilt_embed(positions, quilt, base, directions, thread_count);
+    MesoVec3 *positions = MESO_NEW(&scratch, MesoVec3, quilt->vertex_count, error);
+    MesoStatus status = positions ? meso_quilt_lay(positions, NULL, quilt, base, embedding, thread_count, error)
+                                  : MESO_ERR_MEMORY;
+    if (!status)
         status = meso_quilt_scene(scene, arena, quilt, swatch, positions, thread_count, error);
-    }
     meso_arena_release(&scratch);
     if (status)
         return status;

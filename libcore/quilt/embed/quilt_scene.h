@@ -2,11 +2,11 @@
 #ifndef MESO_QUILT_SCENE_H
 #define MESO_QUILT_SCENE_H
 
-#include "libcore/quilt/quilt.h"
+#include "libcore/quilt/embed/quilt_lay.h"
 #include "libcore/scene/scene.h"
 
 /*
- * What a scene shows of a quilt that lies at `positions` [vertex_count], of meso_quilt_embed(), with the materials and
+ * What a scene shows of a quilt that lies at `positions` [vertex_count], of meso_quilt_lay(), with the materials and
  * texture coordinates of the swatch. Channels: "element", by the quilt; "patch", which has placed the first of its
  * triangles; "swatch", the element of the swatch.
  *
@@ -21,10 +21,11 @@ MesoStatus meso_quilt_scene(MesoScene *scene, MesoArena *arena, const MesoQuilt 
                             const MesoVec3 *positions, uint32_t thread_count, MesoError *error);
 
 /*
- * The same of a quilt over its base as that is now, along the directions of meso_quilt_layer(). The thickness of
- * the scene is that of the layer.
+ * The same of a quilt over its base as that is now, by meso_quilt_lay(). The thickness of the scene is that of the
+ * layer.
  */
 MesoStatus meso_quilt_show(MesoScene *scene, MesoArena *arena, const MesoQuilt *quilt, const MesoSwatch *swatch,
-                           const MesoTriangulation *base, uint32_t thread_count, MesoError *error);
+                           const MesoTriangulation *base, MesoQuiltEmbedding embedding, uint32_t thread_count,
+                           MesoError *error);
 
 #endif

@@ -74,7 +74,7 @@ static void test_bodies(void)
         }
     }
     CHECK(is_near(scene.box.low, 0.5f, 0.5f, 0) && is_near(scene.box.high, 3.5f, 1.5f, 0.5f));
-    CHECK(meso_quilt_show(&scene, &arena, &f.quilt, &f.swatch, &f.base, 2, &error) == MESO_OK);
+    CHECK(meso_quilt_show(&scene, &arena, &f.quilt, &f.swatch, &f.base, MESO_QUILT_PRISMS, 2, &error) == MESO_OK);
     CHECK(scene.thickness == 0.5f && is_near(scene.box.high, 3.5f, 1.5f, 0.5f));
     meso_triangulation_release(&f.base);
     meso_arena_release(&arena);
