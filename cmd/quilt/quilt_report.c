@@ -154,7 +154,8 @@ MesoStatus meso_quilt_report(MesoTool *tool, const MesoQuiltResult *result, cons
     json_object_set_new(object, "deformation_rms", meso_json_shortest((float)r->deformation_rms));
     json_object_set_new(object, "deformation_largest", meso_json_shortest((float)r->deformation_largest));
     put_lay(object, &result->lay);
-    put_seconds(object, r, &result->times);
+    if (tool->verbose)
+        put_seconds(object, r, &result->times);
     json_object_set_new(tool->report, "quilt", object);
     if (tool->verbose)
         meso_tool_say(tool, "%u patches, %u elements, %u triangles; %u joins, %u caps, %u elements removed",

@@ -18,7 +18,7 @@ typedef struct MesoQuiltResult {
     MesoQuiltTimes times;
 } MesoQuiltResult;
 
-/* Counts, costs, deformations, stretch and times into the report, and one line with -v. MESO_ERR_MEMORY alone. */
+/* Counts, costs, deformations and stretch into the report; with -v times too, and two lines. MESO_ERR_MEMORY alone. */
 MesoStatus meso_quilt_report(MesoTool *tool, const MesoQuiltResult *result, const MesoSwatch *swatch, float scale);
 
 #endif

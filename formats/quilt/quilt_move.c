@@ -71,10 +71,9 @@ static MesoStatus move_by_texture(MesoQuiltFile *file, MesoArena *arena, const M
     MesoVec2 *uvs;
     MesoStatus status = meso_corner_uvs(&uvs, arena, cut, triangle, error);
     if (!status && *triangle != MESO_NO_INDEX)
-        status = meso_fail(error, MESO_ERR_INPUT, "has no texture coordinates, by which a quilt could be carried over");
+        status = meso_fail(error, MESO_ERR_INPUT, "has no texture coordinates here");
     else if (!status && !uvs)
-        status = meso_fail(error, MESO_ERR_INPUT, "has other faces than the surface of the quilt, and no texture "
-                           "coordinates to go by");
+        status = meso_fail(error, MESO_ERR_INPUT, "has no texture coordinates");
     if (status)
         return status;
     const MesoTextureMesh from = {file->base.triangle_count, file->base_uvs}, to = {cut->face_count, uvs};
@@ -91,7 +90,7 @@ MesoStatus meso_quilt_move(MesoQuiltFile *file, MesoArena *arena, const MesoPoly
                            MesoError *error)
 {
     MesoPolygonMesh cut;
-    MesoError difference;
+    MesoError difference, reason;
     MesoSurfaceMark mark = meso_surface_mark(mesh);
     MesoStatus status = compare_faces(&mark, &file->surface, &difference);
     *face = MESO_NO_INDEX;
@@ -103,9 +102,14 @@ MesoStatus meso_quilt_move(MesoQuiltFile *file, MesoArena *arena, const MesoPoly
                 file->base.positions[v] = mesh->positions[file->base.origins[v]];
         return MESO_OK;
     }
-    status = meso_mesh_cut_faces(&cut, arena, mesh, error);
+    status = meso_mesh_cut_faces(&cut, arena, mesh, &reason);
     if (!status)
-        status = move_by_texture(file, arena, &cut, face, error);
+        status = move_by_texture(file, arena, &cut, face, &reason);
     *face = uncut_face(mesh, *face);
+    if (status == MESO_ERR_INPUT)
+        return meso_fail(error, status, "%s; nor is it the surface of the quilt, moved: it %s", reason.message,
+                         difference.message);
+    if (status && error)
+        *error = reason;
     return status;
 }

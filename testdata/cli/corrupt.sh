@@ -1,4 +1,4 @@
-# Every 64th byte of an assignment and of a model, flipped, and the file cut off there: status 4 and one line.
+# Every 64th byte of an assignment and of a model, and some of a quilt, flipped, and the file cut off there: status 4 and one line.
 cp "$testdata/cli/quad.tiles.json" quad.json
 "$generators/make_vase" 8 4 >vase.obj
 meso-solve -q quad.json vase.obj -o vase.slots
@@ -27,8 +27,10 @@ check() {
         cp "$file" flipped
         turned "$file" $at | dd of=flipped bs=1 seek=$at conv=notrunc status=none
         refused $2 flipped -o out.ply
-        at=$((at + 64))
+        at=$((at + $3))
     done
 }
-check vase.slots "meso-map quad.json vase.obj"
-check vase.meso meso-map
+check vase.slots "meso-map quad.json vase.obj" 64
+check vase.meso meso-map 64
+meso-quilt -q --swatch wire --sides 3 --columns 2 --rows 2 --plane 3x3 -o wire.quilt
+check wire.quilt meso-map $(($(wc -c <wire.quilt) / 60))

@@ -42,6 +42,11 @@ refuse meso-render vase.meso -o x.exr --png vase.meso
 refuse meso-tile import vase.tiles.json -o vase.tiles.json
 refuse meso-tile list vase.tiles.json -o vase.tiles.json
 refuse meso-info vase.slots -o vase.slots
+refuse meso-quilt --swatch nuts torus.obj --to ply -o torus.obj
+refuse meso-quilt --swatch nuts torus.obj --to quilt -o ./hard.obj
+refuse meso-quilt torus.obj vase.obj --to meso -o torus.obj
+refuse meso-quilt --swatch nuts --plane 4x4 -o x.quilt --json=./x.quilt
+refuse meso-quilt -q --swatch nuts --guide torus.obj vase.obj --to obj -o torus.obj
 
 # A mesh that only the tile set names.
 sed 's/"sweeps"/"inner": [{"mesh": "torus.obj"}], "sweeps"/' "$testdata/cli/quad.tiles.json" >inner.tiles.json

@@ -18,6 +18,7 @@ torus() {
 }
 torus 0.4 >torus.obj
 torus 0.35 >thin.obj
+grep -v '^vt' torus.obj | sed 's|/[0-9]*||g' >bare.obj
 
 echo "== swatches"
 meso-quilt --swatch nuts --columns 3 --rows 3 -o nuts.ply
@@ -57,12 +58,74 @@ tail -c 4000 a.ply >a && tail -c 4000 b.ply >b && cmp a b && echo same faces
 meso-info b.ply | grep -o '"face": [0-9]*' >b && meso-info c.ply | grep -o '"face": [0-9]*' | cmp b - && echo as many
 tail -c 7000000 a.ply >a && tail -c 7000000 c.ply | cmp -s - a || echo elsewhere
 sed '$d' torus.obj >hole.obj
-try meso-map torus.quilt hole.obj -o x.ply
+meso-quilt -q --swatch nuts --scale 0.2 bare.obj -o bare.quilt
+try meso-map bare.quilt hole.obj -o x.ply
 sed 's|^f 1/1 2/2|f 2/2 1/1|' torus.obj >turned.obj
-try meso-map torus.quilt turned.obj -o x.ply
+try meso-map bare.quilt turned.obj -o x.ply
 try meso-map nuts.ply torus.obj -o x.ply
 cp nuts.ply other.quilt && try meso-map other.quilt torus.obj -o x.ply
 try meso-map --divisions 4 torus.quilt -o x.ply
+
+echo "== a finer surface, or one that is cut otherwise, by texture coordinates"
+# The torus of N x M quads, its texture cut open.
+open_torus() {
+    awk -v tube="$1" -v n="$2" -v m="$3" 'BEGIN { pi = atan2(0, -1); w = n + 1
+        for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+            a = 2 * pi * i / n; b = 2 * pi * j / m; r = 1 + tube * cos(b)
+            printf "v %.6f %.6f %.6f\n", r * cos(a), r * sin(a), tube * sin(b) }
+        for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) printf "vt %.6f %.6f\n", i / n, j / m
+        for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+            right = (i + 1) % n; up = (j + 1) % m; t = j * w + i + 1
+            printf "f %d/%d %d/%d %d/%d %d/%d\n", j * n + i + 1, t, j * n + right + 1, t + 1, up * n + right + 1, t + w + 1,
+                up * n + i + 1, t + w } }'
+}
+open_torus 0.4 24 12 >open.obj
+open_torus 0.4 61 31 >fine.obj
+meso-quilt -q --swatch nuts --turns 4 --scale 0.2 open.obj -o open.quilt
+body() { sed '1,/^end_header/d' "$1"; }
+meso-map open.quilt -o own.ply && meso-map open.quilt fine.obj -o fine.ply && meso-map open.quilt open.obj -o again.ply
+body own.ply >own && body again.ply | cmp - own && echo where it was
+body fine.ply | cmp -s - own || echo elsewhere
+# What is said of numbers depends on where the quilt has its first vertex.
+tried() {
+    "$@" 2>said
+    echo "status $?"
+    sed 's/[0-9][0-9.]*/N/g' said >&2
+}
+# vertices of the finer torus: how far they are from its circle
+awk '/^v / { r = sqrt($2 * $2 + $3 * $3) - 1; d = sqrt(r * r + $4 * $4); if (d > most) most = d; if (!least || d < least) least = d }
+    END { print (least > 0.39 && most < 0.52) }' "$(meso-map open.quilt fine.obj -o fine-x.obj && echo fine-x.obj)"
+tried meso-map torus.quilt fine.obj -o x.ply
+sed 's|/[0-9]*||g; /^vt/d' fine.obj >bare-fine.obj
+tried meso-map open.quilt bare-fine.obj -o x.ply
+sed '$s|/[0-9]*||g' fine.obj >partly.obj
+tried meso-map open.quilt partly.obj -o x.ply
+awk '/^vt/ { $2 = $2 / 3 } { print }' fine.obj >third.obj
+tried meso-map open.quilt third.obj -o x.ply
+awk '/^vt/ { $2 = 2 * ($2 > 0.5 ? $2 - 0.5 : $2) } { print }' fine.obj >twice.obj
+tried meso-map open.quilt twice.obj -o x.ply
+awk '/^f/ { print $1, $2, $5, $4, $3; next } { print }' fine.obj >inside-out.obj
+tried meso-map open.quilt inside-out.obj -o x.ply
+
+echo "== ways to lie over a surface"
+for how in prisms normals charts; do
+    meso-quilt -q --embed $how --swatch nuts --turns 4 --scale 0.2 open.obj -o $how.quilt --json=$how.json
+    meso-map $how.quilt -o $how.ply
+    number inverted_tetrahedra $how.json
+done
+grep -c '"charts"\|"elements_over_seams"' charts.json
+for how in prisms normals charts; do body $how.ply >$how; done
+cmp -s prisms charts || echo not the same
+cmp prisms own
+for how in normals charts; do
+    meso-map --embed $how prisms.quilt -o x-$how.ply && body x-$how.ply | cmp - $how && rm x-$how.ply
+done
+for threads in 1 2 7; do
+    meso-quilt -q --threads $threads --embed charts --swatch nuts --turns 4 --scale 0.3 open.obj -o - --to ply | cksum
+done | uniq | wc -l
+try meso-map --embed charts nuts.ply -o x.ply
+try meso-map --embed sideways open.quilt -o x.ply
+try meso-quilt --embed sideways nuts.ply open.obj -o x.ply
 
 echo "== guides"
 awk 'BEGIN { for (i = 0; i < 288; i++) print i % 2, 0, 1 - i % 2 }' >along.txt
@@ -73,7 +136,6 @@ head -n 100 along.txt >few.txt
 try meso-quilt -q --swatch nuts --guide few.txt torus.obj -o x.ply
 try meso-quilt -q --swatch nuts --guide field=wind torus.obj -o x.ply
 try meso-quilt -q --swatch nuts --guide missing.txt torus.obj -o x.ply
-grep -v '^vt' torus.obj | sed 's|/[0-9]*||g' >bare.obj
 try meso-quilt -q --swatch nuts --guide u bare.obj -o x.ply
 
 echo "== seeds: each what it is alone"

@@ -33,6 +33,12 @@ report meso-map vase.tiles.json vase.obj vase.slots -o x.meso
 report meso-map vase.meso -o x.drc
 report meso-render --size 40x30 vase.meso -o x.png
 report meso-info vase.slots -o x.json
+report meso-mesh info vase.obj
+report meso-decor eleven-steps.pattern.json vase.obj -o x.ply
+report meso-quilt --swatch nuts --columns 2 --rows 2 -o nuts.ply
+report meso-quilt -v --check nuts.ply --plane 4x4 -o x.quilt
+report meso-quilt --embed charts --until 2 --swatch wire --sides 4 --scale 0.1 vase.obj -o x.glb
+report meso-quilt nuts.ply --plane 0.1x0.1 -o x.quilt
 report meso-map vase.meso --provenance none -o x.ply
 report meso-map vase.meso --provenance full -o x.ply
 meso-solve -q vase.tiles.json vase.obj -o x.slots --report solved.json
@@ -53,6 +59,7 @@ sed 's/"initial": true/"initial": 1/' gap.json >broken-2.json
 sed 's/"status": "ok"/"status": "no"/' report-1.json >broken-3.json
 sed 's/"loops"/"rings"/' x.jsonl >broken.jsonl
 sed 's/2.5/-2.5/' no.json >broken-4.json
+sed 's/"patches"/"patchwork"/' "$(grep -l '"tool": "meso-quilt"' $(grep -l '"check"' report-*.json))" >broken-8.json
 
 sed 's/"#8f4a33"/"#8f4a3"/' "$testdata/patterns/contour-line.pattern.json" >broken-5.json
 sed 's/"parameters": {/"parameters": [{/; s/"heart": null}/"heart": null}]/' "$testdata/patterns/flowers.macros.json" >broken-6.json
@@ -74,7 +81,7 @@ if [ -d "$npm/node_modules/ajv" ]; then
     validate pattern "$testdata"/patterns/*.pattern.json
     validate macros "$testdata/patterns/flowers.macros.json" "$(dirname "$scripts")/formats/decor/macros.json"
     validate regions tree.json grown-tree.json whole-tree.json
-    validate report broken-[123].json
+    validate report broken-[1238].json
     validate seeds broken.jsonl
     validate constraints broken-4.json
     validate pattern broken-5.json
