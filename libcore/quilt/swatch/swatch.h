@@ -61,9 +61,9 @@ typedef struct MesoSwatchOptions {
  * Periodic along x is a mesh whose open ends towards x meet those on the other side by one move, within a hundredth
  * of the mean edge, vertex by vertex; without such ends, one whose elements stand in rows of equals along x, two or
  * more of them, equally spaced, all rows over the same length. Equals have their vertices in the same order. Ends
- * are then made to meet exactly: high = low + size, in floats. The tile is a period, else as wide as the open ends
- * stand apart, or, without such, as the centres of the elements do and the widest gap between two of them in that
- * direction.
+ * are then made to meet exactly: high = low + size, in floats. The tile is so long, and its period the finest that maps
+ * triangles onto triangles (swatch_finer.h). Without a period the tile is as wide as the open ends stand apart, or,
+ * without such, as the centres of the elements do and the widest gap between two of them in that direction.
  *
  * O(corners) and sorting. MESO_ERR_INPUT with the face where it is no manifold or has one side only, or is not
  * periodic where it has to be; MESO_ERR_MEMORY.

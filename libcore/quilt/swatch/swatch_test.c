@@ -156,7 +156,8 @@ static MesoSwatch tubes(float shift, float bent, MesoSwatchOptions options, Meso
 static void test_periods(void)
 {
     MesoSwatch s = tubes(0, 0, UP, MESO_OK);
-    CHECK(s.periodic_x && s.periodic_y && s.period.x == 4 && fabsf(s.period.y - 3) < 1e-5f && s.size.x == s.period.x);
+    CHECK(s.periodic_x && s.periodic_y && s.size.x == 4 && fabsf(s.size.y - 3) < 1e-5f);
+    CHECK(s.period.x == 1 && fabsf(s.period.y - 1) < 1e-5f);     /* of two rings, and from tube to tube */
     s = tubes(0, 1e-4f, UP, MESO_OK);       /* within a hundredth of an edge */
     CHECK(s.periodic_x);
     s = tubes(0.1f, 0, UP, MESO_OK);
@@ -189,6 +190,32 @@ static void test_rows(void)
         MesoSwatch s = build(&sketch, UP);
         CHECK(s.periodic_x == (kind == 0) && s.periodic_y == (kind == 0));
         CHECK(fabsf(s.size.x - 4) < 0.1f && fabsf(s.size.y - 6) < 0.1f);
+        CHECK(fabsf(s.period.x - (kind == 0 ? 1 : 0)) < 1e-5f && fabsf(s.period.y - (kind == 0 ? 2 : 0)) < 1e-5f);
+    }
+}
+
+/* The tile is the same; its period is what maps triangles onto such of the same material, and of the same shape. */
+static void test_finest_period(void)
+{
+    static Sketch sketch;
+    static const float periods[] = {1, 2, 4, 8};
+    for (uint32_t kind = 0; kind < 4; kind++) {
+        uint32_t materials[4 * 16];
+        const char *names[2] = {"even", "odd"};
+        begin(&sketch);
+        for (uint32_t i = 0; i < 16; i++) {
+            tetrahedron(&sketch, (float)(i % 8), (float)(i / 8), kind == 3 && i == 5 ? 0.002f : 0, 0.4f);
+            for (uint32_t t = 0; t < 4; t++)
+                materials[4 * i + t] = kind == 1 ? i % 2 : kind == 2 ? i % 4 == 3 : 0;
+        }
+        MesoAttribute attribute = {.name = "material", .domain = MESO_ON_FACES, .entry_count = 2, .names = names,
+                                   .entry_of = materials};
+        sketch.mesh.attribute_count = 1;
+        sketch.mesh.attributes = &attribute;
+        MesoSwatch s = build(&sketch, UP);
+        CHECK(s.periodic_x && s.periodic_y && fabsf(s.size.x - 8) < 1e-4f && fabsf(s.size.y - 2) < 1e-4f);
+        CHECK(fabsf(s.period.x - (kind == 3 ? 1 : periods[kind])) < 1e-4f && fabsf(s.period.y - 1) < 1e-4f);
+        sketch.mesh.attribute_count = 0;
     }
 }
 
@@ -274,6 +301,7 @@ int main(void)
     test_up();
     test_periods();
     test_rows();
+    test_finest_period();
     test_repeat();
     test_attributes();
     test_refused();

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "libcore/math/box.h"
+#include "libcore/quilt/swatch/swatch_finer.h"
 #include "libcore/quilt/swatch/swatch_period.h"
 
 typedef struct Span {
@@ -147,7 +148,7 @@ static MesoStatus place(MesoSwatch *swatch, const MesoSwatchOptions *options, Me
     swatch->periodic_y = axes[1].periodic;
     swatch->period = (MesoVec2){axes[0].periodic ? swatch->size.x : 0, axes[1].periodic ? swatch->size.y : 0};
     meso_swatch_snap(swatch);
-    return MESO_OK;
+    return meso_swatch_refine_period(swatch, scratch, error);
 }
 
 MesoStatus meso_swatch_place(MesoSwatch *swatch, const MesoSwatchOptions *options, MesoError *error)
