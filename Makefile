@@ -16,6 +16,7 @@
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
 #   bench-grow        walks over surfaces and marches through textures: rates and errors; growth with its geometry
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
+#   quilts            ten pictures of quilts, to build/quilts
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
 #   clean
@@ -171,6 +172,8 @@ bench-exact: $(OUT)/test/libcore/geodesic/geodesic_bench
 	@$< --exact
 demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
+quilts: all generators
+	@scripts/make-quilts $(OUT) $(BIN) $(BUILD)/quilts
 fuzz-run: fuzzers all generators
 	@scripts/run-fuzzers $(OUT) $(BIN) $(FUZZ_SECONDS) $(FUZZERS)
 
@@ -184,6 +187,6 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-reference bench \
-        bench-solve bench-decor bench-quilt bench-grow bench-exact demo fuzz-run fuzzers benches references install clean
+        bench-solve bench-decor bench-quilt bench-grow bench-exact demo quilts fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

@@ -66,6 +66,7 @@ int main(int argc, char **argv)
         MESO_COUNT(0, "until", "N", "end after N patches (default: all)", &a.until, 1, 1 << 30),
         MESO_TEXT(0, "seeds", "LIST", "one product for each of these seeds: 1-10,20; -o has %d", &a.seeds),
         MESO_FLAG(0, "check", "measure how good the quilt is, and say it", &a.check),
+        MESO_FLAG(0, "with-surface", "put the surface itself into the product too", &a.with_surface),
         MESO_DRACO_OPTIONS(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},

@@ -22,7 +22,8 @@ typedef struct Body {
     Place place;
     uint32_t around, along;     /* quads */
     bool low_pole, high_pole;   /* closed by triangles there */
-    double slope;               /* of u, along v: texture that winds around */
+    double turns, slope;        /* of u around the body, and along it: texture that winds */
+    double color[3];            /* linear */
 } Body;
 
 static double bump(double x, double middle, double width)
@@ -107,11 +108,11 @@ static MesoVec3 on_fish(double u, double v)
 }
 
 static const Body BODIES[] = {
-    {"torso", on_torso, 64, 72, false, false, 0},
-    {"cup", on_cup, 72, 110, true, true, 0},
-    {"bust", on_bust, 72, 90, false, true, 0},
-    {"column", on_column, 48, 96, false, false, 1.1},
-    {"fish", on_fish, 56, 100, true, true, 0},
+    {"torso", on_torso, 64, 72, false, false, 1, 0, {0.09, 0.05, 0.04}},
+    {"cup", on_cup, 72, 110, true, true, 1, 0, {0.5, 0.5, 0.5}},
+    {"bust", on_bust, 72, 90, false, true, 1, 0, {0.2, 0.07, 0.03}},
+    {"column", on_column, 48, 96, false, false, 1, 1.1, {0.5, 0.47, 0.4}},
+    {"fish", on_fish, 56, 100, true, true, -1, 0, {0.03, 0.07, 0.07}},
 };
 enum { BODY_COUNT = sizeof BODIES / sizeof *BODIES };
 
@@ -151,13 +152,14 @@ static void write_body(const Body *b)
         bool pole = (b->low_pole && row == 0) || (b->high_pole && row == b->along);
         for (uint32_t column = 0; column < (pole ? 1 : b->around); column++) {
             MesoVec3 p = b->place((double)column / b->around, (double)row / b->along);
-            printf("v %.6f %.6f %.6f\n", (double)p.x, (double)p.y, (double)p.z);
+            printf("v %.6f %.6f %.6f %g %g %g\n", (double)p.x, (double)p.y, (double)p.z, b->color[0], b->color[1],
+                   b->color[2]);
         }
     }
     for (uint32_t row = 0; row <= b->along; row++)
         for (uint32_t column = 0; column <= b->around; column++) {
             double u = (double)column / b->around, v = (double)row / b->along;
-            printf("vt %.6f %.6f\n", u + b->slope * v, v);
+            printf("vt %.6f %.6f\n", b->turns * u + b->slope * v, v);
         }
     for (uint32_t row = 0; row < b->along; row++)
         for (uint32_t column = 0; column < b->around; column++)
@@ -178,8 +180,8 @@ static void write_chair(void)
 {
     static const double blocks[6][6] = {
         {0, 0, 0, 0.75, 0.75, 0.14}, {0, 0.68, 1, 0.72, 0.13, 0.72},
-        {-0.6, -0.6, -0.78, 0.12, 0.12, 0.62}, {0.6, -0.6, -0.78, 0.12, 0.12, 0.62},
-        {-0.6, 0.6, -0.78, 0.12, 0.12, 0.62}, {0.6, 0.6, -0.78, 0.12, 0.12, 0.62}};
+        {-0.6, -0.6, -0.9, 0.14, 0.14, 0.66}, {0.6, -0.6, -0.9, 0.14, 0.14, 0.66},
+        {-0.6, 0.6, -0.9, 0.14, 0.14, 0.66}, {0.6, 0.6, -0.9, 0.14, 0.14, 0.66}};
     enum { N = 48, M = 32 };
     const Body shape = {.around = N, .along = M, .low_pole = true, .high_pole = true};
     printf("# chair\n");
@@ -187,7 +189,7 @@ static void write_chair(void)
         for (uint32_t row = 0; row <= M; row++)
             for (uint32_t column = 0; column < (row % M ? N : 1); column++) {
                 MesoVec3 p = on_block((double)column / N, (double)row / M, blocks[i]);
-                printf("v %.6f %.6f %.6f\n", (double)p.x, (double)p.y, (double)p.z);
+                printf("v %.6f %.6f %.6f 0.07 0.04 0.02\n", (double)p.x, (double)p.y, (double)p.z);
             }
     for (uint32_t i = 0; i < 6; i++)
         for (uint32_t row = 0; row < M; row++)

@@ -21,6 +21,7 @@ typedef struct MesoQuiltArguments {
     uint32_t until;             /* 0: all */
     const char *seeds;          /* --seeds */
     const char *embedding;      /* --embed, of MESO_QUILT_EMBEDDING_NAMES */
+    bool with_surface;          /* --with-surface */
     bool check;                 /* --check */
     struct {
         bool columns, rows, sides, jitter, thickness;

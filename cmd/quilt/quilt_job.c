@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "cmd/common/seed_list.h"
+#include "cmd/quilt/quilt_backing.h"
 #include "cmd/quilt/quilt_measure.h"
 #include "cmd/quilt/quilt_report.h"
 #include "cmd/quilt/quilt_surface.h"
@@ -80,6 +81,9 @@ static MesoStatus choose_kind(Job *job)
                          ".meso, .quilt, .ply, .obj, .glb or .drc, or give --to", path);
     if (!job->as_quilt)
         return meso_tool_choose_scene_kind(job->tool, &a->output);
+    if (a->with_surface)
+        return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--with-surface is for meshes and models; a .quilt holds its "
+                         "surface");
     const char *given = o->given.position_bits ? "position-bits" : o->given.normal_bits ? "normal-bits"
         : o->given.speed ? "speed" : NULL;
     if (!job->tool->output)
@@ -229,6 +233,11 @@ static MesoStatus write_scene(const Job *job, const MesoQuiltResult *result)
     MesoStatus status = meso_quilt_scene(&scene, &tool->arena, &result->quilt, &job->swatch.swatch, result->positions,
                                          tool->threads, &tool->error);
     scene.thickness = heights.high - heights.low;
+    if (!status && job->arguments->with_surface) {
+        status = meso_quilt_add_backing(&scene, &tool->arena, &job->surface.polygons, &tool->error);
+        if (status == MESO_ERR_INPUT)
+            meso_fail_prefix(&tool->error, job->surface_input.path);
+    }
     return status ? status : meso_tool_write_scene(tool, &job->arguments->output,
                                                    &(MesoSceneProduct){.scene = &scene, .smaller = "raise --scale"});
 }
