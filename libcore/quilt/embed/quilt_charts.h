@@ -2,7 +2,7 @@
 #ifndef MESO_QUILT_CHARTS_H
 #define MESO_QUILT_CHARTS_H
 
-#include "libcore/quilt/embed/quilt_lay.h"
+#include "libcore/quilt/embed/quilt_embed.h"
 
 /*
  * positions[vertex_count of the quilt], over a base with twins and a corner at each vertex, whose layer is that of

@@ -10,6 +10,14 @@ typedef struct MesoQuiltHeights {
     float low, high;
 } MesoQuiltHeights;
 
+/* How it lies over its base. */
+typedef struct MesoQuiltLay {
+    MesoPrismReport layer;      /* with charts, its stretch is that of the shell map; zero where there is no layer */
+    uint32_t chart_count;       /* 0 without charts */
+    uint32_t seam_count;        /* elements that lie in several charts */
+    float area_ratio;           /* of the atlas, largest over least */
+} MesoQuiltLay;
+
 MesoQuiltHeights meso_quilt_heights(const MesoQuilt *quilt);
 
 /*

@@ -16,13 +16,6 @@ typedef enum MesoQuiltEmbedding {
 /* By one of these names. */
 MesoQuiltEmbedding meso_quilt_embedding_named(const char *name);
 
-typedef struct MesoQuiltLay {
-    MesoPrismReport layer;      /* with charts, its stretch is that of the shell map; zero where there is no layer */
-    uint32_t chart_count;       /* 0 without charts */
-    uint32_t seam_count;        /* elements that lie in several charts */
-    float area_ratio;           /* of the atlas, largest over least */
-} MesoQuiltLay;
-
 /*
  * positions[vertex_count of the quilt] in space. Only positions and corners of the base are read.
  *
