@@ -256,6 +256,10 @@ static MesoStatus flatten_most(MesoChart *chart, MesoArena *arena, MesoChartMake
         meso_arena_rewind(&maker->scratch, mark);
         if (status || flattening.fits || count == 1)
             return status;
+        if (!(growth->reaches[count - 1] > 0) || !isfinite(radius)) {
+            count /= 2;         /* no radius tells triangles apart that lie in one place, or beyond all measures */
+            continue;
+        }
         for (uint32_t before = count; count == before; count = count_within(growth, radius, count))
             radius *= shrinking;
     }
