@@ -121,7 +121,7 @@ static void test_dense_strands(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoSwatch swatch = make_swatch(&arena, "weave", 0.1f);
+    MesoSwatch swatch = make_swatch(&arena, "weave", 0.1f, 0);
     MesoTriangulation base = meso_fixture_sheet(32, 32, 0.5f);
     MesoQuilt quilt = grow(&arena, &base, &swatch, 2);
     check_quilt(&quilt, &base, &swatch);
