@@ -160,8 +160,7 @@ static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, u
     const MesoSettleOptions settle = {.scale = options.scale, .height_scale = options.height_scale,
                                       .offset = options.offset, .overhang = finish.overhang,
                                       .partial = options.step_limit > 0};
-    /* Rigid bodies are found in the layer of prisms; other layers bend what lies in them. */
-    if (!status && meso_quilt_embedding_named(job->arguments->embedding) == MESO_QUILT_PRISMS)
+    if (!status)
         status = meso_quilt_settle(quilt, &tool->arena, &job->surface.base, &job->swatch.swatch, &settle, &tool->error);
     result->times.settling = lap(&since);
     return status;

@@ -1,13 +1,20 @@
 /* Bodies where the swatch would have them, and there is room. */
 #include "libcore/base/grow.h"
+#include "libcore/mesh/cut/triangle_area.h"
 #include "libcore/quilt/settle/settle_work.h"
 
-/* Shares of the spacing: nothing stands so near to a place that is empty; and so far from each other bodies may come to be. */
+/*
+ * Shares of the spacing: nothing stands so near to a place that is empty; and so far from each other bodies may come to
+ * be.
+ */
 #define EMPTY 0.5f
 #define ROOM 0.8f
 
 /* Steps around a place in search of one where a linked body cuts nothing. */
 #define NUDGE 0.06f
+
+/* No more bodies are added once there are so many times those that the swatch has on the same area. */
+#define CROWD 1.04
 
 enum { FILL_ROUNDS = 3, SETTLE_STEPS = 8, THREADINGS = 7 };
 
@@ -60,7 +67,8 @@ static bool is_over_surface(const MesoSettleWork *work, const MesoSettleBody *bo
 /* Looks around a place for one where a body cuts nothing. */
 static MesoStatus thread_in(bool *meets, MesoSettleBody *body, const MesoSettleWork *work, MesoError *error)
 {
-    static const float ways[7][2] = {{0, 0}, {1, 0}, {0.5f, 0.87f}, {-0.5f, 0.87f}, {-1, 0}, {-0.5f, -0.87f}, {0.5f, -0.87f}};
+    static const float ways[7][2] = {{0, 0}, {1, 0}, {0.5f, 0.87f}, {-0.5f, 0.87f}, {-1, 0}, {-0.5f, -0.87f},
+                                     {0.5f, -0.87f}};
     const MesoSettleBody first = *body;
     *meets = true;
     for (uint32_t i = 0; i < THREADINGS && *meets; i++) {
@@ -98,20 +106,38 @@ static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t rel
     return meso_settle_add_body(work, &body, error) == MESO_NO_INDEX ? error ? error->status : MESO_ERR_MEMORY : MESO_OK;
 }
 
+/* How many bodies may still be added. */
+static uint32_t count_room(const MesoSettleWork *work)
+{
+    const MesoSwatch *swatch = work->swatch;
+    double area = 0, tile = (double)swatch->size.x * swatch->size.y * work->options.scale * work->options.scale;
+    uint32_t own = 0, there = 0;
+    for (uint32_t t = 0; t < work->surface->triangle_count; t++)
+        area += meso_triangle_area(work->surface, t);
+    for (uint32_t e = 0; e < swatch->element_count; e++)
+        own += work->kind_of[e] != MESO_NO_INDEX;
+    for (uint32_t b = 0; b < work->body_count; b++)
+        there += !work->bodies[b].gone;
+    double most = CROWD * own * area / tile;
+    return most > there ? (uint32_t)fmin(most - there, UINT32_MAX) : 0;
+}
+
 MesoStatus meso_settle_fill(MesoSettleWork *work, MesoError *error)
 {
-    for (uint32_t round = 0; round < FILL_ROUNDS; round++) {
+    uint32_t room = count_room(work);
+    for (uint32_t round = 0; round < FILL_ROUNDS && room; round++) {
         uint32_t count = work->body_count, added = 0;
         for (uint32_t b = 0; b < count; b++) {
             const MesoSettleKind *kind = &work->kinds[work->bodies[b].kind];
             if (work->bodies[b].gone)
                 continue;
-            for (uint32_t r = kind->relation_begin; r < kind->relation_end; r++) {
+            for (uint32_t r = kind->relation_begin; r < kind->relation_end && added < room; r++) {
                 MesoStatus status = try_relation(work, b, r, &added, error);
                 if (status)
                     return status;
             }
         }
+        room -= added;
         if (!added)
             return MESO_OK;
     }
