@@ -32,6 +32,8 @@ MesoStatus meso_quilt_finish(MesoQuilt *quilt, MesoArena *arena, const MesoQuilt
     MesoStatus status = find_normals(&work, error);
     if (!status)
         status = meso_finish_cut(&work, quilt, error);
+    if (!status && options->scale > 0)
+        status = meso_finish_level(&work, quilt, error);
     if (!status)
         status = meso_finish_close(&work, error);
     if (!status)

@@ -50,6 +50,9 @@ MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoErr
 /* Closes loops of open edges. */
 MesoStatus meso_finish_close(MesoFinishWork *work, MesoError *error);
 
+/* Takes slow drifts of height out of strands, before they are closed. `quilt`: what it was before. */
+MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error);
+
 /* Makes the quilt of what there is, but for small pieces. */
 MesoStatus meso_finish_gather(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *work, MesoError *error);
 

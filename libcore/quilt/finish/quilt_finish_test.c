@@ -234,8 +234,36 @@ static void test_wholes(void)
     meso_arena_release(&arena);
 }
 
+/* A bar that rises along its way, as over many patches, comes back down. */
+static void test_level(void)
+{
+    MesoArena arena;
+    MesoError error = {0};
+    meso_arena_init(&arena);
+    MesoSwatch swatch = make_swatch(&arena);
+    MesoTriangulation plane = meso_fixture_sheet(2, 2, 4);
+    MesoQuiltBase base;
+    CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
+    const Copy bar = {0, RINGS - 1, {-2 - swatch.positions[0].x, 1.3f - swatch.positions[0].y, 0}};
+    for (int level = 0; level < 2; level++) {
+        MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, &bar, 1);
+        for (uint32_t v = 0; v < q.vertex_count; v++)
+            q.vertices[v].height += 0.5f * (float)v / (float)q.vertex_count;
+        const MesoFinishOptions options = {.scale = level ? 1 : 0};
+        CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &options, &error) == MESO_OK);
+        double sum = 0;
+        for (uint32_t v = 0; v < q.vertex_count; v++)
+            sum += fabs((double)q.vertices[v].height - swatch.positions[q.origins[v]].z);
+        CHECK(level ? sum < 0.05 * q.vertex_count : sum > 0.2 * q.vertex_count);
+    }
+    meso_quilt_base_release(&base);
+    meso_triangulation_release(&plane);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
+    test_level();
     test_plane(false);
     test_plane(true);
     test_wholes();

@@ -1,0 +1,145 @@
+/*
+ * Strands brought back to the heights that the swatch has them at. Where patches meet, a strand is pulled up or down a
+ * little; from patch to patch this adds up, until strands lie under the surface, or far above. What is off slowly along
+ * a strand is taken away: with d the difference in height of a vertex from its origin's, the solution s of
+ *
+ *     (T + w L) s = T d,    L the graph's Laplacian,
+ *
+ * is d without what changes over few edges; heights lose s. Joins stay joined. T trusts vertices that the border has
+ * made less: their origins only lie next to them.
+ */
+#include "libcore/quilt/finish/finish_work.h"
+
+/* What is kept changes over less than this share of the swatch's shorter side, in mean edges within these bounds. */
+#define REACH 0.12
+#define EDGES_LEAST 4
+#define EDGES_MOST 24
+
+/* Trust in vertices that the border has made. */
+#define TRUST_LEAST 1e-3
+
+/* Of conjugate gradients: steps at most, and the error that is small against heights. */
+enum { STEPS = 60 };
+#define SMALL 1e-3
+
+typedef struct Level {
+    uint32_t count;
+    const uint32_t *begin;      /* [count + 1] into `near` */
+    const uint32_t *near;       /* vertices beside each, one for each half-edge from it */
+    const double *trust;        /* [count] */
+    double weight;
+} Level;
+
+/* T a + w L a */
+static void apply(double *out, const Level *level, const double *a)
+{
+    for (uint32_t v = 0; v < level->count; v++) {
+        double sum = 0;
+        for (uint32_t i = level->begin[v]; i < level->begin[v + 1]; i++)
+            sum += a[v] - a[level->near[i]];
+        out[v] = level->trust[v] * a[v] + level->weight * sum;
+    }
+}
+
+static double dot(const double *a, const double *b, uint32_t count)
+{
+    double sum = 0;
+    for (uint32_t v = 0; v < count; v++)
+        sum += a[v] * b[v];
+    return sum;
+}
+
+/* Conjugate gradients, scaled by the diagonal; `d` becomes what is left of it. */
+static MesoStatus solve(double *s, double *d, const Level *level, MesoArena *scratch, MesoError *error)
+{
+    uint32_t n = level->count;
+    double *z = MESO_NEW(scratch, double, n, error), *p = MESO_NEW(scratch, double, n, error);
+    double *q = MESO_NEW(scratch, double, n, error);
+    if (!z || !p || !q)
+        return MESO_ERR_MEMORY;
+    double before = 0, most = SMALL * SMALL * dot(d, d, n);
+    for (int step = 0; step < STEPS && dot(d, d, n) > most; step++) {
+        for (uint32_t v = 0; v < n; v++)
+            z[v] = d[v] / (level->trust[v] + level->weight * (level->begin[v + 1] - level->begin[v]));
+        double now = dot(d, z, n), beta = step ? now / before : 0;
+        for (uint32_t v = 0; v < n; v++)
+            p[v] = z[v] + beta * p[v];
+        apply(q, level, p);
+        double alpha = now / dot(p, q, n);
+        for (uint32_t v = 0; v < n; v++) {
+            s[v] += alpha * p[v];
+            d[v] -= alpha * q[v];
+        }
+        before = now;
+    }
+    return MESO_OK;
+}
+
+static bool is_strand(const MesoFinishWork *work, const MesoQuilt *quilt, uint32_t triangle)
+{
+    return work->swatch->kinds[quilt->element_origins[work->elements[triangle]]] == MESO_ELEMENT_STRAND;
+}
+
+/* Vertices beside each vertex of strands. */
+static MesoStatus connect(Level *level, const MesoQuilt *quilt, const MesoFinishWork *work, MesoError *error)
+{
+    uint32_t *begin = MESO_NEW(work->arena, uint32_t, (size_t)work->vertex_count + 2, error);
+    uint32_t *near = MESO_NEW(work->arena, uint32_t, 3 * (size_t)work->triangle_count, error);
+    if (!begin || !near)
+        return MESO_ERR_MEMORY;
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t c = 0; c < 3 * work->triangle_count; c++) {
+            uint32_t from = work->corners[c], to = work->corners[c % 3 == 2 ? c - 2 : c + 1];
+            if (!is_strand(work, quilt, c / 3))
+                continue;
+            if (pass)
+                near[begin[from + 1]++] = to;
+            else
+                begin[from + 2]++;
+        }
+        for (uint32_t v = 0; v < work->vertex_count && !pass; v++)
+            begin[v + 2] += begin[v + 1];
+    }
+    level->count = work->vertex_count;
+    level->begin = begin;
+    level->near = near;
+    return MESO_OK;
+}
+
+/* T d, with d how far vertices of strands are from the heights of their origins. */
+static void find_differences(double *trust, double *d, const Level *level, const MesoFinishWork *work)
+{
+    const MesoFinishOptions *options = work->options;
+    double scale = options->height_scale > 0 ? options->height_scale : options->scale;
+    for (uint32_t v = 0; v < work->vertex_count; v++) {
+        trust[v] = work->at_border[v] ? TRUST_LEAST : 1;
+        if (level->begin[v + 1] > level->begin[v])
+            d[v] = trust[v] * (work->vertices[v].height - options->offset -
+                               scale * work->swatch->positions[work->origins[v]].z);
+    }
+}
+
+MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
+{
+    const MesoSwatch *swatch = work->swatch;
+    Level level = {0};
+    double *d = MESO_NEW(work->arena, double, work->vertex_count, error);
+    double *s = MESO_NEW(work->arena, double, work->vertex_count, error);
+    double *trust = MESO_NEW(work->arena, double, work->vertex_count, error);
+    if (!d || !s || !trust)
+        return MESO_ERR_MEMORY;
+    double edges = REACH * fmin(swatch->size.x, swatch->size.y) / swatch->mean_edge;
+    edges = fmin(fmax(edges, EDGES_LEAST), EDGES_MOST);
+    level.weight = 0.5 * edges * edges;
+    level.trust = trust;
+    MesoStatus status = connect(&level, quilt, work, error);
+    if (status)
+        return status;
+    find_differences(trust, d, &level, work);
+    status = solve(s, d, &level, work->arena, error);
+    for (uint32_t v = 0; v < work->vertex_count && !status; v++) {
+        work->vertices[v].height -= (float)s[v];
+        work->points[v] = meso_finish_point(work, work->vertices[v]);
+    }
+    return status;
+}
