@@ -173,6 +173,6 @@ try meso-quilt crowded.obj torus.obj -o x.ply
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' >against.obj
 try meso-quilt nuts.ply against.obj -o x.ply
 head -c 3000 torus.quilt >cut.quilt
-try meso-map cut.quilt -o x.ply
-try meso-info cut.quilt
+tried meso-map cut.quilt -o x.ply
+tried meso-info cut.quilt
 ls | grep '^x' || echo nothing left
