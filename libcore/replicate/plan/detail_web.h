@@ -1,0 +1,82 @@
+/*
+ * Web: a triangulation of details over a surface of any genus, without charts. Details are put into the surface's own
+ * triangulation; edges are flipped by their lengths on the surface alone until it is Delaunay ("A Discrete Laplace-
+ * Beltrami Operator for Simplicial Surfaces", Bobenko and Springborn 2007), and the surface's vertices are taken out.
+ * Those of borders stay, and those that cannot go: without them the web would join a detail to itself.
+ *
+ * From then on a web follows its details: a length is that of the straight line, corrected by the angle between the
+ * normals at its ends to that of an arc.
+ */
+#ifndef MESO_DETAIL_WEB_H
+#define MESO_DETAIL_WEB_H
+
+#include "libcore/base/arena.h"
+#include "libcore/mesh/cut/triangulation.h"
+
+typedef struct MesoWeb {
+    MesoArena *arena;
+    uint32_t fixed_count;       /* first nodes: vertices of the surface that stay; details come behind, in order */
+    uint32_t node_count, triangle_count;
+    uint32_t node_room, triangle_room;
+    MesoMeshPoint *points;      /* [node_count] on the surface */
+    MesoVec3 *positions;        /* [node_count] in the frame */
+    MesoVec3 *normals;          /* [node_count] */
+    uint32_t *node_corner;      /* [node_count] a half-edge that begins there; MESO_NO_INDEX: none does */
+    uint32_t *corners;          /* [3 * triangle_count] nodes; half-edges as in triangulation.h, all wound alike */
+    uint32_t *twins;            /* [3 * triangle_count] or MESO_NO_INDEX */
+} MesoWeb;
+
+/*
+ * Of details on a surface, in its own shape. Places and normals are those of that shape.
+ *
+ * normals  [mesh->vertex_count] unit length
+ *
+ * MESO_ERR_INPUT where the surface has one side only; MESO_ERR_LIMIT, MESO_ERR_MEMORY. Arrays are in the arena, which
+ * lives as long as the web. About O(n) of vertices and details.
+ */
+MesoStatus meso_web_build(MesoWeb *web, MesoArena *arena, const MesoTriangulation *mesh, const MesoVec3 *normals,
+                          const MesoMeshPoint *points, uint32_t count, MesoError *error);
+
+/* Goes to another shape of the surface. O(nodes), on `thread_count` threads (0: all cores). */
+void meso_web_place(MesoWeb *web, const MesoTriangulation *mesh, const MesoVec3 *positions, const MesoVec3 *normals,
+                    uint32_t thread_count);
+
+/*
+ * Flips edges until all are Delaunay, or could not be flipped without joining two nodes twice; of triangles
+ * first, first + stride, ... and what flips there make worse. Returns the number of flips. O(triangles / stride).
+ */
+uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride);
+
+/*
+ * Puts a node into a triangle, and settles around it. Its number is node_count before. MESO_ERR_MEMORY, MESO_ERR_LIMIT;
+ * the web is as before then.
+ */
+MesoStatus meso_web_insert(MesoWeb *web, uint32_t triangle, MesoMeshPoint point, MesoVec3 position, MesoVec3 normal,
+                           MesoError *error);
+
+/* Squared length of the edge between two nodes. */
+double meso_web_length2(const MesoWeb *web, uint32_t a, uint32_t b);
+
+/* By the lengths of its sides. */
+double meso_web_area(const MesoWeb *web, uint32_t triangle);
+
+/* Mean and deviation of the lengths of edges between details. */
+typedef struct MesoWebEdges {
+    uint32_t count;
+    double mean, deviation;
+} MesoWebEdges;
+
+MesoWebEdges meso_web_edges(const MesoWeb *web);
+
+/*
+ * Neighbours of a node, at most `room` of them are written, in no order that means anything; returns how many there are.
+ */
+uint32_t meso_web_ring(const MesoWeb *web, uint32_t node, uint32_t *ring, uint32_t room);
+
+/*
+ * Checks that twins are mutual, each node has one fan, no two nodes are joined twice, and vertices - edges + triangles
+ * is `euler`. MESO_ERR_INTERNAL with the first place that fails. For tests. O(triangles * degree).
+ */
+MesoStatus meso_web_check(const MesoWeb *web, int64_t euler, MesoError *error);
+
+#endif
