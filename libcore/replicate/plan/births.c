@@ -1,0 +1,316 @@
+/* Where details are born, of which, and how they become part of the web. */
+#include "libcore/base/grow.h"
+#include "libcore/field/triangle_frames.h"
+#include "libcore/replicate/plan/replicate_work.h"
+#include "libcore/replicate/plan/web_edit.h"
+
+enum { CHOICES = 16, AROUND = 48, WALK_LIMIT = 10000 };
+
+/* ---- choice ---- */
+
+/* Places of details around a triangle. */
+typedef struct Around {
+    uint32_t count;
+    MesoVec3 places[AROUND + MESO_EXEMPLAR_INSIDE];
+} Around;
+
+static void add_around(Around *around, uint32_t nodes[AROUND], const MesoWeb *web, uint32_t node)
+{
+    if (node < web->fixed_count || around->count == AROUND)
+        return;
+    for (uint32_t i = 0; i < around->count; i++)
+        if (nodes[i] == node)
+            return;
+    nodes[around->count] = node;
+    around->places[around->count++] = web->positions[node];
+}
+
+static void look_around(Around *around, const MesoWeb *web, uint32_t triangle)
+{
+    uint32_t nodes[AROUND], ring[AROUND];
+    around->count = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t corner = web->corners[3 * triangle + k], count = meso_web_ring(web, corner, ring, AROUND);
+        add_around(around, nodes, web, corner);
+        for (uint32_t i = 0; i < count && i < AROUND; i++)
+            add_around(around, nodes, web, ring[i]);
+    }
+}
+
+/* How far the nearest distances at a place are from those that a detail has at rest. */
+static double misfit(const MesoOriginal *original, const Around *around, MesoVec3 place)
+{
+    float near[MESO_ORIGINAL_NEAR] = {INFINITY, INFINITY, INFINITY};
+    for (uint32_t i = 0; i < around->count; i++) {
+        float d = meso_vec3_length(meso_vec3_sub(around->places[i], place));
+        for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
+            if (d < near[k]) {
+                float further = near[k];
+                near[k] = d;
+                d = further;
+            }
+    }
+    double sum = 0;
+    for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
+        if (original->near[k] > 0 && original->near[k] < INFINITY && near[k] < INFINITY) {
+            double ratio = (double)near[k] / (double)original->near[k] - 1;
+            sum += ratio * ratio;
+        }
+    return sum;
+}
+
+static double log_ratio(double a, double b)
+{
+    return a > 0 && b > 0 ? fabs(log(a / b)) : 0;
+}
+
+/* Of what stands at the corners: how large, with how much room, of which kind. */
+static double unlike_corners(const MesoReplication *r, const uint32_t details[3], const MesoExemplar *exemplar,
+                             uint32_t turn)
+{
+    double sum = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        const MesoDetail *here = &r->details[details[k]], *there = &r->details[exemplar->corners[(k + turn) % 3]];
+        sum += log_ratio((double)here->size, (double)there->size) + (here->kind != there->kind)
+               + 0.5 * log_ratio((double)r->exemplars.originals[here->copied].area,
+                                 (double)r->exemplars.originals[there->copied].area);
+    }
+    return sum;
+}
+
+static void transfer(const MesoReplication *r, const uint32_t details[3], const MesoExemplar *exemplar, uint32_t turn,
+                     MesoBirth *births)
+{
+    const MesoWeb *web = &r->web;
+    for (uint32_t i = 0; i < exemplar->inside_count; i++) {
+        uint32_t nearest = 0;
+        MesoVec3 place = {0, 0, 0};
+        for (uint32_t k = 0; k < 3; k++) {
+            float w = exemplar->weights[i][(k + turn) % 3];
+            place = meso_vec3_mad(place, w, web->positions[web->fixed_count + details[k]]);
+            if (w > exemplar->weights[i][(nearest + turn) % 3])
+                nearest = k;
+        }
+        births[i] = (MesoBirth){exemplar->inside[i], place, details[nearest]};
+    }
+}
+
+/* Each beside the others that are born with it. */
+static double misfit_of_all(const MesoReplication *r, Around *around, const MesoBirth *births, uint32_t count)
+{
+    double sum = 0;
+    uint32_t before = around->count;
+    for (uint32_t i = 0; i < count; i++) {
+        around->count = before;
+        for (uint32_t k = 0; k < count; k++)
+            if (k != i)
+                around->places[around->count++] = births[k].place;
+        sum += misfit(&r->exemplars.originals[births[i].copied], around, births[i].place);
+    }
+    around->count = before;
+    return sum / count;
+}
+
+uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
+                            MesoBirth births[MESO_EXEMPLAR_INSIDE])
+{
+    const MesoWeb *web = &r->web;
+    const uint32_t *c = web->corners + 3 * (size_t)triangle;
+    const uint32_t details[3] = {c[0] - web->fixed_count, c[1] - web->fixed_count, c[2] - web->fixed_count};
+    const MesoExemplar *similar[CHOICES];
+    double angle = meso_smallest_angle(meso_web_length2(web, c[0], c[1]), meso_web_length2(web, c[1], c[2]),
+                                       meso_web_length2(web, c[2], c[0]));
+    uint32_t count = meso_exemplars_near(&r->exemplars, meso_web_area(web, triangle), angle, limit, similar, CHOICES);
+    uint32_t made = 0;
+    double least = INFINITY;
+    Around around;
+    look_around(&around, web, triangle);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t turn = 0; turn < 3; turn++) {
+            MesoBirth tried[MESO_EXEMPLAR_INSIDE];
+            transfer(r, details, similar[i], turn, tried);
+            double cost = misfit_of_all(r, &around, tried, similar[i]->inside_count)
+                          + 0.3 * unlike_corners(r, details, similar[i], turn);
+            if (!(cost < least))
+                continue;
+            least = cost;
+            made = similar[i]->inside_count;
+            memcpy(births, tried, made * sizeof *births);
+        }
+    return made;
+}
+
+/* ---- onto the surface ---- */
+
+/* Weights of the foot of a place in a triangle's plane; false where that has no area. */
+static bool weights_in(const MesoVec3 corners[3], MesoVec3 place, double w[3])
+{
+    MesoVec3 u = meso_vec3_sub(corners[1], corners[0]), v = meso_vec3_sub(corners[2], corners[0]);
+    MesoVec3 p = meso_vec3_sub(place, corners[0]);
+    double uu = meso_vec3_dot(u, u), uv = meso_vec3_dot(u, v), vv = meso_vec3_dot(v, v);
+    double pu = meso_vec3_dot(p, u), pv = meso_vec3_dot(p, v), det = uu * vv - uv * uv;
+    if (!(det > 0))
+        return false;
+    w[1] = (vv * pu - uv * pv) / det;
+    w[2] = (uu * pv - uv * pu) / det;
+    w[0] = 1 - w[1] - w[2];
+    return true;
+}
+
+static uint32_t least_weight(const double w[3])
+{
+    uint32_t least = w[1] < w[0];
+    return w[2] < w[least] ? 2 : least;
+}
+
+static MesoMeshPoint point_of(uint32_t triangle, const double w[3])
+{
+    MesoMeshPoint point = {.triangle = triangle};
+    double sum = 0;
+    for (uint32_t k = 0; k < 3; k++)
+        sum += fmax(0, w[k]);
+    for (uint32_t k = 0; k < 3; k++)
+        point.weight[k] = (float)(fmax(0, w[k]) / sum);
+    return point;
+}
+
+MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *positions, MesoMeshPoint from,
+                                 MesoVec3 place)
+{
+    uint32_t triangle = from.triangle, before = MESO_NO_INDEX;
+    for (uint32_t steps = 0; steps < WALK_LIMIT; steps++) {
+        const uint32_t *c = mesh->corners + 3 * (size_t)triangle;
+        const MesoVec3 corners[3] = {positions[c[0]], positions[c[1]], positions[c[2]]};
+        double w[3];
+        if (!weights_in(corners, place, w))
+            break;
+        uint32_t least = least_weight(w);
+        uint32_t across = mesh->twins[3 * triangle + (least + 1) % 3];
+        /* on a ridge the foot lies beyond the side from both */
+        if (w[least] >= 0 || across == MESO_NO_INDEX || across / 3 == before)
+            return point_of(triangle, w);
+        before = triangle;
+        triangle = across / 3;
+    }
+    return from;
+}
+
+/* ---- into the web ---- */
+
+/* The triangle of the web under a place, by the same walk. */
+static uint32_t web_triangle(const MesoWeb *web, uint32_t triangle, MesoVec3 place)
+{
+    uint32_t before = MESO_NO_INDEX;
+    for (uint32_t steps = 0; steps < 64; steps++) {
+        const uint32_t *c = web->corners + 3 * (size_t)triangle;
+        const MesoVec3 corners[3] = {web->positions[c[0]], web->positions[c[1]], web->positions[c[2]]};
+        double w[3];
+        if (!weights_in(corners, place, w))
+            break;
+        uint32_t least = least_weight(w), across = web->twins[3 * triangle + (least + 1) % 3];
+        if (w[least] >= 0 || across == MESO_NO_INDEX || across / 3 == before)
+            break;
+        before = triangle;
+        triangle = across / 3;
+    }
+    return triangle;
+}
+
+static float copied_angle(const MesoReplication *r, const MesoBirth *birth, uint32_t triangle)
+{
+    const MesoDetail *beside = &r->details[birth->beside];
+    MesoTriangleFrame there = meso_frame(r->rest, beside->point.triangle), here = meso_frame(r->rest, triangle);
+    MesoVec3 heading = meso_frame_out(&there, (MesoComplex){cos((double)beside->angle), sin((double)beside->angle)});
+    MesoComplex direction = meso_frame_in(&here, heading);
+    return (float)atan2(direction.im, direction.re) + r->exemplars.originals[birth->copied].turn;
+}
+
+static MesoStatus make_room(MesoReplication *r, MesoError *error)
+{
+    uint32_t n = r->detail_count;
+    if (n == r->detail_room) {
+        size_t room = 2 * (size_t)n + 16;
+        MesoDetail *details = meso_arena_enlarge(&r->arena, r->details, n, room, sizeof *details, error);
+        uint32_t *blocks = meso_arena_enlarge(&r->arena, r->blocks, n, room, sizeof *blocks, error);
+        uint32_t *begin = meso_arena_enlarge(&r->arena, r->near_begin, n + 1, room + 1, sizeof *begin, error);
+        if (!details || !blocks || !begin)
+            return MESO_ERR_MEMORY;
+        r->details = details;
+        r->blocks = blocks;
+        r->near_begin = begin;
+        r->detail_room = (uint32_t)room;
+    }
+    uint32_t used = r->near_begin[n];
+    if (used + MESO_BIRTH_NEAR > r->near_room) {
+        size_t room = 2 * ((size_t)used + MESO_BIRTH_NEAR);
+        MesoNeighbour *near = meso_arena_enlarge(&r->arena, r->near, used, room, sizeof *near, error);
+        if (!near)
+            return MESO_ERR_MEMORY;
+        r->near = near;
+        r->near_room = (uint32_t)room;
+    }
+    return MESO_OK;
+}
+
+/* Nearest first, as many as there is room for. */
+static void remember(MesoReplication *r, uint32_t detail, uint32_t other)
+{
+    uint32_t begin = r->near_begin[detail], *end = &r->near_begin[detail + 1], at = *end;
+    const MesoVec3 *places = r->web.positions + r->web.fixed_count;
+    float d = meso_chord(places, detail, other);
+    for (uint32_t i = begin; i < *end; i++)
+        if (r->near[i].detail == other)
+            return;
+    if (at - begin == MESO_BIRTH_NEAR) {
+        at--;
+        if (!(d < r->near[at].distance))
+            return;
+    } else {
+        ++*end;
+    }
+    for (; at > begin && d < r->near[at - 1].distance; at--)
+        r->near[at] = r->near[at - 1];
+    r->near[at] = (MesoNeighbour){other, d};
+}
+
+static void remember_near(MesoReplication *r, uint32_t detail)
+{
+    const MesoWeb *web = &r->web;
+    uint32_t ring[AROUND], second[AROUND];
+    uint32_t count = meso_web_ring(web, web->fixed_count + detail, ring, AROUND);
+    r->near_begin[detail + 1] = r->near_begin[detail];
+    for (uint32_t i = 0; i < count && i < AROUND; i++) {
+        uint32_t more = meso_web_ring(web, ring[i], second, AROUND);
+        if (ring[i] >= web->fixed_count)
+            remember(r, detail, ring[i] - web->fixed_count);
+        for (uint32_t k = 0; k < more && k < AROUND; k++)
+            if (second[k] >= web->fixed_count && second[k] != web->fixed_count + detail)
+                remember(r, detail, second[k] - web->fixed_count);
+    }
+}
+
+MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirth *birth, int32_t frame,
+                           MesoError *error)
+{
+    MesoWeb *web = &r->web;
+    const MesoVec3 *positions = r->now.positions;
+    MesoMeshPoint point = meso_point_towards(r->rest, positions, r->details[birth->beside].point, birth->place);
+    MesoVec3 position = meso_detail_position(r->rest, positions, &point);
+    MesoVec3 normal = meso_vec3_unit(meso_detail_position(r->rest, r->normals, &point), (MesoVec3){0, 0, 1});
+    MesoStatus status = make_room(r, error);
+    if (status == MESO_OK)
+        status = meso_web_insert(web, web_triangle(web, triangle, position), point, position, normal, error);
+    if (status != MESO_OK)
+        return status;
+    uint32_t detail = r->detail_count++;
+    const MesoDetail *copied = &r->details[birth->copied];
+    r->details[detail] = (MesoDetail){.point = point, .angle = copied_angle(r, birth, point.triangle),
+                                      .size = copied->size, .width = copied->width, .kind = copied->kind,
+                                      .copied = birth->copied, .rank = detail, .radius = INFINITY, .born = frame};
+    r->blocks[detail] = r->blocks[birth->beside];
+    r->due[r->blocks[detail]]--;
+    remember_near(r, detail);
+    if (r->near_begin[detail + 1] > r->near_begin[detail])
+        r->details[detail].radius = r->near[r->near_begin[detail]].distance;
+    return MESO_OK;
+}

@@ -1,0 +1,356 @@
+#include "libcore/replicate/plan/replicate.h"
+
+#include <stdlib.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/base/random.h"
+#include "libcore/mesh/point/vertex_normals.h"
+#include "libcore/replicate/plan/replicate_work.h"
+
+enum { BLOCK = 48, RING = 32, GRAIN = 4096, MESO_SETTLE_STRIDE = 1 };
+
+/* A triangle is not split that is no larger than this much of what its corners have at rest. */
+static const double LEAST_RATIO = 1.2;
+
+/* ---- beginning ---- */
+
+static MesoStatus check_originals(const MesoReplicateOptions *options, MesoError *error)
+{
+    for (uint32_t i = 0; i < options->original_count; i++) {
+        const MesoMeshPoint *p = &options->originals[i].point;
+        float sum = p->weight[0] + p->weight[1] + p->weight[2];
+        bool inside = p->weight[0] >= 0 && p->weight[1] >= 0 && p->weight[2] >= 0 && fabsf(sum - 1) < 1e-3f;
+        if (p->triangle >= options->clip->rest->triangle_count || !inside)
+            return meso_fail(error, MESO_ERR_INPUT, "detail %u has no place on the surface", i);
+    }
+    return MESO_OK;
+}
+
+typedef struct Ticket {
+    uint64_t number;
+    uint32_t detail;
+} Ticket;
+
+static int by_ticket(const void *a, const void *b)
+{
+    const Ticket *x = a, *y = b;
+    if (x->number != y->number)
+        return x->number < y->number ? -1 : 1;
+    return x->detail < y->detail ? -1 : x->detail > y->detail;
+}
+
+/* Which give way first where the surface shrinks, chance decides: so each part of it keeps its kind of distribution. */
+static MesoStatus rank_originals(MesoReplication *r, MesoArena *arena, MesoError *error)
+{
+    Ticket *tickets = MESO_NEW(arena, Ticket, r->detail_count, error);
+    if (!tickets)
+        return MESO_ERR_MEMORY;
+    MesoRandom random;
+    meso_random_init(&random, r->options.seed, 7);
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        tickets[i] = (Ticket){meso_random_next(&random), i};
+    qsort(tickets, r->detail_count, sizeof *tickets, by_ticket);
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        r->details[tickets[i].detail].rank = i;
+    return MESO_OK;
+}
+
+static MesoStatus take_originals(MesoReplication *r, MesoError *error)
+{
+    uint32_t n = r->detail_count = r->detail_room = r->options.original_count;
+    r->details = MESO_NEW(&r->arena, MesoDetail, n, error);
+    r->blocks = MESO_NEW(&r->arena, uint32_t, n, error);
+    r->near_begin = MESO_NEW(&r->arena, uint32_t, (size_t)n + 1, error);
+    MesoMeshPoint *points = MESO_NEW(&r->arena, MesoMeshPoint, n, error);
+    if (!r->details || !r->blocks || !r->near_begin || !points)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < n; i++) {
+        r->details[i] = r->options.originals[i];
+        r->details[i].copied = i;
+        r->details[i].radius = INFINITY;
+        r->details[i].born = MESO_DETAIL_ORIGINAL;
+        points[i] = r->details[i].point;
+    }
+    MesoStatus status = rank_originals(r, &r->arena, error);
+    if (status == MESO_OK)
+        status = meso_web_build(&r->web, &r->arena, r->rest, r->normals, points, n, error);
+    return status;
+}
+
+/* Parts of the web of BLOCK details or somewhat fewer, each grown from the first that has none. */
+static MesoStatus make_blocks(MesoReplication *r, MesoError *error)
+{
+    uint32_t *queue = MESO_NEW(&r->arena, uint32_t, r->detail_count, error), ring[RING];
+    if (!queue)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        r->blocks[i] = MESO_NO_INDEX;
+    for (uint32_t i = 0; i < r->detail_count; i++) {
+        uint32_t begin = 0, end = 0;
+        if (r->blocks[i] != MESO_NO_INDEX)
+            continue;
+        queue[end++] = i;
+        r->blocks[i] = r->block_count;
+        while (begin < end) {
+            uint32_t count = meso_web_ring(&r->web, r->web.fixed_count + queue[begin++], ring, RING);
+            for (uint32_t k = 0; k < count && k < RING && end < BLOCK; k++) {
+                uint32_t other = ring[k] - r->web.fixed_count;
+                if (ring[k] < r->web.fixed_count || r->blocks[other] != MESO_NO_INDEX)
+                    continue;
+                r->blocks[other] = r->block_count;
+                queue[end++] = other;
+            }
+        }
+        r->block_count++;
+    }
+    r->due = MESO_NEW(&r->arena, double, r->block_count, error);
+    return r->due ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static float area_now(const MesoTriangulation *mesh, const MesoVec3 *positions, uint32_t triangle)
+{
+    const uint32_t *c = mesh->corners + 3 * (size_t)triangle;
+    MesoVec3 u = meso_vec3_sub(positions[c[1]], positions[c[0]]), v = meso_vec3_sub(positions[c[2]], positions[c[0]]);
+    return 0.5f * meso_vec3_length(meso_vec3_cross(u, v));
+}
+
+static MesoStatus begin(MesoReplication *r, MesoError *error)
+{
+    r->rest = r->options.clip->rest;
+    r->now = *r->rest;
+    r->normals = MESO_NEW(&r->arena, MesoVec3, r->rest->vertex_count, error);
+    r->rest_areas = MESO_NEW(&r->arena, float, r->rest->triangle_count, error);
+    if (!r->normals || !r->rest_areas)
+        return MESO_ERR_MEMORY;
+    meso_vertex_normals(r->normals, r->rest);
+    for (uint32_t t = 0; t < r->rest->triangle_count; t++)
+        r->rest_areas[t] = area_now(r->rest, r->rest->positions, t);
+    MesoStatus status = take_originals(r, error);
+    if (status == MESO_OK)
+        status = meso_exemplars_build(&r->exemplars, &r->arena, r->rest, &r->web, r->details, r->options.seed, error);
+    if (status == MESO_OK)
+        status = make_blocks(r, error);
+    return status;
+}
+
+MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOptions *options, MesoError *error)
+{
+    MesoStatus status = check_originals(options, error);
+    if (status != MESO_OK)
+        return status;
+    MesoReplication *r = *out = calloc(1, sizeof *r);
+    if (!r)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: %zu bytes", sizeof *r);
+    meso_arena_init(&r->arena);
+    r->options = *options;
+    if (!(r->options.ramp > 0))
+        r->options.ramp = 0.06;
+    status = begin(r, error);
+    if (status != MESO_OK) {
+        meso_replicate_release(r);
+        *out = NULL;
+    }
+    return status;
+}
+
+void meso_replicate_release(MesoReplication *r)
+{
+    if (r)
+        meso_arena_release(&r->arena);
+    free(r);
+}
+
+const MesoDetail *meso_replicate_details(const MesoReplication *r, uint32_t *count)
+{
+    *count = r->detail_count;
+    return r->details;
+}
+
+const MesoWeb *meso_replicate_web(const MesoReplication *r)
+{
+    return &r->web;
+}
+
+/* ---- a frame ---- */
+
+/* Triangles of the web that may be split, the largest for what its corners have at rest first; ties by number. */
+typedef struct Candidate {
+    double ratio;
+    uint32_t triangle;
+} Candidate;
+
+typedef struct Heap {
+    MesoReplication *r;
+    Candidate *items;
+    uint32_t count, room;
+} Heap;
+
+static bool is_before(Candidate a, Candidate b)
+{
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.triangle < b.triangle;
+}
+
+/* 0 where a corner is no detail, and beyond the web. */
+static double ratio_of(const MesoReplication *r, uint32_t triangle)
+{
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
+    double expected = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        if (c[k] < r->web.fixed_count)
+            return 0;
+        expected += (double)r->exemplars.originals[r->details[c[k] - r->web.fixed_count].copied].area / 6;
+    }
+    return expected > 0 ? meso_web_area(&r->web, triangle) / expected : 0;
+}
+
+static uint32_t block_of(const MesoReplication *r, uint32_t triangle)
+{
+    return r->blocks[r->web.corners[3 * (size_t)triangle] - r->web.fixed_count];
+}
+
+static void sift_down(Heap *heap, uint32_t at)
+{
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child + 1 < heap->count && is_before(heap->items[child + 1], heap->items[child]))
+            child++;
+        if (child >= heap->count || !is_before(heap->items[child], heap->items[at]))
+            return;
+        Candidate swap = heap->items[at];
+        heap->items[at] = heap->items[child];
+        heap->items[child] = swap;
+        at = child;
+    }
+}
+
+static void push(Heap *heap, uint32_t triangle)
+{
+    double ratio = ratio_of(heap->r, triangle);
+    if (heap->count == heap->room || !(ratio > LEAST_RATIO))
+        return;
+    uint32_t at = heap->count++;
+    heap->items[at] = (Candidate){ratio, triangle};
+    for (; at > 0 && is_before(heap->items[at], heap->items[(at - 1) / 2]); at = (at - 1) / 2) {
+        Candidate swap = heap->items[at];
+        heap->items[at] = heap->items[(at - 1) / 2];
+        heap->items[(at - 1) / 2] = swap;
+    }
+}
+
+typedef struct Ratios {
+    const MesoReplication *r;
+    float *ratios;
+} Ratios;
+
+static void ratio_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Ratios *ratios = context;
+    const MesoReplication *r = ratios->r;
+    for (uint64_t t = begin; t < end; t++)
+        ratios->ratios[t] = (float)ratio_of(r, (uint32_t)t);
+}
+
+/* Details due by the stretch of the surface at each original, less those there are. */
+static double count_due(MesoReplication *r)
+{
+    double all = 0;
+    for (uint32_t b = 0; b < r->block_count; b++)
+        r->due[b] = 0;
+    for (uint32_t i = 0; i < r->detail_count; i++) {
+        double due = -1;
+        uint32_t t = r->details[i].point.triangle;
+        if (r->details[i].born == MESO_DETAIL_ORIGINAL)
+            due += r->rest_areas[t] > 0 ? (double)(area_now(r->rest, r->now.positions, t) / r->rest_areas[t]) : 1;
+        r->due[r->blocks[i]] += due;
+        all += due;
+    }
+    return all;
+}
+
+static MesoStatus split(Heap *heap, uint32_t triangle, uint32_t limit, int32_t frame, uint32_t *born, MesoError *error)
+{
+    MesoReplication *r = heap->r;
+    MesoBirth births[MESO_EXEMPLAR_INSIDE];
+    uint32_t count = meso_choose_births(r, triangle, limit, births);
+    for (uint32_t i = 0; i < count; i++) {
+        MesoStatus status = meso_give_birth(r, triangle, &births[i], frame, error);
+        if (status != MESO_OK)
+            return status;
+        uint32_t node = r->web.node_count - 1, h = r->web.node_corner[node], first = h;
+        do {    /* the details that are joined to it: their triangles are new */
+            push(heap, h / 3);
+            h = r->web.twins[meso_previous_corner(h)];
+        } while (h != first && h != MESO_NO_INDEX);
+    }
+    *born += count;
+    return MESO_OK;
+}
+
+static MesoStatus bear(Heap *heap, double due, int32_t frame, MesoError *error)
+{
+    MesoReplication *r = heap->r;
+    uint32_t born = 0;
+    while (heap->count > 0 && born + 0.5 <= due) {
+        Candidate top = heap->items[0];
+        double ratio = ratio_of(r, top.triangle), room = r->due[block_of(r, top.triangle)];
+        heap->items[0] = heap->items[--heap->count];
+        sift_down(heap, 0);
+        if (ratio < top.ratio * (1 - 1e-12)) {      /* it is another triangle by now */
+            push(heap, top.triangle);
+            continue;
+        }
+        if (room < 0.5)
+            continue;
+        uint32_t limit = (uint32_t)fmin(fmin(room + 0.5, due + 0.5 - born), MESO_EXEMPLAR_INSIDE);
+        MesoStatus status = split(heap, top.triangle, limit > 0 ? limit : 1, frame, &born, error);
+        if (status != MESO_OK)
+            return status;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
+{
+    double due = count_due(r);
+    if (due < 0.5)
+        return MESO_OK;
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    uint32_t n = r->web.triangle_count;
+    Heap heap = {.r = r, .room = n + 64 + 32 * (uint32_t)due};
+    heap.items = MESO_NEW(&scratch, Candidate, heap.room, error);
+    Ratios ratios = {r, MESO_NEW(&scratch, float, n, error)};
+    MesoStatus status = heap.items && ratios.ratios ? MESO_OK : MESO_ERR_MEMORY;
+    if (status == MESO_OK) {
+        meso_parallel_for(r->options.thread_count, n, GRAIN, ratio_range, &ratios);
+        for (uint32_t t = 0; t < n; t++)
+            if ((double)ratios.ratios[t] > LEAST_RATIO && r->due[block_of(r, t)] >= 0.5)
+                push(&heap, t);
+        status = bear(&heap, due, frame, error);
+    }
+    meso_arena_release(&scratch);
+    return status;
+}
+
+static MesoStatus check_positions(const MesoReplication *r, const MesoVec3 *positions, uint32_t frame, MesoError *error)
+{
+    for (uint32_t v = 0; v < r->rest->vertex_count; v++)
+        if (!isfinite(positions[v].x) || !isfinite(positions[v].y) || !isfinite(positions[v].z))
+            return meso_fail(error, MESO_ERR_INPUT, "frame %u: vertex %u has no place", frame, v);
+    return MESO_OK;
+}
+
+MesoStatus meso_replicate_step(MesoReplication *r, uint32_t frame, MesoError *error)
+{
+    const MesoClip *clip = r->options.clip;
+    const MesoVec3 *positions = clip->positions(clip->context, frame, error);
+    MesoStatus status = positions ? check_positions(r, positions, frame, error)
+                                  : error ? error->status : MESO_ERR_INPUT;
+    if (status != MESO_OK)
+        return status;
+    r->now.positions = (MesoVec3 *)(uintptr_t)positions;    /* read alone */
+    meso_vertex_normals(r->normals, &r->now);
+    meso_web_place(&r->web, r->rest, positions, r->normals, r->options.thread_count);
+    meso_web_settle(&r->web, frame % MESO_SETTLE_STRIDE, MESO_SETTLE_STRIDE);
+    return replicate(r, (int32_t)frame, error);
+}

@@ -1,0 +1,62 @@
+/* What a replication knows while it goes through a clip. */
+#ifndef MESO_REPLICATE_WORK_H
+#define MESO_REPLICATE_WORK_H
+
+#include "libcore/replicate/plan/exemplars.h"
+#include "libcore/replicate/plan/replicate.h"
+
+enum { MESO_BIRTH_NEAR = 24 };
+
+/* A detail beside another when that was born, or at rest. */
+typedef struct MesoNeighbour {
+    uint32_t detail;
+    float distance;
+} MesoNeighbour;
+
+struct MesoReplication {
+    MesoArena arena;
+    MesoReplicateOptions options;
+    const MesoTriangulation *rest;
+    MesoTriangulation now;          /* `rest` with the positions of the frame: not owned */
+    MesoVec3 *normals;              /* [rest->vertex_count] of the frame */
+    float *rest_areas;              /* [rest->triangle_count] */
+    MesoWeb web;
+    MesoExemplars exemplars;
+    uint32_t detail_count, detail_room;
+    MesoDetail *details;
+    uint32_t *blocks;               /* [detail_count] part of the surface in which births are counted */
+    uint32_t *near_begin;           /* [detail_count + 1] */
+    uint32_t near_room;
+    MesoNeighbour *near;            /* those around it that were there before */
+    uint32_t block_count;
+    double *due;                    /* [block_count] details due in a block, less those there */
+};
+
+/* A detail that will be born. */
+typedef struct MesoBirth {
+    uint32_t copied;
+    MesoVec3 place;     /* in the plane of its triangle of the web, not yet on the surface */
+    uint32_t beside;    /* detail at the corner that it is nearest to */
+} MesoBirth;
+
+/* Those that the best of similar exemplars puts into a triangle of the web whose corners are details; how many. */
+uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
+                            MesoBirth births[MESO_EXEMPLAR_INSIDE]);
+
+/*
+ * The point under a place near the surface: from triangle to triangle towards it, not through what lies between, so that
+ * the other side of a thin part is not met.
+ */
+MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *positions, MesoMeshPoint from,
+                                 MesoVec3 place);
+
+/* Adds a detail to the web, in or near a triangle of it, and to what is known. */
+MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirth *birth, int32_t frame,
+                           MesoError *error);
+
+static inline float meso_chord(const MesoVec3 *positions, uint32_t a, uint32_t b)
+{
+    return meso_vec3_length(meso_vec3_sub(positions[a], positions[b]));
+}
+
+#endif
