@@ -292,13 +292,14 @@ static MesoStatus bear(Heap *heap, double due, int32_t frame, MesoError *error)
     uint32_t born = 0;
     while (heap->count > 0 && born + 0.5 <= due) {
         Candidate top = heap->items[0];
-        double ratio = ratio_of(r, top.triangle), room = r->due[block_of(r, top.triangle)];
+        double ratio = ratio_of(r, top.triangle);
         heap->items[0] = heap->items[--heap->count];
         sift_down(heap, 0);
         if (ratio < top.ratio * (1 - 1e-12)) {      /* it is another triangle by now */
             push(heap, top.triangle);
             continue;
         }
+        double room = r->due[block_of(r, top.triangle)];
         if (room < 0.5)
             continue;
         uint32_t limit = (uint32_t)fmin(fmin(room + 0.5, due + 0.5 - born), MESO_EXEMPLAR_INSIDE);
