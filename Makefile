@@ -15,6 +15,7 @@
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
 #   bench-grow        walks over surfaces and marches through textures: rates and errors; growth with its geometry
+#   bench-replicate   details on a patch that is stretched, beside the paper's Table 1; times
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   quilts            ten pictures of quilts, to build/quilts
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
@@ -168,6 +169,8 @@ bench-quilt: $(OUT)/test/libcore/quilt/check/quilt_bench
 bench-grow: $(addprefix $(OUT)/test/libcore/,geodesic/transport/straight_walk_bench growth/march/texture_march_bench \
             growth/scene/growth_scene_bench)
 	@for bench in $^; do $$bench; done
+bench-replicate: $(OUT)/test/libcore/replicate/plan/replicate_bench
+	@$<
 bench-exact: $(OUT)/test/libcore/geodesic/geodesic_bench
 	@$< --exact
 demo: all generators
@@ -187,6 +190,7 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-reference bench \
-        bench-solve bench-decor bench-quilt bench-grow bench-exact demo quilts fuzz-run fuzzers benches references install clean
+        bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts fuzz-run fuzzers benches \
+        references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

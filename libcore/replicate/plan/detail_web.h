@@ -69,7 +69,8 @@ typedef struct MesoWebEdges {
 MesoWebEdges meso_web_edges(const MesoWeb *web);
 
 /*
- * Neighbours of a node, at most `room` of them are written, in no order that means anything; returns how many there are.
+ * Neighbours of a node, at most `room` of them are written, in no order that means anything; returns how many there
+ * are.
  */
 uint32_t meso_web_ring(const MesoWeb *web, uint32_t node, uint32_t *ring, uint32_t room);
 

@@ -77,7 +77,8 @@ static bool is_delaunay(const MesoWeb *web)
             p[k][1] = (double)web->positions[web->corners[3 * t + k]].y;
         }
         double a = p[1][0] - p[0][0], b = p[1][1] - p[0][1], c = p[2][0] - p[0][0], d = p[2][1] - p[0][1];
-        double e = a * (p[0][0] + p[1][0]) + b * (p[0][1] + p[1][1]), f = c * (p[0][0] + p[2][0]) + d * (p[0][1] + p[2][1]);
+        double e = a * (p[0][0] + p[1][0]) + b * (p[0][1] + p[1][1]);
+        double f = c * (p[0][0] + p[2][0]) + d * (p[0][1] + p[2][1]);
         double g = 2 * (a * d - b * c);
         if (!(g > 0))
             return false;
@@ -153,8 +154,10 @@ static void test_odd(void)
 {
     MesoTriangulation mesh = meso_fixture_ball(4);
     MesoMeshPoint points[40];
-    for (uint32_t i = 0; i < 40; i++)
-        points[i] = (MesoMeshPoint){i / 4, {i % 4 == 0, i % 4 == 1 ? 0.5f : i % 4 == 2, i % 4 == 1 ? 0.5f : i % 4 == 3}};
+    for (uint32_t i = 0; i < 40; i++) {
+        float half = i % 4 == 1 ? 0.5f : 0;
+        points[i] = (MesoMeshPoint){i / 4, {i % 4 == 0, half + (i % 4 == 2), half + (i % 4 == 3)}};
+    }
     Stage s = start(mesh, points, 40);
     check_web(&s, 2);
     end(&s);

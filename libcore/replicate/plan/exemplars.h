@@ -22,7 +22,7 @@ typedef struct MesoExemplar {
 /* What is known of an original at rest. */
 typedef struct MesoOriginal {
     float area;                         /* of its cell: a third of the triangles around it */
-    float near[MESO_ORIGINAL_NEAR];     /* distances of the nearest others, ascending; INFINITY where there are no more */
+    float near[MESO_ORIGINAL_NEAR];     /* distances of the nearest others, ascending; INFINITY: no more */
     float turn;                         /* its heading from that of the nearest */
 } MesoOriginal;
 

@@ -3,7 +3,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/statistics/point_grid.h"
 
-enum { RING = 32 };
+enum { RING = 32, WIDEST = 600 };
 
 /* A ramp begins beyond where details lie at rest. */
 static const double BEYOND_REST = 1.001;
@@ -26,33 +26,58 @@ static MesoStatus add(Pairing *p, uint32_t *count, MesoReplicaPair pair, MesoErr
     return MESO_OK;
 }
 
+/* The nearest of lower rank, if it is among so many around it. */
+static MesoNeighbour find_above(const MesoReplication *r, uint32_t detail, uint32_t *stamps, uint32_t *queue)
+{
+    const MesoWeb *web = &r->web;
+    MesoNeighbour above = {MESO_NO_INDEX, INFINITY};
+    uint32_t begin = 0, end = 0, ring[RING], last = WIDEST;
+    queue[end++] = detail;
+    stamps[detail] = detail + 1;
+    while (begin < end && begin < last) {
+        uint32_t count = meso_web_ring(web, web->fixed_count + queue[begin++], ring, RING);
+        for (uint32_t i = 0; i < count && i < RING && end < WIDEST; i++) {
+            uint32_t other = ring[i] - web->fixed_count;
+            if (ring[i] < web->fixed_count || stamps[other] == detail + 1)
+                continue;
+            stamps[other] = detail + 1;
+            queue[end++] = other;
+            float d = meso_chord(web->positions + web->fixed_count, detail, other);
+            if (r->details[other].rank < r->details[detail].rank && d < above.distance) {
+                above = (MesoNeighbour){other, d};
+                last = end < last ? end : last;     /* what is joined to those before may be nearer */
+            }
+        }
+    }
+    return above;
+}
+
+MesoStatus meso_find_above(MesoReplication *r, MesoError *error)
+{
+    uint32_t *stamps = MESO_NEW(&r->arena, uint32_t, r->detail_count, error), queue[WIDEST];
+    r->above = MESO_NEW(&r->arena, MesoNeighbour, r->detail_count, error);
+    if (!stamps || !r->above)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        r->above[i] = find_above(r, i, stamps, queue);
+    return MESO_OK;
+}
+
 /*
  * Originals: one of rank k out of n is to be gone where the surface has shrunk to k / n of its area, and so to the root
- * of that in length.
+ * of that in length; also where the other one has gone.
  */
 static MesoStatus pair_original(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
 {
     const MesoReplication *r = p->r;
-    uint32_t ring[RING], nearest = MESO_NO_INDEX;
-    float least = INFINITY;
-    uint32_t found = meso_web_ring(&r->web, r->web.fixed_count + detail, ring, RING);
-    for (uint32_t i = 0; i < found && i < RING; i++) {
-        uint32_t other = ring[i] - r->web.fixed_count;
-        if (ring[i] < r->web.fixed_count || r->details[other].rank >= r->details[detail].rank)
-            continue;
-        float d = meso_chord(p->places, detail, other);
-        if (d < least) {
-            least = d;
-            nearest = other;
-        }
-    }
-    double to = (double)least * sqrt((r->details[detail].rank + 0.5) / r->options.original_count);
-    p->plan->details[detail].radius = nearest == MESO_NO_INDEX ? INFINITY : (float)to;
-    if (nearest == MESO_NO_INDEX || !(to > 0))
+    MesoNeighbour above = r->above[detail];
+    double ramp = r->options.ramp, share = sqrt((r->details[detail].rank + 0.5) / r->options.original_count);
+    double to = fmin(share * (1 + ramp / 2), 1 / BEYOND_REST) * (double)above.distance;
+    p->plan->details[detail].radius = (float)to;
+    if (above.detail == MESO_NO_INDEX || !(to > 0))
         return MESO_OK;
-    return add(p, count, (MesoReplicaPair){nearest, (float)((1 - r->options.ramp) * to), (float)to}, error);
+    return add(p, count, (MesoReplicaPair){above.detail, true, (float)((1 - ramp) * to), (float)to}, error);
 }
-
 
 /* The original that is nearest at rest. */
 static uint32_t nearest_original(const Pairing *p, uint32_t detail)
@@ -101,7 +126,7 @@ static MesoStatus keep_away(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
         from = fmax(from, (1 - r->options.ramp) * most * rest);
         to = from / (1 - r->options.ramp);
     }
-    return from > 0 ? add(p, count, (MesoReplicaPair){best, (float)from, (float)to}, error) : MESO_OK;
+    return from > 0 ? add(p, count, (MesoReplicaPair){best, false, (float)from, (float)to}, error) : MESO_OK;
 }
 
 static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
@@ -116,7 +141,7 @@ static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
         if (!(BEYOND_REST * rest < from))
             continue;       /* it has hardly come nearer */
         away |= other < r->options.original_count;
-        MesoStatus status = add(p, count, (MesoReplicaPair){other, (float)from, (float)radius}, error);
+        MesoStatus status = add(p, count, (MesoReplicaPair){other, false, (float)from, (float)radius}, error);
         if (status != MESO_OK)
             return status;
     }

@@ -6,9 +6,11 @@
 
 enum { GRAIN = 8192 };
 
+#define ALWAYS 0x80000000u
+
 /* A pair as play reads it: squares, so that what lies beyond the ramp asks for no root. */
 typedef struct Hindrance {
-    uint32_t slot;
+    uint32_t slot;          /* and ALWAYS */
     float from, to;
 } Hindrance;
 
@@ -42,6 +44,8 @@ static int by_slot(const void *a, const void *b)
 
 static MesoStatus check(const MesoReplicaPlan *plan, const MesoTriangulation *rest, MesoError *error)
 {
+    if (plan->detail_count >= ALWAYS)
+        return meso_fail(error, MESO_ERR_LIMIT, "too many details: %u", plan->detail_count);
     if (plan->pair_begin[0] != 0)
         return meso_fail(error, MESO_ERR_INPUT, "pairs do not begin with the first");
     for (uint32_t k = 0; k < plan->detail_count; k++) {
@@ -77,7 +81,7 @@ static MesoStatus order_details(Slot *slots, const MesoReplicaPlan *plan, MesoAr
         uint32_t k = by_rank[r], level = 0;
         for (uint32_t i = plan->pair_begin[k]; i < plan->pair_begin[k + 1]; i++) {
             uint32_t other = slots[plan->pairs[i].other].level;
-            level = other >= level ? other + 1 : level;
+            level = !plan->pairs[i].always && other >= level ? other + 1 : level;
         }
         slots[k] = (Slot){level, plan->details[k].point.triangle, k};
     }
@@ -116,7 +120,8 @@ static void fill(MesoPlayer *p, const Slot *slots, const uint32_t *slot_of, cons
         }
         p->begin[s] = made;
         for (uint32_t i = plan->pair_begin[k]; i < plan->pair_begin[k + 1]; i++)
-            p->hindrances[made++] = (Hindrance){slot_of[plan->pairs[i].other], plan->pairs[i].from, plan->pairs[i].to};
+            p->hindrances[made++] = (Hindrance){slot_of[plan->pairs[i].other] | (plan->pairs[i].always ? ALWAYS : 0),
+                                                plan->pairs[i].from, plan->pairs[i].to};
     }
     p->begin[p->count] = made;
     p->levels[p->level_count] = p->count;
@@ -188,10 +193,11 @@ static void play_range(void *context, uint64_t begin, uint64_t end)
         float share = 1;
         for (uint32_t i = p->begin[s]; i < p->begin[s + 1] && share > 0; i++) {
             const Hindrance *h = &p->hindrances[i];
-            MesoVec3 apart = meso_vec3_sub(p->places[h->slot], at);
+            uint32_t other = h->slot & ~ALWAYS;
+            MesoVec3 apart = meso_vec3_sub(p->places[other], at);
             float d2 = meso_vec3_dot(apart, apart);
             if (d2 < h->to * h->to)
-                share = fminf(share, share_beside(p->shares[h->slot], d2, h));
+                share = fminf(share, share_beside(h->slot & ALWAYS ? 1 : p->shares[other], d2, h));
         }
         p->shares[s] = share;
         playing->grown[p->details[s]] = share;

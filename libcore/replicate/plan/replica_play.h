@@ -4,8 +4,9 @@
  *
  *     s_k = min over pairs (k, j) of 1 - s_j (1 - S((d_kj - from) / (to - from)))
  *
- * S a smooth step and d the distance now. No history: any shape alone, in any order, the same forwards and backwards.
- * It is continuous; what a frame can change is bounded by the change of distances over the ramps' lengths.
+ * S a smooth step and d the distance now; without s_j where the pair holds always. No history: any shape alone, in any
+ * order, the same forwards and backwards. It is continuous; what a frame can change is bounded by the change of
+ * distances over the ramps' lengths.
  */
 #ifndef MESO_REPLICA_PLAY_H
 #define MESO_REPLICA_PLAY_H
@@ -16,6 +17,7 @@
 /* Nearer than `from` to the other one it is not there, farther than `to` all of it. */
 typedef struct MesoReplicaPair {
     uint32_t other;         /* of lower rank */
+    bool always;            /* whether the other one is there or not: how near its place is says how the surface is */
     float from, to;         /* 0 < from < to; to may be INFINITY: it never is where the other one is */
 } MesoReplicaPair;
 
@@ -30,7 +32,8 @@ typedef struct MesoPlayer MesoPlayer;
 
 /*
  * Makes ready to play: details by how many others they wait for, and by place. Arrays are in the arena; the plan is not
- * kept. MESO_ERR_INPUT where a pair is not as said above, by detail; MESO_ERR_MEMORY. O(details log + pairs).
+ * kept. MESO_ERR_INPUT where a pair is not as said above, by detail; MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(details log +
+ * pairs).
  */
 MesoStatus meso_player_build(MesoPlayer **player, MesoArena *arena, const MesoTriangulation *rest,
                              const MesoReplicaPlan *plan, MesoError *error);

@@ -130,6 +130,8 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
         status = meso_exemplars_build(&r->exemplars, &r->arena, r->rest, &r->web, r->details, r->options.seed, error);
     if (status == MESO_OK)
         status = make_blocks(r, error);
+    if (status == MESO_OK)
+        status = meso_find_above(r, error);
     return status;
 }
 

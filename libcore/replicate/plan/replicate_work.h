@@ -28,6 +28,7 @@ struct MesoReplication {
     uint32_t *near_begin;           /* [detail_count + 1] */
     uint32_t near_room;
     MesoNeighbour *near;            /* those around it that were there before */
+    MesoNeighbour *above;           /* [original_count] the nearest of lower rank, at rest; or MESO_NO_INDEX */
     uint32_t block_count;
     double *due;                    /* [block_count] details due in a block, less those there */
 };
@@ -44,8 +45,8 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
                             MesoBirth births[MESO_EXEMPLAR_INSIDE]);
 
 /*
- * The point under a place near the surface: from triangle to triangle towards it, not through what lies between, so that
- * the other side of a thin part is not met.
+ * The point under a place near the surface: from triangle to triangle towards it, not through what lies between, so
+ * that the other side of a thin part is not met.
  */
 MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *positions, MesoMeshPoint from,
                                  MesoVec3 place);
@@ -53,6 +54,9 @@ MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *
 /* Adds a detail to the web, in or near a triangle of it, and to what is known. */
 MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirth *birth, int32_t frame,
                            MesoError *error);
+
+/* Fills `above`. MESO_ERR_MEMORY alone. */
+MesoStatus meso_find_above(MesoReplication *r, MesoError *error);
 
 static inline float meso_chord(const MesoVec3 *positions, uint32_t a, uint32_t b)
 {

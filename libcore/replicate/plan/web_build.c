@@ -444,8 +444,9 @@ static MesoStatus finish(MesoWeb *web, Build *b, MesoArena *scratch, const MesoM
 {
     uint32_t *new_node = MESO_NEW(scratch, uint32_t, b->web.node_count, error);
     uint32_t *new_triangle = MESO_NEW(scratch, uint32_t, b->web.triangle_count, error);
-    MesoStatus status = new_node && new_triangle ? meso_web_reserve(web, b->web.node_count, b->web.triangle_count, error)
-                                                 : MESO_ERR_MEMORY;
+    if (!new_node || !new_triangle)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_web_reserve(web, b->web.node_count, b->web.triangle_count, error);
     if (status != MESO_OK)
         return status;
     const MesoTriangulation *mesh = b->mesh;

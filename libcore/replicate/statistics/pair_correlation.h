@@ -50,8 +50,8 @@ double meso_pair_difference(const MesoPairCorrelation *a, const MesoPairCorrelat
 double meso_surface_area(const MesoTriangulation *mesh, const MesoVec3 *positions);
 
 /*
- * `count` places that lie evenly by area over a frame; those of one triangle by a sequence of low discrepancy. A surface
- * without area: all in its first triangle. O(triangles + count).
+ * `count` places that lie evenly by area over a frame; those of one triangle by a sequence of low discrepancy. A
+ * surface without area: all in its first triangle. O(triangles + count).
  */
 void meso_even_points(MesoMeshPoint *out, uint32_t count, const MesoTriangulation *mesh, const MesoVec3 *positions);
 

@@ -27,7 +27,7 @@ typedef struct MesoPointRange {
 
 enum { MESO_POINT_CELLS = 27 };
 
-/* One of the MESO_POINT_CELLS cells in and around that of a place: all that is nearer than a cell's width is in them. */
+/* One of the MESO_POINT_CELLS cells in and around that of a place: what is nearer than a cell's width is in them. */
 MesoPointRange meso_point_grid_range(const MesoPointGrid *grid, MesoVec3 place, uint32_t cell);
 
 #endif

@@ -1,0 +1,270 @@
+/* Plans of clips, and what comes out when they are played. */
+#include "libcore/mesh/cut/triangulation_fixture.h"
+#include "libcore/replicate/plan/replicate.h"
+#include "libcore/replicate/statistics/points_fixture.h"
+
+enum { FRAMES = 20 };
+
+typedef MesoVec3 (*Motion)(MesoVec3 p, float time);
+
+typedef struct Stage {
+    MesoTriangulation mesh;
+    MesoVec3 *moved;
+    Motion motion;
+    MesoClip clip;
+    MesoMeshPoint *points;
+    MesoDetail *originals;
+    uint32_t count;
+    MesoReplication *replication;
+} Stage;
+
+static const MesoVec3 *move(void *context, uint32_t frame, MesoError *error)
+{
+    Stage *s = context;
+    (void)error;
+    for (uint32_t v = 0; v < s->mesh.vertex_count; v++)
+        s->moved[v] = s->motion(s->mesh.positions[v], (float)frame / FRAMES);
+    return s->moved;
+}
+
+static void start(Stage *s, MesoTriangulation mesh, uint32_t count, Motion motion, uint32_t thread_count)
+{
+    *s = (Stage){.mesh = mesh, .motion = motion, .count = count};
+    s->moved = malloc(mesh.vertex_count * sizeof *s->moved);
+    s->points = meso_strew_discs(&s->mesh, &s->count, 0.7, 5);
+    s->originals = calloc(s->count, sizeof *s->originals);
+    CHECK(s->moved && s->originals);
+    for (uint32_t i = 0; i < s->count; i++)
+        s->originals[i] = (MesoDetail){.point = s->points[i], .size = 1 + (float)(i % 3), .width = 1, .kind = i % 3};
+    s->clip = (MesoClip){&s->mesh, FRAMES + 1, move, s};
+    MesoReplicateOptions options = {.clip = &s->clip, .originals = s->originals, .original_count = s->count,
+                                    .thread_count = thread_count};
+    CHECK(meso_replicate_begin(&s->replication, &options, NULL) == MESO_OK);
+}
+
+static uint32_t run(Stage *s)
+{
+    uint32_t count;
+    for (uint32_t f = 0; f <= FRAMES; f++)
+        CHECK(meso_replicate_step(s->replication, f, NULL) == MESO_OK);
+    meso_replicate_details(s->replication, &count);
+    return count;
+}
+
+static void end(Stage *s)
+{
+    meso_replicate_release(s->replication);
+    meso_triangulation_release(&s->mesh);
+    free(s->moved);
+    free(s->points);
+    free(s->originals);
+}
+
+static MesoVec3 stretch(MesoVec3 p, float time)
+{
+    return (MesoVec3){p.x * (1 + time), p.y, p.z};
+}
+
+static MesoVec3 scale(MesoVec3 p, float time)
+{
+    return meso_vec3_scale(p, 1 + time);
+}
+
+/* The plane onto a cylinder, whose radius is that of the circle that it goes half around at the end. */
+static MesoVec3 bend(MesoVec3 p, float time)
+{
+    float a = 3.14159265f * time;
+    return a > 0 ? (MesoVec3){sinf(a * p.x) / a, p.y, (1 - cosf(a * p.x)) / a} : p;
+}
+
+/* Twice the area, twice the details; twice the size, four times; bent, none. Each is a copy, where it was born. */
+static void test_counts(void)
+{
+    const struct {
+        Motion motion;
+        double times;
+    } cases[] = {{stretch, 2}, {scale, 4}, {bend, 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Stage s;
+        start(&s, meso_fixture_sheet(50, 50, 0.02f), 1500, cases[i].motion, 1);
+        uint32_t count = run(&s), kinds[3] = {0};
+        CHECK(fabs(count - cases[i].times * s.count) <= (i == 2 ? 0 : 0.02 * count));
+        const MesoDetail *details = meso_replicate_details(s.replication, &count);
+        for (uint32_t k = s.count; k < count; k++) {
+            CHECK(details[k].rank == k && details[k].copied < s.count && details[k].born >= 0);
+            CHECK(details[k].kind == details[details[k].copied].kind && details[k].radius > 0);
+            CHECK(details[k].size == details[details[k].copied].size);
+            kinds[details[k].kind]++;
+        }
+        for (int k = 0; k < 3; k++)
+            CHECK(fabs(kinds[k] - (count - s.count) / 3.0) <= 0.06 * count);
+        MesoError error;
+        CHECK(meso_web_check(meso_replicate_web(s.replication), 1, &error) == MESO_OK);
+        end(&s);
+    }
+}
+
+static MesoVec3 inflate(MesoVec3 p, float time)
+{
+    return meso_vec3_scale(p, 1 + time * fmaxf(0, p.z));
+}
+
+/* Closed surfaces, of which a part grows: details are born there, and the web stays what it is. */
+static void test_closed(void)
+{
+    for (int shape = 0; shape < 2; shape++) {
+        Stage s;
+        start(&s, shape ? meso_fixture_torus(80, 30, 0.4f) : meso_fixture_ball(24), 2000, inflate, 1);
+        double before = meso_surface_area(&s.mesh, s.mesh.positions);
+        uint32_t count = run(&s), below = 0;
+        double after = meso_surface_area(&s.mesh, s.moved);
+        CHECK(fabs(count / (double)s.count - after / before) < 0.02 * after / before);
+        const MesoDetail *details = meso_replicate_details(s.replication, &count);
+        for (uint32_t k = s.count; k < count; k++)
+            below += meso_detail_position(&s.mesh, s.mesh.positions, &details[k].point).z < -0.25f;
+        CHECK(below < (count - s.count) / 50);
+        MesoError error;
+        CHECK(meso_web_check(meso_replicate_web(s.replication), shape ? 0 : 2, &error) == MESO_OK);
+        end(&s);
+    }
+}
+
+static double apart(const float *a, const float *b, uint32_t count)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++)
+        most = fmax(most, fabs((double)a[i] - (double)b[i]));
+    return most;
+}
+
+/* At rest the originals alone are there, all of them; nothing pops; density is kept all the way, and back. */
+static void test_played(void)
+{
+    Stage s;
+    MesoArena arena;
+    MesoReplicaPlan plan;
+    MesoPlayer *player;
+    start(&s, meso_fixture_sheet(50, 50, 0.02f), 1500, stretch, 1);
+    meso_arena_init(&arena);
+    run(&s);
+    CHECK(meso_replicate_plan(&plan, &arena, s.replication, NULL) == MESO_OK);
+    CHECK(meso_player_build(&player, &arena, &s.mesh, &plan, NULL) == MESO_OK);
+    float *shares[3];
+    for (int i = 0; i < 3; i++)
+        CHECK(shares[i] = MESO_NEW(&arena, float, plan.detail_count, NULL));
+    meso_player_play(player, shares[0], move(&s, 0, NULL), 1);
+    for (uint32_t i = 0; i < plan.detail_count; i++)
+        CHECK(shares[0][i] == (i < s.count));
+    for (uint32_t f = 1; f <= FRAMES; f++) {
+        meso_player_play(player, shares[f % 2], move(&s, f, NULL), 1);
+        double sum = 0;
+        for (uint32_t i = 0; i < plan.detail_count; i++)
+            sum += (double)shares[f % 2][i];
+        CHECK(fabs(sum / (s.count * (1 + (double)f / FRAMES)) - 1) < 0.1);
+    }
+    /* quarters of a frame */
+    for (int step = 1; step <= 2; step++) {
+        double most = 0;
+        for (int k = 0; k <= 8; k++) {
+            for (uint32_t v = 0; v < s.mesh.vertex_count; v++)
+                s.moved[v] = stretch(s.mesh.positions[v], 0.5f + 0.0025f * (float)(k * step));
+            meso_player_play(player, shares[k % 2], s.moved, 1);
+            most = k ? fmax(most, apart(shares[0], shares[1], plan.detail_count)) : 0;
+        }
+        CHECK(most > 0 && most < 0.08 * step);
+    }
+    meso_player_play(player, shares[2], move(&s, 0, NULL), 2);
+    for (uint32_t i = 0; i < plan.detail_count; i++)
+        CHECK(shares[2][i] == (i < s.count));
+    meso_arena_release(&arena);
+    end(&s);
+}
+
+static MesoVec3 shrink(MesoVec3 p, float time)
+{
+    return meso_vec3_scale(p, 1 - 0.5f * time);
+}
+
+/* Half the size, a quarter of them. */
+static void test_shrunk(void)
+{
+    Stage s;
+    MesoArena arena;
+    MesoReplicaPlan plan;
+    MesoPlayer *player;
+    start(&s, meso_fixture_sheet(50, 50, 0.02f), 3000, shrink, 1);
+    meso_arena_init(&arena);
+    CHECK(run(&s) == s.count);
+    CHECK(meso_replicate_plan(&plan, &arena, s.replication, NULL) == MESO_OK);
+    CHECK(meso_player_build(&player, &arena, &s.mesh, &plan, NULL) == MESO_OK);
+    float *grown = MESO_NEW(&arena, float, s.count, NULL);
+    for (uint32_t f = 0; f <= FRAMES; f += 5) {
+        double sum = 0, left = 1 - 0.5 * f / FRAMES;
+        meso_player_play(player, grown, move(&s, f, NULL), 1);
+        for (uint32_t i = 0; i < s.count; i++)
+            sum += (double)grown[i];
+        CHECK(fabs(sum / s.count - left * left) < 0.06);
+    }
+    meso_arena_release(&arena);
+    end(&s);
+}
+
+/* The same bytes for any number of threads, and again. */
+static void test_threads(void)
+{
+    const uint32_t threads[4] = {1, 2, 7, 1};
+    Stage s[4];
+    for (int i = 0; i < 4; i++) {
+        start(&s[i], meso_fixture_torus(80, 30, 0.4f), 3000, scale, threads[i]);
+        uint32_t count = run(&s[i]), first;
+        const MesoDetail *details = meso_replicate_details(s[0].replication, &first);
+        CHECK(count == first);
+        CHECK(memcmp(details, meso_replicate_details(s[i].replication, &count), first * sizeof *details) == 0);
+    }
+    for (int i = 0; i < 4; i++)
+        end(&s[i]);
+}
+
+static MesoVec3 torn(MesoVec3 p, float time)
+{
+    return time > 0.3f && p.x > 0.5f ? (MesoVec3){NAN, p.y, p.z} : p;
+}
+
+static MesoVec3 folded(MesoVec3 p, float time)
+{
+    return time > 0.5f ? (MesoVec3){0, 0, 0} : (MesoVec3){fabsf(p.x - time) * 3, p.y, 0};
+}
+
+/* Frames that are none are refused by name; folds and what collapses are gone through. */
+static void test_odd(void)
+{
+    Stage s;
+    MesoError error;
+    start(&s, meso_fixture_sheet(10, 10, 0.1f), 200, torn, 1);
+    CHECK(meso_replicate_step(s.replication, 0, &error) == MESO_OK);
+    CHECK(meso_replicate_step(s.replication, 12, &error) == MESO_ERR_INPUT);
+    CHECK(strstr(error.message, "frame 12: vertex 6"));
+    s.originals[7].point.weight[0] = -1;
+    MesoReplicateOptions options = {.clip = &s.clip, .originals = s.originals, .original_count = s.count};
+    MesoReplication *none;
+    CHECK(meso_replicate_begin(&none, &options, &error) == MESO_ERR_INPUT && strstr(error.message, "detail 7"));
+    end(&s);
+    start(&s, meso_fixture_sheet(10, 10, 0.1f), 200, folded, 1);
+    run(&s);
+    CHECK(meso_web_check(meso_replicate_web(s.replication), 1, &error) == MESO_OK);
+    end(&s);
+    start(&s, meso_fixture_ball(6), 3, scale, 1);
+    run(&s);
+    end(&s);
+}
+
+int main(void)
+{
+    test_counts();
+    test_closed();
+    test_played();
+    test_shrunk();
+    test_threads();
+    test_odd();
+    return 0;
+}
