@@ -2,39 +2,9 @@
 
 #include "libcore/base/grow.h"
 #include "libcore/base/parallel.h"
-#include "libcore/math/vec3d.h"
 #include "libcore/replicate/plan/web_edit.h"
 
 enum { GRAIN = 4096 };
-
-/* ---- lengths ---- */
-
-/* Of an arc over its chord: asin(s) / s, s the sine of half the angle between the normals; so far and no further. */
-static double arc_over_chord(MesoVec3 a, MesoVec3 b)
-{
-    double s2 = fmin(0.5, fmax(0, 0.5 * (1 - (double)meso_vec3_dot(a, b))));
-    return 1 + s2 * (1.0 / 6 + s2 * (3.0 / 40 + s2 * (15.0 / 336)));
-}
-
-double meso_web_length2(const MesoWeb *web, uint32_t a, uint32_t b)
-{
-    MesoVec3d d = meso_vec3d_sub(meso_vec3d(web->positions[b]), meso_vec3d(web->positions[a]));
-    double arc = arc_over_chord(web->normals[a], web->normals[b]);
-    return meso_vec3d_dot(d, d) * (arc * arc);
-}
-
-static double area_of_sides(double a2, double b2, double c2)
-{
-    double m = b2 + c2 - a2;
-    return 0.25 * sqrt(fmax(0, 4 * b2 * c2 - m * m));
-}
-
-double meso_web_area(const MesoWeb *web, uint32_t triangle)
-{
-    const uint32_t *c = web->corners + 3 * (size_t)triangle;
-    return area_of_sides(meso_web_length2(web, c[0], c[1]), meso_web_length2(web, c[1], c[2]),
-                         meso_web_length2(web, c[2], c[0]));
-}
 
 /*
  * Whether an edge is not Delaunay: the cotangents of the angles that face it add up to less than nothing. What is less
@@ -49,10 +19,10 @@ static bool is_bad(const MesoWeb *web, uint32_t h)
     double ab = meso_web_length2(web, a, b);
     double ac = meso_web_length2(web, a, c), bc = meso_web_length2(web, b, c);
     double ad = meso_web_length2(web, a, d), bd = meso_web_length2(web, b, d);
-    double cot_c = ac + bc - ab, cot_d = ad + bd - ab;      /* times four areas */
+    double cot_c = ac + bc - ab, cot_d = ad + bd - ab;      /* times four of the areas below */
     if (cot_c >= 0 && cot_d >= 0)
         return false;
-    double area_c = area_of_sides(ab, ac, bc), area_d = area_of_sides(ab, ad, bd);
+    double area_c = sqrt(meso_heron(ab, ac, bc)), area_d = sqrt(meso_heron(ab, ad, bd));
     return cot_c * area_d + cot_d * area_c < -1e-9 * ab * (area_c + area_d);
 }
 

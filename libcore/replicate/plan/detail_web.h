@@ -10,21 +10,7 @@
 #ifndef MESO_DETAIL_WEB_H
 #define MESO_DETAIL_WEB_H
 
-#include "libcore/base/arena.h"
-#include "libcore/mesh/cut/triangulation.h"
-
-typedef struct MesoWeb {
-    MesoArena *arena;
-    uint32_t fixed_count;       /* first nodes: vertices of the surface that stay; details come behind, in order */
-    uint32_t node_count, triangle_count;
-    uint32_t node_room, triangle_room;
-    MesoMeshPoint *points;      /* [node_count] on the surface */
-    MesoVec3 *positions;        /* [node_count] in the frame */
-    MesoVec3 *normals;          /* [node_count] */
-    uint32_t *node_corner;      /* [node_count] a half-edge that begins there; MESO_NO_INDEX: none does */
-    uint32_t *corners;          /* [3 * triangle_count] nodes; half-edges as in triangulation.h, all wound alike */
-    uint32_t *twins;            /* [3 * triangle_count] or MESO_NO_INDEX */
-} MesoWeb;
+#include "libcore/replicate/plan/web.h"
 
 /*
  * Of details on a surface, in its own shape. Places and normals are those of that shape.
@@ -54,12 +40,6 @@ uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride);
 MesoStatus meso_web_insert(MesoWeb *web, uint32_t triangle, MesoMeshPoint point, MesoVec3 position, MesoVec3 normal,
                            MesoError *error);
 
-/* Squared length of the edge between two nodes. */
-double meso_web_length2(const MesoWeb *web, uint32_t a, uint32_t b);
-
-/* By the lengths of its sides. */
-double meso_web_area(const MesoWeb *web, uint32_t triangle);
-
 /* Mean and deviation of the lengths of edges between details. */
 typedef struct MesoWebEdges {
     uint32_t count;
@@ -67,17 +47,5 @@ typedef struct MesoWebEdges {
 } MesoWebEdges;
 
 MesoWebEdges meso_web_edges(const MesoWeb *web);
-
-/*
- * Neighbours of a node, at most `room` of them are written, in no order that means anything; returns how many there
- * are.
- */
-uint32_t meso_web_ring(const MesoWeb *web, uint32_t node, uint32_t *ring, uint32_t room);
-
-/*
- * Checks that twins are mutual, each node has one fan, no two nodes are joined twice, and vertices - edges + triangles
- * is `euler`. MESO_ERR_INTERNAL with the first place that fails. For tests. O(triangles * degree).
- */
-MesoStatus meso_web_check(const MesoWeb *web, int64_t euler, MesoError *error);
 
 #endif

@@ -202,7 +202,9 @@ static double ratio_of(const MesoReplication *r, uint32_t triangle)
             return 0;
         expected += (double)r->exemplars.originals[r->details[c[k] - r->web.fixed_count].copied].area / 6;
     }
-    return expected > 0 ? meso_web_area(&r->web, triangle) / expected : 0;
+    const MesoVec3 *p = r->web.positions;
+    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(p[c[1]], p[c[0]]), meso_vec3_sub(p[c[2]], p[c[0]]));
+    return expected > 0 ? 0.5 * (double)meso_vec3_length(normal) / expected : 0;
 }
 
 static uint32_t block_of(const MesoReplication *r, uint32_t triangle)

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/replicate/plan/detail_web.h"
 #include "libcore/replicate/plan/web_edit.h"
 
 enum { STACK = 256, RING = 256, ROUNDS = 50 };
@@ -18,12 +19,6 @@ typedef struct Build {
 
 /* ---- flips by lengths ---- */
 
-static double four_areas(double a2, double b2, double c2)
-{
-    double m = b2 + c2 - a2;
-    return sqrt(fmax(0, 4 * b2 * c2 - m * m));
-}
-
 static bool is_bad(const Build *b, uint32_t h)
 {
     uint32_t g = b->web.twins[h];
@@ -34,7 +29,7 @@ static bool is_bad(const Build *b, uint32_t h)
     double cot_c = bc + ca - ab, cot_d = ad + db - ab;
     if (cot_c >= 0 && cot_d >= 0)
         return false;
-    double area_c = four_areas(ab, bc, ca), area_d = four_areas(ab, ad, db);
+    double area_c = sqrt(meso_heron(ab, bc, ca)), area_d = sqrt(meso_heron(ab, ad, db));
     return cot_c * area_d + cot_d * area_c < -1e-9 * ab * (area_c + area_d);
 }
 
@@ -46,7 +41,7 @@ static double other_diagonal2(const Build *b, uint32_t h)
     double ad = b->length2[meso_next_corner(g)], db = b->length2[meso_previous_corner(g)];
     if (!(ab > 0))
         return ca;
-    double along = (ca - bc - ad + db) / 2, across = (four_areas(ab, bc, ca) + four_areas(ab, ad, db)) / 2;
+    double along = (ca - bc - ad + db) / 2, across = (sqrt(meso_heron(ab, bc, ca)) + sqrt(meso_heron(ab, ad, db))) / 2;
     return (along * along + across * across) / ab;
 }
 
