@@ -28,18 +28,20 @@ static bool is_bad(const MesoWeb *web, uint32_t h)
 
 /* ---- flips ---- */
 
-enum { STACK = 256 };
+enum { STACK = 256, ROUNDS = 8 };
 
 typedef struct EdgeStack {
     uint32_t edges[STACK];
     uint32_t count;
+    bool left;      /* what found no room, or no time, is left for another round */
 } EdgeStack;
 
-/* What finds no room is left for the next round. */
 static void push(EdgeStack *stack, uint32_t h)
 {
     if (stack->count < STACK)
         stack->edges[stack->count++] = h;
+    else
+        stack->left = true;
 }
 
 static uint32_t settle_stack(MesoWeb *web, EdgeStack *stack, uint32_t limit)
@@ -57,23 +59,27 @@ static uint32_t settle_stack(MesoWeb *web, EdgeStack *stack, uint32_t limit)
         push(stack, g);
         push(stack, meso_previous_corner(g));
     }
+    stack->left |= stack->count > 0;
     return flips;
 }
 
 uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride)
 {
     uint32_t flips = 0;
-    for (uint32_t round = 0; round < 8; round++) {
-        uint32_t before = flips;
+    bool left = true;
+    for (uint32_t round = 0; round < ROUNDS && left; round++) {
+        left = false;
         for (uint32_t t = first; t < web->triangle_count; t += stride)
             for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
                 if (web->twins[h] == MESO_NO_INDEX || (stride == 1 && web->twins[h] < h) || !is_bad(web, h))
                     continue;
-                EdgeStack stack = {.edges = {h}, .count = 1};
+                EdgeStack stack;
+                stack.count = 0;
+                stack.left = false;
+                push(&stack, h);
                 flips += settle_stack(web, &stack, STACK);
+                left |= stack.left;
             }
-        if (flips == before)
-            break;
     }
     return flips;
 }
@@ -122,7 +128,12 @@ MesoStatus meso_web_insert(MesoWeb *web, uint32_t triangle, MesoMeshPoint point,
     web->positions[node] = position;
     web->normals[node] = normal;
     meso_web_split(web, triangle, node);
-    EdgeStack stack = {.edges = {h, new, new + 3}, .count = 3};
+    EdgeStack stack;
+    stack.count = 0;
+    stack.left = false;
+    push(&stack, h);
+    push(&stack, new);
+    push(&stack, new + 3);
     settle_stack(web, &stack, STACK);
     return MESO_OK;
 }

@@ -7,7 +7,7 @@
 #include "libcore/mesh/point/vertex_normals.h"
 #include "libcore/replicate/plan/replicate_work.h"
 
-enum { BLOCK = 48, RING = 32, GRAIN = 4096, MESO_SETTLE_STRIDE = 1 };
+enum { BLOCK = 48, RING = 32, GRAIN = 4096, STRIDE = 4 };
 
 /* A triangle is not split that is no larger than this much of what its corners have at rest. */
 static const double LEAST_RATIO = 1.2;
@@ -345,6 +345,14 @@ static MesoStatus check_positions(const MesoReplication *r, const MesoVec3 *posi
     return MESO_OK;
 }
 
+/* Each step looks at some of the triangles; at all, where of those more than a few were no longer Delaunay. */
+static void settle(MesoReplication *r)
+{
+    uint32_t flips = meso_web_settle(&r->web, r->step_count++ % STRIDE, STRIDE);
+    if (flips > r->web.triangle_count / STRIDE / 32)
+        meso_web_settle(&r->web, 0, 1);
+}
+
 MesoStatus meso_replicate_step(MesoReplication *r, uint32_t frame, MesoError *error)
 {
     const MesoClip *clip = r->options.clip;
@@ -356,6 +364,6 @@ MesoStatus meso_replicate_step(MesoReplication *r, uint32_t frame, MesoError *er
     r->now.positions = (MesoVec3 *)(uintptr_t)positions;    /* read alone */
     meso_vertex_normals(r->normals, &r->now);
     meso_web_place(&r->web, r->rest, positions, r->normals, r->options.thread_count);
-    meso_web_settle(&r->web, frame % MESO_SETTLE_STRIDE, MESO_SETTLE_STRIDE);
+    settle(r);
     return replicate(r, (int32_t)frame, error);
 }

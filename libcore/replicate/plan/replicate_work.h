@@ -29,6 +29,7 @@ struct MesoReplication {
     uint32_t near_room;
     MesoNeighbour *near;            /* those around it that were there before */
     MesoNeighbour *above;           /* [original_count] the nearest of lower rank, at rest; or MESO_NO_INDEX */
+    uint32_t step_count;
     uint32_t block_count;
     double *due;                    /* [block_count] details due in a block, less those there */
 };
