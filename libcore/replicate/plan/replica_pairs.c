@@ -98,8 +98,8 @@ static uint32_t nearest_original(const Pairing *p, uint32_t detail)
 }
 
 /*
- * At rest none is there that was born: the original whose distance has grown most by its birth keeps it away, with a
- * ramp of its own.
+ * The original whose distance has grown most by its birth tells how far the surface has come: in the middle of its ramp
+ * it is as far as then. At rest none is there that was born.
  */
 static MesoStatus keep_away(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
 {
@@ -122,30 +122,28 @@ static MesoStatus keep_away(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
         rest = meso_chord(p->places, detail, best);
     }
     double from = BEYOND_REST * rest, to = INFINITY;
-    if (grows) {    /* born early, it goes on growing for as long a ramp as others have: it may not pop */
-        from = fmax(from, (1 - r->options.ramp) * most * rest);
+    if (grows) {
+        from = fmax(from, (1 - r->options.ramp / 2) * most * rest);
         to = from / (1 - r->options.ramp);
     }
-    return from > 0 ? add(p, count, (MesoReplicaPair){best, false, (float)from, (float)to}, error) : MESO_OK;
+    return from > 0 ? add(p, count, (MesoReplicaPair){best, true, (float)from, (float)to}, error) : MESO_OK;
 }
 
 static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
 {
     const MesoReplication *r = p->r;
     double radius = (double)r->details[detail].radius;
-    bool away = false;
     for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1]; i++) {
         uint32_t other = r->near[i].detail;
         double rest = meso_chord(p->places, detail, other);
         double from = (1 - r->options.ramp) * radius;
         if (!(BEYOND_REST * rest < from))
             continue;       /* it has hardly come nearer */
-        away |= other < r->options.original_count;
         MesoStatus status = add(p, count, (MesoReplicaPair){other, false, (float)from, (float)radius}, error);
         if (status != MESO_OK)
             return status;
     }
-    return away ? MESO_OK : keep_away(p, detail, count, error);
+    return keep_away(p, detail, count, error);
 }
 
 static MesoStatus pair_all(Pairing *p, MesoError *error)
