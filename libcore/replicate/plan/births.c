@@ -130,7 +130,7 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
             MesoBirth tried[MESO_EXEMPLAR_INSIDE];
             transfer(r, details, similar[i], turn, tried);
             double cost = misfit_of_all(r, &around, tried, similar[i]->inside_count)
-                          + 0.3 * unlike_corners(r, details, similar[i], turn);
+                          + 0.15 * unlike_corners(r, details, similar[i], turn);
             if (!(cost < least))
                 continue;
             least = cost;

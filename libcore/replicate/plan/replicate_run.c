@@ -2,15 +2,12 @@
 
 #include <stdlib.h>
 
-#include "libcore/base/parallel.h"
 #include "libcore/base/random.h"
 #include "libcore/mesh/point/vertex_normals.h"
 #include "libcore/replicate/plan/replicate_work.h"
+#include "libcore/replicate/plan/split_order.h"
 
-enum { BLOCK = 48, RING = 32, GRAIN = 4096, STRIDE = 4 };
-
-/* A triangle is not split that is no larger than this much of what its corners have at rest. */
-static const double LEAST_RATIO = 1.2;
+enum { BLOCK = 48, RING = 32, STRIDE = 4 };
 
 /* ---- beginning ---- */
 
@@ -129,6 +126,8 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
     if (status == MESO_OK)
         status = meso_exemplars_build(&r->exemplars, &r->arena, r->rest, &r->web, r->details, r->options.seed, error);
     if (status == MESO_OK)
+        status = meso_tolerance_build(&r->tolerance, r, error);
+    if (status == MESO_OK)
         status = make_blocks(r, error);
     if (status == MESO_OK)
         status = meso_find_above(r, error);
@@ -175,85 +174,6 @@ const MesoWeb *meso_replicate_web(const MesoReplication *r)
 
 /* ---- a frame ---- */
 
-/* Triangles of the web that may be split, the largest for what its corners have at rest first; ties by number. */
-typedef struct Candidate {
-    double ratio;
-    uint32_t triangle;
-} Candidate;
-
-typedef struct Heap {
-    MesoReplication *r;
-    Candidate *items;
-    uint32_t count, room;
-} Heap;
-
-static bool is_before(Candidate a, Candidate b)
-{
-    return a.ratio != b.ratio ? a.ratio > b.ratio : a.triangle < b.triangle;
-}
-
-/* 0 where a corner is no detail, and beyond the web. */
-static double ratio_of(const MesoReplication *r, uint32_t triangle)
-{
-    const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
-    double expected = 0;
-    for (uint32_t k = 0; k < 3; k++) {
-        if (c[k] < r->web.fixed_count)
-            return 0;
-        expected += (double)r->exemplars.originals[r->details[c[k] - r->web.fixed_count].copied].area / 6;
-    }
-    const MesoVec3 *p = r->web.positions;
-    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(p[c[1]], p[c[0]]), meso_vec3_sub(p[c[2]], p[c[0]]));
-    return expected > 0 ? 0.5 * (double)meso_vec3_length(normal) / expected : 0;
-}
-
-static uint32_t block_of(const MesoReplication *r, uint32_t triangle)
-{
-    return r->blocks[r->web.corners[3 * (size_t)triangle] - r->web.fixed_count];
-}
-
-static void sift_down(Heap *heap, uint32_t at)
-{
-    for (;;) {
-        uint32_t child = 2 * at + 1;
-        if (child + 1 < heap->count && is_before(heap->items[child + 1], heap->items[child]))
-            child++;
-        if (child >= heap->count || !is_before(heap->items[child], heap->items[at]))
-            return;
-        Candidate swap = heap->items[at];
-        heap->items[at] = heap->items[child];
-        heap->items[child] = swap;
-        at = child;
-    }
-}
-
-static void push(Heap *heap, uint32_t triangle)
-{
-    double ratio = ratio_of(heap->r, triangle);
-    if (heap->count == heap->room || !(ratio > LEAST_RATIO))
-        return;
-    uint32_t at = heap->count++;
-    heap->items[at] = (Candidate){ratio, triangle};
-    for (; at > 0 && is_before(heap->items[at], heap->items[(at - 1) / 2]); at = (at - 1) / 2) {
-        Candidate swap = heap->items[at];
-        heap->items[at] = heap->items[(at - 1) / 2];
-        heap->items[(at - 1) / 2] = swap;
-    }
-}
-
-typedef struct Ratios {
-    const MesoReplication *r;
-    float *ratios;
-} Ratios;
-
-static void ratio_range(void *context, uint64_t begin, uint64_t end)
-{
-    const Ratios *ratios = context;
-    const MesoReplication *r = ratios->r;
-    for (uint64_t t = begin; t < end; t++)
-        ratios->ratios[t] = (float)ratio_of(r, (uint32_t)t);
-}
-
 /* Details due by the stretch of the surface at each original, less those there are. */
 static double count_due(MesoReplication *r)
 {
@@ -271,9 +191,9 @@ static double count_due(MesoReplication *r)
     return all;
 }
 
-static MesoStatus split(Heap *heap, uint32_t triangle, uint32_t limit, int32_t frame, uint32_t *born, MesoError *error)
+static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit, int32_t frame, uint32_t *born, MesoError *error)
 {
-    MesoReplication *r = heap->r;
+    MesoReplication *r = order->r;
     MesoBirth births[MESO_EXEMPLAR_INSIDE];
     uint32_t count = meso_choose_births(r, triangle, limit, births);
     for (uint32_t i = 0; i < count; i++) {
@@ -282,7 +202,7 @@ static MesoStatus split(Heap *heap, uint32_t triangle, uint32_t limit, int32_t f
             return status;
         uint32_t node = r->web.node_count - 1, h = r->web.node_corner[node], first = h;
         do {    /* the details that are joined to it: their triangles are new */
-            push(heap, h / 3);
+            meso_split_push(order, h / 3);
             h = r->web.twins[meso_previous_corner(h)];
         } while (h != first && h != MESO_NO_INDEX);
     }
@@ -290,24 +210,16 @@ static MesoStatus split(Heap *heap, uint32_t triangle, uint32_t limit, int32_t f
     return MESO_OK;
 }
 
-static MesoStatus bear(Heap *heap, double due, int32_t frame, MesoError *error)
+static MesoStatus bear(MesoSplitOrder *order, double due, int32_t frame, MesoError *error)
 {
-    MesoReplication *r = heap->r;
-    uint32_t born = 0;
-    while (heap->count > 0 && born + 0.5 <= due) {
-        Candidate top = heap->items[0];
-        double ratio = ratio_of(r, top.triangle);
-        heap->items[0] = heap->items[--heap->count];
-        sift_down(heap, 0);
-        if (ratio < top.ratio * (1 - 1e-12)) {      /* it is another triangle by now */
-            push(heap, top.triangle);
-            continue;
-        }
-        double room = r->due[block_of(r, top.triangle)];
+    MesoReplication *r = order->r;
+    uint32_t born = 0, triangle;
+    while (born + 0.5 <= due && meso_split_pop(order, &triangle)) {
+        double room = r->due[meso_block_of(r, triangle)];
         if (room < 0.5)
             continue;
         uint32_t limit = (uint32_t)fmin(fmin(room + 0.5, due + 0.5 - born), MESO_EXEMPLAR_INSIDE);
-        MesoStatus status = split(heap, top.triangle, limit > 0 ? limit : 1, frame, &born, error);
+        MesoStatus status = split(order, triangle, limit > 0 ? limit : 1, frame, &born, error);
         if (status != MESO_OK)
             return status;
     }
@@ -320,19 +232,12 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
     if (due < 0.5)
         return MESO_OK;
     MesoArena scratch;
+    MesoSplitOrder order;
     meso_arena_init(&scratch);
-    uint32_t n = r->web.triangle_count;
-    Heap heap = {.r = r, .room = n + 64 + 32 * (uint32_t)due};
-    heap.items = MESO_NEW(&scratch, Candidate, heap.room, error);
-    Ratios ratios = {r, MESO_NEW(&scratch, float, n, error)};
-    MesoStatus status = heap.items && ratios.ratios ? MESO_OK : MESO_ERR_MEMORY;
-    if (status == MESO_OK) {
-        meso_parallel_for(r->options.thread_count, n, GRAIN, ratio_range, &ratios);
-        for (uint32_t t = 0; t < n; t++)
-            if ((double)ratios.ratios[t] > LEAST_RATIO && r->due[block_of(r, t)] >= 0.5)
-                push(&heap, t);
-        status = bear(&heap, due, frame, error);
-    }
+    meso_tolerance_adapt(&r->tolerance, &r->web);
+    MesoStatus status = meso_split_order(&order, &scratch, r, (uint32_t)due, error);
+    if (status == MESO_OK)
+        status = bear(&order, due, frame, error);
     meso_arena_release(&scratch);
     return status;
 }

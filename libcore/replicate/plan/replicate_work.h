@@ -13,6 +13,15 @@ typedef struct MesoNeighbour {
     float distance;
 } MesoNeighbour;
 
+/* How much larger triangles are than others at rest, and so may be later. */
+typedef struct MesoTolerance {
+    uint32_t count;
+    float *rest;            /* [count] of some triangles: area over what their corners have each */
+    float *weights;         /* [count] rest to the power -`power` */
+    double power;
+    double spread;          /* deviation over mean of edges at rest */
+} MesoTolerance;
+
 struct MesoReplication {
     MesoArena arena;
     MesoReplicateOptions options;
@@ -29,6 +38,7 @@ struct MesoReplication {
     uint32_t near_room;
     MesoNeighbour *near;            /* those around it that were there before */
     MesoNeighbour *above;           /* [original_count] the nearest of lower rank, at rest; or MESO_NO_INDEX */
+    MesoTolerance tolerance;
     uint32_t step_count;
     uint32_t block_count;
     double *due;                    /* [block_count] details due in a block, less those there */

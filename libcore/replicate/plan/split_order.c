@@ -1,0 +1,181 @@
+#include "libcore/replicate/plan/split_order.h"
+
+#include "libcore/base/parallel.h"
+
+enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 8, NEW_EACH = 32 };
+
+/* A triangle is not split that is no larger than this much of what it may be. */
+static const double LEAST_EXCESS = 1.2;
+
+/* How fast the power follows, and from where to where it goes. */
+static const double GAIN = 1.5, LEAST_POWER = -0.2, MOST_POWER = 1.6;
+
+/* ---- tolerance ---- */
+
+/* Area over what the corners' originals have; 0 where a corner is no detail. */
+static double ratio_of(const MesoReplication *r, uint32_t triangle)
+{
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
+    double expected = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        if (c[k] < r->web.fixed_count)
+            return 0;
+        expected += (double)r->exemplars.originals[r->details[c[k] - r->web.fixed_count].copied].area / 6;
+    }
+    const MesoVec3 *p = r->web.positions;
+    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(p[c[1]], p[c[0]]), meso_vec3_sub(p[c[2]], p[c[0]]));
+    return expected > 0 ? 0.5 * (double)meso_vec3_length(normal) / expected : 0;
+}
+
+/* The same whichever corner is the first. */
+static uint32_t draw_of(const MesoReplication *r, uint32_t triangle)
+{
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
+    uint64_t a = c[0] - r->web.fixed_count, b = c[1] - r->web.fixed_count, d = c[2] - r->web.fixed_count;
+    uint64_t x = (a + b + d) * 0x9e3779b97f4a7c15u ^ (a * b + b * d + d * a) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 31) * 0x94d049bb133111ebu;
+    return (uint32_t)((x ^ x >> 29) % r->tolerance.count);
+}
+
+static double excess_of(const MesoReplication *r, uint32_t triangle)
+{
+    double ratio = ratio_of(r, triangle);
+    return ratio > 0 ? ratio * (double)r->tolerance.weights[draw_of(r, triangle)] : 0;
+}
+
+/* Deviation over mean of the edges between details of every `stride`th triangle. */
+static double spread_of(const MesoWeb *web, uint32_t stride)
+{
+    double sum = 0, squares = 0;
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < web->triangle_count; t += stride)
+        for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
+            uint32_t a = web->corners[h], b = web->corners[meso_next_corner(h)];
+            if (a < web->fixed_count || b < web->fixed_count)
+                continue;
+            double l2 = meso_web_length2(web, a, b);
+            sum += sqrt(l2);
+            squares += l2;
+            count++;
+        }
+    return sum > 0 ? sqrt(fmax(0, squares * count / (sum * sum) - 1)) : 0;
+}
+
+static uint32_t stride_of(const MesoWeb *web)
+{
+    return web->triangle_count > SAMPLE * DRAWS ? SAMPLE : 1;
+}
+
+MesoStatus meso_tolerance_build(MesoTolerance *tolerance, MesoReplication *r, MesoError *error)
+{
+    *tolerance = (MesoTolerance){.rest = MESO_NEW(&r->arena, float, DRAWS, error),
+                                 .weights = MESO_NEW(&r->arena, float, DRAWS, error)};
+    if (!tolerance->rest || !tolerance->weights)
+        return MESO_ERR_MEMORY;
+    uint32_t n = r->web.triangle_count;
+    for (uint32_t i = 0; i < DRAWS && i < n; i++) {
+        double ratio = ratio_of(r, n > DRAWS ? (uint32_t)((uint64_t)i * n / DRAWS) : i);
+        if (ratio > 0)
+            tolerance->rest[tolerance->count++] = (float)fmax(ratio, 0.05);
+    }
+    if (tolerance->count == 0)
+        tolerance->rest[tolerance->count++] = 1;
+    tolerance->spread = spread_of(&r->web, stride_of(&r->web));
+    return MESO_OK;
+}
+
+void meso_tolerance_adapt(MesoTolerance *tolerance, const MesoWeb *web)
+{
+    double spread = spread_of(web, stride_of(web));
+    if (tolerance->spread > 0)
+        tolerance->power += GAIN * (1 - spread / tolerance->spread);
+    tolerance->power = fmin(MOST_POWER, fmax(LEAST_POWER, tolerance->power));
+    for (uint32_t i = 0; i < tolerance->count; i++)
+        tolerance->weights[i] = (float)pow((double)tolerance->rest[i], -tolerance->power);
+}
+
+/* ---- order ---- */
+
+static bool is_before(MesoSplitCandidate a, MesoSplitCandidate b)
+{
+    return a.excess != b.excess ? a.excess > b.excess : a.triangle < b.triangle;
+}
+
+static void exchange(MesoSplitOrder *order, uint32_t i, uint32_t k)
+{
+    MesoSplitCandidate kept = order->heap[i];
+    order->heap[i] = order->heap[k];
+    order->heap[k] = kept;
+}
+
+static void push(MesoSplitOrder *order, uint32_t triangle, double excess)
+{
+    if (order->count == order->room || !(excess > LEAST_EXCESS))
+        return;
+    uint32_t at = order->count++;
+    order->heap[at] = (MesoSplitCandidate){excess, triangle};
+    for (; at > 0 && is_before(order->heap[at], order->heap[(at - 1) / 2]); at = (at - 1) / 2)
+        exchange(order, at, (at - 1) / 2);
+}
+
+void meso_split_push(MesoSplitOrder *order, uint32_t triangle)
+{
+    push(order, triangle, excess_of(order->r, triangle));
+}
+
+static MesoSplitCandidate take_first(MesoSplitOrder *order)
+{
+    MesoSplitCandidate first = order->heap[0];
+    order->heap[0] = order->heap[--order->count];
+    for (uint32_t at = 0, child = 1; child < order->count; child = 2 * at + 1) {
+        if (child + 1 < order->count && is_before(order->heap[child + 1], order->heap[child]))
+            child++;
+        if (!is_before(order->heap[child], order->heap[at]))
+            break;
+        exchange(order, at, child);
+        at = child;
+    }
+    return first;
+}
+
+bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle)
+{
+    while (order->count > 0) {
+        MesoSplitCandidate first = take_first(order);
+        double excess = excess_of(order->r, first.triangle);
+        *triangle = first.triangle;
+        if (excess == first.excess)
+            return true;
+        if (excess < first.excess)      /* it is another triangle by now; where it has grown, it is there twice */
+            push(order, first.triangle, excess);
+    }
+    return false;
+}
+
+typedef struct Excesses {
+    const MesoReplication *r;
+    float *excesses;
+} Excesses;
+
+static void excess_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Excesses *e = context;
+    for (uint64_t t = begin; t < end; t++)
+        e->excesses[t] = (float)excess_of(e->r, (uint32_t)t);
+}
+
+MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplication *r, uint32_t due,
+                            MesoError *error)
+{
+    uint32_t n = r->web.triangle_count;
+    *order = (MesoSplitOrder){.r = r, .room = n + NEW_EACH * (due + 2)};
+    order->heap = MESO_NEW(arena, MesoSplitCandidate, order->room, error);
+    Excesses all = {r, MESO_NEW(arena, float, n, error)};
+    if (!order->heap || !all.excesses)
+        return MESO_ERR_MEMORY;
+    meso_parallel_for(r->options.thread_count, n, GRAIN, excess_range, &all);
+    for (uint32_t t = 0; t < n; t++)
+        if ((double)all.excesses[t] > LEAST_EXCESS && r->due[meso_block_of(r, t)] >= 0.5)
+            meso_split_push(order, t);
+    return MESO_OK;
+}
