@@ -22,10 +22,17 @@ typedef struct MesoClip {
     void *context;
 } MesoClip;
 
+typedef enum MesoReplicateMode {
+    MESO_REPLICATE_PLAN,
+    MESO_REPLICATE_PAPER    /* the paper's rule (paper_rule.h), of 500 originals at most, for comparison */
+} MesoReplicateMode;
+
 typedef struct MesoReplicateOptions {
     const MesoClip *clip;
     const MesoDetail *originals;    /* [original_count]; rank, copied, radius and born are not read */
     uint32_t original_count;
+    MesoReplicateMode mode;
+    double alpha;               /* of the paper's rule: over the largest area at rest; 0: 1.1 */
     double ramp;                /* of a distance over which a detail comes and goes; 0: 0.06 */
     uint64_t seed;
     uint32_t thread_count;      /* 0: all cores; the same plan for any */

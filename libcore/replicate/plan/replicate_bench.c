@@ -120,7 +120,7 @@ typedef struct Run {
     double spacing;
 } Run;
 
-static void print_plan(Run *run, MesoReplication *r, double build)
+static void print_steps(Run *run, const char *mode, MesoReplication *r, double build)
 {
     MesoWebEdges first = meso_web_edges(meso_replicate_web(r));
     Range mean = {INFINITY, -INFINITY}, deviation = mean, density = mean;
@@ -143,8 +143,8 @@ static void print_plan(Run *run, MesoReplication *r, double build)
         run->points[i] = details[i].point;
     MesoPairCorrelation after = correlation(&run->arena, run->patch, run->patch->moved, run->points, count,
                                             run->spacing);
-    printf("  plan   edges %+.1f .. %+.1f %%, deviation %+.1f .. %+.1f %%, density %.3f .. %.3f, g %.3f\n", mean.least,
-           mean.most, deviation.least, deviation.most, density.least, density.most,
+    printf("  %s  edges %+.1f .. %+.1f %%, deviation %+.1f .. %+.1f %%, density %.3f .. %.3f, g %.3f\n", mode,
+           mean.least, mean.most, deviation.least, deviation.most, density.least, density.most,
            meso_pair_difference(&run->before, &after));
     printf("         begin %.1f ms, step %.2f ms, most %.2f ms, %u births\n", 1e3 * build, 1e3 * all / (FRAMES + 1),
            1e3 * worst, count - run->count);
@@ -213,9 +213,15 @@ static void measure(const Case *c)
     MesoReplication *r;
     double start = cpu_seconds();
     CHECK(meso_replicate_begin(&r, &options, NULL) == MESO_OK);
-    print_plan(&run, r, cpu_seconds() - start);
+    print_steps(&run, "plan ", r, cpu_seconds() - start);
     print_play(&run, r);
     meso_replicate_release(r);
+    options.mode = MESO_REPLICATE_PAPER;
+    start = cpu_seconds();
+    if (meso_replicate_begin(&r, &options, NULL) == MESO_OK) {
+        print_steps(&run, "paper", r, cpu_seconds() - start);
+        meso_replicate_release(r);
+    }
     meso_arena_release(&run.arena);
     meso_triangulation_release(&patch.mesh);
     free(patch.moved);

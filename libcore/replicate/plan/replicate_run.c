@@ -4,6 +4,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/mesh/point/vertex_normals.h"
+#include "libcore/replicate/plan/paper_rule.h"
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/split_order.h"
 
@@ -131,7 +132,10 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
         status = make_blocks(r, error);
     if (status == MESO_OK)
         status = meso_find_above(r, error);
-    return status;
+    if (status != MESO_OK || r->options.mode != MESO_REPLICATE_PAPER)
+        return status;
+    r->paper = MESO_NEW(&r->arena, MesoPaperRule, 1, error);
+    return r->paper ? meso_paper_build(r->paper, r, error) : MESO_ERR_MEMORY;
 }
 
 MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOptions *options, MesoError *error)
@@ -146,6 +150,8 @@ MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOption
     r->options = *options;
     if (!(r->options.ramp > 0))
         r->options.ramp = 0.06;
+    if (!(r->options.alpha > 0))
+        r->options.alpha = 1.1;
     status = begin(r, error);
     if (status != MESO_OK) {
         meso_replicate_release(r);
@@ -191,7 +197,8 @@ static double count_due(MesoReplication *r)
     return all;
 }
 
-static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit, int32_t frame, uint32_t *born, MesoError *error)
+static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit, int32_t frame, uint32_t *born,
+                        MesoError *error)
 {
     MesoReplication *r = order->r;
     MesoBirth births[MESO_EXEMPLAR_INSIDE];
@@ -270,5 +277,5 @@ MesoStatus meso_replicate_step(MesoReplication *r, uint32_t frame, MesoError *er
     meso_vertex_normals(r->normals, &r->now);
     meso_web_place(&r->web, r->rest, positions, r->normals, r->options.thread_count);
     settle(r);
-    return replicate(r, (int32_t)frame, error);
+    return r->paper ? meso_paper_step(r, (int32_t)frame, error) : replicate(r, (int32_t)frame, error);
 }

@@ -225,6 +225,35 @@ static void test_threads(void)
         end(&s[i]);
 }
 
+/* The paper's rule bears fewer than are due, inside what has grown beyond the largest triangle; and is for 500. */
+static void test_paper(void)
+{
+    Stage s;
+    MesoError error;
+    MesoReplication *r, *none;
+    uint32_t count;
+    start(&s, meso_fixture_sheet(20, 20, 0.05f), 200, stretch, 1);
+    MesoReplicateOptions options = {.clip = &s.clip, .originals = s.originals, .original_count = s.count,
+                                    .mode = MESO_REPLICATE_PAPER};
+    CHECK(meso_replicate_begin(&r, &options, &error) == MESO_OK);
+    CHECK(meso_replicate_step(r, 0, &error) == MESO_OK);
+    meso_replicate_details(r, &count);
+    CHECK(count == s.count);
+    for (uint32_t f = 1; f <= FRAMES; f++)
+        CHECK(meso_replicate_step(r, f, &error) == MESO_OK);
+    meso_replicate_details(r, &count);
+    CHECK(count > s.count + 10 && count < 2 * s.count - 40);
+    CHECK(meso_web_check(meso_replicate_web(r), 1, &error) == MESO_OK);
+    meso_replicate_release(r);
+    MesoDetail many[501];
+    for (uint32_t i = 0; i < 501; i++)
+        many[i] = s.originals[i % s.count];
+    options.originals = many;
+    options.original_count = 501;
+    CHECK(meso_replicate_begin(&none, &options, &error) == MESO_ERR_LIMIT);
+    end(&s);
+}
+
 static MesoVec3 torn(MesoVec3 p, float time)
 {
     return time > 0.3f && p.x > 0.5f ? (MesoVec3){NAN, p.y, p.z} : p;
@@ -265,6 +294,7 @@ int main(void)
     test_played();
     test_shrunk();
     test_threads();
+    test_paper();
     test_odd();
     return 0;
 }

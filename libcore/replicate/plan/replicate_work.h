@@ -39,6 +39,7 @@ struct MesoReplication {
     MesoNeighbour *near;            /* those around it that were there before */
     MesoNeighbour *above;           /* [original_count] the nearest of lower rank, at rest; or MESO_NO_INDEX */
     MesoTolerance tolerance;
+    struct MesoPaperRule *paper;    /* where that is the mode */
     uint32_t step_count;
     uint32_t block_count;
     double *due;                    /* [block_count] details due in a block, less those there */
