@@ -232,11 +232,13 @@ static MesoStatus make_room(MesoReplication *r, MesoError *error)
         size_t room = 2 * (size_t)n + 16;
         MesoDetail *details = meso_arena_enlarge(&r->arena, r->details, n, room, sizeof *details, error);
         uint32_t *blocks = meso_arena_enlarge(&r->arena, r->blocks, n, room, sizeof *blocks, error);
+        float *areas = meso_arena_enlarge(&r->arena, r->areas, n, room, sizeof *areas, error);
         uint32_t *begin = meso_arena_enlarge(&r->arena, r->near_begin, n + 1, room + 1, sizeof *begin, error);
-        if (!details || !blocks || !begin)
+        if (!details || !blocks || !areas || !begin)
             return MESO_ERR_MEMORY;
         r->details = details;
         r->blocks = blocks;
+        r->areas = areas;
         r->near_begin = begin;
         r->detail_room = (uint32_t)room;
     }
@@ -307,6 +309,7 @@ MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirt
     r->details[detail] = (MesoDetail){.point = point, .angle = copied_angle(r, birth, point.triangle),
                                       .size = copied->size, .width = copied->width, .kind = copied->kind,
                                       .copied = birth->copied, .rank = detail, .radius = INFINITY, .born = frame};
+    r->areas[detail] = r->areas[birth->copied];
     r->blocks[detail] = r->blocks[birth->beside];
     r->due[r->blocks[detail]]--;
     remember_near(r, detail);

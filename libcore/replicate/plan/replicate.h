@@ -29,7 +29,8 @@ typedef enum MesoReplicateMode {
 
 typedef struct MesoReplicateOptions {
     const MesoClip *clip;
-    const MesoDetail *originals;    /* [original_count]; rank, copied, radius and born are not read */
+    /* [original_count]; rank, copied, radius and born are not read. Faster where they come by triangle. */
+    const MesoDetail *originals;
     uint32_t original_count;
     MesoReplicateMode mode;
     double alpha;               /* of the paper's rule: over the largest area at rest; 0: 1.1 */

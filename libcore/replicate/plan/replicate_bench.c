@@ -82,6 +82,14 @@ static void widen(Range *range, double x)
     range->most = fmax(range->most, x);
 }
 
+static int by_triangle(const void *a, const void *b)
+{
+    const MesoMeshPoint *x = a, *y = b;
+    if (x->triangle != y->triangle)
+        return x->triangle < y->triangle ? -1 : 1;
+    return x->weight[0] < y->weight[0] ? -1 : x->weight[0] > y->weight[0];
+}
+
 static MesoMeshPoint *strew(const Case *c, const Patch *patch, uint32_t side, uint32_t *count)
 {
     *count = c->count;
@@ -200,6 +208,7 @@ static void measure(const Case *c)
     Run run = {.c = c, .patch = &patch};
     meso_arena_init(&run.arena);
     MesoMeshPoint *points = strew(c, &patch, side, &run.count);
+    qsort(points, run.count, sizeof *points, by_triangle);
     run.spacing = 1 / sqrt(run.count);
     run.originals = MESO_NEW(&run.arena, MesoDetail, run.count, NULL);
     run.points = MESO_NEW(&run.arena, MesoMeshPoint, 8 * (size_t)run.count, NULL);

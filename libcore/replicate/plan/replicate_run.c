@@ -58,9 +58,10 @@ static MesoStatus take_originals(MesoReplication *r, MesoError *error)
     uint32_t n = r->detail_count = r->detail_room = r->options.original_count;
     r->details = MESO_NEW(&r->arena, MesoDetail, n, error);
     r->blocks = MESO_NEW(&r->arena, uint32_t, n, error);
+    r->areas = MESO_NEW(&r->arena, float, n, error);
     r->near_begin = MESO_NEW(&r->arena, uint32_t, (size_t)n + 1, error);
     MesoMeshPoint *points = MESO_NEW(&r->arena, MesoMeshPoint, n, error);
-    if (!r->details || !r->blocks || !r->near_begin || !points)
+    if (!r->details || !r->blocks || !r->areas || !r->near_begin || !points)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         r->details[i] = r->options.originals[i];
@@ -126,6 +127,8 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
     MesoStatus status = take_originals(r, error);
     if (status == MESO_OK)
         status = meso_exemplars_build(&r->exemplars, &r->arena, r->rest, &r->web, r->details, r->options.seed, error);
+    for (uint32_t i = 0; i < r->detail_count && status == MESO_OK; i++)
+        r->areas[i] = r->exemplars.originals[i].area;
     if (status == MESO_OK)
         status = meso_tolerance_build(&r->tolerance, r, error);
     if (status == MESO_OK)
@@ -147,6 +150,7 @@ MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOption
     if (!r)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory: %zu bytes", sizeof *r);
     meso_arena_init(&r->arena);
+    meso_arena_init(&r->scratch);
     r->options = *options;
     if (!(r->options.ramp > 0))
         r->options.ramp = 0.06;
@@ -162,8 +166,10 @@ MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOption
 
 void meso_replicate_release(MesoReplication *r)
 {
-    if (r)
-        meso_arena_release(&r->arena);
+    if (!r)
+        return;
+    meso_arena_release(&r->arena);
+    meso_arena_release(&r->scratch);
     free(r);
 }
 
@@ -238,14 +244,13 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
     double due = count_due(r);
     if (due < 0.5)
         return MESO_OK;
-    MesoArena scratch;
     MesoSplitOrder order;
-    meso_arena_init(&scratch);
+    MesoArenaMark mark = meso_arena_mark(&r->scratch);
     meso_tolerance_adapt(&r->tolerance, &r->web);
-    MesoStatus status = meso_split_order(&order, &scratch, r, (uint32_t)due, error);
+    MesoStatus status = meso_split_order(&order, &r->scratch, r, (uint32_t)due, error);
     if (status == MESO_OK)
         status = bear(&order, due, frame, error);
-    meso_arena_release(&scratch);
+    meso_arena_rewind(&r->scratch, mark);
     return status;
 }
 

@@ -23,7 +23,7 @@ typedef struct MesoTolerance {
 } MesoTolerance;
 
 struct MesoReplication {
-    MesoArena arena;
+    MesoArena arena, scratch;
     MesoReplicateOptions options;
     const MesoTriangulation *rest;
     MesoTriangulation now;          /* `rest` with the positions of the frame: not owned */
@@ -33,6 +33,7 @@ struct MesoReplication {
     MesoExemplars exemplars;
     uint32_t detail_count, detail_room;
     MesoDetail *details;
+    float *areas;                   /* [detail_count] at rest, of the cell of what it is a copy of */
     uint32_t *blocks;               /* [detail_count] part of the surface in which births are counted */
     uint32_t *near_begin;           /* [detail_count + 1] */
     uint32_t near_room;

@@ -2,10 +2,13 @@
 
 #include "libcore/base/parallel.h"
 
-enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 8, NEW_EACH = 32 };
+enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 8, NEW_EACH = 32, WANTED_LEAST = 256, WANTED_EACH = 8 };
+
+/* Of a count of excesses. */
+enum { STEPS = 1024, STEPS_A_UNIT = 128 };
 
 /* A triangle is not split that is no larger than this much of what it may be. */
-static const double LEAST_EXCESS = 1.2;
+static const float LEAST_EXCESS = 1.2f;
 
 /* How fast the power follows, and from where to where it goes. */
 static const double GAIN = 1.5, LEAST_POWER = -0.2, MOST_POWER = 1.6;
@@ -20,7 +23,7 @@ static double ratio_of(const MesoReplication *r, uint32_t triangle)
     for (uint32_t k = 0; k < 3; k++) {
         if (c[k] < r->web.fixed_count)
             return 0;
-        expected += (double)r->exemplars.originals[r->details[c[k] - r->web.fixed_count].copied].area / 6;
+        expected += (double)r->areas[c[k] - r->web.fixed_count] / 6;
     }
     const MesoVec3 *p = r->web.positions;
     MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(p[c[1]], p[c[0]]), meso_vec3_sub(p[c[2]], p[c[0]]));
@@ -110,7 +113,7 @@ static void exchange(MesoSplitOrder *order, uint32_t i, uint32_t k)
 
 static void push(MesoSplitOrder *order, uint32_t triangle, double excess)
 {
-    if (order->count == order->room || !(excess > LEAST_EXCESS))
+    if (order->count == order->room || !(excess > (double)LEAST_EXCESS))
         return;
     uint32_t at = order->count++;
     order->heap[at] = (MesoSplitCandidate){excess, triangle};
@@ -157,25 +160,53 @@ typedef struct Excesses {
     float *excesses;
 } Excesses;
 
+/* 0 where no detail is due. */
+static float excess_in_block(const MesoReplication *r, uint32_t triangle)
+{
+    if (r->web.corners[3 * (size_t)triangle] < r->web.fixed_count || r->due[meso_block_of(r, triangle)] < 0.5)
+        return 0;
+    return (float)excess_of(r, triangle);
+}
+
 static void excess_range(void *context, uint64_t begin, uint64_t end)
 {
     const Excesses *e = context;
     for (uint64_t t = begin; t < end; t++)
-        e->excesses[t] = (float)excess_of(e->r, (uint32_t)t);
+        e->excesses[t] = excess_in_block(e->r, (uint32_t)t);
+}
+
+/* An excess above which there are so many as may be needed, of those that count: not all have to be put in order. */
+static float threshold_of(const float *excesses, uint32_t count, uint32_t wanted)
+{
+    uint32_t steps[STEPS] = {0}, step = STEPS - 1, found = 0;
+    for (uint32_t t = 0; t < count; t++) {
+        float at = (excesses[t] - LEAST_EXCESS) * STEPS_A_UNIT;
+        if (at > 0)
+            steps[at < STEPS - 1 ? (uint32_t)at : STEPS - 1]++;
+    }
+    while (step > 0 && (found += steps[step]) < wanted)
+        step--;
+    return LEAST_EXCESS + (float)step / STEPS_A_UNIT;
 }
 
 MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplication *r, uint32_t due,
                             MesoError *error)
 {
-    uint32_t n = r->web.triangle_count;
-    *order = (MesoSplitOrder){.r = r, .room = n + NEW_EACH * (due + 2)};
-    order->heap = MESO_NEW(arena, MesoSplitCandidate, order->room, error);
+    uint32_t n = r->web.triangle_count, wanted = WANTED_LEAST + WANTED_EACH * due, count = 0;
+    *order = (MesoSplitOrder){.r = r};
     Excesses all = {r, MESO_NEW(arena, float, n, error)};
-    if (!order->heap || !all.excesses)
+    if (!all.excesses)
         return MESO_ERR_MEMORY;
     meso_parallel_for(r->options.thread_count, n, GRAIN, excess_range, &all);
+    float threshold = threshold_of(all.excesses, n, wanted);
     for (uint32_t t = 0; t < n; t++)
-        if ((double)all.excesses[t] > LEAST_EXCESS && r->due[meso_block_of(r, t)] >= 0.5)
+        count += all.excesses[t] > threshold;
+    order->room = count + NEW_EACH * (due + 2);
+    order->heap = MESO_NEW(arena, MesoSplitCandidate, order->room, error);
+    if (!order->heap)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < n; t++)
+        if (all.excesses[t] > threshold)
             meso_split_push(order, t);
     return MESO_OK;
 }
