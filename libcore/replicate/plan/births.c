@@ -42,26 +42,24 @@ static double misfit(const MesoOriginal *original, const Around *around, MesoVec
 {
     float near[MESO_ORIGINAL_NEAR] = {INFINITY, INFINITY, INFINITY};
     for (uint32_t i = 0; i < around->count; i++) {
-        float d = meso_vec3_length(meso_vec3_sub(around->places[i], place));
+        MesoVec3 apart = meso_vec3_sub(around->places[i], place);
+        float d2 = meso_vec3_dot(apart, apart);
+        if (!(d2 < near[MESO_ORIGINAL_NEAR - 1]))
+            continue;
         for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
-            if (d < near[k]) {
+            if (d2 < near[k]) {
                 float further = near[k];
-                near[k] = d;
-                d = further;
+                near[k] = d2;
+                d2 = further;
             }
     }
     double sum = 0;
     for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
         if (original->near[k] > 0 && original->near[k] < INFINITY && near[k] < INFINITY) {
-            double ratio = (double)near[k] / (double)original->near[k] - 1;
+            double ratio = sqrt((double)near[k]) / (double)original->near[k] - 1;
             sum += ratio * ratio;
         }
     return sum;
-}
-
-static double log_ratio(double a, double b)
-{
-    return a > 0 && b > 0 ? fabs(log(a / b)) : 0;
 }
 
 /* Of what stands at the corners: how large, with how much room, of which kind. */
@@ -71,9 +69,9 @@ static double unlike_corners(const MesoReplication *r, const uint32_t details[3]
     double sum = 0;
     for (uint32_t k = 0; k < 3; k++) {
         const MesoDetail *here = &r->details[details[k]], *there = &r->details[exemplar->corners[(k + turn) % 3]];
-        sum += log_ratio((double)here->size, (double)there->size) + (here->kind != there->kind)
-               + 0.5 * log_ratio((double)r->exemplars.originals[here->copied].area,
-                                 (double)r->exemplars.originals[there->copied].area);
+        const MesoOriginal *as = &r->exemplars.originals[here->copied], *like = &r->exemplars.originals[there->copied];
+        sum += fabs((double)as->log_size - (double)like->log_size) + (here->kind != there->kind)
+               + 0.5 * fabs((double)as->log_area - (double)like->log_area);
     }
     return sum;
 }

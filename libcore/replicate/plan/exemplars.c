@@ -1,5 +1,7 @@
 #include "libcore/replicate/plan/exemplars.h"
 
+#include <float.h>
+
 #include "libcore/base/random.h"
 #include "libcore/field/triangle_frames.h"
 
@@ -229,6 +231,10 @@ MesoStatus meso_exemplars_build(MesoExemplars *out, MesoArena *arena, const Meso
     for (uint32_t i = 0; i < out->original_count; i++)
         know_original(&out->originals[i], rest, web, details, i);
     know_areas(out, web);
+    for (uint32_t i = 0; i < out->original_count; i++) {
+        out->originals[i].log_area = logf(fmaxf(out->originals[i].area, FLT_MIN));
+        out->originals[i].log_size = logf(fmaxf(details[i].size, FLT_MIN));
+    }
     meet_triangles(out, met, web, seed);
     return MESO_OK;
 }
@@ -272,8 +278,9 @@ uint32_t meso_exemplars_near(const MesoExemplars *e, double area, double angle, 
 {
     Nearest nearest = {.out = out, .room = room < 64 ? room : 64};
     int32_t row = (int32_t)bin_of(area, e->most), column = (int32_t)bin_of(angle, MESO_PI / 3);
-    /* rings of bins around its own; one more where there are enough, as the nearest may lie beyond a side */
-    for (int32_t ring = 0, more = 1; ring < BINS && more >= 0; ring++) {
+    /* its own bin, where that has many to choose from, and else rings of bins around it until there are enough */
+    bool many = e->bin_counts[row * BINS + column] >= 3 * nearest.room;
+    for (int32_t ring = 0, more = many ? 0 : 1; ring < BINS && more >= 0; ring++) {
         for (int32_t r = row - ring; r <= row + ring; r++)
             for (int32_t c = column - ring; c <= column + ring; c++) {
                 bool edge = r == row - ring || r == row + ring || c == column - ring || c == column + ring;

@@ -22,6 +22,7 @@ typedef struct MesoExemplar {
 /* What is known of an original at rest. */
 typedef struct MesoOriginal {
     float area;                         /* of its cell: a third of the triangles around it */
+    float log_area, log_size;
     float near[MESO_ORIGINAL_NEAR];     /* distances of the nearest others, ascending; INFINITY: no more */
     float turn;                         /* its heading from that of the nearest */
 } MesoOriginal;
