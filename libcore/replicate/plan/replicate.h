@@ -39,6 +39,12 @@ typedef struct MesoReplicateOptions {
     uint32_t thread_count;      /* 0: all cores; the same plan for any */
 } MesoReplicateOptions;
 
+/* A detail beside another when that was born. */
+typedef struct MesoNeighbour {
+    uint32_t detail;
+    float distance;
+} MesoNeighbour;
+
 typedef struct MesoReplication MesoReplication;
 
 /*

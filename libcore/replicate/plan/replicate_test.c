@@ -1,6 +1,6 @@
 /* Plans of clips, and what comes out when they are played. */
 #include "libcore/mesh/cut/triangulation_fixture.h"
-#include "libcore/replicate/plan/replicate.h"
+#include "libcore/replicate/plan/replicate_state.h"
 #include "libcore/replicate/statistics/points_fixture.h"
 
 enum { FRAMES = 20 };
@@ -225,6 +225,49 @@ static void test_threads(void)
         end(&s[i]);
 }
 
+/* Cut after every frame, and gone on from what was stored: the same bytes. What is no state is refused. */
+static void test_resumed(void)
+{
+    Stage s, cut;
+    MesoError error;
+    uint32_t count, again;
+    start(&s, meso_fixture_torus(60, 24, 0.4f), 900, scale, 1);
+    run(&s);
+    start(&cut, meso_fixture_torus(60, 24, 0.4f), 900, scale, 2);
+    MesoReplicateOptions options = {.clip = &cut.clip, .originals = cut.originals, .original_count = cut.count};
+    for (uint32_t f = 0; f <= FRAMES; f++) {
+        MesoReplication *next;
+        CHECK(meso_replicate_step(cut.replication, f, NULL) == MESO_OK);
+        CHECK(meso_replicate_begin(&next, &options, NULL) == MESO_OK);
+        MesoReplicaState state = meso_replicate_state(cut.replication);
+        CHECK(meso_replicate_resume(next, &state, NULL) == MESO_OK);
+        meso_replicate_release(cut.replication);
+        cut.replication = next;
+    }
+    const MesoDetail *details = meso_replicate_details(s.replication, &count);
+    const MesoDetail *others = meso_replicate_details(cut.replication, &again);
+    CHECK(count == again && count > 3 * s.count && memcmp(details, others, count * sizeof *details) == 0);
+
+    MesoReplicaState state = meso_replicate_state(s.replication);
+    uint32_t *twins = malloc(3 * sizeof *twins * state.triangle_count);
+    CHECK(twins);
+    for (int lie = 0; lie < 4; lie++) {
+        MesoReplication *next;
+        MesoReplicaState other = state;
+        memcpy(twins, state.twins, 3 * sizeof *twins * state.triangle_count);
+        twins[7] = lie == 0 ? 3 * state.triangle_count : lie == 1 ? 5 : twins[7];
+        other.twins = twins;
+        other.detail_count -= lie == 2;
+        other.power = lie == 3 ? NAN : other.power;
+        CHECK(meso_replicate_begin(&next, &options, NULL) == MESO_OK);
+        CHECK(meso_replicate_resume(next, &other, &error) == MESO_ERR_INPUT);
+        meso_replicate_release(next);
+    }
+    free(twins);
+    end(&s);
+    end(&cut);
+}
+
 /* The paper's rule bears fewer than are due, inside what has grown beyond the largest triangle; and is for 500. */
 static void test_paper(void)
 {
@@ -294,6 +337,7 @@ int main(void)
     test_played();
     test_shrunk();
     test_threads();
+    test_resumed();
     test_paper();
     test_odd();
     return 0;

@@ -7,12 +7,6 @@
 
 enum { MESO_BIRTH_NEAR = 24 };
 
-/* A detail beside another when that was born, or at rest. */
-typedef struct MesoNeighbour {
-    uint32_t detail;
-    float distance;
-} MesoNeighbour;
-
 /* How much larger triangles are than others at rest, and so may be later. */
 typedef struct MesoTolerance {
     uint32_t count;
