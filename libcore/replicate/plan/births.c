@@ -63,12 +63,14 @@ static double misfit(const MesoOriginal *original, const Around *around, MesoVec
 }
 
 /* Of what stands at the corners: how large, with how much room, of which kind. */
-static double unlike_corners(const MesoReplication *r, const uint32_t details[3], const MesoExemplar *exemplar,
+static double unlike_corners(const MesoReplication *r, const uint32_t nodes[3], const MesoExemplar *exemplar,
                              uint32_t turn)
 {
     double sum = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        const MesoDetail *here = &r->details[details[k]], *there = &r->details[exemplar->corners[(k + turn) % 3]];
+        if (nodes[k] < r->web.fixed_count)
+            continue;
+        const MesoDetail *here = &r->details[nodes[k] - r->web.fixed_count], *there = &r->details[exemplar->corners[(k + turn) % 3]];
         const MesoOriginal *as = &r->exemplars.originals[here->copied], *like = &r->exemplars.originals[there->copied];
         sum += fabs((double)as->log_size - (double)like->log_size) + (here->kind != there->kind)
                + 0.5 * fabs((double)as->log_area - (double)like->log_area);
@@ -76,20 +78,23 @@ static double unlike_corners(const MesoReplication *r, const uint32_t details[3]
     return sum;
 }
 
-static void transfer(const MesoReplication *r, const uint32_t details[3], const MesoExemplar *exemplar, uint32_t turn,
+static void transfer(const MesoReplication *r, const uint32_t nodes[3], const MesoExemplar *exemplar, uint32_t turn,
                      MesoBirth *births)
 {
     const MesoWeb *web = &r->web;
     for (uint32_t i = 0; i < exemplar->inside_count; i++) {
         uint32_t nearest = 0;
+        float most = -1;
         MesoVec3 place = {0, 0, 0};
         for (uint32_t k = 0; k < 3; k++) {
             float w = exemplar->weights[i][(k + turn) % 3];
-            place = meso_vec3_mad(place, w, web->positions[web->fixed_count + details[k]]);
-            if (w > exemplar->weights[i][(nearest + turn) % 3])
-                nearest = k;
+            place = meso_vec3_mad(place, w, web->positions[nodes[k]]);
+            if (nodes[k] >= web->fixed_count && w > most) {
+                most = w;
+                nearest = nodes[k] - web->fixed_count;
+            }
         }
-        births[i] = (MesoBirth){exemplar->inside[i], place, details[nearest]};
+        births[i] = (MesoBirth){exemplar->inside[i], place, nearest};
     }
 }
 
@@ -114,7 +119,6 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
 {
     const MesoWeb *web = &r->web;
     const uint32_t *c = web->corners + 3 * (size_t)triangle;
-    const uint32_t details[3] = {c[0] - web->fixed_count, c[1] - web->fixed_count, c[2] - web->fixed_count};
     const MesoExemplar *similar[CHOICES];
     double angle = meso_smallest_angle(meso_web_length2(web, c[0], c[1]), meso_web_length2(web, c[1], c[2]),
                                        meso_web_length2(web, c[2], c[0]));
@@ -126,9 +130,9 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t turn = 0; turn < 3; turn++) {
             MesoBirth tried[MESO_EXEMPLAR_INSIDE];
-            transfer(r, details, similar[i], turn, tried);
+            transfer(r, c, similar[i], turn, tried);
             double cost = misfit_of_all(r, &around, tried, similar[i]->inside_count)
-                          + 0.15 * unlike_corners(r, details, similar[i], turn);
+                          + 0.15 * unlike_corners(r, c, similar[i], turn);
             if (!(cost < least))
                 continue;
             least = cost;

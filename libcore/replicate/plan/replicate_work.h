@@ -47,7 +47,7 @@ typedef struct MesoBirth {
     uint32_t beside;    /* detail at the corner that it is nearest to */
 } MesoBirth;
 
-/* Those that the best of similar exemplars puts into a triangle of the web whose corners are details; how many. */
+/* Those that the best of similar exemplars puts into a triangle of the web that has a detail; how many. */
 uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
                             MesoBirth births[MESO_EXEMPLAR_INSIDE]);
 

@@ -15,16 +15,22 @@ static const double GAIN = 1.5, LEAST_POWER = -0.2, MOST_POWER = 1.6;
 
 /* ---- tolerance ---- */
 
-/* Area over what the corners' originals have; 0 where a corner is no detail. */
+/*
+ * Area over what the corners' originals have. One corner may be no detail, at a border, so that details are born there,
+ * too; and counts as if it had none: there is nothing beyond it. 0 where it is more.
+ */
 static double ratio_of(const MesoReplication *r, uint32_t triangle)
 {
     const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
     double expected = 0;
-    for (uint32_t k = 0; k < 3; k++) {
+    uint32_t fixed = 0;
+    for (uint32_t k = 0; k < 3; k++)
         if (c[k] < r->web.fixed_count)
-            return 0;
-        expected += (double)r->areas[c[k] - r->web.fixed_count] / 6;
-    }
+            fixed++;
+        else
+            expected += (double)r->areas[c[k] - r->web.fixed_count] / 6;
+    if (fixed > 1)
+        return 0;
     const MesoVec3 *p = r->web.positions;
     MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(p[c[1]], p[c[0]]), meso_vec3_sub(p[c[2]], p[c[0]]));
     return expected > 0 ? 0.5 * (double)meso_vec3_length(normal) / expected : 0;
@@ -163,9 +169,8 @@ typedef struct Excesses {
 /* 0 where no detail is due. */
 static float excess_in_block(const MesoReplication *r, uint32_t triangle)
 {
-    if (r->web.corners[3 * (size_t)triangle] < r->web.fixed_count || r->due[meso_block_of(r, triangle)] < 0.5)
-        return 0;
-    return (float)excess_of(r, triangle);
+    float excess = (float)excess_of(r, triangle);
+    return excess > 0 && r->due[meso_block_of(r, triangle)] >= 0.5 ? excess : 0;
 }
 
 static void excess_range(void *context, uint64_t begin, uint64_t end)

@@ -32,12 +32,14 @@ MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplica
 /* A triangle that is new, or another by now. */
 void meso_split_push(MesoSplitOrder *order, uint32_t triangle);
 
-/* The next one; its corners are details. False where there is none. */
+/* The next one; a corner of it is a detail, or more. False where there is none. */
 bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle);
 
+/* By a corner that is a detail. */
 static inline uint32_t meso_block_of(const MesoReplication *r, uint32_t triangle)
 {
-    return r->blocks[r->web.corners[3 * (size_t)triangle] - r->web.fixed_count];
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle, fixed = r->web.fixed_count;
+    return r->blocks[(c[0] >= fixed ? c[0] : c[1] >= fixed ? c[1] : c[2]) - fixed];
 }
 
 #endif
