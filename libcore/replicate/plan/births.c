@@ -70,7 +70,8 @@ static double unlike_corners(const MesoReplication *r, const uint32_t nodes[3], 
     for (uint32_t k = 0; k < 3; k++) {
         if (nodes[k] < r->web.fixed_count)
             continue;
-        const MesoDetail *here = &r->details[nodes[k] - r->web.fixed_count], *there = &r->details[exemplar->corners[(k + turn) % 3]];
+        const MesoDetail *here = &r->details[nodes[k] - r->web.fixed_count];
+        const MesoDetail *there = &r->details[exemplar->corners[(k + turn) % 3]];
         const MesoOriginal *as = &r->exemplars.originals[here->copied], *like = &r->exemplars.originals[there->copied];
         sum += fabs((double)as->log_size - (double)like->log_size) + (here->kind != there->kind)
                + 0.5 * fabs((double)as->log_area - (double)like->log_area);

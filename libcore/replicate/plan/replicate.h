@@ -47,6 +47,8 @@ typedef struct MesoNeighbour {
 
 typedef struct MesoReplication MesoReplication;
 
+enum { MESO_REPLICA_MOST = 1 << 26 };   /* details */
+
 /*
  * Starts with the originals on the surface at rest. MESO_ERR_INPUT where a detail has no place on the surface, or the
  * surface has one side only; MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(n) of the surface and details.
@@ -55,7 +57,8 @@ MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOption
 
 /*
  * Goes through a frame: details are born that its stretch asks for. Frames come in an order that is part of what the
- * plan is a function of. MESO_ERR_INPUT by frame and vertex where a place is no number. O(surface + details).
+ * plan is a function of. MESO_ERR_INPUT by frame and vertex where a place is no number, MESO_ERR_LIMIT where more than
+ * MESO_REPLICA_MOST details are due, MESO_ERR_MEMORY. O(surface + details).
  */
 MesoStatus meso_replicate_step(MesoReplication *replication, uint32_t frame, MesoError *error);
 

@@ -244,6 +244,9 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
     double due = count_due(r);
     if (due < 0.5)
         return MESO_OK;
+    if (!(r->detail_count + due < MESO_REPLICA_MOST))
+        return meso_fail(error, MESO_ERR_LIMIT, "frame %d: too many details are due: %g", frame,
+                         r->detail_count + due);
     MesoSplitOrder order;
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
     meso_tolerance_adapt(&r->tolerance, &r->web);

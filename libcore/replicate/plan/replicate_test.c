@@ -307,6 +307,11 @@ static MesoVec3 folded(MesoVec3 p, float time)
     return time > 0.5f ? (MesoVec3){0, 0, 0} : (MesoVec3){fabsf(p.x - time) * 3, p.y, 0};
 }
 
+static MesoVec3 explode(MesoVec3 p, float time)
+{
+    return meso_vec3_scale(p, time < 0.5f ? 1 : time < 0.75f ? 1e4f : 1e30f);
+}
+
 /* Frames that are none are refused by name; folds and what collapses are gone through. */
 static void test_odd(void)
 {
@@ -324,6 +329,10 @@ static void test_odd(void)
     start(&s, meso_fixture_sheet(10, 10, 0.1f), 200, folded, 1);
     run(&s);
     CHECK(meso_web_check(meso_replicate_web(s.replication), 1, &error) == MESO_OK);
+    end(&s);
+    start(&s, meso_fixture_sheet(10, 10, 0.1f), 200, explode, 1);
+    CHECK(meso_replicate_step(s.replication, 12, &error) == MESO_ERR_LIMIT && strstr(error.message, "frame 12"));
+    CHECK(meso_replicate_step(s.replication, FRAMES, &error) == MESO_ERR_LIMIT);
     end(&s);
     start(&s, meso_fixture_ball(6), 3, scale, 1);
     run(&s);
