@@ -1,0 +1,316 @@
+#include "formats/clip/clip_file.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "formats/clip/frame_folder.h"
+#include "formats/clip/point_cache.h"
+#include "formats/mesh/mesh_read.h"
+
+/* A frame that has been read, or could not be. */
+typedef struct Slot {
+    uint32_t frame;         /* MESO_NO_INDEX: none */
+    MesoStatus status;
+    MesoError error;
+    MesoVec3 *positions;    /* [vertex_count], in the clip's arena */
+} Slot;
+
+struct MesoClipFile {
+    MesoArena arena;
+    const char *path;
+    MesoFrameList frames;
+    MesoPolygonMesh rest;
+    MesoInput rest_input, cache_input;
+    bool rest_open, cache_open;
+    MesoPointCache cache;
+    uint32_t thread_count;
+
+    bool ahead;
+    Slot slots[2];          /* the second one only where frames are read ahead */
+    uint32_t current;       /* slot in use by the caller */
+    pthread_t reader;
+    bool reading;           /* into the slot that is not current */
+};
+
+/* ---- the same faces ---- */
+
+static MesoStatus check_counts(const MesoPolygonMesh *mesh, const MesoPolygonMesh *rest, const char *path,
+                               const char *rest_path, MesoError *error)
+{
+    if (mesh->vertex_count != rest->vertex_count)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %u vertices; '%s' has %u", path, mesh->vertex_count, rest_path,
+                         rest->vertex_count);
+    if (mesh->face_count != rest->face_count)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %u faces; '%s' has %u", path, mesh->face_count, rest_path,
+                         rest->face_count);
+    return MESO_OK;
+}
+
+static MesoStatus check_face(const MesoPolygonMesh *mesh, const MesoPolygonMesh *rest, uint32_t face, const char *path,
+                             const char *rest_path, MesoError *error)
+{
+    uint32_t sides = meso_polygon_sides(mesh, face), rest_sides = meso_polygon_sides(rest, face);
+    const uint32_t *corners = mesh->corners + meso_polygon_begin(mesh, face);
+    const uint32_t *rest_corners = rest->corners + meso_polygon_begin(rest, face);
+    if (sides != rest_sides)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: face %u has %u sides; in '%s' it has %u", path, face + 1, sides,
+                         rest_path, rest_sides);
+    for (uint32_t i = 0; i < sides; i++)
+        if (corners[i] != rest_corners[i])
+            return meso_fail(error, MESO_ERR_INPUT, "%s: face %u has vertex %u as its corner %u; in '%s' that is vertex "
+                             "%u", path, face + 1, corners[i] + 1, i + 1, rest_path, rest_corners[i] + 1);
+    return MESO_OK;
+}
+
+static MesoStatus check_faces(const MesoPolygonMesh *mesh, const MesoPolygonMesh *rest, const char *path,
+                              const char *rest_path, MesoError *error)
+{
+    MesoStatus status = check_counts(mesh, rest, path, rest_path, error);
+    bool alike = !status && mesh->side_count == rest->side_count && mesh->corner_count == rest->corner_count;
+    if (alike && mesh->side_count && !memcmp(mesh->corners, rest->corners, mesh->corner_count * sizeof *mesh->corners))
+        return MESO_OK;
+    for (uint32_t f = 0; f < rest->face_count && !status; f++)
+        status = check_face(mesh, rest, f, path, rest_path, error);
+    return status;
+}
+
+/* ---- one frame ---- */
+
+static MesoStatus read_mesh(const MesoClipFile *clip, const char *path, uint32_t thread_count, MesoArena *scratch,
+                            Slot *slot)
+{
+    MesoInput input;
+    MesoPolygonMesh mesh;
+    MesoStatus status = meso_input_open(&input, path, &slot->error);
+    if (status)
+        return status;
+    status = meso_polygon_mesh_read(&mesh, scratch, &input, thread_count, &slot->error);
+    if (!status)
+        status = check_faces(&mesh, &clip->rest, path, clip->rest_input.path, &slot->error);
+    if (!status)
+        memcpy(slot->positions, mesh.positions, mesh.vertex_count * sizeof *mesh.positions);
+    meso_input_close(&input);
+    return status;
+}
+
+static MesoStatus read_numbered(const MesoClipFile *clip, int32_t number, uint32_t thread_count, Slot *slot)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    const char *path = meso_frame_path(clip->path, number, &scratch, &slot->error);
+    MesoStatus status = path ? read_mesh(clip, path, thread_count, &scratch, slot) : MESO_ERR_MEMORY;
+    meso_arena_release(&scratch);
+    return status;
+}
+
+static void read_frame(const MesoClipFile *clip, uint32_t frame, uint32_t thread_count, Slot *slot)
+{
+    int32_t number = clip->frames.frames[frame];
+    slot->frame = frame;
+    slot->status = clip->cache_open ? meso_point_cache_frame(&clip->cache, (uint32_t)number - 1, slot->positions,
+                                                             &slot->error)
+                                    : read_numbered(clip, number, thread_count, slot);
+}
+
+/* ---- reading ahead ---- */
+
+/* One thread: the caller has its own work for the others. */
+static void *read_next(void *argument)
+{
+    MesoClipFile *clip = argument;
+    Slot *slot = &clip->slots[1 - clip->current];
+    read_frame(clip, slot->frame, 1, slot);
+    return NULL;
+}
+
+static void wait_for_reader(MesoClipFile *clip)
+{
+    if (clip->reading)
+        pthread_join(clip->reader, NULL);
+    clip->reading = false;
+}
+
+/* Where there can be no thread the frame is read when it is asked for. */
+static void start_reader(MesoClipFile *clip, uint32_t frame)
+{
+    Slot *slot = &clip->slots[1 - clip->current];
+    if (!clip->ahead || frame >= clip->frames.count || slot->frame == frame)
+        return;
+    slot->frame = frame;
+    clip->reading = pthread_create(&clip->reader, NULL, read_next, clip) == 0;
+    if (!clip->reading)
+        slot->frame = MESO_NO_INDEX;
+}
+
+const MesoVec3 *meso_clip_positions(MesoClipFile *clip, uint32_t frame, MesoError *error)
+{
+    wait_for_reader(clip);
+    if (clip->ahead && clip->slots[1 - clip->current].frame == frame)
+        clip->current = 1 - clip->current;
+    Slot *slot = &clip->slots[clip->current];
+    if (slot->frame != frame)
+        read_frame(clip, frame, clip->thread_count, slot);
+    if (slot->status) {
+        if (error)
+            *error = slot->error;
+        slot->frame = MESO_NO_INDEX;
+        return NULL;
+    }
+    start_reader(clip, frame + 1);
+    return slot->positions;
+}
+
+/* ---- opening ---- */
+
+static bool has_extension(const char *path, const char *extension)
+{
+    size_t length = strlen(path), size = strlen(extension);
+    return length > size && strcasecmp(path + length - size, extension) == 0;
+}
+
+static MesoStatus copy_frames(MesoClipFile *clip, const MesoFrameList *frames, MesoError *error)
+{
+    clip->frames = (MesoFrameList){frames->count, MESO_NEW(&clip->arena, int32_t, frames->count, error)};
+    if (!clip->frames.frames)
+        return MESO_ERR_MEMORY;
+    memcpy(clip->frames.frames, frames->frames, frames->count * sizeof *frames->frames);
+    return MESO_OK;
+}
+
+static MesoStatus all_of_cache(MesoClipFile *clip, MesoError *error)
+{
+    uint32_t count = clip->cache.frame_count;
+    if (count > MESO_MOST_FRAMES)
+        return meso_fail(error, MESO_ERR_LIMIT, "%s: over %d frames", clip->path, MESO_MOST_FRAMES);
+    clip->frames = (MesoFrameList){count, MESO_NEW(&clip->arena, int32_t, count, error)};
+    for (uint32_t f = 0; clip->frames.frames && f < count; f++)
+        clip->frames.frames[f] = (int32_t)f + 1;
+    return clip->frames.frames ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus check_cache_frames(const MesoClipFile *clip, MesoError *error)
+{
+    for (uint32_t i = 0; i < clip->frames.count; i++) {
+        int32_t number = clip->frames.frames[i];
+        if (number < 1 || (uint32_t)number > clip->cache.frame_count)
+            return meso_fail(error, MESO_ERR_INPUT, "%s: no frame %d; there are 1 to %u", clip->path, number,
+                             clip->cache.frame_count);
+    }
+    return MESO_OK;
+}
+
+static MesoStatus open_cache(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    if (!source->rest)
+        return meso_fail(error, MESO_ERR_USAGE, "'%s' has no faces: it needs a mesh beside it", source->path);
+    MesoStatus status = meso_input_open(&clip->cache_input, clip->path, error);
+    if (status)
+        return status;
+    clip->cache_open = true;
+    status = meso_point_cache_open(&clip->cache, &clip->cache_input,
+                                   has_extension(clip->path, ".mdd") ? MESO_CACHE_MDD : MESO_CACHE_PC2, error);
+    if (!status && source->frames)
+        status = copy_frames(clip, source->frames, error);
+    else if (!status)
+        status = all_of_cache(clip, error);
+    return status ? status : check_cache_frames(clip, error);
+}
+
+static MesoStatus open_numbered(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    if (source->frames)
+        return copy_frames(clip, source->frames, error);
+    return meso_frame_folder_list(&clip->frames, &clip->arena, clip->path, error);
+}
+
+static MesoStatus open_frames(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    if (has_extension(clip->path, ".pc2") || has_extension(clip->path, ".mdd"))
+        return open_cache(clip, source, error);
+    if (meso_frame_path_is_pattern(clip->path))
+        return open_numbered(clip, source, error);
+    return meso_fail(error, MESO_ERR_USAGE, "'%s' is no clip: a name with the frame's number, as in body-%%04d.obj, or "
+                     "a cache (.pc2, .mdd) is", source->path);
+}
+
+static MesoStatus read_rest(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    if (clip->frames.count == 0)
+        return meso_fail(error, MESO_ERR_USAGE, "'%s': no frames", source->path);
+    const char *path = source->rest ? meso_arena_copy_text(&clip->arena, source->rest, error)
+                                    : meso_frame_path(clip->path, clip->frames.frames[0], &clip->arena, error);
+    if (!path)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_input_open(&clip->rest_input, path, error);
+    if (status)
+        return status;
+    clip->rest_open = true;
+    status = meso_polygon_mesh_read(&clip->rest, &clip->arena, &clip->rest_input, clip->thread_count, error);
+    if (!status && clip->cache_open && clip->cache.point_count != clip->rest.vertex_count)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %u points; '%s' has %u vertices", clip->path,
+                         clip->cache.point_count, path, clip->rest.vertex_count);
+    return status;
+}
+
+static MesoStatus make_slots(MesoClipFile *clip, MesoError *error)
+{
+    for (uint32_t i = 0; i < (clip->ahead ? 2u : 1u); i++) {
+        clip->slots[i].positions = MESO_NEW(&clip->arena, MesoVec3, clip->rest.vertex_count, error);
+        if (!clip->slots[i].positions)
+            return MESO_ERR_MEMORY;
+    }
+    return MESO_OK;
+}
+
+static MesoStatus open_all(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    clip->path = meso_arena_copy_text(&clip->arena, source->path, error);
+    if (!clip->path)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = open_frames(clip, source, error);
+    if (!status)
+        status = read_rest(clip, source, error);
+    return status ? status : make_slots(clip, error);
+}
+
+MesoStatus meso_clip_open(MesoClipFile **clip, const MesoClipSource *source, MesoError *error)
+{
+    MesoClipFile *made = calloc(1, sizeof *made);
+    *clip = NULL;
+    if (!made)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    meso_arena_init(&made->arena);
+    made->thread_count = source->thread_count;
+    made->ahead = source->ahead;
+    made->slots[0].frame = made->slots[1].frame = MESO_NO_INDEX;
+    MesoStatus status = open_all(made, source, error);
+    if (status)
+        meso_clip_release(made);
+    else
+        *clip = made;
+    return status;
+}
+
+void meso_clip_release(MesoClipFile *clip)
+{
+    if (!clip)
+        return;
+    wait_for_reader(clip);
+    if (clip->rest_open)
+        meso_input_close(&clip->rest_input);
+    if (clip->cache_open)
+        meso_input_close(&clip->cache_input);
+    meso_arena_release(&clip->arena);
+    free(clip);
+}
+
+const MesoPolygonMesh *meso_clip_mesh(const MesoClipFile *clip) { return &clip->rest; }
+const MesoInput *meso_clip_mesh_input(const MesoClipFile *clip) { return &clip->rest_input; }
+uint32_t meso_clip_frame_count(const MesoClipFile *clip) { return clip->frames.count; }
+
+int32_t meso_clip_frame_number(const MesoClipFile *clip, uint32_t frame)
+{
+    return clip->frames.frames[frame];
+}
