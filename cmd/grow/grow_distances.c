@@ -3,7 +3,7 @@
 
 #include "cmd/grow/grow_sources.h"
 #include "formats/decor/curve_file.h"
-#include "formats/decor/point_file.h"
+#include "formats/mesh/point_file.h"
 #include "libcore/base/grow.h"
 #include "libcore/geodesic/geodesic.h"
 #include "libcore/growth/ground/growth_snap.h"

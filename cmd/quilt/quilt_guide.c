@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "formats/decor/point_file.h"
+#include "formats/mesh/point_file.h"
 #include "libcore/field/direction_field.h"
 
 /* The attribute that the directions of a file become; no file's own attribute has such a name. */

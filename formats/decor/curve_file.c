@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "formats/decor/point_file.h"
+#include "formats/mesh/point_file.h"
 #include "libcore/base/grow.h"
 
 typedef struct Reading {

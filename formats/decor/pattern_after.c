@@ -18,7 +18,7 @@ static uint32_t read_material(MesoPatternParser *parser, const MesoJsonField *fi
     uint32_t number = meso_names_find(&parser->material_numbers, name, strlen(name));
     if (number != MESO_NO_INDEX)
         return number;
-    meso_pattern_refuse(field, "material", name, parser->material_names);
+    meso_json_refuse(field, "material", name, parser->material_names);
     return 0;
 }
 
@@ -51,7 +51,7 @@ static void read_paint(MesoPatternParser *parser, const MesoJsonField *field, Me
         return;
     meso_json_require(&materials);
     read_materials(parser, &materials, after);
-    after->by = (MesoPaintBy)meso_pattern_word(&by, "way to paint", ways, after->by);
+    after->by = (MesoPaintBy)meso_json_word(&by, "way to paint", ways, after->by);
     if (after->by == MESO_PAINT_RAMP && after->material_count < 2)
         meso_json_wrong(&materials, "a ramp is between two materials or more");
 }
@@ -78,10 +78,10 @@ static void read_displacement(MesoPatternParser *parser, const MesoJsonField *fi
         return;
     meso_json_require(&height);
     d->height = meso_json_float(&height, 0);
-    d->relative = meso_pattern_word(&unit, "unit", units, 1) == 1;
-    d->bias = meso_pattern_float(&bias, 0, 1, true, 0.5f);
-    d->gain = meso_pattern_float(&gain, 0, 1, true, 0.5f);
-    d->jitter = meso_pattern_float(&jitter, 0, 1, false, 0);
+    d->relative = meso_json_word(&unit, "unit", units, 1) == 1;
+    d->bias = meso_json_float_in(&bias, 0, 1, true, 0.5f);
+    d->gain = meso_json_float_in(&gain, 0, 1, true, 0.5f);
+    d->jitter = meso_json_float_in(&jitter, 0, 1, false, 0);
 }
 
 /* ---- names ---- */
@@ -90,7 +90,7 @@ static void read_displacement(MesoPatternParser *parser, const MesoJsonField *fi
 static void read_name(MesoPatternParser *parser, const MesoJsonField *field, MesoAfterSplit *after)
 {
     (void)parser;
-    after->name = meso_pattern_text(field, NAME_LENGTH);
+    after->name = meso_json_short_text(field, NAME_LENGTH);
     if (meso_json_good(field) && after->name[strcspn(after->name, "/*.")])
         meso_json_wrong(field, "'%.80s' is no name: '/', '*' and '.' are for paths", after->name);
 }
@@ -128,7 +128,7 @@ static void check_tags(const MesoJsonField *table, const char *const *tags)
         while (*tag && strcmp(*tag, key) != 0)
             tag++;
         if (!*tag && strcmp(key, "*") != 0 && !meso_json_is_note(key))
-            meso_pattern_refuse(table, "tag", key, tags);
+            meso_json_refuse(table, "tag", key, tags);
     }
 }
 

@@ -15,10 +15,10 @@ static void read_noise(const MesoJsonField *field, MesoNoise *noise)
     MesoJsonField which = meso_json_key(field, "of"), gain = meso_json_key(field, "gain");
     MesoJsonField frequency = meso_json_key(field, "frequency"), seed = meso_json_key(field, "seed");
     MesoJsonField unit = meso_json_key(field, "unit");
-    noise->of = meso_pattern_word(&which, "kind of noise", of, 0) == 0 ? MESO_NOISE_OF_METRIC : MESO_NOISE_OF_FIELD;
-    noise->gain = meso_pattern_float(&gain, 0, INFINITY, false, 0.02f);
-    noise->frequency = meso_pattern_float(&frequency, 0, INFINITY, true, 8);
-    noise->relative = meso_pattern_word(&unit, "unit", units, 1) == 1;
+    noise->of = meso_json_word(&which, "kind of noise", of, 0) == 0 ? MESO_NOISE_OF_METRIC : MESO_NOISE_OF_FIELD;
+    noise->gain = meso_json_float_in(&gain, 0, INFINITY, false, 0.02f);
+    noise->frequency = meso_json_float_in(&frequency, 0, INFINITY, true, 8);
+    noise->relative = meso_json_word(&unit, "unit", units, 1) == 1;
     noise->seed = (uint64_t)meso_json_whole(&seed, 0, INT64_MAX, 0);
 }
 
@@ -48,7 +48,7 @@ static void read_values(MesoPatternParser *parser, const MesoJsonField *at, floa
     for (uint32_t i = 0; values && i < count; i++) {
         MesoJsonField item = meso_json_item(at, i);
         const MesoJsonField *field = one ? at : &item;
-        values[i] = meso_pattern_float(field, 0, most, true, 0.5f);
+        values[i] = meso_json_float_in(field, 0, most, true, 0.5f);
         if (i > 0 && values[i] <= values[i - 1])
             meso_json_wrong(field, "%g; levels must ascend, and the one before is %g", (double)values[i],
                             (double)values[i - 1]);
@@ -64,7 +64,7 @@ void meso_pattern_levels(MesoPatternParser *parser, const MesoJsonField *object,
     MesoJsonField at = meso_json_key(object, "at"), count = meso_json_key(object, "count");
     MesoJsonField every = meso_json_key(object, "every"), unit = meso_json_key(object, "unit");
     bool blend = meso_pattern_has(object, "blend");
-    levels->unit = (MesoLevelUnit)meso_pattern_word(&unit, "unit", units, blend ? MESO_LEVEL_SCENE : MESO_LEVEL_SHARE);
+    levels->unit = (MesoLevelUnit)meso_json_word(&unit, "unit", units, blend ? MESO_LEVEL_SCENE : MESO_LEVEL_SHARE);
     if (blend && levels->unit == MESO_LEVEL_SIZE)
         meso_json_wrong(&unit, "a blend is no length; \"share\" is possible");
     if (!!at.value + !!count.value + !!every.value > 1)
@@ -77,7 +77,7 @@ void meso_pattern_levels(MesoPatternParser *parser, const MesoJsonField *object,
     } else if (count.value) {
         levels->count = (uint32_t)meso_json_whole(&count, 1, MOST_LEVELS, 1);
     } else if (every.value) {
-        levels->every = meso_pattern_float(&every, 0, most, true, 0.5f);
+        levels->every = meso_json_float_in(&every, 0, most, true, 0.5f);
     } else {
         levels->values = half;
         levels->value_count = 1;

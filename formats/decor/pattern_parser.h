@@ -4,6 +4,7 @@
 
 #include "formats/decor/pattern_source.h"
 #include "formats/json/json_field.h"
+#include "formats/json/json_value.h"
 #include "libcore/base/names.h"
 #include "libcore/base/nearest.h"
 #include "libcore/decor/pattern.h"
@@ -46,18 +47,6 @@ void *meso_pattern_allocate(MesoPatternParser *parser, uint64_t count, size_t si
 
 /* The file behind the name at `field`, or NULL, told there. */
 const MesoInput *meso_pattern_open(MesoPatternParser *parser, const MesoJsonField *field);
-
-/* Says that `text` is none of `words`, ended by NULL, and which one it may be meant to be, or which there are. */
-void meso_pattern_refuse(const MesoJsonField *field, const char *what, const char *text, const char *const *words);
-
-/* Number among `words` of the text at `field`; refused where it is none. */
-uint32_t meso_pattern_word(const MesoJsonField *field, const char *what, const char *const *words, uint32_t fallback);
-
-/* Text of 1 to `most` bytes in the arena; "" where that is wrong. */
-const char *meso_pattern_text(const MesoJsonField *field, size_t most);
-
-/* A number within [low, high], or, where `open`, between them. */
-float meso_pattern_float(const MesoJsonField *field, float low, float high, bool open, float fallback);
 
 /* [x, y, z]; the origin where that is missing or wrong. */
 MesoVec3 meso_pattern_point(const MesoJsonField *field);

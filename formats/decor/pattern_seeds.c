@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "formats/decor/point_file.h"
+#include "formats/mesh/point_file.h"
 #include "libcore/base/grow.h"
 
 static const char *const units[] = {"scene", "size", NULL};
@@ -29,7 +29,7 @@ bool meso_pattern_is_seed(const json_t *value)
 
 static void read_word(const MesoJsonField *field, MesoSeedSpec *spec)
 {
-    spec->kind = (MesoSeedKind)meso_pattern_word(field, "seed", words, 0);
+    spec->kind = (MesoSeedKind)meso_json_word(field, "seed", words, 0);
 }
 
 static void read_loop(const MesoJsonField *field, MesoSeedSpec *spec)
@@ -106,8 +106,8 @@ static void read_point(const MesoJsonField *field, MesoSeedSpec *spec)
 static void read_spacing(const MesoJsonField *object, const char *key, MesoSeedSpec *spec)
 {
     MesoJsonField spacing = meso_json_key(object, key), unit = meso_json_key(object, "unit");
-    spec->spacing = meso_pattern_float(&spacing, 0, INFINITY, true, 0);
-    spec->relative = spacing.value && meso_pattern_word(&unit, "unit", units, 1) == 1;
+    spec->spacing = meso_json_float_in(&spacing, 0, INFINITY, true, 0);
+    spec->relative = spacing.value && meso_json_word(&unit, "unit", units, 1) == 1;
     if (unit.value && !spacing.value)
         meso_json_wrong(object, "\"unit\" goes with \"%s\"", key);
 }
@@ -157,11 +157,11 @@ static void read_poisson(const MesoJsonField *field, MesoSeedSpec *spec)
     read_spacing(&object, "radius", spec);
     if (!count.value && !radius.value)
         meso_json_wrong(&object, "\"count\" or \"radius\" is needed");
-    spec->on_border = meso_pattern_word(&on, "place", places, 0) == 1;
-    spec->from_border = meso_pattern_word(&start, "start", starts, spec->on_border) == 0;
+    spec->on_border = meso_json_word(&on, "place", places, 0) == 1;
+    spec->from_border = meso_json_word(&start, "start", starts, spec->on_border) == 0;
     if (spec->on_border && spec->from_border)
         meso_json_wrong(&start, "samples of the border cannot start away from it; \"any\" is possible");
-    spec->border_slack = 1 - meso_pattern_float(&border, 0, 1, false, 1);
+    spec->border_slack = 1 - meso_json_float_in(&border, 0, 1, false, 1);
     if (border.value && !spec->from_border)
         meso_json_wrong(&border, "only samples that start at the border keep away from it");
 }
@@ -170,7 +170,7 @@ static void read_poisson(const MesoJsonField *field, MesoSeedSpec *spec)
 
 static const MesoPatternPoints *read_file(MesoPatternParser *parser, const MesoJsonField *field)
 {
-    const char *name = meso_pattern_text(field, 4096);
+    const char *name = meso_json_short_text(field, 4096);
     for (uint32_t i = 0; i < parser->point_file_count; i++)
         if (strcmp(parser->points[i].name, name) == 0)
             return &parser->points[i];
@@ -242,7 +242,7 @@ static void refuse_object(const MesoJsonField *field)
     json_t *value;
     json_object_foreach((json_t *)field->value, key, value)
         if (!meso_json_is_note(key))
-            meso_pattern_refuse(field, "seed", key, kinds);
+            meso_json_refuse(field, "seed", key, kinds);
     meso_json_wrong(field, "a seed is needed here: \"borders\", \"outer\", \"inner\" or an object with one of "
                     "\"side\", \"loop\", \"point\", \"points\", \"face\", \"along\", \"poisson\", \"file\"");
 }

@@ -36,7 +36,7 @@ static const char *read_path(const MesoJsonField *field)
 {
     if (!field->value)
         return NULL;
-    const char *path = meso_pattern_text(field, PATH_LENGTH);
+    const char *path = meso_json_short_text(field, PATH_LENGTH);
     if (meso_json_good(field))
         check_path(field, path);
     return path;
@@ -44,7 +44,7 @@ static const char *read_path(const MesoJsonField *field)
 
 static const char *read_tag(const MesoJsonField *field)
 {
-    return meso_pattern_tags[meso_pattern_word(field, "tag", meso_pattern_tags, 0)];
+    return meso_pattern_tags[meso_json_word(field, "tag", meso_pattern_tags, 0)];
 }
 
 static void read_tags(MesoPatternParser *parser, const MesoJsonField *field, MesoSelector *selector)
@@ -128,7 +128,7 @@ static void read_numbers(const MesoJsonField *object, MesoSelector *selector)
     MesoJsonField share = meso_json_key(object, "share"), largest = meso_json_key(object, "largest");
     MesoJsonField every = meso_json_key(object, "every"), from = meso_json_key(object, "from");
     read_colors(object, selector);
-    selector->share = meso_pattern_float(&share, 0, 1, false, 1);
+    selector->share = meso_json_float_in(&share, 0, 1, false, 1);
     selector->every = (uint32_t)meso_json_whole(&every, 1, UINT32_MAX, 1);
     selector->from = (uint32_t)meso_json_whole(&from, 0, UINT32_MAX - 1, 0);
     selector->largest = (uint32_t)meso_json_whole(&largest, 1, UINT32_MAX, 0);
@@ -140,7 +140,7 @@ static void read_object(MesoPatternParser *parser, const MesoJsonField *object, 
     MesoJsonField path = meso_json_key(object, "path"), level = meso_json_key(object, "level");
     MesoJsonField point = meso_json_key(object, "point");
     selector->path = read_path(&path);
-    selector->level = (MesoSelectLevel)meso_pattern_word(&level, "level", levels, MESO_SELECT_DEFAULT);
+    selector->level = (MesoSelectLevel)meso_json_word(&level, "level", levels, MESO_SELECT_DEFAULT);
     read_shape(parser, object, selector);
     selector->has_point = point.value != NULL;
     selector->point = meso_pattern_point(&point);

@@ -87,7 +87,7 @@ static void read_rule(MesoPatternParser *parser, const MesoJsonField *field, Mes
     if (!meso_json_object(field, NULL))
         return;
     meso_pattern_rule_selector(parser, &on, &rule->where);
-    rule->weight = meso_pattern_float(&weight, 0, INFINITY, false, 1);
+    rule->weight = meso_json_float_in(&weight, 0, INFINITY, false, 1);
     rule->most = (uint32_t)meso_json_whole(&most, 1, UINT32_MAX, 0);
     read_macro(parser, field, &rule->macro);
 }
@@ -119,12 +119,12 @@ static void read_grow(MesoPatternParser *parser, const MesoJsonField *field, Mes
     growth->rules = rules;
     growth->rule_count = rules ? count : 0;
     growth->depth = (uint32_t)meso_json_whole(&depth, 1, MOST_ROUNDS, 3);
-    growth->smallest = meso_pattern_float(&smallest, 0, 1, false, 0.001f);
-    growth->grouping = (MesoGrouping)meso_pattern_word(&group, "grouping", groups, MESO_GROUP_TYPE);
+    growth->smallest = meso_json_float_in(&smallest, 0, 1, false, 0.001f);
+    growth->grouping = (MesoGrouping)meso_json_word(&group, "grouping", groups, MESO_GROUP_TYPE);
     growth->cycle = (uint32_t)meso_json_whole(&cycle, 1, MOST_CYCLE, 2);
     if (cycle.value && growth->grouping != MESO_GROUP_CYCLIC)
         meso_json_wrong(&cycle, "it goes with \"group\": \"cyclic\"");
-    growth->rest = meso_pattern_float(&rest, 0, INFINITY, false, 0);
+    growth->rest = meso_json_float_in(&rest, 0, INFINITY, false, 0);
     check_weights(field, growth);
 }
 
@@ -152,7 +152,7 @@ static void refuse_nothing(const MesoJsonField *field)
     json_t *value;
     json_object_foreach((json_t *)field->value, key, value)
         if (strcmp(key, "on") != 0 && strcmp(key, "names") != 0 && !meso_json_is_note(key))
-            meso_pattern_refuse(field, "step", key, does_keys);
+            meso_json_refuse(field, "step", key, does_keys);
     meso_json_wrong(field, "a step does something; there are \"contour\", \"stream\", \"voronoi\", \"polyline\", "
                     "\"paint\", \"displace\", \"macro\", \"steps\" and \"grow\"");
 }

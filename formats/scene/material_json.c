@@ -1,6 +1,7 @@
 #include "formats/scene/material_json.h"
 
 #include "formats/json/json_text.h"
+#include "formats/json/json_value.h"
 
 /* 0, or -1 where memory is out, as Jansson has it. */
 static int put_material(json_t *materials, const char *name, const MesoMaterial *m)
@@ -53,5 +54,25 @@ void meso_materials_of_json(const MesoJsonField *list, uint32_t *count, MesoMate
     for (uint32_t m = 0; m < number && meso_json_good(list); m++) {
         MesoJsonField item = meso_json_item(list, m);
         read_material(&(*materials)[m], &(*names)[m], &item);
+    }
+}
+
+/* ---- as people write them ---- */
+
+const MesoMaterial meso_plain_material = {.albedo = {0.6f, 0.6f, 0.6f}, .roughness = 0.5f};
+
+void meso_material_of_json(const MesoJsonField *field, MesoMaterial *material)
+{
+    static const char *const keys[] = {"color", "roughness", "metallic", NULL};
+    MesoJsonField color = meso_json_key(field, "color");
+    MesoJsonField roughness = meso_json_key(field, "roughness"), metallic = meso_json_key(field, "metallic");
+    *material = meso_plain_material;
+    if (!json_is_object(field->value)) {
+        meso_json_color(field, material->albedo);
+    } else if (meso_json_object(field, keys)) {
+        if (color.value)
+            meso_json_color(&color, material->albedo);
+        material->roughness = meso_json_float_in(&roughness, 0, 1, false, meso_plain_material.roughness);
+        material->metallic = meso_json_float_in(&metallic, 0, 1, false, meso_plain_material.metallic);
     }
 }

@@ -1,5 +1,5 @@
 /* Points from tables and mesh files. */
-#include "formats/decor/point_file.h"
+#include "formats/mesh/point_file.h"
 
 #include <string.h>
 

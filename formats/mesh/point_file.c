@@ -1,4 +1,4 @@
-#include "formats/decor/point_file.h"
+#include "formats/mesh/point_file.h"
 
 #include <math.h>
 #include <string.h>
