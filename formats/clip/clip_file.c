@@ -59,8 +59,8 @@ static MesoStatus check_face(const MesoPolygonMesh *mesh, const MesoPolygonMesh 
                          rest_path, rest_sides);
     for (uint32_t i = 0; i < sides; i++)
         if (corners[i] != rest_corners[i])
-            return meso_fail(error, MESO_ERR_INPUT, "%s: face %u has vertex %u as its corner %u; in '%s' that is vertex "
-                             "%u", path, face + 1, corners[i] + 1, i + 1, rest_path, rest_corners[i] + 1);
+            return meso_fail(error, MESO_ERR_INPUT, "%s: face %u has vertex %u as its corner %u; in '%s' that is "
+                             "vertex %u", path, face + 1, corners[i] + 1, i + 1, rest_path, rest_corners[i] + 1);
     return MESO_OK;
 }
 

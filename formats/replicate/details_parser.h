@@ -4,7 +4,7 @@
 
 #include "formats/json/json_field.h"
 #include "formats/json/json_value.h"
-#include "formats/replicate/details_file.h"
+#include "formats/replicate/details_spec.h"
 
 typedef struct MesoDetailsParser {
     MesoJsonReader *reader;
@@ -33,7 +33,6 @@ MesoVec3 meso_details_direction(const MesoJsonField *field);
 const char **meso_details_keys(MesoDetailsParser *parser, const MesoJsonField *field, uint32_t least, uint32_t most,
                                uint32_t *count);
 
-void meso_details_materials(MesoDetailsParser *parser, const MesoJsonField *field, MesoDetailsFile *details);
 void meso_details_kinds(MesoDetailsParser *parser, const MesoJsonField *field, MesoDetailsFile *details);
 void meso_details_distribution(MesoDetailsParser *parser, const MesoJsonField *field, MesoDetailDistribution *out);
 

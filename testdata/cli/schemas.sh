@@ -81,6 +81,8 @@ if [ -d "$npm/node_modules/ajv" ]; then
     validate pattern "$testdata"/patterns/*.pattern.json
     validate macros "$testdata/patterns/flowers.macros.json" "$(dirname "$scripts")/formats/decor/macros.json"
     validate regions tree.json grown-tree.json whole-tree.json
+    validate details "$testdata"/details/*.details.json
+    validate deform "$testdata"/details/*.deform.json
     validate report broken-[1238].json
     validate seeds broken.jsonl
     validate constraints broken-4.json
