@@ -1,5 +1,6 @@
 #include "formats/clip/clip_file.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 
 #include "formats/clip/frame_folder.h"
 #include "formats/clip/point_cache.h"
+#include "formats/mesh/gltf/gltf_clip.h"
 #include "formats/mesh/mesh_read.h"
 
 /* A frame that has been read, or could not be. */
@@ -25,6 +27,8 @@ struct MesoClipFile {
     MesoInput rest_input, cache_input;
     bool rest_open, cache_open;
     MesoPointCache cache;
+    MesoGltfClip *animation;    /* NULL: none */
+    double frames_per_second;   /* of the animation */
     uint32_t thread_count;
 
     bool ahead;
@@ -105,13 +109,21 @@ static MesoStatus read_numbered(const MesoClipFile *clip, int32_t number, uint32
     return status;
 }
 
+/* Frames of caches and animations are counted from 1. */
+static MesoStatus read_number(const MesoClipFile *clip, int32_t number, uint32_t thread_count, Slot *slot)
+{
+    if (clip->cache_open)
+        return meso_point_cache_frame(&clip->cache, (uint32_t)number - 1, slot->positions, &slot->error);
+    if (clip->animation)
+        return meso_gltf_clip_positions(clip->animation, (number - 1) / clip->frames_per_second, slot->positions,
+                                        &slot->error);
+    return read_numbered(clip, number, thread_count, slot);
+}
+
 static void read_frame(const MesoClipFile *clip, uint32_t frame, uint32_t thread_count, Slot *slot)
 {
-    int32_t number = clip->frames.frames[frame];
     slot->frame = frame;
-    slot->status = clip->cache_open ? meso_point_cache_frame(&clip->cache, (uint32_t)number - 1, slot->positions,
-                                                             &slot->error)
-                                    : read_numbered(clip, number, thread_count, slot);
+    slot->status = read_number(clip, clip->frames.frames[frame], thread_count, slot);
 }
 
 /* ---- reading ahead ---- */
@@ -179,26 +191,22 @@ static MesoStatus copy_frames(MesoClipFile *clip, const MesoFrameList *frames, M
     return MESO_OK;
 }
 
-static MesoStatus all_of_cache(MesoClipFile *clip, MesoError *error)
+/* Those that were asked for, of which there are 1 to `count`, or all of them. */
+static MesoStatus choose_frames(MesoClipFile *clip, const MesoFrameList *frames, double count, MesoError *error)
 {
-    uint32_t count = clip->cache.frame_count;
+    if (frames) {
+        for (uint32_t i = 0; i < frames->count; i++)
+            if (frames->frames[i] < 1 || frames->frames[i] > count)
+                return meso_fail(error, MESO_ERR_INPUT, "%s: no frame %d; there are 1 to %.0f", clip->path,
+                                 frames->frames[i], count);
+        return copy_frames(clip, frames, error);
+    }
     if (count > MESO_MOST_FRAMES)
         return meso_fail(error, MESO_ERR_LIMIT, "%s: over %d frames", clip->path, MESO_MOST_FRAMES);
-    clip->frames = (MesoFrameList){count, MESO_NEW(&clip->arena, int32_t, count, error)};
-    for (uint32_t f = 0; clip->frames.frames && f < count; f++)
+    clip->frames = (MesoFrameList){(uint32_t)count, MESO_NEW(&clip->arena, int32_t, (size_t)count, error)};
+    for (uint32_t f = 0; clip->frames.frames && f < clip->frames.count; f++)
         clip->frames.frames[f] = (int32_t)f + 1;
     return clip->frames.frames ? MESO_OK : MESO_ERR_MEMORY;
-}
-
-static MesoStatus check_cache_frames(const MesoClipFile *clip, MesoError *error)
-{
-    for (uint32_t i = 0; i < clip->frames.count; i++) {
-        int32_t number = clip->frames.frames[i];
-        if (number < 1 || (uint32_t)number > clip->cache.frame_count)
-            return meso_fail(error, MESO_ERR_INPUT, "%s: no frame %d; there are 1 to %u", clip->path, number,
-                             clip->cache.frame_count);
-    }
-    return MESO_OK;
 }
 
 static MesoStatus open_cache(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
@@ -211,11 +219,23 @@ static MesoStatus open_cache(MesoClipFile *clip, const MesoClipSource *source, M
     clip->cache_open = true;
     status = meso_point_cache_open(&clip->cache, &clip->cache_input,
                                    has_extension(clip->path, ".mdd") ? MESO_CACHE_MDD : MESO_CACHE_PC2, error);
-    if (!status && source->frames)
-        status = copy_frames(clip, source->frames, error);
-    else if (!status)
-        status = all_of_cache(clip, error);
-    return status ? status : check_cache_frames(clip, error);
+    return status ? status : choose_frames(clip, source->frames, clip->cache.frame_count, error);
+}
+
+/* The last key may lie on a frame, but for rounding. */
+static MesoStatus open_animation(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    MesoInput input;
+    clip->frames_per_second = source->frames_per_second > 0 ? source->frames_per_second : 24;
+    MesoStatus status = meso_input_open(&input, clip->path, error);
+    if (status)
+        return status;
+    status = meso_gltf_clip_open(&clip->animation, &input, error);
+    meso_input_close(&input);
+    if (status)
+        return status;
+    double count = floor(meso_gltf_clip_duration(clip->animation) * clip->frames_per_second + 1e-4) + 1;
+    return choose_frames(clip, source->frames, count, error);
 }
 
 static MesoStatus open_numbered(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
@@ -231,16 +251,19 @@ static MesoStatus open_frames(MesoClipFile *clip, const MesoClipSource *source, 
         return open_cache(clip, source, error);
     if (meso_frame_path_is_pattern(clip->path))
         return open_numbered(clip, source, error);
-    return meso_fail(error, MESO_ERR_USAGE, "'%s' is no clip: a name with the frame's number, as in body-%%04d.obj, or "
-                     "a cache (.pc2, .mdd) is", source->path);
+    if (has_extension(clip->path, ".glb") || has_extension(clip->path, ".gltf"))
+        return open_animation(clip, source, error);
+    return meso_fail(error, MESO_ERR_USAGE, "'%s' is no clip: a name with the frame's number, as in body-%%04d.obj, a "
+                     "cache (.pc2, .mdd) or an animation (.glb, .gltf) is", source->path);
 }
 
 static MesoStatus read_rest(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
 {
     if (clip->frames.count == 0)
         return meso_fail(error, MESO_ERR_USAGE, "'%s': no frames", source->path);
-    const char *path = source->rest ? meso_arena_copy_text(&clip->arena, source->rest, error)
-                                    : meso_frame_path(clip->path, clip->frames.frames[0], &clip->arena, error);
+    const char *path = source->rest      ? meso_arena_copy_text(&clip->arena, source->rest, error)
+                       : clip->animation ? clip->path
+                                         : meso_frame_path(clip->path, clip->frames.frames[0], &clip->arena, error);
     if (!path)
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_input_open(&clip->rest_input, path, error);
@@ -248,10 +271,24 @@ static MesoStatus read_rest(MesoClipFile *clip, const MesoClipSource *source, Me
         return status;
     clip->rest_open = true;
     status = meso_polygon_mesh_read(&clip->rest, &clip->arena, &clip->rest_input, clip->thread_count, error);
-    if (!status && clip->cache_open && clip->cache.point_count != clip->rest.vertex_count)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: %u points; '%s' has %u vertices", clip->path,
-                         clip->cache.point_count, path, clip->rest.vertex_count);
-    return status;
+    if (status)
+        return status;
+    uint32_t count = clip->cache_open  ? clip->cache.point_count
+                     : clip->animation ? meso_gltf_clip_vertex_count(clip->animation)
+                                       : clip->rest.vertex_count;
+    if (count != clip->rest.vertex_count)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %u points; '%s' has %u vertices", clip->path, count, path,
+                         clip->rest.vertex_count);
+    return MESO_OK;
+}
+
+/* A file of an animation has its mesh as it was made; what moves, begins with the first frame. */
+static MesoStatus pose_rest(MesoClipFile *clip, const MesoClipSource *source, MesoError *error)
+{
+    if (!clip->animation || source->rest)
+        return MESO_OK;
+    return meso_gltf_clip_positions(clip->animation, (clip->frames.frames[0] - 1) / clip->frames_per_second,
+                                    clip->rest.positions, error);
 }
 
 static MesoStatus make_slots(MesoClipFile *clip, MesoError *error)
@@ -272,6 +309,8 @@ static MesoStatus open_all(MesoClipFile *clip, const MesoClipSource *source, Mes
     MesoStatus status = open_frames(clip, source, error);
     if (!status)
         status = read_rest(clip, source, error);
+    if (!status)
+        status = pose_rest(clip, source, error);
     return status ? status : make_slots(clip, error);
 }
 
@@ -302,6 +341,7 @@ void meso_clip_release(MesoClipFile *clip)
         meso_input_close(&clip->rest_input);
     if (clip->cache_open)
         meso_input_close(&clip->cache_input);
+    meso_gltf_clip_release(clip->animation);
     meso_arena_release(&clip->arena);
     free(clip);
 }

@@ -3,6 +3,7 @@
  *
  *     body-%04d.obj       numbered meshes of any kind that is read, all with the same faces
  *     body.pc2, body.mdd  a cache of positions, with a mesh that has the faces
+ *     body.glb            an animation, sampled (gltf_clip.h)
  *
  * Positions are in the order of the rest mesh's vertices, which is that of its file. Where the mesh has become a
  * triangulation, vertex v of that is vertex origins[v] of the mesh (triangulation.h).
@@ -19,7 +20,8 @@ typedef struct MesoClipFile MesoClipFile;
 typedef struct MesoClipSource {
     const char *path;               /* as above */
     const char *rest;               /* file of the mesh at rest; NULL: the first frame, where it has faces */
-    const MesoFrameList *frames;    /* NULL: all that there are. Those of caches are counted from 1 */
+    const MesoFrameList *frames;    /* NULL: all that there are. Of one file they are counted from 1 */
+    double frames_per_second;       /* of an animation; 0: 24 */
     uint32_t thread_count;          /* for the mesh at rest and what is not read ahead; 0: all cores */
     bool ahead;                     /* reads the next frame while this one is used: two are held, and not one */
 } MesoClipSource;
@@ -27,8 +29,9 @@ typedef struct MesoClipSource {
 /*
  * Opens a clip and reads its mesh at rest; the frames are read when they are asked for. `frames` is copied.
  * MESO_ERR_USAGE for a path that is no clip, and a cache without a mesh; MESO_ERR_INPUT for a mesh and a cache that do
- * not fit, a frame that a cache does not have, and, where `frames` is NULL, no frames or the first that is missing
- * between others; else what mesh_read.h and point_cache.h say.
+ * not fit, a frame that a file does not have, and, where `frames` is NULL, no frames or the first that is missing
+ * between others; else what
+ * mesh_read.h, point_cache.h and gltf_clip.h say.
  */
 MesoStatus meso_clip_open(MesoClipFile **clip, const MesoClipSource *source, MesoError *error);
 

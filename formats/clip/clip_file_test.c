@@ -1,6 +1,7 @@
 /* Clips of numbered meshes and of caches: their frames, in any order, and what is wrong with them. */
 #include "formats/clip/clip_file.h"
 #include "formats/file/test_folder.h"
+#include "formats/mesh/gltf/gltf_clip_fixture.h"
 
 static void write_text(const TestFolder *folder, const char *name, const char *text)
 {
@@ -128,8 +129,8 @@ static void test_bad_frames(void)
     expect_no_clip(&folder, test_path(&folder, "c-%d.obj"), NULL, NULL, MESO_ERR_INPUT,
                    "c-%d.obj: there are no such files");
     expect_no_clip(&folder, test_path(&folder, "c-1.obj"), NULL, NULL, MESO_ERR_USAGE,
-                   "'c-1.obj' is no clip: a name with the frame's number, as in body-%04d.obj, or a cache (.pc2, .mdd) "
-                   "is");
+                   "'c-1.obj' is no clip: a name with the frame's number, as in body-%04d.obj, a cache (.pc2, .mdd) "
+                   "or an animation (.glb, .gltf) is");
     expect_no_clip(&folder, test_path(&folder, "%d/c.obj"), NULL, NULL, MESO_ERR_USAGE,
                    "'%d/c.obj': the number of a frame must stand in the name of the file for frames to be found; say "
                    "which there are");
@@ -180,11 +181,34 @@ static void test_cache(bool ahead)
     test_folder_remove(&folder);
 }
 
+/* Two seconds at 24 frames each, the last one among them; vertex 1 goes along x by 2 a second. */
+static void test_animation(bool ahead)
+{
+    TestFolder folder = test_folder_make();
+    uint8_t bytes[8192];
+    MesoClipFile *clip;
+    MesoError error;
+    const char *path = test_path(&folder, "a.glb");
+    test_file_write(path, bytes, make_animated_glb(bytes, "LINEAR"));
+    CHECK(open_clip(&clip, path, NULL, NULL, ahead, &error) == MESO_OK);
+    CHECK(meso_clip_frame_count(clip) == 49 && meso_clip_frame_number(clip, 48) == 49);
+    CHECK(meso_clip_mesh(clip)->face_count == 2 && meso_clip_mesh(clip)->positions[3].x == 0);
+    CHECK(meso_clip_positions(clip, 48, &error)[1].x == 5 && meso_clip_positions(clip, 24, &error)[1].x == 3);
+    CHECK(meso_clip_positions(clip, 25, &error)[1].x > 3);
+    meso_clip_release(clip);
+    CHECK(open_clip(&clip, path, NULL, "25,13", ahead, &error) == MESO_OK);
+    CHECK(meso_clip_mesh(clip)->positions[1].x == 3 && meso_clip_positions(clip, 1, &error)[1].x == 2);
+    meso_clip_release(clip);
+    expect_no_clip(&folder, path, NULL, "0", MESO_ERR_INPUT, "a.glb: no frame 0; there are 1 to 49");
+    test_folder_remove(&folder);
+}
+
 int main(void)
 {
     for (int ahead = 0; ahead < 2; ahead++) {
         test_numbered(ahead);
         test_cache(ahead);
+        test_animation(ahead);
     }
     test_bad_frames();
     return 0;

@@ -6,7 +6,7 @@
 #include <new>
 
 #include "formats/mesh/gltf/gltf_file.hpp"
-#include "formats/mesh/gltf/gltf_matrix.hpp"
+#include "formats/mesh/gltf/gltf_nodes.hpp"
 #include "formats/mesh/gltf/gltf_primitive.hpp"
 #include "formats/mesh/gltf/mesh_gatherer.hpp"
 
@@ -115,10 +115,6 @@ void add_normals(Reading &reading, const Primitive &primitive, const Turn &turn)
 
 void add_primitive(Reading &reading, const tinygltf::Primitive &from, const Matrix &world, const std::string &object)
 {
-    if (from.mode >= 0 && from.mode < TINYGLTF_MODE_TRIANGLES)
-        return;
-    if (!from.attributes.count("POSITION"))
-        return;
     Primitive primitive(reading.model, from, reading.most_corners);
     meso::MeshGatherer &gatherer = reading.gatherer;
     std::size_t count = primitive.vertex_count(), first = gatherer.positions.size();
@@ -164,53 +160,20 @@ void add_primitive(Reading &reading, const tinygltf::Primitive &from, const Matr
                                 from.material < 0 ? MESO_NO_INDEX : static_cast<uint32_t>(from.material));
 }
 
-/* All nodes below the roots, each once, parents first and children in their order. */
-void add_nodes(Reading &reading, const std::vector<int> &roots)
+void add_nodes(Reading &reading)
 {
-    struct Visit {
-        int node;
-        Matrix parent;
-    };
     const tinygltf::Model &model = reading.model;
-    std::vector<bool> seen(model.nodes.size());
-    std::vector<Visit> stack;
-    for (std::size_t i = roots.size(); i-- > 0;)
-        stack.push_back({roots[i], Matrix()});
-    while (!stack.empty()) {
-        Visit visit = stack.back();
-        stack.pop_back();
-        const tinygltf::Node &node = meso::at(model.nodes, visit.node, "node");
-        if (seen[static_cast<std::size_t>(visit.node)])
-            throw BrokenGltf("node " + std::to_string(visit.node) + " is reached twice");
-        seen[static_cast<std::size_t>(visit.node)] = true;
-        Matrix world = product(visit.parent, meso::matrix_of(node));
-        if (node.mesh >= 0) {
-            const tinygltf::Mesh &mesh = meso::at(model.meshes, node.mesh, "mesh");
-            std::string name = !node.name.empty() ? node.name : !mesh.name.empty() ? mesh.name
-                                                              : "node " + std::to_string(visit.node);
-            for (const tinygltf::Primitive &primitive : mesh.primitives)
-                add_primitive(reading, primitive, world, name);
-        }
-        for (std::size_t i = node.children.size(); i-- > 0;)
-            stack.push_back({node.children[i], world});
+    for (const meso::PlacedNode &placed : meso::nodes_of_scene(model, meso::locals_of(model))) {
+        const tinygltf::Node &node = meso::at(model.nodes, placed.node, "node");
+        if (node.mesh < 0)
+            continue;
+        const tinygltf::Mesh &mesh = meso::at(model.meshes, node.mesh, "mesh");
+        std::string name = !node.name.empty() ? node.name : !mesh.name.empty() ? mesh.name
+                                                          : "node " + std::to_string(placed.node);
+        for (const tinygltf::Primitive &primitive : mesh.primitives)
+            if (meso::is_shown(primitive))
+                add_primitive(reading, primitive, placed.world, name);
     }
-}
-
-/* The nodes of the default scene, or of the first; of a file without scenes, those without a parent. */
-std::vector<int> roots_of(const tinygltf::Model &model)
-{
-    if (!model.scenes.empty())
-        return meso::at(model.scenes, model.defaultScene >= 0 ? model.defaultScene : 0, "scene").nodes;
-    std::vector<bool> child(model.nodes.size());
-    for (const tinygltf::Node &node : model.nodes)
-        for (int index : node.children)
-            if (index >= 0 && static_cast<std::size_t>(index) < child.size())
-                child[static_cast<std::size_t>(index)] = true;
-    std::vector<int> roots;
-    for (std::size_t i = 0; i < child.size(); i++)
-        if (!child[i])
-            roots.push_back(static_cast<int>(i));
-    return roots;
 }
 
 }
@@ -224,7 +187,7 @@ try {
     Reading reading = {model, meso::most_corners(size), {}};
     add_materials(reading);
     add_names(reading);
-    add_nodes(reading, roots_of(model));
+    add_nodes(reading);
     return reading.gatherer.finish(mesh, arena, error);
 } catch (const std::bad_alloc &) {
     return meso_fail(error, MESO_ERR_MEMORY, "%s: out of memory for glTF", input->path);
