@@ -56,8 +56,8 @@ static void set_bounds(Glb *glb, uint32_t accessor, const MesoVec3 *positions, u
 static json_t *material_of(const MesoInstanceShape *shape)
 {
     const MesoMaterial *m = shape->material;
-    return json_pack("{s:o, s:b, s:{s:[f, f, f, f], s:f, s:f}}", "name", meso_json_string(shape->name), "doubleSided", 1,
-                     "pbrMetallicRoughness", "baseColorFactor", (double)m->albedo[0], (double)m->albedo[1],
+    return json_pack("{s:o, s:b, s:{s:[f, f, f, f], s:f, s:f}}", "name", meso_json_string(shape->name), "doubleSided",
+                     1, "pbrMetallicRoughness", "baseColorFactor", (double)m->albedo[0], (double)m->albedo[1],
                      (double)m->albedo[2], 1.0, "roughnessFactor", (double)m->roughness, "metallicFactor",
                      (double)m->metallic);
 }
@@ -112,7 +112,8 @@ static void add_asset(Glb *glb, bool instanced, MesoArena *arena, MesoError *err
     const MesoProvenance *provenance = glb->scene->provenance;
     const char *generator = meso_arena_print(arena, error, "%s %s", provenance ? provenance->tool : "meso",
                                              MESO_VERSION);
-    json_t *asset = json_pack("{s:s, s:o}", "version", "2.0", "generator", meso_json_string(generator ? generator : ""));
+    json_t *asset = json_pack("{s:s, s:o}", "version", "2.0", "generator",
+                              meso_json_string(generator ? generator : ""));
     const char *text = provenance ? meso_provenance_text(provenance, arena, error) : "";
     if (!text || !generator)
         glb->failed = -1;

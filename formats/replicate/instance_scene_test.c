@@ -198,7 +198,8 @@ static void test_usda(const TestFolder *folder)
                         "</World/Details/Prototypes/_2nd__scale__2>]\n");
     expect_text(&input, "        int[] protoIndices.timeSamples = {\n            3: [],\n            5: [0, 2, 0],\n");
     expect_text(&input, "        int64[] ids.timeSamples = {\n            3: [],\n            5: [0, 3, 4],\n");
-    expect_text(&input, "        int[] primvars:birth.timeSamples = {\n            3: [],\n            5: [-1, 5, 6],\n");
+    expect_text(&input, "        int[] primvars:birth.timeSamples = {\n            3: [],\n            5: [-1, 5, 6],"
+                        "\n");
     expect_text(&input, "            5: [(1, 2, 3), (4, 5, 6), (7, 8, 9)],\n");
     expect_text(&input, "            5: [(1, 0, 0, 0), (0.7071, 0, 0, 0.7071), (0");
     expect_text(&input, "            5: [(1, 1, 1), (4, 1, 2), (0.5, 0.5, 0.5)],\n");

@@ -1,6 +1,6 @@
 /*
- * Animated glTF: the positions of the mesh that meso_gltf_read() makes of a file (mesh_kinds.h), at any time of its first
- * animation. Nodes move, morph targets are blended, skins follow their joints, as glTF 2.0 has it.
+ * Animated glTF: the positions of the mesh that meso_gltf_read() makes of a file (mesh_kinds.h), at any time of its
+ * first animation. Nodes move, morph targets are blended, skins follow their joints, as glTF 2.0 has it.
  */
 #ifndef MESO_GLTF_CLIP_H
 #define MESO_GLTF_CLIP_H

@@ -75,7 +75,7 @@ std::vector<float> numbers_of(MesoGltfClip &clip, int accessor, std::size_t coun
         throw BrokenGltf("accessor " + std::to_string(accessor) + " is not of " + std::to_string(count) +
                          " elements with " + std::to_string(width) + " numbers");
     clip.numbers += count * width;
-    if (clip.numbers > 16 * clip.most)
+    if (clip.numbers > clip.most)
         throw std::length_error("its animation takes too many numbers");
     return meso::floats_of(clip.model, accessor, count);
 }
@@ -122,7 +122,8 @@ void add_channel(MesoGltfClip &clip, const tinygltf::Animation &animation, const
     channel.times = numbers_of(clip, sampler.input, keys, 1);
     channel.values = numbers_of(clip, sampler.output, elements, width);
     for (std::size_t i = 0; i < keys; i++)
-        if (!(channel.times[i] >= 0) || !std::isfinite(channel.times[i]) || (i && channel.times[i] <= channel.times[i - 1]))
+        if (!(channel.times[i] >= 0 && std::isfinite(channel.times[i])) ||
+            (i && channel.times[i] <= channel.times[i - 1]))
             throw BrokenGltf("times of an animation do not ascend");
     if (keys == 0 || channel.width == 0)
         return;
@@ -194,7 +195,7 @@ void add_part(MesoGltfClip &clip, int node, const tinygltf::Primitive &from)
     }
     if (skin >= 0 && primitive.has("JOINTS_0") && primitive.has("WEIGHTS_0"))
         add_joints(clip, primitive, part, at(clip.skins, skin, "skin").joints.size());
-    if (clip.numbers > 16 * clip.most)
+    if (clip.numbers > clip.most)
         throw std::length_error("its animation takes too many numbers");
     clip.vertex_count += part.count;
     clip.parts.push_back(std::move(part));
@@ -241,7 +242,8 @@ std::vector<double> turned(const float *a, const float *b, double t)
     for (std::size_t i = 0; i < 4; i++)
         cosine += static_cast<double>(a[i]) * static_cast<double>(b[i]);
     double sign = cosine < 0 ? -1 : 1, angle = std::acos(std::fmin(1, std::fabs(cosine))), sine = std::sin(angle);
-    double from = sine > 1e-6 ? std::sin((1 - t) * angle) / sine : 1 - t, to = sine > 1e-6 ? std::sin(t * angle) / sine : t;
+    double from = sine > 1e-6 ? std::sin((1 - t) * angle) / sine : 1 - t;
+    double to = sine > 1e-6 ? std::sin(t * angle) / sine : t;
     for (std::size_t i = 0; i < 4; i++)
         out[i] = from * static_cast<double>(a[i]) + sign * to * static_cast<double>(b[i]);
     make_unit(out);
@@ -276,7 +278,8 @@ std::vector<double> value_at(const Channel &channel, double time)
             out[i] = p + t * (q - p);
             continue;
         }
-        double leave = length * static_cast<double>(a[width + i]), arrive = length * static_cast<double>((b - width)[i]);
+        double leave = length * static_cast<double>(a[width + i]);
+        double arrive = length * static_cast<double>((b - width)[i]);
         double t2 = t * t, t3 = t2 * t;
         out[i] = (2 * t3 - 3 * t2 + 1) * p + (t3 - 2 * t2 + t) * leave + (3 * t2 - 2 * t3) * q + (t3 - t2) * arrive;
     }
@@ -303,7 +306,8 @@ Pose pose_at(const MesoGltfClip &clip, double time)
         nodes[i].translation = node.translation;
         nodes[i].rotation = node.rotation;
         nodes[i].scale = node.scale;
-        pose.weights[i] = !node.weights.empty() || node.mesh < 0 ? node.weights : at(model.meshes, node.mesh, "mesh").weights;
+        bool own = !node.weights.empty() || node.mesh < 0;
+        pose.weights[i] = own ? node.weights : at(model.meshes, node.mesh, "mesh").weights;
     }
     for (const Channel &channel : clip.channels) {
         auto number = static_cast<std::size_t>(channel.node);
@@ -371,7 +375,8 @@ void place_part(const MesoGltfClip &clip, const Part &part, const Pose &pose, Me
         Matrix world = joints.empty() ? pose.world[node] : blend_of(part, v, joints);
         for (int row = 0; row < 3; row++)
             q[row] = world.m[row] * p[0] + world.m[4 + row] * p[1] + world.m[8 + row] * p[2] + world.m[12 + row];
-        positions[part.first + v] = MesoVec3{static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])};
+        positions[part.first + v] = MesoVec3{static_cast<float>(q[0]), static_cast<float>(q[1]),
+                                             static_cast<float>(q[2])};
     }
 }
 
@@ -417,8 +422,8 @@ try {
         place_part(*clip, part, pose, positions);
     for (std::size_t v = 0; v < clip->vertex_count; v++)
         if (!is_place(positions[v]))
-            return meso_fail(error, MESO_ERR_INPUT, "%s: at %g s, vertex %zu: coordinates that are not finite, or beyond "
-                             "1e18", clip->path.c_str(), time, v + 1);
+            return meso_fail(error, MESO_ERR_INPUT, "%s: at %g s, vertex %zu: coordinates that are not finite, or "
+                             "beyond 1e18", clip->path.c_str(), time, v + 1);
     return MESO_OK;
 } catch (const std::bad_alloc &) {
     return meso_fail(error, MESO_ERR_MEMORY, "%s: out of memory for glTF", clip->path.c_str());

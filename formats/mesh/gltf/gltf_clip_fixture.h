@@ -10,8 +10,8 @@
 
 /*
  * Two triangles. The first one's last vertex goes up by a morph target and back, while its node moves along x. Of the
- * second the first vertex follows joint 2, the next one joint 3, half a unit on, which turns by 90 degrees, and the last
- * one both by half.
+ * second the first vertex follows joint 2, the next one joint 3, half a unit on, which turns by 90 degrees, and the
+ * last one both by half.
  */
 static const float animated_numbers[] = {
     0, 0, 0, 1, 0, 0, 0, 1, 0,              /* 0: positions */
