@@ -10,6 +10,7 @@
 #include "formats/clip/point_cache.h"
 #include "formats/mesh/gltf/gltf_clip.h"
 #include "formats/mesh/mesh_read.h"
+#include "libcore/mesh/edit/mesh_weld.h"
 
 /* A frame that has been read, or could not be. */
 typedef struct Slot {
@@ -23,7 +24,9 @@ struct MesoClipFile {
     MesoArena arena;
     const char *path;
     MesoFrameList frames;
-    MesoPolygonMesh rest;
+    MesoPolygonMesh rest;       /* as its file has it */
+    MesoPolygonMesh mesh;       /* as it is handed out */
+    uint32_t *kept;             /* [mesh.vertex_count] vertices of `rest`, ascending; NULL: all */
     MesoInput rest_input, cache_input;
     bool rest_open, cache_open;
     MesoPointCache cache;
@@ -120,10 +123,19 @@ static MesoStatus read_number(const MesoClipFile *clip, int32_t number, uint32_t
     return read_numbered(clip, number, thread_count, slot);
 }
 
+/* In place: no vertex stands before the one that it comes from. */
+static void keep_vertices(const MesoClipFile *clip, MesoVec3 *positions)
+{
+    for (uint32_t v = 0; clip->kept && v < clip->mesh.vertex_count; v++)
+        positions[v] = positions[clip->kept[v]];
+}
+
 static void read_frame(const MesoClipFile *clip, uint32_t frame, uint32_t thread_count, Slot *slot)
 {
     slot->frame = frame;
     slot->status = read_number(clip, clip->frames.frames[frame], thread_count, slot);
+    if (!slot->status)
+        keep_vertices(clip, slot->positions);
 }
 
 /* ---- reading ahead ---- */
@@ -291,6 +303,30 @@ static MesoStatus pose_rest(MesoClipFile *clip, const MesoClipSource *source, Me
                                     clip->rest.positions, error);
 }
 
+static MesoStatus weld(MesoClipFile *clip, MesoError *error)
+{
+    uint32_t count = clip->rest.vertex_count;
+    uint32_t *first = MESO_NEW(&clip->arena, uint32_t, count, error);
+    clip->kept = MESO_NEW(&clip->arena, uint32_t, count, error);
+    if (!first || !clip->kept)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_mesh_weld_map(first, &clip->rest, 0, error);
+    if (!status)
+        status = meso_mesh_weld(&clip->mesh, &clip->arena, &clip->rest, 0, NULL, error);
+    if (status)
+        return status;
+    uint32_t kept = 0;
+    for (uint32_t v = 0; v < count; v++)
+        if (first[v] == v)
+            clip->kept[kept++] = v;
+    if (kept != clip->mesh.vertex_count)
+        return meso_fail(error, MESO_ERR_INTERNAL, "%u vertices are left, and not %u", clip->mesh.vertex_count, kept);
+    if (clip->mesh.face_count == 0)
+        return meso_fail(error, MESO_ERR_INPUT, "%s: no face has three vertices in different places",
+                         clip->rest_input.path);
+    return MESO_OK;
+}
+
 static MesoStatus make_slots(MesoClipFile *clip, MesoError *error)
 {
     for (uint32_t i = 0; i < (clip->ahead ? 2u : 1u); i++) {
@@ -311,6 +347,9 @@ static MesoStatus open_all(MesoClipFile *clip, const MesoClipSource *source, Mes
         status = read_rest(clip, source, error);
     if (!status)
         status = pose_rest(clip, source, error);
+    clip->mesh = clip->rest;
+    if (!status && source->weld)
+        status = weld(clip, error);
     return status ? status : make_slots(clip, error);
 }
 
@@ -346,7 +385,7 @@ void meso_clip_release(MesoClipFile *clip)
     free(clip);
 }
 
-const MesoPolygonMesh *meso_clip_mesh(const MesoClipFile *clip) { return &clip->rest; }
+const MesoPolygonMesh *meso_clip_mesh(const MesoClipFile *clip) { return &clip->mesh; }
 const MesoInput *meso_clip_mesh_input(const MesoClipFile *clip) { return &clip->rest_input; }
 uint32_t meso_clip_frame_count(const MesoClipFile *clip) { return clip->frames.count; }
 

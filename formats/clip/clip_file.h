@@ -5,7 +5,8 @@
  *     body.pc2, body.mdd  a cache of positions, with a mesh that has the faces
  *     body.glb            an animation, sampled (gltf_clip.h)
  *
- * Positions are in the order of the rest mesh's vertices, which is that of its file. Where the mesh has become a
+ * Positions are in the order of the rest mesh's vertices, which is that of its file, without those that were welded to
+ * an earlier one. Where the mesh has become a
  * triangulation, vertex v of that is vertex origins[v] of the mesh (triangulation.h).
  */
 #ifndef MESO_CLIP_FILE_H
@@ -23,6 +24,7 @@ typedef struct MesoClipSource {
     const MesoFrameList *frames;    /* NULL: all that there are. Of one file they are counted from 1 */
     double frames_per_second;       /* of an animation; 0: 24 */
     uint32_t thread_count;          /* for the mesh at rest and what is not read ahead; 0: all cores */
+    bool weld;                      /* vertices in one place at rest become one: glTF splits them at seams */
     bool ahead;                     /* reads the next frame while this one is used: two are held, and not one */
 } MesoClipSource;
 
@@ -38,7 +40,7 @@ MesoStatus meso_clip_open(MesoClipFile **clip, const MesoClipSource *source, Mes
 /* NULL is allowed. */
 void meso_clip_release(MesoClipFile *clip);
 
-/* The mesh at rest, with its attributes. */
+/* The mesh at rest, with its attributes; those that differ along seams are of corners where it was welded. */
 const MesoPolygonMesh *meso_clip_mesh(const MesoClipFile *clip);
 
 /* The file that it is from, for messages about its faces; open until the clip is released. */

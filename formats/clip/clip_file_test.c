@@ -181,6 +181,36 @@ static void test_cache(bool ahead)
     test_folder_remove(&folder);
 }
 
+/* Two triangles with a seam of their own vertices between; what was one in the first frame stays so. */
+static void test_welded(void)
+{
+    TestFolder folder = test_folder_make();
+    MesoClipFile *clip;
+    MesoError error;
+    for (int f = 1; f <= 2; f++) {
+        char name[16], text[256];
+        snprintf(name, sizeof name, "s%d.obj", f);
+        snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0\nv 0 1 %d\nv 1 0 0\nv 1 1 %d\nv 0 1 %d\nf 1 2 3\nf 4 5 6\n", f,
+                 5 * f, f);
+        write_text(&folder, name, text);
+    }
+    for (int ahead = 0; ahead < 2; ahead++) {
+        const MesoClipSource source = {.path = test_path(&folder, "s%d.obj"), .weld = true, .ahead = ahead};
+        CHECK(meso_clip_open(&clip, &source, &error) == MESO_OK);
+        const MesoPolygonMesh *mesh = meso_clip_mesh(clip);
+        CHECK(mesh->vertex_count == 4 && mesh->face_count == 2 && mesh->corners[3] == 1 && mesh->corners[4] == 3);
+        for (int f = 1; f <= 2; f++) {
+            const MesoVec3 *positions = meso_clip_positions(clip, (uint32_t)f - 1, &error);
+            CHECK(positions && positions[2].z == (float)f && positions[3].z == (float)(5 * f) && positions[1].x == 1);
+        }
+        meso_clip_release(clip);
+    }
+    write_text(&folder, "s1.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
+    const MesoClipSource source = {.path = test_path(&folder, "s%d.obj"), .weld = true};
+    CHECK(meso_clip_open(&clip, &source, &error) == MESO_ERR_INPUT);
+    test_folder_remove(&folder);
+}
+
 /* Two seconds at 24 frames each, the last one among them; vertex 1 goes along x by 2 a second. */
 static void test_animation(bool ahead)
 {
@@ -211,5 +241,6 @@ int main(void)
         test_animation(ahead);
     }
     test_bad_frames();
+    test_welded();
     return 0;
 }
