@@ -59,9 +59,9 @@ bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint3
                          .branch = work->branch_count, .node = MESO_GROWTH_ROOT | number, .done = true};
     tip.run = meso_growth_begin(work->grammar->seeds[start->seed].entry, start->key);
     tip.foot = meso_growth_foot(work->ground, &tip.at);
-    tip.state[MESO_STATE_X] = tip.foot.position.x;
-    tip.state[MESO_STATE_Y] = tip.foot.position.y;
-    tip.state[MESO_STATE_Z] = tip.foot.position.z;
+    tip.state[MESO_STATE_X] = tip.foot.position[0];
+    tip.state[MESO_STATE_Y] = tip.foot.position[1];
+    tip.state[MESO_STATE_Z] = tip.foot.position[2];
     return add_branch(work, start->key, MESO_NO_INDEX, start->seed) && add_tip(work, &tip, NULL);
 }
 
@@ -79,7 +79,7 @@ static bool begin_branches(MesoGrowthWork *work, uint32_t number, const MesoGrow
         tip.state[MESO_STATE_DEPTH]++;
         tip.branch = work->branch_count;
         tip.joint = MESO_NO_INDEX;
-        tip.arrive = (MesoVec3){0, 0, 0};
+        tip.arrive = (MesoFour){0, 0, 0, 0};
         tip.raise = 0;
         tip.walks = tip.faces = 0;
         tip.done = true;
@@ -94,22 +94,22 @@ static bool begin_branches(MesoGrowthWork *work, uint32_t number, const MesoGrow
 
 /* ---- elements ---- */
 
-static uint32_t add_joint(MesoGrowthWork *work, MesoJoint joint, const MesoTip *at)
+static uint32_t add_joint(MesoGrowthWork *work, const MesoGrowthSeat *seat, const MesoTip *at)
 {
     uint64_t count = (uint64_t)work->joint_count + 1;
-    if (!meso_make_room((void **)&work->joints, &work->joint_room, count, sizeof joint) ||
+    if (!meso_make_room((void **)&work->joints, &work->joint_room, count, sizeof *work->joints) ||
         !meso_make_room((void **)&work->points, &work->point_room, count, sizeof *work->points))
         return MESO_NO_INDEX;
-    work->joints[work->joint_count] = joint;
+    work->joints[work->joint_count] = meso_seat_joint(seat);
     work->points[work->joint_count] = (MesoMeshPoint){
         at->triangle, {(float)at->weight[0], (float)at->weight[1], (float)at->weight[2]}};
     return work->joint_count++;
 }
 
 /* The ball around all of a way: it stays within its length of where it begins. */
-static bool add_ball(MesoGrowthWork *work, MesoVec3 center, double radius)
+static bool add_ball(MesoGrowthWork *work, MesoFour center, double radius)
 {
-    float ball[4] = {center.x, center.y, center.z, (float)(radius * 1.0001)};
+    float ball[4] = {center[0], center[1], center[2], (float)(radius * 1.0001)};
     if (!work->looks && !work->clears)
         return true;
     if (!meso_make_room((void **)&work->balls, &work->ball_room, (uint64_t)work->ball_count + 1, sizeof ball))
@@ -149,9 +149,9 @@ static void go_to(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
     tip->at = turn->end;
     tip->foot = turn->foot;
     tip->state[MESO_STATE_LENGTH] += turn->length;
-    tip->state[MESO_STATE_X] = turn->foot.position.x;
-    tip->state[MESO_STATE_Y] = turn->foot.position.y;
-    tip->state[MESO_STATE_Z] = turn->foot.position.z;
+    tip->state[MESO_STATE_X] = turn->foot.position[0];
+    tip->state[MESO_STATE_Y] = turn->foot.position[1];
+    tip->state[MESO_STATE_Z] = turn->foot.position[2];
 }
 
 static void note_depth(MesoGrowthWork *work, const MesoGrowthTurn *turn)
@@ -168,7 +168,7 @@ static uint32_t add_spans(MesoGrowthWork *work, const MesoGrowthTip *tip, const 
     uint32_t spans = turn->middle_count + 1;
     for (uint32_t i = 0; i < spans && from != MESO_NO_INDEX; i++) {
         bool last = i + 1 == spans;
-        uint32_t to = add_joint(work, last ? turn->to : middles[i].joint, last ? &turn->end : &middles[i].at);
+        uint32_t to = add_joint(work, last ? &turn->to : &middles[i].joint, last ? &turn->end : &middles[i].at);
         double length = tip->state[MESO_STATE_LENGTH] + turn->length * (i + 1) / spans;
         from = to != MESO_NO_INDEX && add_element(work, tip, turn, (MesoSpan){from, to}, length) ? to : MESO_NO_INDEX;
     }
@@ -178,12 +178,12 @@ static uint32_t add_spans(MesoGrowthWork *work, const MesoGrowthTip *tip, const 
 static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 {
     uint32_t from = tip->joint;
-    if (turn->shares)
-        work->joints[from] = turn->from;
-    else if (from != MESO_NO_INDEX)
-        work->joints[from] = turn->before;
+    if (from != MESO_NO_INDEX) {
+        work->joints[from] = meso_seat_joint(&turn->from);
+        work->joints[from].width = turn->shares ? turn->from.width : turn->had;
+    }
     if (!turn->shares)
-        from = add_joint(work, turn->from, &tip->at);
+        from = add_joint(work, &turn->from, &tip->at);
     uint32_t to = add_spans(work, tip, turn, from);
     if (to == MESO_NO_INDEX || !occupy(work, tip, turn))
         return fail_memory(work);
@@ -207,8 +207,8 @@ static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrow
 
 static bool accept_place(MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 {
-    uint32_t from = add_joint(work, turn->from, &tip->at);
-    uint32_t to = from == MESO_NO_INDEX ? MESO_NO_INDEX : add_joint(work, turn->to, &turn->end);
+    uint32_t from = add_joint(work, &turn->from, &tip->at);
+    uint32_t to = from == MESO_NO_INDEX ? MESO_NO_INDEX : add_joint(work, &turn->to, &turn->end);
     if (to == MESO_NO_INDEX || !occupy(work, tip, turn) ||
         !add_element(work, tip, turn, (MesoSpan){from, to}, tip->state[MESO_STATE_LENGTH]))
         return fail_memory(work);
@@ -221,7 +221,7 @@ static void accept_move(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
 {
     go_to(tip, turn);
     tip->joint = MESO_NO_INDEX;
-    tip->arrive = (MesoVec3){0, 0, 0};
+    tip->arrive = (MesoFour){0, 0, 0, 0};
     tip->raise = 0;
     tip->moved |= turn->length > 0;
 }

@@ -15,20 +15,20 @@ static const float shallow = 0.06f;
 
 /* A point of the way. */
 typedef struct Sample {
-    MesoVec3 position;
+    MesoFour position;
     float along;
 } Sample;
 
 typedef struct Curve {
-    MesoVec3 p[4], normals[2];
+    MesoFour p[4], normals[2];
     float begin, end;           /* along the way */
 } Curve;
 
-static MesoVec3 point_of(const MesoGrowthGround *ground, uint32_t triangle, MesoComplex at)
+static MesoFour point_of(const MesoGrowthGround *ground, uint32_t triangle, MesoComplex at)
 {
     double weight[3];
     meso_growth_weigh(&ground->walk, triangle, at, weight);
-    return meso_growth_position(ground, triangle, weight);
+    return meso_four_of(meso_growth_position(ground, triangle, weight));
 }
 
 static float length_of(const MesoGrowthPiece *piece)
@@ -65,8 +65,8 @@ static Sample sample_from(const MesoGrowthWork *work, const MesoGrowthPiece *pie
     MesoComplex from = piece->ends[end], to = piece->ends[1 - end];
     if (piece->triangle != triangle)
         return sample_at(work, piece, end ? 1 - share : share, along);
-    MesoVec3 p = meso_vec3_mad(foot->position, share * (float)(to.re - from.re), foot->x);
-    return (Sample){meso_vec3_mad(p, share * (float)(to.im - from.im), foot->y),
+    MesoFour p = meso_four_mad(foot->position, share * (float)(to.re - from.re), foot->x);
+    return (Sample){meso_four_mad(p, share * (float)(to.im - from.im), foot->y),
                     along + (end ? 1 - share : share) * length_of(piece)};
 }
 
@@ -92,25 +92,25 @@ static uint32_t sample_coarsely(const MesoGrowthWork *work, const MesoGrowthTip 
 }
 
 /* As bend.h has it. */
-static Curve curve_between(const MesoJoint *from, const MesoJoint *to, float begin, float end)
+static Curve curve_between(const MesoGrowthSeat *from, const MesoGrowthSeat *to, float begin, float end)
 {
-    MesoVec3 chord = meso_vec3_sub(to->position, from->position);
-    float length = meso_vec3_length(chord), inverse = length > 0 ? 1 / length : 0;
-    float first = meso_vec3_dot(from->tangent, chord) * inverse, last = meso_vec3_dot(to->tangent, chord) * inverse;
+    MesoFour chord = to->position - from->position;
+    float length = sqrtf(meso_four_dot(chord, chord)), inverse = length > 0 ? 1 / length : 0;
+    float first = meso_four_dot(from->tangent, chord) * inverse, last = meso_four_dot(to->tangent, chord) * inverse;
     float reach = length * (2.0f / 3);
     float a = reach / (1 + (first > 0 ? first : 0)), b = reach / (1 + (last > 0 ? last : 0));
-    return (Curve){{from->position, meso_vec3_mad(from->position, a, from->tangent),
-                    meso_vec3_mad(to->position, -b, to->tangent), to->position},
+    return (Curve){{from->position, meso_four_mad(from->position, a, from->tangent),
+                    meso_four_mad(to->position, -b, to->tangent), to->position},
                    {from->normal, to->normal}, begin, end};
 }
 
-static MesoVec3 curve_point(const Curve *curve, float t)
+static MesoFour curve_point(const Curve *curve, float t)
 {
     float r = 1 - t;
-    MesoVec3 p = meso_vec3_scale(curve->p[0], r * r * r);
-    p = meso_vec3_mad(p, 3 * r * r * t, curve->p[1]);
-    p = meso_vec3_mad(p, 3 * r * t * t, curve->p[2]);
-    return meso_vec3_mad(p, t * t * t, curve->p[3]);
+    MesoFour p = meso_four_scale(curve->p[0], r * r * r);
+    p = meso_four_mad(p, 3 * r * r * t, curve->p[1]);
+    p = meso_four_mad(p, 3 * r * t * t, curve->p[2]);
+    return meso_four_mad(p, t * t * t, curve->p[3]);
 }
 
 /* How deep a curve lies below those of the points that are beside it. */
@@ -121,10 +121,10 @@ static float depth_of(const Curve *curve, const Sample *samples, uint32_t count)
         float t = length > 0 ? (samples[i].along - curve->begin) / length : 2;
         if (!(t > 0 && t < 1))
             continue;
-        MesoVec3 normal = meso_vec3_lerp(curve->normals[0], curve->normals[1], t);
-        MesoVec3 up = meso_vec3_sub(samples[i].position, curve_point(curve, t));
-        float square = meso_vec3_dot(normal, normal);
-        float depth = square > 0.01f ? meso_vec3_dot(up, normal) / sqrtf(square) : 0;
+        MesoFour normal = curve->normals[0] + (curve->normals[1] - curve->normals[0]) * meso_four_all(t);
+        MesoFour up = samples[i].position - curve_point(curve, t);
+        float square = meso_four_dot(normal, normal);
+        float depth = square > 0.01f ? meso_four_dot(up, normal) / sqrtf(square) : 0;
         deepest = depth > deepest ? depth : deepest;
     }
     return deepest;
@@ -179,8 +179,8 @@ static float depth_of_spans(const MesoGrowthTurn *turn, const Sample *samples, u
     uint32_t spans = turn->middle_count + 1;
     float length = (float)turn->length / (float)spans, deepest = 0;
     for (uint32_t i = 0; i < spans; i++) {
-        const MesoJoint *from = i == 0 ? &turn->from : &middles[i - 1].joint;
-        const MesoJoint *to = i + 1 == spans ? &turn->to : &middles[i].joint;
+        const MesoGrowthSeat *from = i == 0 ? &turn->from : &middles[i - 1].joint;
+        const MesoGrowthSeat *to = i + 1 == spans ? &turn->to : &middles[i].joint;
         Curve curve = curve_between(from, to, length * (float)i, length * (float)(i + 1));
         float depth = depth_of(&curve, samples, count) / length;
         deepest = depth > deepest ? depth : deepest;
@@ -190,9 +190,9 @@ static float depth_of_spans(const MesoGrowthTurn *turn, const Sample *samples, u
 
 /* ---- turns ---- */
 
-static void raise_joint(MesoJoint *joint, float by)
+static void raise_joint(MesoGrowthSeat *joint, float by)
 {
-    joint->position = meso_vec3_mad(joint->position, by, joint->normal);
+    joint->position = meso_four_mad(joint->position, by, joint->normal);
 }
 
 static void raise_all(const MesoGrowthTip *tip, MesoGrowthTurn *turn, float by)
@@ -231,7 +231,7 @@ void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, M
     turn->middle_begin = turn->batch->middle_count;
     turn->middle_count = 0;
     turn->raise = turn->depth = 0;
-    float flat = meso_vec3_dot(tip->foot.normal, turn->foot.normal);
+    float flat = meso_four_dot(tip->foot.normal, turn->foot.normal);
     if (turn->piece_count == 0 || (turn->piece_count == 1 && flat > 0.9998f))
         return;
     uint32_t count = sample_coarsely(work, tip, turn, samples);

@@ -230,7 +230,7 @@ static void judge_step(const MesoGrowthWork *work, MesoGrowthBatch *batch, const
     const double *values = turn->command.values;
     turn->length = values[MESO_GROWTH_AMOUNT] > 0 ? values[MESO_GROWTH_AMOUNT] : 0;
     if (work->looks || work->clears)
-        meso_growth_depends(turn, tip->foot.position, turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
+        meso_growth_depends(turn, meso_four_vec3(tip->foot.position), turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
     if (may_be(work, batch, tip, registers, turn, walk)) {
         turn->outcome = MESO_GROWTH_STEPS;
         end_step(turn, walk);

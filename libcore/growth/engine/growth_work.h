@@ -8,6 +8,7 @@
 #define MESO_GROWTH_WORK_H
 
 #include "libcore/growth/engine/growth.h"
+#include "libcore/growth/engine/growth_seat.h"
 #include "libcore/growth/engine/growth_space.h"
 
 /* Branches that one thread tries at a time. */
@@ -16,19 +17,13 @@ enum { MESO_GROWTH_BATCH = 256 };
 /* Sides that a step may cross: where a mesh has no area walks may stand still. */
 enum { MESO_GROWTH_CROSSINGS = 1 << 14 };
 
-/* A point of the surface in space. */
-typedef struct MesoGrowthFooting {
-    MesoVec3 position, normal;
-    MesoVec3 x, y;              /* the frame of its triangle */
-} MesoGrowthFooting;
-
 /* A living branch. */
 typedef struct MesoGrowthTip {
     MesoTip at;
     MesoGrowthRun run;
     double state[MESO_STATE_COUNT];
     MesoGrowthFooting foot;     /* of `at`, but for its heading */
-    MesoVec3 arrive;            /* how its last step came; 0 where there was none */
+    MesoFour arrive;            /* how its last step came; 0 where there was none */
     uint32_t branch, rule;      /* rule: MESO_NO_INDEX before the first */
     uint32_t joint;             /* that its next step begins at; MESO_NO_INDEX: its own */
     uint32_t node, shape;       /* shape: of its last step */
@@ -69,9 +64,9 @@ typedef struct MesoGrowthTurn {
     struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
     uint32_t piece_begin, piece_count, shoot_begin, shoot_count;
     MesoGrowthFooting foot;     /* of `end` */
-    MesoVec3 arrive;
-    MesoJoint from, to;
-    MesoJoint before;           /* the joint that the branch had, where `from` is another */
+    MesoFour arrive;
+    MesoGrowthSeat from, to;
+    float had;                  /* width of the joint that the branch had, where `from` is another in its place */
     float lift, roll;           /* at the end */
     float raise;                /* over them */
     float depth;                /* below the surface, as a share of its length, that is left */
@@ -80,7 +75,7 @@ typedef struct MesoGrowthTurn {
 } MesoGrowthTurn;
 
 typedef struct MesoGrowthMiddle {
-    MesoJoint joint;
+    MesoGrowthSeat joint;
     MesoTip at;
 } MesoGrowthMiddle;
 
@@ -226,7 +221,7 @@ void meso_growth_join(const MesoGrowthWork *work, const MesoGrowthTip *tip, Meso
 MesoGrowthFooting meso_growth_foot(const MesoGrowthGround *ground, const MesoTip *at);
 
 /* A joint on a straight way over a point. */
-MesoJoint meso_growth_joint_on(const MesoGrowthGround *ground, const MesoTip *at, float width, float lift, float roll);
+MesoGrowthSeat meso_growth_joint_on(const MesoGrowthGround *ground, const MesoTip *at, float width, float lift, float roll);
 
 /* ---- growth_depth.c ---- */
 
