@@ -8,6 +8,7 @@
 #include "libcore/base/index_map.h"
 #include "libcore/base/parallel.h"
 #include "libcore/base/random.h"
+#include "libcore/base/team.h"
 
 static void test_arena(void)
 {
@@ -149,6 +150,24 @@ static void test_team(void)
     meso_parallel_team(2, 0, 1, add_range_alone, NULL);
 }
 
+/* Many short loops: threads come late, or not at all. */
+static void test_team_that_stays(void)
+{
+    for (uint32_t threads = 0; threads < 5; threads++) {
+        MesoTeam *team = meso_team_begin(threads);
+        CHECK((team == NULL) == (threads == 1 || (threads == 0 && meso_parallel_cores() == 1)));
+        for (uint32_t loop = 0; loop < 500; loop++) {
+            uint8_t touched[1003] = {0};
+            uint32_t count = 1003 - loop;
+            meso_team_for(team, count, 10, add_range, touched);
+            for (uint32_t i = 0; i < 1003; i++)
+                CHECK(touched[i] == (i < count));
+        }
+        meso_team_for(team, 0, 1, add_range, NULL);
+        meso_team_end(team);
+    }
+}
+
 int main(void)
 {
     test_arena();
@@ -157,6 +176,7 @@ int main(void)
     test_bits();
     test_index_map();
     test_parallel();
+    test_team_that_stays();
     test_team();
     return 0;
 }

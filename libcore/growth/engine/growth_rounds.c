@@ -10,8 +10,8 @@
 #include "libcore/base/parallel.h"
 #include "libcore/growth/engine/growth_work.h"
 
-/* Batches of a window, for each thread of several. */
-enum { BATCHES = 16 };
+/* Batches of a window, for each thread of several: few, so that what one thread has tried is still near the other. */
+enum { BATCHES = 4 };
 
 static void march_straight(const void *context, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options)
 {
@@ -53,6 +53,7 @@ static MesoStatus begin(MesoGrowthWork *work)
     work->clears = meso_growth_steps_clear(work->grammar);
     work->uses_space = work->looks || meso_growth_steps_avoid(work->grammar);
     size_window(work);
+    work->team = meso_team_begin(work->thread_count);
     window = work->window;
     work->turns = allocate(work, window, sizeof *work->turns);
     work->batches = allocate(work, (size_t)work->batch_count + 1, sizeof *work->batches);
@@ -88,6 +89,7 @@ void meso_growth_release(MesoGrowthWork *work)
     for (uint32_t i = 0; work->batches && i <= work->batch_count; i++)
         release_batch(&work->batches[i]);
     free(work->batches);
+    meso_team_end(work->team);
     meso_growth_space_release(&work->space);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
@@ -108,7 +110,7 @@ static bool run_window(MesoGrowthWork *work, uint32_t begin_at, uint32_t count)
     work->since = work->space.kin_count;
     work->ball_count = 0;
     again->piece_count = again->shoot_count = again->middle_count = 0;
-    meso_parallel_for(work->thread_count, count, MESO_GROWTH_BATCH, try_batches, work);
+    meso_team_for(work->team, count, MESO_GROWTH_BATCH, try_batches, work);
     for (uint32_t i = 0; i < count; i++)
         if (!meso_growth_accept(work, i))
             return false;

@@ -7,6 +7,7 @@
 #ifndef MESO_GROWTH_WORK_H
 #define MESO_GROWTH_WORK_H
 
+#include "libcore/base/team.h"
 #include "libcore/growth/engine/growth.h"
 #include "libcore/growth/engine/growth_seat.h"
 #include "libcore/growth/engine/growth_space.h"
@@ -111,6 +112,7 @@ typedef struct MesoGrowthWork {
     bool looks;                 /* a rule does */
     bool clears;                /* a step must be clear of it */
     uint32_t thread_count;
+    MesoTeam *team;
     double element_limit, length_limit;
     uint64_t generation;
 
