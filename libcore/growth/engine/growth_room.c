@@ -2,10 +2,11 @@
 #include "libcore/growth/engine/growth_room.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 
-/* Large pages, from this many bytes on: fewer faults. */
-enum { LARGE_PAGE = 1 << 21, LARGE = 4 * LARGE_PAGE };
+/* Large pages, from this many bytes on: fewer faults. From REMAPPED on, realloc() moves pages and copies nothing. */
+enum { LARGE_PAGE = 1 << 21, LARGE = 2 * LARGE_PAGE, REMAPPED = 16 * LARGE_PAGE };
 
 static void ask_for_large_pages(void *array, size_t bytes)
 {
@@ -19,16 +20,34 @@ static void ask_for_large_pages(void *array, size_t bytes)
 #endif
 }
 
+/* Large pages are asked for before the first copy: pages that have been written to stay small. */
+static void *move(void *array, size_t bytes, size_t more)
+{
+    if (more < LARGE || bytes > REMAPPED) {
+        void *larger = realloc(array, more);
+        if (larger)
+            ask_for_large_pages(larger, more);
+        return larger;
+    }
+    void *larger = aligned_alloc(LARGE_PAGE, (more + LARGE_PAGE - 1) & ~(size_t)(LARGE_PAGE - 1));
+    if (!larger)
+        return NULL;
+    ask_for_large_pages(larger, more);
+    if (bytes)
+        memcpy(larger, array, bytes);
+    free(array);
+    return larger;
+}
+
 bool meso_make_more_room(void **array, uint32_t *room, uint64_t count, size_t size)
 {
     enum { MANY = 1 << 20 };
     uint64_t more = count < MANY / 16 ? 16 * count + 64 : count < MANY ? 2 * MANY : 2 * count;
     if (count > INT32_MAX)
         return false;
-    void *larger = realloc(*array, (size_t)more * size);
+    void *larger = move(*array, *room * size, (size_t)more * size);
     if (!larger)
         return false;
-    ask_for_large_pages(larger, (size_t)more * size);
     *array = larger;
     *room = more < UINT32_MAX ? (uint32_t)more : UINT32_MAX;
     return true;
