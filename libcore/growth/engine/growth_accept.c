@@ -283,7 +283,8 @@ static void bring_up_to_date(MesoGrowthWork *work, uint32_t number)
         bool may_be_near = !(turn->command.values[MESO_GROWTH_CLEAR] > 0) || is_near_new(work, turn);
         if (!may_be_near || (is_step(turn) && !meso_growth_collides(work, batch, tip, turn, work->since)))
             return;
-        meso_growth_judge_again(work, batch, tip, work->registers + (size_t)active * work->grammar->local_count, turn);
+        meso_growth_judge_again(work, batch, tip, work->registers + (size_t)active * work->grammar->local_count, turn,
+                                turn->try + 1);
         if (is_step(turn))
             meso_growth_join(work, tip, turn);
     }

@@ -205,38 +205,43 @@ static bool joins(const MesoGrowthWork *work, MesoGrowthBatch *batch, const Meso
            (turn->command.condition == MESO_NO_INDEX || holds_along(work, batch, tip, registers, turn));
 }
 
-/* Tries from number `try` on. */
-static void try_others(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                       const double *registers, MesoGrowthTurn *turn, uint32_t try)
+/* Whether a step has a try of that number. */
+static bool has_try(const MesoGrowthTurn *turn, uint32_t try)
 {
-    double tries = fmin(turn->command.values[MESO_GROWTH_RETRIES], 1 << 16);
-    for (; try <= tries; try++) {
-        MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, try), turn);
-        if (may_be(work, batch, tip, registers, turn, &walk)) {
-            turn->outcome = MESO_GROWTH_STEPS;
-            turn->try = try;
-            end_step(turn, &walk);
-            return;
-        }
-    }
+    return try <= fmin(turn->command.values[MESO_GROWTH_RETRIES], 1 << 16);
+}
+
+/* No try is left, and `try` would be the next. */
+static void give_up(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                    const double *registers, MesoGrowthTurn *turn, uint32_t try)
+{
     turn->try = try;
     turn->outcome = turn->command.join && work->uses_space && joins(work, batch, tip, registers, turn)
                         ? MESO_GROWTH_JOINS : MESO_GROWTH_REFUSED;
 }
 
-static void judge_step(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk)
+static bool judge_step(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk, uint32_t try)
+{
+    if (may_be(work, batch, tip, registers, turn, walk)) {
+        turn->outcome = MESO_GROWTH_STEPS;
+        turn->try = try;
+        end_step(turn, walk);
+        return true;
+    }
+    if (has_try(turn, try + 1))
+        return false;
+    give_up(work, batch, tip, registers, turn, try + 1);
+    return true;
+}
+
+static void measure_step(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn)
 {
     const double *values = turn->command.values;
     turn->length = values[MESO_GROWTH_AMOUNT] > 0 ? values[MESO_GROWTH_AMOUNT] : 0;
     if (work->looks || work->clears)
-        meso_growth_depends(turn, meso_four_vec3(tip->foot.position), turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
-    if (may_be(work, batch, tip, registers, turn, walk)) {
-        turn->outcome = MESO_GROWTH_STEPS;
-        end_step(turn, walk);
-    } else {
-        try_others(work, batch, tip, registers, turn, 1);
-    }
+        meso_growth_depends(turn, meso_four_vec3(tip->foot.position),
+                            turn->length + 2 * fmax(values[MESO_GROWTH_CLEAR], 0));
 }
 
 static void judge_move(MesoGrowthTurn *turn, const MesoWalk *walk)
@@ -258,21 +263,32 @@ static void judge_place(MesoGrowthTurn *turn, const MesoWalk *walk)
     turn->rest = walk->length;
 }
 
-void meso_growth_judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk)
+bool meso_growth_judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk, uint32_t try)
 {
+    if (turn->command.order == MESO_GROWTH_STEP) {
+        if (try == 0)
+            measure_step(work, tip, turn);
+        return judge_step(work, batch, tip, registers, turn, walk, try);
+    }
     turn->try = 0;
-    if (turn->command.order == MESO_GROWTH_STEP)
-        judge_step(work, batch, tip, registers, turn, walk);
-    else if (turn->command.order == MESO_GROWTH_MOVE)
+    if (turn->command.order == MESO_GROWTH_MOVE)
         judge_move(turn, walk);
     else
         judge_place(turn, walk);
+    return true;
 }
 
 void meso_growth_judge_again(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                             const double *registers, MesoGrowthTurn *turn)
+                             const double *registers, MesoGrowthTurn *turn, uint32_t try)
 {
     turn->length = fmax(turn->command.values[MESO_GROWTH_AMOUNT], 0);
-    try_others(work, batch, tip, registers, turn, turn->try + 1);
+    for (bool judged = false; !judged; try++) {
+        if (!has_try(turn, try)) {
+            give_up(work, batch, tip, registers, turn, try);
+            return;
+        }
+        MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, try), turn);
+        judged = judge_step(work, batch, tip, registers, turn, &walk, try);
+    }
 }

@@ -86,12 +86,8 @@ static double *registers_of(const MesoGrowthWork *work, uint32_t tip)
     return work->registers + (size_t)tip * work->grammar->local_count;
 }
 
-static void judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t number, MesoGrowthTurn *turn,
-                  const MesoWalk *walk)
+static void join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn)
 {
-    MesoGrowthTip *tip = &work->tips[number];
-    tip->walks++;
-    meso_growth_judge(work, batch, tip, registers_of(work, number), turn, walk);
     if (turn->outcome != MESO_GROWTH_REFUSED && turn->outcome != MESO_GROWTH_NOTHING)
         meso_growth_join(work, tip, turn);
 }
@@ -106,13 +102,13 @@ static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_
     work->march.walk(work->march.context, batch->walks, count, &options);
 }
 
-/* Memory of what is read next comes while the others are read. */
-static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch, uint32_t count)
+/* Memory of what is read next, of pieces from `first` on, comes while the others are read. */
+static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch, uint32_t count, uint32_t first)
 {
     const MesoTriangulation *mesh = work->ground->mesh;
     for (uint32_t i = 0; i < count; i++)
         __builtin_prefetch(&mesh->corners[3 * (size_t)batch->walks[i].tip.triangle]);
-    for (uint32_t i = 0; work->uses_space && i < batch->piece_count; i++) {
+    for (uint32_t i = first; work->uses_space && i < batch->piece_count; i++) {
         uint32_t head = work->space.heads[batch->pieces[i].triangle];
         if (head != MESO_NO_INDEX) {
             __builtin_prefetch(&work->space.blocks[head]);
@@ -128,11 +124,11 @@ static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch
         }
 }
 
-void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
+/* Rules of the window's turns; returns how many are about to walk. */
+static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
 {
     const uint32_t *active = work->active + work->window_begin;
     uint32_t count = 0;
-    batch->piece_count = batch->shoot_count = batch->middle_count = 0;
     for (uint32_t i = begin; i < end; i++) {
         MesoGrowthTurn *turn = &work->turns[i];
         MesoGrowthTip *tip = &work->tips[active[i]];
@@ -146,13 +142,42 @@ void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begi
             continue;
         batch->walks[count] = meso_growth_walk_of(tip, turn, 0);
         batch->walkers[count++] = i;
+        tip->walks++;
     }
-    walk_all(work, batch, count);
-    for (uint32_t i = 0; i < count; i++)
-        meso_growth_keep_pieces(batch, &work->turns[batch->walkers[i]], i);
-    fetch_ahead(work, batch, count);
-    for (uint32_t i = 0; i < count && !batch->failed; i++)
-        judge(work, batch, active[batch->walkers[i]], &work->turns[batch->walkers[i]], &batch->walks[i]);
+    return count;
+}
+
+/* Judges the walks; returns how many steps have another try, whose walks come to lie at the front. */
+static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count, uint32_t try)
+{
+    const uint32_t *active = work->active + work->window_begin;
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < count && !batch->failed; i++) {
+        uint32_t number = batch->walkers[i], of = active[number];
+        MesoGrowthTurn *turn = &work->turns[number];
+        const MesoGrowthTip *tip = &work->tips[of];
+        if (meso_growth_judge(work, batch, tip, registers_of(work, of), turn, &batch->walks[i], try)) {
+            join(work, tip, turn);
+        } else {
+            batch->walkers[left] = number;
+            batch->walks[left++] = meso_growth_walk_of(tip, turn, try + 1);
+        }
+    }
+    return batch->failed ? 0 : left;
+}
+
+void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
+{
+    batch->piece_count = batch->shoot_count = batch->middle_count = 0;
+    uint32_t count = run_rules(work, batch, begin, end);
+    for (uint32_t try = 0; count; try++) {
+        uint32_t first = batch->piece_count;
+        walk_all(work, batch, count);
+        for (uint32_t i = 0; i < count; i++)
+            meso_growth_keep_pieces(batch, &work->turns[batch->walkers[i]], i);
+        fetch_ahead(work, batch, count, first);
+        count = judge_all(work, batch, count, try);
+    }
 }
 
 void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t number)
@@ -168,5 +193,8 @@ void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_
     if (!walks(turn))
         return;
     MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, 0), turn);
-    judge(work, batch, active, turn, &walk);
+    tip->walks++;
+    if (!meso_growth_judge(work, batch, tip, registers, turn, &walk, 0))
+        meso_growth_judge_again(work, batch, tip, registers, turn, 1);
+    join(work, tip, turn);
 }

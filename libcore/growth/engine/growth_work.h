@@ -165,13 +165,13 @@ void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_
 
 /* ---- growth_step.c: walks ---- */
 
-/* What comes of the walk of a turn; tries others where a step may not be. */
-void meso_growth_judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk);
+/* What comes of the walk of a turn, which is try number `try`; false where a step may not be, and has another try. */
+bool meso_growth_judge(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk, uint32_t try);
 
-/* The same from the next try on, where what has grown since has made the last one wrong. */
+/* The same of a step, alone, from try number `try` on: where what has grown since has made the last one wrong. */
 void meso_growth_judge_again(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                             const double *registers, MesoGrowthTurn *turn);
+                             const double *registers, MesoGrowthTurn *turn, uint32_t try);
 
 /* Whether a step that was found good is in the way of what has grown `since`. */
 bool meso_growth_collides(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
