@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "libcore/base/parallel.h"
-
 enum { BRANCH, RULE, SHAPE, GENERATION, CHANNELS };
 
 /* Elements of one branch and shape: a body. */
@@ -21,6 +19,7 @@ typedef struct Showing {
     uint32_t run_count;
     MesoVec3 *positions, *normals;
     MesoMeshColor *colors;      /* NULL where nothing is tinted */
+    MesoBox box;
     size_t *vertex_begin;       /* [shape count + 1] */
     MesoBody *patterns;         /* [shape count] corners and uvs of the longest run; others have the first of them */
 } Showing;
@@ -121,13 +120,18 @@ static MesoStatus bend_shape(Showing *s, uint32_t shape, MesoArena *scratch, uin
     uint32_t begin = s->shape_begin[shape], count = s->shape_begin[shape + 1] - begin;
     MesoSpan *spans = MESO_NEW(scratch, MesoSpan, count, error);
     uint8_t *folded = folds ? MESO_NEW(scratch, uint8_t, count, error) : NULL;
-    if (!spans || (folds && !folded))
+    MesoBox *boxes = MESO_NEW(scratch, MesoBox, meso_bend_box_count(count), error);
+    if (!spans || !boxes || (folds && !folded))
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < count; i++)
         spans[i] = s->grown->elements[s->order[begin + i]].span;
     MesoBending bending = {&s->shapes->shapes[shape], s->grown->joints, count, spans,
-                           s->positions + s->vertex_begin[shape], s->normals + s->vertex_begin[shape], folded};
+                           s->positions + s->vertex_begin[shape], s->normals + s->vertex_begin[shape], folded, boxes};
     meso_bend(&bending, thread_count);
+    for (uint32_t i = 0; i < meso_bend_box_count(count); i++) {
+        meso_box_add(&s->box, boxes[i].low);
+        meso_box_add(&s->box, boxes[i].high);
+    }
     for (uint32_t i = 0; folds && i < count; i++)
         *folds += folded[i];
     meso_arena_rewind(scratch, mark);
@@ -183,56 +187,6 @@ static MesoStatus make_vertices(Showing *s, MesoArena *arena, MesoArena *scratch
             return status;
         if (s->colors)
             color_shape(s, k);
-    }
-    return MESO_OK;
-}
-
-/* ---- the box ---- */
-
-enum { BOX_GRAIN = 1 << 16, BOX_LANES = 12 };
-
-typedef struct Measuring {
-    const MesoVec3 *positions;
-    MesoBox *boxes;             /* [one a range] */
-} Measuring;
-
-/* Four points at a time. */
-static void measure_range(void *context, uint64_t begin, uint64_t end)
-{
-    const Measuring *measuring = context;
-    const float *p = &measuring->positions[begin].x, *stop = p + 3 * (end - begin);
-    MesoBox box = meso_box_empty();
-    float low[BOX_LANES], high[BOX_LANES];
-    for (uint32_t i = 0; i < BOX_LANES; i++) {
-        low[i] = INFINITY;
-        high[i] = -INFINITY;
-    }
-    for (; stop - p >= BOX_LANES; p += BOX_LANES)
-        for (uint32_t i = 0; i < BOX_LANES; i++) {
-            low[i] = p[i] < low[i] ? p[i] : low[i];
-            high[i] = p[i] > high[i] ? p[i] : high[i];
-        }
-    for (; p < stop; p += 3)
-        meso_box_add(&box, (MesoVec3){p[0], p[1], p[2]});
-    for (uint32_t i = 0; i < BOX_LANES && end - begin >= BOX_LANES / 3; i += 3) {
-        meso_box_add(&box, (MesoVec3){low[i], low[i + 1], low[i + 2]});
-        meso_box_add(&box, (MesoVec3){high[i], high[i + 1], high[i + 2]});
-    }
-    measuring->boxes[begin / BOX_GRAIN] = box;
-}
-
-static MesoStatus measure(MesoScene *scene, const Showing *s, MesoArena *scratch, uint32_t thread_count,
-                          MesoError *error)
-{
-    size_t total = s->vertex_begin[s->shapes->count], ranges = total / BOX_GRAIN + 1;
-    Measuring measuring = {s->positions, MESO_NEW(scratch, MesoBox, ranges, error)};
-    scene->box = meso_box_empty();
-    if (!measuring.boxes)
-        return MESO_ERR_MEMORY;
-    meso_parallel_for(thread_count, total, BOX_GRAIN, measure_range, &measuring);
-    for (size_t i = 0; i * BOX_GRAIN < total; i++) {
-        meso_box_add(&scene->box, measuring.boxes[i].low);
-        meso_box_add(&scene->box, measuring.boxes[i].high);
     }
     return MESO_OK;
 }
@@ -319,8 +273,7 @@ static MesoStatus show(MesoScene *scene, Showing *s, MesoArena *arena, MesoArena
         status = make_patterns(s, arena, error);
     if (!status)
         status = make_vertices(s, arena, scratch, thread_count, folds, error);
-    if (!status)
-        status = measure(scene, s, scratch, thread_count, error);
+    scene->box = s->box;
     if (!status)
         status = set_bodies(scene, s, arena, error);
     if (!status)
@@ -333,7 +286,7 @@ static MesoStatus show(MesoScene *scene, Showing *s, MesoArena *arena, MesoArena
 MesoStatus meso_growth_show(MesoScene *scene, MesoArena *arena, const MesoGrown *grown, const MesoGrammar *grammar,
                             const MesoGrowthShapes *shapes, uint32_t thread_count, uint32_t *folds, MesoError *error)
 {
-    Showing showing = {.grown = grown, .grammar = grammar, .shapes = shapes};
+    Showing showing = {.grown = grown, .grammar = grammar, .shapes = shapes, .box = meso_box_empty()};
     MesoArena scratch;
     *scene = (MesoScene){0};
     if (folds)

@@ -3,9 +3,6 @@
 #include "libcore/base/parallel.h"
 #include "libcore/growth/shape/bend_kernel.h"
 
-/* Spans that a thread takes at once; a multiple of the lanes. */
-enum { GRAIN = 1024 };
-
 static MesoVec3 first_of(MesoLanes3 a)
 {
     return (MesoVec3){a.x[0], a.y[0], a.z[0]};
@@ -61,13 +58,24 @@ static void (*best_bend_group(void))(const MesoTerminalShape *, MesoBendGroup *)
     return bend_group_plain;
 }
 
+static MesoBox box_of(const MesoBendGroup *group)
+{
+    MesoBox box = meso_box_empty();
+    for (uint32_t lane = 0; lane < MESO_LANES; lane++) {
+        meso_box_add(&box, (MesoVec3){group->low.x[lane], group->low.y[lane], group->low.z[lane]});
+        meso_box_add(&box, (MesoVec3){group->high.x[lane], group->high.y[lane], group->high.z[lane]});
+    }
+    return box;
+}
+
 /* Where less than eight are left, the last is computed several times, and written to the same place. */
 static void bend_range(void *context, uint64_t begin, uint64_t end)
 {
     const MesoBending *bending = context;
     void (*bend)(const MesoTerminalShape *, MesoBendGroup *) = best_bend_group();
+    MesoLanes most = meso_lanes_all(INFINITY);
+    MesoBendGroup group = {.low = {most, most, most}, .high = {-most, -most, -most}};
     for (uint64_t first = begin; first < end; first += MESO_LANES) {
-        MesoBendGroup group;
         uint64_t spans[MESO_LANES];
         for (uint32_t lane = 0; lane < MESO_LANES; lane++) {
             uint64_t i = first + lane < end ? first + lane : end - 1;
@@ -82,9 +90,11 @@ static void bend_range(void *context, uint64_t begin, uint64_t end)
         for (uint32_t lane = 0; lane < MESO_LANES && bending->folds; lane++)
             bending->folds[spans[lane]] = group.folds[lane] != 0;
     }
+    if (bending->boxes)
+        bending->boxes[begin / MESO_BEND_GRAIN] = box_of(&group);
 }
 
 void meso_bend(const MesoBending *bending, uint32_t thread_count)
 {
-    meso_parallel_for(thread_count, bending->span_count, GRAIN, bend_range, (void *)bending);
+    meso_parallel_for(thread_count, bending->span_count, MESO_BEND_GRAIN, bend_range, (void *)bending);
 }

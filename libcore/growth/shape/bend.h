@@ -22,6 +22,7 @@
 
 #include "libcore/growth/shape/joint.h"
 #include "libcore/growth/shape/terminal_shape.h"
+#include "libcore/math/box.h"
 
 /* A shape's place: two of the joints. */
 typedef struct MesoSpan {
@@ -39,6 +40,9 @@ MesoBendFrame meso_bend_frame(const MesoJoint *from, const MesoJoint *to, float 
 /* Control points of B. */
 void meso_bend_curve(const MesoJoint *from, const MesoJoint *to, MesoVec3 p[4]);
 
+/* Spans that a thread takes at once, with a box; a multiple of the lanes. */
+enum { MESO_BEND_GRAIN = 1024 };
+
 /* One shape, bent as often as there are spans. */
 typedef struct MesoBending {
     const MesoTerminalShape *shape;
@@ -47,10 +51,16 @@ typedef struct MesoBending {
     const MesoSpan *spans;              /* [span_count] */
     MesoVec3 *positions, *normals;      /* [span_count * shape->body.vertex_count], span by span */
     uint8_t *folds;                     /* [span_count] or NULL; 1: too wide for its curve, and inside out there */
+    MesoBox *boxes;                     /* [meso_bend_box_count()] or NULL; of so many spans each */
 } MesoBending;
 
+static inline uint32_t meso_bend_box_count(uint32_t span_count)
+{
+    return span_count / MESO_BEND_GRAIN + (span_count % MESO_BEND_GRAIN != 0);
+}
+
 /*
- * Fills positions, normals and folds. Widths of 0, joints in one place and opposite tangents or normals give something
+ * Fills positions, normals, folds and boxes. Widths of 0, joints in one place and opposite tangents or normals give something
  * finite, and normals of unit length. The same bytes for any number of threads (0: all cores), and for a span with
  * whatever others. O(vertices + rings).
  */

@@ -47,7 +47,7 @@ static inline void meso_test_bend(const MesoTerminalShape *shape, MesoJoint from
 {
     MesoJoint joints[2] = {from, to};
     MesoSpan span = {0, 1};
-    MesoBending bending = {shape, joints, 1, &span, positions, normals, NULL};
+    MesoBending bending = {shape, joints, 1, &span, positions, normals, NULL, NULL};
     meso_bend(&bending, 1);
 }
 

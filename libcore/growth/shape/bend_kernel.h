@@ -256,13 +256,26 @@ typedef struct MesoBendGroup {
     const MesoJoint *from[MESO_LANES], *to[MESO_LANES];
     MesoVec3 *positions[MESO_LANES], *normals[MESO_LANES];
     MesoLaneBits folds;
+    MesoLanes3 low, high;       /* of positions of all groups so far, by lane */
 } MesoBendGroup;
+
+MESO_LANES_INLINE MesoLanes3 meso_bend_least(MesoLanes3 a, MesoLanes3 b)
+{
+    return (MesoLanes3){meso_lanes_choose(a.x < b.x, a.x, b.x), meso_lanes_choose(a.y < b.y, a.y, b.y),
+                        meso_lanes_choose(a.z < b.z, a.z, b.z)};
+}
+
+MESO_LANES_INLINE MesoLanes3 meso_bend_most(MesoLanes3 a, MesoLanes3 b)
+{
+    return (MesoLanes3){meso_lanes_most(a.x, b.x), meso_lanes_most(a.y, b.y), meso_lanes_most(a.z, b.z)};
+}
 
 MESO_LANES_INLINE void meso_bend_group(const MesoTerminalShape *shape, MesoBendGroup *group)
 {
     uint32_t last = shape->body.vertex_count - 1;
     MesoBendLanes lanes;
     MesoLaneBits folds = {0};
+    MesoLanes3 low = group->low, high = group->high;
     meso_bend_load(&lanes, group->from, group->to);
     for (uint32_t r = 0; r < shape->ring_count; r++) {
         MesoBendRow row;
@@ -273,11 +286,15 @@ MESO_LANES_INLINE void meso_bend_group(const MesoTerminalShape *shape, MesoBendG
             MesoLanes3 at = meso_lanes3_mad(meso_lanes3_mad(row.ring.origin, meso_lanes_all(p.y), row.left),
                                             meso_lanes_all(p.z), row.normal);
             folds |= g < 0;
+            low = meso_bend_least(at, low);
+            high = meso_bend_most(at, high);
             meso_bend_store(group->positions, v, at, v == last);
             meso_bend_store(group->normals, v, meso_bend_normal(&row, p, n, g), v == last);
         }
     }
     group->folds = folds;
+    group->low = low;
+    group->high = high;
 }
 
 #endif

@@ -74,6 +74,19 @@ static void test_degenerate(void)
     }
 }
 
+/* Of as many spans as a thread takes at once, and of what is left. */
+static void check_boxes(const MesoBending *bending)
+{
+    uint32_t vertices = bending->shape->body.vertex_count, count = meso_bend_box_count(bending->span_count);
+    CHECK(count == (bending->span_count + MESO_BEND_GRAIN - 1) / MESO_BEND_GRAIN);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t first = i * MESO_BEND_GRAIN, rest = bending->span_count - first;
+        uint32_t spans = rest < MESO_BEND_GRAIN ? rest : MESO_BEND_GRAIN;
+        MesoBox box = meso_box_of(bending->positions + (size_t)first * vertices, spans * vertices);
+        CHECK(!memcmp(&box, &bending->boxes[i], sizeof box));
+    }
+}
+
 /* The same bytes for any number of threads, and in whatever order spans are asked for. */
 static void test_threads(void)
 {
@@ -98,8 +111,10 @@ static void test_threads(void)
         runs[run].positions = MESO_NEW(&arena, MesoVec3, (size_t)SPANS * vertices, NULL);
         runs[run].normals = MESO_NEW(&arena, MesoVec3, (size_t)SPANS * vertices, NULL);
         runs[run].folds = MESO_NEW(&arena, uint8_t, SPANS, NULL);
-        CHECK(runs[run].positions && runs[run].normals && runs[run].folds);
+        runs[run].boxes = MESO_NEW(&arena, MesoBox, meso_bend_box_count(SPANS), NULL);
+        CHECK(runs[run].positions && runs[run].normals && runs[run].folds && runs[run].boxes);
         meso_bend(&runs[run], threads[run]);
+        check_boxes(&runs[run]);
     }
     for (uint32_t i = 0; i < SPANS; i++) {
         for (uint32_t run = 1; run < 4; run++) {
@@ -134,7 +149,7 @@ static void test_registers(void)
         group.positions[i] = positions[1] + i * vertices;
         group.normals[i] = normals[1] + i * vertices;
     }
-    MesoBending bending = {&shape, joints, MESO_LANES, spans, positions[0], normals[0], NULL};
+    MesoBending bending = {&shape, joints, MESO_LANES, spans, positions[0], normals[0], NULL, NULL};
     meso_bend(&bending, 1);
     meso_bend_group(&shape, &group);
     CHECK(!memcmp(positions[0], positions[1], MESO_LANES * vertices * sizeof(MesoVec3)));
@@ -156,7 +171,7 @@ static void test_folds(void)
         MesoTerminalShape shape;
         meso_arena_init(&arena);
         CHECK(!meso_builtin_shape(&shape, &arena, MESO_BUILTIN_TUBE, 0, NULL));
-        MesoBending bending = {&shape, joints, 1, &span, positions, normals, &folds};
+        MesoBending bending = {&shape, joints, 1, &span, positions, normals, &folds, NULL};
         meso_bend(&bending, 1);
         CHECK(folds == i);
         meso_arena_release(&arena);
@@ -179,7 +194,7 @@ static void test_bodies(void)
         spans[i] = (MesoSpan){i, i + 1};
     uint32_t vertices = shape.body.vertex_count, corners = 3 * shape.body.face_count;
     MesoBending bending = {&shape, joints, SPANS, spans, MESO_NEW(&arena, MesoVec3, SPANS * vertices, NULL),
-                           MESO_NEW(&arena, MesoVec3, SPANS * vertices, NULL), NULL};
+                           MESO_NEW(&arena, MesoVec3, SPANS * vertices, NULL), NULL, NULL};
     meso_bend(&bending, 1);
     meso_bent_bodies(&bending, each);
     CHECK(!meso_bent_body(&bending, &arena, &all, NULL));
