@@ -195,6 +195,7 @@ static bool accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrow
     tip->shape = turn->command.shape;
     tip->arrive = turn->arrive;
     tip->state[MESO_STATE_WIDTH] = turn->to.width;
+    tip->bow = turn->bow;
     tip->lift = turn->lift;
     tip->roll = turn->roll;
     tip->raise = turn->raise;

@@ -1,10 +1,5 @@
-#include <string.h>
-
 #include "libcore/growth/engine/growth_work.h"
 #include "libcore/growth/language/grammar_draw.h"
-
-/* Conditions hold at this many places of a step at least, and wherever it goes from triangle to triangle. */
-enum { PLACES = 8 };
 
 /* Site of the draws of other ways. */
 static const uint64_t retry_site = 0x72657472790a17e5u;
@@ -85,56 +80,9 @@ MesoWalk meso_growth_walk_of(const MesoGrowthTip *tip, const MesoGrowthTurn *tur
     return walk;
 }
 
-/* ---- conditions ---- */
-
-typedef struct Along {
-    const MesoGrowthWork *work;
-    MesoGrowthBatch *batch;
-    const MesoGrowthTip *tip;
-    MesoGrowthTurn *turn;
-    double registers[MESO_GRAMMAR_REGISTERS];
-} Along;
-
-static bool holds_at(Along *along, const MesoGrowthPiece *piece, double share, double length)
-{
-    const MesoGrowthGround *ground = along->work->ground;
-    MesoComplex by = {piece->ends[1].re - piece->ends[0].re, piece->ends[1].im - piece->ends[0].im};
-    MesoComplex point = {piece->ends[0].re + share * by.re, piece->ends[0].im + share * by.im};
-    MesoTip at = {.triangle = piece->triangle, .turned = piece->turned, .heading = meso_complex_unit(by)};
-    double state[MESO_STATE_COUNT];
-    meso_growth_weigh(&ground->walk, at.triangle, point, at.weight);
-    memcpy(state, along->tip->state, sizeof state);
-    MesoVec3 position = meso_growth_position(ground, at.triangle, at.weight);
-    state[MESO_STATE_LENGTH] += length;
-    state[MESO_STATE_X] = position.x;
-    state[MESO_STATE_Y] = position.y;
-    state[MESO_STATE_Z] = position.z;
-    MesoGrowthAsking asking = {along->work, along->batch, along->tip, along->turn, &at};
-    const MesoGrowthHost host = {&asking, state, meso_growth_look};
-    return meso_growth_value(along->work->grammar, &along->tip->run, along->turn->command.condition, along->registers,
-                             &host) != 0;
-}
-
 static double length_of(const MesoGrowthPiece *piece)
 {
     return hypot(piece->ends[1].re - piece->ends[0].re, piece->ends[1].im - piece->ends[0].im);
-}
-
-static bool holds_along(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
-                        const double *registers, MesoGrowthTurn *turn)
-{
-    Along along = {work, batch, tip, turn, {0}};
-    double length = 0, interval = turn->command.values[MESO_GROWTH_AMOUNT] / PLACES;
-    memcpy(along.registers, registers, work->grammar->local_count * sizeof *registers);
-    for (uint32_t i = 0; i < turn->piece_count; i++) {
-        MesoGrowthPiece piece = batch->pieces[turn->piece_begin + i];
-        double size = length_of(&piece), count = fmin(fmax(ceil(size / interval), 1), 1e4);
-        for (double k = i == 0 ? 0 : 1; k <= count; k++)
-            if (!holds_at(&along, &piece, k / count, length + size * k / count))
-                return false;
-        length += size;
-    }
-    return true;
 }
 
 /* ---- judging ---- */
@@ -159,7 +107,7 @@ static bool may_be(const MesoGrowthWork *work, MesoGrowthBatch *batch, const Mes
         turn->at_border = walk->stop == MESO_WALK_BORDER;
     if (walk->stop != MESO_WALK_DONE || !(turn->command.values[MESO_GROWTH_AMOUNT] > 0))
         return false;
-    if (turn->command.condition != MESO_NO_INDEX && !holds_along(work, batch, tip, registers, turn))
+    if (turn->command.condition != MESO_NO_INDEX && !meso_growth_holds(work, batch, tip, registers, turn))
         return false;
     return !work->uses_space || !meso_growth_collides(work, batch, tip, turn, 0);
 }
@@ -199,10 +147,11 @@ static bool joins(const MesoGrowthWork *work, MesoGrowthBatch *batch, const Meso
     if (!(walk.length > 0))
         return false;
     walk.length += fmax(turn->command.values[MESO_GROWTH_CLEAR], 0);
+    turn->try = 0;
     meso_growth_walk(work, batch, walk, turn);
     return meso_growth_meets(&work->space, &asker, batch->pieces + turn->piece_begin, turn->piece_count, &meeting) &&
            cut_at(work, batch, turn, &meeting) &&
-           (turn->command.condition == MESO_NO_INDEX || holds_along(work, batch, tip, registers, turn));
+           (turn->command.condition == MESO_NO_INDEX || meso_growth_holds(work, batch, tip, registers, turn));
 }
 
 /* Whether a step has a try of that number. */
@@ -215,17 +164,17 @@ static bool has_try(const MesoGrowthTurn *turn, uint32_t try)
 static void give_up(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
                     const double *registers, MesoGrowthTurn *turn, uint32_t try)
 {
-    turn->try = try;
     turn->outcome = turn->command.join && work->uses_space && joins(work, batch, tip, registers, turn)
                         ? MESO_GROWTH_JOINS : MESO_GROWTH_REFUSED;
+    turn->try = try;
 }
 
 static bool judge_step(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
                        const double *registers, MesoGrowthTurn *turn, const MesoWalk *walk, uint32_t try)
 {
+    turn->try = try;
     if (may_be(work, batch, tip, registers, turn, walk)) {
         turn->outcome = MESO_GROWTH_STEPS;
-        turn->try = try;
         end_step(turn, walk);
         return true;
     }

@@ -53,6 +53,7 @@ static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGro
     turn->outcome = MESO_GROWTH_NOTHING;
     turn->looked = turn->at_border = false;
     turn->ball[3] = -1;
+    turn->bow.length = 0;
     turn->batch = batch;
     turn->shoot_begin = batch->shoot_count;
     turn->shoot_count = turn->piece_count = 0;

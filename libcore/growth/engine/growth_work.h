@@ -18,6 +18,12 @@ enum { MESO_GROWTH_BATCH = 256 };
 /* Sides that a step may cross: where a mesh has no area walks may stand still. */
 enum { MESO_GROWTH_CROSSINGS = 1 << 14 };
 
+/* How the curve of a step leaves its way, in radians to the left of that. */
+typedef struct MesoGrowthBow {
+    float length;               /* of the way; 0: nothing asks for its curve */
+    float begin, end;
+} MesoGrowthBow;
+
 /* A living branch. */
 typedef struct MesoGrowthTip {
     MesoTip at;
@@ -29,6 +35,7 @@ typedef struct MesoGrowthTip {
     uint32_t joint;             /* that its next step begins at; MESO_NO_INDEX: its own */
     uint32_t node, shape;       /* shape: of its last step */
     uint32_t walks, faces;      /* of this run of a rule, so far */
+    MesoGrowthBow bow;          /* of its last step, where that kept to a condition */
     float lift, roll;           /* at its joint */
     float raise;                /* of its joint, over its lift: so that its last shape is not below the surface */
     bool moved;                 /* away from its node */
@@ -72,6 +79,7 @@ typedef struct MesoGrowthTurn {
     float raise;                /* over them */
     float depth;                /* below the surface, as a share of its length, that is left */
     uint32_t middle_begin, middle_count;    /* joints between, of a step that is several elements */
+    MesoGrowthBow bow;
     bool shares;                /* `from` is the joint that the branch had */
 } MesoGrowthTurn;
 
@@ -196,6 +204,16 @@ double meso_growth_retry_angle(const MesoGrowthTip *tip, const MesoGrowthTurn *t
 
 /* Walks from a tip, alone; pieces go to the turn where there is one. */
 MesoWalk meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk walk, MesoGrowthTurn *turn);
+
+/* ---- growth_along.c: conditions of steps ---- */
+
+/*
+ * Whether the condition of a step holds along its way: at eight places at least, wherever it goes from triangle to
+ * triangle, and at each pixel of the images that the condition reads. Where it reads images it must hold along the
+ * curve, too, and along that of the step before, whose end this one turns; `bow` of the turn is filled.
+ */
+bool meso_growth_holds(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
+                       const double *registers, MesoGrowthTurn *turn);
 
 /* ---- growth_host.c: what rules ask ---- */
 

@@ -163,6 +163,14 @@ double meso_map_mean(const MesoGrowthGround *ground, const MesoGrowthMap *map, u
     return 0.5 * (meso_map_value(ground, map, triangle, from) + meso_map_value(ground, map, triangle, to));
 }
 
+double meso_map_pixels(const MesoGrowthMap *map, uint32_t triangle, const double from[3], const double to[3])
+{
+    if (map->domain != MESO_GROWTH_BY_IMAGE)
+        return 0;
+    MesoComplex a = place_in_image(map, triangle, from), b = place_in_image(map, triangle, to);
+    return fmax(fabs(b.re - a.re), fabs(b.im - a.im));
+}
+
 /* ---- bounds ---- */
 
 double meso_map_most(const MesoGrowthMap *map)

@@ -46,6 +46,9 @@ MesoComplex meso_map_gradient(const MesoGrowthGround *ground, const MesoGrowthMa
 double meso_map_mean(const MesoGrowthGround *ground, const MesoGrowthMap *map, uint32_t triangle,
                      const double from[3], const double to[3]);
 
+/* Pixels of an image from one point of a triangle to another, along the longer of its sides; 0 for other maps. */
+double meso_map_pixels(const MesoGrowthMap *map, uint32_t triangle, const double from[3], const double to[3]);
+
 /* No value in the triangle is larger. O(1), and O(pixels that it lies over) up to 4096 for images; beyond, it is the
  * image's largest, which `most` is. */
 double meso_map_bound(const MesoGrowthMap *map, const MesoGrowthGround *ground, uint32_t triangle, double most);
