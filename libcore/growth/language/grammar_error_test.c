@@ -97,6 +97,12 @@ static void test_declarations(void)
     refuse_declaration("field f = gradient(wal)", "20: 'wal' is not a map");
     refuse_declaration("map wall = border field f = gradient(wal)", "38: 'wal' is not a map; did you mean 'wall'?");
     refuse_declaration("field f = world(1, 0)", "11: 'world' wants its 'z'");
+    refuse_declaration("field b = -groom",
+                       "12: 'groom' is not a source of a field; there are up, world, point, gradient, attribute, "
+                       "principal, random");
+    refuse_declaration("field groom = up field b = -grom", "29: 'grom' is not a source of a field; did you mean 'groom'?");
+    refuse_declaration("field b = b", "11: 'b' is not a source of a field; there are up, world, point, gradient, attribute, "
+                       "principal, random");
     refuse_declaration("shape s = cube", "11: 'cube' is not a source of a shape; did you mean 'tube'?");
     refuse_declaration("limit rounds 3", "7: 'rounds' is not a limit; there are generations, elements, length");
     refuse_declaration("limit length 3", "14: the limit must be a length, such as '3 mm'; this is a number");
@@ -117,6 +123,8 @@ static void test_seeds(void)
                        "28: 'where' must be a condition, such as 'w > 1 mm'; this is a length");
     refuse_declaration("seed A() on vertices where true where true", "33: 'where' is given twice; join them with 'and'");
     refuse_declaration("seed A() on vertices count 0", "22: 'count' must be more than 0");
+    refuse_declaration("seed A() on vertices count 1 count 2", "30: 'count' is given twice");
+    refuse_declaration("seed A() on vertices face up face up", "30: 'face' is given twice");
     refuse_declaration("seed A() on vertices count height", "28: 'count' must not depend on the place or on chance");
     refuse_declaration("seed A() on vertices face upp", "27: 'upp' is not a direction; did you mean 'up'?");
     refuse_declaration("seed A() on vertices rule B() -> stop", "6: there is no rule 'A'");
@@ -133,6 +141,7 @@ static void test_rules(void)
     refuse_body("stepp(1 mm)", "14: there is no rule 'stepp'");
     refuse_body("stop rule A(v) -> stop",
                 "24: never used: 'A' has no condition at line 5; put this one first");
+    refuse_body("stop rule A(v, u) -> stop", "24: 'A' has 1 argument at line 5, and 2 here");
     refuse_body("{ stop stop }", "21: nothing can follow 'stop', with which the rule ends; put that into 'branch { }'?");
     refuse_body("{ step(w) A(w) stop }", "29: nothing can follow 'A', with which the rule ends; put that into 'branch { }'?");
     refuse_body("{ step(w) A(w, w) }", "24: 'A' wants 1 argument, and 2 are given");
@@ -222,6 +231,47 @@ static void test_expressions(void)
     refuse_body("step(noise(3))", "19: 'noise' must be a length, such as '3 mm'; this is a number");
 }
 
+/* Repeats a part behind the first line, with its number where it has a place for that. */
+static char *repeated(const char *before, const char *part, uint32_t count, const char *after)
+{
+    size_t size = strlen(HEAD) + strlen(before) + strlen(after) + (strlen(part) + 12) * (size_t)count + 1;
+    char *text = malloc(size);
+    CHECK(text);
+    size_t used = (size_t)snprintf(text, size, HEAD "%s", before);
+    for (uint32_t i = 0; i < count; i++)
+        used += (size_t)snprintf(text + used, size - used, part, i);
+    snprintf(text + used, size - used, "%s", after);
+    return text;
+}
+
+static void refuse_repeated(const char *before, const char *part, uint32_t count, const char *after,
+                            const char *message)
+{
+    char *text = repeated(before, part, count, after);
+    refuse(text, message);
+    free(text);
+}
+
+/* What there may be at most is told by its number. */
+static void test_most(void)
+{
+    const char *rule = "seed A(1) on vertices rule A(w) -> ";
+    char before[96];
+    refuse_repeated("param a = ", "(", 100, "", "g:2:43: nested more than 64 deep");
+    snprintf(before, sizeof before, "%sturn(1 rad * (w", rule);
+    refuse_repeated(before, " + w", 250, "))",
+                    "g:2:852: an expression of more than 200 operations on one another");
+    refuse_repeated("seed A() on vertices rule A() -> stop\n", "rule B%u() -> stop\n", 1 << 14, "",
+                    "g:16386:6: more than 16384 rules");
+    snprintf(before, sizeof before, "%s{", rule);
+    refuse_repeated(before, "face(up)\n", (1 << 12) + 1, "}", "g:4098:8: more than 4096 directions");
+    refuse_repeated("", "param a%u = 1\n", (1 << 12) + 1, "", "g:4099:1: more than 4096 parameters");
+    refuse_repeated("", "map a%u = border\n", (1 << 12) + 1, "", "g:4099:1: more than 4096 declarations of one kind");
+    refuse_repeated("", "seed A() on vertices\n", (1 << 12) + 1, "", "g:4098:6: more than 4096 seeds");
+    refuse_repeated("seed A() on vertices rule A(", "a%u, ", 12, "b) -> stop", "g:2:79: a rule has at most 12 arguments");
+    refuse_repeated("seed A() on vertices rule A() -> A(", "1, ", 12, "1)", "g:2:72: a rule has at most 12 arguments");
+}
+
 /* Nothing is so deep or long that it breaks anything. */
 static void test_bounds(void)
 {
@@ -288,6 +338,7 @@ int main(void)
     test_progress();
     test_commands();
     test_expressions();
+    test_most();
     test_bounds();
     test_settings();
     test_truncation();

@@ -94,6 +94,17 @@ static void parse_parameter(MesoGrammarParser *parser)
     meso_parse_add_name(parser, &name, MESO_NAME_PARAMETER, grammar->parameter_count++);
 }
 
+/* Of a field: the source of one that has a name already. */
+static bool parse_known_field(MesoGrammarParser *parser, MesoGrammarSource *source)
+{
+    const MesoNamed *known = meso_parse_find(parser, &parser->token);
+    if (!known || known->kind != MESO_NAME_FIELD)
+        return false;
+    *source = parser->grammar->fields[known->index];
+    meso_parse_advance(parser);
+    return true;
+}
+
 static void parse_named_source(MesoGrammarParser *parser, MesoGrammarFamily family, MesoNameKind kind, const char *what,
                                MesoGrammarSource **list, uint32_t *count, uint32_t *room)
 {
@@ -104,11 +115,13 @@ static void parse_named_source(MesoGrammarParser *parser, MesoGrammarFamily fami
     char wanted[64];
     snprintf(wanted, sizeof wanted, "a source of %s", what);
     bool reversed = family == MESO_FAMILY_FIELD && meso_parse_accept(parser, "-");
-    const MesoGrammarSourceWord *word = meso_parse_source(parser, family, wanted, &source, arguments);
-    if (!word || is_full(parser, *count, "declarations of one kind") || !MESO_PARSE_GROW(parser, *list, *count, *room))
+    bool is_known = family == MESO_FAMILY_FIELD && parse_known_field(parser, &source);
+    const MesoGrammarSourceWord *word = is_known ? NULL : meso_parse_source(parser, family, wanted, &source, arguments);
+    if (!(word || is_known) || is_full(parser, *count, "declarations of one kind") ||
+        !MESO_PARSE_GROW(parser, *list, *count, *room))
         return;
     source.name = meso_parse_copy(parser, &name);
-    source.reversed = reversed;
+    source.reversed = source.reversed != reversed;
     if (family == MESO_FAMILY_MAP) {
         if (!MESO_PARSE_GROW(parser, parser->map_words, *count, parser->map_word_room))
             return;

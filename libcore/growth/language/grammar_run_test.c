@@ -106,6 +106,9 @@ static void test_commands(void)
                "rule A 0=2 1=5\nturn 0=1\nface field 0 0=1\nface field 1 0=0.5\nmove 0=2 1=2\n"
                "step tube1 0=10 1=0.5 7=2 8=1\nplace dot 0=2 4=10\nend\n");
     CHECK(grammar.fields[1].reversed && !grammar.fields[0].reversed && grammar.fields[1].values[0].number == 1);
+    read(HEAD "field a = world(1, 0, 0) field b = -a field c = -b seed A() on vertices face c rule A() -> stop");
+    CHECK(grammar.field_count == 3 && grammar.fields[1].reversed && !grammar.fields[2].reversed);
+    CHECK(grammar.fields[2].values[0].number == 1 && strcmp(grammar.fields[1].name, "b") == 0);
 }
 
 static void test_refused_steps(void)
