@@ -210,6 +210,8 @@ static MesoStatus grow(Job *job, MesoGrown *grown, MesoGrowthStarts *starts, uin
         .event = trace->output ? trace_event : NULL, .context = trace};
     if (!status)
         status = meso_grow(grown, &tool->arena, &options, &tool->error);
+    if (!status)
+        status = meso_growth_lift(grown, &tool->arena, &job->surface.ground, tool->threads, &tool->error);
     if (status == MESO_ERR_INPUT)
         meso_fail_prefix(&tool->error, job->grammar_input.path);
     return status;

@@ -100,4 +100,13 @@ typedef struct MesoGrown {
  */
 MesoStatus meso_grow(MesoGrown *grown, MesoArena *arena, const MesoGrowthOptions *options, MesoError *error);
 
+/*
+ * Raises joints until no element's axis lies below the surface by more than a hundredth of its length, by what some
+ * points of each tell: steps whose curves the next step has changed, tilted shapes, and such beyond corners, too. What
+ * touches stays together. A surface that is nearer than an element is long, but far along the surface, is not seen.
+ * The same for any number of threads. O(elements * triangles that they go over). MESO_ERR_MEMORY alone.
+ */
+MesoStatus meso_growth_lift(MesoGrown *grown, MesoArena *scratch, const MesoGrowthGround *ground,
+                            uint32_t thread_count, MesoError *error);
+
 #endif

@@ -111,7 +111,8 @@ static bool holds_on_curve(Along *along, const MesoTip *tip, const MesoGrowthBow
 /* By how much a branch has turned since its last step ended, to the left. */
 static double turned_since(const MesoGrowthTip *tip)
 {
-    MesoComplex came = {(double)meso_four_dot(tip->arrive, tip->foot.x), (double)meso_four_dot(tip->arrive, tip->foot.y)};
+    const MesoGrowthFooting *foot = &tip->foot;
+    MesoComplex came = {(double)meso_four_dot(tip->arrive, foot->x), (double)meso_four_dot(tip->arrive, foot->y)};
     MesoComplex goes = tip->at.heading;
     double angle = atan2(came.re * goes.im - came.im * goes.re, came.re * goes.re + came.im * goes.im);
     return tip->at.turned ? -angle : angle;

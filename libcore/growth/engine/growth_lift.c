@@ -1,0 +1,236 @@
+/*
+ * What has grown, brought up from below the surface: a step is kept above it while it grows (growth_depth.c), but its
+ * curve still changes when the next one turns, and tilted shapes and such beyond corners are looked at here alone.
+ */
+#include <string.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/growth/engine/growth.h"
+
+/* Points of an element that are looked at, and of one that goes around a corner. */
+enum { FEW = 6, SAMPLES = 12, MORE_SAMPLES = 48, WALKS = 2, PASSES = 12, GRAIN = 256 };
+
+/* Of an element's length; less than what is promised, since only points are looked at. */
+static const float tolerance = 0.008f;
+
+typedef struct Lifting {
+    const MesoGrown *grown;
+    const MesoGrowthGround *ground;
+    float *depths;              /* [element_count] */
+} Lifting;
+
+static float length_of(const MesoGrown *grown, const MesoGrowthElement *element)
+{
+    return meso_vec3_length(meso_vec3_sub(grown->joints[element->span.to].position,
+                                          grown->joints[element->span.from].position));
+}
+
+/* ---- depths ---- */
+
+/* Walks to below a point, as the triangle at the tip sees it, where that is more than `least` away. What is left of the
+ * way lies beyond a border. */
+static double walk_below(const Lifting *lifting, MesoTip *tip, MesoVec3 at, double least)
+{
+    const MesoWalkOptions options = {.crossing_limit = 1 << 10};
+    const double target[3] = {(double)at.x, (double)at.y, (double)at.z};
+    double position[3], towards[3], along[3];
+    MesoWalk walk = {.tip = *tip};
+    meso_tip_position(lifting->ground->mesh, tip, position);
+    for (uint32_t k = 0; k < 3; k++)
+        towards[k] = target[k] - position[k];
+    if (!meso_tip_head(&walk.tip, lifting->ground->mesh, towards))
+        return 0;
+    meso_walk_direction(lifting->ground->mesh, walk.tip.triangle, walk.tip.heading, along);
+    walk.length = along[0] * towards[0] + along[1] * towards[1] + along[2] * towards[2];
+    if (!(walk.length > least))
+        return 0;
+    meso_walks(&lifting->ground->walk, &walk, 1, &options);
+    *tip = walk.tip;
+    return walk.length;
+}
+
+/* The surface below a point, but for `least` of the way there, from one of it that is near; false beyond a border. */
+static bool surface_below(const Lifting *lifting, const MesoMeshPoint *from, MesoVec3 at, bool turned, double least,
+                          MesoTip *below)
+{
+    *below = (MesoTip){.triangle = from->triangle, .turned = turned, .heading = {1, 0}};
+    for (uint32_t k = 0; k < 3; k++)
+        below->weight[k] = (double)from->weight[k];
+    double rest = walk_below(lifting, below, at, 0);
+    for (uint32_t i = 1; i < WALKS && !(rest > 0); i++)
+        rest = walk_below(lifting, below, at, least);
+    return !(rest > 0);
+}
+
+/* The surface's normal below a joint, on the side that the joint is on. Where surfaces are wound both ways the joint's
+ * own normal tells it, for which the joint must not be rolled far. */
+static MesoVec3 normal_at(const Lifting *lifting, uint32_t joint, bool *turned)
+{
+    const MesoMeshPoint *point = &lifting->grown->points[joint];
+    const double weight[3] = {(double)point->weight[0], (double)point->weight[1], (double)point->weight[2]};
+    MesoVec3 normal = meso_growth_normal(lifting->ground, point->triangle, weight, false);
+    *turned = lifting->ground->against && meso_vec3_dot(normal, lifting->grown->joints[joint].normal) < 0;
+    return *turned ? meso_vec3_scale(normal, -1) : normal;
+}
+
+static MesoVec3 curve_point(const MesoVec3 p[4], float t)
+{
+    float r = 1 - t;
+    MesoVec3 point = meso_vec3_scale(p[0], r * r * r);
+    point = meso_vec3_mad(point, 3 * r * r * t, p[1]);
+    point = meso_vec3_mad(point, 3 * r * t * t, p[2]);
+    return meso_vec3_mad(point, t * t * t, p[3]);
+}
+
+static float depth_of(const Lifting *lifting, const MesoGrowthElement *element)
+{
+    const MesoGrown *grown = lifting->grown;
+    const MesoJoint *from = &grown->joints[element->span.from], *to = &grown->joints[element->span.to];
+    const MesoMeshPoint *ends[2] = {&grown->points[element->span.from], &grown->points[element->span.to]};
+    bool turned[2];
+    float deepest = 0;
+    MesoVec3 p[4];
+    meso_bend_curve(from, to, p);
+    double least = 0.02 * (double)length_of(grown, element);
+    normal_at(lifting, element->span.from, &turned[0]);
+    normal_at(lifting, element->span.to, &turned[1]);
+    uint32_t samples = meso_vec3_dot(from->normal, to->normal) < 0.9f ? MORE_SAMPLES : SAMPLES;
+    for (uint32_t i = 1; i <= samples; i++) {
+        MesoVec3 at = curve_point(p, (float)i / (float)samples);
+        uint32_t end = 2 * i > samples;
+        MesoTip below;
+        if (!surface_below(lifting, ends[end], at, turned[end], least, &below))
+            continue;
+        MesoVec3 up = meso_vec3_sub(meso_growth_position(lifting->ground, below.triangle, below.weight), at);
+        MesoVec3 normal = meso_growth_normal(lifting->ground, below.triangle, below.weight, below.turned);
+        deepest = fmaxf(deepest, meso_vec3_dot(up, normal));
+    }
+    return deepest;
+}
+
+static bool are_neighbours(const MesoGrowthGround *ground, uint32_t a, uint32_t b)
+{
+    const uint32_t *twins = ground->walk.faces[a].twins;
+    return a == b || twins[0] / 3 == b || twins[1] / 3 == b || twins[2] / 3 == b;
+}
+
+/* How far points are below the plane of a triangle, at most, on the side of a normal. */
+static float depth_below(const MesoTriangulation *mesh, uint32_t triangle, MesoVec3 side, const MesoVec3 points[FEW])
+{
+    const uint32_t *c = &mesh->corners[3 * (size_t)triangle];
+    MesoVec3 a = mesh->positions[c[0]], along = meso_vec3_sub(mesh->positions[c[1]], a);
+    MesoVec3 normal = meso_vec3_cross(along, meso_vec3_sub(mesh->positions[c[2]], a));
+    float length = meso_vec3_length(normal), depth = 0;
+    if (!(length > 0))
+        return INFINITY;
+    for (uint32_t k = 0; k < FEW; k++)
+        depth = fmaxf(depth, meso_vec3_dot(meso_vec3_sub(a, points[k]), normal) *
+                             (meso_vec3_dot(normal, side) < 0 ? -1 : 1));
+    return depth / length;
+}
+
+/* Elements in one triangle or two neighbours, below neither of their planes. */
+static bool is_above(const Lifting *lifting, const MesoGrowthElement *element)
+{
+    const MesoGrown *grown = lifting->grown;
+    uint32_t from = element->span.from, to = element->span.to;
+    uint32_t first = grown->points[from].triangle, last = grown->points[to].triangle;
+    MesoVec3 p[4], points[FEW];
+    bool turned;
+    if (!are_neighbours(lifting->ground, first, last))
+        return false;
+    meso_bend_curve(&grown->joints[from], &grown->joints[to], p);
+    for (uint32_t k = 0; k < FEW; k++)
+        points[k] = curve_point(p, (float)(k + 1) / FEW);
+    float limit = tolerance * length_of(grown, element);
+    return depth_below(lifting->ground->mesh, first, normal_at(lifting, from, &turned), points) <= limit &&
+           (first == last || depth_below(lifting->ground->mesh, last, normal_at(lifting, to, &turned), points) <= limit);
+}
+
+static void measure_range(void *context, uint64_t begin, uint64_t end)
+{
+    Lifting *lifting = context;
+    for (uint64_t i = begin; i < end; i++)
+        if (lifting->depths[i] > 0)
+            lifting->depths[i] = is_above(lifting, &lifting->grown->elements[i])
+                                     ? 0 : depth_of(lifting, &lifting->grown->elements[i]);
+}
+
+/* ---- joints ---- */
+
+/* Joints that are two in one place, at the end of a step and the begin of the next, are raised as one. */
+static void find_twins(const MesoGrown *grown, uint32_t *twins, uint32_t *last)
+{
+    memset(twins, 0xff, grown->joint_count * sizeof *twins);
+    memset(last, 0xff, grown->branch_count * sizeof *last);
+    for (uint32_t i = 0; i < grown->element_count; i++) {
+        const MesoGrowthElement *element = &grown->elements[i];
+        uint32_t from = element->span.from, before = last[element->branch];
+        if (before != MESO_NO_INDEX && before != from &&
+            memcmp(&grown->points[before], &grown->points[from], sizeof *grown->points) == 0 &&
+            memcmp(&grown->joints[before].position, &grown->joints[from].position, sizeof(MesoVec3)) == 0) {
+            twins[before] = from;
+            twins[from] = before;
+        }
+        last[element->branch] = element->span.to;
+    }
+}
+
+static void want(float *raises, const uint32_t *twins, uint32_t joint, float by)
+{
+    raises[joint] = fmaxf(raises[joint], by);
+    if (twins[joint] != MESO_NO_INDEX)
+        raises[twins[joint]] = fmaxf(raises[twins[joint]], by);
+}
+
+/* False where nothing is too deep. */
+static bool raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, const uint32_t *twins)
+{
+    float *depths = lifting->depths;
+    bool any = false;
+    memset(raises, 0, grown->joint_count * sizeof *raises);
+    for (uint32_t i = 0; i < grown->element_count; i++) {
+        const MesoGrowthElement *element = &grown->elements[i];
+        if (!(depths[i] > tolerance * length_of(grown, element)))
+            continue;
+        any = true;
+        want(raises, twins, element->span.from, depths[i]);
+        want(raises, twins, element->span.to, depths[i]);
+    }
+    for (uint32_t i = 0; i < grown->joint_count; i++) {
+        bool turned;
+        if (raises[i] > 0)
+            grown->joints[i].position = meso_vec3_mad(grown->joints[i].position, raises[i],
+                                                      normal_at(lifting, i, &turned));
+    }
+    /* what hangs together with what was raised is looked at again */
+    for (uint32_t i = 0; i < grown->element_count; i++) {
+        const MesoSpan *span = &grown->elements[i].span;
+        depths[i] = raises[span->from] > 0 || raises[span->to] > 0 ? 1 : 0;
+    }
+    return any;
+}
+
+MesoStatus meso_growth_lift(MesoGrown *grown, MesoArena *scratch, const MesoGrowthGround *ground,
+                            uint32_t thread_count, MesoError *error)
+{
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    float *depths = MESO_NEW(scratch, float, grown->element_count, error);
+    float *raises = MESO_NEW(scratch, float, grown->joint_count, error);
+    uint32_t *twins = MESO_NEW(scratch, uint32_t, grown->joint_count, error);
+    uint32_t *last = MESO_NEW(scratch, uint32_t, grown->branch_count, error);
+    Lifting lifting = {grown, ground, depths};
+    bool goes_on = depths && raises && twins && last;
+    if (goes_on) {
+        find_twins(grown, twins, last);
+        for (uint32_t i = 0; i < grown->element_count; i++)
+            depths[i] = 1;
+    }
+    MesoStatus status = goes_on ? MESO_OK : MESO_ERR_MEMORY;
+    for (uint32_t pass = 0; pass < PASSES && goes_on; pass++) {
+        meso_parallel_for(thread_count, grown->element_count, GRAIN, measure_range, &lifting);
+        goes_on = raise_once(&lifting, grown, raises, twins);
+    }
+    meso_arena_rewind(scratch, mark);
+    return status;
+}
