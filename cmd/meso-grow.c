@@ -1,6 +1,7 @@
 /* meso-grow: lets a grammar grow over a surface. */
 #include "cmd/grow/grow_job.h"
 #include "libcore/chart/geometry_image.h"
+#include "libcore/growth/shape/terminal_shape.h"
 
 #define OUTPUTS "OUT.meso|.ply|.obj|.glb|.drc|.svg"
 
@@ -23,7 +24,7 @@ static const MesoToolInfo GROW_TOOL = {
 
 int main(int argc, char **argv)
 {
-    MesoGrowArguments a = {.output = MESO_SCENE_OUTPUT_DEFAULTS, .up = {0, 1, 0}};
+    MesoGrowArguments a = {.output = MESO_SCENE_OUTPUT_DEFAULTS, .up = {0, 1, 0}, .detail = MESO_NO_INDEX};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.output.to,
                     "meso|ply|obj|glb|drc|svg", .more = MESO_OPTION_OUTWARD),
@@ -37,6 +38,8 @@ int main(int argc, char **argv)
                     "own|uv"),
         MESO_COUNT(0, "texels", "N", "along a side of the texture (default 1024)", &a.texels,
                    MESO_GEOMETRY_IMAGE_LEAST, MESO_GEOMETRY_IMAGE_MOST),
+        MESO_COUNT(0, "detail", "N", "how finely built-in shapes are divided, 0 to 8, whatever the grammar says",
+                   &a.detail, 0, MESO_SHAPE_DETAIL_MAX),
         MESO_COUNT(0, "until", "N", "end after N generations (default: when nothing grows any more)", &a.until, 1,
                    1 << 30),
         MESO_COUNT(0, "generations", "N", "most generations, beside the grammar's limit (default 1000000)",

@@ -15,6 +15,7 @@ typedef struct MesoGrowArguments {
     const char *show_map;       /* --show-map: NAME=FILE; NULL: none */
     const char *march, *atlas;  /* --march, --atlas; NULL: the default */
     uint32_t texels;            /* --texels; 0: the default */
+    uint32_t detail;            /* --detail; MESO_NO_INDEX: the grammar's */
     uint32_t until;             /* --until; 0: to the end */
     uint32_t most_generations, most_elements;   /* --generations, --elements */
     bool partial;               /* --partial */

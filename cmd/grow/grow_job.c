@@ -129,7 +129,7 @@ static MesoStatus read_inputs(Job *job)
     if (!status)
         status = meso_grow_march_init(&job->march, job->arguments, &job->surface);
     if (!status)
-        status = meso_grow_shapes(&job->shapes, tool, &job->grammar, job->folder);
+        status = meso_grow_shapes(&job->shapes, tool, &job->grammar, job->folder, job->arguments->detail);
     if (!status)
         status = meso_grow_contexts(&job->contexts, &job->places, tool, &job->grammar, &job->surface.polygons,
                                     &job->surface.ground, job->folder);

@@ -16,6 +16,7 @@ enum { FILE_VALUE = 0, ALONG_VALUE = 1, MESH_MATERIAL = 2, SECTION_NAME = 1, SEC
 typedef struct Maker {
     MesoTool *tool;
     const char *folder;
+    uint32_t detail;            /* of built-in shapes; MESO_NO_INDEX: their own */
     MesoTerminalShape *shapes;
     MesoMaterial *materials;
     const char **material_names;
@@ -166,7 +167,8 @@ static uint32_t whole(double number, uint32_t most)
 static MesoStatus make_builtin(Maker *m, uint32_t shape, const MesoGrammarSource *source)
 {
     MesoBuiltinShape kind = (MesoBuiltinShape)(source->kind - MESO_SHAPE_LEAF);
-    uint32_t detail = whole(source->values[BUILTIN_DETAIL].number, MESO_SHAPE_DETAIL_MAX);
+    uint32_t own = whole(source->values[BUILTIN_DETAIL].number, MESO_SHAPE_DETAIL_MAX);
+    uint32_t detail = m->detail == MESO_NO_INDEX ? own : m->detail;
     MesoArena *arena = &m->tool->arena;
     MesoError *error = &m->tool->error;
     MesoStatus status = kind == MESO_BUILTIN_TUBE
@@ -188,13 +190,14 @@ static MesoStatus make_shape(Maker *m, uint32_t shape, const MesoGrammarSource *
     return meso_fail_prefix(&m->tool->error, place);
 }
 
-MesoStatus meso_grow_shapes(MesoGrowthShapes *shapes, MesoTool *tool, const MesoGrammar *grammar, const char *folder)
+MesoStatus meso_grow_shapes(MesoGrowthShapes *shapes, MesoTool *tool, const MesoGrammar *grammar, const char *folder,
+                            uint32_t detail)
 {
     MesoArena *arena = &tool->arena;
     MesoError *error = &tool->error;
     uint32_t count = grammar->shape_count;
     const char **names = MESO_NEW(arena, const char *, count + 1, error);
-    Maker m = {.tool = tool, .folder = folder, .shapes = MESO_NEW(arena, MesoTerminalShape, count + 1, error),
+    Maker m = {.tool = tool, .folder = folder, .detail = detail, .shapes = MESO_NEW(arena, MesoTerminalShape, count + 1, error),
                .materials = MESO_NEW(arena, MesoMaterial, count + 1, error),
                .material_names = MESO_NEW(arena, const char *, count + 1, error),
                .material_of = MESO_NEW(arena, uint32_t, count + 1, error)};

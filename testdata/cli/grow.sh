@@ -55,6 +55,16 @@ try meso-grow --set thik=1mm ivy.grammar vase.obj -o x.meso
 try meso-grow --set thick=3deg ivy.grammar vase.obj -o x.meso
 try meso-grow --set thick ivy.grammar vase.obj -o x.meso
 
+echo "== details of shapes: more faces, and the same growth"
+for detail in 0 2; do
+    meso-grow -q --until 9 --detail $detail ivy.grammar vase.obj -o detail.ply --json=detail-$detail.json
+    echo "$(count elements detail-$detail.json) elements, $(sed -n 's/^element face //p' detail.ply) faces"
+done
+meso-grow -q --provenance none scales.grammar vase.obj -o own.meso
+meso-grow -q --provenance none --detail 1 scales.grammar vase.obj -o told.meso
+cmp own.meso told.meso && echo "as the grammar has it"
+try meso-grow --detail 9 ivy.grammar vase.obj -o x.meso
+
 echo "== growth without an end stops at its limits"
 grammar 'shape s = tube  seed A() on poisson(1 extent)
 rule A() -> { step(0.01 extent, shape: s, width: 0.001 extent, cross: true) branch { turn(90 deg) A() } A() }' >all.grammar
