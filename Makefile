@@ -3,10 +3,11 @@
 #   all               the tools, to build/bin (release) or build/CONFIG/bin
 #   examples          tile sets and surfaces to try, to build/examples
 #   check             every test: units, folder pages, the order of includes, man pages, command lines
-#   check-exhaustive  $(CHECK_PATTERNS) random patterns on each of 12 surfaces; the solver against brute force on all
-#                     gluings of up to $(CHECK_SLOTS) slots, for $(CHECK_SECONDS) seconds at most: a line for each
-#                     number of slots and core
+#   check-exhaustive  $(CHECK_PATTERNS) random patterns on each of 12 surfaces; growth over $(CHECK_MESHES) broken
+#                     meshes; the solver against brute force on all gluings of up to $(CHECK_SLOTS) slots, for
+#                     $(CHECK_SECONDS) seconds at most: a line for each number of slots and core
 #   check-patterns    the random patterns alone
+#   check-growth      growth over $(CHECK_MESHES) broken meshes alone
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
@@ -27,6 +28,7 @@ PREFIX ?= /usr/local
 DATA   ?= ../shared/data/mesogen
 FUZZ_SECONDS ?= 60
 CHECK_PATTERNS ?= 84
+CHECK_MESHES ?= 10000
 CHECK_SLOTS ?= 6
 CHECK_SECONDS ?= 7200
 BUILD  ?= build
@@ -150,11 +152,13 @@ check-unit: tests
 	@scripts/run-tests $(OUT) $(BIN) $(TESTS:%=unit:%)
 check-cli: all tests
 	@scripts/run-tests $(OUT) $(BIN) man cli
-check-exhaustive: check-patterns $(OUT)/test/libcore/tiling/solve/small_graphs_test
+check-exhaustive: check-patterns check-growth $(OUT)/test/libcore/tiling/solve/small_graphs_test
 	@n=$$(nproc) && seq 0 $$((n - 1)) | \
 	    xargs -P $$n -I PART nice $(lastword $^) $(CHECK_SLOTS) $(CHECK_SECONDS) PART $$n
 check-patterns: $(OUT)/test/libcore/decor/decor_test
 	@nice $< $(CHECK_PATTERNS)
+check-growth: $(OUT)/test/libcore/growth/engine/growth_test
+	@nice $< $(CHECK_MESHES)
 check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 bench: all benches generators
@@ -189,8 +193,8 @@ install: all generators
 clean:
 	rm -rf $(BUILD)
 
-.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-reference bench \
-        bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts fuzz-run fuzzers benches \
-        references install clean
+.PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
+        check-reference bench bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts \
+        fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

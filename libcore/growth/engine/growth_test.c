@@ -1,4 +1,8 @@
-/* Growth by what it promises: joints, threads, edits, limits, conditions, and meshes that are none. */
+/*
+ * Growth by what it promises: joints, threads, edits, limits, conditions, and meshes that are none.
+ *
+ *   growth_test [MESHES]    so many broken meshes alone
+ */
 #include "libcore/growth/engine/growth_fixture.h"
 
 static const char ivy[] =
@@ -336,6 +340,7 @@ static void test_broken(uint32_t count)
         options.generations = 6;
         options.elements = 40;
         CHECK(!meso_grow(&grown, &scenery.arena, &options, NULL));
+        CHECK(!meso_growth_lift(&grown, &scenery.arena, &scenery.ground, 1, NULL));
         for (uint32_t j = 0; j < grown.joint_count; j++)
             CHECK(meso_vec3_finite(grown.joints[j].position) && meso_vec3_finite(grown.joints[j].tangent));
         meso_arena_release(&scenery.arena);
@@ -343,8 +348,12 @@ static void test_broken(uint32_t count)
     meso_triangulation_release(&sheet);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    if (argc > 1) {
+        test_broken((uint32_t)strtoul(argv[1], NULL, 10));
+        return 0;
+    }
     test_threads();
     test_joints();
     test_tangents();
