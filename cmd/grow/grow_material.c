@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static float linear_of(uint32_t byte)
@@ -12,16 +13,33 @@ static float linear_of(uint32_t byte)
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
 
+/* "0.5 1", or less of it: numbers from 0 to 1 between spaces. */
+static bool read_shares(const char *text, float *shares[2])
+{
+    for (uint32_t i = 0; i < 2; i++) {
+        text += strspn(text, " ");
+        size_t length = strspn(text, "0123456789.");
+        char *end;
+        if (*text == '\0')
+            return true;
+        *shares[i] = strtof(text, &end);
+        if (length == 0 || end != text + length || (*end != ' ' && *end != '\0') || *shares[i] > 1)
+            return false;
+        text = end;
+    }
+    return text[strspn(text, " ")] == '\0';
+}
+
 static bool read_material(const char *text, MesoMaterial *look, char name[MESO_GROW_NAME])
 {
     unsigned red, green, blue;
+    int end = 0, count = sscanf(text, "%63[^# ] #%2x%2x%2x%n", name, &red, &green, &blue, &end);
     float roughness = look->roughness, metallic = look->metallic;
-    int end = 0, count = sscanf(text, "%63[^# ] #%2x%2x%2x%n %f %f", name, &red, &green, &blue, &end, &roughness,
-                                &metallic);
+    float *shares[2] = {&roughness, &metallic};
     if (count == 1 && strlen(name) == strlen(text))
         return true;
     const char *digits = strchr(text, '#');
-    if (count < 4 || !digits || strspn(digits + 1, "0123456789abcdefABCDEF") != 6 || strspn(text + end, " 0123456789.") != strlen(text + end) || roughness > 1 || metallic > 1)
+    if (count < 4 || !digits || strspn(digits + 1, "0123456789abcdefABCDEF") != 6 || !read_shares(text + end, shares))
         return false;
     *look = (MesoMaterial){{linear_of(red), linear_of(green), linear_of(blue)}, roughness, metallic};
     return true;

@@ -1,8 +1,9 @@
 #include "cmd/grow/grow_section.h"
 
+#include <stdio.h>
 #include <string.h>
 
-#include "libcore/base/names.h"
+#include "libcore/base/nearest.h"
 #include "libcore/tiling/tile/contour.h"
 
 /* Rings of a prism: enough for the curve of a step. */
@@ -23,6 +24,26 @@ static bool is_named(const MesoTileSet *set, uint32_t section, const char *name)
     return strlen(interface) == length && memcmp(interface, name, length) == 0 && strcmp(s->name, slash + 1) == 0;
 }
 
+static MesoStatus no_section(const MesoTileSet *set, const char *name, MesoError *error)
+{
+    char words[2][160], *word = words[0];
+    MesoNearest nearest = meso_nearest(name, strlen(name));
+    for (uint32_t i = 0; i < set->section_count; i++) {
+        const MesoSection *section = &set->sections[i];
+        const char *interface = set->interfaces[section->interface].name;
+        bool whole = strchr(name, '/') != NULL;
+        snprintf(word, sizeof words[0], "%s%s%s", whole ? interface : "", whole ? "/" : "", section->name);
+        meso_nearest_try(&nearest, word);
+        if (nearest.best == word)
+            word = word == words[0] ? words[1] : words[0];
+    }
+    const MesoSection *first = &set->sections[0];
+    if (nearest.best)
+        return meso_fail(error, MESO_ERR_INPUT, "no cross-section '%s'; did you mean '%s'?", name, nearest.best);
+    return meso_fail(error, MESO_ERR_INPUT, "no cross-section '%s'; there is '%s/%s'", name,
+                     set->interfaces[first->interface].name, first->name);
+}
+
 static MesoStatus find_section(uint32_t *found, const MesoTileSet *set, const char *name, MesoError *error)
 {
     *found = MESO_NO_INDEX;
@@ -38,11 +59,7 @@ static MesoStatus find_section(uint32_t *found, const MesoTileSet *set, const ch
     }
     if (!name)
         *found = 0;
-    if (*found != MESO_NO_INDEX)
-        return MESO_OK;
-    const MesoSection *first = &set->sections[0];
-    return meso_fail(error, MESO_ERR_INPUT, "no cross-section '%s'; there is '%s/%s'", name,
-                     set->interfaces[first->interface].name, first->name);
+    return *found != MESO_NO_INDEX ? MESO_OK : no_section(set, name, error);
 }
 
 /* ---- prisms ---- */
