@@ -90,7 +90,9 @@ each meso-decor -q --threads 1 eleven-steps.pattern.json vase.obj -o out/v.meso 
 each meso-decor -q --threads 1 --seeds 1-2 procedural.pattern.json vase.obj -o out/%d.glb
 each meso-quilt -q --threads 1 --guide auto --swatch wire --sides 3 --scale 0.3 --until 4 cube.obj -o out/v.quilt
 cp "$fixtures"/*.grammar "$fixtures/crack.tiles.json" .
+most=300
 each meso-grow -q --threads 1 --until 4 ivy.grammar cube.obj -o out/i.meso
+most=30
 each meso-grow -q --threads 1 --until 3 --trace out/c.jsonl cracks.grammar cube.obj -o out/c.svg
 each meso-decor -q --threads 1 --geodesics exact polyline-closed.pattern.json vase.obj -o out/v.ply --lines out/v.obj
 for file in quad.tiles.json cube.obj cube.slots cube.meso cube.glb; do

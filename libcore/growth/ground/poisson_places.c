@@ -293,6 +293,8 @@ static MesoStatus add_part(Board *board, uint32_t index, uint32_t part)
             return MESO_OK;
         if (meeting == MEETING_SOME)
             status = link_view(board, &cell, view);
+        if (status)     /* and perhaps no link is left */
+            return status;
     }
     if (!status && !is_over(board, &cell))
         status = add_cell(board, &cell);
@@ -306,16 +308,20 @@ static MesoStatus cut(Board *board, uint32_t index)
     MesoStatus status = MESO_OK;
     for (uint32_t part = 0; part < 4 && !status; part++)
         status = add_part(board, index, part);
+    if (status)     /* and perhaps no cell is left */
+        return status;
     Cell *cell = &board->cells[index];
     cell->children = children;
     cell->child_count = (uint8_t)(board->cell_count - children);
     cell->done |= cell->child_count == 0;
-    return status;
+    return MESO_OK;
 }
 
 static MesoStatus pass_on(Board *board, uint32_t index)
 {
     MesoStatus status = cut(board, index);
+    if (status)
+        return status;
     uint32_t children = board->cells[index].children, count = board->cells[index].child_count;
     for (uint32_t i = 0; i < count && !status; i++)
         status = queue_cell(board, children + i);
@@ -376,6 +382,8 @@ static MesoStatus begin_cell(Board *board, uint32_t index)
     if (!is_too_large(board, &board->cells[index]))
         return is_over(board, &board->cells[index]) ? MESO_OK : queue_cell(board, index);
     MesoStatus status = cut(board, index);
+    if (status)
+        return status;
     uint32_t children = board->cells[index].children, count = board->cells[index].child_count;
     for (uint32_t i = 0; i < count && !status; i++)
         status = begin_cell(board, children + i);
