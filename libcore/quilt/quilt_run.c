@@ -16,8 +16,8 @@ enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
 
 /*
  * How far around its seed a patch looks for what is not done, in sides of the swatch, to have its middle there: a
- * quarter fewer patches, and so fewer seams. Not so where elements are whole, which are matched by many neighbours alone, nor
- * where the swatch is periodic: the more of it lies on the older quilt, the more often it just goes on.
+ * quarter fewer patches, and so fewer seams. Not so where elements are whole, which are matched by many neighbours
+ * alone, nor where the swatch is periodic: the more of it lies on the older quilt, the more often it just goes on.
  */
 #define SEED_REACH 0.2f
 
@@ -209,8 +209,17 @@ static void begin_patch(Round *round, uint32_t i, uint32_t seed, float tightness
 static void prepare_range(void *context, uint64_t begin, uint64_t end)
 {
     Round *round = context;
-    for (uint64_t i = begin; i < end; i++)
+    for (uint64_t i = begin; i < end; i++) {
         round->statuses[i] = meso_quilt_prepare(&round->patches[i], round->work, &round->arenas[i], &round->errors[i]);
+        atomic_fetch_sub(&round->work->busy_patches, 1);
+    }
+}
+
+/* `count` patches that have begun, each by a core as long as there are such. */
+static void prepare(Round *round, uint32_t count)
+{
+    atomic_store(&round->work->busy_patches, count);
+    meso_parallel_for(round->work->options.thread_count, count, 1, prepare_range, round);
 }
 
 static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, MesoError *error)
@@ -227,22 +236,17 @@ static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, 
     return status;
 }
 
-/* Cores that so many patches at the same time leave to each of them. */
-static void share_threads(MesoQuiltWork *work, uint32_t patch_count)
-{
-    uint32_t threads = work->options.thread_count ? work->options.thread_count : meso_parallel_cores();
-    work->trial_threads = threads > patch_count ? threads / patch_count : 1;
-}
-
-/* A seed that its patch could not cover: with margins made tighter; in the end it counts as done, so that there is an end. */
+/*
+ * A seed that its patch could not cover: with margins made tighter; in the end it counts as done, so that there is an
+ * end.
+ */
 static MesoStatus insist(Round *round, uint32_t seed, Front *front, MesoError *error)
 {
     MesoQuiltWork *work = round->work;
     bool done = false;
     for (int attempt = 1; attempt < TIGHTNESS_COUNT && !done; attempt++) {
         begin_patch(round, 0, seed, TIGHTNESS[attempt]);
-        share_threads(work, 1);
-        prepare_range(round, 0, 1);
+        prepare(round, 1);
         MesoStatus status = end_patch(round, 0, &done, front, error);
         if (status)
             return status;
@@ -261,8 +265,7 @@ static MesoStatus run_round(Round *round, const Seed *seeds, Front *front, MesoE
     bool done[MESO_QUILT_PATCHES];
     for (uint32_t i = 0; i < round->count; i++)
         begin_patch(round, i, seeds[i].triangle, TIGHTNESS[0]);
-    share_threads(round->work, round->count);
-    meso_parallel_for(round->work->options.thread_count, round->count, 1, prepare_range, round);
+    prepare(round, round->count);
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; i < round->count; i++) {
         MesoStatus ended = end_patch(round, i, &done[i], front, status ? NULL : error);
@@ -337,7 +340,7 @@ static void choose_lengths(MesoQuiltWork *work)
 }
 
 /* Charts around seeds that are so far apart, in a straight line, do not touch, however long their triangles are. */
-static float distance_apart( MesoQuiltWork *work)
+static float distance_apart(const MesoQuiltWork *work)
 {
     float longest = 0;
     for (uint32_t c = 0; c < 3 * work->base->triangle_count; c++) {

@@ -120,7 +120,7 @@ static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoAre
 
 /* Placements of one step, side by side. */
 typedef struct Trials {
-    const MesoQuiltWork *work;
+    MesoQuiltWork *work;
     Candidate candidates[MESO_QUILT_TRIALS];
     MesoArena *arenas;          /* one for each */
     MesoStatus statuses[MESO_QUILT_TRIALS];
@@ -136,15 +136,28 @@ static void try_range(void *context, uint64_t begin, uint64_t end)
                                             &trials->errors[i]);
 }
 
-/* The first one; where that leaves flaws, the others as well. Which has the fewest. */
+/* Cores that no patch keeps at work, and the one that asks. */
+static uint32_t idle_cores(MesoQuiltWork *work)
+{
+    uint32_t threads = work->options.thread_count ? work->options.thread_count : meso_parallel_cores();
+    uint32_t busy = atomic_load(&work->busy_patches);
+    return threads > busy ? threads - busy + 1 : 1;
+}
+
+/*
+ * The first one; where that leaves flaws, the others as well. Which has the fewest. Cores that would be idle begin with
+ * the others meanwhile: what comes of these counts only where the first one has flaws.
+ */
 static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, MesoError *error)
 {
-    const uint32_t ends[3] = {0, 1, count};
     *chosen = 0;
-    for (int k = 0; k < 2 && (k == 0 || trials->candidates[0].flaws > 0); k++) {
-        trials->first = ends[k];
-        meso_parallel_for(trials->work->trial_threads, ends[k + 1] - ends[k], 1, try_range, trials);
-        for (uint32_t i = ends[k]; i < ends[k + 1]; i++) {
+    for (uint32_t tried = 0; tried < count && (tried == 0 || trials->candidates[0].flaws > 0);) {
+        uint32_t cores = idle_cores(trials->work), some = cores < count - tried ? cores : count - tried;
+        trials->first = tried;
+        meso_parallel_for(some, some, 1, try_range, trials);
+        tried += some;
+        uint32_t counted = trials->statuses[0] || !(trials->candidates[0].flaws > 0) ? 1 : tried;
+        for (uint32_t i = trials->first; i < counted; i++) {
             if (trials->statuses[i]) {
                 if (error)
                     *error = trials->errors[i];
@@ -158,7 +171,7 @@ static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, M
 }
 
 /* The placement with the fewest ends; of equal ones the one that matches best. */
-static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, const MesoQuiltWork *work, MesoArena *arena,
+static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena,
                                    MesoError *error)
 {
     MesoQuiltStep *step = &patch->step;
@@ -186,8 +199,8 @@ static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, const
 }
 
 /* Both sides are cut again where placement or warp have moved it. */
-static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, float reach, MesoArena *arena,
-                            MesoError *error)
+static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, float reach,
+                            MesoArena *arena, MesoError *error)
 {
     MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
     return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, &c->shares, step,
@@ -241,8 +254,8 @@ static float guide_angle(const MesoQuiltStep *step, const MesoQuiltWork *work)
 static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     MesoQuiltStep *step = &patch->step;
-    MesoChartOptions options = {.radius = step->tightness * work->chart_radius * work->options.scale, .largest_ratio = 4,
-                                .relaxations = 4};
+    MesoChartOptions options = {.radius = step->tightness * work->chart_radius * work->options.scale,
+                                .largest_ratio = 4, .relaxations = 4};
     step->maker->unfolds = true;
     MesoStatus status = meso_chart_grow(&step->chart, arena, step->maker, step->seed, &options, error);
     if (status)
@@ -272,7 +285,8 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
         status = fit(&c, step, work, arena, error);
     clocks[2] = meso_seconds();
     if (!status && !step->warp.count)
-        status = meso_strands_try_weld(&patch->weld, &patch->welded, &c.old_side, &c.new_side, step, work, arena, error);
+        status = meso_strands_try_weld(&patch->weld, &patch->welded, &c.old_side, &c.new_side, step, work, arena,
+                                       error);
     if (!status && !patch->welded)
         status = meso_strands_plan(&patch->joint, &c.old_side, &c.new_side, &c.shares, step, work, arena, error);
     clocks[3] = meso_seconds();

@@ -2,6 +2,8 @@
 #ifndef MESO_QUILT_WORK_H
 #define MESO_QUILT_WORK_H
 
+#include <stdatomic.h>
+
 #include "libcore/math/thin_plate.h"
 #include "libcore/quilt/composite.h"
 #include "libcore/quilt/match/match_search.h"
@@ -18,8 +20,10 @@ typedef enum MesoCover {
     MESO_COVER_OUTSIDE  /* of cells: of the chart */
 } MesoCover;
 
-/* Patches that are made at the same time, far from each other. More would have more cores at work, but fronts to begin at
- * are few. It is no matter of threads: the result depends on it. */
+/*
+ * Patches that are made at the same time, far from each other. More would have more cores at work, but fronts to begin
+ * at are few. It is no matter of threads: the result depends on it.
+ */
 enum { MESO_QUILT_PATCHES = 4 };
 
 /* Placements of a patch that are looked at closely. */
@@ -57,7 +61,7 @@ typedef struct MesoQuiltWork {
     uint8_t *covers;            /* [triangle_count] MesoCover */
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
     MesoQuiltTally tally;       /* of all steps */
-    uint32_t trial_threads;     /* for placements of one patch: cores that are not at work on other patches */
+    atomic_uint busy_patches;   /* that are being made ready: cores beyond these try placements */
     bool welds;                 /* the swatch has strands and is periodic: patches may fit vertex by vertex */
 
     /* lengths in units of the swatch */
@@ -153,7 +157,10 @@ void meso_old_geometry_forget(const MesoQuiltStep *step, MesoQuiltWork *work);
 /* Placements, best first. */
 MesoStatus meso_quilt_place(MesoMatch *matches, uint32_t *found, uint32_t wanted, MesoQuiltStep *step,
                             const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
-/* Takes a placement; then moves and turns it by less than a voxel or so until it fits. False where nothing is there to fit. */
+/*
+ * Takes a placement; then moves and turns it by less than a voxel or so until it fits. False where nothing is there to
+ * fit.
+ */
 bool meso_quilt_align(MesoQuiltStep *step, const MesoQuiltWork *work);
 void meso_quilt_choose(MesoQuiltStep *step, const MesoQuiltWork *work, MesoMatch match);
 
@@ -189,7 +196,8 @@ MesoStatus meso_quilt_commit_wholes(const MesoWholePlan *plan, const MesoQuiltSt
                                     MesoError *error);
 
 /* Rings of all strands of a swatch. Some scratch stays in the arena. */
-MesoStatus meso_strands_find_rings(MesoStrandRings *rings, const MesoSwatch *swatch, MesoArena *arena, MesoError *error);
+MesoStatus meso_strands_find_rings(MesoStrandRings *rings, const MesoSwatch *swatch, MesoArena *arena,
+                                   MesoError *error);
 /* Those of what is there: rings of the swatch, as far as they hang together. */
 MesoStatus meso_strands_old_rings(MesoStrandRings *rings, const MesoOldGeometry *old, const MesoQuiltWork *work,
                                   MesoArena *arena, MesoError *error);
@@ -206,7 +214,8 @@ typedef struct MesoRingShares {
     const MesoVec3 *new_middles, *new_axes;     /* [rings.count of the swatch] as they lie in the plane */
     MesoVec3 *places;           /* [vertex_count of the swatch] of strands, warped */
     uint32_t pull_count;
-    MesoVec3 *pulls_from, *pulls_apart;     /* [pull_count] middles of new rings, and the way to the older strand from there */
+    MesoVec3 *pulls_from;       /* [pull_count] middles of new rings */
+    MesoVec3 *pulls_apart;      /* [pull_count] the way to the older strand from there */
 } MesoRingShares;
 
 MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
@@ -240,8 +249,8 @@ MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new
                                    MesoError *error);
 /*
  * Pairs sections that lie across the seam from each other, up to `reach` times a strand's own reach beside its way: as
- * many as can be, those nearest to each other on the whole; and says what they are to move by. `flaws`: strands that end.
- * O(sections^3) at worst.
+ * many as can be, those nearest to each other on the whole; and says what they are to move by. `flaws`: strands that
+ * end. O(sections^3) at worst.
  */
 MesoStatus meso_strands_pair(MesoStrandSide *old_side, MesoStrandSide *new_side, float *flaws, float reach,
                              const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
@@ -255,7 +264,8 @@ typedef struct MesoStrandJoint {
 } MesoStrandJoint;
 
 MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_side,
-                             const MesoStrandSide *new_side, MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                             const MesoStrandSide *new_side, MesoRingShares *shares, const MesoQuiltStep *step,
+                              const MesoQuiltWork *work,
                              MesoArena *arena, MesoError *error);
 /* Joins them in the composite, and closes what has no partner. */
 MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,
