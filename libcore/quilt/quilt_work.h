@@ -265,8 +265,7 @@ typedef struct MesoStrandJoint {
 
 MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_side,
                              const MesoStrandSide *new_side, MesoRingShares *shares, const MesoQuiltStep *step,
-                              const MesoQuiltWork *work,
-                             MesoArena *arena, MesoError *error);
+                             const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
 /* Joins them in the composite, and closes what has no partner. */
 MesoStatus meso_strands_commit(const MesoStrandJoint *joint, const MesoQuiltStep *step, MesoQuiltWork *work,
                                MesoArena *arena, MesoError *error);

@@ -1,4 +1,5 @@
 #include "libcore/base/grow.h"
+#include "libcore/base/parallel.h"
 #include "libcore/shell/box_tree.h"
 #include "libcore/shell/prism_bodies.h"
 #include "libcore/shell/prism_layer.h"
@@ -11,14 +12,27 @@ typedef struct Search {
     MesoPrismLayer *layer;
     double low, high;       /* with the surface itself between them */
     uint8_t *graphs;        /* [vertex_count] */
-    uint32_t asking;
-    MesoPrismBody body;     /* of the one that asks */
+    MesoBox *boxes;         /* [triangle_count] */
+    MesoBoxTree tree;
     Pair *pairs;            /* that meet */
-    uint32_t pair_count, pair_room;
+    uint32_t pair_count;
     MesoArena *arena;
     MesoError *error;
-    MesoStatus status;
 } Search;
+
+/* Pairs of some triangles, by themselves: they are put in one row in the triangles' order. */
+typedef struct Block {
+    const Search *search;
+    uint32_t asking;
+    MesoPrismBody body;     /* of the one that asks */
+    Pair *pairs;
+    uint32_t pair_count, pair_room;
+    MesoArena arena;
+    MesoError error;
+    MesoStatus status;
+} Block;
+
+enum { BLOCK = 512 };       /* triangles */
 
 /* ---- neighbours ---- */
 
@@ -105,17 +119,18 @@ static bool bodies_meet(const Search *search, uint32_t a, uint32_t b, const Meso
 
 static void try_pair(void *context, uint32_t number)
 {
-    Search *search = context;
-    if (number <= search->asking || search->status || search->layer->flat[number] ||
-        !bodies_meet(search, search->asking, number, &search->body))
+    Block *block = context;
+    const Search *search = block->search;
+    if (number <= block->asking || block->status || search->layer->flat[number] ||
+        !bodies_meet(search, block->asking, number, &block->body))
         return;
-    Pair *pairs = MESO_GROW(search->arena, search->pairs, search->pair_count, search->pair_room, 256, search->error);
+    Pair *pairs = MESO_GROW(&block->arena, block->pairs, block->pair_count, block->pair_room, 256, &block->error);
     if (!pairs) {
-        search->status = MESO_ERR_MEMORY;
+        block->status = MESO_ERR_MEMORY;
         return;
     }
-    search->pairs = pairs;
-    search->pairs[search->pair_count++] = (Pair){search->asking, number};
+    block->pairs = pairs;
+    block->pairs[block->pair_count++] = (Pair){block->asking, number};
 }
 
 /* The box as floats, no smaller. */
@@ -130,26 +145,75 @@ static MesoBox box_of(const MesoPrismBody *body)
     return box;
 }
 
+static void find_graphs(void *context, uint64_t begin, uint64_t end)
+{
+    Search *search = context;
+    for (uint32_t v = (uint32_t)begin; v < end; v++)
+        search->graphs[v] = search->layer->mesh->vertex_corner[v] != MESO_NO_INDEX && is_graph(search, v);
+}
+
+static void find_blocks(void *context, uint64_t begin, uint64_t end)
+{
+    for (uint64_t b = begin; b < end; b++) {
+        Block *block = &((Block *)context)[b];
+        const Search *search = block->search;
+        uint64_t last = (b + 1) * BLOCK, count = search->layer->mesh->triangle_count;
+        for (uint32_t t = (uint32_t)(b * BLOCK); t < (last < count ? last : count); t++) {
+            if (search->layer->flat[t])
+                continue;
+            block->asking = t;
+            block->body = body_of(search, t, 1);
+            meso_box_tree_query(&search->tree, search->boxes[t], try_pair, block);
+        }
+    }
+}
+
+static MesoStatus gather_blocks(Search *search, const Block *blocks, uint32_t count)
+{
+    uint64_t sum = 0;
+    for (uint32_t b = 0; b < count; b++) {
+        if (blocks[b].status) {
+            if (search->error)
+                *search->error = blocks[b].error;
+            return blocks[b].status;
+        }
+        sum += blocks[b].pair_count;
+    }
+    if (sum > UINT32_MAX)
+        return meso_fail(search->error, MESO_ERR_LIMIT, "%llu pairs of prisms meet", (unsigned long long)sum);
+    search->pairs = MESO_NEW(search->arena, Pair, sum, search->error);
+    if (!search->pairs)
+        return MESO_ERR_MEMORY;
+    for (uint32_t b = 0; b < count; b++)
+        for (uint32_t p = 0; p < blocks[b].pair_count; p++)
+            search->pairs[search->pair_count++] = blocks[b].pairs[p];
+    return MESO_OK;
+}
+
 static MesoStatus find_pairs(Search *search)
 {
     const MesoTriangulation *mesh = search->layer->mesh;
-    MesoBox *boxes = MESO_NEW(search->arena, MesoBox, mesh->triangle_count, search->error);
-    MesoBoxTree tree;
-    if (!boxes)
+    uint32_t block_count = mesh->triangle_count / BLOCK + (mesh->triangle_count % BLOCK != 0);
+    search->boxes = MESO_NEW(search->arena, MesoBox, mesh->triangle_count, search->error);
+    Block *blocks = MESO_NEW(search->arena, Block, block_count, search->error);
+    if (!search->boxes || !blocks)
         return MESO_ERR_MEMORY;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         MesoPrismBody body = body_of(search, t, 1);
-        boxes[t] = box_of(&body);
+        search->boxes[t] = box_of(&body);
     }
-    MesoStatus status = meso_box_tree_build(&tree, search->arena, boxes, mesh->triangle_count, search->error);
-    for (uint32_t t = 0; t < mesh->triangle_count && !status; t++) {
-        if (search->layer->flat[t])
-            continue;
-        search->asking = t;
-        search->body = body_of(search, t, 1);
-        meso_box_tree_query(&tree, boxes[t], try_pair, search);
-        status = search->status;
+    MesoStatus status = meso_box_tree_build(&search->tree, search->arena, search->boxes, mesh->triangle_count,
+                                            search->error);
+    if (status)
+        return status;
+    for (uint32_t b = 0; b < block_count; b++) {
+        blocks[b].search = search;
+        meso_arena_init(&blocks[b].arena);
     }
+    meso_parallel_for(0, block_count, 1, find_blocks, blocks);
+    status = gather_blocks(search, blocks, block_count);
+    for (uint32_t b = 0; b < block_count; b++)
+        meso_arena_release(&blocks[b].arena);
     return status;
 }
 
@@ -209,8 +273,7 @@ MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, bool *lowered, MesoA
     uint8_t *touched = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
     if (!search.graphs || !marked || !touched)
         return MESO_ERR_MEMORY;
-    for (uint32_t v = 0; v < mesh->vertex_count; v++)
-        search.graphs[v] = mesh->vertex_corner[v] != MESO_NO_INDEX && is_graph(&search, v);
+    meso_parallel_for(0, mesh->vertex_count, BLOCK, find_graphs, &search);
     MesoStatus status = find_pairs(&search);
     *lowered = search.pair_count > 0;
     if (!status)

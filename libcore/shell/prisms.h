@@ -43,8 +43,8 @@ typedef struct MesoPrismReport {
  * Optimised, the stretch is never above that of the normals. Thickness over a vertex is kept; the direction turns.
  *
  * About O(n log n) for layers not much thicker than triangles are long; as the square of the thickness beyond.
- * Single-threaded; the same bytes for the same arguments. MESO_ERR_INPUT for triangles wound against each other and for
- * heights that are not finite or wrong way around, MESO_ERR_MEMORY.
+ * Prisms that meet are looked for on all cores; the same bytes for any number. MESO_ERR_INPUT for triangles wound
+ * against each other and for heights that are not finite or wrong way around, MESO_ERR_MEMORY.
  */
 MesoStatus meso_prisms_build(MesoVec3 *directions, MesoPrismReport *report, MesoArena *scratch,
                              const MesoTriangulation *mesh, const MesoPrismOptions *options, MesoError *error);
