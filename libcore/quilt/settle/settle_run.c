@@ -1,7 +1,6 @@
 /* Settling from a quilt to a quilt. */
 #include "libcore/quilt/settle/quilt_settle.h"
 
-
 #include <string.h>
 
 #include "libcore/quilt/settle/settle_work.h"
@@ -10,7 +9,7 @@
 #define HEIGHT_SLACK 0.3f
 
 /* Heights as a share of their range that make no other layer. */
-#define SAME_HEIGHT 0.002f
+#define SAME_HEIGHT 0.01f
 
 enum { RELAX_ROUNDS = 24, LAYER_ROUNDS = 4 };
 
