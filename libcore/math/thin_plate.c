@@ -1,34 +1,61 @@
 #include "libcore/math/thin_plate.h"
 
 #include <float.h>
+#include <stdbool.h>
 #include <string.h>
 
 /* ---- the kernel ---- */
 
 /*
- * log(x) of x > 0, by 2 atanh((m - 1) / (m + 1)) with m in [sqrt 1/2, sqrt 2]: within 3e-16 of 1 + |log x|. That of the
- * C library differs from machine to machine in its last bit.
+ * log(x) of normal x > 0, by 2 atanh((m - 1) / (m + 1)) with m in [sqrt 1/2, sqrt 2]: within 3e-16 of 1 + |log x|. That
+ * of the C library differs from machine to machine in its last bit. Without branches or calls: compilers take several
+ * at once.
  */
-static double logarithm(double x)
+static inline double logarithm(double x)
 {
     static const double LN_2 = 0.69314718055994530942, SQRT_HALF = 0.70710678118654752440;
-    int exponent;
-    double m = frexp(x, &exponent);
-    if (m < SQRT_HALF) {
-        m *= 2;
-        exponent--;
-    }
+    const uint64_t half = UINT64_C(0x3fe) << 52, digits = (UINT64_C(1) << 52) - 1;
+    const uint64_t whole = UINT64_C(0x433) << 52;   /* 2^52: its last digits count */
+    uint64_t bits, exponent_bits;
+    double m, exponent;
+    memcpy(&bits, &x, sizeof bits);
+    exponent_bits = bits >> 52 | whole;
+    bits = (bits & digits) | half;
+    memcpy(&m, &bits, sizeof m);
+    memcpy(&exponent, &exponent_bits, sizeof exponent);
+    exponent -= 0x1p52 + 0x3fe;
+    bool low = m < SQRT_HALF;
+    m = low ? 2 * m : m;
+    exponent = low ? exponent - 1 : exponent;
     double z = (m - 1) / (m + 1), q = z * z, sum = 0;
-    for (int k = 21; k > 0; k -= 2)     /* q <= 0.0295: the next term is below 1e-18 */
-        sum = sum * q + 1.0 / k;
+    sum = sum * q + 1.0 / 21;   /* q <= 0.0295: the next term is below 1e-18 */
+    sum = sum * q + 1.0 / 19;
+    sum = sum * q + 1.0 / 17;
+    sum = sum * q + 1.0 / 15;
+    sum = sum * q + 1.0 / 13;
+    sum = sum * q + 1.0 / 11;
+    sum = sum * q + 1.0 / 9;
+    sum = sum * q + 1.0 / 7;
+    sum = sum * q + 1.0 / 5;
+    sum = sum * q + 1.0 / 3;
+    sum = sum * q + 1;
     return exponent * LN_2 + 2 * z * sum;
 }
 
-/* r^2 log r, in which what bends without limit of its own is least (Green's function of the plate, times 8 pi). */
-static double kernel(double ax, double ay, double bx, double by)
+enum { CHUNK = 64 };    /* so many kernels at once */
+
+/*
+ * r^2 log r from one place to `count` others, in which what bends without limit of its own is least (Green's function
+ * of the plate, times 8 pi).
+ */
+static void kernels(double *restrict values, double x, double y, const double *restrict xs, const double *restrict ys,
+                    uint32_t count)
 {
-    double square = (ax - bx) * (ax - bx) + (ay - by) * (ay - by);
-    return square > 0 ? 0.5 * square * logarithm(square) : 0;
+    for (uint32_t i = 0; i < count; i++) {
+        double square = (x - xs[i]) * (x - xs[i]) + (y - ys[i]) * (y - ys[i]);
+        double value = 0.5 * square * logarithm(square);
+        values[i] = square >= DBL_MIN ? value : 0;
+    }
 }
 
 /* ---- planes: what does not bend ---- */
@@ -109,8 +136,8 @@ static void find_planes(Planes *planes, const double *places)
     uint32_t n = planes->count;
     for (uint32_t i = 0; i < n; i++) {
         planes->columns[i] = 1;
-        planes->columns[n + i] = places[2 * i];
-        planes->columns[2 * n + i] = places[2 * i + 1];
+        planes->columns[n + i] = places[i];
+        planes->columns[2 * n + i] = places[n + i];
     }
     for (int c = 0; c < PLANES; c++)
         planes->order[c] = c;
@@ -123,10 +150,11 @@ static void find_planes(Planes *planes, const double *places)
 /* K + ridge / repeats on the diagonal, by rows. */
 static void fill_kernel(double *matrix, const double *places, const uint32_t *repeats, uint32_t n, double ridge)
 {
+    const double *xs = places, *ys = places + n;
     for (uint32_t i = 0; i < n; i++) {
+        kernels(matrix + (size_t)i * n, xs[i], ys[i], xs, ys, i);
         for (uint32_t j = 0; j < i; j++)
-            matrix[(size_t)i * n + j] = matrix[(size_t)j * n + i] =
-                kernel(places[2 * i], places[2 * i + 1], places[2 * j], places[2 * j + 1]);
+            matrix[(size_t)j * n + i] = matrix[(size_t)i * n + j];
         matrix[(size_t)i * n + i] = ridge / repeats[i];
     }
 }
@@ -184,7 +212,7 @@ static void solve_block(const double *matrix, double *x, uint32_t begin, uint32_
 
 typedef struct Fit {
     Planes planes;
-    double *places;     /* [2 * count] points in units of the plate's scale from its centre */
+    double *places;     /* [2 * count] points in units of the plate's scale from its centre: all x, then all y */
     double *values;     /* [3 * count] means of what coincides */
     uint32_t *repeats;  /* [count] how many points one stands for */
     double *matrix;     /* [count^2] H (K + ridge) H; behind `rank`, its factor */
@@ -248,10 +276,12 @@ static void measure(MesoThinPlate *plate)
         plate->scale = 1;
 }
 
-static void place(const MesoThinPlate *plate, MesoVec2 point, double out[2])
+static void place(const MesoThinPlate *plate, const MesoVec2 *points, uint32_t count, double *xs, double *ys)
 {
-    out[0] = ((double)point.x - plate->centre[0]) / plate->scale;
-    out[1] = ((double)point.y - plate->centre[1]) / plate->scale;
+    for (uint32_t i = 0; i < count; i++) {
+        xs[i] = ((double)points[i].x - plate->centre[0]) / plate->scale;
+        ys[i] = ((double)points[i].y - plate->centre[1]) / plate->scale;
+    }
 }
 
 /*
@@ -302,8 +332,7 @@ static const double LEAST_RIDGE = 1e-10;
 static MesoStatus fit_plate(MesoThinPlate *plate, Fit *fit, double smoothing, MesoError *error)
 {
     uint32_t n = plate->count;
-    for (uint32_t i = 0; i < n; i++)
-        place(plate, plate->points[i], fit->places + 2 * (size_t)i);
+    place(plate, plate->points, n, fit->places, fit->places + n);
     find_planes(&fit->planes, fit->places);
     double ridge = 8 * MESO_PI * smoothing / (plate->scale * plate->scale);
     fill_kernel(fit->matrix, fit->places, fit->repeats, n, fmax(ridge, LEAST_RIDGE));
@@ -364,16 +393,19 @@ MesoStatus meso_thin_plate_fit(MesoThinPlate *plate, MesoArena *arena, uint32_t 
 
 MesoVec3 meso_thin_plate_at(const MesoThinPlate *plate, MesoVec2 point)
 {
-    double at[2], from[2], sum[3];
-    place(plate, point, at);
+    double x, y, xs[CHUNK], ys[CHUNK], values[CHUNK], sum[3];
+    place(plate, &point, 1, &x, &y);
     const double *planes = plate->weights + 3 * (size_t)plate->count;
     for (int c = 0; c < 3; c++)
-        sum[c] = planes[c] + planes[3 + c] * at[0] + planes[6 + c] * at[1];
-    for (uint32_t i = 0; i < plate->count; i++) {
-        place(plate, plate->points[i], from);
-        double value = kernel(at[0], at[1], from[0], from[1]);
-        for (size_t c = 0; c < 3; c++)
-            sum[c] += plate->weights[3 * (size_t)i + c] * value;
+        sum[c] = planes[c] + planes[3 + c] * x + planes[6 + c] * y;
+    for (uint32_t begin = 0; begin < plate->count; begin += CHUNK) {
+        uint32_t count = plate->count - begin < CHUNK ? plate->count - begin : CHUNK;
+        const double *weights = plate->weights + 3 * (size_t)begin;
+        place(plate, plate->points + begin, count, xs, ys);
+        kernels(values, x, y, xs, ys, count);
+        for (size_t i = 0; i < count; i++)
+            for (size_t c = 0; c < 3; c++)
+                sum[c] += weights[3 * i + c] * values[i];
     }
     return (MesoVec3){(float)sum[0], (float)sum[1], (float)sum[2]};
 }
