@@ -159,7 +159,8 @@ static float whole_periods(float length, float period)
 }
 
 /* Votes of points for a shift, up to whole periods: how many agree with that of point `i`, and their mean. */
-static uint32_t count_votes(MesoVec2 *mean, const MesoVec2 *shifts, uint32_t count, uint32_t i, const MesoSwatch *swatch)
+static uint32_t count_votes(MesoVec2 *mean, const MesoVec2 *shifts, uint32_t count, uint32_t i,
+                            const MesoSwatch *swatch)
 {
     uint32_t votes = 0;
     double x = 0, y = 0;

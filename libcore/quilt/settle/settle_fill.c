@@ -58,7 +58,8 @@ static bool is_over_surface(const MesoSettleWork *work, const MesoSettleBody *bo
     MesoQuiltVertex place = body->place;
     float beyond;
     for (uint32_t i = 0; i < kind->point_count; i++) {
-        if (!meso_settle_locate(&place, &beyond, work, meso_settle_body_point(work, body, i)) || beyond > work->options.overhang)
+        if (!meso_settle_locate(&place, &beyond, work, meso_settle_body_point(work, body, i)) ||
+            beyond > work->options.overhang)
             return false;
     }
     return true;
@@ -103,7 +104,9 @@ static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t rel
             return status;
     }
     ++*added;
-    return meso_settle_add_body(work, &body, error) == MESO_NO_INDEX ? error ? error->status : MESO_ERR_MEMORY : MESO_OK;
+    if (meso_settle_add_body(work, &body, error) != MESO_NO_INDEX)
+        return MESO_OK;
+    return error ? error->status : MESO_ERR_MEMORY;
 }
 
 /* How many bodies may still be added. */

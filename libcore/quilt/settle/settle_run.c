@@ -82,7 +82,8 @@ static MesoStatus arrange(Settling *s, MesoError *error)
 /* ---- back into the layer ---- */
 
 /* From the place before it along the body, or from where the vertex was. */
-static bool place_point(MesoQuiltVertex *place, float *beyond, const Settling *s, const MesoSettleBody *body, uint32_t i)
+static bool place_point(MesoQuiltVertex *place, float *beyond, const Settling *s, const MesoSettleBody *body,
+                        uint32_t i)
 {
     MesoVec3 point = meso_settle_body_point(&s->work, body, i);
     if (meso_settle_locate(place, beyond, &s->work, point))
@@ -138,7 +139,8 @@ static MesoStatus place_bodies(Settling *s, MesoQuiltHeights *heights, MesoError
     const MesoQuilt *before = s->before;
     *heights = (MesoQuiltHeights){0, 0};
     for (uint32_t e = 0; e < before->element_count; e++)
-        for (uint32_t v = before->vertex_begin[e]; s->body_of[e] == MESO_NO_INDEX && v < before->vertex_begin[e + 1]; v++)
+        for (uint32_t v = before->vertex_begin[e];
+             s->body_of[e] == MESO_NO_INDEX && v < before->vertex_begin[e + 1]; v++)
             add_height(heights, before->vertices[v].height);
     for (uint32_t b = 0; b < s->work.body_count; b++) {
         if (s->work.bodies[b].gone || s->kept[b])
@@ -324,7 +326,8 @@ static void copy_new(MesoQuilt *quilt, const MesoSwatch *swatch, uint32_t to, co
         quilt->origins[v - first + place] = v;
     }
     uint32_t at = quilt->triangle_begin[to];
-    for (uint32_t t = swatch->triangle_begin[source->origin]; t < swatch->triangle_begin[source->origin + 1]; t++, at++) {
+    uint32_t end = swatch->triangle_begin[source->origin + 1];
+    for (uint32_t t = swatch->triangle_begin[source->origin]; t < end; t++, at++) {
         for (size_t k = 0; k < 3; k++)
             quilt->corners[3 * (size_t)at + k] = swatch->corners[3 * (size_t)t + k] - first + place;
         quilt->triangle_origins[at] = t;
