@@ -168,7 +168,7 @@ static void start_reader(MesoClipFile *clip, uint32_t frame)
         slot->frame = MESO_NO_INDEX;
 }
 
-const MesoVec3 *meso_clip_positions(MesoClipFile *clip, uint32_t frame, MesoError *error)
+const MesoVec3 *meso_clip_place_frame(MesoClipFile *clip, uint32_t frame, MesoError *error)
 {
     wait_for_reader(clip);
     if (clip->ahead && clip->slots[1 - clip->current].frame == frame)

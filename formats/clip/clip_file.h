@@ -56,6 +56,6 @@ int32_t meso_clip_frame_number(const MesoClipFile *clip, uint32_t frame);
  * call. NULL with MESO_ERR_INPUT for a file that is missing, names the first vertex that is not finite, or the first
  * face that is another than at rest. O(size of the frame's file). Not to be called from two threads on one clip.
  */
-const MesoVec3 *meso_clip_positions(MesoClipFile *clip, uint32_t frame, MesoError *error);
+const MesoVec3 *meso_clip_place_frame(MesoClipFile *clip, uint32_t frame, MesoError *error);
 
 #endif

@@ -71,7 +71,7 @@ static void test_numbered(bool ahead)
     CHECK(meso_clip_frame_number(clip, 0) == 9 && meso_clip_frame_number(clip, 3) == 18);
     CHECK(meso_clip_mesh(clip)->vertex_count == 5 && meso_clip_mesh(clip)->face_count == 2);
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
-        const MesoVec3 *positions = meso_clip_positions(clip, order[i], &error);
+        const MesoVec3 *positions = meso_clip_place_frame(clip, order[i], &error);
         CHECK(positions && positions[0].x == (float)(9 + 3 * order[i]) && positions[4].x == 2);
     }
     meso_clip_release(clip);
@@ -80,7 +80,7 @@ static void test_numbered(bool ahead)
     CHECK(open_clip(&clip, test_path(&folder, "b%%-%03d.obj"), test_path(&folder, "b%-018.obj"), "15-9x3", ahead,
                     &error) == MESO_OK);
     CHECK(meso_clip_frame_count(clip) == 3 && meso_clip_mesh(clip)->positions[0].x == 18);
-    CHECK(meso_clip_positions(clip, 0, &error)[0].x == 15 && meso_clip_positions(clip, 2, &error)[0].x == 9);
+    CHECK(meso_clip_place_frame(clip, 0, &error)[0].x == 15 && meso_clip_place_frame(clip, 2, &error)[0].x == 9);
     meso_clip_release(clip);
     test_folder_remove(&folder);
 }
@@ -98,12 +98,12 @@ static void expect_bad_frame(const TestFolder *folder, const char *text, const c
         else
             CHECK(unlink(test_path(folder, "b%-002.obj")) == 0);
         CHECK(open_clip(&clip, test_path(folder, "b%%-%03d.obj"), NULL, "1-3", ahead, &error) == MESO_OK);
-        CHECK(meso_clip_positions(clip, 0, &error));
+        CHECK(meso_clip_place_frame(clip, 0, &error));
         for (int again = 0; again < 2; again++) {
-            CHECK(!meso_clip_positions(clip, 1, &error) && error.status == MESO_ERR_INPUT);
+            CHECK(!meso_clip_place_frame(clip, 1, &error) && error.status == MESO_ERR_INPUT);
             check_message(folder, &error, message);
         }
-        CHECK(meso_clip_positions(clip, 2, &error)[0].x == 3);      /* the others are as good as before */
+        CHECK(meso_clip_place_frame(clip, 2, &error)[0].x == 3);      /* the others are as good as before */
         meso_clip_release(clip);
     }
 }
@@ -163,13 +163,13 @@ static void test_cache(bool ahead)
     CHECK(open_clip(&clip, test_path(&folder, "b.pc2"), test_path(&folder, "b%-007.obj"), NULL, ahead, &error) ==
           MESO_OK);
     CHECK(meso_clip_frame_count(clip) == 3 && meso_clip_mesh(clip)->positions[0].x == 7);
-    CHECK(meso_clip_positions(clip, 1, &error)[0].x == 2 && meso_clip_positions(clip, 0, &error)[0].x == 1);
-    CHECK(!meso_clip_positions(clip, 2, &error));
+    CHECK(meso_clip_place_frame(clip, 1, &error)[0].x == 2 && meso_clip_place_frame(clip, 0, &error)[0].x == 1);
+    CHECK(!meso_clip_place_frame(clip, 2, &error));
     check_message(&folder, &error, "b.pc2: frame 3, vertex 5: coordinates that are not finite, or beyond 1e18");
     meso_clip_release(clip);
     CHECK(open_clip(&clip, test_path(&folder, "b.pc2"), test_path(&folder, "b%-007.obj"), "2,1,2", ahead, &error) ==
           MESO_OK);
-    CHECK(meso_clip_frame_number(clip, 1) == 1 && meso_clip_positions(clip, 2, &error)[0].x == 2);
+    CHECK(meso_clip_frame_number(clip, 1) == 1 && meso_clip_place_frame(clip, 2, &error)[0].x == 2);
     meso_clip_release(clip);
     expect_no_clip(&folder, test_path(&folder, "b.pc2"), test_path(&folder, "b%-007.obj"), "1-4", MESO_ERR_INPUT,
                    "b.pc2: no frame 4; there are 1 to 3");
@@ -200,7 +200,7 @@ static void test_welded(void)
         const MesoPolygonMesh *mesh = meso_clip_mesh(clip);
         CHECK(mesh->vertex_count == 4 && mesh->face_count == 2 && mesh->corners[3] == 1 && mesh->corners[4] == 3);
         for (int f = 1; f <= 2; f++) {
-            const MesoVec3 *positions = meso_clip_positions(clip, (uint32_t)f - 1, &error);
+            const MesoVec3 *positions = meso_clip_place_frame(clip, (uint32_t)f - 1, &error);
             CHECK(positions && positions[2].z == (float)f && positions[3].z == (float)(5 * f) && positions[1].x == 1);
         }
         meso_clip_release(clip);
@@ -223,11 +223,11 @@ static void test_animation(bool ahead)
     CHECK(open_clip(&clip, path, NULL, NULL, ahead, &error) == MESO_OK);
     CHECK(meso_clip_frame_count(clip) == 49 && meso_clip_frame_number(clip, 48) == 49);
     CHECK(meso_clip_mesh(clip)->face_count == 2 && meso_clip_mesh(clip)->positions[3].x == 0);
-    CHECK(meso_clip_positions(clip, 48, &error)[1].x == 5 && meso_clip_positions(clip, 24, &error)[1].x == 3);
-    CHECK(meso_clip_positions(clip, 25, &error)[1].x > 3);
+    CHECK(meso_clip_place_frame(clip, 48, &error)[1].x == 5 && meso_clip_place_frame(clip, 24, &error)[1].x == 3);
+    CHECK(meso_clip_place_frame(clip, 25, &error)[1].x > 3);
     meso_clip_release(clip);
     CHECK(open_clip(&clip, path, NULL, "25,13", ahead, &error) == MESO_OK);
-    CHECK(meso_clip_mesh(clip)->positions[1].x == 3 && meso_clip_positions(clip, 1, &error)[1].x == 2);
+    CHECK(meso_clip_mesh(clip)->positions[1].x == 3 && meso_clip_place_frame(clip, 1, &error)[1].x == 2);
     meso_clip_release(clip);
     expect_no_clip(&folder, path, NULL, "0", MESO_ERR_INPUT, "a.glb: no frame 0; there are 1 to 49");
     test_folder_remove(&folder);

@@ -92,7 +92,7 @@ static void test_bodies(void)
         /* its first vertices are those of its first element, bent alone */
         MesoVec3 positions[64], normals[64];
         const MesoBending bending = {&s.shapes[shape], s.grown.joints, 1, &s.grown.elements[first].span, positions,
-                                     normals, NULL};
+                                     normals, NULL, NULL};
         CHECK(s.shapes[shape].body.vertex_count <= 64);
         meso_bend(&bending, 1);
         CHECK(!memcmp(positions, body->positions, s.shapes[shape].body.vertex_count * sizeof *positions));
