@@ -220,6 +220,7 @@ static void test_signals(void)
     static const int signals[] = {SIGTERM, SIGINT, SIGHUP};
     for (int i = 0; i < 3; i++) {
         int status, ready = 0;
+        signal(signals[i], SIG_DFL);            /* nohup has it ignored, and that is inherited */
         unlink(test_path(&folder, "stderr"));   /* the last one said "ready" there, too */
         pid_t child = start("meso-try -q sleep -o product", NULL);
         for (int wait = 0; wait < 500 && !ready; wait++) {
