@@ -150,7 +150,7 @@ static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, u
     double since = meso_seconds();
     MesoQuiltOptions options = options_of(job, seed, base->guide);
     const MesoFinishOptions finish = {.scale = options.scale, .height_scale = options.height_scale,
-                                      .offset = options.offset,
+                                      .offset = options.offset, .thread_count = options.thread_count,
                                       .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
     meso_tool_progress_begin(tool, "quilting", "triangles");
     MesoStatus status = meso_quilt_grow(quilt, &tool->arena, &base->mesh, &job->swatch.swatch, &options, &tool->error);

@@ -188,7 +188,7 @@ static void test_welded(void)
     MesoClipFile *clip;
     MesoError error;
     for (int f = 1; f <= 2; f++) {
-        char name[16], text[256];
+        char name[32], text[256];
         snprintf(name, sizeof name, "s%d.obj", f);
         snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0\nv 0 1 %d\nv 1 0 0\nv 1 1 %d\nv 0 1 %d\nf 1 2 3\nf 4 5 6\n", f,
                  5 * f, f);

@@ -8,6 +8,7 @@
  * is d without what changes over few edges; heights lose s. Joins stay joined. T trusts vertices that the border has
  * made less: their origins only lie next to them.
  */
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_work.h"
 
 /* What is kept changes over less than this share of the swatch's shorter side, in mean edges within these bounds. */
@@ -19,8 +20,8 @@
 #define TRUST_LEAST 1e-3
 
 /* Of conjugate gradients: steps at most, and the error that is small against heights. */
-enum { STEPS = 60 };
-#define SMALL 1e-3
+enum { STEPS = 60, BLOCK = 8192 };
+#define SMALL 3e-3
 
 typedef struct Level {
     uint32_t count;
@@ -30,46 +31,98 @@ typedef struct Level {
     double weight;
 } Level;
 
-/* T a + w L a */
-static void apply(double *out, const Level *level, const double *a)
+/* Conjugate gradients, scaled by the diagonal. */
+typedef struct Gradients {
+    const Level *level;
+    double *s, *d;              /* the solution so far, and what is left of the right side */
+    double *z, *p, *q;
+    double alpha, beta;
+    double *sums[2];            /* [blocks] of a pass, so that sums do not depend on threads */
+    uint32_t thread_count;
+} Gradients;
+
+/* The diagonal's share of what is left, and what is left itself. */
+static void scale_range(void *context, uint64_t begin, uint64_t end)
 {
-    for (uint32_t v = 0; v < level->count; v++) {
+    Gradients *g = context;
+    double along = 0, left = 0;
+    for (uint64_t v = begin; v < end; v++) {
+        g->z[v] = g->d[v] / (g->level->trust[v] + g->level->weight * (g->level->begin[v + 1] - g->level->begin[v]));
+        along += g->d[v] * g->z[v];
+        left += g->d[v] * g->d[v];
+    }
+    g->sums[0][begin / BLOCK] = along;
+    g->sums[1][begin / BLOCK] = left;
+}
+
+static void turn_range(void *context, uint64_t begin, uint64_t end)
+{
+    Gradients *g = context;
+    for (uint64_t v = begin; v < end; v++)
+        g->p[v] = g->z[v] + g->beta * g->p[v];
+}
+
+/* q = T p + w L p */
+static void apply_range(void *context, uint64_t begin, uint64_t end)
+{
+    Gradients *g = context;
+    const Level *level = g->level;
+    double along = 0;
+    for (uint64_t v = begin; v < end; v++) {
         double sum = 0;
         for (uint32_t i = level->begin[v]; i < level->begin[v + 1]; i++)
-            sum += a[v] - a[level->near[i]];
-        out[v] = level->trust[v] * a[v] + level->weight * sum;
+            sum += g->p[v] - g->p[level->near[i]];
+        g->q[v] = level->trust[v] * g->p[v] + level->weight * sum;
+        along += g->p[v] * g->q[v];
+    }
+    g->sums[0][begin / BLOCK] = along;
+}
+
+static void move_range(void *context, uint64_t begin, uint64_t end)
+{
+    Gradients *g = context;
+    for (uint64_t v = begin; v < end; v++) {
+        g->s[v] += g->alpha * g->p[v];
+        g->d[v] -= g->alpha * g->q[v];
     }
 }
 
-static double dot(const double *a, const double *b, uint32_t count)
+static void pass(Gradients *g, void (*range)(void *, uint64_t, uint64_t))
+{
+    meso_parallel_for(g->thread_count, g->level->count, BLOCK, range, g);
+}
+
+static double total(const Gradients *g, int which)
 {
     double sum = 0;
-    for (uint32_t v = 0; v < count; v++)
-        sum += a[v] * b[v];
+    for (uint32_t block = 0; block * BLOCK < g->level->count; block++)
+        sum += g->sums[which][block];
     return sum;
 }
 
-/* Conjugate gradients, scaled by the diagonal; `d` becomes what is left of it. */
-static MesoStatus solve(double *s, double *d, const Level *level, MesoArena *scratch, MesoError *error)
+/* `d` becomes what is left of it. */
+static MesoStatus solve(double *s, double *d, const Level *level, const MesoFinishWork *work, MesoError *error)
 {
-    uint32_t n = level->count;
-    double *z = MESO_NEW(scratch, double, n, error), *p = MESO_NEW(scratch, double, n, error);
-    double *q = MESO_NEW(scratch, double, n, error);
-    if (!z || !p || !q)
+    uint32_t n = level->count, blocks = n / BLOCK + 1;
+    MesoArena *arena = work->arena;
+    Gradients g = {.level = level, .s = s, .d = d, .z = MESO_NEW(arena, double, n, error),
+                   .p = MESO_NEW(arena, double, n, error), .q = MESO_NEW(arena, double, n, error),
+                   .sums = {MESO_NEW(arena, double, blocks, error), MESO_NEW(arena, double, blocks, error)},
+                   .thread_count = work->options->thread_count};
+    if (!g.z || !g.p || !g.q || !g.sums[0] || !g.sums[1])
         return MESO_ERR_MEMORY;
-    double before = 0, most = SMALL * SMALL * dot(d, d, n);
-    for (int step = 0; step < STEPS && dot(d, d, n) > most; step++) {
-        for (uint32_t v = 0; v < n; v++)
-            z[v] = d[v] / (level->trust[v] + level->weight * (level->begin[v + 1] - level->begin[v]));
-        double now = dot(d, z, n), beta = step ? now / before : 0;
-        for (uint32_t v = 0; v < n; v++)
-            p[v] = z[v] + beta * p[v];
-        apply(q, level, p);
-        double alpha = now / dot(p, q, n);
-        for (uint32_t v = 0; v < n; v++) {
-            s[v] += alpha * p[v];
-            d[v] -= alpha * q[v];
-        }
+    double before = 0, first = 0;
+    for (int step = 0; step < STEPS; step++) {
+        pass(&g, scale_range);
+        double now = total(&g, 0), left = total(&g, 1);
+        first = step ? first : left;
+        if (left <= SMALL * SMALL * first)
+            break;
+        g.beta = step ? now / before : 0;
+        pass(&g, turn_range);
+        pass(&g, apply_range);
+        g.alpha = now / total(&g, 0);
+        pass(&g, move_range);
         before = now;
     }
     return MESO_OK;
@@ -136,7 +189,7 @@ MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoE
     if (status)
         return status;
     find_differences(trust, d, &level, work);
-    status = solve(s, d, &level, work->arena, error);
+    status = solve(s, d, &level, work, error);
     for (uint32_t v = 0; v < work->vertex_count && !status; v++) {
         work->vertices[v].height -= (float)s[v];
         work->points[v] = meso_finish_point(work, work->vertices[v]);

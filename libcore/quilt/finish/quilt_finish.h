@@ -13,6 +13,7 @@ typedef struct MesoFinishOptions {
     float height_scale;     /* of MesoQuiltOptions */
     float offset;
     float overhang;         /* whole elements may reach beyond a border by so much, in the surface's units */
+    uint32_t thread_count;  /* 0: all cores; no effect on the bytes */
     bool open_borders;      /* strands that a border cuts stay open there; else they are closed */
 } MesoFinishOptions;
 
