@@ -52,7 +52,7 @@ int main(int argc, char **argv)
                          .more = MESO_OPTION_SILENT),
         MESO_TEXT(0, "show-map", "NAME=FILE", "write a map of the grammar as a PNG over the texture coordinates",
                   &a.show_map, .more = MESO_OPTION_SILENT),
-        MESO_TEXT(0, "surface", "MATERIAL", "show the surface too, made of this: \"clay\", \"clay #a8653f 0.7\"",
+        MESO_TEXT(0, "surface", "MATERIAL", "show the surface too, made of this: own, \"clay\", \"clay #a8653f 0.7\"",
                   &a.surface),
         MESO_TEXT(0, "seeds", "LIST", "one product for each of these seeds: 1-10,20; -o has %d", &a.seeds),
         MESO_DRACO_OPTIONS(a.output),

@@ -5,7 +5,6 @@
 
 #include "cmd/common/input_kind.h"
 #include "cmd/common/seed_list.h"
-#include "cmd/grow/grow_backdrop.h"
 #include "cmd/grow/grow_contexts.h"
 #include "cmd/grow/grow_march.h"
 #include "cmd/grow/grow_report.h"
@@ -14,6 +13,7 @@
 #include "cmd/grow/grow_surface.h"
 #include "formats/growth/grammar_file.h"
 #include "formats/growth/growth_svg.h"
+#include "formats/model/scene_backdrop.h"
 
 /* Where the grammar has no limits: what no surface and no memory holds. */
 static const uint32_t MOST_GENERATIONS = 1000000, MOST_ELEMENTS = 50000000;
@@ -172,7 +172,8 @@ static MesoStatus write_product(const Job *job, const MesoGrown *grown, MesoOutp
     MesoStatus status = meso_growth_show(&scene, &tool->arena, grown, &job->grammar, &job->shapes, tool->threads,
                                          &folds, &tool->error);
     if (!status && job->arguments->surface)
-        status = meso_grow_backdrop(&scene, tool, &job->surface.polygons, job->arguments->surface);
+        status = meso_scene_add_backdrop(&scene, &tool->arena, &job->surface.polygons, job->arguments->surface,
+                                         &tool->error);
     if (status) {
         meso_output_discard(trace);
         return status;
@@ -295,6 +296,8 @@ MesoStatus meso_grow_job_run(MesoGrowArguments *a)
     if (!(up.x != 0 || up.y != 0 || up.z != 0))
         return meso_fail(&a->tool.error, MESO_ERR_USAGE, "option '--up' needs a direction, not 0,0,0");
     MesoStatus status = choose_kind(&job);
+    if (!status)
+        status = meso_scene_check_backdrop(a->surface, &a->tool.error);
     if (!status)
         status = read_seeds(&job);
     if (!status)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cmd/grow/grow_material.h"
+#include "formats/scene/material_text.h"
 #include "cmd/grow/grow_section.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/model/scene_of_mesh.h"
@@ -41,10 +41,10 @@ static const MesoMaterial PLAIN = {{0.6f, 0.6f, 0.6f}, 0.5f, 0};
 /* Materials of one name are one. */
 static MesoStatus add_material(Maker *m, uint32_t shape, const char *text, MesoMaterial look, const char *otherwise)
 {
-    char name[MESO_GROW_NAME];
+    char name[MESO_MATERIAL_NAME];
     MesoError *error = &m->tool->error;
     snprintf(name, sizeof name, "%s", otherwise);
-    MesoStatus status = text && *text ? meso_grow_material(&look, name, text, error) : MESO_OK;
+    MesoStatus status = text && *text ? meso_material_of_text(&look, name, text, error) : MESO_OK;
     if (status)
         return status;
     uint32_t at = 0;

@@ -21,7 +21,7 @@ typedef struct MesoQuiltArguments {
     uint32_t until;             /* 0: all */
     const char *seeds;          /* --seeds */
     const char *embedding;      /* --embed, of MESO_QUILT_EMBEDDING_NAMES */
-    bool with_surface;          /* --with-surface */
+    const char *under;          /* --surface: a material; NULL: the surface is not shown */
     bool check;                 /* --check */
     struct {
         bool columns, rows, sides, jitter, thickness;

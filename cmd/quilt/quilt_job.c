@@ -5,12 +5,12 @@
 #include <sys/stat.h>
 
 #include "cmd/common/seed_list.h"
-#include "cmd/quilt/quilt_backing.h"
 #include "cmd/quilt/quilt_measure.h"
 #include "cmd/quilt/quilt_report.h"
 #include "cmd/quilt/quilt_surface.h"
 #include "cmd/quilt/quilt_swatch.h"
 #include "libcore/base/clock.h"
+#include "formats/model/scene_backdrop.h"
 #include "libcore/quilt/base/quilt_base.h"
 #include "libcore/quilt/embed/quilt_scene.h"
 #include "libcore/quilt/finish/quilt_finish.h"
@@ -81,8 +81,8 @@ static MesoStatus choose_kind(Job *job)
                          ".meso, .quilt, .ply, .obj, .glb or .drc, or give --to", path);
     if (!job->as_quilt)
         return meso_tool_choose_scene_kind(job->tool, &a->output);
-    if (a->with_surface)
-        return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--with-surface is for meshes and models; a .quilt holds its "
+    if (a->under)
+        return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--surface is for meshes and models; a .quilt holds its "
                          "surface");
     const char *given = o->given.position_bits ? "position-bits" : o->given.normal_bits ? "normal-bits"
         : o->given.speed ? "speed" : NULL;
@@ -233,8 +233,9 @@ static MesoStatus write_scene(const Job *job, const MesoQuiltResult *result)
     MesoStatus status = meso_quilt_scene(&scene, &tool->arena, &result->quilt, &job->swatch.swatch, result->positions,
                                          tool->threads, &tool->error);
     scene.thickness = heights.high - heights.low;
-    if (!status && job->arguments->with_surface) {
-        status = meso_quilt_add_backing(&scene, &tool->arena, &job->surface.polygons, &tool->error);
+    if (!status && job->arguments->under) {
+        status = meso_scene_add_backdrop(&scene, &tool->arena, &job->surface.polygons, job->arguments->under,
+                                         &tool->error);
         if (status == MESO_ERR_INPUT)
             meso_fail_prefix(&tool->error, job->surface_input.path);
     }
@@ -327,6 +328,8 @@ MesoStatus meso_quilt_job_run(MesoQuiltArguments *a)
     if (status || makes_swatch(a))
         return status ? status : run_recipe(a);
     status = choose_kind(&job);
+    if (!status)
+        status = meso_scene_check_backdrop(a->under, &a->tool.error);
     if (!status)
         status = meso_quilt_plane_check(a);
     if (!status)

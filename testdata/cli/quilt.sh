@@ -135,9 +135,9 @@ try meso-quilt --embed sideways nuts.ply open.obj -o x.ply
 
 echo "== with the surface under it"
 meso-quilt -q --swatch nuts --turns 4 --scale 0.2 open.obj -o alone.obj
-meso-quilt -q --swatch nuts --turns 4 --scale 0.2 --with-surface open.obj -o both.obj
+meso-quilt -q --swatch nuts --turns 4 --scale 0.2 --surface own open.obj -o both.obj
 echo $(($(grep -c '^f ' both.obj) - $(grep -c '^f ' alone.obj)))
-try meso-quilt -q --with-surface nuts.ply open.obj -o x.quilt
+try meso-quilt -q --surface own nuts.ply open.obj -o x.quilt
 
 echo "== guides"
 awk 'BEGIN { for (i = 0; i < 288; i++) print i % 2, 0, 1 - i % 2 }' >along.txt

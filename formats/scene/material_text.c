@@ -1,4 +1,4 @@
-#include "cmd/grow/grow_material.h"
+#include "formats/scene/material_text.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -30,7 +30,7 @@ static bool read_shares(const char *text, float *shares[2])
     return text[strspn(text, " ")] == '\0';
 }
 
-static bool read_material(const char *text, MesoMaterial *look, char name[MESO_GROW_NAME])
+static bool read_material(const char *text, MesoMaterial *look, char name[MESO_MATERIAL_NAME])
 {
     unsigned red, green, blue;
     int end = 0, count = sscanf(text, "%63[^# ] #%2x%2x%2x%n", name, &red, &green, &blue, &end);
@@ -45,7 +45,7 @@ static bool read_material(const char *text, MesoMaterial *look, char name[MESO_G
     return true;
 }
 
-MesoStatus meso_grow_material(MesoMaterial *look, char name[MESO_GROW_NAME], const char *text, MesoError *error)
+MesoStatus meso_material_of_text(MesoMaterial *look, char name[MESO_MATERIAL_NAME], const char *text, MesoError *error)
 {
     if (read_material(text, look, name))
         return MESO_OK;

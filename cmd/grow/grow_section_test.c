@@ -1,64 +1,13 @@
-/* Materials as texts have them, cross-sections as shapes, and the surface below. */
+/* Cross-sections as shapes. */
 #include <math.h>
+#include <string.h>
 
-#include "cmd/grow/grow_backdrop.h"
-#include "cmd/grow/grow_material.h"
 #include "cmd/grow/grow_section.h"
-#include "formats/mesh/mesh_read.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/base/check.h"
 
 static MesoArena arena;
 static MesoError error;
-
-/* ---- materials ---- */
-
-static MesoMaterial look_of(const char *text, const char *wanted)
-{
-    MesoMaterial look = {{0.5f, 0.25f, 0.125f}, 0.75f, 0.5f};
-    char name[MESO_GROW_NAME];
-    CHECK(meso_grow_material(&look, name, text, &error) == MESO_OK);
-    CHECK_TEXT(name, wanted);
-    return look;
-}
-
-static bool is_near(float a, double b)
-{
-    return fabs((double)a - b) < 1e-5;
-}
-
-static void test_materials(void)
-{
-    MesoMaterial look = look_of("clay", "clay");
-    CHECK(look.albedo[0] == 0.5f && look.roughness == 0.75f && look.metallic == 0.5f);
-    /* sRGB: 0 and 255 are 0 and 1, and 0x80 is (0.50196 + 0.055) / 1.055 to the power of 2.4 */
-    look = look_of("leaf #ff0080", "leaf");
-    CHECK(look.albedo[0] == 1 && look.albedo[1] == 0 && is_near(look.albedo[2], 0.2158605));
-    CHECK(look.roughness == 0.75f && look.metallic == 0.5f);
-    look = look_of("leaf #0A0a0a 0.5", "leaf");
-    CHECK(is_near(look.albedo[1], 10 / 255.0 / 12.92) && look.roughness == 0.5f && look.metallic == 0.5f);
-    look = look_of("steel #9a9a98 0 1", "steel");
-    CHECK(look.roughness == 0 && look.metallic == 1);
-    static const char *const wrong[] = {"", "#ffffff", "leaf green", "leaf #fff", "leaf #fffffff", "leaf #ggffff",
-                                        "leaf #ffffff rough", "leaf #ffffff 2", "leaf #ffffff -1",
-                                        "leaf #ffffff 0.5 1.5", "leaf #ffffff nan", "leaf #ffffff 0.5 0 0",
-                                        "leaf #ffffff 0.5.5", "leaf #ffffff 0x1"};
-    for (uint32_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        char name[MESO_GROW_NAME];
-        look = (MesoMaterial){{0.5f, 0.25f, 0.125f}, 0.75f, 0.5f};
-        if (meso_grow_material(&look, name, wrong[i], &error) != MESO_ERR_INPUT) {
-            fprintf(stderr, "taken: '%s'\n", wrong[i]);
-            exit(1);
-        }
-        CHECK(look.albedo[0] == 0.5f && strstr(error.message, "a name is wanted, or NAME #rrggbb"));
-    }
-    char name[MESO_GROW_NAME], text[100];
-    memset(text, 'x', sizeof text);
-    text[99] = '\0';
-    CHECK(meso_grow_material(&look, name, text, &error) == MESO_ERR_INPUT);
-}
-
-/* ---- cross-sections ---- */
 
 static const char tiles[] =
     "{\"format\": \"meso-tiles\", \"version\": 1, \"defaults\": {\"flip_x\": true}, \"interfaces\": ["
@@ -188,56 +137,10 @@ static void test_sections(void)
     refuse_section(&set, "zzz", "no cross-section 'zzz'; there is 'a/box'");
 }
 
-/* ---- the surface below ---- */
-
-static const char quads[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n";
-
-static void test_backdrop(void)
-{
-    MesoTool tool = {.quiet = true, .threads = 1};
-    MesoInput input;
-    MesoPolygonMesh mesh;
-    meso_arena_init(&tool.arena);
-    meso_input_wrap(&input, "q.obj", quads, strlen(quads));
-    CHECK(!meso_polygon_mesh_read(&mesh, &tool.arena, &input, 1, &tool.error));
-    /* a scene of one body with ids of two channels, of which one has names */
-    const char *names[1] = {"only"}, *materials[1] = {"red"};
-    MesoMaterial looks[1] = {{{1, 0, 0}, 0.5f, 0}};
-    MesoVec3 corner[3] = {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
-    uint32_t triangle[3] = {0, 1, 2}, ids[2] = {3, 0};
-    MesoBody body = {.vertex_count = 3, .face_count = 1, .face_width = 3, .positions = corner, .normals = corner,
-                     .corners = triangle};
-    MesoPlacedBody placed = {.place = MESO_PLACED_HERE};
-    MesoScene scene = {.channel_count = 2, .material_count = 1, .materials = looks, .material_names = materials,
-                       .id_row_count = 1, .ids = ids, .body_count = 1, .placed_count = 1, .bodies = &body,
-                       .placed = &placed};
-    scene.channels[0] = (MesoIdChannel){"branch", 4, NULL};
-    scene.channels[1] = (MesoIdChannel){"rule", 1, names};
-    CHECK(meso_grow_backdrop(&scene, &tool, &mesh, "clay #") == MESO_ERR_USAGE);
-    CHECK(strncmp(tool.error.message, "--surface: material 'clay #'", 28) == 0 && scene.body_count == 1);
-    CHECK(!meso_grow_backdrop(&scene, &tool, &mesh, "clay #ffffff 0.25"));
-    CHECK(scene.material_count == 2 && strcmp(scene.material_names[1], "clay") == 0);
-    CHECK(scene.materials[1].albedo[2] == 1 && scene.materials[1].roughness == 0.25f);
-    CHECK(scene.materials[0].albedo[0] == 1 && strcmp(scene.material_names[0], "red") == 0);
-    CHECK(scene.id_row_count == 2 && scene.ids[0] == 3 && scene.ids[2] == 4 && scene.ids[3] == 1);
-    CHECK(scene.channels[0].count == 5 && scene.channels[1].count == 2);
-    CHECK(strcmp(scene.channels[1].names[0], "only") == 0 && strcmp(scene.channels[1].names[1], "surface") == 0);
-    CHECK(scene.body_count >= 2 && scene.placed_count == scene.body_count && scene.bodies[0].positions == corner);
-    uint32_t faces = 0;
-    for (uint32_t i = 1; i < scene.placed_count; i++) {
-        CHECK(scene.placed[i].body == i && scene.placed[i].material == 1 && scene.placed[i].ids == 1);
-        faces += scene.bodies[i].face_count;
-    }
-    CHECK(faces == 2 && scene.box.low.x == 0 && scene.box.high.y == 6);
-    meso_arena_release(&tool.arena);
-}
-
 int main(void)
 {
     meso_arena_init(&arena);
-    test_materials();
     test_sections();
-    test_backdrop();
     meso_arena_release(&arena);
     return 0;
 }
