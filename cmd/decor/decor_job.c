@@ -60,7 +60,7 @@ static const MesoInput *open_named(void *context, const char *name, MesoError *e
 static MesoStatus read_inputs(Job *job)
 {
     MesoTool *tool = job->tool;
-    const MesoPatternFiles files = {job, open_named};
+    const MesoJsonFiles files = {job, open_named};
     MesoStatus status = meso_tool_open_place(tool, &job->pattern_input, tool->operands[0], &PLACE_PATTERN);
     if (status)
         return status;

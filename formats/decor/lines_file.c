@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "formats/product/svg_metadata.h"
+#include "formats/product/svg_frame.h"
 #include "libcore/math/box.h"
 
 static MesoStatus put_provenance(const MesoProvenance *provenance, const char *mark, const char *end,
@@ -95,15 +95,9 @@ MesoStatus meso_lines_svg_write(const MesoDecor *decor, const MesoProvenance *pr
     View view = view_of(decor);
     double width = decor->line_count ? ((double)view.box.high.x - view.box.low.x) * view.scale : 0;
     double height = decor->line_count ? ((double)view.box.high.y - view.box.low.y) * view.scale : 0;
-    MesoStatus status = meso_output_print(output, error,
-                              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-10 -10 %.2f %.2f\">\n",
-                              width + 20, height + 20);
-    if (!status)
-        status = meso_svg_metadata(provenance, output, error);
-    if (!status)
-        status = meso_output_print(output, error, "<style>path{fill:none;stroke:#124;stroke-width:1}"
-                                   ".back{stroke:#bcd}</style>\n");
+    MesoStatus status = meso_svg_begin(width, height, provenance,
+                                       "path{fill:none;stroke:#124;stroke-width:1}.back{stroke:#bcd}", output, error);
     if (!status)
         status = put_operations(decor, &view, output, error);
-    return status ? status : meso_output_print(output, error, "</svg>\n");
+    return status ? status : meso_svg_end(output, error);
 }

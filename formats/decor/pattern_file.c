@@ -45,7 +45,7 @@ static void read_root(MesoPatternParser *parser, const MesoJsonField *root, Meso
 }
 
 MesoStatus meso_pattern_read(MesoPattern *pattern, MesoArena *arena, const MesoInput *input,
-                             const MesoPatternFiles *files, MesoError *error)
+                             const MesoJsonFiles *files, MesoError *error)
 {
     json_t *root;
     *pattern = (MesoPattern){0};

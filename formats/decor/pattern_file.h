@@ -14,7 +14,7 @@
  * a newer version. O(size of the files + steps written out), which the limits of pattern_source.h bound.
  */
 MesoStatus meso_pattern_read(MesoPattern *pattern, MesoArena *arena, const MesoInput *input,
-                             const MesoPatternFiles *files, MesoError *error);
+                             const MesoJsonFiles *files, MesoError *error);
 
 /* The text of the built-in macros, a file as "macro_files" may name. */
 extern const char meso_builtin_macros[];

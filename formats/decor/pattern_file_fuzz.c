@@ -119,7 +119,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const uint8_t *zero = size ? memchr(data, 0, size) : NULL;
     size_t own = zero ? (size_t)(zero - data) : size;
     Files others = {.data = zero ? zero + 1 : data, .size = zero ? size - own - 1 : size};
-    const MesoPatternFiles files = {&others, open_file};
+    const MesoJsonFiles files = {&others, open_file};
     MesoArena arena;
     MesoError error;
     MesoInput input;

@@ -35,7 +35,7 @@ static const MesoInput *open_file(void *context, const char *name, MesoError *er
     return text ? &input : NULL;
 }
 
-static MesoStatus read_with(const char *content, const MesoPatternFiles *files)
+static MesoStatus read_with(const char *content, const MesoJsonFiles *files)
 {
     const char *text = meso_arena_print(&c.arena, NULL, "{\"format\": \"meso-pattern\", \"version\": 1, \"materials\": "
                                         "{\"white\": \"#fff\", \"blue\": \"#00f\"}, %s}", content);
@@ -47,7 +47,7 @@ static MesoStatus read_with(const char *content, const MesoPatternFiles *files)
 static MesoStatus read(const char *content)
 {
     int opened = 0;
-    const MesoPatternFiles files = {&opened, open_file};
+    const MesoJsonFiles files = {&opened, open_file};
     return read_with(content, &files);
 }
 
@@ -222,7 +222,7 @@ static void test_files(void)
 {
     static const char calls[] = "\"steps\": [{\"macro\": \"ring\"}, {\"macro\": \"outline\"}]";
     int opened = 0;
-    const MesoPatternFiles files = {&opened, open_file};
+    const MesoJsonFiles files = {&opened, open_file};
     /* A file's macro goes before a built-in one of its name, and the pattern's own before both. */
     CHECK(read_with(meso_arena_print(&c.arena, NULL, "\"macro_files\": [\"shared.json\"], %s", calls), &files) == MESO_OK);
     CHECK(opened == 1 && c.pattern.steps[0].macro.steps->macro.steps->levels.values[0] == 0.125f);

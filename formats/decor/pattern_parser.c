@@ -15,21 +15,7 @@ void *meso_pattern_allocate(MesoPatternParser *parser, uint64_t count, size_t si
 
 const MesoInput *meso_pattern_open(MesoPatternParser *parser, const MesoJsonField *field)
 {
-    MesoJsonReader *reader = parser->reader;
-    const char *name = meso_json_short_text(field, 4096);
-    MesoError error;
-    if (!meso_json_good(field))
-        return NULL;
-    if (!parser->files) {
-        meso_json_wrong(field, "other files cannot be read here");
-        return NULL;
-    }
-    const MesoInput *input = parser->files->open(parser->files->context, name, &error);
-    if (!input && error.status == MESO_ERR_INPUT)
-        meso_json_wrong(field, "%s", error.message);
-    else if (!input)
-        reader->status = meso_fail(reader->error, error.status, "%s", error.message);
-    return input;
+    return meso_json_open(parser->files, field, meso_json_short_text(field, 4096));
 }
 
 MesoVec3 meso_pattern_point(const MesoJsonField *field)

@@ -28,7 +28,7 @@ typedef struct MesoMacroTable {
 
 typedef struct MesoPatternParser {
     MesoJsonReader *reader;
-    const MesoPatternFiles *files;
+    const MesoJsonFiles *files;
     MesoMacroTable macros;
     const char *calls[MESO_PATTERN_NESTING];    /* [call_count] macros that are being written out */
     uint32_t call_count;

@@ -1,6 +1,6 @@
 #include "formats/growth/growth_svg.h"
 
-#include "formats/product/svg_metadata.h"
+#include "formats/product/svg_frame.h"
 #include "libcore/math/box.h"
 
 /* A stroke is no thinner than this, in units of the drawing. */
@@ -61,17 +61,12 @@ MesoStatus meso_growth_svg_write(const MesoGrown *grown, const MesoGrammar *gram
     View view = view_of(grown);
     double width = grown->joint_count ? ((double)view.box.high.x - view.box.low.x) * view.scale : 0;
     double height = grown->joint_count ? ((double)view.box.high.y - view.box.low.y) * view.scale : 0;
-    MesoStatus status = meso_output_print(output, error,
-                                          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-10 -10 %.2f %.2f\">\n",
-                                          width + 20, height + 20);
-    if (!status)
-        status = meso_svg_metadata(provenance, output, error);
-    if (!status)
-        status = meso_output_print(output, error, "<style>path{fill:none;stroke:#124;stroke-linecap:round}"
-                                   ".back path{stroke:#bcd}</style>\n");
+    MesoStatus status = meso_svg_begin(width, height, provenance,
+                                       "path{fill:none;stroke:#124;stroke-linecap:round}.back path{stroke:#bcd}", output,
+                                       error);
     if (!status)
         status = put_side(grown, grammar, &view, false, output, error);
     if (!status)
         status = put_side(grown, grammar, &view, true, output, error);
-    return status ? status : meso_output_print(output, error, "</svg>\n");
+    return status ? status : meso_svg_end(output, error);
 }

@@ -53,7 +53,7 @@ static void read_root(MesoDetailsParser *parser, const MesoJsonField *root, Meso
 }
 
 MesoStatus meso_details_read(MesoDetailsFile *details, MesoArena *arena, const MesoInput *input,
-                             const MesoDetailsFiles *files, MesoError *error)
+                             const MesoJsonFiles *files, MesoError *error)
 {
     json_t *root;
     *details = (MesoDetailsFile){0};

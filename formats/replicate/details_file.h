@@ -2,6 +2,7 @@
 #ifndef MESO_DETAILS_FILE_H
 #define MESO_DETAILS_FILE_H
 
+#include "formats/json/json_files.h"
 #include "formats/replicate/details_spec.h"
 #include "libcore/base/arena.h"
 
@@ -12,6 +13,6 @@
  * itself is broken, the nearest name for one that is not known, and a newer version. O(size of the files).
  */
 MesoStatus meso_details_read(MesoDetailsFile *details, MesoArena *arena, const MesoInput *input,
-                             const MesoDetailsFiles *files, MesoError *error);
+                             const MesoJsonFiles *files, MesoError *error);
 
 #endif

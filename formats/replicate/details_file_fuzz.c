@@ -83,7 +83,7 @@ static const MesoInput *open_file(void *context, const char *name, MesoError *er
 
 static void read_details(const MesoInput *input, Others *others)
 {
-    const MesoDetailsFiles files = {others, open_file};
+    const MesoJsonFiles files = {others, open_file};
     MesoArena arena;
     MesoError error;
     MesoDetailsFile details;

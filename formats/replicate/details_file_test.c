@@ -31,7 +31,7 @@ static const MesoInput *open_file(void *context, const char *name, MesoError *er
 
 static MesoStatus read_text(const char *text)
 {
-    const MesoDetailsFiles files = {NULL, open_file};
+    const MesoJsonFiles files = {NULL, open_file};
     MesoInput input;
     meso_input_wrap(&input, "d.json", text, strlen(text));
     return meso_details_read(&c.details, &c.arena, &input, &files, &c.error);

@@ -3,12 +3,13 @@
 #define MESO_DETAILS_PARSER_H
 
 #include "formats/json/json_field.h"
+#include "formats/json/json_files.h"
 #include "formats/json/json_value.h"
 #include "formats/replicate/details_spec.h"
 
 typedef struct MesoDetailsParser {
     MesoJsonReader *reader;
-    const MesoDetailsFiles *files;
+    const MesoJsonFiles *files;
     const char **material_names;    /* [material_count], and NULL */
     const char **kind_names;        /* [kind_count], and NULL */
     uint32_t material_count, kind_count;

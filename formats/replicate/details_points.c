@@ -58,25 +58,6 @@ static void read_list(MesoDetailsParser *parser, const MesoJsonField *list, Meso
     out->point_count = count;
 }
 
-static const MesoInput *open_file(MesoDetailsParser *parser, const MesoJsonField *field)
-{
-    MesoJsonReader *reader = parser->reader;
-    const char *name = meso_details_name(field);
-    MesoError error;
-    if (!meso_json_good(field))
-        return NULL;
-    if (!parser->files) {
-        meso_json_wrong(field, "other files cannot be read here");
-        return NULL;
-    }
-    const MesoInput *input = parser->files->open(parser->files->context, name, &error);
-    if (!input && error.status == MESO_ERR_INPUT)
-        meso_json_wrong(field, "%s", error.message);
-    else if (!input)
-        reader->status = meso_fail(reader->error, error.status, "%s", error.message);
-    return input;
-}
-
 static void read_file(MesoDetailsParser *parser, const MesoJsonField *field, MesoDetailDistribution *out)
 {
     static const char *const keys[] = {"file", NULL};
@@ -84,7 +65,8 @@ static void read_file(MesoDetailsParser *parser, const MesoJsonField *field, Mes
     MesoJsonReader *reader = parser->reader;
     const MesoVec3 *positions;
     uint32_t count;
-    const MesoInput *input = meso_json_object(field, keys) ? open_file(parser, &file) : NULL;
+    const MesoInput *input = meso_json_object(field, keys)
+                                 ? meso_json_open(parser->files, &file, meso_details_name(&file)) : NULL;
     if (!input)
         return;
     reader->status = meso_points_read(&positions, &count, reader->arena, input, reader->error);

@@ -100,12 +100,4 @@ typedef struct MesoDetailsFile {
     const MesoDetailDistribution *distributions;
 } MesoDetailsFile;
 
-/* How the reader gets at the files of points that are named. */
-typedef struct MesoDetailsFiles {
-    void *context;
-    /* The file called `name`, as it is written; the caller's, and open until the details have been read. NULL, with
-     * `error` filled, where it cannot be had. */
-    const MesoInput *(*open)(void *context, const char *name, MesoError *error);
-} MesoDetailsFiles;
-
 #endif
