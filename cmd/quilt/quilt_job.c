@@ -160,6 +160,7 @@ static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, u
     result->times.finish = lap(&since);
     const MesoSettleOptions settle = {.scale = options.scale, .height_scale = options.height_scale,
                                       .offset = options.offset, .overhang = finish.overhang,
+                                      .thread_count = options.thread_count,
                                       .partial = options.step_limit > 0};
     if (!status)
         status = meso_quilt_settle(quilt, &tool->arena, &job->surface.base, &job->swatch.swatch, &settle, &tool->error);

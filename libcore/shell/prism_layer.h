@@ -9,6 +9,7 @@
 typedef struct MesoPrismLayer {
     const MesoTriangulation *mesh;
     double low, high;
+    uint32_t thread_count;
     MesoVec3d *rises;       /* [vertex_count] directions as they are */
     MesoVec3d *normals;     /* [vertex_count] unit; 0 where a vertex has no side */
     double *thickness;      /* [vertex_count] the wanted length along the normal */

@@ -210,7 +210,7 @@ static MesoStatus find_pairs(Search *search)
         blocks[b].search = search;
         meso_arena_init(&blocks[b].arena);
     }
-    meso_parallel_for(0, block_count, 1, find_blocks, blocks);
+    meso_parallel_for(search->layer->thread_count, block_count, 1, find_blocks, blocks);
     status = gather_blocks(search, blocks, block_count);
     for (uint32_t b = 0; b < block_count; b++)
         meso_arena_release(&blocks[b].arena);
@@ -273,7 +273,7 @@ MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, bool *lowered, MesoA
     uint8_t *touched = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
     if (!search.graphs || !marked || !touched)
         return MESO_ERR_MEMORY;
-    meso_parallel_for(0, mesh->vertex_count, BLOCK, find_graphs, &search);
+    meso_parallel_for(layer->thread_count, mesh->vertex_count, BLOCK, find_graphs, &search);
     MesoStatus status = find_pairs(&search);
     *lowered = search.pair_count > 0;
     if (!status)

@@ -211,7 +211,8 @@ MesoStatus meso_prisms_build(MesoVec3 *directions, MesoPrismReport *report, Meso
     if (status)
         return status;
     MesoArenaMark mark = meso_arena_mark(scratch);
-    MesoPrismLayer layer = {.mesh = mesh, .low = options->low, .high = options->high};
+    MesoPrismLayer layer = {.mesh = mesh, .low = options->low, .high = options->high,
+                            .thread_count = options->thread_count};
     status = build(&layer, report ? report : &own, scratch, options->optimise, error);
     for (uint32_t v = 0; v < mesh->vertex_count && !status; v++)
         directions[v] = meso_vec3d_narrow(layer.rises[v]);

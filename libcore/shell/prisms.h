@@ -18,6 +18,7 @@
 typedef struct MesoPrismOptions {
     float low, high;        /* heights that occur, low <= high; low may be negative */
     bool optimise;          /* directions for least stretch; else normals, scaled to keep the thickness */
+    uint32_t thread_count;  /* 0: all cores; no effect on the bytes */
 } MesoPrismOptions;
 
 /* Stretch as in shell_stretch.h, of the whole map, from flat prisms of the triangles' shapes and the same heights. */
@@ -43,7 +44,7 @@ typedef struct MesoPrismReport {
  * Optimised, the stretch is never above that of the normals. Thickness over a vertex is kept; the direction turns.
  *
  * About O(n log n) for layers not much thicker than triangles are long; as the square of the thickness beyond.
- * Prisms that meet are looked for on all cores; the same bytes for any number. MESO_ERR_INPUT for triangles wound
+ * Prisms that meet are looked for on several cores; the same bytes for any number. MESO_ERR_INPUT for triangles wound
  * against each other and for heights that are not finite or wrong way around, MESO_ERR_MEMORY.
  */
 MesoStatus meso_prisms_build(MesoVec3 *directions, MesoPrismReport *report, MesoArena *scratch,

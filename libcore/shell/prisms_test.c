@@ -17,7 +17,7 @@ static Layer build(MesoTriangulation mesh, float low, float high, bool optimise)
     MesoError error;
     size_t used = arena.used;
     CHECK(layer.directions);
-    CHECK(meso_prisms_build(layer.directions, &layer.report, &arena, &mesh, &(MesoPrismOptions){low, high, optimise},
+    CHECK(meso_prisms_build(layer.directions, &layer.report, &arena, &mesh, &(MesoPrismOptions){low, high, optimise, 0},
                             &error) == MESO_OK);
     CHECK(arena.used == used);
     CHECK(layer.report.inverted_count == 0);
@@ -213,7 +213,7 @@ static void test_no_side(void)
     MesoError error;
     CHECK(directions);
     for (uint32_t optimise = 0; optimise < 2; optimise++) {
-        CHECK(meso_prisms_build(directions, &report, &arena, &mesh, &(MesoPrismOptions){0, 0.1f, optimise}, &error) ==
+        CHECK(meso_prisms_build(directions, &report, &arena, &mesh, &(MesoPrismOptions){0, 0.1f, optimise, 0}, &error) ==
               MESO_OK);
         CHECK(report.inverted_count == 0 && report.stretch_after <= report.stretch_before);
         for (uint32_t v = 0; v < mesh.vertex_count; v++)
@@ -230,16 +230,16 @@ static void test_refused(void)
     MesoVec3 *directions = malloc(mesh.vertex_count * sizeof *directions);
     MesoError error;
     CHECK(directions);
-    const MesoPrismOptions wrong[] = {{1, 0, false}, {0, INFINITY, false}, {NAN, 1, true}};
+    const MesoPrismOptions wrong[] = {{1, 0, false, 0}, {0, INFINITY, false, 0}, {NAN, 1, true, 0}};
     for (uint32_t i = 0; i < 3; i++)
         CHECK(meso_prisms_build(directions, NULL, &arena, &mesh, &wrong[i], &error) == MESO_ERR_INPUT);
-    CHECK(meso_prisms_build(directions, NULL, &arena, &mesh, &(MesoPrismOptions){0, 0, true}, &error) == MESO_OK);
+    CHECK(meso_prisms_build(directions, NULL, &arena, &mesh, &(MesoPrismOptions){0, 0, true, 0}, &error) == MESO_OK);
     meso_triangulation_release(&mesh);
     free(directions);
 
     MesoPrismReport report;
     MesoTriangulation none = {0};
-    CHECK(meso_prisms_build(NULL, &report, &arena, &none, &(MesoPrismOptions){0, 1, true}, &error) == MESO_OK);
+    CHECK(meso_prisms_build(NULL, &report, &arena, &none, &(MesoPrismOptions){0, 1, true, 0}, &error) == MESO_OK);
     CHECK(report.stretch_before == 1 && report.stretch_after == 1 && report.least_limit == 1);
 }
 

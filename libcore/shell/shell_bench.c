@@ -30,7 +30,7 @@ static void time_layer(uint32_t columns, float height)
     meso_arena_init(&arena);
     for (uint32_t round = 0; round < 2 * ROUNDS; round++) {
         double start = cpu_milliseconds();
-        MesoPrismOptions options = {0, height, round % 2};
+        MesoPrismOptions options = {0, height, round % 2, 0};
         CHECK(meso_prisms_build(directions, &report, &arena, &mesh, &options, NULL) == MESO_OK);
         best[round % 2] = fmin(best[round % 2], cpu_milliseconds() - start);
     }
@@ -54,7 +54,7 @@ static void time_map(uint32_t columns, float height)
     CHECK(directions);
     meso_arena_init(&arena);
     CHECK(meso_atlas_build(&atlas, &arena, &mesh, &(MesoChartOptions){0, 4, 4}, NULL) == MESO_OK);
-    CHECK(meso_prisms_build(directions, NULL, &arena, &mesh, &(MesoPrismOptions){0, height, false}, NULL) == MESO_OK);
+    CHECK(meso_prisms_build(directions, NULL, &arena, &mesh, &(MesoPrismOptions){0, height, false, 0}, NULL) == MESO_OK);
     for (uint32_t round = 0; round < ROUNDS; round++) {
         double start = cpu_milliseconds();
         CHECK(meso_shell_map_build(&map, &report, &arena, &mesh, &atlas, directions,

@@ -28,7 +28,7 @@ static void build(Mapped *mapped, MesoTriangulation mesh, float low, float high,
     mapped->atlas = charts_of(&mapped->mesh, radius);
     mapped->directions = malloc(mesh.vertex_count * sizeof(MesoVec3));
     CHECK(mapped->directions);
-    CHECK(meso_prisms_build(mapped->directions, NULL, &arena, &mapped->mesh, &(MesoPrismOptions){low, high, false},
+    CHECK(meso_prisms_build(mapped->directions, NULL, &arena, &mapped->mesh, &(MesoPrismOptions){low, high, false, 0},
                             &error) == MESO_OK);
     CHECK(meso_shell_map_build(&mapped->map, &mapped->report, &arena, &mapped->mesh, &mapped->atlas,
                                mapped->directions, &(MesoShellMapOptions){low, high, 0, plain}, &error) == MESO_OK);

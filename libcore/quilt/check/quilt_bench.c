@@ -201,7 +201,7 @@ static MesoStatus embed(Run *run)
         return MESO_ERR_MEMORY;
     MesoQuiltHeights heights = meso_quilt_heights(&run->quilt);
     MesoStatus status = meso_prisms_build(directions, &run->outcome->layer, &run->arena, &run->surface,
-                                          &(MesoPrismOptions){heights.low, heights.high, true}, &run->error);
+                                          &(MesoPrismOptions){heights.low, heights.high, true, 0}, &run->error);
     run->outcome->prisms = lap(run);
     meso_quilt_embed(run->positions, &run->quilt, &run->surface, directions, 0);
     run->outcome->embedding = lap(run);

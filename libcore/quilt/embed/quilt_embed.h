@@ -29,10 +29,11 @@ void meso_quilt_directions(MesoVec3 *directions, const MesoTriangulation *base);
 /*
  * directions[vertex_count of the base] under which the layer of such heights neither folds nor meets itself, turned for
  * least stretch (shell/prisms.h): shorter than 1 in narrow places. Where triangles are wound against each other there is no
- * such layer, and they are those of meso_quilt_directions(); `report` is zero then. O(n log n). MESO_ERR_MEMORY.
+ * such layer, and they are those of meso_quilt_directions(); `report` is zero then. O(n log n), on `thread_count` threads
+ * (0: all cores), the same for any number. MESO_ERR_MEMORY.
  */
 MesoStatus meso_quilt_layer(MesoVec3 *directions, MesoPrismReport *report, const MesoTriangulation *base,
-                            MesoQuiltHeights heights, MesoError *error);
+                            MesoQuiltHeights heights, uint32_t thread_count, MesoError *error);
 
 /*
  * The place of each vertex over the base:

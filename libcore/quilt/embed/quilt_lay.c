@@ -29,26 +29,26 @@ static MesoStatus join_triangles(MesoTriangulation *joined, const MesoTriangulat
 
 /* MESO_ERR_INPUT, which is no error to tell of, where triangles are wound against each other. */
 static MesoStatus build_layer(MesoVec3 *directions, MesoPrismReport *report, MesoTriangulation *joined,
-                              MesoArena *scratch, const MesoTriangulation *base, MesoQuiltHeights heights, bool optimise,
+                              MesoArena *scratch, const MesoTriangulation *base, const MesoPrismOptions *options,
                               MesoError *error)
 {
     MesoError reason;
-    const MesoPrismOptions options = {heights.low, heights.high, optimise};
     MesoStatus status = join_triangles(joined, base, scratch, &reason);
     if (!status)
-        status = meso_prisms_build(directions, report, scratch, joined, &options, &reason);
+        status = meso_prisms_build(directions, report, scratch, joined, options, &reason);
     if (status && status != MESO_ERR_INPUT && error)
         *error = reason;
     return status;
 }
 
 MesoStatus meso_quilt_layer(MesoVec3 *directions, MesoPrismReport *report, const MesoTriangulation *base,
-                            MesoQuiltHeights heights, MesoError *error)
+                            MesoQuiltHeights heights, uint32_t thread_count, MesoError *error)
 {
+    const MesoPrismOptions options = {heights.low, heights.high, true, thread_count};
     MesoArena scratch;
     MesoTriangulation joined;
     meso_arena_init(&scratch);
-    MesoStatus status = build_layer(directions, report, &joined, &scratch, base, heights, true, error);
+    MesoStatus status = build_layer(directions, report, &joined, &scratch, base, &options, error);
     meso_arena_release(&scratch);
     if (status != MESO_ERR_INPUT)
         return status;
@@ -71,11 +71,11 @@ static MesoStatus place(MesoVec3 *positions, MesoQuiltLay *lay, MesoArena *scrat
 {
     MesoTriangulation joined;
     MesoQuiltHeights heights = meso_quilt_heights(quilt);
+    const MesoPrismOptions options = {heights.low, heights.high, embedding != MESO_QUILT_NORMALS, thread_count};
     MesoVec3 *directions = MESO_NEW(scratch, MesoVec3, base->vertex_count, error);
     if (!directions)
         return MESO_ERR_MEMORY;
-    MesoStatus status = build_layer(directions, &lay->layer, &joined, scratch, base, heights,
-                                    embedding != MESO_QUILT_NORMALS, error);
+    MesoStatus status = build_layer(directions, &lay->layer, &joined, scratch, base, &options, error);
     if (status && status != MESO_ERR_INPUT)
         return status;
     if (!status && embedding == MESO_QUILT_CHARTS && heights.low < heights.high)

@@ -14,6 +14,7 @@
 typedef struct MesoSettleOptions {
     float scale, height_scale, offset;  /* as of MesoQuiltOptions; height_scale 0: as `scale` */
     float overhang;         /* elements may reach beyond a border by so much, in the surface's units */
+    uint32_t thread_count;  /* of the layer; 0: all cores; no effect on the bytes */
     bool partial;           /* the quilt is to cover a part of the surface: nothing is added */
 } MesoSettleOptions;
 
@@ -36,7 +37,7 @@ typedef struct MesoSettleOptions {
  * surface  that the quilt's places refer to, with twins
  *
  * Elements keep their order, and what is added comes last. Counts are added to the quilt's report. O(n log n) for n
- * triangles, but for elements that cut each other. Single-threaded. MESO_ERR_LIMIT, MESO_ERR_MEMORY.
+ * triangles, but for elements that cut each other. On one thread, but for the layer. MESO_ERR_LIMIT, MESO_ERR_MEMORY.
  */
 MesoStatus meso_quilt_settle(MesoQuilt *quilt, MesoArena *arena, const MesoTriangulation *surface,
                              const MesoSwatch *swatch, const MesoSettleOptions *options, MesoError *error);

@@ -61,7 +61,7 @@ static Figures measure(Case *c, const MesoQuilt *quilt)
     MesoElementShape *shapes = MESO_NEW(&c->arena, MesoElementShape, quilt->element_count, &error);
     MesoElementShape *originals = MESO_NEW(&c->arena, MesoElementShape, c->swatch.element_count, &error);
     CHECK(directions && positions && shapes && originals);
-    CHECK(meso_quilt_layer(directions, &report, &c->surface, meso_quilt_heights(quilt), &error) == MESO_OK);
+    CHECK(meso_quilt_layer(directions, &report, &c->surface, meso_quilt_heights(quilt), 1, &error) == MESO_OK);
     meso_quilt_embed(positions, quilt, &c->surface, directions, 1);
     CHECK(meso_check_mesh_of_quilt(&mesh, &faults, &c->arena, quilt, positions, 1, &error) == MESO_OK);
     CHECK(meso_check_mesh_of_swatch(&sample, &c->arena, &c->swatch, &error) == MESO_OK);

@@ -29,7 +29,8 @@ typedef struct Settling {
 static MesoStatus make_layer(Settling *s, MesoQuiltHeights heights, MesoError *error)
 {
     MesoPrismReport report;
-    return meso_quilt_layer(s->work.directions, &report, s->work.surface, heights, error);
+    return meso_quilt_layer(s->work.directions, &report, s->work.surface, heights, s->work.options.thread_count,
+                            error);
 }
 
 static MesoStatus embed(Settling *s, MesoError *error)
