@@ -16,6 +16,13 @@ echo "painted: $? $(count seeds painted.json) seeds, $(count elements painted.js
 
 meso-info lace.grammar | grep -v "bytes\|xxh3"
 
+echo "== the page shows four of them as they are"
+page() { mandoc -T ascii -O width=1000 "$testdata/../man/meso-grammar.5" | sed "s/.$(printf '\b')//g"; }
+page >page.txt
+for name in scales lace cracks ivy; do
+    sed '/^$/d' $name.grammar | while IFS= read -r line; do grep -qF -e "$line" page.txt || echo "not there: $line"; done
+done
+
 echo "== kinds of products; the surface below"
 for kind in ply obj glb drc svg; do
     meso-grow -q --until 3 ivy.grammar vase.obj -o ivy.$kind && test -s ivy.$kind && echo $kind
