@@ -1,4 +1,5 @@
 /* meso-map: grows the geometry of an assignment, and writes it as a model or as a mesh. */
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -50,6 +51,20 @@ typedef struct MapArguments {
     const char *embedding;      /* --embed; NULL: as the quilt says */
     MesoSceneOutput output;
 } MapArguments;
+
+/* The mapping options, in `options` and in `given`. */
+#define MAPPING_ROW(name) {offsetof(MesoMapOptions, name), sizeof((MesoMapOptions){0}.name), \
+                           offsetof(MapArguments, given.name)}
+static const struct {
+    size_t offset, size, given;
+} MAPPING[] = {MAPPING_ROW(thickness), MAPPING_ROW(offset), MAPPING_ROW(section_scale), MAPPING_ROW(tangent_scale),
+               MAPPING_ROW(divisions), MAPPING_ROW(section_step)};
+enum { MAPPING_COUNT = sizeof MAPPING / sizeof *MAPPING };
+
+static const bool *is_given(const MapArguments *a, uint32_t option)
+{
+    return (const bool *)((const char *)a + MAPPING[option].given);
+}
 
 static bool names_quilt(const char *path)
 {
@@ -238,18 +253,10 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
 static void merge_options(void *context, MesoMapOptions *options)
 {
     const MapArguments *a = context;
-    if (a->given.thickness)
-        options->thickness = a->options.thickness;
-    if (a->given.offset)
-        options->offset = a->options.offset;
-    if (a->given.section_scale)
-        options->section_scale = a->options.section_scale;
-    if (a->given.tangent_scale)
-        options->tangent_scale = a->options.tangent_scale;
-    if (a->given.divisions)
-        options->divisions = a->options.divisions;
-    if (a->given.section_step)
-        options->section_step = a->options.section_step;
+    for (uint32_t i = 0; i < MAPPING_COUNT; i++)
+        if (*is_given(a, i))
+            memcpy((char *)options + MAPPING[i].offset, (const char *)&a->options + MAPPING[i].offset,
+                   MAPPING[i].size);
 }
 
 /* A model of tiles, expanded; or the scene of another one, with `tiling` NULL. `inputs` stay open: both may point
@@ -263,10 +270,8 @@ typedef struct Mapped {
 static MesoStatus check_mapping(const MapArguments *a, const MesoInput *input, const MesoModel *tiling,
                                 MesoError *error)
 {
-    const bool given[] = {a->given.thickness, a->given.offset, a->given.section_scale, a->given.tangent_scale,
-                          a->given.divisions, a->given.section_step};
-    for (size_t i = 0; !tiling && i < sizeof given / sizeof *given; i++)
-        if (given[i])
+    for (uint32_t i = 0; !tiling && i < MAPPING_COUNT; i++)
+        if (*is_given(a, i))
             return meso_fail(error, MESO_ERR_USAGE, "mapping options are for models of tiles; '%s' is none",
                              input->path);
     return MESO_OK;

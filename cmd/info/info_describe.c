@@ -12,6 +12,7 @@
 #include "formats/mesh/surface_read.h"
 #include "formats/model/model_body.h"
 #include "formats/model/model_file.h"
+#include "formats/model/model_mapping.h"
 #include "formats/model/model_scene.h"
 #include "formats/tiling/constraints/constraints_file.h"
 #include "formats/tiling/result/report_file.h"
@@ -235,6 +236,7 @@ static int put_options(json_t *facts, const MesoMapOptions *options)
     failed |= put_number(object, "tangent_scale", options->tangent_scale);
     failed |= put_number(object, "section_step", options->section_step);
     failed |= put_count(object, "divisions", options->divisions);
+    failed |= meso_mapping_to_json(object, options);
     return failed | json_object_set_new(facts, "options", object);
 }
 

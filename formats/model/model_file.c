@@ -5,11 +5,13 @@
 #include <string.h>
 
 #include "formats/json/json_text.h"
+#include "formats/model/model_mapping.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/mesh/slot_graph.h"
 #include "libcore/tiling/tile/tile_set_check.h"
 
-enum { MINOR = 0 };
+/* 1 is of models of bodies (model_body.h); 2 has the chunk 'mapping'. */
+enum { MINOR = 0, MINOR_MAPPING = 2 };
 
 /* How options lie in the file. */
 typedef struct StoredOptions {
@@ -63,7 +65,8 @@ static MesoStatus join_inners(InnerArrays *all, const MesoModel *model, MesoAren
     return MESO_OK;
 }
 
-static MesoStatus write_chunks(const MesoModel *model, const char *provenance, const char *tiles,
+/* `mapping` is NULL where no option asks for it. */
+static MesoStatus write_chunks(const MesoModel *model, const char *provenance, const char *tiles, const char *mapping,
                                MesoOutput *output, MesoArena *arena, MesoError *error)
 {
     InnerArrays inner;
@@ -74,10 +77,12 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
     const uint64_t faces = surface->face_count, vector = sizeof(MesoVec3), index = sizeof(uint32_t);
     StoredOptions options = store_options(model);
 
-    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, .minor = MINOR};
+    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, .minor = mapping ? MINOR_MAPPING : MINOR};
     meso_container_add(&file, "prov", provenance, strlen(provenance));
     meso_container_add(&file, "tiles", tiles, strlen(tiles));
     meso_container_add(&file, "options", &options, sizeof options);
+    if (mapping)
+        meso_container_add(&file, "mapping", mapping, strlen(mapping));
     meso_container_add(&file, "position", surface->positions, surface->vertex_count * vector);
     meso_container_add(&file, "normal", surface->normals, surface->normal_count * vector);
     meso_container_add(&file, "face", surface->face_vertices, 4 * faces * index);
@@ -101,11 +106,13 @@ MesoStatus meso_model_write(const MesoModel *model, const MesoProvenance *proven
     char *tiles = root ? json_dumps(root, JSON_COMPACT) : NULL;
     json_decref(root);
 
-    MesoStatus status = MESO_ERR_MEMORY;
-    if (text && tiles)
-        status = write_chunks(model, text, tiles, output, &arena, error);
-    else if (text)
-        meso_fail(error, status, "out of memory for the tile set");
+    char *mapping = NULL;
+    MesoStatus status = text ? meso_mapping_text(&mapping, &model->options, error) : MESO_ERR_MEMORY;
+    if (!status && !tiles)
+        status = meso_fail(error, MESO_ERR_MEMORY, "out of memory for the tile set");
+    if (!status)
+        status = write_chunks(model, text, tiles, mapping, output, &arena, error);
+    free(mapping);
     free(tiles);
     meso_arena_release(&arena);
     return status;
@@ -119,12 +126,10 @@ typedef struct Reading {
     const char *path;
 } Reading;
 
-/* `text` is named after its chunk. */
-static MesoStatus read_text(const Reading *in, const char *name, MesoInput *text, MesoError *error)
+/* `text` is named after its chunk, which is there. */
+static MesoStatus open_text(const Reading *in, const char *name, MesoInput *text, MesoError *error)
 {
     uint64_t size;
-    if (!meso_container_require(in->file, in->path, name, 0, 0, error))
-        return MESO_ERR_INPUT;
     const char *shown = meso_arena_print(in->arena, error, "chunk '%s'", name);
     if (!shown)
         return MESO_ERR_MEMORY;
@@ -136,7 +141,9 @@ static MesoStatus read_text(const Reading *in, const char *name, MesoInput *text
 static MesoStatus read_tiles(const Reading *in, MesoError *error)
 {
     MesoInput text;
-    MesoStatus status = read_text(in, "tiles", &text, error);
+    if (!meso_container_require(in->file, in->path, "tiles", 0, 0, error))
+        return MESO_ERR_INPUT;
+    MesoStatus status = open_text(in, "tiles", &text, error);
     if (status)
         return status;
     status = meso_tiles_read(&in->model->tile_set, in->arena, &text, error);
@@ -158,6 +165,18 @@ static MesoStatus read_options(const Reading *in, MesoError *error)
                          in->path, wrong);
     in->model->options = options;
     return MESO_OK;
+}
+
+static MesoStatus read_mapping(const Reading *in, MesoError *error)
+{
+    MesoInput text;
+    uint64_t size;
+    if (!meso_container_find(in->file, "mapping", &size))
+        return MESO_OK;
+    MesoStatus status = open_text(in, "mapping", &text, error);
+    if (!status && (status = meso_mapping_read(&in->model->options, &text, in->arena, error)))
+        meso_fail_prefix(error, in->path);
+    return status;
 }
 
 /* Elements of a chunk whose size is free; the chunk must hold whole ones, and at most `most`. */
@@ -328,6 +347,8 @@ MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContain
     MesoStatus status = read_tiles(&in, error);
     if (!status)
         status = read_options(&in, error);
+    if (!status)
+        status = read_mapping(&in, error);
     if (!status)
         status = read_surface(&in, error);
     if (!status)

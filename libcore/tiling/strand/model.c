@@ -1,5 +1,7 @@
 #include "libcore/tiling/strand/model.h"
 
+const char *const meso_frame_rule_names[] = {"paper", "minimal", NULL};
+
 static float positive_or(float value, float otherwise)
 {
     return value > 0 ? value : otherwise;
@@ -25,6 +27,8 @@ const char *meso_map_options_problem(const MesoMapOptions *options)
         return "section step";
     if (options->divisions < 2 || options->divisions > 4096)
         return "number of divisions";
+    if (options->frame > MESO_FRAME_MINIMAL)
+        return "frame";
     return NULL;
 }
 

@@ -12,6 +12,14 @@
 #include "libcore/tiling/problem/assignment.h"
 #include "libcore/tiling/tile/tile_set.h"
 
+/* How the frame of a sweep turns along it (scene.h). */
+typedef enum MesoFrameRule {
+    MESO_FRAME_PAPER,       /* the up vector runs straight from end to end */
+    MESO_FRAME_MINIMAL      /* it turns no more than the trajectory makes it, and what is left evenly */
+} MesoFrameRule;
+
+extern const char *const meso_frame_rule_names[];   /* ended by NULL */
+
 /* Lengths in scene units. Zero (or negative) lengths stand for the default in brackets. */
 typedef struct MesoMapOptions {
     float thickness;        /* height of the shell is half of it [mean edge length] */
@@ -20,6 +28,7 @@ typedef struct MesoMapOptions {
     float tangent_scale;    /* factor on the handles of trajectories [1] */
     float section_step;     /* sampling step of contours in edge lengths [0.02] */
     uint32_t divisions;     /* vertices along a sweep [12], at least 2 */
+    uint32_t frame;         /* a MesoFrameRule */
 } MesoMapOptions;
 
 typedef struct MesoModel {
@@ -35,7 +44,7 @@ typedef struct MesoModel {
  * Name of the first of the resolved options that no geometry can be made with,
  * or NULL: lengths under MESO_SHORTEST_EDGE or over 4 MESO_COORDINATE_LIMIT,
  * tangent scales outside [1e-6, 1e3], section steps outside [1e-4, 1],
- * divisions outside [2, 4096], and what is not a number.
+ * divisions outside [2, 4096], rules that there are not, and what is not a number.
  */
 const char *meso_map_options_problem(const MesoMapOptions *options);
 

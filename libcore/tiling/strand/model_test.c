@@ -10,7 +10,8 @@ int main(void)
     CHECK(all.thickness == 0.5f && all.section_scale == 0.5f && all.offset == 0);
     CHECK(all.tangent_scale == 1 && all.section_step == 0.02f && all.divisions == 12);
 
-    MesoMapOptions own = {2, -3, 4, 5, 0.5f, 7};
+    MesoMapOptions own = {.thickness = 2, .offset = -3, .section_scale = 4, .tangent_scale = 5, .section_step = 0.5f,
+                          .divisions = 7};
     MesoMapOptions kept = meso_map_options_resolve(own, 0.5f);
     CHECK(kept.thickness == 2 && kept.offset == -3 && kept.section_scale == 4);
     CHECK(kept.tangent_scale == 5 && kept.section_step == 0.5f && kept.divisions == 7);
@@ -35,5 +36,8 @@ int main(void)
     MesoMapOptions wrong = all;
     wrong.tangent_scale = 2000;
     CHECK(strcmp(meso_map_options_problem(&wrong), "tangent scale") == 0);
+    wrong = all;
+    wrong.frame = 2;
+    CHECK(strcmp(meso_map_options_problem(&wrong), "frame") == 0);
     return 0;
 }
