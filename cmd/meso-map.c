@@ -200,15 +200,29 @@ static MesoStatus turn_surface(MesoTool *tool, MesoModel *model, const uint8_t *
     return status ? status : meso_orientation_turn_graph(&model->graph, &tool->arena, quarters, error);
 }
 
-static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *slots, const Inputs *inputs,
-                             MesoError *error)
+/* The surface as it was when its slots were filled: one that disagreed about its side was given one. */
+static MesoStatus wind_surface(MesoTool *tool, MesoQuadSurface *surface, const MesoSlotsFile *slots,
+                               const Inputs *inputs, MesoWindCounts *wound, MesoError *error)
+{
+    return slots->over ? meso_quad_surface_wind(surface, &tool->arena, &inputs->surface, slots->over, NULL, wound,
+                                                tool->threads, error)
+                       : MESO_OK;
+}
+
+static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoQuadSurface *surface, MesoSlotsFile *slots,
+                             const Inputs *inputs, MesoError *error)
 {
     MesoTool *tool = &a->tool;
-    if (slots->assignment.slot_count != model->surface.face_count)
+    MesoWindCounts wound = {0};
+    if (slots->assignment.slot_count != surface->mesh.face_count)
         return meso_fail(error, MESO_ERR_INPUT,
                          "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another surface",
                          inputs->slots.path, slots->assignment.slot_count, inputs->surface.path,
-                         model->surface.face_count);
+                         surface->mesh.face_count);
+    if (wind_surface(tool, surface, slots, inputs, &wound, error))
+        return error->status;
+    model->surface = surface->mesh;
+    model->graph = surface->graph;
     if (meso_slots_bind(slots, &model->tile_set, error))
         return meso_fail_prefix(error, inputs->slots.path);
     if (turn_surface(tool, model, slots->quarters, error))
@@ -218,7 +232,7 @@ static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoSlotsFile *s
         return meso_fail_prefix(error, inputs->slots.path);
     warn_of_other_inputs(tool, slots, inputs);
     const MesoSurfaceJudge judge = {.path = inputs->surface.path, .mesh = &model->surface, .graph = &model->graph,
-                                    .strict = a->strict};
+                                    .wound = &wound, .strict = a->strict};
     return meso_tool_judge_surface(tool, &judge);
 }
 
@@ -235,14 +249,12 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     if (!status)
         status = (a->pairs ? meso_quad_surface_read_pairs : meso_quad_surface_read)(
             &surface, &tool->arena, &inputs->surface, tool->threads, error);
-    model->surface = surface.mesh;
-    model->graph = surface.graph;
     if (!status)
         status = meso_tool_open_place(tool, &inputs->slots, tool->operands[2], &MESO_PLACE_SLOTS);
     if (!status)
         status = meso_slots_read(&slots, &tool->arena, &inputs->slots, error);
     if (!status)
-        status = bind_slots(a, model, &slots, inputs, error);
+        status = bind_slots(a, model, &surface, &slots, inputs, error);
     if (!status)
         status = read_inners(a, model, error);
     model->options = a->options;

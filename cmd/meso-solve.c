@@ -113,8 +113,8 @@ static MesoStatus write_outputs(Arguments *a, const Problem *p, MesoOutput **slo
     bool solved = p->result.verdict == MESO_VERDICT_SOLVED;
     MesoStatus status = MESO_OK;
     if (solved)
-        status = meso_slots_write(&p->result.assignment, &p->set, p->surface.quarters, p->tiles_hash,
-                                  p->surface.hash, &tool->provenance, *slots, &tool->error);
+        status = meso_slots_write(&p->result.assignment, &p->set, p->surface.quarters, p->surface.over,
+                                  p->tiles_hash, p->surface.hash, &tool->provenance, *slots, &tool->error);
     if (!status && *report)
         status = meso_tool_write_json(meso_report_to_json(tool->report, &tool->provenance), *report,
                                       &tool->error);

@@ -99,9 +99,23 @@ static void tell_windings(MesoTool *tool, const MesoSurfaceJudge *judge, const M
              plural(f->reversed_edges), f->reversed_faces[0] + 1, f->reversed_faces[1] + 1, judge->path);
 }
 
+/* What was turned over or cut open for the work, and is not in the file. */
+static void tell_wound(MesoTool *tool, const MesoSurfaceJudge *judge, const MesoWindCounts *w)
+{
+    if (w->faces_turned > 0)
+        tell(tool, judge, false, "%u face%s wound against %s neighbours (first face %u), turned over here; 'meso-mesh "
+             "orient %s -o OUT.obj' does it for good", w->faces_turned, w->faces_turned == 1 ? " is" : "s are",
+             w->faces_turned == 1 ? "its" : "their", w->turned_face + 1, judge->path);
+    if (w->edges_cut > 0)
+        tell(tool, judge, false, "not orientable, like a Moebius band: cut open along %u edge%s (first between faces %u "
+             "and %u), where strands end as at a border", w->edges_cut, plural(w->edges_cut), w->cut_faces[0] + 1,
+             w->cut_faces[1] + 1);
+}
+
 static void tell_flaws(MesoTool *tool, const MesoSurfaceJudge *judge, const MesoSurfaceFlaws *f)
 {
-    if (f->split_edges > 0)
+    bool cut = judge->wound && judge->wound->edges_cut > 0;     /* which splits edges, and was told */
+    if (f->split_edges > 0 && !cut)
         tell(tool, judge, false, "%u border edges lie on one another and are not joined (%u piece%s; first faces %u and "
              "%u), so that strands end there; 'meso-mesh weld %s -o OUT.obj' joins them", f->split_edges,
              f->pieces, plural(f->pieces), f->split_faces[0] + 1, f->split_faces[1] + 1, judge->path);
@@ -117,9 +131,11 @@ static void tell_flaws(MesoTool *tool, const MesoSurfaceJudge *judge, const Meso
              "anywhere", f->lost_normals, f->lost_normals == 1 ? "ex" : "ices");
 }
 
-static MesoStatus report(MesoTool *tool, const MesoSurfaceFlaws *f, const Walls *walls)
+static MesoStatus report(MesoTool *tool, const MesoSurfaceFlaws *f, const MesoWindCounts *wound, const Walls *walls)
 {
-    json_t *object = json_pack("{sIsIsIsIsIsIsIsI}", "pieces", (json_int_t)f->pieces,
+    json_t *object = json_pack("{sIsIsIsIsIsIsIsIsIsI}", "pieces", (json_int_t)f->pieces,
+                               "faces_turned_over", (json_int_t)wound->faces_turned,
+                               "edges_cut_open", (json_int_t)wound->edges_cut,
                                "split_edges", (json_int_t)f->split_edges,
                                "reversed_edges", (json_int_t)f->reversed_edges,
                                "one_sided_pieces", (json_int_t)f->one_sided_pieces,
@@ -139,10 +155,12 @@ MesoStatus meso_tool_judge_surface(MesoTool *tool, const MesoSurfaceJudge *judge
     if (status)
         return status;
     Walls walls = find_walls(judge);
-    status = report(tool, &flaws, &walls);
+    const MesoWindCounts nothing = {0}, *wound = judge->wound ? judge->wound : &nothing;
+    status = report(tool, &flaws, wound, &walls);
     if (status)
         return status;
     tool->error.status = MESO_OK;
+    tell_wound(tool, judge, wound);
     if (flaws.blurred_edges > 0)
         tell_windings(tool, judge, &flaws);
     if (judge->set && walls.count > 0)

@@ -3,6 +3,7 @@
 #define MESO_SURFACE_JUDGE_H
 
 #include "cmd/common/tool.h"
+#include "libcore/mesh/edit/mesh_wind.h"
 #include "libcore/mesh/slot_graph.h"
 #include "libcore/tiling/tile/tile_set.h"
 
@@ -18,6 +19,7 @@ typedef struct MesoSurfaceJudge {
     const char *path;           /* of the surface, as given */
     const MesoQuadMesh *mesh;
     const MesoSlotGraph *graph;
+    const MesoWindCounts *wound;    /* what gave them one side; NULL: nothing */
     const MesoTileSet *set;     /* tiles to come; NULL: they are there, and the walls are the mapping's matter */
     bool strict;
 } MesoSurfaceJudge;

@@ -104,6 +104,14 @@ static int put_orientation(json_t *facts, const MesoSlotsFile *slots)
     return failed | json_object_set_new(facts, "orientation", list);
 }
 
+static int put_turned_over(json_t *facts, const MesoSlotsFile *slots)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < slots->assignment.slot_count; i++)
+        count += slots->over[i];
+    return put_count(facts, "faces_turned_over", count);
+}
+
 MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *input, MesoError *error)
 {
     MesoSlotsFile slots;
@@ -121,6 +129,7 @@ MesoStatus meso_info_slots(json_t *facts, MesoArena *arena, const MesoInput *inp
     json_decref(inputs);
     failed |= put_count(facts, "slots", slots.assignment.slot_count);
     failed |= slots.quarters && put_orientation(facts, &slots);
+    failed |= slots.over && put_turned_over(facts, &slots);
     status = memory_if(failed, error);
     return status ? status : put_histograms(facts, arena, &slots.assignment, slots.tile_count,
                                             slots.tile_names, error);

@@ -36,6 +36,12 @@ static uint32_t *match_tiles(MesoTool *tool, const MesoSlotsFile *slots, const M
     return failed ? NULL : tiles;
 }
 
+/* Whether the face was seen from the side that it is seen from now: a tile has no other side. */
+static bool is_seen_alike(const MesoSlotsFile *slots, const MesoSolveSurface *surface, uint32_t slot)
+{
+    return (slots->over && slots->over[slot]) == (surface->over && surface->over[slot]);
+}
+
 /* What slot `slot` of the file holds, seen from the side that is direction 0 now. */
 static MesoTransform turn_to(const MesoSlotsFile *slots, const MesoSolveSurface *surface, uint32_t slot)
 {
@@ -62,7 +68,8 @@ static MesoStatus read_keep(MesoTool *tool, const char *path, const MesoTileSet 
     if (!keep || !tiles)
         return MESO_ERR_MEMORY;
     for (uint32_t s = 0; s < surface->graph.slot_count; s++) {
-        uint32_t tile = s < slots.assignment.slot_count ? tiles[slots.assignment.tile[s]] : MESO_NO_INDEX;
+        bool kept = s < slots.assignment.slot_count && is_seen_alike(&slots, surface, s);
+        uint32_t tile = kept ? tiles[slots.assignment.tile[s]] : MESO_NO_INDEX;
         keep[s] = tile == MESO_NO_INDEX
                       ? MESO_NO_INDEX
                       : meso_variant_find(variants, set, tile, turn_to(&slots, surface, s));

@@ -49,8 +49,8 @@ MesoStatus meso_each_write_to(const MesoSeedEach *each, uint64_t seed, const Mes
     MesoOutput *output = NULL;
     MesoStatus status = provenance ? meso_output_open(&output, path, error) : MESO_ERR_MEMORY;
     if (!status)
-        status = meso_slots_write(assignment, p->tiling->set, p->surface->quarters, p->tiles_hash, p->surface->hash,
-                                  provenance, output, error);
+        status = meso_slots_write(assignment, p->tiling->set, p->surface->quarters, p->surface->over,
+                                  p->tiles_hash, p->surface->hash, provenance, output, error);
     return meso_output_finish(output, status, error);
 }
 

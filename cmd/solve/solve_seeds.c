@@ -485,6 +485,8 @@ static MesoStatus hash_problem(Seeds *seeds, MesoError *error)
     for (uint32_t r = 0; r < seeds->list.range_count; r++) {
         const MesoSolveOptions solve = options_of(seeds, &seeds->list.ranges[r]);
         const char *options = describe_options(&solve, p->others, &tool->arena, error);
+        if (options && p->surface->over)    /* the same file was another problem before it was given one side */
+            options = meso_arena_print(&tool->arena, error, "%s one-side", options);
         if (!options)
             return MESO_ERR_MEMORY;
         meso_seed_problem(seeds->hashes[r], &tool->provenance, p->surface->quarters, p->surface->graph.slot_count,

@@ -111,10 +111,11 @@ static MesoStatus orient(Orienting *o)
     return status;
 }
 
-static MesoStatus judge(MesoTool *tool, const MesoSurfaceWish *wish, const MesoSolveSurface *surface)
+static MesoStatus judge(MesoTool *tool, const MesoSurfaceWish *wish, const MesoSolveSurface *surface,
+                        const MesoWindCounts *wound)
 {
     MesoSurfaceJudge judge = {.path = wish->path, .mesh = &surface->mesh, .graph = &surface->graph,
-                              .set = wish->set, .strict = wish->strict};
+                              .wound = wound, .set = wish->set, .strict = wish->strict};
     return meso_tool_judge_surface(tool, &judge);
 }
 
@@ -122,6 +123,7 @@ MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, M
 {
     MesoInput input;
     MesoQuadSurface quads;
+    MesoWindCounts wound = {0};
     *surface = (MesoSolveSurface){0};
     MesoStatus status = meso_tool_open_place(tool, &input, wish->path, &MESO_PLACE_SURFACE);
     if (status)
@@ -129,11 +131,14 @@ MesoStatus meso_tool_read_surface(MesoTool *tool, const MesoSurfaceWish *wish, M
     memcpy(surface->hash, input.hash, sizeof surface->hash);
     status = (wish->pairs ? meso_quad_surface_read_pairs : meso_quad_surface_read)(&quads, &tool->arena, &input,
                                                                                    tool->threads, &tool->error);
+    if (!status)
+        status = meso_quad_surface_wind(&quads, &tool->arena, &input, NULL, &surface->over, &wound, tool->threads,
+                                        &tool->error);
     if (!status) {
         surface->file = quads.surface;
         surface->mesh = quads.mesh;
         surface->graph = quads.graph;
-        status = judge(tool, wish, surface);
+        status = judge(tool, wish, surface, &wound);
     }
     if (!status && wish->orient.given) {
         Orienting o = {.tool = tool, .orient = wish->orient.how, .input = &input, .quads = &quads, .surface = surface};

@@ -24,10 +24,11 @@ typedef struct MesoOrientArguments {
 enum { MESO_REPORT_SINGULAR = 1000 };
 
 typedef struct MesoSolveSurface {
-    MesoSurface file;           /* as the file has it, with all attributes */
+    MesoSurface file;           /* as the file has it, with all attributes; wound alike */
     MesoQuadMesh mesh;          /* corners and */
     MesoSlotGraph graph;        /* sides as oriented */
     uint8_t *quarters;          /* [slot_count] see orientation.h; NULL: as in the file */
+    uint8_t *over;              /* [slot_count] see mesh_wind.h; NULL: neighbours agree in the file */
     uint64_t hash[2];           /* of the file */
 } MesoSolveSurface;
 
@@ -43,7 +44,7 @@ typedef struct MesoSurfaceWish {
 } MesoSurfaceWish;
 
 /*
- * Reads a surface, notes it in the provenance, builds its slot graph, judges
+ * Reads a surface, notes it in the provenance, gives it one side, builds its slot graph, judges
  * it and orients it. Where `orient` is given, says in one line what remains of disagreement,
  * and puts it in the report as "orientation".
  */

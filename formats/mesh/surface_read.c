@@ -64,6 +64,26 @@ MesoStatus meso_quad_surface_read_pairs(MesoQuadSurface *surface, MesoArena *are
     return status ? status : meso_quad_surface_make(surface, arena, &quads, input, thread_count, error);
 }
 
+MesoStatus meso_quad_surface_wind(MesoQuadSurface *surface, MesoArena *arena, const MesoInput *input,
+                                  const uint8_t *over, uint8_t **found, MesoWindCounts *counts, uint32_t thread_count,
+                                  MesoError *error)
+{
+    const MesoSurface from = surface->surface;
+    MesoStatus status = MESO_OK;
+    MesoPolygonMesh mesh;
+    *counts = (MesoWindCounts){0};
+    if (!over) {
+        *found = NULL;
+        if (from.edges.reversed_count == 0)
+            return MESO_OK;
+        over = *found = MESO_NEW(arena, uint8_t, from.mesh.face_count, error);
+        status = *found ? meso_mesh_find_windings(*found, &from.mesh, &from.edges, error) : MESO_ERR_MEMORY;
+    }
+    if (!status)
+        status = meso_mesh_wind(&mesh, arena, &from.mesh, &from.edges, over, counts, error);
+    return status ? status : meso_quad_surface_make(surface, arena, &mesh, input, thread_count, error);
+}
+
 MesoStatus meso_triangle_mesh_read(MesoTriangleMesh *mesh, MesoArena *arena, const MesoInput *input,
                                    uint32_t thread_count, MesoError *error)
 {

@@ -12,6 +12,8 @@ typedef struct MesoSlotsFile {
     const char **tile_names;        /* [tile_count] */
     const char *provenance;         /* JSON text; {} of a listing */
     uint8_t *quarters;              /* [slot_count] orientation; NULL: as in the surface's file */
+    uint8_t *over;                  /* [slot_count] 1: the face is turned over before (mesh_wind.h); NULL: the surface is
+                                       taken as its file winds it */
 } MesoSlotsFile;
 
 #endif

@@ -5,8 +5,8 @@
 
 #include "formats/tiling/result/slots_text.h"
 
-/* Files with an orientation have the newer one. */
-enum { MAJOR = 1, MAJOR_ORIENTED = 2, MINOR = 0 };
+/* Files have the oldest that says what they hold. */
+enum { MAJOR = 1, MAJOR_ORIENTED = 2, MAJOR_WOUND = 3, MINOR = 0 };
 
 /* Half-edges count to 4 * slot_count in 32 bits. */
 static const uint64_t most_slots = UINT32_MAX / 4;
@@ -35,8 +35,9 @@ static bool turns_any(const uint8_t *quarters, uint32_t slot_count)
 }
 
 static MesoStatus write_with(const MesoAssignment *assignment, const MesoTileSet *set,
-                             const uint8_t *quarters, const uint64_t hashes[4], const MesoProvenance *provenance,
-                             MesoOutput *output, MesoArena *arena, MesoError *error)
+                             const uint8_t *quarters, const uint8_t *over, const uint64_t hashes[4],
+                             const MesoProvenance *provenance, MesoOutput *output, MesoArena *arena,
+                             MesoError *error)
 {
     size_t names_size;
     const char *text = meso_provenance_text(provenance, arena, error);
@@ -44,7 +45,8 @@ static MesoStatus write_with(const MesoAssignment *assignment, const MesoTileSet
     if (!names)
         return MESO_ERR_MEMORY;
     bool oriented = turns_any(quarters, assignment->slot_count);
-    MesoContainer container = {.kind = "slots", .major = oriented ? MAJOR_ORIENTED : MAJOR, .minor = MINOR};
+    MesoContainer container = {.kind = "slots", .minor = MINOR,
+                               .major = over ? MAJOR_WOUND : oriented ? MAJOR_ORIENTED : MAJOR};
     meso_container_add(&container, "prov", text, strlen(text));
     meso_container_add(&container, "inputs", hashes, 4 * sizeof *hashes);
     meso_container_add(&container, "names", names, names_size);
@@ -52,18 +54,21 @@ static MesoStatus write_with(const MesoAssignment *assignment, const MesoTileSet
     meso_container_add(&container, "xform", assignment->transform, assignment->slot_count);
     if (oriented)
         meso_container_add(&container, "orient", quarters, assignment->slot_count);
+    if (over)
+        meso_container_add(&container, "over", over, assignment->slot_count);
     return meso_container_write(&container, output, error);
 }
 
 MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet *set,
-                            const uint8_t *quarters, const uint64_t tiles_hash[2],
+                            const uint8_t *quarters, const uint8_t *over, const uint64_t tiles_hash[2],
                             const uint64_t surface_hash[2], const MesoProvenance *provenance,
                             MesoOutput *output, MesoError *error)
 {
     uint64_t hashes[4] = {tiles_hash[0], tiles_hash[1], surface_hash[0], surface_hash[1]};
     MesoArena arena;
     meso_arena_init(&arena);
-    MesoStatus status = write_with(assignment, set, quarters, hashes, provenance, output, &arena, error);
+    MesoStatus status = write_with(assignment, set, quarters, over, hashes, provenance, output, &arena,
+                                   error);
     meso_arena_release(&arena);
     return status;
 }
@@ -160,25 +165,33 @@ static MesoStatus read_assignment(MesoSlotsFile *slots, const MesoContainer *con
     return MESO_OK;
 }
 
+/* A number below `count` for each slot, or NULL without the chunk `name`. */
+static MesoStatus read_bytes(uint8_t **bytes, uint8_t count, const char *name, const MesoSlotsFile *slots,
+                             const MesoContainer *container, MesoArena *arena, const char *path, MesoError *error)
+{
+    uint64_t size;
+    uint32_t slot_count = slots->assignment.slot_count;
+    const uint8_t *stored = meso_container_find(container, name, &size);
+    if (!stored)
+        return MESO_OK;
+    if (!meso_container_require(container, path, name, slot_count, 1, error))
+        return MESO_ERR_INPUT;
+    for (uint32_t i = 0; i < slot_count; i++)
+        if (stored[i] >= count)
+            return meso_fail(error, MESO_ERR_INPUT, "%s: slot %u has orientation %u of %u%s", path, i, stored[i], count,
+                             count == 2 ? " sides" : "");
+    *bytes = MESO_NEW(arena, uint8_t, slot_count, error);
+    if (!*bytes)
+        return MESO_ERR_MEMORY;
+    memcpy(*bytes, stored, slot_count);
+    return MESO_OK;
+}
+
 static MesoStatus read_orientation(MesoSlotsFile *slots, const MesoContainer *container,
                                    MesoArena *arena, const char *path, MesoError *error)
 {
-    uint64_t size;
-    uint32_t count = slots->assignment.slot_count;
-    const uint8_t *quarters = meso_container_find(container, "orient", &size);
-    if (!quarters)
-        return MESO_OK;
-    if (!meso_container_require(container, path, "orient", count, 1, error))
-        return MESO_ERR_INPUT;
-    for (uint32_t i = 0; i < count; i++)
-        if (quarters[i] > 3)
-            return meso_fail(error, MESO_ERR_INPUT, "%s: slot %u has orientation %u of 4", path, i,
-                             quarters[i]);
-    slots->quarters = MESO_NEW(arena, uint8_t, count, error);
-    if (!slots->quarters)
-        return MESO_ERR_MEMORY;
-    memcpy(slots->quarters, quarters, count);
-    return MESO_OK;
+    MesoStatus status = read_bytes(&slots->quarters, 4, "orient", slots, container, arena, path, error);
+    return status ? status : read_bytes(&slots->over, 2, "over", slots, container, arena, path, error);
 }
 
 MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInput *input,
@@ -187,7 +200,7 @@ MesoStatus meso_slots_read(MesoSlotsFile *slots, MesoArena *arena, const MesoInp
     MesoContainer container;
     if (!meso_container_recognise(input))
         return meso_slots_text_read(slots, arena, input, error);
-    MesoStatus status = meso_container_read(&container, input, "slots", MAJOR_ORIENTED, error);
+    MesoStatus status = meso_container_read(&container, input, "slots", MAJOR_WOUND, error);
     if (status)
         return status;
 

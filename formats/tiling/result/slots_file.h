@@ -1,5 +1,5 @@
 /*
- * Assignment files (.slots), version 1.0, or 2.0 where there is a chunk `orient`,
+ * Assignment files (.slots), version 1.0; 2.0 where there is a chunk `orient`, 3.0 where there is one `over`,
  * without which the rest means something else: a reader that does not know it
  * must refuse the file. Chunks:
  *
@@ -10,6 +10,9 @@
  *     xform     u8[slot_count] MesoTransform, relative to the slot's orientation
  *     orient    u8[slot_count] 0..3: corner of the face in the surface's file that is the
  *               slot's corner 0 (see orientation.h); without the chunk always the first
+ *     over      u8[slot_count] 1 where the face is turned over about its first corner, before `orient` counts;
+ *               edges whose faces still disagree are cut (mesh_wind.h). Without the chunk the surface is
+ *               taken as its file winds it
  */
 #ifndef MESO_SLOTS_FILE_H
 #define MESO_SLOTS_FILE_H
@@ -18,9 +21,9 @@
 #include "formats/product/provenance.h"
 #include "formats/tiling/result/slots_content.h"
 
-/* `quarters` [slot_count] is the orientation; NULL, or all 0: as in the surface's file. */
+/* `quarters` [slot_count] is the orientation; NULL, or all 0: as in the surface's file. `over` as in MesoSlotsFile. */
 MesoStatus meso_slots_write(const MesoAssignment *assignment, const MesoTileSet *set,
-                            const uint8_t *quarters, const uint64_t tiles_hash[2],
+                            const uint8_t *quarters, const uint8_t *over, const uint64_t tiles_hash[2],
                             const uint64_t surface_hash[2], const MesoProvenance *provenance,
                             MesoOutput *output, MesoError *error);
 

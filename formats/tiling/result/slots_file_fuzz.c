@@ -15,8 +15,8 @@ static MesoStatus write_example(MesoOutput *output, MesoError *error)
     MesoTransform transforms[3] = {0, 1, 3};
     MesoAssignment assignment = {3, tiles, transforms};
     MesoProvenance provenance = model_fixture_provenance();
-    static const uint8_t quarters[3] = {1, 0, 3};
-    return meso_slots_write(&assignment, &set, quarters, hash, hash, &provenance, output, error);
+    static const uint8_t quarters[3] = {1, 0, 3}, over[3] = {0, 1, 0};
+    return meso_slots_write(&assignment, &set, quarters, over, hash, hash, &provenance, output, error);
 }
 
 static void check_range(const MesoSlotsFile *slots)
@@ -24,7 +24,8 @@ static void check_range(const MesoSlotsFile *slots)
     const MesoAssignment *a = &slots->assignment;
     for (uint32_t i = 0; i < a->slot_count; i++)
         if (a->tile[i] >= slots->tile_count || a->transform[i] >= MESO_TRANSFORM_COUNT ||
-            !slots->tile_names[a->tile[i]][0] || (slots->quarters && slots->quarters[i] > 3))
+            !slots->tile_names[a->tile[i]][0] || (slots->quarters && slots->quarters[i] > 3) ||
+            (slots->over && slots->over[i] > 1))
             abort();
 }
 

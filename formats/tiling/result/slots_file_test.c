@@ -10,7 +10,7 @@ static TestFolder folder;
 static const uint64_t tiles_hash[2] = {1, 2}, surface_hash[2] = {3, UINT64_MAX};
 static uint32_t tiles[5] = {0, 2, 1, 2, 0};
 static MesoTransform transforms[5] = {0, 7, 3, 1, 0};
-static const uint8_t quarters[5] = {0, 3, 0, 2, 1};
+static const uint8_t quarters[5] = {0, 3, 0, 2, 1}, over[5] = {0, 0, 1, 1, 0};
 
 static MesoTileSet make_set(const char *a, const char *b, const char *c)
 {
@@ -22,7 +22,7 @@ static MesoTileSet make_set(const char *a, const char *b, const char *c)
     return set;
 }
 
-static void write_oriented(const char *path, const uint8_t *turned)
+static void write_oriented(const char *path, const uint8_t *turned, const uint8_t *turned_over)
 {
     MesoTileSet set = make_set("zero", "one", "two");
     MesoAssignment assignment = {5, tiles, transforms};
@@ -30,14 +30,14 @@ static void write_oriented(const char *path, const uint8_t *turned)
     MesoOutput *output;
     MesoError error;
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    CHECK(meso_slots_write(&assignment, &set, turned, tiles_hash, surface_hash, &provenance,
+    CHECK(meso_slots_write(&assignment, &set, turned, turned_over, tiles_hash, surface_hash, &provenance,
                            output, &error) == MESO_OK);
     CHECK(meso_output_commit(output, &error) == MESO_OK);
 }
 
 static void write_file(const char *path)
 {
-    write_oriented(path, quarters);
+    write_oriented(path, quarters, over);
 }
 
 static void test_round_trip(void)
@@ -53,7 +53,7 @@ static void test_round_trip(void)
     CHECK(slots.assignment.slot_count == 5);
     CHECK(memcmp(slots.assignment.tile, tiles, sizeof tiles) == 0);
     CHECK(memcmp(slots.assignment.transform, transforms, sizeof transforms) == 0);
-    CHECK(memcmp(slots.quarters, quarters, sizeof quarters) == 0);
+    CHECK(memcmp(slots.quarters, quarters, sizeof quarters) == 0 && memcmp(slots.over, over, sizeof over) == 0);
     CHECK(memcmp(slots.tiles_hash, tiles_hash, 16) == 0);
     CHECK(memcmp(slots.surface_hash, surface_hash, 16) == 0);
     CHECK(slots.tile_count == 3 && strcmp(slots.tile_names[1], "one") == 0);
@@ -70,22 +70,24 @@ static void test_round_trip(void)
     CHECK(memcmp(slots.assignment.tile, bound, sizeof bound) == 0);
 }
 
-/* Without an orientation, or with the file's own, a file is of the first version. */
+/* Without an orientation, or with the file's own, a file is of the first version; with faces turned over, though it be
+ * none, of the third. */
 static void test_versions(void)
 {
     const uint8_t none[5] = {0};
-    const uint8_t *const given[3] = {NULL, none, quarters};
-    for (int i = 0; i < 3; i++) {
+    const uint8_t *const given[5] = {NULL, none, quarters, NULL, quarters};
+    const uint8_t *const sides[5] = {NULL, NULL, NULL, none, over};
+    for (int i = 0; i < 5; i++) {
         MesoInput input;
         MesoError error;
         MesoContainer container;
         MesoSlotsFile slots;
-        write_oriented(test_path(&folder, "v.slots"), given[i]);
+        write_oriented(test_path(&folder, "v.slots"), given[i], sides[i]);
         CHECK(meso_input_open(&input, test_path(&folder, "v.slots"), &error) == MESO_OK);
-        CHECK(meso_container_read(&container, &input, "slots", 2, &error) == MESO_OK);
-        CHECK(container.major == (i < 2 ? 1 : 2));
+        CHECK(meso_container_read(&container, &input, "slots", 3, &error) == MESO_OK);
+        CHECK(container.major == (i < 2 ? 1 : i < 3 ? 2 : 3));
         CHECK(meso_slots_read(&slots, &arena, &input, &error) == MESO_OK);
-        CHECK((slots.quarters != NULL) == (i == 2));
+        CHECK((slots.quarters != NULL) == (i == 2 || i == 4) && (slots.over != NULL) == (i > 2));
         meso_input_close(&input);
     }
 }
@@ -102,7 +104,7 @@ static void test_unused_name(void)
     MesoError error;
     MesoSlotsFile slots;
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    CHECK(meso_slots_write(&assignment, &set, NULL, tiles_hash, surface_hash, &provenance,
+    CHECK(meso_slots_write(&assignment, &set, NULL, NULL, tiles_hash, surface_hash, &provenance,
                            output, &error) == MESO_OK);
     CHECK(meso_output_commit(output, &error) == MESO_OK);
     CHECK(meso_input_open(&input, path, &error) == MESO_OK);
@@ -121,7 +123,7 @@ static MesoStatus read_quietly(const MesoInput *input, MesoError *error)
     return status;
 }
 
-static const ContainerFixture fixture = {&folder, "a.slots", "slots", 2, read_quietly};
+static const ContainerFixture fixture = {&folder, "a.slots", "slots", 3, read_quietly};
 
 static void expect(const char *chunk, const void *data, uint64_t size, const char *message)
 {
@@ -150,6 +152,8 @@ static void test_wrong_chunks(void)
     expect("xform", turned, 5, "file: slot 2 has transform 8 of 8");
     expect("orient", quarters, 4, "file: chunk 'orient' has 4 bytes, not 5 times 1");
     expect("orient", turned, 5, "file: slot 2 has orientation 8 of 4");
+    expect("over", over, 4, "file: chunk 'over' has 4 bytes, not 5 times 1");
+    expect("over", turned, 5, "file: slot 2 has orientation 8 of 2 sides");
     expect("xform", turned, 0, "file: chunk 'xform' has no possible number of slots");
 }
 

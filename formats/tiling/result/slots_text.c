@@ -13,12 +13,12 @@
 #include "libcore/base/names.h"
 
 enum { VERSION = 1 };
-enum { SLOT, TILE, TURN, FLIP, CORNER, COLUMN_COUNT };
+enum { SLOT, TILE, TURN, FLIP, CORNER, OVER, COLUMN_COUNT };
 
-static const char *const columns[COLUMN_COUNT] = {"slot", "tile", "turn", "flip", "corner"};
+static const char *const columns[COLUMN_COUNT] = {"slot", "tile", "turn", "flip", "corner", "over"};
 
 /* The most that a number of each column can be, of slots the last. */
-static const uint32_t most[COLUMN_COUNT] = {UINT32_MAX / 4 - 1, 0, 3, 1, 3};
+static const uint32_t most[COLUMN_COUNT] = {UINT32_MAX / 4 - 1, 0, 3, 1, 3, 1};
 
 /* ---- writing ---- */
 
@@ -47,14 +47,18 @@ static MesoStatus write_name(MesoOutput *output, const char *name, MesoError *er
 MesoStatus meso_slots_write_csv(const MesoSlotsFile *slots, MesoOutput *output, MesoError *error)
 {
     const MesoAssignment *a = &slots->assignment;
-    MesoStatus status = write_text(output, slots->quarters ? "slot,tile,turn,flip,corner\n" : "slot,tile,turn,flip\n",
-                                   error);
+    char header[40];
+    snprintf(header, sizeof header, "slot,tile,turn,flip%s%s\n", slots->quarters ? ",corner" : "",
+             slots->over ? ",over" : "");
+    MesoStatus status = write_text(output, header, error);
     for (uint32_t s = 0; s < a->slot_count && !status; s++) {
         char number[16], rest[16];
         snprintf(number, sizeof number, "%" PRIu32 ",", s);
         int used = snprintf(rest, sizeof rest, ",%u,%u", a->transform[s] & 3u, a->transform[s] >> 2);
         if (slots->quarters)
             used += snprintf(rest + used, sizeof rest - (size_t)used, ",%u", slots->quarters[s]);
+        if (slots->over)
+            used += snprintf(rest + used, sizeof rest - (size_t)used, ",%u", slots->over[s]);
         snprintf(rest + used, sizeof rest - (size_t)used, "\n");
         status = write_text(output, number, error);
         if (!status)
@@ -75,6 +79,8 @@ static json_t *slot_json(const MesoSlotsFile *slots, uint32_t s)
     failed |= json_object_set_new(object, "flip", json_boolean(a->transform[s] >> 2));
     if (slots->quarters)
         failed |= json_object_set_new(object, "corner", json_integer(slots->quarters[s]));
+    if (slots->over)
+        failed |= json_object_set_new(object, "over", json_boolean(slots->over[s]));
     if (!failed)
         return object;
     json_decref(object);
@@ -112,8 +118,9 @@ typedef struct Reader {
     MesoArena *arena;
     MesoNames names;
     uint32_t name_room;
-    uint8_t *quarters;          /* [slot_count] */
-    bool oriented;              /* one of them is not 0 */
+    uint8_t *quarters, *over;   /* [slot_count] */
+    bool oriented;              /* one of the quarters is not 0 */
+    bool wound;                 /* the listing says which faces are turned over, if only that none is */
     const char *path;
     MesoError *error;
 } Reader;
@@ -126,9 +133,10 @@ static MesoStatus make_room(Reader *reader, uint32_t count)
     a->tile = MESO_NEW(reader->arena, uint32_t, count, reader->error);
     a->transform = a->tile ? MESO_NEW(reader->arena, MesoTransform, count, reader->error) : NULL;
     reader->quarters = a->transform ? MESO_NEW(reader->arena, uint8_t, count, reader->error) : NULL;
-    for (uint32_t s = 0; reader->quarters && s < count; s++)
+    reader->over = reader->quarters ? MESO_NEW(reader->arena, uint8_t, count, reader->error) : NULL;
+    for (uint32_t s = 0; reader->over && s < count; s++)
         a->tile[s] = MESO_NO_INDEX;
-    return reader->quarters ? MESO_OK : MESO_ERR_MEMORY;
+    return reader->over ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* Number of the tile with this name, which may be new; MESO_NO_INDEX where memory is out. `name` outlives the
@@ -169,6 +177,7 @@ static MesoStatus put_slot(Reader *reader, const char *name, const uint32_t valu
     a->tile[slot] = tile;
     a->transform[slot] = (MesoTransform)(values[TURN] + 4 * values[FLIP]);
     reader->quarters[slot] = (uint8_t)values[CORNER];
+    reader->over[slot] = (uint8_t)values[OVER];
     reader->oriented |= values[CORNER] != 0;
     return MESO_OK;
 }
@@ -275,10 +284,10 @@ static MesoStatus fail_kind(const Reader *reader)
 {
     return meso_fail(reader->error, MESO_ERR_INPUT,
                      "%s: neither an assignment nor a listing of slots, whose first line "
-                     "names its columns: slot,tile and perhaps turn,flip,corner", reader->path);
+                     "names its columns: slot,tile and perhaps turn,flip,corner,over", reader->path);
 }
 
-static MesoStatus read_header(const Reader *reader, const Line *line, Header *header)
+static MesoStatus read_header(Reader *reader, const Line *line, Header *header)
 {
     bool given[COLUMN_COUNT] = {false};
     char *fields[COLUMN_COUNT];
@@ -292,6 +301,7 @@ static MesoStatus read_header(const Reader *reader, const Line *line, Header *he
     uint32_t sum = 0;
     for (uint32_t c = 0; c < COLUMN_COUNT; c++)
         sum += given[c];
+    reader->wound = given[OVER];
     if (header->count && sum == header->count && given[SLOT] && given[TILE])
         return MESO_OK;
     return fail_kind(reader);
@@ -394,17 +404,18 @@ static uint32_t read_number(const MesoJsonField *object, int column, uint32_t hi
     MesoJsonField field = meso_json_key(object, columns[column]);
     if (column == SLOT)
         meso_json_require(&field);
-    return column == FLIP ? meso_json_bool(&field, false) : (uint32_t)meso_json_whole(&field, 0, high, 0);
+    return column == FLIP || column == OVER ? meso_json_bool(&field, false) : (uint32_t)meso_json_whole(&field, 0, high, 0);
 }
 
 static void read_item(Reader *reader, const MesoJsonField *item)
 {
-    static const char *const keys[] = {"slot", "tile", "turn", "flip", "corner", NULL};
+    static const char *const keys[] = {"slot", "tile", "turn", "flip", "corner", "over", NULL};
     const MesoAssignment *a = &reader->slots->assignment;
     uint32_t values[COLUMN_COUNT] = {0};
     if (!meso_json_object(item, keys))
         return;
-    MesoJsonField tile = meso_json_key(item, "tile");
+    MesoJsonField tile = meso_json_key(item, "tile"), over = meso_json_key(item, "over");
+    reader->wound |= over.value != NULL;
     const char *name = meso_json_text(&tile);
     for (int c = 0; c < COLUMN_COUNT; c++)
         if (c != TILE)
@@ -473,5 +484,6 @@ MesoStatus meso_slots_text_read(MesoSlotsFile *slots, MesoArena *arena, const Me
     *slots = (MesoSlotsFile){.anonymous = true, .provenance = "{}"};
     MesoStatus status = begins_json(input) ? read_json(&reader, input) : read_csv(&reader, input);
     slots->quarters = reader.oriented ? reader.quarters : NULL;
+    slots->over = reader.wound ? reader.over : NULL;
     return status;
 }

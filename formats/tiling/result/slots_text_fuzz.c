@@ -11,7 +11,8 @@ static void check_range(const MesoSlotsFile *slots)
     const MesoAssignment *a = &slots->assignment;
     for (uint32_t s = 0; s < a->slot_count; s++)
         if (a->tile[s] >= slots->tile_count || a->transform[s] >= MESO_TRANSFORM_COUNT ||
-            !slots->tile_names[a->tile[s]][0] || (slots->quarters && slots->quarters[s] > 3))
+            !slots->tile_names[a->tile[s]][0] || (slots->quarters && slots->quarters[s] > 3) ||
+            (slots->over && slots->over[s] > 1))
             abort();
 }
 
@@ -19,7 +20,7 @@ static void check_same(const MesoSlotsFile *slots, const MesoSlotsFile *again)
 {
     const MesoAssignment *a = &slots->assignment, *b = &again->assignment;
     if (a->slot_count != b->slot_count || memcmp(a->transform, b->transform, a->slot_count) != 0 ||
-        !slots->quarters != !again->quarters)
+        !slots->quarters != !again->quarters || !slots->over != !again->over)
         abort();
     for (uint32_t s = 0; s < a->slot_count; s++)
         if (strlen(slots->tile_names[a->tile[s]]) != strlen(again->tile_names[b->tile[s]]))

@@ -28,11 +28,12 @@ static void expect(const char *text, const char *message)
 
 static void check_same(const MesoSlotsFile *a, const MesoSlotsFile *b)
 {
-    CHECK(a->assignment.slot_count == b->assignment.slot_count && !a->quarters == !b->quarters);
+    CHECK(a->assignment.slot_count == b->assignment.slot_count && !a->quarters == !b->quarters && !a->over == !b->over);
     for (uint32_t s = 0; s < a->assignment.slot_count; s++) {
         CHECK(strcmp(a->tile_names[a->assignment.tile[s]], b->tile_names[b->assignment.tile[s]]) == 0);
         CHECK(a->assignment.transform[s] == b->assignment.transform[s]);
         CHECK(!a->quarters || a->quarters[s] == b->quarters[s]);
+        CHECK(!a->over || a->over[s] == b->over[s]);
     }
 }
 
@@ -57,11 +58,12 @@ static void test_round_trip(void)
     static const char *names[5] = {"plain", "a, b", "\"", " blanks ", "say \"\"x\""};
     static uint32_t tiles[8] = {0, 1, 2, 3, 4, 1, 0, 2};
     static MesoTransform transforms[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    static uint8_t quarters[8] = {0, 3, 1, 2, 0, 0, 0, 1};
+    static uint8_t quarters[8] = {0, 3, 1, 2, 0, 0, 0, 1}, over[8] = {0, 0, 0, 1, 1};
     MesoSlotsFile slots = {.assignment = {8, tiles, transforms}, .tile_count = 5, .tile_names = names,
                            .tiles_hash = {1, UINT64_MAX}, .surface_hash = {UINT64_MAX - 1, 2}, .provenance = "{}"}, back;
-    for (int oriented = 0; oriented < 2; oriented++) {
-        slots.quarters = oriented ? quarters : NULL;
+    for (int oriented = 0; oriented < 4; oriented++) {
+        slots.quarters = oriented & 1 ? quarters : NULL;
+        slots.over = oriented & 2 ? over : NULL;
         for (int csv = 0; csv < 2; csv++) {
             read_back(&back, &slots, csv);
             check_same(&slots, &back);
@@ -96,7 +98,7 @@ static void test_forms(void)
 static void test_wrong_csv(void)
 {
     static const char kind[] = "file: neither an assignment nor a listing of slots, whose first line names its columns: "
-                               "slot,tile and perhaps turn,flip,corner";
+                               "slot,tile and perhaps turn,flip,corner,over";
     expect("", kind);
     expect("\n\n", kind);
     expect("slot,turn\n0,0\n", kind);
