@@ -10,6 +10,7 @@
 #include "cmd/common/scene_output.h"
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
+#include "cmd/map/map_shell.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/surface_read.h"
 #include "formats/model/model_file.h"
@@ -45,6 +46,7 @@ typedef struct MapArguments {
     struct {
         bool thickness, offset, section_scale, tangent_scale, divisions, section_step;
     } given;
+    MesoMapShell shell;
     const char *mesh_path;
     bool strict;
     bool pairs;                 /* --quads-from-triangles */
@@ -55,10 +57,13 @@ typedef struct MapArguments {
 /* The mapping options, in `options` and in `given`. */
 #define MAPPING_ROW(name) {offsetof(MesoMapOptions, name), sizeof((MesoMapOptions){0}.name), \
                            offsetof(MapArguments, given.name)}
+#define SHELL_ROW(name) {offsetof(MesoMapOptions, name), sizeof((MesoMapOptions){0}.name), \
+                         offsetof(MapArguments, shell.given.name)}
 static const struct {
     size_t offset, size, given;
 } MAPPING[] = {MAPPING_ROW(thickness), MAPPING_ROW(offset), MAPPING_ROW(section_scale), MAPPING_ROW(tangent_scale),
-               MAPPING_ROW(divisions), MAPPING_ROW(section_step)};
+               MAPPING_ROW(divisions), MAPPING_ROW(section_step), SHELL_ROW(normals), SHELL_ROW(side),
+               SHELL_ROW(limit_folds)};
 enum { MAPPING_COUNT = sizeof MAPPING / sizeof *MAPPING };
 
 static const bool *is_given(const MapArguments *a, uint32_t option)
@@ -74,6 +79,9 @@ static bool names_quilt(const char *path)
 
 static MesoStatus check_operands(const MapArguments *a, MesoError *error)
 {
+    if ((a->shell.thickness_by || a->shell.offset_by) && a->tool.operand_count < 3)
+        return meso_fail(error, MESO_ERR_USAGE, "--thickness-by and --offset-by are for SURFACE, whose attributes a "
+                         "model does not have");
     if (a->tool.operand_count == 2 && !names_quilt(a->tool.operands[0]))
         return meso_fail(error, MESO_ERR_USAGE,
                          "2 operands: give TILES SURFACE SLOTS, MODEL alone, or QUILT SURFACE with a name in .quilt");
@@ -97,6 +105,8 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
     a->given.tangent_scale &= a->options.tangent_scale != DEFAULTS.tangent_scale;
     a->given.section_step &= a->options.section_step != DEFAULTS.section_step;
     a->given.divisions &= a->options.divisions != DEFAULTS.divisions;
+    a->shell.given.normals &= a->options.normals != DEFAULTS.normals;
+    a->shell.given.side &= a->options.side != DEFAULTS.side;
     a->tool.provenance.command_line = meso_tool_command(&a->tool, NULL, &a->tool.arena, error);
     return a->tool.provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
 }
@@ -223,6 +233,8 @@ static MesoStatus bind_slots(MapArguments *a, MesoModel *model, MesoQuadSurface 
         return error->status;
     model->surface = surface->mesh;
     model->graph = surface->graph;
+    if (meso_map_shell_heights(tool, &a->shell, &surface->surface.mesh, inputs->surface.path, model))
+        return error->status;
     if (meso_slots_bind(slots, &model->tile_set, error))
         return meso_fail_prefix(error, inputs->slots.path);
     if (turn_surface(tool, model, slots->quarters, error))
@@ -373,11 +385,14 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
     MesoStatus status = meso_tool_choose_scene_kind(&a->tool, &a->output);
     if (!status)
         status = check_operands(a, error);
+    meso_map_shell_set(&a->shell, &a->options);
     if (!status)
         status = forget_defaults(a, error);
     if (!status)
         status = (a->tool.operand_count == 1 ? read_model : a->tool.operand_count == 2 ? read_quilt : make_model)(
             a, inputs, &mapped, error);
+    if (!status && mapped.tiling)
+        status = meso_map_shell_judge(&a->tool, mapped.tiling);
     return status ? status : write_product(a, &mapped);
 }
 
@@ -405,6 +420,7 @@ int main(int argc, char **argv)
         MESO_NUMBER(0, "section-step", "X", "sampling step of drawings in edge lengths (default 0.02)",
                     &a.options.section_step, 1e-4, 1, .given = &a.given.section_step,
                     .more = MESO_OPTION_OVERRIDES),
+        MESO_MAP_SHELL_OPTIONS(a.shell),
         MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
                     &a.mesh_path, .more = MESO_OPTION_OUTWARD),
         MESO_STRICT_OPTION(a.strict),

@@ -16,16 +16,20 @@ typedef struct ContainerFixture {
 static inline void container_fixture_change(MesoContainer *container, const char *chunk, const void *data,
                                             uint64_t size)
 {
+    bool found = false;
     for (uint32_t i = 0; i < container->chunk_count; i++)
         if (strcmp(container->chunks[i].name, chunk) == 0) {
+            found = true;
             if (size == UINT64_MAX)
                 container->chunks[i] = (MesoChunk){.name = "other"};
             container->chunks[i].data = data;
             container->chunks[i].size = size == UINT64_MAX ? 0 : size;
         }
+    if (!found)
+        meso_container_add(container, chunk, data, size);
 }
 
-/* Writes the file with one chunk replaced (renamed where `size` is UINT64_MAX), and reads it as 'file'. */
+/* Writes the file with one chunk replaced (renamed where `size` is UINT64_MAX) or added, and reads it as 'file'. */
 static inline void container_fixture_expect(const ContainerFixture *fixture, const char *chunk, const void *data,
                                             uint64_t size, const char *message)
 {

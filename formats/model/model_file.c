@@ -77,12 +77,17 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
     const uint64_t faces = surface->face_count, vector = sizeof(MesoVec3), index = sizeof(uint32_t);
     StoredOptions options = store_options(model);
 
-    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, .minor = mapping ? MINOR_MAPPING : MINOR};
+    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, 
+                          .minor = mapping || model->factors || model->lifts ? MINOR_MAPPING : MINOR};
     meso_container_add(&file, "prov", provenance, strlen(provenance));
     meso_container_add(&file, "tiles", tiles, strlen(tiles));
     meso_container_add(&file, "options", &options, sizeof options);
     if (mapping)
         meso_container_add(&file, "mapping", mapping, strlen(mapping));
+    if (model->factors)
+        meso_container_add(&file, "factor", model->factors, surface->vertex_count * sizeof(float));
+    if (model->lifts)
+        meso_container_add(&file, "lift", model->lifts, surface->vertex_count * sizeof(float));
     meso_container_add(&file, "position", surface->positions, surface->vertex_count * vector);
     meso_container_add(&file, "normal", surface->normals, surface->normal_count * vector);
     meso_container_add(&file, "face", surface->face_vertices, 4 * faces * index);
@@ -224,6 +229,34 @@ static MesoStatus read_surface(const Reading *in, MesoError *error)
     return MESO_OK;
 }
 
+/* A number for each vertex of the surface, or NULL without the chunk. */
+static MesoStatus read_numbers(const Reading *in, const char *name, float low, float high, float **numbers,
+                               MesoError *error)
+{
+    uint64_t size;
+    uint32_t count = in->model->surface.vertex_count;
+    const float *stored = meso_container_find(in->file, name, &size);
+    if (!stored)
+        return MESO_OK;
+    if (!meso_container_require(in->file, in->path, name, count, sizeof *stored, error))
+        return MESO_ERR_INPUT;
+    *numbers = MESO_NEW(in->arena, float, count, error);
+    if (!*numbers)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < count; v++) {
+        if (!(stored[v] >= low && stored[v] <= high))
+            return meso_fail(error, MESO_ERR_INPUT, "%s: chunk '%s': vertex %u is out of range", in->path, name, v);
+        (*numbers)[v] = stored[v];
+    }
+    return MESO_OK;
+}
+
+static MesoStatus read_heights(const Reading *in, MesoError *error)
+{
+    MesoStatus status = read_numbers(in, "factor", MESO_FACTOR_LEAST, MESO_FACTOR_MOST, &in->model->factors, error);
+    return status ? status : read_numbers(in, "lift", -MESO_LIFT_MOST, MESO_LIFT_MOST, &in->model->lifts, error);
+}
+
 static MesoStatus read_assignment(const Reading *in, MesoError *error)
 {
     MesoModel *model = in->model;
@@ -351,6 +384,8 @@ MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContain
         status = read_mapping(&in, error);
     if (!status)
         status = read_surface(&in, error);
+    if (!status)
+        status = read_heights(&in, error);
     if (!status)
         status = read_assignment(&in, error);
     if (!status)

@@ -121,6 +121,16 @@ static void test_options(void)
     expect("options", &cases[0].stored, 20, "file: chunk 'options' has 20 bytes, not 1 times 24");
 }
 
+/* Numbers of the six vertices. */
+static void test_heights(void)
+{
+    const float factors[6] = {1, 1, 0.5f, 0, 1, 1}, lifts[6] = {0, 0, -1e30f}, none[6] = {0, 0, NAN};
+    expect("factor", factors, 20, "file: chunk 'factor' has 20 bytes, not 6 times 4");
+    expect("factor", factors, 24, "file: chunk 'factor': vertex 3 is out of range");
+    expect("lift", lifts, 24, "file: chunk 'lift': vertex 2 is out of range");
+    expect("lift", none, 24, "file: chunk 'lift': vertex 2 is out of range");
+}
+
 static void test_surface(void)
 {
     const float far[18] = {[7] = INFINITY};
@@ -165,6 +175,7 @@ int main(void)
     test_round_trip();
     test_missing_chunks();
     test_options();
+    test_heights();
     test_surface();
     test_tiles_and_inner();
     container_fixture_damage(&fixture);

@@ -5,17 +5,35 @@
 MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
                           float offset, float thickness)
 {
-    return (MesoShell){mesh, graph, offset, offset + 0.5f * thickness};
+    return (MesoShell){.mesh = mesh, .graph = graph, .normals = mesh->normals, .face_normals = mesh->face_normals,
+                       .bottom = offset, .top = offset + 0.5f * thickness};
+}
+
+static uint32_t corner_vertex(const MesoShell *shell, uint32_t slot, uint32_t corner)
+{
+    return shell->mesh->face_vertices[4 * (size_t)slot + (corner & 3)];
 }
 
 static MesoVec3 corner_position(const MesoShell *shell, uint32_t slot, uint32_t corner)
 {
-    return shell->mesh->positions[shell->mesh->face_vertices[4 * (size_t)slot + (corner & 3)]];
+    return shell->mesh->positions[corner_vertex(shell, slot, corner)];
 }
 
 static MesoVec3 corner_normal(const MesoShell *shell, uint32_t slot, uint32_t corner)
 {
-    return shell->mesh->normals[shell->mesh->face_normals[4 * (size_t)slot + (corner & 3)]];
+    return shell->normals[shell->face_normals[4 * (size_t)slot + (corner & 3)]];
+}
+
+static float level_of(const MesoShell *shell, uint32_t vertex, bool top)
+{
+    return shell->levels ? shell->levels[2 * (size_t)vertex + top] : top ? shell->top : shell->bottom;
+}
+
+MesoVec3 meso_shell_corner(const MesoShell *shell, uint32_t slot, uint32_t corner, bool top)
+{
+    return meso_vec3_mad(corner_position(shell, slot, corner),
+                         level_of(shell, corner_vertex(shell, slot, corner), top),
+                         corner_normal(shell, slot, corner));
 }
 
 /* Equal normals stay the very same floats; opposite ones have no mean, and a face keeps its own. */
@@ -30,6 +48,7 @@ static MesoVec3 mean_normal(MesoVec3 a, MesoVec3 b)
 typedef struct Edge {
     MesoVec3 a, b;      /* positions */
     MesoVec3 na, nb;    /* normals, of both faces */
+    uint32_t va, vb;    /* vertices */
     bool reversed;      /* the asking side runs from b to a */
 } Edge;
 
@@ -37,7 +56,8 @@ static Edge find_edge(const MesoShell *shell, uint32_t slot, uint32_t side)
 {
     uint32_t half = 4 * slot + side, twin = shell->graph->twin[half];
     Edge e = {corner_position(shell, slot, side), corner_position(shell, slot, side + 1),
-              corner_normal(shell, slot, side), corner_normal(shell, slot, side + 1), false};
+              corner_normal(shell, slot, side), corner_normal(shell, slot, side + 1),
+              corner_vertex(shell, slot, side), corner_vertex(shell, slot, side + 1), false};
     if (twin == MESO_NO_INDEX)
         return e;
 
@@ -49,7 +69,7 @@ static Edge find_edge(const MesoShell *shell, uint32_t slot, uint32_t side)
     e.na = mean_normal(e.na, corner_normal(shell, other, other_side + 1));
     e.nb = mean_normal(e.nb, corner_normal(shell, other, other_side));
     if (twin < half)
-        e = (Edge){e.b, e.a, e.nb, e.na, true};
+        e = (Edge){e.b, e.a, e.nb, e.na, e.vb, e.va, true};
     return e;
 }
 
@@ -58,8 +78,10 @@ MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t 
 {
     assert(side < 4);
     Edge e = find_edge(shell, slot, side);
-    MesoVec3 a0 = meso_vec3_mad(e.a, shell->bottom, e.na), b0 = meso_vec3_mad(e.b, shell->bottom, e.nb);
-    MesoVec3 a1 = meso_vec3_mad(e.a, shell->top, e.na), b1 = meso_vec3_mad(e.b, shell->top, e.nb);
+    MesoVec3 a0 = meso_vec3_mad(e.a, level_of(shell, e.va, false), e.na);
+    MesoVec3 b0 = meso_vec3_mad(e.b, level_of(shell, e.vb, false), e.nb);
+    MesoVec3 a1 = meso_vec3_mad(e.a, level_of(shell, e.va, true), e.na);
+    MesoVec3 b1 = meso_vec3_mad(e.b, level_of(shell, e.vb, true), e.nb);
 
     /* Seen along the edge that speaks, the other side's drawing is mirrored, and so is its flip. */
     float x = flipped != e.reversed ? 1 - center.x : center.x;
@@ -108,6 +130,14 @@ MesoCage meso_shell_cage(const MesoShell *shell, uint32_t slot)
         cage.base[i] = corner_position(shell, slot, i);
         cage.rise[i] = corner_normal(shell, slot, i);
     }
+    if (!shell->levels)
+        return cage;
+    for (uint32_t i = 0; i < 4; i++) {
+        cage.base[i] = meso_shell_corner(shell, slot, i, false);
+        cage.rise[i] = meso_vec3_sub(meso_shell_corner(shell, slot, i, true), cage.base[i]);
+    }
+    cage.low = 0;
+    cage.high = 1;
     return cage;
 }
 

@@ -14,10 +14,13 @@
 typedef struct MesoShell {
     const MesoQuadMesh *mesh;
     const MesoSlotGraph *graph;
-    float bottom, top;      /* heights of the two surfaces along the normals */
+    const MesoVec3 *normals;        /* of unit length */
+    const uint32_t *face_normals;   /* [4 * face_count] into normals: along which the corners rise */
+    float bottom, top;              /* heights of the two surfaces along the normals; */
+    const float *levels;            /* [2 * vertex_count] those of each vertex instead, or NULL */
 } MesoShell;
 
-/* From `offset` along the normals to half the thickness above it. */
+/* From `offset` along the mesh's normals to half the thickness above it. What else there is: shell_form.h. */
 MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
                           float offset, float thickness);
 
@@ -56,6 +59,9 @@ uint32_t meso_shell_without_walls(const MesoShell *shell, uint32_t *slots, uint3
 MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, bool bottom,
                                MesoTransform transform, MesoVec2 center, bool flipped,
                                MesoPort *port, MesoError *error);
+
+/* Where a corner of the surface is lifted to, the bottom or the top. */
+MesoVec3 meso_shell_corner(const MesoShell *shell, uint32_t slot, uint32_t corner, bool top);
 
 /* The slot's hexahedron: the unit square's corners as in tile_set.h, from the bottom to the top. */
 MesoCage meso_shell_cage(const MesoShell *shell, uint32_t slot);

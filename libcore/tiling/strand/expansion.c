@@ -354,8 +354,9 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
     if (status)
         return status;
 
-    b->shell = meso_shell_make(&b->model->surface, &b->model->graph, b->options.offset, b->options.thickness);
-    status = keep_used_kinds(b, &profiles, arena, error);
+    status = meso_model_shell(&b->shell, scratch, b->model, error);
+    if (!status)
+        status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)
         status = make_instances(b, thread_count, error);
     if (!status)

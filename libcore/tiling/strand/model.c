@@ -29,6 +29,8 @@ const char *meso_map_options_problem(const MesoMapOptions *options)
         return "number of divisions";
     if (options->frame > MESO_FRAME_MINIMAL)
         return "frame";
+    if (options->normals > MESO_NORMALS_FLAT || options->side > MESO_SHELL_INSIDE || options->limit_folds > 1)
+        return "form of the shell";
     return NULL;
 }
 
@@ -45,4 +47,12 @@ MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_
     if (options.divisions < 2)
         options.divisions = 2;
     return options;
+}
+
+MesoStatus meso_model_shell(MesoShell *shell, MesoArena *arena, const MesoModel *model, MesoError *error)
+{
+    MesoMapOptions o = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    const MesoShellForm form = {.offset = o.offset, .thickness = o.thickness, .normals = o.normals, .side = o.side,
+                                .factors = model->factors, .lifts = model->lifts, .limit_folds = o.limit_folds};
+    return meso_shell_build(shell, arena, &model->surface, &model->graph, &form, error);
 }

@@ -9,6 +9,7 @@
 #include "libcore/mesh/quad_mesh.h"
 #include "libcore/mesh/slot_graph.h"
 #include "libcore/mesh/triangle_mesh.h"
+#include "libcore/shell/shell_form.h"
 #include "libcore/tiling/problem/assignment.h"
 #include "libcore/tiling/tile/tile_set.h"
 
@@ -29,7 +30,15 @@ typedef struct MesoMapOptions {
     float section_step;     /* sampling step of contours in edge lengths [0.02] */
     uint32_t divisions;     /* vertices along a sweep [12], at least 2 */
     uint32_t frame;         /* a MesoFrameRule */
+    uint32_t normals;       /* MesoShellNormals */
+    uint32_t side;          /* MesoShellSide */
+    uint32_t limit_folds;   /* 1: the shell is lowered where it would fold */
 } MesoMapOptions;
+
+/* Bounds of the factors and the lifts of a shell's vertices. */
+#define MESO_FACTOR_LEAST 1e-4f
+#define MESO_FACTOR_MOST 1e4f
+#define MESO_LIFT_MOST (4 * MESO_COORDINATE_LIMIT)
 
 typedef struct MesoModel {
     MesoTileSet tile_set;
@@ -37,6 +46,7 @@ typedef struct MesoModel {
     MesoSlotGraph graph;                /* of the surface */
     MesoAssignment assignment;
     MesoMapOptions options;
+    float *factors, *lifts;             /* [surface.vertex_count] of the shell (shell_form.h), or NULL */
     MesoTriangleMesh *inner_meshes;     /* [tile_set.inner_count], empty where there is none */
 } MesoModel;
 
@@ -50,5 +60,8 @@ const char *meso_map_options_problem(const MesoMapOptions *options);
 
 /* `options` with every default filled in from the mean edge length. */
 MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length);
+
+/* The model's shell, with its options resolved; what it needs lives in `arena`. MESO_ERR_MEMORY alone. */
+MesoStatus meso_model_shell(MesoShell *shell, MesoArena *arena, const MesoModel *model, MesoError *error);
 
 #endif
