@@ -12,6 +12,7 @@
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
+#include "libcore/render/picture/tile_picture.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
@@ -35,7 +36,8 @@ typedef struct RenderArguments {
     const char *to;             /* --to */
     const char *background_text;
     const char *samples_text;
-    const char *context;
+    const char *context, *visibility, *ground;
+    bool context_given;
 
     bool exr_product;           /* of -o */
     bool transparent;
@@ -129,16 +131,51 @@ static void say_times(const MesoTool *tool, const double *at)
                       1e3 * (at[4] - at[3]));
 }
 
-static MesoStatus draw(RenderArguments *a, MesoPicture **picture, const MesoScene *scene,
-                       MesoError *error)
+/* Drawn by GL in a process apart, or by this one. */
+typedef struct Drawn {
+    MesoPicture *apart;         /* NULL: by this one */
+    MesoImage own;
+    const char *renderer;
+    double begun;
+} Drawn;
+
+/* Tiles, unless GL is asked for, or a context of it. */
+static bool wants_gl(const RenderArguments *a)
 {
+    return strcmp(a->visibility, "gl") == 0 || (strcmp(a->visibility, "auto") == 0 && a->context_given);
+}
+
+static MesoStatus check_maker(const RenderArguments *a, MesoError *error)
+{
+    if (wants_gl(a) && strcmp(a->samples_text, "16") == 0)
+        return meso_fail(error, MESO_ERR_USAGE, "--samples 16 is for --visibility tiles; GL draws 1 or 4");
+    if (wants_gl(a) && strcmp(a->ground, "none") != 0)
+        return meso_fail(error, MESO_ERR_USAGE, "--ground is for --visibility tiles; GL draws none");
+    if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
+        return meso_fail(error, MESO_ERR_USAGE, "--context is for --visibility gl; tiles need none");
+    return MESO_OK;
+}
+
+static MesoStatus draw(RenderArguments *a, Drawn *drawn, const MesoScene *scene, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
     const MesoRenderOptions options = {
         .width = a->camera.size[0],
         .height = a->camera.size[1],
         .camera = meso_camera_options_resolve(&a->camera, scene),
-        .samples = strcmp(a->samples_text, "1") == 0 ? 1 : 4,
+        .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
+        .ground = strcmp(a->ground, "shadow") == 0,
     };
-    return meso_picture_init(picture, &a->tool.arena, a->context, a->tool.threads, scene, &options, error);
+    *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
+    if (!wants_gl(a))
+        return meso_tile_picture(&drawn->own, &tool->arena, scene, &options, tool->threads, error);
+    MesoStatus status = meso_picture_init(&drawn->apart, &tool->arena, a->context, tool->threads, scene, &options,
+                                          error);
+    if (status)
+        return status;
+    drawn->renderer = drawn->apart->renderer;
+    drawn->begun = drawn->apart->context_made;
+    return MESO_OK;
 }
 
 static MesoStatus write_images(const RenderArguments *a, const MesoImage *image, MesoError *error)
@@ -152,21 +189,22 @@ static MesoStatus write_images(const RenderArguments *a, const MesoImage *image,
 static MesoStatus render(RenderArguments *a, const MesoScene *scene, double start, MesoError *error)
 {
     MesoTool *tool = &a->tool;
-    MesoPicture *picture;
+    Drawn drawn;
     double at[5] = {start, meso_seconds()};
 
-    MesoStatus status = draw(a, &picture, scene, error);
+    MesoStatus status = draw(a, &drawn, scene, error);
     if (status)
         return status;
-    at[2] = picture->context_made;
+    const MesoImage *image = drawn.apart ? &drawn.apart->image : &drawn.own;
+    at[2] = drawn.begun;
     at[3] = meso_seconds();
-    status = write_images(a, &picture->image, error);
+    status = write_images(a, image, error);
     at[4] = meso_seconds();
     if (!status) {
-        report_image(tool, &picture->image, scene, picture->renderer);
+        report_image(tool, image, scene, drawn.renderer);
         say_times(tool, at);
     }
-    meso_picture_release(picture);
+    meso_picture_release(drawn.apart);
     return status;
 }
 
@@ -178,6 +216,8 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
     MesoSceneReading reading = {.thread_count = tool->threads};
     double start = meso_seconds();
     MesoStatus status = choose_product(a, error);
+    if (!status)
+        status = check_maker(a, error);
     if (!status)
         status = parse_background(a, error);
     if (!status)
@@ -191,21 +231,26 @@ static MesoStatus run(RenderArguments *a, MesoError *error)
 
 int main(int argc, char **argv)
 {
-    RenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa"};
+    RenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
+                         .ground = "none"};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
         MESO_OUTPUT_FILE(0, "png", "FILE", "write the colour as PNG there too", &a.png),
         MESO_CAMERA_OPTIONS(a.camera),
         MESO_GROUP("Picture"),
-        MESO_CHOICE(0, "samples", "N", "samples of the colour a pixel, 1 or 4 (default 4)", &a.samples_text,
-                    "1|4"),
+        MESO_CHOICE(0, "samples", "N", "samples of the colour a pixel, 1, 4 (default) or 16", &a.samples_text,
+                    "1|4|16"),
+        MESO_CHOICE(0, "ground", "WHAT", "under the model: none (default), or one that shadow falls on", &a.ground,
+                    "none|shadow"),
+        MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
+                    "--context is given", &a.visibility, "auto|tiles|gl"),
         MESO_TEXT(0, "background", "R,G,B",
                   "of the PNG, linear, 0 to 1; none for a transparent one (default: light grey)",
                   &a.background_text),
         MESO_CHOICE(0, "context", "MAKER",
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
-                    &a.context, "auto|osmesa|egl"),
+                    &a.context, "auto|osmesa|egl", .given = &a.context_given),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -54,8 +54,8 @@ static MesoStatus check_options(const MesoRenderOptions *options, MesoError *err
         || options->height > MAX_SIZE)
         return meso_fail(error, MESO_ERR_LIMIT, "image of %u x %u is not between 1 x 1 and %u x %u",
                          options->width, options->height, MAX_SIZE, MAX_SIZE);
-    if (options->samples != 1 && options->samples != 4)
-        return meso_fail(error, MESO_ERR_USAGE, "%u samples a pixel (1 or 4)", options->samples);
+    if (options->samples != 1 && options->samples != 4 && options->samples != 16)
+        return meso_fail(error, MESO_ERR_USAGE, "%u samples a pixel (1, 4 or 16)", options->samples);
     return MESO_OK;
 }
 

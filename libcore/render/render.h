@@ -23,7 +23,8 @@ typedef struct MesoImage {
 typedef struct MesoRenderOptions {
     uint32_t width, height;     /* up to 16384 each */
     MesoCamera camera;
-    uint32_t samples;           /* for antialiasing of color; 1 or 4 */
+    uint32_t samples;           /* for antialiasing of color; 1 or 4, or 16 without GL */
+    bool ground;                /* shadow where nothing is, on the ground under the scene; without GL */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;
 

@@ -13,6 +13,9 @@ enum { MAX_SKIP = 64 };
 /* Normals of neighbours turn by less than this: 5 columns around a thread of a pixel or two. */
 static const float NORMAL_COSINE = 0.2588f;         /* 75 degrees */
 
+/* Where nobody sees the normals: a thread is a prism of three sides. */
+static const float SILHOUETTE_COSINE = -0.55f;      /* 123 degrees */
+
 /* Largest turn of a shading normal between two rings, in radians. */
 static const float RING_TURN = 1.0f;
 
@@ -25,29 +28,31 @@ static float distance_to_chord(MesoVec2 p, MesoVec2 a, MesoVec2 b)
     return meso_vec2_length(meso_vec2_sub(p, meso_vec2_lerp(a, b, t)));
 }
 
-static bool turns_little(MesoVec2 a, MesoVec2 b)
+static bool turns_little(MesoVec2 a, MesoVec2 b, float cosine)
 {
-    return a.x * b.x + a.y * b.y >= NORMAL_COSINE * meso_vec2_length(a) * meso_vec2_length(b);
+    return a.x * b.x + a.y * b.y >= cosine * meso_vec2_length(a) * meso_vec2_length(b);
 }
 
 /* True if the columns between `first` and `last` may go. */
-static bool may_skip(const MesoSweepColumn *columns, uint32_t first, uint32_t last, float tolerance)
+static bool may_skip(const MesoSweepColumn *columns, uint32_t first, uint32_t last, float tolerance,
+                     float cosine)
 {
     const MesoSweepColumn *a = &columns[first], *b = &columns[last];
-    if (!turns_little(a->start_normal, b->start_normal) || !turns_little(a->end_normal, b->end_normal))
+    if (!turns_little(a->start_normal, b->start_normal, cosine) ||
+        !turns_little(a->end_normal, b->end_normal, cosine))
         return false;
     for (uint32_t i = first + 1; i < last; i++) {
         const MesoSweepColumn *c = &columns[i];
         if (distance_to_chord(c->start, a->start, b->start) > tolerance
             || distance_to_chord(c->end, a->end, b->end) > tolerance
-            || !turns_little(a->start_normal, c->start_normal)
-            || !turns_little(a->end_normal, c->end_normal))
+            || !turns_little(a->start_normal, c->start_normal, cosine)
+            || !turns_little(a->end_normal, c->end_normal, cosine))
             return false;
     }
     return true;
 }
 
-uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance,
+static uint32_t keep_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance, float cosine,
                              uint32_t *kept)
 {
     uint32_t kept_count = 0;
@@ -55,11 +60,22 @@ uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, flo
         kept[kept_count++] = i;
         uint32_t next = i + 1;
         while (tolerance > 0 && columns[i].joins_next && next + 1 < count && columns[next].joins_next
-               && next + 1 - i <= MAX_SKIP && may_skip(columns, i, next + 1, tolerance))
+               && next + 1 - i <= MAX_SKIP && may_skip(columns, i, next + 1, tolerance, cosine))
             next++;
         i = next;
     }
     return kept_count;
+}
+
+uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance,
+                             uint32_t *kept)
+{
+    return keep_columns(columns, count, tolerance, NORMAL_COSINE, kept);
+}
+
+uint32_t meso_detail_silhouette(const MesoSweepColumn *columns, uint32_t count, float tolerance, uint32_t *kept)
+{
+    return keep_columns(columns, count, tolerance, SILHOUETTE_COSINE, kept);
 }
 
 static float largest_radius(const MesoSweepColumn *columns, uint32_t count, float *change)
@@ -97,26 +113,46 @@ static float bend_of(const MesoSweepInstance *instance)
     return 6 * fmaxf(meso_vec3_length(d0), meso_vec3_length(d1));
 }
 
-uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, float tolerance)
+MesoKindDetail meso_kind_detail(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    MesoKindDetail detail;
+    float change;
+    detail.radius = scene->section_scale * largest_radius(&scene->columns[kind->column_begin], kind->column_count,
+                                                          &change);
+    detail.change = scene->section_scale * change;
+    return detail;
+}
+
+static uint32_t rings_of(const MesoSweptKind *kind, float steps)
 {
     uint32_t most = kind->division_count < 2 ? 2 : kind->division_count;
-    if (!(tolerance > 0))
-        return most;
-
-    float change, scale = scene->section_scale;
-    float radius = scale * largest_radius(&scene->columns[kind->column_begin],
-                                          kind->column_count, &change);
-    float steps = 1;
-    if (kind->cap) {
-        /* The radius falls as 1 - v^4, whose second derivative is 12 at most. */
-        steps = fmaxf(sqrtf(12 * radius / (8 * tolerance)), 3);
-    } else {
-        for (uint32_t i = 0; i < kind->instance_count; i++) {
-            const MesoSweepInstance *instance = &scene->sweeps[kind->instance_begin + i];
-            float turn = turn_of(instance);
-            float second = bend_of(instance) + 6 * change * scale + radius * turn * turn;
-            steps = fmaxf(steps, fmaxf(sqrtf(second / (8 * tolerance)), turn / RING_TURN));
-        }
-    }
     return steps < (float)(most - 1) ? (uint32_t)ceilf(steps) + 1 : most;
+}
+
+/* Chords that an instance needs, at least one. */
+static float steps_of(const MesoSweptKind *kind, const MesoKindDetail *detail, const MesoSweepInstance *instance,
+                      float tolerance, bool shaded)
+{
+    if (!(tolerance > 0))
+        return INFINITY;
+    if (kind->cap)      /* the radius falls as 1 - v^4, whose second derivative is 12 at most */
+        return fmaxf(sqrtf(12 * detail->radius / (8 * tolerance)), shaded ? 3 : 1);
+    float turn = turn_of(instance);
+    float second = bend_of(instance) + 6 * detail->change + detail->radius * turn * turn;
+    return fmaxf(fmaxf(sqrtf(second / (8 * tolerance)), shaded ? turn / RING_TURN : 0), 1);
+}
+
+uint32_t meso_detail_instance_rings(const MesoSweptKind *kind, const MesoKindDetail *detail,
+                                    const MesoSweepInstance *instance, float tolerance, bool shaded)
+{
+    return rings_of(kind, steps_of(kind, detail, instance, tolerance, shaded));
+}
+
+uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, float tolerance)
+{
+    MesoKindDetail detail = meso_kind_detail(scene, kind);
+    float steps = kind->cap || !(tolerance > 0) ? steps_of(kind, &detail, NULL, tolerance, true) : 1;
+    for (uint32_t i = 0; !kind->cap && tolerance > 0 && i < kind->instance_count; i++)
+        steps = fmaxf(steps, steps_of(kind, &detail, &scene->sweeps[kind->instance_begin + i], tolerance, true));
+    return rings_of(kind, steps);
 }

@@ -22,11 +22,24 @@
 uint32_t meso_detail_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance,
                              uint32_t *kept);
 
+/* The same for shadows: normals of neighbours stay within 123 degrees. */
+uint32_t meso_detail_silhouette(const MesoSweepColumn *columns, uint32_t count, float tolerance, uint32_t *kept);
+
 /*
  * Vertices along a sweep of `kind` so that its trajectories and profiles stay
  * within `tolerance` (scene units) of the curves; at least 2, at most the
  * kind's division_count. O(instances + columns).
  */
 uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, float tolerance);
+
+/* What the rings of a kind's instances hang on, in scene units. */
+typedef struct MesoKindDetail {
+    float radius, change;       /* of the profiles from the trajectory, and from end to end */
+} MesoKindDetail;
+MesoKindDetail meso_kind_detail(const MesoScene *scene, const MesoSweptKind *kind);
+
+/* The same as meso_detail_rings() for one instance; not `shaded`: for its shadow. O(1). */
+uint32_t meso_detail_instance_rings(const MesoSweptKind *kind, const MesoKindDetail *detail,
+                                    const MesoSweepInstance *instance, float tolerance, bool shaded);
 
 #endif

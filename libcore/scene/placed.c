@@ -28,7 +28,7 @@ static float frame_determinant(const MesoFrame *frame)
     return meso_vec3_dot(meso_vec3_cross(frame_axis(frame, 0), frame_axis(frame, 1)), frame_axis(frame, 2));
 }
 
-static bool is_mirrored(const MesoScene *scene, const MesoPlacedBody *placed)
+bool meso_placed_is_mirrored(const MesoScene *scene, const MesoPlacedBody *placed)
 {
     if (placed->place == MESO_PLACED_HERE)
         return false;
@@ -70,7 +70,7 @@ static void derive(const MesoScene *scene, const MesoPlacedBody *placed, MesoVec
 void meso_placed_vertices(const MesoScene *scene, const MesoPlacedBody *placed, MesoMeshVertex *out)
 {
     const MesoBody *body = &scene->bodies[placed->body];
-    bool mirrored = is_mirrored(scene, placed);
+    bool mirrored = meso_placed_is_mirrored(scene, placed);
     for (uint32_t i = 0; i < body->vertex_count; i++) {
         MesoVec3 p = body->positions[i], n = body->normals[i], d[3];
         if (placed->place != MESO_PLACED_HERE) {
@@ -94,7 +94,7 @@ static MesoMeshFace reversed(MesoMeshFace face)
 void meso_placed_faces(const MesoScene *scene, const MesoPlacedBody *placed, uint32_t base, MesoMeshFace *out)
 {
     const MesoBody *body = &scene->bodies[placed->body];
-    bool mirrored = is_mirrored(scene, placed);
+    bool mirrored = meso_placed_is_mirrored(scene, placed);
     for (uint32_t i = 0; i < body->face_count; i++) {
         const uint32_t *v = &body->corners[(size_t)body->face_width * i];
         bool quad = body->face_width == 4 && v[3] != MESO_NO_INDEX;

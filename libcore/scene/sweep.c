@@ -48,17 +48,17 @@ static MesoMeshVertex sweep_vertex(const Plane *plane, MesoVec2 s, MesoVec3 norm
 }
 
 static void tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
-                          MesoMeshVertex *out)
+                          const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     float scale = scene->section_scale;
-    uint32_t last = kind->division_count - 1;
+    uint32_t last = grid->ring_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
         float v = (float)ring / (float)last, w = v * v * (3 - 2 * v);
         Plane plane = sweep_plane(sweep, v);
         float tilt_scale = plane.speed > 0 ? scale * 6 * v * (1 - v) / plane.speed : 0;
-        for (uint32_t c = 0; c < kind->column_count; c++) {
-            const MesoSweepColumn *column = &columns[c];
+        for (uint32_t c = 0; c < grid->column_count; c++) {
+            const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
             MesoVec2 at = ring == 0 ? column->start : ring == last ? column->end
                         : meso_vec2_lerp(column->start, column->end, w);
             MesoVec2 n = meso_vec2_lerp(column->start_normal, column->end_normal, w);
@@ -71,20 +71,21 @@ static void tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, con
 }
 
 static void cap_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *cap,
-                         MesoMeshVertex *out)
+                         const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     float scale = scene->section_scale;
-    uint32_t last = kind->division_count - 1;
+    uint32_t last = grid->ring_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
         float v = (float)ring / (float)last, radius = 1 - v * v * v * v;
         Plane plane = make_plane(cap->p[0], cap->up[0], cap->direction[0], 0);
         plane.origin = meso_vec3_mad(plane.origin, scale * MESO_CAP_RISE * v, plane.tangent);
-        for (uint32_t c = 0; c < kind->column_count; c++) {
-            MesoVec2 at = columns[c].start, n = columns[c].start_normal;
+        for (uint32_t c = 0; c < grid->column_count; c++) {
+            const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
+            MesoVec2 at = column->start, n = column->start_normal;
             float lean = 4 * v * v * v * (at.x * n.x + at.y * n.y);
             MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(&plane, n), MESO_CAP_RISE), lean, plane.tangent);
-            *out++ = sweep_vertex(&plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scale, columns[c].u, v);
+            *out++ = sweep_vertex(&plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scale, column->u, v);
         }
     }
 }
@@ -95,10 +96,17 @@ MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweepInstance *sweep
     return meso_vec3_mad(plane.origin, scene->section_scale, in_plane(&plane, profile));
 }
 
+void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                     const MesoSweepGrid *grid, MesoMeshVertex *out)
+{
+    (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
+}
+
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                          MesoMeshVertex *out)
 {
-    (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, out);
+    const MesoSweepGrid whole = {.column_count = kind->column_count, .ring_count = kind->division_count};
+    meso_sweep_grid(scene, kind, sweep, &whole, out);
 }
 
 /* The rings run clockwise around the tangent: along, then around is counter-clockwise from outside. */

@@ -24,7 +24,7 @@ mkdir one two
         # shellcheck disable=SC2086
         meso-map -q --to $kind --seed 0 $spelled ../two/vase.meso --divisions 05 --json=out/map.json -o - >mesh.$kind
     done
-    meso-render -q ./vase.meso --fov 30 --samples 4 --context osmesa --size 40x30 --to exr -o - --png vase.png >vase.exr
+    meso-render -q ./vase.meso --fov 30 --samples 4 --ground none --size 40x30 --to exr -o - --png vase.png >vase.exr
     grep '"command"' out/*.json
     rm -r out
 )

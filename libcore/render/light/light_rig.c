@@ -1,0 +1,216 @@
+#include "libcore/render/light/light_rig.h"
+
+static const float PI = 3.14159265f, GOLDEN_ANGLE = 2.39996323f;
+
+/* Colours of the lights. */
+static const float KEY[3] = {2.5f, 2.35f, 2.125f}, RIM[3] = {0.51f, 0.552f, 0.6f};
+static const float SKY[3] = {0.52f, 0.58f, 0.65f}, GROUND[3] = {0.25f, 0.228f, 0.205f};
+
+/* Of the key light's disc, as the tangent of half its angle. */
+static const float KEY_EXTENT = 0.07f;
+
+MesoLightQuality meso_light_quality(uint32_t samples)
+{
+    return samples == 1 ? (MesoLightQuality){20, 256, 1, 1536} : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024}
+                                                                               : (MesoLightQuality){64, 384, 16, 1024};
+}
+
+static float smoothstep(float low, float high, float x)
+{
+    float t = (x - low) / (high - low);
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    return t * t * (3 - 2 * t);
+}
+
+/* Radiance of the sky and the ground, as a surface of that roughness reflects it. */
+static void sky_at(const MesoLightRig *rig, MesoVec3 direction, float roughness, float color[3])
+{
+    float width = 0.25f + 0.75f * roughness, dome = smoothstep(-width, width, meso_vec3_dot(direction, rig->up));
+    float window = smoothstep(0.55f - 0.5f * roughness, 0.95f, meso_vec3_dot(direction, rig->to_key));
+    float glow = 0.25f * window * (1 - 0.8f * roughness);
+    for (int c = 0; c < 3; c++)
+        color[c] = GROUND[c] + (SKY[c] - GROUND[c]) * dome + KEY[c] * glow;
+}
+
+static MesoVec3 in_view(const MesoView *view, float right, float up, float back)
+{
+    MesoVec3 v = meso_vec3_mad(meso_vec3_scale(view->right, right), up, view->up);
+    return meso_vec3_unit(meso_vec3_mad(v, -back, view->forward), view->up);
+}
+
+/* Direction i of `count` over the sphere: a spiral of equal areas about `up`. */
+static MesoVec3 spread(const MesoLightRig *rig, uint32_t i, uint32_t count)
+{
+    float z = 1 - (2 * (float)i + 1) / (float)count, r = sqrtf(1 - z * z), a = GOLDEN_ANGLE * (float)i;
+    MesoVec3 across = fabsf(rig->up.y) < 0.9f ? (MesoVec3){0, 1, 0} : (MesoVec3){0, 0, 1};
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(across, rig->up), (MesoVec3){1, 0, 0}), y = meso_vec3_cross(rig->up, x);
+    MesoVec3 d = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
+    return meso_vec3_unit(meso_vec3_mad(d, z, rig->up), rig->up);
+}
+
+/* Place i of `count` on the key light's disc. */
+static MesoVec3 on_key(const MesoLightRig *rig, const MesoView *view, uint32_t i, uint32_t count)
+{
+    float r = count == 1 ? 0 : KEY_EXTENT * sqrtf(((float)i + 0.5f) / (float)count), a = GOLDEN_ANGLE * (float)i;
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(view->forward, rig->to_key), view->right);
+    MesoVec3 y = meso_vec3_cross(rig->to_key, x);
+    MesoVec3 d = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
+    return meso_vec3_unit(meso_vec3_add(rig->to_key, d), rig->to_key);
+}
+
+static void measure(MesoLightRig *rig, const MesoShapes *shapes)
+{
+    MesoBox box = meso_box_empty();
+    for (uint32_t i = 0; i < shapes->count; i++) {
+        meso_box_add(&box, shapes->bounds[i].low);
+        meso_box_add(&box, shapes->bounds[i].high);
+    }
+    if (shapes->count == 0)
+        meso_box_add(&box, (MesoVec3){0, 0, 0});
+    rig->middle = meso_vec3_lerp(box.low, box.high, 0.5f);
+    rig->radius = fmaxf(0.5f * meso_vec3_length(meso_vec3_sub(box.high, box.low)), 1e-30f);
+    rig->ground = INFINITY;
+    for (uint32_t i = 0; i < 8; i++)
+        rig->ground = fminf(rig->ground, meso_vec3_dot(meso_box_corner(box.low, box.high, i), rig->up));
+}
+
+MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
+                               const MesoLightQuality *quality, uint32_t thread_count, MesoError *error)
+{
+    *rig = (MesoLightRig){.sky_count = quality->sky_count, .key_count = quality->key_count,
+                          .to_key = in_view(view, -0.55f, 0.8f, 0.7f), .to_rim = in_view(view, 0.75f, 0.35f, -0.55f)};
+    rig->up = view->up;
+    uint32_t count = rig->sky_count + rig->key_count;
+    rig->maps = MESO_NEW(arena, MesoLightMap, count, error);
+    rig->sky_colors = MESO_NEW(arena, float, 3 * (size_t)rig->sky_count, error);
+    MesoStatus status = rig->maps && rig->sky_colors ? MESO_OK : MESO_ERR_MEMORY;
+    if (!status)
+        measure(rig, shapes);
+    for (uint32_t i = 0; i < count && !status; i++) {
+        bool sky = i < rig->sky_count;
+        MesoVec3 toward = sky ? spread(rig, i, rig->sky_count) : on_key(rig, view, i - rig->sky_count, rig->key_count);
+        status = meso_light_map_init(&rig->maps[i], arena, toward, rig->middle, rig->radius,
+                                     sky ? quality->sky_size : quality->key_size, error);
+        if (!sky)
+            continue;
+        float *color = &rig->sky_colors[3 * (size_t)i], facing = meso_vec3_dot(toward, rig->up);
+        sky_at(rig, toward, 0.5f, color);
+        for (int c = 0; c < 3 && facing > 0; c++)
+            rig->open_sky[c] += 4 / (float)rig->sky_count * facing * color[c];
+    }
+    /* All of a sort are drawn together, as fine as each of them wants. */
+    if (!status)
+        status = meso_light_maps_draw(rig->maps, rig->sky_count, shapes, thread_count, error);
+    if (!status)
+        status = meso_light_maps_draw(rig->maps + rig->sky_count, rig->key_count, shapes, thread_count, error);
+    return status;
+}
+
+/* ---- light on a surface ---- */
+
+/* f times the cosine. */
+static void reflect_light(const MesoLitSurface *s, MesoVec3 to_light, const float f0[3], float out[3])
+{
+    float nl = meso_vec3_dot(s->normal, to_light);
+    out[0] = out[1] = out[2] = 0;
+    if (nl <= 0)
+        return;
+    float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f);
+    MesoVec3 halfway = meso_vec3_unit(meso_vec3_add(to_light, s->to_eye), s->normal);
+    float nh = fmaxf(meso_vec3_dot(s->normal, halfway), 0), vh = fmaxf(meso_vec3_dot(s->to_eye, halfway), 0);
+    float a = s->roughness * s->roughness, a2 = a * a, d = nh * nh * (a2 - 1) + 1;
+    float ndf = a2 / (PI * d * d);
+    float smith = 0.5f / (nl * sqrtf(nv * nv * (1 - a2) + a2) + nv * sqrtf(nl * nl * (1 - a2) + a2));
+    float grazing = 1 - vh, grazing2 = grazing * grazing, schlick = grazing2 * grazing2 * grazing;
+    for (int c = 0; c < 3; c++) {
+        float fresnel = f0[c] + (1 - f0[c]) * schlick;
+        float diffuse = (1 - fresnel) * (1 - s->metallic) * s->albedo[c] / PI;
+        out[c] = (diffuse + ndf * smith * fresnel) * nl;
+    }
+}
+
+/* A point off the surface, by what a texel may hide of its slope. */
+static float lit_by(const MesoLightMap *map, const MesoLitSurface *s, float facing)
+{
+    float slope = 1 - facing;
+    MesoVec3 lifted = meso_vec3_mad(s->position, map->texel * (1 + 2 * slope), s->normal);
+    return meso_light_map_lit(map, lifted, map->texel);
+}
+
+static float key_light(const MesoLightRig *rig, const MesoLitSurface *s)
+{
+    float sum = 0;
+    for (uint32_t i = 0; i < rig->key_count; i++) {
+        const MesoLightMap *map = &rig->maps[rig->sky_count + i];
+        float facing = meso_vec3_dot(s->normal, map->toward);
+        if (facing > 0)
+            sum += lit_by(map, s, facing);
+    }
+    return sum / (float)rig->key_count;
+}
+
+/* Irradiance / pi from the sky, and the share of it that comes through. */
+static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float light[3])
+{
+    float whole = 0, seen = 0;
+    light[0] = light[1] = light[2] = 0;
+    for (uint32_t i = 0; i < rig->sky_count; i++) {
+        const MesoLightMap *map = &rig->maps[i];
+        float facing = meso_vec3_dot(s->normal, map->toward);
+        if (facing <= 0)
+            continue;
+        float share = facing * lit_by(map, s, facing);
+        whole += facing;
+        seen += share;
+        for (int c = 0; c < 3; c++)
+            light[c] += share * rig->sky_colors[3 * (size_t)i + (size_t)c];
+    }
+    for (int c = 0; c < 3; c++)
+        light[c] *= 4 / (float)rig->sky_count;
+    return whole > 0 ? seen / whole : 1;
+}
+
+void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *s, float radiance[3], float *openness)
+{
+    float sky[3], glossy[3], key[3], rim[3], f0[3];
+    float open = sky_light(rig, s, sky);
+    for (int c = 0; c < 3; c++)
+        f0[c] = 0.04f + (s->albedo[c] - 0.04f) * s->metallic;
+    float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f);
+    float r0 = 1 - s->roughness, r1 = 0.0425f - 0.0275f * s->roughness, r2 = 1.04f - 0.572f * s->roughness;
+    float r3 = 0.022f * s->roughness - 0.04f, a = fminf(r0 * r0, exp2f(-9.28f * nv)) * r0 + r1;
+    float scale = r2 - 1.04f * a, offset = r3 + 1.04f * a;     /* Karis's fit of the sky's reflection */
+    MesoVec3 mirrored = meso_vec3_mad(meso_vec3_scale(s->to_eye, -1), 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
+    sky_at(rig, mirrored, s->roughness, glossy);
+    reflect_light(s, rig->to_key, f0, key);
+    reflect_light(s, rig->to_rim, f0, rim);
+    float lit = key[0] + key[1] + key[2] > 0 ? key_light(rig, s) : 0;
+    for (int c = 0; c < 3; c++) {
+        float base = s->albedo[c] * (1 - s->metallic), bounced = 1 / (1 - 0.9f * s->albedo[c] * (1 - open));
+        radiance[c] = sky[c] * base * bounced + glossy[c] * (f0[c] * scale + offset) * open * open +
+                      KEY[c] * key[c] * lit + RIM[c] * rim[c] * open;
+    }
+    if (openness)
+        *openness = open;
+}
+
+/* ---- the ground ---- */
+
+static float luminance(const float color[3])
+{
+    return 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
+}
+
+float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p)
+{
+    MesoVec3 from = meso_vec3_sub(p, rig->middle);
+    float far = meso_vec3_length(from) / rig->radius, fade = 1 - smoothstep(2, 4, far);
+    if (fade == 0)
+        return 0;
+    const MesoLitSurface ground = {.position = p, .normal = rig->up};
+    float sky[3], facing = fmaxf(meso_vec3_dot(rig->up, rig->to_key), 0);
+    sky_light(rig, &ground, sky);
+    float whole = luminance(KEY) / PI * facing + luminance(rig->open_sky);
+    float left = luminance(KEY) / PI * facing * key_light(rig, &ground) + luminance(sky);
+    return whole > 0 ? fade * fmaxf(1 - left / whole, 0) : 0;
+}

@@ -1,0 +1,56 @@
+/*
+ * The lights of a picture, and light on its surfaces: a warm key light from the upper left of the camera, which has an
+ * extent and so soft shadows; a cool sky over a warm ground, whose light comes from many directions and is held off by
+ * what stands in its way; and a weak light from behind.
+ *
+ *     L(p, n, e) = sum over the sky's directions d of  (4 / M) max(n.d, 0) V(p, d) S(d) (albedo (1 - metallic))
+ *                + S(reflected e) F V^2 + K max(n.k, 0) V(p, k) f(k) + R max(n.r, 0) f(r) V
+ *
+ * with V from light maps (light_map.h), f the microfacets of "Understanding the Masking-Shadowing Function" (Heitz
+ * 2014) over a Lambertian base, and what the sky's light loses between surfaces given back by their albedo.
+ */
+#ifndef MESO_LIGHT_RIG_H
+#define MESO_LIGHT_RIG_H
+
+#include "libcore/render/light/light_map.h"
+#include "libcore/scene/material.h"
+
+enum { MESO_SKY_MOST = 256, MESO_KEY_MOST = 64 };
+
+/* How much is spent on the light. */
+typedef struct MesoLightQuality {
+    uint32_t sky_count, sky_size;       /* directions, and texels a side of their maps */
+    uint32_t key_count, key_size;
+} MesoLightQuality;
+
+/* What a picture of so many samples a pixel deserves. */
+MesoLightQuality meso_light_quality(uint32_t samples);
+
+typedef struct MesoLightRig {
+    MesoVec3 to_key, to_rim, up;
+    uint32_t sky_count, key_count;
+    MesoLightMap *maps;         /* [sky_count + key_count] */
+    float *sky_colors;          /* [3 * sky_count] */
+    float open_sky[3];          /* irradiance / pi of a surface that looks up and sees all of it */
+    float ground;               /* height of the ground along `up`, relative to the anchor */
+    MesoVec3 middle;            /* of the scene's sphere */
+    float radius;
+} MesoLightRig;
+
+/* Draws the maps of all lights; they live in `arena`. `view` is the camera's, `up` its upright. MESO_ERR_MEMORY alone. */
+MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
+                               const MesoLightQuality *quality, uint32_t thread_count, MesoError *error);
+
+/* What is lit. */
+typedef struct MesoLitSurface {
+    MesoVec3 position, normal, to_eye;  /* relative to the anchor; unit */
+    float albedo[3], roughness, metallic;
+} MesoLitSurface;
+
+/* Radiance to the eye; `openness`, which may be NULL, gets the share of the sky that is seen. */
+void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *surface, float radiance[3], float *openness);
+
+/* Share of the light on the ground at `p` that what stands on it takes away; 0 far from it. */
+float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p);
+
+#endif

@@ -1,0 +1,199 @@
+#include "libcore/render/picture/tile_picture.h"
+
+#include "libcore/render/light/light_rig.h"
+#include "libcore/render/raster/raster_tiles.h"
+
+/* How far thinned geometry may lie from its own, in pixels. */
+static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.125f;
+
+enum { MOST_SAMPLES = 16 };
+
+typedef struct Picture {
+    MesoImage *image;
+    const MesoRenderOptions *options;
+    const MesoScene *scene;
+    MesoShapes shapes;
+    MesoView view;
+    MesoRasterView raster;
+    MesoLightRig rig;
+} Picture;
+
+/* Half of the way to the nearest thing, but a share of the way to the farthest. */
+static float near_depth_of(const MesoView *view, const MesoBox *box)
+{
+    float nearest = INFINITY, farthest = 0;
+    for (uint32_t i = 0; i < 8; i++) {
+        MesoVec3 corner = meso_box_corner(box->low, box->high, i);
+        float depth = meso_vec3_dot(meso_vec3_sub(corner, view->eye), view->forward);
+        nearest = fminf(nearest, depth);
+        farthest = fmaxf(farthest, depth);
+    }
+    float depth = fmaxf(0.5f * nearest, 1e-5f * farthest);
+    return depth > 0 && isfinite(depth) ? depth : 1e-3f;
+}
+
+/* ---- samples ---- */
+
+/* Samples of a pixel that are lit as one. */
+typedef struct Group {
+    MesoSurfaceSample sample;   /* the first of them */
+    MesoVec3 position, normal;  /* sums */
+    uint32_t count;
+} Group;
+
+static float smooth_blend(float x)
+{
+    float t = x < 0 ? 0 : x > 1 ? 1 : x;
+    return t * t * (3 - 2 * t);
+}
+
+static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sample)
+{
+    MesoShapeLook look = meso_shape_look(&p->shapes, sample->shape);
+    const MesoMaterial *a = &p->scene->materials[look.start_material], *b = &p->scene->materials[look.end_material];
+    float share = look.start_material == look.end_material ? 0 : smooth_blend(sample->along);
+    MesoMaterial m;
+    for (int c = 0; c < 3; c++)
+        m.albedo[c] = (a->albedo[c] + (b->albedo[c] - a->albedo[c]) * share) * sample->color[c];
+    m.roughness = a->roughness + (b->roughness - a->roughness) * share;
+    m.metallic = a->metallic + (b->metallic - a->metallic) * share;
+    return m;
+}
+
+static bool belongs(const Group *group, const MesoSurfaceSample *sample)
+{
+    return group->sample.shape == sample->shape && meso_vec3_dot(group->sample.normal, sample->normal) > 0.9f &&
+           fabsf(group->sample.depth - sample->depth) < 0.01f * sample->depth;
+}
+
+static void add_sample(Group *groups, uint32_t *count, const MesoSurfaceSample *sample)
+{
+    uint32_t g = 0;
+    while (g < *count && !belongs(&groups[g], sample))
+        g++;
+    if (g == *count) {
+        groups[g] = (Group){.sample = *sample};
+        ++*count;
+    }
+    groups[g].position = meso_vec3_add(groups[g].position, sample->position);
+    groups[g].normal = meso_vec3_add(groups[g].normal, sample->normal);
+    groups[g].count++;
+}
+
+static void light_group(const Picture *p, const Group *group, float color[4], float samples)
+{
+    MesoMaterial m = material_of(p, &group->sample);
+    MesoLitSurface s = {.position = meso_vec3_scale(group->position, 1 / (float)group->count),
+                        .normal = meso_vec3_unit(group->normal, group->sample.normal),
+                        .albedo = {m.albedo[0], m.albedo[1], m.albedo[2]},
+                        .roughness = fminf(fmaxf(m.roughness, 0.08f), 1), .metallic = m.metallic};
+    s.to_eye = meso_vec3_unit(meso_vec3_sub(p->raster.eye, s.position), p->view.up);
+    float radiance[3], weight = (float)group->count / samples;
+    meso_light_on(&p->rig, &s, radiance, NULL);
+    for (int c = 0; c < 3; c++)
+        color[c] += weight * radiance[c];
+    color[3] += weight;
+}
+
+/* Where nothing is, the ground has what shadow falls on it. */
+static void shade_ground(const Picture *p, float x, float y, float share, float color[4])
+{
+    const MesoRasterView *v = &p->raster;
+    MesoVec3 ray = meso_vec3_mad(meso_vec3_mad(v->forward, (x - v->middle_x) / v->focal, v->right),
+                                 (y - v->middle_y) / v->focal, v->down);
+    float height = meso_vec3_dot(v->eye, p->rig.up) - p->rig.ground, fall = meso_vec3_dot(ray, p->rig.up);
+    if (!(height > 0 && fall < 0))
+        return;
+    color[3] += share * meso_light_ground_shadow(&p->rig, meso_vec3_mad(v->eye, -height / fall, ray));
+}
+
+/* The variables of the pixel's middle. */
+static void put_middle(const Picture *p, const MesoSurfaceSample *sample, size_t pixel)
+{
+    MesoImage *image = p->image;
+    const float normal[3] = {sample->normal.x, sample->normal.y, sample->normal.z};
+    MesoMaterial m = material_of(p, sample);
+    image->depth[pixel] = sample->depth;
+    for (size_t c = 0; c < 3; c++) {
+        image->normal[3 * pixel + c] = normal[c];
+        image->albedo[3 * pixel + c] = m.albedo[c];
+    }
+    uint32_t row = meso_shape_look(&p->shapes, sample->shape).ids;
+    for (uint32_t c = 0; c < image->channel_count; c++)
+        image->ids[c][pixel] = meso_scene_id(p->scene, row, c) + 1;
+}
+
+static void put_nothing(MesoImage *image, size_t pixel)
+{
+    image->depth[pixel] = INFINITY;
+    for (size_t c = 0; c < 3; c++)
+        image->normal[3 * pixel + c] = image->albedo[3 * pixel + c] = 0;
+    for (uint32_t c = 0; c < image->channel_count; c++)
+        image->ids[c][pixel] = 0;
+}
+
+static void take_pixel(const Picture *p, MesoRasterTile *tile, MesoWindow window, uint32_t x, uint32_t y)
+{
+    Group groups[MOST_SAMPLES];
+    MesoSurfaceSample sample;
+    uint32_t samples = p->options->samples, count = 0, seen = 0;
+    size_t pixel = (size_t)(window.y + y) * p->image->width + window.x + x;
+    float *color = p->image->color + 4 * pixel;
+    color[0] = color[1] = color[2] = color[3] = 0;
+    for (uint32_t i = 0; i < samples; i++) {
+        bool there = meso_raster_tile_sample(tile, x, y, i, &sample);
+        if (i == 0) {
+            if (there)
+                put_middle(p, &sample, pixel);
+            else
+                put_nothing(p->image, pixel);
+        }
+        if (!there)
+            continue;
+        add_sample(groups, &count, &sample);
+        seen++;
+    }
+    for (uint32_t g = 0; g < count; g++)
+        light_group(p, &groups[g], color, (float)samples);
+    if (p->options->ground && seen < samples)
+        shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f,
+                     (float)(samples - seen) / (float)samples, color);
+}
+
+static void take_tile(void *context, MesoRasterTile *tile)
+{
+    const Picture *p = context;
+    MesoWindow window = meso_raster_tile_window(tile);
+    for (uint32_t y = 0; y < window.height; y++)
+        for (uint32_t x = 0; x < window.width; x++)
+            take_pixel(p, tile, window, x, y);
+}
+
+/* ---- all of it ---- */
+
+MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene *scene,
+                             const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+{
+    Picture p = {.image = image, .options = options, .scene = scene};
+    size_t bytes, least;
+    MesoStatus status = meso_render_memory(scene, options, &bytes, &least, error);
+    if (!status)
+        status = meso_view_build(&p.view, &options->camera, error);
+    if (status)
+        return status;
+    unsigned char *memory = MESO_NEW(arena, unsigned char, bytes + 64, error);
+    if (!memory)
+        return MESO_ERR_MEMORY;
+    meso_image_place(image, memory + (64 - (size_t)(uintptr_t)memory % 64) % 64, scene, options);
+    p.view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
+    status = meso_shapes_init(&p.shapes, arena, scene, p.view.anchor, thread_count, error);
+    MesoLightQuality quality = meso_light_quality(options->samples);
+    if (!status)
+        status = meso_light_rig_init(&p.rig, arena, &p.shapes, &p.view, &quality, thread_count, error);
+    p.raster = meso_raster_view(&p.view, options->width, options->height, near_depth_of(&p.view, &scene->box));
+    const MesoRasterJob job = {
+        .shapes = &p.shapes, .view = p.raster, .width = options->width, .height = options->height,
+        .samples = options->samples,
+        .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
+    return status ? status : meso_raster_tiles(&job, arena, thread_count, take_tile, &p, error);
+}

@@ -1,0 +1,275 @@
+/*
+ * Pictures of a bundle of bent tubes and a ball: what a ray through each pixel meets first, the same as GL draws, at any
+ * number of threads, from inside, far from the origin; light that nothing holds off, and shadows where they must fall.
+ */
+#include "libcore/render/picture/tile_picture.h"
+
+#include <string.h>
+
+#include "libcore/base/check.h"
+#include "libcore/base/random.h"
+#include "libcore/render/light/light_rig.h"
+#include "libcore/scene/parts.h"
+
+enum { SIDES = 12, TUBES = 9, RINGS = 24, WIDTH = 120, HEIGHT = 90, BALL = 16 };
+
+typedef struct Bundle {
+    MesoMaterial materials[2];
+    MesoSweepColumn columns[SIDES + 1];
+    MesoSweptKind kinds[1];
+    MesoSweepInstance instances[TUBES];
+    uint32_t ids[TUBES + 1];
+    MesoVec3 positions[(BALL + 1) * (BALL + 1)], normals[(BALL + 1) * (BALL + 1)];
+    uint32_t corners[4 * BALL * BALL];
+    MesoBody bodies[1];
+    MesoPlacedBody placed[1];
+    MesoScene scene;
+} Bundle;
+
+static MesoArena arena;
+static MesoError error;
+
+static void make_ball(Bundle *b, MesoVec3 middle, float radius)
+{
+    for (uint32_t j = 0; j <= BALL; j++)
+        for (uint32_t i = 0; i <= BALL; i++) {
+            double a = 2 * 3.14159265358979 * (i % BALL) / BALL, t = 3.14159265358979 * j / BALL;
+            MesoVec3 n = {(float)(sin(t) * cos(a)), (float)cos(t), (float)(-sin(t) * sin(a))};
+            b->normals[j * (BALL + 1) + i] = n;
+            b->positions[j * (BALL + 1) + i] = meso_vec3_mad(middle, radius, n);
+        }
+    for (uint32_t j = 0; j < BALL; j++)
+        for (uint32_t i = 0; i < BALL; i++) {
+            uint32_t v = j * (BALL + 1) + i, *c = &b->corners[4 * (j * BALL + i)];
+            c[0] = v, c[1] = v + BALL + 1, c[2] = v + BALL + 2, c[3] = v + 1;
+        }
+}
+
+static void make_bundle(Bundle *b, MesoVec3 at)
+{
+    MesoRandom random;
+    meso_random_init(&random, 3, 0);
+    *b = (Bundle){0};
+    b->materials[0] = (MesoMaterial){{0.75f, 0.25f, 0.125f}, 0.5f, 0};
+    b->materials[1] = (MesoMaterial){{0.125f, 0.25f, 0.75f}, 0.25f, 1};
+    for (uint32_t i = 0; i <= SIDES; i++) {
+        double angle = -2 * 3.14159265358979 * (i % SIDES) / SIDES;
+        MesoVec2 n = {(float)cos(angle), (float)sin(angle)}, s = {0.12f * n.x, 0.12f * n.y};
+        b->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES};
+    }
+    b->kinds[0] = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES, .division_count = RINGS,
+                                  .instance_count = TUBES, .end_material = 1};
+    for (uint32_t t = 0; t < TUBES; t++) {
+        MesoSweepInstance *sweep = &b->instances[t];
+        for (uint32_t k = 0; k < 4; k++) {
+            float r[3];
+            for (int c = 0; c < 3; c++)
+                r[c] = (float)meso_random_below(&random, 1000) / 500 - 1;
+            sweep->p[k] = meso_vec3_add(at, (MesoVec3){1.5f * r[0], r[1], r[2]});
+        }
+        sweep->up[0] = sweep->up[1] = (MesoVec3){0.2f, 1, 0.1f};
+        sweep->direction[0] = meso_vec3_unit(meso_vec3_sub(sweep->p[1], sweep->p[0]), sweep->up[0]);
+        sweep->direction[1] = meso_vec3_unit(meso_vec3_sub(sweep->p[3], sweep->p[2]), sweep->up[0]);
+        sweep->ids = t;
+    }
+    for (uint32_t i = 0; i <= TUBES; i++)
+        b->ids[i] = 3 * i + 1;
+    make_ball(b, meso_vec3_add(at, (MesoVec3){0.3f, -0.2f, 0.1f}), 0.5f);
+    b->bodies[0] = (MesoBody){.vertex_count = (BALL + 1) * (BALL + 1), .face_count = BALL * BALL, .face_width = 4,
+                              .positions = b->positions, .normals = b->normals, .corners = b->corners};
+    b->placed[0] = (MesoPlacedBody){.material = 1, .ids = TUBES, .place = MESO_PLACED_HERE};
+    b->scene = (MesoScene){.channel_count = 1, .channels = {{"slot", 3 * TUBES + 2, NULL}}, .material_count = 2,
+        .materials = b->materials, .id_row_count = TUBES + 1, .ids = b->ids, .section_scale = 1, .thickness = 0.5f,
+        .kind_count = 1, .column_count = SIDES + 1, .sweep_count = TUBES, .kinds = b->kinds, .columns = b->columns,
+        .sweeps = b->instances, .body_count = 1, .bodies = b->bodies, .placed_count = 1, .placed = b->placed};
+    meso_scene_measure(&b->scene);
+}
+
+static MesoRenderOptions look(MesoVec3 at, MesoVec3 eye, uint32_t samples)
+{
+    return (MesoRenderOptions){.width = WIDTH, .height = HEIGHT, .samples = samples, .full_detail = true,
+                               .camera = {meso_vec3_add(at, eye), at, {0, 1, 0}, 40}};
+}
+
+static MesoImage draw(const Bundle *b, const MesoRenderOptions *options, uint32_t threads)
+{
+    MesoImage image;
+    CHECK(meso_tile_picture(&image, &arena, &b->scene, options, threads, &error) == MESO_OK);
+    return image;
+}
+
+/* ---- by rays ---- */
+
+typedef struct Hit {
+    double depth;
+    uint32_t part;              /* + 1; 0: nothing */
+} Hit;
+
+/* Depth where the ray from the eye along `d`, of depth 1, meets a triangle, or infinity. */
+static double meet(MesoVec3 eye, MesoVec3 d, MesoVec3 a, MesoVec3 b, MesoVec3 c)
+{
+    MesoVec3 p[3] = {meso_vec3_sub(a, eye), meso_vec3_sub(b, eye), meso_vec3_sub(c, eye)};
+    double v[3], sum = 0, depth = 0;
+    for (int k = 0; k < 3; k++) {
+        MesoVec3 x = p[(k + 1) % 3], y = p[(k + 2) % 3];
+        v[k] = ((double)x.y * y.z - (double)x.z * y.y) * d.x + ((double)x.z * y.x - (double)x.x * y.z) * d.y +
+               ((double)x.x * y.y - (double)x.y * y.x) * d.z;
+        sum += v[k];
+    }
+    double along = (double)meso_vec3_dot(d, d);
+    for (int k = 0; k < 3; k++) {
+        if (v[k] * sum < 0)
+            return INFINITY;
+        depth += v[k] / sum * (double)meso_vec3_dot(p[k], d) / along;
+    }
+    return depth > 0 ? depth : INFINITY;
+}
+
+static Hit cast(const MesoSceneParts *parts, const MesoMeshVertex *v, const MesoMeshFace *f, MesoVec3 eye, MesoVec3 d)
+{
+    Hit hit = {INFINITY, 0};
+    for (uint32_t p = 0; p < parts->part_count; p++)
+        for (uint64_t i = parts->face_begin[p]; i < parts->face_begin[p + 1]; i++)
+            for (int half = 0; half < (f[i].v[3] == MESO_NO_INDEX ? 1 : 2); half++) {
+                double depth = meet(eye, d, v[f[i].v[0]].position, v[f[i].v[1 + half]].position,
+                                    v[f[i].v[2 + half]].position);
+                if (depth < hit.depth)
+                    hit = (Hit){depth, p + 1};
+            }
+    return hit;
+}
+
+static void test_rays(const Bundle *b, MesoVec3 at, MesoVec3 eye)
+{
+    MesoRenderOptions options = look(at, eye, 1);
+    MesoImage image = draw(b, &options, 2);
+    MesoSceneParts parts;
+    MesoView view;
+    CHECK(meso_scene_parts_init(&parts, &arena, &b->scene, &error) == MESO_OK);
+    CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
+    MesoMeshVertex *v = MESO_NEW(&arena, MesoMeshVertex, parts.vertex_begin[parts.part_count], &error);
+    MesoMeshFace *f = MESO_NEW(&arena, MesoMeshFace, parts.face_begin[parts.part_count], &error);
+    meso_scene_vertices(&parts, 0, parts.part_count, v);
+    meso_scene_faces(&parts, 0, parts.part_count, 0, f);
+    float pixel = 2 * view.tan_half_fov / HEIGHT;
+    uint32_t wrong = 0, covered = 0, deep = 0;
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = y % 5; x < WIDTH; x += 5) {
+            MesoVec3 d = meso_vec3_mad(view.forward, ((float)x + 0.5f - WIDTH / 2) * pixel, view.right);
+            d = meso_vec3_mad(d, (HEIGHT / 2 - (float)y - 0.5f) * pixel, view.up);
+            Hit hit = cast(&parts, v, f, view.eye, d);
+            size_t i = (size_t)y * WIDTH + x;
+            uint32_t id = hit.part == 0 ? 0 : b->ids[meso_scene_part(&parts, hit.part - 1).ids] + 1;
+            wrong += image.ids[0][i] != id;
+            covered += id > 0;
+            deep += id > 0 && image.ids[0][i] == id && fabs((double)image.depth[i] - hit.depth) > 0.02 * hit.depth;
+            CHECK((image.ids[0][i] == 0) == (isinf(image.depth[i]) != 0));
+            CHECK(image.ids[0][i] == 0 || fabs((double)meso_vec3_length((MesoVec3){image.normal[3 * i],
+                                               image.normal[3 * i + 1], image.normal[3 * i + 2]}) - 1) < 1e-3);
+        }
+    CHECK(covered > WIDTH * HEIGHT / 50);
+    CHECK(wrong <= covered / 200 && deep <= covered / 200);     /* rims, on which a pixel's middle lies by chance */
+}
+
+/* ---- beside GL ---- */
+
+static void test_gl(const Bundle *b, MesoVec3 at)
+{
+    MesoRenderOptions options = look(at, (MesoVec3){1, 2, 5}, 1);
+    MesoImage ours = draw(b, &options, 2), gl;
+    MesoGlContext context;
+    CHECK(meso_gl_context_init(&context, "osmesa", 2, &error) == MESO_OK);
+    CHECK(meso_render(&gl, &arena, &context, &b->scene, &options, &error) == MESO_OK);
+    meso_gl_context_release(&context);
+    uint32_t covered = 0, wrong = 0;
+    double normals = 0, colors = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+        wrong += ours.ids[0][i] != gl.ids[0][i];
+        if (ours.ids[0][i] == 0 || ours.ids[0][i] != gl.ids[0][i])
+            continue;
+        covered++;
+        for (size_t c = 0; c < 3; c++) {
+            normals += pow((double)(ours.normal[3 * i + c] - gl.normal[3 * i + c]), 2);
+            colors += pow((double)(ours.albedo[3 * i + c] - gl.albedo[3 * i + c]), 2);
+        }
+    }
+    CHECK(covered > WIDTH * HEIGHT / 10 && wrong <= covered / 100);
+    CHECK(sqrt(normals / covered) < 0.05 && sqrt(colors / covered) < 0.01);
+}
+
+static bool same_pixels(const MesoImage *a, const MesoImage *b)
+{
+    size_t n = (size_t)a->width * a->height;
+    return memcmp(a->color, b->color, 16 * n) == 0 && memcmp(a->depth, b->depth, 4 * n) == 0 &&
+           memcmp(a->normal, b->normal, 12 * n) == 0 && memcmp(a->albedo, b->albedo, 12 * n) == 0 &&
+           memcmp(a->ids[0], b->ids[0], 4 * n) == 0;
+}
+
+static void test_threads(const Bundle *b, MesoVec3 at)
+{
+    for (uint32_t samples = 1; samples <= 16; samples *= 4) {
+        MesoRenderOptions options = look(at, (MesoVec3){1, 2, 5}, samples);
+        options.full_detail = false;
+        options.ground = true;
+        MesoImage one = draw(b, &options, 1);
+        for (uint32_t threads = 2; threads <= 7; threads += 5) {
+            MesoImage other = draw(b, &options, threads);
+            CHECK(same_pixels(&one, &other));
+        }
+        for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+            CHECK(one.color[4 * i + 3] >= 0 && one.color[4 * i + 3] <= 1.0001f && one.color[4 * i] >= 0);
+    }
+}
+
+/* ---- light ---- */
+
+/* A ball over nothing: all of the sky is seen from its top, half of it from its side. Below it lies its shadow. */
+static void test_light(void)
+{
+    static Bundle b;
+    make_bundle(&b, (MesoVec3){0, 0, 0});
+    make_ball(&b, (MesoVec3){0, 0, 0}, 0.5f);
+    b.scene.sweep_count = b.scene.kind_count = 0;
+    meso_scene_measure(&b.scene);
+    MesoShapes shapes;
+    MesoView view;
+    MesoLightRig rig;
+    MesoRenderOptions options = look((MesoVec3){0, 0, 0}, (MesoVec3){0, 0, 5}, 16);
+    CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
+    CHECK(meso_shapes_init(&shapes, &arena, &b.scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
+    const MesoLightQuality quality = {256, 256, 16, 512};
+    CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, &quality, 2, &error) == MESO_OK);
+    const MesoVec3 ways[3] = {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}};
+    for (int i = 0; i < 3; i++) {
+        MesoLitSurface s = {.position = meso_vec3_scale(ways[i], 0.5f), .normal = ways[i], .to_eye = {0, 0, 1},
+                            .albedo = {0.5f, 0.5f, 0.5f}, .roughness = 0.5f};
+        float radiance[3], openness;
+        meso_light_on(&rig, &s, radiance, &openness);
+        CHECK(openness > 0.97f && radiance[0] > 0);
+    }
+
+    /* Around the foot of the line from the ball to the key light it is dark, far from there it is not. */
+    MesoVec3 foot = meso_vec3_scale(rig.to_key, -0.5f / rig.to_key.y);
+    CHECK(fabsf(rig.ground + 0.5f) < 1e-3f);
+    CHECK(meso_light_ground_shadow(&rig, foot) > 0.45f);
+    CHECK(meso_light_ground_shadow(&rig, (MesoVec3){0, -0.5f, 0}) > 0.3f);
+    CHECK(meso_light_ground_shadow(&rig, (MesoVec3){-1.3f, -0.5f, 1.2f}) < 0.12f);
+    CHECK(meso_light_ground_shadow(&rig, (MesoVec3){-40, -0.5f, 0}) == 0);
+}
+
+int main(void)
+{
+    static Bundle b;
+    const MesoVec3 origin = {0, 0, 0}, far = {1e5f, -2e5f, 3e4f};
+    meso_arena_init(&arena);
+    make_bundle(&b, origin);
+    test_rays(&b, origin, (MesoVec3){1, 2, 5});
+    test_rays(&b, origin, (MesoVec3){0.4f, 0.5f, 0.9f});        /* inside: the near plane cuts */
+    test_gl(&b, origin);
+    test_threads(&b, origin);
+    make_bundle(&b, far);
+    test_gl(&b, far);
+    test_light();
+    meso_arena_release(&arena);
+    return 0;
+}

@@ -1,0 +1,282 @@
+#include "libcore/render/raster/raster_target.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { LANES = MESO_RASTER_LANES, HALF = MESO_RASTER_UNIT / 2 };
+
+/* ---- places ---- */
+
+/* A pixel's middle first; then places no two of which share a row or a column of sixteenths. */
+static const int8_t SIXTEEN[LANES][2] = {{0, 0}, {-1, -3}, {-3, 2}, {4, -1}, {-5, -2}, {2, 5}, {5, 3}, {3, -5},
+                                         {-2, 6}, {1, -7}, {-4, -6}, {-6, 4}, {-8, 1}, {7, -4}, {6, 7}, {-7, -8}};
+static const int8_t FOUR[4][2] = {{0, 0}, {5, -5}, {-6, 3}, {1, 7}};
+
+MesoRasterLanes meso_raster_lanes(uint32_t samples)
+{
+    MesoRasterLanes lanes = {.pixels = samples == 1 ? 4 : samples == 4 ? 2 : 1, .samples = samples};
+    lanes.cell = (int32_t)lanes.pixels * MESO_RASTER_UNIT;
+    for (uint32_t l = 0; l < LANES; l++) {
+        uint32_t pixel = l / samples, sample = l % samples;
+        const int8_t *at = samples == 16 ? SIXTEEN[sample] : FOUR[sample];
+        lanes.x[l] = (int32_t)(pixel % lanes.pixels) * MESO_RASTER_UNIT + HALF + at[0] * (MESO_RASTER_UNIT / 16);
+        lanes.y[l] = (int32_t)(pixel / lanes.pixels) * MESO_RASTER_UNIT + HALF + at[1] * (MESO_RASTER_UNIT / 16);
+    }
+    return lanes;
+}
+
+void meso_raster_clear(const MesoRasterTarget *target, float nothing)
+{
+    size_t count = (size_t)LANES * (size_t)target->cells_x * (size_t)target->cells_y;
+    for (size_t i = 0; i < count; i++)
+        target->nearness[i] = nothing;
+    for (size_t i = 0; target->ids && i < count; i++)
+        target->ids[i] = 0;
+}
+
+/* ---- triangles ---- */
+
+/* An edge from a to b: (bx - ax)(y - ay) - (by - ay)(x - ax), at least 0 inside. */
+typedef struct Edge {
+    int64_t along_x, along_y;   /* its change a unit to the right, and down */
+    int64_t at_corner;          /* its value at the corner of the first cell, less 1 where it owns no place on it */
+} Edge;
+
+typedef struct Triangle {
+    Edge edges[3];
+    int32_t left, top, right, bottom;   /* cells, all included */
+    float nearness, along_x, along_y;   /* at the corner of the first cell, and its change a unit */
+} Triangle;
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static int32_t most(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* By a power of two. */
+static int32_t floor_divide(int32_t a, int32_t b)
+{
+    return a >> __builtin_ctz((unsigned)b);
+}
+
+static Edge make_edge(const MesoRasterVertex *a, const MesoRasterVertex *b, int64_t corner_x, int64_t corner_y)
+{
+    int64_t dx = (int64_t)b->x - a->x, dy = (int64_t)b->y - a->y;
+    bool owns = dy < 0 || (dy == 0 && dx > 0);      /* one of two neighbours, whose edges run against each other */
+    return (Edge){-dy, dx, dx * (corner_y - a->y) - dy * (corner_x - a->x) - !owns};
+}
+
+/* Vertices of a triangle, counter-clockwise where y runs up, and the box around it. */
+typedef struct Outline {
+    const MesoRasterVertex *a, *b, *c;
+    int64_t area;               /* twice, above 0 */
+    int32_t low_x, high_x, low_y, high_y;
+} Outline;
+
+/* False for one without area, or that is left out. */
+static inline bool turn(Outline *o, bool one_sided)
+{
+    const MesoRasterVertex *a = o->a, *b = o->b, *c = o->c;
+    o->area = ((int64_t)b->x - a->x) * ((int64_t)c->y - a->y) - ((int64_t)b->y - a->y) * ((int64_t)c->x - a->x);
+    if (o->area == 0 || (one_sided && o->area > 0))
+        return false;
+    if (o->area < 0) {
+        o->b = c;
+        o->c = b;
+        o->area = -o->area;
+    }
+    return true;
+}
+
+/* The change of nearness a unit to the right, and down. */
+static inline void find_slope(const Outline *o, float *along_x, float *along_y)
+{
+    float db = o->b->nearness - o->a->nearness, dc = o->c->nearness - o->a->nearness, scale = 1 / (float)o->area;
+    float bx = (float)(o->b->x - o->a->x), by = (float)(o->b->y - o->a->y);
+    float cx = (float)(o->c->x - o->a->x), cy = (float)(o->c->y - o->a->y);
+    *along_x = (db * cy - dc * by) * scale;
+    *along_y = (dc * bx - db * cx) * scale;
+}
+
+/* False for one beside the target. */
+static bool set_up(Triangle *t, const MesoRasterTarget *target, const Outline *o)
+{
+    int32_t cell = target->lanes->cell;
+    t->left = most(floor_divide(o->low_x, cell), 0);
+    t->top = most(floor_divide(o->low_y, cell), 0);
+    t->right = least(floor_divide(o->high_x, cell), target->cells_x - 1);
+    t->bottom = least(floor_divide(o->high_y, cell), target->cells_y - 1);
+    if (t->left > t->right || t->top > t->bottom)
+        return false;
+    int64_t corner_x = (int64_t)t->left * cell, corner_y = (int64_t)t->top * cell;
+    t->edges[0] = make_edge(o->a, o->b, corner_x, corner_y);
+    t->edges[1] = make_edge(o->b, o->c, corner_x, corner_y);
+    t->edges[2] = make_edge(o->c, o->a, corner_x, corner_y);
+    find_slope(o, &t->along_x, &t->along_y);
+    t->nearness = o->a->nearness + t->along_x * (float)(corner_x - o->a->x) + t->along_y * (float)(corner_y - o->a->y);
+    return true;
+}
+
+/* ---- triangles about as small as a pixel, one sample each ---- */
+
+enum { FEW = 6 };               /* pixels whose middles are tried one by one */
+
+/* -1 in the sign where the place is outside of the edge from a to b. */
+static inline int32_t side_of(const MesoRasterVertex *a, const MesoRasterVertex *b, int32_t x, int32_t y)
+{
+    int32_t dx = b->x - a->x, dy = b->y - a->y;
+    return dx * (y - a->y) - dy * (x - a->x) - !(dy < 0 || (dy == 0 && dx > 0));
+}
+
+/* Middles from (first_x, first_y) to (last_x, last_y), in pixels. */
+static inline void fill_few(const MesoRasterTarget *target, const Outline *o, int32_t first_x, int32_t last_x,
+                            int32_t first_y, int32_t last_y, uint32_t id)
+{
+    float along_x, along_y;
+    bool sloped = false;
+    for (int32_t py = first_y; py <= last_y; py++)
+        for (int32_t px = first_x; px <= last_x; px++) {
+            int32_t x = px * MESO_RASTER_UNIT + HALF, y = py * MESO_RASTER_UNIT + HALF;
+            if ((side_of(o->a, o->b, x, y) | side_of(o->b, o->c, x, y) | side_of(o->c, o->a, x, y)) < 0)
+                continue;
+            if (!sloped)
+                find_slope(o, &along_x, &along_y);
+            sloped = true;
+            float nearness = o->a->nearness + along_x * (float)(x - o->a->x) + along_y * (float)(y - o->a->y);
+            size_t place = (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) +
+                           (size_t)((py & 3) * 4 + (px & 3));
+            if (!(nearness > target->nearness[place]))
+                continue;
+            target->nearness[place] = nearness;
+            if (target->ids)
+                target->ids[place] = id;
+        }
+}
+
+/* True where the triangle is done with, in that way or as it holds no middle. */
+static inline bool draw_few(const MesoRasterTarget *target, Outline *o, uint32_t id, bool one_sided)
+{
+    int32_t first_x = most((o->low_x + HALF - 1) >> 8, 0), last_x = least((o->high_x - HALF) >> 8, 4 * target->cells_x - 1);
+    int32_t first_y = most((o->low_y + HALF - 1) >> 8, 0), last_y = least((o->high_y - HALF) >> 8, 4 * target->cells_y - 1);
+    if (first_x > last_x || first_y > last_y)
+        return true;
+    if ((int64_t)(last_x - first_x + 1) * (last_y - first_y + 1) > FEW)
+        return false;
+    if (o->high_x - o->low_x >= 1 << 14 || o->high_y - o->low_y >= 1 << 14)
+        return false;
+    if (turn(o, one_sided))
+        fill_few(target, o, first_x, last_x, first_y, last_y, id);
+    return true;
+}
+
+/* ---- others ---- */
+
+/* One kernel, whose width the compiler chooses; twice, for whole numbers of 32 and of 64 bits. */
+#define FILL(name, whole)                                                                                              \
+    __attribute__((always_inline)) static inline void name(const MesoRasterTarget *target, const Triangle *t,          \
+                                                           uint32_t id)                                                \
+    {                                                                                                                  \
+        const MesoRasterLanes *lanes = target->lanes;                                                                  \
+        whole offset[3][LANES], row[3];                                                                                \
+        float deeper[LANES];                                                                                           \
+        for (int e = 0; e < 3; e++) {                                                                                  \
+            whole x = (whole)t->edges[e].along_x, y = (whole)t->edges[e].along_y;                                      \
+            row[e] = (whole)t->edges[e].at_corner;                                                                     \
+            for (int l = 0; l < LANES; l++)                                                                            \
+                offset[e][l] = x * lanes->x[l] + y * lanes->y[l];                                                      \
+        }                                                                                                              \
+        for (int l = 0; l < LANES; l++)                                                                                \
+            deeper[l] = t->along_x * (float)lanes->x[l] + t->along_y * (float)lanes->y[l];                             \
+        float row_nearness = t->nearness, cell_size = (float)lanes->cell;                                              \
+        for (int32_t cy = t->top; cy <= t->bottom; cy++) {                                                             \
+            whole e0 = row[0], e1 = row[1], e2 = row[2];                                                               \
+            float nearness = row_nearness;                                                                             \
+            for (int32_t cx = t->left; cx <= t->right; cx++) {                                                         \
+                size_t first = (size_t)LANES * ((size_t)cy * (size_t)target->cells_x + (size_t)cx);                    \
+                float *there = target->nearness + first;                                                               \
+                uint32_t passed[LANES], any = 0;                                                                       \
+                for (int l = 0; l < LANES; l++) {                                                                      \
+                    whole outside = (e0 + offset[0][l]) | (e1 + offset[1][l]) | (e2 + offset[2][l]);                   \
+                    float mine = nearness + deeper[l];                                                                 \
+                    uint32_t pass = (outside >= 0) & (mine > there[l]);                                                \
+                    passed[l] = pass;                                                                                  \
+                    any |= pass;                                                                                       \
+                }                                                                                                      \
+                if (any) {                                                                                             \
+                    for (int l = 0; l < LANES; l++)                                                                    \
+                        there[l] = passed[l] ? nearness + deeper[l] : there[l];                                        \
+                    uint32_t *ids = target->ids ? target->ids + first : NULL;                                          \
+                    for (int l = 0; ids && l < LANES; l++)                                                             \
+                        ids[l] = passed[l] ? id : ids[l];                                                              \
+                }                                                                                                      \
+                e0 += (whole)t->edges[0].along_x * lanes->cell;                                                        \
+                e1 += (whole)t->edges[1].along_x * lanes->cell;                                                        \
+                e2 += (whole)t->edges[2].along_x * lanes->cell;                                                        \
+                nearness += t->along_x * cell_size;                                                                    \
+            }                                                                                                          \
+            for (int e = 0; e < 3; e++)                                                                                \
+                row[e] += (whole)t->edges[e].along_y * lanes->cell;                                                    \
+            row_nearness += t->along_y * cell_size;                                                                    \
+        }                                                                                                              \
+    }
+FILL(fill_small, int32_t)
+FILL(fill_large, int64_t)
+
+__attribute__((always_inline)) static inline void draw_all(const MesoRasterTarget *target,
+                                                           const MesoRasterVertex *vertices, const uint32_t *corners,
+                                                           uint32_t triangle_count, uint32_t first_id, bool one_sided)
+{
+    Triangle t;
+    bool single = target->lanes->samples == 1;
+    for (uint32_t i = 0; i < triangle_count; i++) {
+        const uint32_t *k = corners + 3 * (size_t)i;
+        const MesoRasterVertex *a = &vertices[k[0]], *b = &vertices[k[1]], *c = &vertices[k[2]];
+        Outline o = {.a = a, .b = b, .c = c,
+                     .low_x = least(a->x, least(b->x, c->x)), .high_x = most(a->x, most(b->x, c->x)),
+                     .low_y = least(a->y, least(b->y, c->y)), .high_y = most(a->y, most(b->y, c->y))};
+        if (single && draw_few(target, &o, first_id + i, one_sided))
+            continue;
+        if (!turn(&o, one_sided) || !set_up(&t, target, &o))
+            continue;
+        if (o.high_x - o.low_x < 1 << 14 && o.high_y - o.low_y < 1 << 14)   /* edges fit in 32 bits */
+            fill_small(target, &t, first_id + i);
+        else
+            fill_large(target, &t, first_id + i);
+    }
+}
+
+void meso_raster_draw_plain(const MesoRasterTarget *target, const MesoRasterVertex *vertices, const uint32_t *corners,
+                            uint32_t triangle_count, uint32_t first_id, bool one_sided)
+{
+    draw_all(target, vertices, corners, triangle_count, first_id, one_sided);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) static void draw_avx2(const MesoRasterTarget *target, const MesoRasterVertex *vertices,
+                                                      const uint32_t *corners, uint32_t triangle_count,
+                                                      uint32_t first_id, bool one_sided)
+{
+    draw_all(target, vertices, corners, triangle_count, first_id, one_sided);
+}
+
+void meso_raster_draw(const MesoRasterTarget *target, const MesoRasterVertex *vertices, const uint32_t *corners,
+                      uint32_t triangle_count, uint32_t first_id, bool one_sided)
+{
+    if (__builtin_cpu_supports("avx2"))
+        draw_avx2(target, vertices, corners, triangle_count, first_id, one_sided);
+    else
+        draw_all(target, vertices, corners, triangle_count, first_id, one_sided);
+}
+#else
+void meso_raster_draw(const MesoRasterTarget *target, const MesoRasterVertex *vertices, const uint32_t *corners,
+                      uint32_t triangle_count, uint32_t first_id, bool one_sided)
+{
+    draw_all(target, vertices, corners, triangle_count, first_id, one_sided);
+}
+#endif

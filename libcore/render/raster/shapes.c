@@ -1,0 +1,345 @@
+#include "libcore/render/raster/shapes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/scene/placed.h"
+#include "libcore/scene/sweep.h"
+
+/* ---- levels of detail ---- */
+
+static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, uint32_t level, bool seen, MesoArena *arena,
+                               MesoError *error)
+{
+    const MesoScene *scene = shapes->scene;
+    const MesoSweptKind *kind = &scene->kinds[k];
+    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
+    MesoShapeColumns *out = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS + level];
+    float tolerance = level == 0 ? 0 : shapes->finest * exp2f(0.5f * (float)level);
+    uint32_t *kept = MESO_NEW(arena, uint32_t, 2 * (size_t)kind->column_count, error);
+    if (!kept)
+        return MESO_ERR_MEMORY;
+    uint32_t *joints = kept + kind->column_count;
+    tolerance = scene->section_scale > 0 ? tolerance / scene->section_scale : 0;
+    out->count = (seen ? meso_detail_columns : meso_detail_silhouette)(columns, kind->column_count, tolerance, kept);
+    out->kept = kept;
+    out->joints = joints;
+    for (uint32_t i = 0; i + 1 < out->count; i++)
+        if (columns[kept[i]].joins_next)
+            joints[out->joint_count++] = i;
+    return MESO_OK;
+}
+
+static bool is_met(const MesoSweepColumn *a, const MesoSweepColumn *b)
+{
+    return a->start.x == b->start.x && a->start.y == b->start.y && a->end.x == b->end.x && a->end.y == b->end.y;
+}
+
+/* Whether the columns are loops: runs, each of which begins where the one before ended, as at a corner, or after a loop. */
+static bool is_closed(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    const MesoSweepColumn *columns = scene->columns + kind->column_begin, *loop = NULL;
+    for (uint32_t begin = 0, end; begin < kind->column_count; begin = end + 1) {
+        end = begin;
+        while (end + 1 < kind->column_count && columns[end].joins_next)
+            end++;
+        if (!loop)
+            loop = &columns[begin];
+        else if (!is_met(&columns[begin - 1], &columns[begin]))
+            return false;
+        if (is_met(loop, &columns[end]))
+            loop = NULL;
+    }
+    return !loop;
+}
+
+static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *error)
+{
+    const MesoScene *scene = shapes->scene;
+    MesoStatus status = MESO_OK;
+    for (int seen = 0; seen < 2; seen++)
+        shapes->columns[seen] = MESO_NEW(arena, MesoShapeColumns, (size_t)scene->kind_count * MESO_SHAPE_LEVELS, error);
+    shapes->closed = MESO_NEW(arena, bool, scene->kind_count, error);
+    shapes->details = MESO_NEW(arena, MesoKindDetail, scene->kind_count, error);
+    if (!shapes->columns[0] || !shapes->columns[1] || !shapes->closed || !shapes->details)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < scene->kind_count && !status; k++) {
+        shapes->details[k] = meso_kind_detail(scene, &scene->kinds[k]);
+        shapes->closed[k] = is_closed(scene, &scene->kinds[k]);
+        for (uint32_t i = 0; i < 2 * MESO_SHAPE_LEVELS && !status; i++)
+            status = make_columns(shapes, k, i / 2, i & 1, arena, error);
+    }
+    return status;
+}
+
+static uint32_t level_for(const MesoShapes *shapes, float tolerance)
+{
+    if (!(tolerance > shapes->finest))
+        return 0;
+    float level = floorf(2 * log2f(tolerance / shapes->finest));
+    return level < MESO_SHAPE_LEVELS - 1 ? (uint32_t)level : MESO_SHAPE_LEVELS - 1;
+}
+
+/* ---- bodies ---- */
+
+
+typedef struct Moving {
+    const MesoScene *scene;
+    const uint32_t *which;
+    MesoVec3 **positions, **normals;
+    bool failed;
+} Moving;
+
+static void move_bodies(void *context, uint64_t begin, uint64_t end)
+{
+    Moving *m = context;
+    for (uint64_t i = begin; i < end; i++) {
+        const MesoPlacedBody *placed = &m->scene->placed[m->which[i]];
+        uint32_t count = m->scene->bodies[placed->body].vertex_count;
+        MesoMeshVertex *vertices = malloc((count ? count : 1) * sizeof *vertices);
+        if (!vertices) {
+            __atomic_store_n(&m->failed, true, __ATOMIC_RELAXED);
+            continue;
+        }
+        meso_placed_vertices(m->scene, placed, vertices);
+        for (uint32_t v = 0; v < count; v++) {
+            m->positions[i][v] = vertices[v].position;
+            m->normals[i][v] = vertices[v].normal;
+        }
+        free(vertices);
+    }
+}
+
+static MesoStatus place_bodies(MesoShapes *shapes, MesoArena *arena, uint32_t thread_count, MesoError *error)
+{
+    const MesoScene *scene = shapes->scene;
+    uint32_t *which = MESO_NEW(arena, uint32_t, scene->placed_count, error), moved = 0;
+    MesoVec3 **positions = MESO_NEW(arena, MesoVec3 *, scene->placed_count, error);
+    MesoVec3 **normals = MESO_NEW(arena, MesoVec3 *, scene->placed_count, error);
+    shapes->positions = MESO_NEW(arena, const MesoVec3 *, scene->placed_count, error);
+    shapes->normals = MESO_NEW(arena, const MesoVec3 *, scene->placed_count, error);
+    shapes->mirrored = MESO_NEW(arena, bool, scene->placed_count, error);
+    if (!which || !positions || !normals || !shapes->positions || !shapes->normals || !shapes->mirrored)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < scene->placed_count; i++) {
+        const MesoPlacedBody *placed = &scene->placed[i];
+        const MesoBody *body = &scene->bodies[placed->body];
+        shapes->positions[i] = body->positions;
+        shapes->normals[i] = body->normals;
+        if (placed->place == MESO_PLACED_HERE)
+            continue;
+        shapes->mirrored[i] = meso_placed_is_mirrored(scene, placed);
+        positions[moved] = MESO_NEW(arena, MesoVec3, body->vertex_count, error);
+        normals[moved] = MESO_NEW(arena, MesoVec3, body->vertex_count, error);
+        if (!positions[moved] || !normals[moved])
+            return MESO_ERR_MEMORY;
+        shapes->positions[i] = positions[moved];
+        shapes->normals[i] = normals[moved];
+        which[moved++] = i;
+    }
+    Moving m = {scene, which, positions, normals, false};
+    meso_parallel_for(thread_count, moved, 16, move_bodies, &m);
+    return m.failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the bodies") : MESO_OK;
+}
+
+static MesoStatus make_runs(MesoShapes *shapes, MesoArena *arena, MesoError *error)
+{
+    const MesoScene *scene = shapes->scene;
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->placed_count; i++)
+        count += ((uint64_t)scene->bodies[scene->placed[i].body].face_count + MESO_SHAPE_FACES - 1) / MESO_SHAPE_FACES;
+    if (count + scene->sweep_count > UINT32_MAX - 1)
+        return meso_fail(error, MESO_ERR_LIMIT, "the scene has too many parts to draw");
+    shapes->count = scene->sweep_count + (uint32_t)count;
+    shapes->runs = MESO_NEW(arena, MesoShapeRun, count, error);
+    if (!shapes->runs)
+        return MESO_ERR_MEMORY;
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < scene->placed_count; i++) {
+        uint32_t faces = scene->bodies[scene->placed[i].body].face_count;
+        for (uint32_t f = 0; f < faces; f += MESO_SHAPE_FACES)
+            shapes->runs[next++] = (MesoShapeRun){
+                .placed = i, .face_begin = f,
+                .face_count = faces - f < MESO_SHAPE_FACES ? faces - f : MESO_SHAPE_FACES};
+    }
+    return MESO_OK;
+}
+
+/* ---- bounds ---- */
+
+static const uint32_t *face_of(const MesoBody *body, uint32_t face, uint32_t *sides)
+{
+    const uint32_t *v = body->corners + (size_t)body->face_width * face;
+    *sides = body->face_width == 4 && v[3] != MESO_NO_INDEX ? 4 : 3;
+    return v;
+}
+
+static MesoBox run_box(const MesoShapes *shapes, const MesoShapeRun *run)
+{
+    const MesoBody *body = &shapes->scene->bodies[shapes->scene->placed[run->placed].body];
+    MesoBox box = meso_box_empty();
+    for (uint32_t f = run->face_begin; f < run->face_begin + run->face_count; f++) {
+        uint32_t sides;
+        const uint32_t *v = face_of(body, f, &sides);
+        for (uint32_t k = 0; k < sides; k++)
+            meso_box_add(&box, meso_vec3_sub(shapes->positions[run->placed][v[k]], shapes->anchor));
+    }
+    return box;
+}
+
+/* Within the hull of the control points, widened by what the kind's profiles reach. */
+static MesoBox sweep_box(const MesoShapes *shapes, uint32_t sweep)
+{
+    const MesoScene *scene = shapes->scene;
+    MesoBox box = meso_box_empty();
+    float reach = fmaxf(shapes->details[shapes->kind_of[sweep]].radius, MESO_CAP_RISE * scene->section_scale);
+    for (uint32_t k = 0; k < 4; k++)
+        meso_box_add_around(&box, meso_vec3_sub(scene->sweeps[sweep].p[k], shapes->anchor), reach);
+    return box;
+}
+
+static void bound(void *context, uint64_t begin, uint64_t end)
+{
+    MesoShapes *shapes = context;
+    uint32_t sweeps = shapes->scene->sweep_count;
+    for (uint64_t i = begin; i < end; i++)
+        shapes->bounds[i] = i < sweeps ? sweep_box(shapes, (uint32_t)i) : run_box(shapes, &shapes->runs[i - sweeps]);
+}
+
+MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
+                            uint32_t thread_count, MesoError *error)
+{
+    float size = meso_vec3_length(meso_vec3_sub(scene->box.high, scene->box.low));
+    *shapes = (MesoShapes){.scene = scene, .anchor = anchor, .finest = 1e-6f * size};
+    MesoStatus status = make_runs(shapes, arena, error);
+    if (!status)
+        status = place_bodies(shapes, arena, thread_count, error);
+    if (!status)
+        status = make_levels(shapes, arena, error);
+    if (status)
+        return status;
+    shapes->kind_of = MESO_NEW(arena, uint32_t, scene->sweep_count, error);
+    shapes->bounds = MESO_NEW(arena, MesoBox, shapes->count, error);
+    if (!shapes->kind_of || !shapes->bounds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        for (uint32_t i = 0; i < scene->kinds[k].instance_count; i++)
+            shapes->kind_of[scene->kinds[k].instance_begin + i] = k;
+    meso_parallel_for(thread_count, shapes->count, 1024, bound, shapes);
+    return MESO_OK;
+}
+
+/* ---- meshes ---- */
+
+static bool grow(void **array, size_t count, size_t size)
+{
+    void *grown = realloc(*array, (count ? count : 1) * size);
+    if (grown)
+        *array = grown;
+    return grown != NULL;
+}
+
+static bool make_room(MesoShapeMesh *mesh, uint64_t vertices, uint64_t triangles)
+{
+    if (vertices > UINT32_MAX / 2 || triangles > UINT32_MAX / 2)
+        return false;
+    if (vertices > mesh->vertex_room) {
+        if (!grow((void **)&mesh->vertices, 2 * vertices, sizeof *mesh->vertices) ||
+            !grow((void **)&mesh->color_room, 2 * vertices, sizeof *mesh->color_room))
+            return false;
+        mesh->vertex_room = 2 * (uint32_t)vertices;
+    }
+    if (triangles > mesh->triangle_room) {
+        if (!grow((void **)&mesh->corners, 2 * triangles, 3 * sizeof *mesh->corners))
+            return false;
+        mesh->triangle_room = 2 * (uint32_t)triangles;
+    }
+    mesh->vertex_count = (uint32_t)vertices;
+    mesh->triangle_count = (uint32_t)triangles;
+    mesh->colors = NULL;
+    return true;
+}
+
+void meso_shape_mesh_release(MesoShapeMesh *mesh)
+{
+    free(mesh->vertices);
+    free(mesh->color_room);
+    free(mesh->corners);
+    *mesh = (MesoShapeMesh){0};
+}
+
+static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance, bool seen, MesoShapeMesh *mesh)
+{
+    const MesoScene *scene = shapes->scene;
+    uint32_t k = shapes->kind_of[sweep];
+    const MesoSweptKind *kind = &scene->kinds[k];
+    const MesoShapeColumns *columns = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS +
+                                                             level_for(shapes, tolerance)];
+    MesoSweepInstance instance = scene->sweeps[sweep];
+    for (uint32_t i = 0; i < 4; i++)
+        instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
+    uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance, seen);
+    const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings};
+    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->joint_count * (rings - 1)))
+        return false;
+    mesh->closed = shapes->closed[k];
+    meso_sweep_grid(scene, kind, &instance, &grid, mesh->vertices);
+    uint32_t *out = mesh->corners;
+    for (uint32_t r = 0; r + 1 < rings; r++)
+        for (uint32_t j = 0; j < columns->joint_count; j++) {
+            uint32_t a = r * columns->count + columns->joints[j], b = a + columns->count;
+            const uint32_t quad[6] = {a, b, b + 1, a, b + 1, a + 1};
+            memcpy(out, quad, sizeof quad);
+            out += 6;
+        }
+    return true;
+}
+
+/* Each corner is a vertex of its own: faces share few where they lie in any order. */
+static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShapeMesh *mesh)
+{
+    const MesoBody *body = &shapes->scene->bodies[shapes->scene->placed[run->placed].body];
+    const MesoVec3 *positions = shapes->positions[run->placed], *normals = shapes->normals[run->placed];
+    bool mirrored = shapes->mirrored[run->placed];
+    if (!make_room(mesh, 4 * (uint64_t)run->face_count, 2 * (uint64_t)run->face_count))
+        return false;
+    mesh->colors = body->colors ? mesh->color_room : NULL;
+    mesh->closed = false;
+    uint32_t vertex = 0;
+    for (uint32_t f = 0; f < run->face_count; f++) {
+        uint32_t sides, *corners = mesh->corners + 6 * (size_t)f;
+        const uint32_t *v = face_of(body, run->face_begin + f, &sides);
+        for (uint32_t k = 0; k < sides; k++) {
+            if (mesh->colors)
+                mesh->colors[vertex + k] = body->colors[v[k]];
+            mesh->vertices[vertex + k] = (MesoMeshVertex){meso_vec3_sub(positions[v[k]], shapes->anchor), normals[v[k]],
+                                                          body->uvs ? body->uvs[v[k]] : (MesoVec2){0, 0}};
+        }
+        uint32_t b = mirrored ? vertex + 2 : vertex + 1, c = mirrored ? vertex + 1 : vertex + 2;
+        uint32_t last = sides == 4 ? vertex + 3 : vertex;      /* a triangle's second half has no area */
+        const uint32_t halves[6] = {vertex, b, c, vertex, mirrored ? last : vertex + 2, mirrored ? vertex + 2 : last};
+        memcpy(corners, halves, sizeof halves);
+        vertex += sides;
+    }
+    mesh->vertex_count = vertex;
+    return true;
+}
+
+bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, bool seen, MesoShapeMesh *mesh)
+{
+    uint32_t sweeps = shapes->scene->sweep_count;
+    return shape < sweeps ? make_sweep(shapes, shape, tolerance, seen, mesh)
+                          : make_run(shapes, &shapes->runs[shape - sweeps], mesh);
+}
+
+MesoShapeLook meso_shape_look(const MesoShapes *shapes, uint32_t shape)
+{
+    const MesoScene *scene = shapes->scene;
+    if (shape < scene->sweep_count) {
+        const MesoSweptKind *kind = &scene->kinds[shapes->kind_of[shape]];
+        return (MesoShapeLook){scene->sweeps[shape].ids, kind->start_material, kind->end_material};
+    }
+    const MesoPlacedBody *placed = &scene->placed[shapes->runs[shape - scene->sweep_count].placed];
+    return (MesoShapeLook){placed->ids, placed->material, placed->material};
+}

@@ -1,0 +1,77 @@
+/*
+ * Shapes: a scene in pieces that a raster draws one by one, each made anew wherever it is wanted, as fine as that needs:
+ * sweeps, and runs of the faces of placed bodies.
+ */
+#ifndef MESO_SHAPES_H
+#define MESO_SHAPES_H
+
+#include "libcore/base/arena.h"
+#include "libcore/scene/detail.h"
+#include "libcore/scene/scene.h"
+
+enum { MESO_SHAPE_FACES = 128 };        /* of a body, at most */
+
+/* Consecutive faces of a placed body. */
+typedef struct MesoShapeRun {
+    uint32_t placed, face_begin, face_count;
+    MesoBox box;
+} MesoShapeRun;
+
+/* Levels of detail: level l stays within finest * 2^(l / 2) of the kinds' own surfaces; 0 is all that there is. */
+enum { MESO_SHAPE_LEVELS = 40 };
+
+/* Columns of a kind that a level keeps, and which of them join the next. */
+typedef struct MesoShapeColumns {
+    uint32_t count, joint_count;
+    const uint32_t *kept;       /* [count] columns of the kind */
+    const uint32_t *joints;     /* [joint_count] numbers in `kept` */
+} MesoShapeColumns;
+
+typedef struct MesoShapes {
+    const MesoScene *scene;
+    MesoVec3 anchor;            /* in the world; what is drawn is relative to it */
+    uint32_t count;             /* sweeps first, by their numbers in the scene, then runs */
+    MesoShapeRun *runs;         /* [count - sweep_count] */
+    const MesoVec3 **positions, **normals;      /* [placed_count] in the world */
+    bool *mirrored;             /* [placed_count] faces run the other way */
+    uint32_t *kind_of;          /* [sweep_count] */
+    MesoKindDetail *details;    /* [kind_count] */
+    MesoBox *bounds;            /* [count] relative to the anchor */
+    float finest;
+    bool *closed;               /* [kind_count] sections are loops: what looks away is behind what does not */
+    MesoShapeColumns *columns[2];   /* [kind_count * MESO_SHAPE_LEVELS] for shadows, and for what is seen */
+} MesoShapes;
+
+/*
+ * What is there lives in `arena`. Bodies that are placed by a frame or in a cage are moved there once: 24 bytes a vertex.
+ * O(sweeps + columns * levels + vertices + faces). MESO_ERR_MEMORY, or MESO_ERR_LIMIT for more than 2^32 - 2 shapes.
+ */
+MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
+                            uint32_t thread_count, MesoError *error);
+
+/* A shape as triangles; t = 2 face + half. */
+typedef struct MesoShapeMesh {
+    uint32_t vertex_count, triangle_count;
+    MesoMeshVertex *vertices;   /* [vertex_count] relative to the anchor; uv.y is how far along a sweep */
+    MesoMeshColor *colors;      /* [vertex_count] of a body that has some; NULL: white */
+    uint32_t *corners;          /* [3 * triangle_count] counter-clockwise from outside */
+    bool closed;                /* nothing of its inside is seen, but for its ends */
+    uint32_t vertex_room, triangle_room;
+    MesoMeshColor *color_room;
+} MesoShapeMesh;
+
+/*
+ * Makes a shape within `tolerance` of its own surface (0: all of it); where it is not to be `seen`, but to throw a
+ * shadow, with normals that may be far from it. The mesh begins zeroed, and is used again for the
+ * next; its arrays grow by realloc(). False where memory is out.
+ */
+bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, bool seen, MesoShapeMesh *mesh);
+void meso_shape_mesh_release(MesoShapeMesh *mesh);
+
+/* Row of the scene's ids, and material of a shape: blended from the first to the second along a sweep. */
+typedef struct MesoShapeLook {
+    uint32_t ids, start_material, end_material;
+} MesoShapeLook;
+MesoShapeLook meso_shape_look(const MesoShapes *shapes, uint32_t shape);
+
+#endif
