@@ -6,6 +6,10 @@ static const float PI = 3.14159265f, GOLDEN_ANGLE = 2.39996323f;
 static const float KEY[3] = {2.5f, 2.35f, 2.125f}, RIM[3] = {0.51f, 0.552f, 0.6f};
 static const float SKY[3] = {0.52f, 0.58f, 0.65f}, GROUND[3] = {0.25f, 0.228f, 0.205f};
 
+/* Places around one of the ground at which the sky's light is asked for, and how far out, in the scene's radii. */
+enum { GROUND_TAPS = 6 };
+static const float GROUND_SPREAD = 0.035f;
+
 /* Of the key light's disc, as the tangent of half its angle. */
 static const float KEY_EXTENT = 0.07f;
 
@@ -75,11 +79,11 @@ static void measure(MesoLightRig *rig, const MesoShapes *shapes)
 }
 
 MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
-                               const MesoLightQuality *quality, uint32_t thread_count, MesoError *error)
+                               MesoVec3 up, const MesoLightQuality *quality, uint32_t thread_count,
+                               MesoError *error)
 {
     *rig = (MesoLightRig){.sky_count = quality->sky_count, .key_count = quality->key_count,
-                          .to_key = in_view(view, -0.55f, 0.8f, 0.7f), .to_rim = in_view(view, 0.75f, 0.35f, -0.55f)};
-    rig->up = view->up;
+                          .to_key = in_view(view, -0.55f, 0.8f, 0.7f), .to_rim = in_view(view, 0.75f, 0.35f, -0.55f), .up = up};
     uint32_t count = rig->sky_count + rig->key_count;
     rig->maps = MESO_NEW(arena, MesoLightMap, count, error);
     rig->sky_colors = MESO_NEW(arena, float, 3 * (size_t)rig->sky_count, error);
@@ -207,9 +211,20 @@ float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p)
     float far = meso_vec3_length(from) / rig->radius, fade = 1 - smoothstep(2, 4, far);
     if (fade == 0)
         return 0;
+    float sky[3] = {0}, facing = fmaxf(meso_vec3_dot(rig->up, rig->to_key), 0);
+    MesoVec3 across = fabsf(rig->up.x) < 0.9f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 0, 1};
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(across, rig->up), across), y = meso_vec3_cross(rig->up, x);
     const MesoLitSurface ground = {.position = p, .normal = rig->up};
-    float sky[3], facing = fmaxf(meso_vec3_dot(rig->up, rig->to_key), 0);
-    sky_light(rig, &ground, sky);
+    /* Steps of light that a strand hides, and a plane shows, are spread over a few texels. */
+    for (uint32_t i = 0; i < GROUND_TAPS; i++) {
+        float part[3], r = GROUND_SPREAD * rig->radius * sqrtf(((float)i + 0.5f) / GROUND_TAPS), a = GOLDEN_ANGLE * (float)i;
+        MesoVec3 from_p = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
+        const MesoLitSurface tap = {.position = meso_vec3_add(p, from_p), .normal = rig->up};
+        sky_light(rig, &tap, part);
+        for (int c = 0; c < 3; c++)
+            sky[c] += part[c] / GROUND_TAPS;
+    }
+
     float whole = luminance(KEY) / PI * facing + luminance(rig->open_sky);
     float left = luminance(KEY) / PI * facing * key_light(rig, &ground) + luminance(sky);
     return whole > 0 ? fade * fmaxf(1 - left / whole, 0) : 0;

@@ -37,9 +37,12 @@ typedef struct MesoLightRig {
     float radius;
 } MesoLightRig;
 
-/* Draws the maps of all lights; they live in `arena`. `view` is the camera's, `up` its upright. MESO_ERR_MEMORY alone. */
+/*
+ * Draws the maps of all lights; they live in `arena`. `view` is the camera's, `up` what is up in the world, unit.
+ * MESO_ERR_MEMORY alone.
+ */
 MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
-                               const MesoLightQuality *quality, uint32_t thread_count, MesoError *error);
+                               MesoVec3 up, const MesoLightQuality *quality, uint32_t thread_count, MesoError *error);
 
 /* What is lit. */
 typedef struct MesoLitSurface {

@@ -238,7 +238,8 @@ static void test_light(void)
     CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
     CHECK(meso_shapes_init(&shapes, &arena, &b.scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
     const MesoLightQuality quality = {256, 256, 16, 512};
-    CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, &quality, 2, &error) == MESO_OK);
+    CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, options.camera.up, &quality, 2,
+                              &error) == MESO_OK);
     const MesoVec3 ways[3] = {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}};
     for (int i = 0; i < 3; i++) {
         MesoLitSurface s = {.position = meso_vec3_scale(ways[i], 0.5f), .normal = ways[i], .to_eye = {0, 0, 1},
