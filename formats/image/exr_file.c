@@ -7,11 +7,12 @@
 
 #include <OpenEXR/openexr.h>
 
+#include "formats/image/exr_deflate.h"
 #include "formats/image/image_file.h"
 #include "libcore/base/parallel.h"
 #include "libcore/render/projection.h"
 
-enum { PICTURE_CHANNELS = 11, CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS, BATCH = 16, ZIP_LEVEL = 4 };
+enum { PICTURE_CHANNELS = 11, CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS, BATCH = 16 };
 
 /* The library removes this file after a failure, so it is one that cannot exist. */
 static const char *const NO_FILE = "/dev/null/none.exr";
@@ -166,8 +167,6 @@ static exr_result_t describe(Writer *writer, const char *provenance)
         result = exr_initialize_required_attr_simple(context, part, (int32_t)writer->image->width,
                                                      (int32_t)writer->image->height,
                                                      EXR_COMPRESSION_ZIP);
-    if (!result)
-        result = exr_set_zip_compression_level(context, part, ZIP_LEVEL);
     for (uint32_t i = 0; i < writer->channel_count && !result; i++)
         result = exr_add_channel(context, part, writer->channels[i].name, writer->channels[i].stored,
                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
@@ -228,6 +227,7 @@ static exr_result_t encode_chunk(Writer *writer, uint32_t slot)
     result = connect(writer, pipeline, (uint32_t)chunk->start_y);
     if (!result)
         result = exr_encoding_choose_default_routines(writer->context, 0, pipeline);
+    pipeline->compress_fn = meso_exr_deflate;
     pipeline->yield_until_ready_fn = write_later;
     pipeline->write_fn = write_later;
     return result ? result : exr_encoding_run(writer->context, 0, pipeline);
