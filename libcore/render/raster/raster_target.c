@@ -159,20 +159,22 @@ static inline void fill_few(const MesoRasterTarget *target, const Outline *o, in
         }
 }
 
-/* True where the triangle is done with, in that way or as it holds no middle. */
-static inline bool draw_few(const MesoRasterTarget *target, Outline *o, uint32_t id, bool one_sided)
+/* Pixels of the target whose middles lie in the box around the triangle. */
+typedef struct Middles {
+    int32_t first_x, last_x, first_y, last_y;
+} Middles;
+
+static inline Middles middles_of(const MesoRasterTarget *target, int32_t low_x, int32_t high_x, int32_t low_y,
+                                 int32_t high_y)
 {
-    int32_t first_x = most((o->low_x + HALF - 1) >> 8, 0), last_x = least((o->high_x - HALF) >> 8, 4 * target->cells_x - 1);
-    int32_t first_y = most((o->low_y + HALF - 1) >> 8, 0), last_y = least((o->high_y - HALF) >> 8, 4 * target->cells_y - 1);
-    if (first_x > last_x || first_y > last_y)
-        return true;
-    if ((int64_t)(last_x - first_x + 1) * (last_y - first_y + 1) > FEW)
-        return false;
-    if (o->high_x - o->low_x >= 1 << 14 || o->high_y - o->low_y >= 1 << 14)
-        return false;
-    if (turn(o, one_sided))
-        fill_few(target, o, first_x, last_x, first_y, last_y, id);
-    return true;
+    return (Middles){most((low_x + HALF - 1) >> 8, 0), least((high_x - HALF) >> 8, 4 * target->cells_x - 1),
+                     most((low_y + HALF - 1) >> 8, 0), least((high_y - HALF) >> 8, 4 * target->cells_y - 1)};
+}
+
+static inline bool is_few(const Middles *m, int32_t wide, int32_t high)
+{
+    return (m->last_x - m->first_x + 1) * (int64_t)(m->last_y - m->first_y + 1) <= FEW && wide < 1 << 14 &&
+           high < 1 << 14;
 }
 
 /* ---- others ---- */
@@ -237,14 +239,19 @@ __attribute__((always_inline)) static inline void draw_all(const MesoRasterTarge
     for (uint32_t i = 0; i < triangle_count; i++) {
         const uint32_t *k = corners + 3 * (size_t)i;
         const MesoRasterVertex *a = &vertices[k[0]], *b = &vertices[k[1]], *c = &vertices[k[2]];
-        Outline o = {.a = a, .b = b, .c = c,
-                     .low_x = least(a->x, least(b->x, c->x)), .high_x = most(a->x, most(b->x, c->x)),
-                     .low_y = least(a->y, least(b->y, c->y)), .high_y = most(a->y, most(b->y, c->y))};
-        if (single && draw_few(target, &o, first_id + i, one_sided))
+        int32_t low_x = least(a->x, least(b->x, c->x)), high_x = most(a->x, most(b->x, c->x));
+        int32_t low_y = least(a->y, least(b->y, c->y)), high_y = most(a->y, most(b->y, c->y));
+        Middles m = middles_of(target, low_x, high_x, low_y, high_y);
+        if (single && (m.first_x > m.last_x || m.first_y > m.last_y))
             continue;
-        if (!turn(&o, one_sided) || !set_up(&t, target, &o))
+        Outline o = {.a = a, .b = b, .c = c, .low_x = low_x, .high_x = high_x, .low_y = low_y, .high_y = high_y};
+        if (!turn(&o, one_sided))
             continue;
-        if (o.high_x - o.low_x < 1 << 14 && o.high_y - o.low_y < 1 << 14)   /* edges fit in 32 bits */
+        if (single && is_few(&m, high_x - low_x, high_y - low_y))
+            fill_few(target, &o, m.first_x, m.last_x, m.first_y, m.last_y, first_id + i);
+        else if (!set_up(&t, target, &o))
+            continue;
+        else if (high_x - low_x < 1 << 14 && high_y - low_y < 1 << 14)      /* edges fit in 32 bits */
             fill_small(target, &t, first_id + i);
         else
             fill_large(target, &t, first_id + i);
