@@ -4,10 +4,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cmd/common/camera_options.h"
 #include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
-#include "cmd/common/tool.h"
+#include "cmd/render/render_frames.h"
+#include "formats/file/claim.h"
 #include "formats/image/image_file.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
@@ -19,35 +19,22 @@ static const MesoToolInfo RENDER_TOOL = {
     .synopsis = "meso-render [options] MODEL -o OUT.exr|.png",
     .purpose = "Draw a model or a mesh to an image: colour, depth, normals, albedo, ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
-                "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png",
+                "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png\n"
+                "meso-render --turntable 48 --resume vase.meso -o turn-%04d.png",
     .words = "1 .meso\n"
              "--output .exr .png\n"
              "--json .json\n"
+             "--keys .json\n"
              "--png .png\n"
              "--background none",
     .operands_low = 1,
     .operands_high = 1,
 };
 
-typedef struct RenderArguments {
-    MesoTool tool;
-    MesoCameraOptions camera;
-    const char *png;            /* --png */
-    const char *to;             /* --to */
-    const char *background_text;
-    const char *samples_text;
-    const char *context, *visibility, *ground;
-    bool context_given;
-
-    bool exr_product;           /* of -o */
-    bool transparent;
-    float background[3];
-} RenderArguments;
-
 /* A light grey that leaves room for highlights. */
 static const float DEFAULT_BACKGROUND[3] = {0.84f, 0.85f, 0.87f};
 
-static MesoStatus parse_background(RenderArguments *a, MesoError *error)
+static MesoStatus parse_background(MesoRenderArguments *a, MesoError *error)
 {
     const char *text = a->background_text;
     memcpy(a->background, DEFAULT_BACKGROUND, sizeof a->background);
@@ -67,7 +54,7 @@ static MesoStatus parse_background(RenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus choose_product(RenderArguments *a, MesoError *error)
+static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
 {
     const char *output = a->tool.output, *kind = a->to;
     if (!output)
@@ -83,7 +70,7 @@ static MesoStatus choose_product(RenderArguments *a, MesoError *error)
                      output);
 }
 
-static MesoStatus write_image(const RenderArguments *a, const char *path, bool exr,
+static MesoStatus write_image(const MesoRenderArguments *a, const char *path, bool exr,
                               const MesoImage *image, MesoError *error)
 {
     MesoOutput *output;
@@ -140,12 +127,12 @@ typedef struct Drawn {
 } Drawn;
 
 /* Tiles, unless GL is asked for, or a context of it. */
-static bool wants_gl(const RenderArguments *a)
+static bool wants_gl(const MesoRenderArguments *a)
 {
     return strcmp(a->visibility, "gl") == 0 || (strcmp(a->visibility, "auto") == 0 && a->context_given);
 }
 
-static MesoStatus check_maker(const RenderArguments *a, MesoError *error)
+static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
 {
     if (wants_gl(a) && strcmp(a->samples_text, "16") == 0)
         return meso_fail(error, MESO_ERR_USAGE, "--samples 16 is for --visibility tiles; GL draws 1 or 4");
@@ -156,21 +143,21 @@ static MesoStatus check_maker(const RenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus draw(RenderArguments *a, Drawn *drawn, const MesoScene *scene, MesoError *error)
+static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, const MesoScene *scene,
+                       const MesoCamera *camera, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     const MesoRenderOptions options = {
         .width = a->camera.size[0],
         .height = a->camera.size[1],
-        .camera = meso_camera_options_resolve(&a->camera, scene),
+        .camera = *camera,
         .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
         .ground = strcmp(a->ground, "shadow") == 0,
     };
     *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
     if (!wants_gl(a))
-        return meso_tile_picture(&drawn->own, &tool->arena, scene, &options, tool->threads, error);
-    MesoStatus status = meso_picture_init(&drawn->apart, &tool->arena, a->context, tool->threads, scene, &options,
-                                          error);
+        return meso_tile_picture(&drawn->own, arena, scene, &options, tool->threads, error);
+    MesoStatus status = meso_picture_init(&drawn->apart, arena, a->context, tool->threads, scene, &options, error);
     if (status)
         return status;
     drawn->renderer = drawn->apart->renderer;
@@ -178,66 +165,173 @@ static MesoStatus draw(RenderArguments *a, Drawn *drawn, const MesoScene *scene,
     return MESO_OK;
 }
 
-static MesoStatus write_images(const RenderArguments *a, const MesoImage *image, MesoError *error)
+static MesoStatus write_images(const MesoRenderArguments *a, const MesoRenderFrame *frame, const MesoImage *image,
+                               MesoError *error)
 {
-    MesoStatus status = write_image(a, a->tool.output, a->exr_product, image, error);
-    if (!status && a->png)
-        status = write_image(a, a->png, false, image, error);
+    MesoStatus status = write_image(a, frame->output, a->exr_product, image, error);
+    if (!status && frame->png)
+        status = write_image(a, frame->png, false, image, error);
     return status;
 }
 
-static MesoStatus render(RenderArguments *a, const MesoScene *scene, double start, MesoError *error)
+/* What frames share: a model is read once, but where each has its own. */
+typedef struct Work {
+    MesoRenderArguments *a;
+    MesoRenderFrames frames;
+    MesoInput input;
+    MesoScene scene;
+    bool open;                  /* the input is */
+    uint32_t input_count;       /* of the provenance, without the model */
+    uint32_t drawn, skipped;    /* frames */
+} Work;
+
+static void close_model(Work *work)
 {
-    MesoTool *tool = &a->tool;
+    if (work->open)
+        meso_input_close(&work->input);
+    work->open = false;
+}
+
+static MesoStatus read_model(Work *work, const char *path)
+{
+    MesoTool *tool = &work->a->tool;
+    MesoSceneReading reading = {.thread_count = tool->threads};
+    close_model(work);
+    tool->provenance.input_count = work->input_count;
+    MesoStatus status = meso_tool_read_scene(tool, &work->scene, &work->input, path, &reading);
+    work->open = status == MESO_OK;
+    return status;
+}
+
+static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double start, MesoError *error)
+{
+    MesoRenderArguments *a = work->a;
+    MesoArena scratch;
     Drawn drawn;
     double at[5] = {start, meso_seconds()};
-
-    MesoStatus status = draw(a, &drawn, scene, error);
-    if (status)
-        return status;
+    MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->scene);
+    meso_arena_init(&scratch);
+    MesoStatus status = draw(a, &drawn, &scratch, &work->scene, &camera, error);
     const MesoImage *image = drawn.apart ? &drawn.apart->image : &drawn.own;
     at[2] = drawn.begun;
     at[3] = meso_seconds();
-    status = write_images(a, image, error);
+    if (!status)
+        status = write_images(a, frame, image, error);
     at[4] = meso_seconds();
     if (!status) {
-        report_image(tool, image, scene, drawn.renderer);
-        say_times(tool, at);
+        report_image(&a->tool, image, &work->scene, drawn.renderer);
+        say_times(&a->tool, at);
+        work->drawn++;
     }
     meso_picture_release(drawn.apart);
+    meso_arena_release(&scratch);
     return status;
 }
 
-static MesoStatus run(RenderArguments *a, MesoError *error)
+/* Where others may be at work on the same frames, each is drawn by whoever claims it first, if it is not done. */
+static MesoStatus resume_frame(Work *work, const MesoRenderFrame *frame, double start, MesoError *error)
 {
-    MesoTool *tool = &a->tool;
-    MesoInput input;
-    MesoScene scene;
-    MesoSceneReading reading = {.thread_count = tool->threads};
+    MesoClaim claim = {0};
+    bool taken, done;
+    MesoStatus status = meso_render_frame_is_done(&done, frame, &work->a->tool.provenance, error);
+    if (status || done) {
+        work->skipped += done;
+        return status;
+    }
+    status = meso_claim_take(&claim, frame->output, &taken, error);
+    if (!status && taken)
+        status = meso_render_frame_is_done(&done, frame, &work->a->tool.provenance, error);
+    if (!status && taken && !done)
+        status = draw_frame(work, frame, start, error);
+    else if (!status)
+        work->skipped++;
+    meso_claim_release(&claim);
+    return status;
+}
+
+static MesoStatus render_frame(Work *work, uint32_t i, MesoError *error)
+{
+    MesoTool *tool = &work->a->tool;
+    MesoRenderFrame frame;
     double start = meso_seconds();
+    MesoStatus status = meso_render_frame(&frame, &work->frames, i, &tool->arena, error);
+    if (!status && (work->frames.many_models || !work->open))
+        status = read_model(work, frame.model);
+    if (status)
+        return status;
+    if (work->frames.numbered) {
+        status = meso_tool_check_output(tool, "-o", frame.output);
+        if (!status && frame.png)
+            status = meso_tool_check_output(tool, "--png", frame.png);
+    }
+    tool->provenance.command_line = frame.command;
+    if (status)
+        return status;
+    return work->a->resume ? resume_frame(work, &frame, start, error) : draw_frame(work, &frame, start, error);
+}
+
+static MesoStatus render(Work *work, MesoError *error)
+{
+    MesoTool *tool = &work->a->tool;
+    MesoStatus status = MESO_OK;
+    uint32_t count = work->frames.list.count;
+    const char *command = tool->provenance.command_line;
+    if (work->frames.numbered)
+        meso_tool_progress_begin(tool, "frames", "frames");
+    for (uint32_t i = 0; i < count && !status; i++) {
+        MesoArenaMark mark = meso_arena_mark(&tool->arena);
+        status = render_frame(work, i, error);
+        if (status && work->frames.numbered)
+            meso_fail_prefix(error, meso_arena_print(&tool->arena, NULL, "frame %d", work->frames.list.frames[i]));
+        if (work->frames.many_models) {
+            close_model(work);
+            tool->provenance.input_count = work->input_count;
+            meso_arena_rewind(&tool->arena, mark);
+        }
+        if (work->frames.numbered)
+            meso_tool_progress(tool, i + 1, count);
+    }
+    tool->provenance.command_line = command;
+    if (!status && (work->frames.numbered || work->a->resume)) {
+        json_object_set_new(tool->report, "frames_drawn", json_integer(work->drawn));
+        json_object_set_new(tool->report, "frames_skipped", json_integer(work->skipped));
+        meso_tool_say(tool, "%u frame%s drawn, %u done before", work->drawn, work->drawn == 1 ? "" : "s", work->skipped);
+    }
+    return status;
+}
+
+static MesoStatus run(MesoRenderArguments *a, MesoError *error)
+{
+    Work work = {.a = a};
     MesoStatus status = choose_product(a, error);
     if (!status)
         status = check_maker(a, error);
     if (!status)
         status = parse_background(a, error);
     if (!status)
-        status = meso_tool_read_scene(tool, &scene, &input, tool->operands[0], &reading);
-    if (status)
-        return status;
-    status = render(a, &scene, start, error);
-    meso_input_close(&input);
+        status = meso_render_frames_init(&work.frames, a, error);
+    work.input_count = a->tool.provenance.input_count;
+    if (!status)
+        status = render(&work, error);
+    close_model(&work);
     return status;
 }
 
 int main(int argc, char **argv)
 {
-    RenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
+    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
                          .ground = "none"};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
         MESO_OUTPUT_FILE(0, "png", "FILE", "write the colour as PNG there too", &a.png),
         MESO_CAMERA_OPTIONS(a.camera),
+        MESO_GROUP("Frames; the names of files, and of MODEL, have their number in %04d"),
+        MESO_TEXT(0, "frames", "LIST", "which: 1-100, 1-99x2, 3,10-20 (default: all that there are)", &a.frames),
+        MESO_COUNT(0, "turntable", "N", "N frames, 1 to N, for a full turn around the model", &a.turntable, 1, 1000000),
+        MESO_INPUT_FILE(0, "keys", "FILE", "the camera goes through key frames of a .camera.json", &a.keys),
+        MESO_FLAG(0, "resume", "leave frames that are done, and those that another process works on", &a.resume,
+                  .more = MESO_OPTION_SILENT),
         MESO_GROUP("Picture"),
         MESO_CHOICE(0, "samples", "N", "samples of the colour a pixel, 1, 4 (default) or 16", &a.samples_text,
                     "1|4|16"),

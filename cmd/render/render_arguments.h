@@ -1,0 +1,27 @@
+/* What meso-render is told. */
+#ifndef MESO_RENDER_ARGUMENTS_H
+#define MESO_RENDER_ARGUMENTS_H
+
+#include "cmd/common/camera_options.h"
+#include "cmd/common/tool.h"
+
+typedef struct MesoRenderArguments {
+    MesoTool tool;
+    MesoCameraOptions camera;
+    const char *png;            /* --png */
+    const char *to;             /* --to */
+    const char *background_text;
+    const char *samples_text;
+    const char *context, *visibility, *ground;
+    bool context_given;
+    const char *frames;         /* --frames; NULL: one picture, or all frames of a turntable or of a pattern MODEL */
+    uint32_t turntable;         /* --turntable: frames of a full turn; 0: none */
+    const char *keys;           /* --keys: a file of cameras */
+    bool resume;                /* --resume */
+
+    bool exr_product;           /* of -o */
+    bool transparent;
+    float background[3];
+} MesoRenderArguments;
+
+#endif
