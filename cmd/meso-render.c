@@ -54,6 +54,27 @@ static MesoStatus parse_background(MesoRenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
+/* Words with commas between. */
+static MesoStatus parse_extras(MesoRenderArguments *a, MesoError *error)
+{
+    static const struct {
+        const char *word;
+        unsigned extras;
+    } known[] = {{"position", MESO_EXTRA_POSITION}, {"uv", MESO_EXTRA_UV}, {"occlusion", MESO_EXTRA_OCCLUSION},
+                 {"material", MESO_EXTRA_MATERIAL}, {"cryptomatte", MESO_EXTRA_MATTES}, {"all", ~0u}};
+    for (const char *word = a->aov; word && *word;) {
+        size_t length = strcspn(word, ","), k = 0, count = sizeof known / sizeof *known;
+        while (k < count && (strlen(known[k].word) != length || strncmp(known[k].word, word, length) != 0))
+            k++;
+        if (k == count)
+            return meso_fail(error, MESO_ERR_USAGE, "--aov: '%.*s' is none of position, uv, occlusion, material, "
+                             "cryptomatte, all", (int)length, word);
+        a->extras |= known[k].extras;
+        word += length + (word[length] == ',');
+    }
+    return MESO_OK;
+}
+
 static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
 {
     const char *output = a->tool.output, *kind = a->to;
@@ -138,6 +159,8 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE, "--samples 16 is for --visibility tiles; GL draws 1 or 4");
     if (wants_gl(a) && strcmp(a->ground, "none") != 0)
         return meso_fail(error, MESO_ERR_USAGE, "--ground is for --visibility tiles; GL draws none");
+    if (wants_gl(a) && a->extras)
+        return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
         return meso_fail(error, MESO_ERR_USAGE, "--context is for --visibility gl; tiles need none");
     return MESO_OK;
@@ -153,6 +176,7 @@ static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, c
         .camera = *camera,
         .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
         .ground = strcmp(a->ground, "shadow") == 0,
+        .extras = a->extras,
     };
     *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
     if (!wants_gl(a))
@@ -305,6 +329,8 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     Work work = {.a = a};
     MesoStatus status = choose_product(a, error);
     if (!status)
+        status = parse_extras(a, error);
+    if (!status)
         status = check_maker(a, error);
     if (!status)
         status = parse_background(a, error);
@@ -339,6 +365,8 @@ int main(int argc, char **argv)
                     "none|shadow"),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
                     "--context is given", &a.visibility, "auto|tiles|gl"),
+        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",
+                  &a.aov),
         MESO_TEXT(0, "background", "R,G,B",
                   "of the PNG, linear, 0 to 1; none for a transparent one (default: light grey)",
                   &a.background_text),

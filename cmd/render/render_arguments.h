@@ -18,6 +18,8 @@ typedef struct MesoRenderArguments {
     uint32_t turntable;         /* --turntable: frames of a full turn; 0: none */
     const char *keys;           /* --keys: a file of cameras */
     bool resume;                /* --resume */
+    const char *aov;            /* --aov; NULL: none beside the usual ones */
+    unsigned extras;            /* MesoImageExtra */
 
     bool exr_product;           /* of -o */
     bool transparent;

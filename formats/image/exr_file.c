@@ -2,17 +2,20 @@
  * Chunks of 16 rows are packed and compressed by all threads, a batch at a
  * time, and written in order, as the library wants them.
  */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <OpenEXR/openexr.h>
+#include <jansson.h>
 
 #include "formats/image/exr_deflate.h"
 #include "formats/image/image_file.h"
 #include "libcore/base/parallel.h"
 #include "libcore/render/projection.h"
 
-enum { PICTURE_CHANNELS = 11, CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS, BATCH = 16 };
+enum { PICTURE_CHANNELS = 11, EXTRA_CHANNELS = 8, MATTES = MESO_ID_CHANNELS + 1, MATTE_CHANNELS = 2 * MESO_MATTE_RANKS,
+       CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS + EXTRA_CHANNELS + MATTES * MATTE_CHANNELS, BATCH = 16 };
 
 /* The library removes this file after a failure, so it is one that cannot exist. */
 static const char *const NO_FILE = "/dev/null/none.exr";
@@ -39,11 +42,44 @@ typedef struct Writer {
     Channel channels[CHANNELS];
     const char *names_keys[MESO_ID_CHANNELS];   /* "meso:tiles" for the channel "tile"; NULL without names */
     const char *names[MESO_ID_CHANNELS];
+    char matte_names[MATTES * MATTE_CHANNELS][MESO_CHANNEL_NAME + 16];
     exr_encode_pipeline_t pipelines[BATCH];
     bool ready[BATCH];                  /* pipeline is initialised */
     exr_chunk_info_t chunks[BATCH];
     exr_result_t results[BATCH];
 } Writer;
+
+static void add_channel(Writer *writer, const char *name, exr_pixel_type_t stored, uint32_t stride, const float *values)
+{
+    writer->channels[writer->channel_count++] = (Channel){name, stored, EXR_PIXEL_FLOAT, stride, values};
+}
+
+static void list_extras(Writer *writer)
+{
+    static const char *const position[3] = {"P.X", "P.Y", "P.Z"}, *const uv[2] = {"uv.U", "uv.V"};
+    static const char *const material[2] = {"roughness", "metallic"};
+    const MesoImage *m = writer->image;
+    for (uint32_t i = 0; m->position && i < 3; i++)
+        add_channel(writer, position[i], EXR_PIXEL_FLOAT, 3, m->position + i);
+    for (uint32_t i = 0; m->uv && i < 2; i++)
+        add_channel(writer, uv[i], EXR_PIXEL_FLOAT, 2, m->uv + i);
+    for (uint32_t i = 0; m->material && i < 2; i++)
+        add_channel(writer, material[i], EXR_PIXEL_HALF, 2, m->material + i);
+    if (m->openness)
+        add_channel(writer, "AO", EXR_PIXEL_HALF, 1, m->openness);
+}
+
+/* Two ranks a layer: number and coverage in R and G, and in B and A. */
+static void list_mattes(Writer *writer)
+{
+    const MesoImage *m = writer->image;
+    for (uint32_t k = 0; k < m->matte_count; k++)
+        for (uint32_t i = 0; i < MATTE_CHANNELS; i++) {
+            char *name = writer->matte_names[k * MATTE_CHANNELS + i];
+            snprintf(name, sizeof *writer->matte_names, "crypto_%s%02u.%c", m->mattes[k].name, i / 4, "RGBA"[i % 4]);
+            add_channel(writer, name, EXR_PIXEL_FLOAT, MATTE_CHANNELS, m->mattes[k].ranks + i);
+        }
+}
 
 static void list_channels(Writer *writer)
 {
@@ -66,6 +102,45 @@ static void list_channels(Writer *writer)
     for (uint32_t c = 0; c < m->channel_count; c++)
         writer->channels[writer->channel_count++] =
             (Channel){m->channels[c].name, EXR_PIXEL_UINT, EXR_PIXEL_UINT, 1, m->ids[c]};
+    list_extras(writer);
+    list_mattes(writer);
+}
+
+/* {"name": "1a2b3c4d", ...} of the things that are on the picture, by their numbers. */
+static char *manifest_of(const MesoMatte *matte)
+{
+    json_t *object = json_object();
+    int failed = !object;
+    for (uint32_t i = 0; i < matte->count && !failed; i++) {
+        char text[16], hash[16];
+        uint32_t bits;
+        if (!(matte->seen[i / 64] >> (i % 64) & 1))
+            continue;
+        memcpy(&bits, &matte->hashes[i], sizeof bits);
+        snprintf(hash, sizeof hash, "%08x", bits);
+        failed |= json_object_set_new_nocheck(object, meso_matte_name(matte, i, text), json_string(hash)) != 0;
+    }
+    char *text = failed ? NULL : json_dumps(object, JSON_COMPACT);
+    json_decref(object);
+    return text;
+}
+
+static exr_result_t describe_matte(exr_context_t context, const MesoMatte *matte)
+{
+    char name[MESO_CHANNEL_NAME + 16], key[64];
+    char *manifest = manifest_of(matte);
+    if (!manifest)
+        return EXR_ERR_OUT_OF_MEMORY;
+    snprintf(name, sizeof name, "crypto_%s", matte->name);
+    const char *const values[4][2] = {{"name", name}, {"hash", "MurmurHash3_32"}, {"conversion", "uint32_to_float32"},
+                                      {"manifest", manifest}};
+    exr_result_t result = EXR_ERR_SUCCESS;
+    for (int i = 0; i < 4 && !result; i++) {
+        snprintf(key, sizeof key, "cryptomatte/%07x/%s", meso_matte_hash(name, strlen(name)) >> 4, values[i][0]);
+        result = exr_attr_set_string(context, 0, key, values[i][1]);
+    }
+    free(manifest);
+    return result;
 }
 
 static int64_t write_stream(exr_const_context_t context, void *user, const void *data, uint64_t size,
@@ -177,6 +252,8 @@ static exr_result_t describe(Writer *writer, const char *provenance)
     for (uint32_t c = 0; c < MESO_ID_CHANNELS && !result; c++)
         if (writer->names[c])
             result = exr_attr_set_string(context, part, writer->names_keys[c], writer->names[c]);
+    for (uint32_t k = 0; k < writer->image->matte_count && !result; k++)
+        result = describe_matte(context, &writer->image->mattes[k]);
     if (!result)
         result = set_camera(writer);
     return result ? result : exr_write_header(context);

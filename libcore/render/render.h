@@ -6,8 +6,14 @@
 
 #include "libcore/render/camera.h"
 #include "libcore/render/context.h"
+#include "libcore/render/matte.h"
 
-/* Rows from top to bottom. Unused arrays are never NULL: all AOVs are always made. */
+/* Variables that are made where they are asked for, and not by GL. */
+typedef enum MesoImageExtra {
+    MESO_EXTRA_POSITION = 1, MESO_EXTRA_UV = 2, MESO_EXTRA_OCCLUSION = 4, MESO_EXTRA_MATERIAL = 8, MESO_EXTRA_MATTES = 16
+} MesoImageExtra;
+
+/* Rows from top to bottom. Of the arrays none is NULL but those of extras, which are where they were asked for. */
 typedef struct MesoImage {
     uint32_t width, height;
     MesoCamera camera;
@@ -18,6 +24,12 @@ typedef struct MesoImage {
     uint32_t channel_count;
     MesoIdChannel channels[MESO_ID_CHANNELS];
     uint32_t *ids[MESO_ID_CHANNELS];    /* [width * height] id + 1 in each channel; 0 where empty */
+    float *position;    /* [3 * width * height] world space; 0 where empty */
+    float *uv;          /* [2 * width * height] */
+    float *openness;    /* [width * height] share of the sky that is seen; 1 where empty */
+    float *material;    /* [2 * width * height] roughness and metallic */
+    uint32_t matte_count;
+    MesoMatte mattes[MESO_ID_CHANNELS + 1];     /* of the channels, and of materials */
 } MesoImage;
 
 typedef struct MesoRenderOptions {
@@ -25,6 +37,7 @@ typedef struct MesoRenderOptions {
     MesoCamera camera;
     uint32_t samples;           /* for antialiasing of color; 1 or 4, or 16 without GL */
     bool ground;                /* shadow where nothing is, on the ground under the scene; without GL */
+    unsigned extras;            /* MesoImageExtra, or-ed */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;
 

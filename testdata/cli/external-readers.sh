@@ -20,3 +20,14 @@ fi
 exrheader vase.exr | grep -o -e '^ *[A-Za-z.]*, .*sampling' | sed 's/, sampling//'
 exrinfo vase.exr >/dev/null || echo "exrinfo: status $?"
 oiiotool vase.exr -d float -o copy.tif && oiiotool --info vase.png | sed 's/ *: */: /'
+
+# What the things of a matte cover is, in sum, what is covered.
+meso-render -q --size 160x120 --samples 16 --aov all vase.meso -o all.exr
+coverage() {
+    echo "crypto_$1"00.G,"crypto_$1"00.A,"crypto_$1"01.G,"crypto_$1"01.A,"crypto_$1"02.G,"crypto_$1"02.A
+}
+for matte in slot tile material; do
+    oiiotool all.exr --ch "$(coverage $matte)" --chsum all.exr --ch A --fail 0.002 --diff | grep -E 'PASS|FAIL'
+done
+exrheader all.exr | grep -c '^cryptomatte/'
+exrheader all.exr | grep -o -E '^ *(P|uv|AO|roughness|metallic)[.A-Z]*, .*point'

@@ -80,7 +80,8 @@ static void add_sample(Group *groups, uint32_t *count, const MesoSurfaceSample *
     groups[g].count++;
 }
 
-static void light_group(const Picture *p, const Group *group, float color[4], float samples)
+/* Returns how open the place is to the sky. */
+static float light_group(const Picture *p, const Group *group, float color[4], float samples)
 {
     MesoMaterial m = material_of(p, &group->sample);
     MesoLitSurface s = {.position = meso_vec3_scale(group->position, 1 / (float)group->count),
@@ -88,11 +89,12 @@ static void light_group(const Picture *p, const Group *group, float color[4], fl
                         .albedo = {m.albedo[0], m.albedo[1], m.albedo[2]},
                         .roughness = fminf(fmaxf(m.roughness, 0.08f), 1), .metallic = m.metallic};
     s.to_eye = meso_vec3_unit(meso_vec3_sub(p->raster.eye, s.position), p->view.up);
-    float radiance[3], weight = (float)group->count / samples;
-    meso_light_on(&p->rig, &s, radiance, NULL);
+    float radiance[3], openness, weight = (float)group->count / samples;
+    meso_light_on(&p->rig, &s, radiance, &openness);
     for (int c = 0; c < 3; c++)
         color[c] += weight * radiance[c];
     color[3] += weight;
+    return openness;
 }
 
 /* Where nothing is, the ground has what shadow falls on it. */
@@ -121,6 +123,33 @@ static void put_middle(const Picture *p, const MesoSurfaceSample *sample, size_t
     uint32_t row = meso_shape_look(&p->shapes, sample->shape).ids;
     for (uint32_t c = 0; c < image->channel_count; c++)
         image->ids[c][pixel] = meso_scene_id(p->scene, row, c) + 1;
+    MesoVec3 at = meso_vec3_add(sample->position, p->shapes.anchor);
+    if (image->position) {
+        image->position[3 * pixel] = at.x;
+        image->position[3 * pixel + 1] = at.y;
+        image->position[3 * pixel + 2] = at.z;
+    }
+    if (image->uv) {
+        image->uv[2 * pixel] = sample->uv.x;
+        image->uv[2 * pixel + 1] = sample->uv.y;
+    }
+    if (image->material) {
+        image->material[2 * pixel] = m.roughness;
+        image->material[2 * pixel + 1] = m.metallic;
+    }
+}
+
+/* Things of each matte at a sample: the ids of its row, and the material, of two the one that is more of it. */
+static void note_things(const Picture *p, const MesoSurfaceSample *sample, uint32_t i, uint32_t (*things)[MOST_SAMPLES])
+{
+    uint32_t channels = p->image->channel_count;
+    MesoShapeLook look = {0};
+    if (sample)
+        look = meso_shape_look(&p->shapes, sample->shape);
+    for (uint32_t m = 0; m < p->image->matte_count; m++)
+        things[m][i] = !sample ? MESO_NO_INDEX
+                     : m < channels ? meso_scene_id(p->scene, look.ids, m)
+                     : sample->along < 0.5f ? look.start_material : look.end_material;
 }
 
 static void put_nothing(MesoImage *image, size_t pixel)
@@ -130,31 +159,40 @@ static void put_nothing(MesoImage *image, size_t pixel)
         image->normal[3 * pixel + c] = image->albedo[3 * pixel + c] = 0;
     for (uint32_t c = 0; c < image->channel_count; c++)
         image->ids[c][pixel] = 0;
+    if (image->openness)
+        image->openness[pixel] = 1;
 }
 
 static void take_pixel(const Picture *p, MesoRasterTile *tile, MesoWindow window, uint32_t x, uint32_t y)
 {
     Group groups[MOST_SAMPLES];
     MesoSurfaceSample sample;
-    uint32_t samples = p->options->samples, count = 0, seen = 0;
+    uint32_t samples = p->options->samples, count = 0, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
+    bool middle = false;
     size_t pixel = (size_t)(window.y + y) * p->image->width + window.x + x;
     float *color = p->image->color + 4 * pixel;
     color[0] = color[1] = color[2] = color[3] = 0;
     for (uint32_t i = 0; i < samples; i++) {
         bool there = meso_raster_tile_sample(tile, x, y, i, &sample);
-        if (i == 0) {
-            if (there)
-                put_middle(p, &sample, pixel);
-            else
-                put_nothing(p->image, pixel);
-        }
+        if (i == 0 && there)
+            put_middle(p, &sample, pixel);
+        else if (i == 0)
+            put_nothing(p->image, pixel);
+        middle |= i == 0 && there;
+        if (p->image->matte_count)
+            note_things(p, there ? &sample : NULL, i, things);
         if (!there)
             continue;
         add_sample(groups, &count, &sample);
         seen++;
     }
-    for (uint32_t g = 0; g < count; g++)
-        light_group(p, &groups[g], color, (float)samples);
+    for (uint32_t g = 0; g < count; g++) {
+        float openness = light_group(p, &groups[g], color, (float)samples);
+        if (p->image->openness && g == 0 && middle)
+            p->image->openness[pixel] = openness;
+    }
+    for (uint32_t m = 0; m < p->image->matte_count; m++)
+        meso_matte_put(&p->image->mattes[m], pixel, things[m], samples);
     if (p->options->ground && seen < samples)
         shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f,
                      (float)(samples - seen) / (float)samples, color);
@@ -167,6 +205,50 @@ static void take_tile(void *context, MesoRasterTile *tile)
     for (uint32_t y = 0; y < window.height; y++)
         for (uint32_t x = 0; x < window.width; x++)
             take_pixel(p, tile, window, x, y);
+}
+
+/* ---- extras ---- */
+
+/* Zeroed where it was asked for. */
+static bool make_extra(float **array, const MesoImage *image, unsigned asked, unsigned extra, size_t width,
+                       MesoArena *arena, MesoError *error)
+{
+    if (!(asked & extra))
+        return true;
+    *array = MESO_NEW(arena, float, width * image->width * image->height, error);
+    return *array != NULL;
+}
+
+static MesoStatus make_mattes(MesoImage *image, MesoArena *arena, const MesoScene *scene, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    image->matte_count = image->channel_count + 1;
+    for (uint32_t m = 0; m < image->matte_count && !status; m++) {
+        MesoMatte *matte = &image->mattes[m];
+        *matte = m < image->channel_count
+                     ? (MesoMatte){.name = scene->channels[m].name, .count = scene->channels[m].count,
+                                   .names = (const char *const *)scene->channels[m].names}
+                     : (MesoMatte){.name = "material", .count = scene->material_count,
+                                   .names = (const char *const *)scene->material_names};
+        status = meso_matte_init(matte, arena, error);
+        if (!status)
+            matte->ranks = MESO_NEW(arena, float, 2 * MESO_MATTE_RANKS * (size_t)image->width * image->height, error);
+        if (!matte->ranks)
+            status = MESO_ERR_MEMORY;
+    }
+    return status;
+}
+
+static MesoStatus make_extras(MesoImage *image, MesoArena *arena, const MesoScene *scene, unsigned asked,
+                              MesoError *error)
+{
+    bool made = make_extra(&image->position, image, asked, MESO_EXTRA_POSITION, 3, arena, error) &&
+                make_extra(&image->uv, image, asked, MESO_EXTRA_UV, 2, arena, error) &&
+                make_extra(&image->openness, image, asked, MESO_EXTRA_OCCLUSION, 1, arena, error) &&
+                make_extra(&image->material, image, asked, MESO_EXTRA_MATERIAL, 2, arena, error);
+    if (!made)
+        return MESO_ERR_MEMORY;
+    return asked & MESO_EXTRA_MATTES ? make_mattes(image, arena, scene, error) : MESO_OK;
 }
 
 /* ---- all of it ---- */
@@ -186,6 +268,9 @@ MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene
         return MESO_ERR_MEMORY;
     meso_image_place(image, memory + (64 - (size_t)(uintptr_t)memory % 64) % 64, scene, options);
     p.view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
+    status = make_extras(image, arena, scene, options->extras, error);
+    if (status)
+        return status;
     status = meso_shapes_init(&p.shapes, arena, scene, p.view.anchor, thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
     if (!status)
