@@ -91,17 +91,11 @@ static uint32_t sample_coarsely(const MesoGrowthWork *work, const MesoGrowthTip 
     return count;
 }
 
-/* As bend.h has it. */
 static Curve curve_between(const MesoGrowthSeat *from, const MesoGrowthSeat *to, float begin, float end)
 {
-    MesoFour chord = to->position - from->position;
-    float length = sqrtf(meso_four_dot(chord, chord)), inverse = length > 0 ? 1 / length : 0;
-    float first = meso_four_dot(from->tangent, chord) * inverse, last = meso_four_dot(to->tangent, chord) * inverse;
-    float reach = length * (2.0f / 3);
-    float a = reach / (1 + (first > 0 ? first : 0)), b = reach / (1 + (last > 0 ? last : 0));
-    return (Curve){{from->position, meso_four_mad(from->position, a, from->tangent),
-                    meso_four_mad(to->position, -b, to->tangent), to->position},
-                   {from->normal, to->normal}, begin, end};
+    Curve curve = {.normals = {from->normal, to->normal}, .begin = begin, .end = end};
+    meso_four_curve(curve.p, from->position, from->tangent, to->position, to->tangent);
+    return curve;
 }
 
 static MesoFour curve_point(const Curve *curve, float t)

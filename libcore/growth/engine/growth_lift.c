@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "libcore/base/parallel.h"
-#include "libcore/growth/engine/growth.h"
+#include "libcore/growth/engine/growth_above.h"
 
 /* Points of an element that are looked at, and of one that goes around a corner. */
-enum { FEW = 6, SAMPLES = 12, MORE_SAMPLES = 48, WALKS = 2, PASSES = 12, GRAIN = 256 };
+enum { SAMPLES = 12, MORE_SAMPLES = 48, WALKS = 2, PASSES = 12, GRAIN = 1024, AHEAD = 8 };
 
 /* Of an element's length; less than what is promised, since only points are looked at. */
 static const float tolerance = 0.008f;
@@ -16,7 +16,7 @@ static const float tolerance = 0.008f;
 typedef struct Lifting {
     const MesoGrown *grown;
     const MesoGrowthGround *ground;
-    float *depths;              /* [element_count] */
+    float *depths;              /* [element_count] of what is too deep, or is to be measured; 0: it is not */
 } Lifting;
 
 static float length_of(const MesoGrown *grown, const MesoGrowthElement *element)
@@ -108,52 +108,43 @@ static float depth_of(const Lifting *lifting, const MesoGrowthElement *element)
     return deepest;
 }
 
-static bool are_neighbours(const MesoGrowthGround *ground, uint32_t a, uint32_t b)
+/* Of an element that is too deep; of others 0. */
+static float depth_beyond(const Lifting *lifting, const MesoGrowthElement *element)
 {
-    const uint32_t *twins = ground->walk.faces[a].twins;
-    return a == b || twins[0] / 3 == b || twins[1] / 3 == b || twins[2] / 3 == b;
-}
-
-/* How far points are below the plane of a triangle, at most, on the side of a normal. */
-static float depth_below(const MesoTriangulation *mesh, uint32_t triangle, MesoVec3 side, const MesoVec3 points[FEW])
-{
-    const uint32_t *c = &mesh->corners[3 * (size_t)triangle];
-    MesoVec3 a = mesh->positions[c[0]], along = meso_vec3_sub(mesh->positions[c[1]], a);
-    MesoVec3 normal = meso_vec3_cross(along, meso_vec3_sub(mesh->positions[c[2]], a));
-    float length = meso_vec3_length(normal), depth = 0;
-    if (!(length > 0))
-        return INFINITY;
-    for (uint32_t k = 0; k < FEW; k++)
-        depth = fmaxf(depth, meso_vec3_dot(meso_vec3_sub(a, points[k]), normal) *
-                             (meso_vec3_dot(normal, side) < 0 ? -1 : 1));
-    return depth / length;
-}
-
-/* Elements in one triangle or two neighbours, below neither of their planes. */
-static bool is_above(const Lifting *lifting, const MesoGrowthElement *element)
-{
-    const MesoGrown *grown = lifting->grown;
-    uint32_t from = element->span.from, to = element->span.to;
-    uint32_t first = grown->points[from].triangle, last = grown->points[to].triangle;
-    MesoVec3 p[4], points[FEW];
-    bool turned;
-    if (!are_neighbours(lifting->ground, first, last))
-        return false;
-    meso_bend_curve(&grown->joints[from], &grown->joints[to], p);
-    for (uint32_t k = 0; k < FEW; k++)
-        points[k] = curve_point(p, (float)(k + 1) / FEW);
-    float limit = tolerance * length_of(grown, element);
-    return depth_below(lifting->ground->mesh, first, normal_at(lifting, from, &turned), points) <= limit &&
-           (first == last || depth_below(lifting->ground->mesh, last, normal_at(lifting, to, &turned), points) <= limit);
+    if (meso_growth_is_above(lifting->grown, lifting->ground, element, 0.9f * tolerance))
+        return 0;
+    float depth = depth_of(lifting, element);
+    return depth > tolerance * length_of(lifting->grown, element) ? depth : 0;
 }
 
 static void measure_range(void *context, uint64_t begin, uint64_t end)
 {
     Lifting *lifting = context;
+    const MesoGrowthElement *elements = lifting->grown->elements;
     for (uint64_t i = begin; i < end; i++)
         if (lifting->depths[i] > 0)
-            lifting->depths[i] = is_above(lifting, &lifting->grown->elements[i])
-                                     ? 0 : depth_of(lifting, &lifting->grown->elements[i]);
+            lifting->depths[i] = depth_beyond(lifting, &elements[i]);
+}
+
+static void measure_all(void *context, uint64_t begin, uint64_t end)
+{
+    Lifting *lifting = context;
+    const MesoGrowthElement *elements = lifting->grown->elements;
+    for (uint64_t i = begin; i < end; i++) {
+        if (i + 2 * AHEAD < end)
+            meso_growth_fetch_ends(lifting->grown, lifting->ground, &elements[i + 2 * AHEAD]);
+        if (i + AHEAD < end)
+            meso_growth_fetch_corners(lifting->grown, lifting->ground, &elements[i + AHEAD]);
+        lifting->depths[i] = depth_beyond(lifting, &elements[i]);
+    }
+}
+
+static bool any_deep(const Lifting *lifting)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < lifting->grown->element_count; i++)
+        any |= lifting->depths[i] > 0;
+    return any;
 }
 
 /* ---- joints ---- */
@@ -183,19 +174,16 @@ static void want(float *raises, const uint32_t *twins, uint32_t joint, float by)
         raises[twins[joint]] = fmaxf(raises[twins[joint]], by);
 }
 
-/* False where nothing is too deep. */
-static bool raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, const uint32_t *twins)
+static void raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, const uint32_t *twins)
 {
     float *depths = lifting->depths;
-    bool any = false;
     memset(raises, 0, grown->joint_count * sizeof *raises);
     for (uint32_t i = 0; i < grown->element_count; i++) {
-        const MesoGrowthElement *element = &grown->elements[i];
-        if (!(depths[i] > tolerance * length_of(grown, element)))
-            continue;
-        any = true;
-        want(raises, twins, element->span.from, depths[i]);
-        want(raises, twins, element->span.to, depths[i]);
+        const MesoSpan *span = &grown->elements[i].span;
+        if (depths[i] > 0) {
+            want(raises, twins, span->from, depths[i]);
+            want(raises, twins, span->to, depths[i]);
+        }
     }
     for (uint32_t i = 0; i < grown->joint_count; i++) {
         bool turned;
@@ -208,29 +196,35 @@ static bool raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, 
         const MesoSpan *span = &grown->elements[i].span;
         depths[i] = raises[span->from] > 0 || raises[span->to] > 0 ? 1 : 0;
     }
-    return any;
+}
+
+static MesoStatus raise_all(Lifting *lifting, MesoGrown *grown, MesoArena *scratch, uint32_t thread_count,
+                            MesoError *error)
+{
+    float *raises = MESO_NEW(scratch, float, grown->joint_count, error);
+    uint32_t *twins = MESO_NEW(scratch, uint32_t, grown->joint_count, error);
+    uint32_t *last = MESO_NEW(scratch, uint32_t, grown->branch_count, error);
+    if (!raises || !twins || !last)
+        return MESO_ERR_MEMORY;
+    find_twins(grown, twins, last);
+    for (uint32_t pass = 1; pass <= PASSES && any_deep(lifting); pass++) {
+        raise_once(lifting, grown, raises, twins);
+        if (pass < PASSES)
+            meso_parallel_for(thread_count, grown->element_count, GRAIN, measure_range, lifting);
+    }
+    return MESO_OK;
 }
 
 MesoStatus meso_growth_lift(MesoGrown *grown, MesoArena *scratch, const MesoGrowthGround *ground,
                             uint32_t thread_count, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
-    float *depths = MESO_NEW(scratch, float, grown->element_count, error);
-    float *raises = MESO_NEW(scratch, float, grown->joint_count, error);
-    uint32_t *twins = MESO_NEW(scratch, uint32_t, grown->joint_count, error);
-    uint32_t *last = MESO_NEW(scratch, uint32_t, grown->branch_count, error);
-    Lifting lifting = {grown, ground, depths};
-    bool goes_on = depths && raises && twins && last;
-    if (goes_on) {
-        find_twins(grown, twins, last);
-        for (uint32_t i = 0; i < grown->element_count; i++)
-            depths[i] = 1;
-    }
-    MesoStatus status = goes_on ? MESO_OK : MESO_ERR_MEMORY;
-    for (uint32_t pass = 0; pass < PASSES && goes_on; pass++) {
-        meso_parallel_for(thread_count, grown->element_count, GRAIN, measure_range, &lifting);
-        goes_on = raise_once(&lifting, grown, raises, twins);
-    }
+    Lifting lifting = {grown, ground, MESO_NEW(scratch, float, grown->element_count, error)};
+    MesoStatus status = lifting.depths ? MESO_OK : MESO_ERR_MEMORY;
+    if (!status)
+        meso_parallel_for(thread_count, grown->element_count, GRAIN, measure_all, &lifting);
+    if (!status && any_deep(&lifting))
+        status = raise_all(&lifting, grown, scratch, thread_count, error);
     meso_arena_rewind(scratch, mark);
     return status;
 }

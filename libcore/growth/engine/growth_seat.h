@@ -54,6 +54,20 @@ MESO_FOUR MesoFour meso_four_cross(MesoFour a, MesoFour b)
            MESO_FOUR_SHUFFLE(a, a, 2, 0, 1, 3) * MESO_FOUR_SHUFFLE(b, b, 1, 2, 0, 3);
 }
 
+/* Control points of the curve between two joints, as bend.h has it. */
+MESO_FOUR void meso_four_curve(MesoFour p[4], MesoFour from, MesoFour from_tangent, MesoFour to, MesoFour to_tangent)
+{
+    MesoFour chord = to - from;
+    float length = sqrtf(meso_four_dot(chord, chord)), inverse = length > 0 ? 1 / length : 0;
+    float first = meso_four_dot(from_tangent, chord) * inverse, last = meso_four_dot(to_tangent, chord) * inverse;
+    float reach = length * (2.0f / 3);
+    float a = reach / (1 + (first > 0 ? first : 0)), b = reach / (1 + (last > 0 ? last : 0));
+    p[0] = from;
+    p[1] = meso_four_mad(from, a, from_tangent);
+    p[2] = meso_four_mad(to, -b, to_tangent);
+    p[3] = to;
+}
+
 MESO_FOUR MesoJoint meso_seat_joint(const MesoGrowthSeat *seat)
 {
     return (MesoJoint){meso_four_vec3(seat->position), meso_four_vec3(seat->tangent), meso_four_vec3(seat->normal),
