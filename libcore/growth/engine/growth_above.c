@@ -31,6 +31,32 @@ static MesoFour dot_row(const Row *row, const MesoFour *origin, const MesoFour *
     return x * meso_four_all((*by)[0]) + y * meso_four_all((*by)[1]) + z * meso_four_all((*by)[2]);
 }
 
+/* Lanes of points that lie over a triangle, and their heights there. */
+static MesoFourBits over_flat(const Row *row, const Flat *flat, MesoFour *height)
+{
+    MesoFour second = dot_row(row, &flat->origin, &flat->second), least = meso_four_all(-on_side);
+    MesoFour third = dot_row(row, &flat->origin, &flat->third);
+    *height = dot_row(row, &flat->origin, &flat->normal);
+    return (second >= least) & (third >= least) & (meso_four_all(1) - second - third >= least);
+}
+
+static bool all_set(MesoFourBits bits)
+{
+    MesoFourWords words = (MesoFourWords)bits;
+    return (words[0] & words[1]) == UINT64_MAX;
+}
+
+/* Whether all control points of a curve, and so all of the curve, are over a triangle, and above a depth. */
+static bool is_over(const Flat *flat, const MesoFour p[4], float depth)
+{
+    const Row row = {{p[0][0], p[1][0], p[2][0], p[3][0]},
+                     {p[0][1], p[1][1], p[2][1], p[3][1]},
+                     {p[0][2], p[1][2], p[2][2], p[3][2]}};
+    MesoFour height;
+    MesoFourBits over = over_flat(&row, flat, &height);
+    return all_set(over & (height >= meso_four_all(-depth)));
+}
+
 static void set_points(Points *points, const MesoFour p[4])
 {
     for (uint32_t i = 0; i < ROWS; i++) {
@@ -66,21 +92,15 @@ static bool set_flat(Flat *flat, const MesoGrowthGround *ground, uint32_t triang
 }
 
 /* Of the open points those that lie over a triangle are closed. */
-static bool cover(Points *points, const MesoGrowthGround *ground, uint32_t triangle, Flat *flat)
+static void cover(Points *points, const Flat *flat)
 {
-    const MesoFour least = meso_four_all(-on_side);
-    if (!set_flat(flat, ground, triangle))
-        return false;
     for (uint32_t i = 0; i < ROWS; i++) {
-        MesoFour second = dot_row(&points->rows[i], &flat->origin, &flat->second);
-        MesoFour third = dot_row(&points->rows[i], &flat->origin, &flat->third);
-        MesoFour height = dot_row(&points->rows[i], &flat->origin, &flat->normal);
-        MesoFourBits over = (second >= least) & (third >= least) & (meso_four_all(1) - second - third >= least);
+        MesoFour height;
+        MesoFourBits over = over_flat(&points->rows[i], flat, &height);
         MesoFour depth = meso_four_choose(over & points->open[i], -height, meso_four_all(0));
         points->deepest = meso_four_choose(depth > points->deepest, depth, points->deepest);
         points->open[i] &= ~over;
     }
-    return true;
 }
 
 static bool any_open(const Points *points)
@@ -104,32 +124,38 @@ static uint32_t towards_open(const Points *points, const MesoGrowthGround *groun
     return twin == MESO_NO_INDEX ? MESO_NO_INDEX : twin / 3;
 }
 
+/* By the triangles at both ends, and those beside them. */
+static bool points_are_above(const MesoGrowthGround *ground, const MesoFour p[4], Flat *flat, const uint32_t ends[2],
+                             float depth)
+{
+    uint32_t triangle = ends[0];
+    Points points;
+    set_points(&points, p);
+    cover(&points, flat);
+    for (uint32_t i = 0; i < MOST_HOPS && any_open(&points); i++) {
+        triangle = i == 0 && ends[1] != ends[0] ? ends[1] : towards_open(&points, ground, triangle, flat);
+        if (triangle == MESO_NO_INDEX || !set_flat(flat, ground, triangle))
+            return false;
+        cover(&points, flat);
+    }
+    MesoFour d = points.deepest;
+    return !any_open(&points) && fmaxf(fmaxf(d[0], d[1]), fmaxf(d[2], d[3])) <= depth;
+}
+
 bool meso_growth_is_above(const MesoGrown *grown, const MesoGrowthGround *ground, const MesoGrowthElement *element,
                           float tolerance)
 {
     const MesoJoint *from = &grown->joints[element->span.from], *to = &grown->joints[element->span.to];
-    uint32_t triangle = grown->points[element->span.from].triangle;
-    uint32_t last = grown->points[element->span.to].triangle;
+    const uint32_t ends[2] = {grown->points[element->span.from].triangle, grown->points[element->span.to].triangle};
     MesoFour p[4];
-    Points points;
     Flat flat;
-    if (ground->against || meso_vec3_dot(from->normal, to->normal) < 0.9f)
+    if (ground->against || meso_vec3_dot(from->normal, to->normal) < 0.9f || !set_flat(&flat, ground, ends[0]))
         return false;
     meso_four_curve(p, meso_four_of(from->position), meso_four_of(from->tangent), meso_four_of(to->position),
                     meso_four_of(to->tangent));
-    set_points(&points, p);
-    if (!cover(&points, ground, triangle, &flat))
-        return false;
-    if (last != triangle && any_open(&points) && !cover(&points, ground, triangle = last, &flat))
-        return false;
-    for (uint32_t i = 0; i < MOST_HOPS && any_open(&points); i++) {
-        triangle = towards_open(&points, ground, triangle, &flat);
-        if (triangle == MESO_NO_INDEX || !cover(&points, ground, triangle, &flat))
-            return false;
-    }
-    MesoFour chord = p[3] - p[0], d = points.deepest;
-    float deepest = fmaxf(fmaxf(d[0], d[1]), fmaxf(d[2], d[3]));
-    return !any_open(&points) && deepest <= tolerance * sqrtf(meso_four_dot(chord, chord));
+    MesoFour chord = p[3] - p[0];
+    float depth = tolerance * sqrtf(meso_four_dot(chord, chord));
+    return (ends[0] == ends[1] && is_over(&flat, p, depth)) || points_are_above(ground, p, &flat, ends, depth);
 }
 
 void meso_growth_fetch_ends(const MesoGrown *grown, const MesoGrowthGround *ground, const MesoGrowthElement *element)
