@@ -37,7 +37,8 @@ static void land(Compiler *c, uint32_t from)
 static uint16_t push(Compiler *c)
 {
     if (c->top >= MESO_GRAMMAR_REGISTERS)
-        meso_grammar_wrong(&c->parser->lexer, &c->at, "an expression in here is too long; give parts of it names by 'let'");
+        meso_grammar_wrong(&c->parser->lexer, &c->at, "more than %d values at hand; make a rule of a part of this one",
+                           (int)MESO_GRAMMAR_REGISTERS);
     if (!meso_parsing(c->parser))
         return 0;
     if (c->grammar->register_count <= c->top)

@@ -154,10 +154,16 @@ static void test_rules(void)
     refuse_body("{ let w = 3 }", "20: 'w' is a name already, at line 5");
     refuse_body("{ branch { let v = 3 } turn(v * 1 rad) }", "42: 'v' is not a known quantity");
     refuse_body("choose { }", "23: a quantity is wanted, instead of '}'");
+    refuse_body("choose 1: stop", "21: '{' is wanted behind 'choose', instead of '1'");
     refuse_body("choose { 1 stop }", "25: ':' is wanted behind the weight of a choice, instead of 'stop'");
     refuse_body("choose { w: stop }", "23: a weight must be a number; this is a length");
     refuse_body("repeat w { }", "21: the number of turns must be a number; this is a length");
     refuse_body("repeat 2 { repeat 2 { repeat 2 { repeat 2 { } } } }", "47: more than 3 repetitions in one another");
+    refuse_body("A(w", "17: ')' is wanted behind the arguments of a rule, instead of the end");
+    refuse(HEAD "seed A(1) on vertices rule A(w -> stop",
+           "g:2:32: ')' is wanted behind the arguments of a rule, instead of '->'");
+    refuse(HEAD "seed A(1) on vertices rule A(w) stop",
+           "g:2:33: '->' is wanted before what a rule becomes, instead of 'stop'");
     refuse_body("A(w)", "14: 'A' comes back to itself without a step (A -> A); put a step before it, or use 'repeat'");
     refuse(HEAD "seed A(1) on vertices rule A(w) -> stop rule B(v) -> turn(w * 1 rad)",
            "g:2:59: 'w' is not a known quantity");
@@ -191,6 +197,8 @@ static void test_commands(void)
     refuse_body("step(w, shape: sten)", "29: 'sten' is not a shape; did you mean 'stem'?");
     refuse_body("step(w, with: stem)", "22: 'with' is not an argument of 'step'; did you mean 'width'?");
     refuse_body("step(w) while w", "28: 'while' must be a condition, such as 'w > 1 mm'; this is a length");
+    refuse_body("step(w) else retry 3", "33: '(' is wanted behind 'retry', instead of '3'");
+    refuse_body("step(w) else retry(3, 4 deg", "41: ')' is wanted behind the angle of 'retry', instead of the end");
     refuse_body("step(w) else retry(3)", "34: ',' is wanted between the number of tries and their angle, instead of ')'");
     refuse_body("step(w) else retry(3, 4)", "36: the angle of 'retry' must be an angle, such as '30 deg'; this is a number");
     refuse_body("place(stem)", "19: a shape is wanted, instead of '('");
@@ -220,6 +228,7 @@ static void test_expressions(void)
     refuse_body("step(sqrt(w))", "19: 'sqrt' of a length: it must be a number or a square");
     refuse_body("step(gradient(hole) * 1 mm)", "19: a region has no gradient: it is a condition");
     refuse_body("step(ahead(w, 1 mm))", "25: 'w' is not a map");
+    refuse_body("step(max(w, w", "27: ')' is wanted behind a function's arguments, instead of the end");
     refuse_body("step(ahead(wall))", "29: 'ahead' wants 1 argument behind the map");
     refuse_body("step(min(w))", "24: 'min' wants 2 arguments");
     refuse_body("step(min(w, w, w))", "29: 'min' has no argument more");
@@ -250,6 +259,25 @@ static void refuse_repeated(const char *before, const char *part, uint32_t count
     char *text = repeated(before, part, count, after);
     refuse(text, message);
     free(text);
+}
+
+/*
+ * More values that wait for others than there are registers: names and nested expressions alone are fewer, but what
+ * comes behind as many constants as operands can name has these in registers, too.
+ */
+static void test_registers(void)
+{
+    enum { LEVELS = 50 };
+    char after[2000];
+    size_t used = 0;
+    for (uint32_t i = 0; i < LEVELS; i++)
+        used += (size_t)snprintf(after + used, sizeof after - used, "choose { 1: stop 1: ");
+    used += (size_t)snprintf(after + used, sizeof after - used, "stop");
+    for (uint32_t i = 0; i < LEVELS; i++)
+        used += (size_t)snprintf(after + used, sizeof after - used, " }");
+    snprintf(after + used, sizeof after - used, " }");
+    refuse_repeated("seed A() on vertices rule A() -> {", "turn(1 rad)\n", 1 << 15, after,
+                    "g:32770:881: more than 224 values at hand; make a rule of a part of this one");
 }
 
 /* What there may be at most is told by its number. */
@@ -338,6 +366,7 @@ int main(void)
     test_progress();
     test_commands();
     test_expressions();
+    test_registers();
     test_most();
     test_bounds();
     test_settings();
