@@ -50,7 +50,7 @@ int main(int argc, char **argv)
                   &a.partial),
         MESO_OUTPUT_FILE(0, "trace", "FILE", "write what each branch did as lines of JSON", &a.trace,
                          .more = MESO_OPTION_SILENT),
-        MESO_TEXT(0, "show-map", "NAME=FILE", "write a map of the grammar as a PNG over the texture coordinates",
+        MESO_TEXT(0, "show-map", "NAME=FILE", "write a map of the grammar as .png or .exr over the texture coordinates",
                   &a.show_map, .more = MESO_OPTION_SILENT),
         MESO_TEXT(0, "surface", "MATERIAL", "show the surface too, made of this: own, \"clay\", \"clay #a8653f 0.7\"",
                   &a.surface),

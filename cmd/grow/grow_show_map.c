@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cmd/grow/grow_uvs.h"
 #include "formats/image/image_file.h"
@@ -27,7 +28,7 @@ static MesoStatus find_map(MesoTool *tool, const char *name, size_t length, cons
 }
 
 /* From 0 to 1, or from the least to the most where that is beyond. */
-static void find_range(MesoPngValues *picture)
+static void find_range(MesoImageValues *picture)
 {
     picture->low = 0;
     picture->high = 1;
@@ -38,7 +39,7 @@ static void find_range(MesoPngValues *picture)
     }
 }
 
-static MesoStatus draw(MesoTool *tool, MesoPngValues *picture, const MesoGrowthContexts *contexts, uint32_t map,
+static MesoStatus draw(MesoTool *tool, MesoImageValues *picture, const MesoGrowthContexts *contexts, uint32_t map,
                        const MesoPolygonMesh *polygons)
 {
     MesoVec2 *uvs;
@@ -50,10 +51,27 @@ static MesoStatus draw(MesoTool *tool, MesoPngValues *picture, const MesoGrowthC
     float *values = MESO_NEW(&tool->arena, float, (size_t)SIZE * SIZE, &tool->error);
     if (!values)
         return MESO_ERR_MEMORY;
-    *picture = (MesoPngValues){.width = SIZE, .height = SIZE, .values = values};
+    *picture = (MesoImageValues){.width = SIZE, .height = SIZE, .values = values};
     status = meso_map_picture(values, SIZE, SIZE, contexts->ground, &contexts->maps[map], uvs, &tool->arena,
                               &tool->error);
     find_range(picture);
+    return status;
+}
+
+/* By the suffix; what black and white are is said of a PNG alone. */
+static MesoStatus write(MesoTool *tool, const MesoImageValues *picture, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    bool exr = dot && strcasecmp(dot, ".exr") == 0;
+    MesoOutput *output;
+    MesoStatus status = meso_output_open(&output, path, &tool->error);
+    if (status)
+        return status;
+    status = exr ? meso_exr_write_values(picture, &tool->provenance, tool->threads, output, &tool->error)
+                 : meso_png_write_values(picture, &tool->provenance, output, &tool->error);
+    status = meso_output_finish(output, status, &tool->error);
+    if (!status && !exr && (picture->low < 0 || picture->high > 1))
+        meso_tool_say(tool, "%s: black is %g, white is %g", path, (double)picture->low, (double)picture->high);
     return status;
 }
 
@@ -61,8 +79,7 @@ MesoStatus meso_grow_show_map(MesoTool *tool, const char *name_and_file, const M
                               const MesoGrowthContexts *contexts, const MesoPolygonMesh *polygons)
 {
     const char *equals = strchr(name_and_file, '=');
-    MesoPngValues picture;
-    MesoOutput *output;
+    MesoImageValues picture;
     uint32_t map;
     if (!equals || !equals[1])
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--show-map needs a map and a file, as wall=wall.png, not '%s'",
@@ -72,13 +89,5 @@ MesoStatus meso_grow_show_map(MesoTool *tool, const char *name_and_file, const M
         status = draw(tool, &picture, contexts, map, polygons);
     if (!status)
         status = meso_tool_add_output(tool, "--show-map", equals + 1);
-    if (!status)
-        status = meso_output_open(&output, equals + 1, &tool->error);
-    if (status)
-        return status;
-    status = meso_png_write_values(&picture, &tool->provenance, output, &tool->error);
-    status = meso_output_finish(output, status, &tool->error);
-    if (!status && (picture.low < 0 || picture.high > 1))
-        meso_tool_say(tool, "%s: black is %g, white is %g", equals + 1, (double)picture.low, (double)picture.high);
-    return status;
+    return status ? status : write(tool, &picture, equals + 1);
 }

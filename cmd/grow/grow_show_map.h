@@ -7,7 +7,8 @@
 #include "libcore/mesh/polygon_mesh.h"
 
 /*
- * Writes the map of "NAME=FILE.png", of 1024 x 1024 pixels; says what black and white are where that is not 0 and 1.
+ * Writes the map of "NAME=FILE", of 1024 x 1024 pixels: its numbers where the file ends in .exr, or else a PNG; then it
+ * says what black and white are where that is not 0 and 1.
  * MESO_ERR_USAGE where the grammar has no such map, or the words are others; MESO_ERR_INPUT where the surface has no
  * texture coordinates; as the writer has it.
  */

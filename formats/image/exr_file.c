@@ -36,7 +36,8 @@ typedef struct Stream {
 } Stream;
 
 typedef struct Writer {
-    const MesoImage *image;
+    const MesoImage *image;     /* NULL: numbers alone, without a camera */
+    uint32_t width, height;
     exr_context_t context;
     uint32_t channel_count;
     Channel channels[CHANNELS];
@@ -239,22 +240,21 @@ static exr_result_t describe(Writer *writer, const char *provenance)
     int part;
     exr_result_t result = exr_add_part(context, "image", EXR_STORAGE_SCANLINE, &part);
     if (!result)
-        result = exr_initialize_required_attr_simple(context, part, (int32_t)writer->image->width,
-                                                     (int32_t)writer->image->height,
+        result = exr_initialize_required_attr_simple(context, part, (int32_t)writer->width, (int32_t)writer->height,
                                                      EXR_COMPRESSION_ZIP);
     for (uint32_t i = 0; i < writer->channel_count && !result; i++)
         result = exr_add_channel(context, part, writer->channels[i].name, writer->channels[i].stored,
                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-    if (!result)
+    if (!result && writer->image)
         result = exr_attr_set_chromaticities(context, part, "chromaticities", &rec709);
     if (!result)
         result = exr_attr_set_string(context, part, "meso:provenance", provenance);
     for (uint32_t c = 0; c < MESO_ID_CHANNELS && !result; c++)
         if (writer->names[c])
             result = exr_attr_set_string(context, part, writer->names_keys[c], writer->names[c]);
-    for (uint32_t k = 0; k < writer->image->matte_count && !result; k++)
+    for (uint32_t k = 0; writer->image && k < writer->image->matte_count && !result; k++)
         result = describe_matte(context, &writer->image->mattes[k]);
-    if (!result)
+    if (!result && writer->image)
         result = set_camera(writer);
     return result ? result : exr_write_header(context);
 }
@@ -269,7 +269,7 @@ static const Channel *find_channel(const Writer *writer, const char *name)
 
 static exr_result_t connect(const Writer *writer, exr_encode_pipeline_t *pipeline, uint32_t row)
 {
-    size_t first = (size_t)row * writer->image->width;
+    size_t first = (size_t)row * writer->width;
     for (int16_t i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *info = &pipeline->channels[i];
         const Channel *channel = find_channel(writer, info->channel_name);
@@ -278,7 +278,7 @@ static exr_result_t connect(const Writer *writer, exr_encode_pipeline_t *pipelin
         info->user_data_type = (uint16_t)channel->given;
         info->user_bytes_per_element = 4;
         info->user_pixel_stride = (int32_t)(4 * channel->stride);
-        info->user_line_stride = (int32_t)(4 * channel->stride * writer->image->width);
+        info->user_line_stride = (int32_t)(4 * channel->stride * writer->width);
         info->encode_from_ptr = (const uint8_t *)channel->values + 4 * channel->stride * first;
     }
     return EXR_ERR_SUCCESS;
@@ -321,7 +321,7 @@ static exr_result_t write_pixels(Writer *writer, uint32_t thread_count)
 {
     int32_t chunk_rows;
     exr_result_t result = exr_get_scanlines_per_chunk(writer->context, 0, &chunk_rows);
-    uint32_t height = writer->image->height;
+    uint32_t height = writer->height;
     for (uint32_t row = 0; row < height && !result;) {
         uint32_t count = 0;
         for (; count < BATCH && row < height && !result; row += (uint32_t)chunk_rows)
@@ -359,30 +359,14 @@ static exr_result_t write_file(Writer *writer, Stream *stream, const char *prove
     return result ? result : finished;
 }
 
-MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
-                          MesoOutput *output, MesoError *error)
+static MesoStatus write_all(Writer *writer, const MesoProvenance *provenance, uint32_t thread_count, MesoOutput *output,
+                            MesoArena *arena, MesoError *error)
 {
-    MesoArena arena;
-    const char *text = NULL;
     Stream stream = {.output = output};
-    exr_result_t result = EXR_ERR_SUCCESS;
-
-    meso_arena_init(&arena);
-    Writer *writer = MESO_NEW(&arena, Writer, 1, error);
-    MesoStatus status = MESO_ERR_MEMORY;
-    if (writer) {
-        writer->image = image;
-        list_channels(writer);
-        status = list_names(writer, &arena, error);
-    }
-    if (!status && !(text = meso_provenance_text(provenance, &arena, error)))
-        status = MESO_ERR_MEMORY;
-    if (!status)
-        result = write_file(writer, &stream, text, thread_count);
-    meso_arena_release(&arena);
-
-    if (status)
-        return status;
+    const char *text = meso_provenance_text(provenance, arena, error);
+    if (!text)
+        return MESO_ERR_MEMORY;
+    exr_result_t result = write_file(writer, &stream, text, thread_count);
     if (stream.status) {
         if (error)
             *error = stream.error;
@@ -394,4 +378,57 @@ MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenan
         return meso_fail(error, MESO_ERR_INTERNAL, "OpenEXR failed: %s",
                          exr_get_default_error_message(result));
     return MESO_OK;
+}
+
+MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
+                          MesoOutput *output, MesoError *error)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    Writer *writer = MESO_NEW(&arena, Writer, 1, error);
+    MesoStatus status = MESO_ERR_MEMORY;
+    if (writer) {
+        writer->image = image;
+        writer->width = image->width;
+        writer->height = image->height;
+        list_channels(writer);
+        status = list_names(writer, &arena, error);
+    }
+    if (!status)
+        status = write_all(writer, provenance, thread_count, output, &arena, error);
+    meso_arena_release(&arena);
+    return status;
+}
+
+/* NaN as 0, and whether a number is there. */
+static bool list_values(Writer *writer, const MesoImageValues *picture, MesoArena *arena, MesoError *error)
+{
+    size_t count = (size_t)picture->width * picture->height;
+    float *values = MESO_NEW(arena, float, count, error), *there = MESO_NEW(arena, float, count, error);
+    for (size_t i = 0; values && there && i < count; i++)
+        if (picture->values[i] == picture->values[i]) {
+            values[i] = picture->values[i];
+            there[i] = 1;
+        }
+    writer->channels[0] = (Channel){"Y", EXR_PIXEL_FLOAT, EXR_PIXEL_FLOAT, 1, values};
+    writer->channels[1] = (Channel){"A", EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, 1, there};
+    writer->channel_count = 2;
+    return values && there;
+}
+
+MesoStatus meso_exr_write_values(const MesoImageValues *values, const MesoProvenance *provenance,
+                                 uint32_t thread_count, MesoOutput *output, MesoError *error)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    Writer *writer = MESO_NEW(&arena, Writer, 1, error);
+    MesoStatus status = MESO_ERR_MEMORY;
+    if (writer) {
+        writer->width = values->width;
+        writer->height = values->height;
+        if (list_values(writer, values, &arena, error))
+            status = write_all(writer, provenance, thread_count, output, &arena, error);
+    }
+    meso_arena_release(&arena);
+    return status;
 }

@@ -30,15 +30,23 @@ MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenan
 MesoStatus meso_png_write(const MesoImage *image, const float *background,
                           const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
 
-/* Numbers: `low` is black, `high` is white, with nothing in between but a line; transparent where they are NaN. */
-typedef struct MesoPngValues {
+/* Numbers, or NaN where there are none. */
+typedef struct MesoImageValues {
     uint32_t width, height;
     const float *values;        /* [width * height] rows from the top */
-    float low, high;            /* not equal */
-} MesoPngValues;
+    float low, high;            /* of PNGs: black and white, not equal */
+} MesoImageValues;
 
-/* Of 16 bits, grey and alpha, with provenance: image_read.h finds the shares between `low` and `high` again. */
-MesoStatus meso_png_write_values(const MesoPngValues *values, const MesoProvenance *provenance, MesoOutput *output,
+/*
+ * `low` is black, `high` is white, with nothing in between but a line; transparent where there are none. Of 16 bits,
+ * grey and alpha, with provenance: image_read.h finds the shares between `low` and `high` again.
+ */
+MesoStatus meso_png_write_values(const MesoImageValues *values, const MesoProvenance *provenance, MesoOutput *output,
                                  MesoError *error);
+
+/* The numbers as they are: Y (float, 0 where there are none), and A (half, 0 there, and 1 elsewhere). As
+ * meso_exr_write(). */
+MesoStatus meso_exr_write_values(const MesoImageValues *values, const MesoProvenance *provenance,
+                                 uint32_t thread_count, MesoOutput *output, MesoError *error);
 
 #endif

@@ -270,6 +270,35 @@ static void test_written(const char *path)
     meso_arena_release(&arena);
 }
 
+/* Numbers come back as they were, and what is none as 0 that is not there. */
+static void test_exr_values(const char *path)
+{
+    float values[PIXELS];
+    const MesoImageValues picture = {WIDTH, HEIGHT, values, 0, 1};
+    const MesoProvenance provenance = {.tool = "meso-grow", .command_line = "meso-grow x"};
+    MesoOutput *output;
+    MesoArena arena;
+    MesoInput input;
+    MesoPicture p;
+    for (uint32_t i = 0; i < PIXELS; i++)
+        values[i] = i % 5 == 1 ? NAN : 0.1f * (float)i - 3;
+    meso_arena_init(&arena);
+    CHECK(meso_output_open(&output, path, &error) == MESO_OK);
+    CHECK(meso_exr_write_values(&picture, &provenance, 2, output, &error) == MESO_OK);
+    CHECK(meso_output_commit(output, &error) == MESO_OK);
+    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
+    CHECK(meso_image_read(&p, &arena, &input, &error) == MESO_OK);
+    CHECK(p.width == WIDTH && p.height == HEIGHT && p.channel_count == 2);
+    CHECK_TEXT(p.channel_names[0], "A");
+    CHECK_TEXT(p.channel_names[1], "Y");
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        CHECK(p.values[i] == (i % 5 == 1 ? 0 : 1));
+        CHECK(p.values[PIXELS + i] == (i % 5 == 1 ? 0 : values[i]));
+    }
+    meso_input_close(&input);
+    meso_arena_release(&arena);
+}
+
 typedef struct ExrKind {
     exr_compression_t compression;
     bool is_tiled;
@@ -427,7 +456,7 @@ static void test_values(const char *path)
     MesoPicture picture;
     meso_arena_init(&arena);
     CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    MesoStatus status = meso_png_write_values(&(MesoPngValues){3, 2, numbers, 0, 4}, &provenance, output, &error);
+    MesoStatus status = meso_png_write_values(&(MesoImageValues){3, 2, numbers, 0, 4}, &provenance, output, &error);
     CHECK(meso_output_finish(output, status, &error) == MESO_OK);
     CHECK(meso_input_open(&input, path, &error) == MESO_OK);
     CHECK(meso_image_read(&picture, &arena, &input, &error) == MESO_OK);
@@ -447,6 +476,7 @@ int main(void)
     test_png();
     test_bad_png();
     test_written(path);
+    test_exr_values(path);
     test_exr(path);
     test_sampling(path);
     test_values(path);

@@ -201,7 +201,7 @@ MesoStatus meso_png_write(const MesoImage *image, const float *background,
     return write_with(&rows, provenance, output, error);
 }
 
-MesoStatus meso_png_write_values(const MesoPngValues *values, const MesoProvenance *provenance, MesoOutput *output,
+MesoStatus meso_png_write_values(const MesoImageValues *values, const MesoProvenance *provenance, MesoOutput *output,
                                  MesoError *error)
 {
     const Rows rows = {

@@ -128,10 +128,13 @@ try meso-grow --until 0 ivy.grammar vase.obj -o x.ply
 ls x.* 2>/dev/null
 
 echo "== maps as pictures; read again, they are the same maps"
-try meso-grow -q --show-map paint=shown.png painted.grammar column.obj -o a.meso
-sed 's/paint\.png/shown.png/' painted.grammar >again.grammar
-meso-grow -q again.grammar column.obj -o b.meso --json=again.json
-echo "$(count seeds painted.json) $(count seeds again.json) seeds"
+for kind in png exr; do
+    try meso-grow -q --show-map paint=shown.$kind painted.grammar column.obj -o a.meso
+    sed "s/paint\.png/shown.$kind/" painted.grammar >again.grammar
+    meso-grow -q again.grammar column.obj -o b.meso --json=again.json
+    echo "$(count seeds painted.json) $(count seeds again.json) seeds"
+done
+meso-info shown.exr | grep channels
 try meso-grow --show-map pain=x.png painted.grammar column.obj -o a.meso
 try meso-grow --show-map paint painted.grammar column.obj -o a.meso
 try meso-grow --show-map paint=painted.grammar painted.grammar column.obj -o a.meso
