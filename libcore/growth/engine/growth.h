@@ -93,8 +93,9 @@ typedef struct MesoGrown {
  * meet in the same floats, but where a step's width differs from the one that the last has said to end with, or from
  * another shape's; then they are two in one place. A branch's first step begins at a joint of its own. Lift and roll
  * are those at the end of a step. Where an axis would be below the surface a tube's or a section's step becomes several
- * elements, and joints are raised. A placed shape is as wide as it is long where nothing else is said, follows the
- * surface, and goes on straight beyond a border. What has grown until a limit is told by `end`, and is whole.
+ * elements, as long as these are not too short for their width, and joints are raised. A placed shape is as wide as it
+ * is long where nothing else is said, follows the surface, and goes on straight beyond a border. What has grown until a
+ * limit is told by `end`, and is whole.
  *
  * MESO_ERR_INPUT where a value is no number, by line; MESO_ERR_MEMORY. O(elements * pieces that are near).
  */

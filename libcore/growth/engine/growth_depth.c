@@ -1,7 +1,8 @@
 /*
  * Curves that would go below the surface. Where the axis of an element lies deeper than a hundredth of its length, a
  * step whose shape is one all along is divided, with joints on the surface between, and what is still deeper is raised:
- * triangles are flat, but curves follow the smooth normals.
+ * triangles are flat, but curves follow the smooth normals. Steps are divided no further than to where their shape, at
+ * its width, would fold in the turns: at sharp edges it is raised over these instead.
  */
 #include "libcore/growth/engine/growth_work.h"
 
@@ -145,6 +146,29 @@ static float mix(float a, float b, float t)
     return a + (b - a) * t;
 }
 
+/*
+ * Tangents of joints between lead from the joint before to the one behind. Across the smooth normals, which may be far
+ * from those of triangles, they would cross the chords, and the curves would swing about these.
+ */
+static void straighten(MesoGrowthTurn *turn)
+{
+    MesoGrowthMiddle *middles = turn->batch->middles + turn->middle_begin;
+    for (uint32_t i = 0; i < turn->middle_count; i++) {
+        MesoGrowthSeat *joint = &middles[i].joint;
+        MesoFour before = i == 0 ? turn->from.position : middles[i - 1].joint.position;
+        MesoFour behind = i + 1 == turn->middle_count ? turn->to.position : middles[i + 1].joint.position;
+        MesoFour along = behind - before;
+        float square = meso_four_dot(along, along);
+        MesoFour tangent = meso_four_scale(along, square > 0 ? 1 / sqrtf(square) : 0);
+        MesoFour normal = meso_four_mad(joint->normal, -meso_four_dot(joint->normal, tangent), tangent);
+        float size = meso_four_dot(normal, normal);
+        if (!(square > 0 && size > 0.01f))
+            continue;
+        joint->tangent = tangent;
+        joint->normal = meso_four_scale(normal, 1 / sqrtf(size));
+    }
+}
+
 /* Joints of the way at equal distances, `count` of them. */
 static bool make_middles(const MesoGrowthWork *work, MesoGrowthTurn *turn, float lift, float roll, uint32_t count)
 {
@@ -163,6 +187,7 @@ static bool make_middles(const MesoGrowthWork *work, MesoGrowthTurn *turn, float
                                              mix(lift, turn->lift, t), mix(roll, turn->roll, t));
     }
     turn->middle_count = count;
+    straighten(turn);
     return true;
 }
 
@@ -180,6 +205,35 @@ static float depth_of_spans(const MesoGrowthTurn *turn, const Sample *samples, u
         deepest = depth > deepest ? depth : deepest;
     }
     return deepest;
+}
+
+/* Whether a curve turns about a point that a shape half as high as it is wide, on both sides, reaches. */
+static bool is_tight(const Curve *curve, float width)
+{
+    MesoFour a = curve->p[1] - curve->p[0], b = curve->p[2] - curve->p[1], c = curve->p[3] - curve->p[2];
+    for (int i = 0; i <= 4; i++) {
+        float t = 0.25f * (float)i, r = 1 - t;
+        MesoFour speed = meso_four_scale(a, r * r) + meso_four_scale(b, 2 * r * t) + meso_four_scale(c, t * t);
+        MesoFour change = meso_four_scale(b - a, 2 * r) + meso_four_scale(c - b, 2 * t);
+        MesoFour turn = meso_four_cross(speed, change);
+        float square = meso_four_dot(speed, speed);
+        if (0.5f * width * sqrtf(meso_four_dot(turn, turn)) >= square * sqrtf(square))
+            return true;
+    }
+    return false;
+}
+
+static bool spans_are_tight(const MesoGrowthTurn *turn)
+{
+    const MesoGrowthMiddle *middles = turn->batch->middles + turn->middle_begin;
+    bool tight = false;
+    for (uint32_t i = 0; i <= turn->middle_count && !tight; i++) {
+        const MesoGrowthSeat *from = i == 0 ? &turn->from : &middles[i - 1].joint;
+        const MesoGrowthSeat *to = i == turn->middle_count ? &turn->to : &middles[i].joint;
+        Curve curve = curve_between(from, to, 0, 1);
+        tight = is_tight(&curve, from->width > to->width ? from->width : to->width);
+    }
+    return tight;
 }
 
 /* ---- turns ---- */
@@ -209,6 +263,9 @@ static void bring_up(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoG
     turn->depth = depth_of_spans(turn, samples, count);
     for (uint32_t spans = 2; divides && turn->depth > tolerance && spans <= MOST_SPANS; spans *= 2) {
         if (!make_middles(work, turn, lift, roll, spans - 1))
+            return;
+        divides = !spans_are_tight(turn);
+        if (!divides && !make_middles(work, turn, lift, roll, spans / 2 - 1))
             return;
         turn->depth = depth_of_spans(turn, samples, count);
     }

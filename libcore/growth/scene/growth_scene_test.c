@@ -187,6 +187,21 @@ static void test_threads(void)
     meso_scenery_release(&s.scenery);
 }
 
+/* Cords over the sides of large triangles, as long as these allow to bend them by their width. */
+static void test_folds_on_coarse(void)
+{
+    static const char text[] =
+        "meso-grow 1\nshape cord = tube(sides: 5) shape unused = leaf shape dot = bead\nlimit generations 12\n"
+        "seed A() on vertices\nrule A() -> { turn(normal(0, 20 deg))\n"
+        " step(12 cm, normal(0, 4 deg), shape: cord, width: 3 cm, cross: true) A() }\n";
+    Show s;
+    show_init(&s, meso_fixture_torus(16, 8, 0.4f), text, 20);
+    CHECK(!meso_growth_lift(&s.grown, &s.scenery.arena, &s.scenery.ground, 1, NULL));
+    show(&s, 1);
+    CHECK(s.grown.divided > 0 && s.grown.raised > 0 && s.folds == 0);
+    meso_scenery_release(&s.scenery);
+}
+
 static void test_nothing(void)
 {
     Show s;
@@ -203,6 +218,7 @@ int main(void)
     test_bodies();
     test_tints();
     test_folds();
+    test_folds_on_coarse();
     test_threads();
     test_nothing();
     return 0;
