@@ -51,10 +51,11 @@ static void make_picture(void)
         picture.slot[i] = meso_random_below(&random, UINT32_MAX);
         picture.tile[i] = meso_random_below(&random, 100);
     }
-    picture.image = (MesoImage){WIDTH, HEIGHT, {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30}, picture.color,
-                                picture.depth, picture.normal, picture.albedo, 2,
-                                {{"slot", UINT32_MAX, NULL}, {"tile", 2, tile_names}},
-                                {picture.slot, picture.tile}};
+    picture.image = (MesoImage){.width = WIDTH, .height = HEIGHT, .camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30},
+                                .color = picture.color, .depth = picture.depth, .normal = picture.normal,
+                                .albedo = picture.albedo, .channel_count = 2,
+                                .channels = {{"slot", UINT32_MAX, NULL}, {"tile", 2, tile_names}},
+                                .ids = {picture.slot, picture.tile}};
 }
 
 static MesoStatus write_exr(const char *path, uint32_t threads, MesoError *error)

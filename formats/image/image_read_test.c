@@ -238,8 +238,9 @@ static void test_written(const char *path)
     static uint32_t slot[PIXELS];
     static const char *const names[] = {"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G",
                                         "albedo.R", "slot"};
-    MesoImage image = {WIDTH, HEIGHT, {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30}, color, depth, normal, albedo, 1,
-                       {{"slot", UINT32_MAX, NULL}}, {slot}};
+    MesoImage image = {.width = WIDTH, .height = HEIGHT, .camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30},
+                       .color = color, .depth = depth, .normal = normal, .albedo = albedo, .channel_count = 1,
+                       .channels = {{"slot", UINT32_MAX, NULL}}, .ids = {slot}};
     const MesoProvenance provenance = {.tool = "meso-render", .command_line = "meso-render x"};
     MesoOutput *output;
     MesoArena arena;
