@@ -62,7 +62,8 @@ static void make_bar(Bar *bar)
 static MesoRenderOptions look(uint32_t samples)
 {
     float fov = 2 * atanf(1.125f / 10) * (float)(180 / 3.14159265358979323846);
-    return (MesoRenderOptions){WIDTH, HEIGHT, {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, fov}, samples, false};
+    return (MesoRenderOptions){.width = WIDTH, .height = HEIGHT, .samples = samples,
+                               .camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, fov}};
 }
 
 static MesoImage draw(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
