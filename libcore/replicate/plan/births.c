@@ -236,12 +236,16 @@ static MesoStatus make_room(MesoReplication *r, MesoError *error)
         MesoDetail *details = meso_arena_enlarge(&r->arena, r->details, n, room, sizeof *details, error);
         uint32_t *blocks = meso_arena_enlarge(&r->arena, r->blocks, n, room, sizeof *blocks, error);
         float *areas = meso_arena_enlarge(&r->arena, r->areas, n, room, sizeof *areas, error);
+        float *grown = meso_arena_enlarge(&r->arena, r->grown, n, room, sizeof *grown, error);
+        MesoDetailFate *fates = meso_arena_enlarge(&r->arena, r->fates, n, room, sizeof *fates, error);
         uint32_t *begin = meso_arena_enlarge(&r->arena, r->near_begin, n + 1, room + 1, sizeof *begin, error);
-        if (!details || !blocks || !areas || !begin)
+        if (!details || !blocks || !areas || !grown || !fates || !begin)
             return MESO_ERR_MEMORY;
         r->details = details;
         r->blocks = blocks;
         r->areas = areas;
+        r->grown = grown;
+        r->fates = fates;
         r->near_begin = begin;
         r->detail_room = (uint32_t)room;
     }
@@ -313,6 +317,8 @@ MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirt
                                       .size = copied->size, .width = copied->width, .kind = copied->kind,
                                       .copied = birth->copied, .rank = detail, .radius = INFINITY, .born = frame};
     r->areas[detail] = r->areas[birth->copied];
+    r->grown[detail] = 0;
+    r->fates[detail] = (MesoDetailFate){MESO_DETAIL_LIVES, MESO_NO_INDEX};
     r->blocks[detail] = r->blocks[birth->beside];
     r->due[r->blocks[detail]]--;
     remember_near(r, detail);

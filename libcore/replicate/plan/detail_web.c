@@ -138,6 +138,22 @@ MesoStatus meso_web_insert(MesoWeb *web, uint32_t triangle, MesoMeshPoint point,
     return MESO_OK;
 }
 
+bool meso_web_remove(MesoWeb *web, uint32_t node, uint32_t into)
+{
+    if (!meso_web_merge(web, node, into))
+        return false;
+    EdgeStack stack;
+    stack.count = 0;
+    stack.left = false;
+    MesoSpokes s = meso_spokes(web, into);
+    do {
+        push(&stack, s.now);
+        push(&stack, meso_next_corner(s.now));
+    } while (meso_spokes_next(web, &s));
+    settle_stack(web, &stack, STACK);
+    return true;
+}
+
 MesoWebEdges meso_web_edges(const MesoWeb *web)
 {
     MesoWebEdges edges = {0};

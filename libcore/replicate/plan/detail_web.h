@@ -40,6 +40,9 @@ uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride);
 MesoStatus meso_web_insert(MesoWeb *web, uint32_t triangle, MesoMeshPoint point, MesoVec3 position, MesoVec3 normal,
                            MesoError *error);
 
+/* meso_web_merge (web_edit.h), and settles around what is left. */
+bool meso_web_remove(MesoWeb *web, uint32_t node, uint32_t into);
+
 /* Mean and deviation of the lengths of edges between details. */
 typedef struct MesoWebEdges {
     uint32_t count;

@@ -4,6 +4,9 @@
 
 enum { GRID = MESO_PAPER_GRID, SPLITS_A_STEP = 1000 };
 
+/* What is nearer than this much of a mean triangle's side has merged. */
+static const double CLOSE = 0.05;
+
 /* Areas of H0 over the trigger's. */
 static const double USEFUL = 3;
 
@@ -135,12 +138,15 @@ MesoStatus meso_paper_build(MesoPaperRule *rule, MesoReplication *r, MesoError *
     if (r->options.original_count > MESO_PAPER_MOST)
         return meso_fail(error, MESO_ERR_LIMIT, "the paper's rule is for %d details, not for %u", MESO_PAPER_MOST,
                          r->options.original_count);
-    *rule = (MesoPaperRule){.area = r->exemplars.area, .angle = r->exemplars.angle};
+    *rule = (MesoPaperRule){.area = r->exemplars.area, .angle = r->exemplars.angle, .smallest = INFINITY};
     for (uint32_t t = 0; t < r->web.triangle_count; t++) {
         const uint32_t *c = r->web.corners + 3 * (size_t)t;
-        if (c[0] >= r->web.fixed_count && c[1] >= r->web.fixed_count && c[2] >= r->web.fixed_count)
-            rule->largest = fmax(rule->largest, meso_web_area(&r->web, t));
+        if (c[0] < r->web.fixed_count || c[1] < r->web.fixed_count || c[2] < r->web.fixed_count)
+            continue;
+        rule->largest = fmax(rule->largest, meso_web_area(&r->web, t));
+        rule->smallest = fmin(rule->smallest, meso_web_area(&r->web, t));
     }
+    rule->close = CLOSE * sqrt(rule->area);
     rule->most = USEFUL * r->options.alpha * rule->largest;
     rule->places = meso_arena_alloc(&r->arena, r->detail_count, sizeof *rule->places, error);
     if (!rule->places)
@@ -232,7 +238,7 @@ static uint32_t largest_triangle(const MesoReplication *r, double *area)
     return largest;
 }
 
-MesoStatus meso_paper_step(MesoReplication *r, int32_t frame, MesoError *error)
+static MesoStatus split_all(MesoReplication *r, int32_t frame, MesoError *error)
 {
     for (uint32_t splits = 0; splits < SPLITS_A_STEP; splits++) {
         double area;
@@ -245,4 +251,100 @@ MesoStatus meso_paper_step(MesoReplication *r, int32_t frame, MesoError *error)
             return status;
     }
     return MESO_OK;
+}
+
+/* ---- mergings ---- */
+
+static bool is_merging(const MesoReplication *r, uint32_t detail)
+{
+    for (uint32_t m = 0; m < r->merging_count; m++)
+        if (r->mergings[m][0] == detail || r->mergings[m][1] == detail)
+            return true;
+    return false;
+}
+
+/* Of details that do not merge yet. */
+static uint32_t smallest_triangle(const MesoReplication *r, double least)
+{
+    uint32_t smallest = MESO_NO_INDEX;
+    for (uint32_t t = 0; t < r->web.triangle_count; t++) {
+        const uint32_t *c = r->web.corners + 3 * (size_t)t, fixed = r->web.fixed_count;
+        if (c[0] < fixed || c[1] < fixed || c[2] < fixed || !(meso_web_area(&r->web, t) < least)
+            || is_merging(r, c[0] - fixed) || is_merging(r, c[1] - fixed) || is_merging(r, c[2] - fixed))
+            continue;
+        least = meso_web_area(&r->web, t);
+        smallest = t;
+    }
+    return smallest;
+}
+
+static MesoStatus select_mergings(MesoReplication *r, MesoError *error)
+{
+    for (;;) {
+        uint32_t t = smallest_triangle(r, r->options.beta * r->paper->smallest);
+        if (t == MESO_NO_INDEX)
+            return MESO_OK;
+        const uint32_t *c = r->web.corners + 3 * (size_t)t;
+        uint32_t shortest = 0;
+        for (uint32_t k = 1; k < 3; k++)
+            if (meso_web_length2(&r->web, c[k], c[(k + 1) % 3])
+                < meso_web_length2(&r->web, c[shortest], c[(shortest + 1) % 3]))
+                shortest = k;
+        uint32_t a = c[shortest] - r->web.fixed_count, b = c[(shortest + 1) % 3] - r->web.fixed_count;
+        bool first = r->details[a].rank < r->details[b].rank;
+        r->mergings = MESO_GROW(&r->arena, r->mergings, r->merging_count, r->merging_room, 16, error);
+        if (!r->mergings)
+            return MESO_ERR_MEMORY;
+        r->mergings[r->merging_count][0] = first ? a : b;
+        r->mergings[r->merging_count++][1] = first ? b : a;
+    }
+}
+
+static void move_to(MesoReplication *r, uint32_t detail, MesoVec3 place)
+{
+    uint32_t node = r->web.fixed_count + detail;
+    MesoMeshPoint point = meso_point_towards(r->rest, r->now.positions, r->details[detail].point, place);
+    r->details[detail].point = r->web.points[node] = point;
+    r->web.positions[node] = meso_detail_position(r->rest, r->now.positions, &point);
+    r->web.normals[node] = meso_vec3_unit(meso_detail_position(r->rest, r->normals, &point), (MesoVec3){0, 0, 1});
+}
+
+/* p0' = gamma (p1 - p0), p1' = -p0', for the time of a step. */
+static void attract(MesoReplication *r, uint32_t a, uint32_t b)
+{
+    const MesoVec3 *places = r->web.positions + r->web.fixed_count;
+    float share = (float)fmin(0.5, r->options.gamma * r->passing);
+    MesoVec3 way = meso_vec3_scale(meso_vec3_sub(places[b], places[a]), share);
+    MesoVec3 to = meso_vec3_sub(places[b], way);
+    move_to(r, a, meso_vec3_add(places[a], way));
+    move_to(r, b, to);
+}
+
+static void attract_all(MesoReplication *r, int32_t frame)
+{
+    const MesoWeb *web = &r->web;
+    uint32_t left = 0;
+    for (uint32_t m = 0; m < r->merging_count; m++) {
+        uint32_t kept = r->mergings[m][0], given = r->mergings[m][1];
+        attract(r, kept, given);
+        bool close = meso_web_length2(web, web->fixed_count + kept, web->fixed_count + given)
+                     < r->paper->close * r->paper->close;
+        if (close && meso_web_remove(&r->web, web->fixed_count + given, web->fixed_count + kept)) {
+            r->fates[given] = (MesoDetailFate){frame, kept};
+            continue;
+        }
+        r->mergings[left][0] = kept;
+        r->mergings[left++][1] = given;
+    }
+    r->merging_count = left;
+}
+
+MesoStatus meso_paper_step(MesoReplication *r, int32_t frame, MesoError *error)
+{
+    MesoStatus status = split_all(r, frame, error);
+    if (status == MESO_OK)
+        status = select_mergings(r, error);
+    if (status == MESO_OK)
+        attract_all(r, frame);
+    return status;
 }

@@ -23,8 +23,9 @@ typedef struct MesoClip {
 } MesoClip;
 
 typedef enum MesoReplicateMode {
-    MESO_REPLICATE_PLAN,
-    MESO_REPLICATE_PAPER    /* the paper's rule (paper_rule.h), of 500 originals at most, for comparison */
+    MESO_REPLICATE_PLAN,    /* born and dying by density, as the surface is from frame to frame */
+    MESO_REPLICATE_PAPER,   /* the paper's rule (paper_rule.h), of 500 originals at most, for comparison */
+    MESO_REPLICATE_PLAY     /* born by density, and none dies: what a plan that is played has to have */
 } MesoReplicateMode;
 
 typedef struct MesoReplicateOptions {
@@ -34,10 +35,22 @@ typedef struct MesoReplicateOptions {
     uint32_t original_count;
     MesoReplicateMode mode;
     double alpha;               /* of the paper's rule: over the largest area at rest; 0: 1.1 */
+    double beta;                /* and of the smallest; 0: 0.9 */
+    double gamma;               /* share of their distance by which merging details come nearer, each, a frame; 0: 0.1 */
+    double mu;                  /* share of its size by which a detail grows or shrinks a frame, at most; 0: 0.1 */
+    uint32_t substeps;          /* a frame is gone through in so many steps, on straight lines; 0: 1 */
     double ramp;                /* of a distance over which a detail comes and goes; 0: 0.06 */
     uint64_t seed;
     uint32_t thread_count;      /* 0: all cores; the same plan for any */
 } MesoReplicateOptions;
+
+/* What has become of a detail. */
+typedef struct MesoDetailFate {
+    int32_t died;           /* the frame from which on it shrinks; MESO_DETAIL_LIVES */
+    uint32_t into;          /* a detail beside it, which takes its room; MESO_NO_INDEX */
+} MesoDetailFate;
+
+#define MESO_DETAIL_LIVES INT32_MAX
 
 /* A detail beside another when that was born. */
 typedef struct MesoNeighbour {
@@ -56,8 +69,8 @@ enum { MESO_REPLICA_MOST = 1 << 26 };   /* details */
 MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOptions *options, MesoError *error);
 
 /*
- * Goes through a frame: details are born that its stretch asks for. Frames come in an order that is part of what the
- * plan is a function of. MESO_ERR_INPUT by frame and vertex where a place is no number, MESO_ERR_LIMIT where more than
+ * Goes through a frame: details are born that its stretch asks for, and die where it has shrunk. Frames come in an order
+ * that is part of what the outcome is a function of; time passes by the difference of their numbers. MESO_ERR_INPUT by frame and vertex where a place is no number, MESO_ERR_LIMIT where more than
  * MESO_REPLICA_MOST details are due, MESO_ERR_MEMORY. O(surface + details).
  */
 MesoStatus meso_replicate_step(MesoReplication *replication, uint32_t frame, MesoError *error);
@@ -65,6 +78,15 @@ MesoStatus meso_replicate_step(MesoReplication *replication, uint32_t frame, Mes
 /* What there is so far; as long as the replication lives, and no step is done. */
 const MesoDetail *meso_replicate_details(const MesoReplication *replication, uint32_t *count);
 const MesoWeb *meso_replicate_web(const MesoReplication *replication);
+
+/*
+ * [count] shares of their sizes, in [0,1]: those born begin at 0 and grow, those dead shrink. Not of mode PLAY: there
+ * play says it.
+ */
+const float *meso_replicate_grown(const MesoReplication *replication);
+
+/* [count] */
+const MesoDetailFate *meso_replicate_fates(const MesoReplication *replication);
 
 /* The plan of what has been gone through. Arrays are in the arena. */
 MesoStatus meso_replicate_plan(MesoReplicaPlan *plan, MesoArena *arena, const MesoReplication *replication,

@@ -1,6 +1,7 @@
 #include "libcore/replicate/plan/replicate.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcore/base/random.h"
 #include "libcore/mesh/point/vertex_normals.h"
@@ -60,14 +61,18 @@ static MesoStatus take_originals(MesoReplication *r, MesoError *error)
     r->blocks = MESO_NEW(&r->arena, uint32_t, n, error);
     r->areas = MESO_NEW(&r->arena, float, n, error);
     r->near_begin = MESO_NEW(&r->arena, uint32_t, (size_t)n + 1, error);
+    r->grown = MESO_NEW(&r->arena, float, n, error);
+    r->fates = MESO_NEW(&r->arena, MesoDetailFate, n, error);
     MesoMeshPoint *points = MESO_NEW(&r->arena, MesoMeshPoint, n, error);
-    if (!r->details || !r->blocks || !r->areas || !r->near_begin || !points)
+    if (!r->details || !r->blocks || !r->areas || !r->near_begin || !r->grown || !r->fates || !points)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         r->details[i] = r->options.originals[i];
         r->details[i].copied = i;
         r->details[i].radius = INFINITY;
         r->details[i].born = MESO_DETAIL_ORIGINAL;
+        r->grown[i] = 1;
+        r->fates[i] = (MesoDetailFate){MESO_DETAIL_LIVES, MESO_NO_INDEX};
         points[i] = r->details[i].point;
     }
     MesoStatus status = rank_originals(r, &r->arena, error);
@@ -141,6 +146,22 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
     return r->paper ? meso_paper_build(r->paper, r, error) : MESO_ERR_MEMORY;
 }
 
+static void take_default(double *value, double usual)
+{
+    *value = *value > 0 ? *value : usual;
+}
+
+static void take_defaults(MesoReplicateOptions *options)
+{
+    take_default(&options->ramp, 0.06);
+    take_default(&options->alpha, 1.1);
+    take_default(&options->beta, 0.9);
+    take_default(&options->gamma, 0.1);
+    take_default(&options->mu, 0.1);
+    options->gamma = fmin(options->gamma, 0.5);
+    options->substeps = options->substeps ? options->substeps : 1;
+}
+
 MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOptions *options, MesoError *error)
 {
     MesoStatus status = check_originals(options, error);
@@ -152,10 +173,8 @@ MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOption
     meso_arena_init(&r->arena);
     meso_arena_init(&r->scratch);
     r->options = *options;
-    if (!(r->options.ramp > 0))
-        r->options.ramp = 0.06;
-    if (!(r->options.alpha > 0))
-        r->options.alpha = 1.1;
+    r->last_frame = -1;
+    take_defaults(&r->options);
     status = begin(r, error);
     if (status != MESO_OK) {
         meso_replicate_release(r);
@@ -179,32 +198,49 @@ const MesoDetail *meso_replicate_details(const MesoReplication *r, uint32_t *cou
     return r->details;
 }
 
+const float *meso_replicate_grown(const MesoReplication *r)
+{
+    return r->grown;
+}
+
+const MesoDetailFate *meso_replicate_fates(const MesoReplication *r)
+{
+    return r->fates;
+}
+
 const MesoWeb *meso_replicate_web(const MesoReplication *r)
 {
     return &r->web;
 }
 
-/* ---- a frame ---- */
+/* ---- births and deaths of a step ---- */
 
-/* Details due by the stretch of the surface at each original, less those there are. */
+/* So that blocks do not all come to their next detail at once; in all as good as nothing. */
+static double phase_of(uint32_t block)
+{
+    double at = (block + 0.5) * 0.6180339887498949;
+    return 0.9 * (at - floor(at) - 0.5);
+}
+
+/* Details due by the stretch of the surface at each original, less those there are. Returns how many will be born. */
 static double count_due(MesoReplication *r)
 {
     double all = 0;
     for (uint32_t b = 0; b < r->block_count; b++)
-        r->due[b] = 0;
+        r->due[b] = phase_of(b);
     for (uint32_t i = 0; i < r->detail_count; i++) {
-        double due = -1;
+        double due = meso_lives(r, i) ? -1 : 0;
         uint32_t t = r->details[i].point.triangle;
         if (r->details[i].born == MESO_DETAIL_ORIGINAL)
             due += r->rest_areas[t] > 0 ? (double)(area_now(r->rest, r->now.positions, t) / r->rest_areas[t]) : 1;
         r->due[r->blocks[i]] += due;
-        all += due;
     }
+    for (uint32_t b = 0; b < r->block_count; b++)
+        all += fmax(0, floor(r->due[b] + 0.5));
     return all;
 }
 
-static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit, int32_t frame, uint32_t *born,
-                        MesoError *error)
+static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit, int32_t frame, MesoError *error)
 {
     MesoReplication *r = order->r;
     MesoBirth births[MESO_EXEMPLAR_INSIDE];
@@ -219,20 +255,18 @@ static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit
             h = r->web.twins[meso_previous_corner(h)];
         } while (h != first && h != MESO_NO_INDEX);
     }
-    *born += count;
     return MESO_OK;
 }
 
-static MesoStatus bear(MesoSplitOrder *order, double due, int32_t frame, MesoError *error)
+static MesoStatus bear(MesoSplitOrder *order, int32_t frame, MesoError *error)
 {
     MesoReplication *r = order->r;
-    uint32_t born = 0, triangle;
-    while (born + 0.5 <= due && meso_split_pop(order, &triangle)) {
+    uint32_t triangle;
+    while (meso_split_pop(order, &triangle)) {
         double room = r->due[meso_block_of(r, triangle)];
         if (room < 0.5)
             continue;
-        uint32_t limit = (uint32_t)fmin(fmin(room + 0.5, due + 0.5 - born), MESO_EXEMPLAR_INSIDE);
-        MesoStatus status = split(order, triangle, limit > 0 ? limit : 1, frame, &born, error);
+        MesoStatus status = split(order, triangle, (uint32_t)fmin(room + 0.5, MESO_EXEMPLAR_INSIDE), frame, error);
         if (status != MESO_OK)
             return status;
     }
@@ -242,28 +276,23 @@ static MesoStatus bear(MesoSplitOrder *order, double due, int32_t frame, MesoErr
 static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
 {
     double due = count_due(r);
-    if (due < 0.5)
-        return MESO_OK;
+    MesoStatus status = r->options.mode == MESO_REPLICATE_PLAN ? meso_thin_out(r, frame, error) : MESO_OK;
+    if (due < 0.5 || status != MESO_OK)
+        return status;
     if (!(r->detail_count + due < MESO_REPLICA_MOST))
         return meso_fail(error, MESO_ERR_LIMIT, "frame %d: too many details are due: %g", frame,
                          r->detail_count + due);
     MesoSplitOrder order;
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
     meso_tolerance_adapt(&r->tolerance, &r->web);
-    MesoStatus status = meso_split_order(&order, &r->scratch, r, (uint32_t)due, error);
+    status = meso_split_order(&order, &r->scratch, r, (uint32_t)due, error);
     if (status == MESO_OK)
-        status = bear(&order, due, frame, error);
+        status = bear(&order, frame, error);
     meso_arena_rewind(&r->scratch, mark);
     return status;
 }
 
-static MesoStatus check_positions(const MesoReplication *r, const MesoVec3 *positions, uint32_t frame, MesoError *error)
-{
-    for (uint32_t v = 0; v < r->rest->vertex_count; v++)
-        if (!isfinite(positions[v].x) || !isfinite(positions[v].y) || !isfinite(positions[v].z))
-            return meso_fail(error, MESO_ERR_INPUT, "frame %u: vertex %u has no place", frame, v);
-    return MESO_OK;
-}
+/* ---- a step ---- */
 
 /* Each step looks at some of the triangles; at all, where of those more than a few were no longer Delaunay. */
 static void settle(MesoReplication *r)
@@ -273,17 +302,81 @@ static void settle(MesoReplication *r)
         meso_web_settle(&r->web, 0, 1);
 }
 
-MesoStatus meso_replicate_step(MesoReplication *r, uint32_t frame, MesoError *error)
+static void grow(MesoReplication *r)
 {
-    const MesoClip *clip = r->options.clip;
-    const MesoVec3 *positions = clip->positions(clip->context, frame, error);
-    MesoStatus status = positions ? check_positions(r, positions, frame, error)
-                                  : error ? error->status : MESO_ERR_INPUT;
-    if (status != MESO_OK)
-        return status;
+    float most = (float)(r->options.mu * r->passing);
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        r->grown[i] = meso_lives(r, i) ? fminf(1, r->grown[i] + most) : fmaxf(0, r->grown[i] - most);
+}
+
+static MesoStatus step_to(MesoReplication *r, const MesoVec3 *positions, int32_t frame, MesoError *error)
+{
     r->now.positions = (MesoVec3 *)(uintptr_t)positions;    /* read alone */
     meso_vertex_normals(r->normals, &r->now);
     meso_web_place(&r->web, r->rest, positions, r->normals, r->options.thread_count);
     settle(r);
-    return r->paper ? meso_paper_step(r, (int32_t)frame, error) : replicate(r, (int32_t)frame, error);
+    grow(r);
+    return r->paper ? meso_paper_step(r, frame, error) : replicate(r, frame, error);
+}
+
+/* ---- a frame ---- */
+
+static MesoStatus positions_of(const MesoReplication *r, uint32_t frame, const MesoVec3 **positions, MesoError *error)
+{
+    const MesoClip *clip = r->options.clip;
+    const MesoVec3 *p = *positions = clip->positions(clip->context, frame, error);
+    if (!p)
+        return error ? error->status : MESO_ERR_INPUT;
+    for (uint32_t v = 0; v < r->rest->vertex_count; v++)
+        if (!isfinite(p[v].x) || !isfinite(p[v].y) || !isfinite(p[v].z))
+            return meso_fail(error, MESO_ERR_INPUT, "frame %u: vertex %u has no place", frame, v);
+    return MESO_OK;
+}
+
+/* The last frame: kept, or that of a state that has been gone on from. */
+static MesoStatus know_before(MesoReplication *r, MesoError *error)
+{
+    const MesoVec3 *positions;
+    if (r->options.substeps == 1 || r->before)
+        return MESO_OK;
+    MesoVec3 *before = MESO_NEW(&r->arena, MesoVec3, r->rest->vertex_count, error);
+    r->between = MESO_NEW(&r->arena, MesoVec3, r->rest->vertex_count, error);
+    if (!before || !r->between)
+        return MESO_ERR_MEMORY;
+    if (r->last_frame >= 0) {
+        MesoStatus status = positions_of(r, (uint32_t)r->last_frame, &positions, error);
+        if (status != MESO_OK)
+            return status;
+        memcpy(before, positions, r->rest->vertex_count * sizeof *before);
+    }
+    r->before = before;
+    return MESO_OK;
+}
+
+static MesoStatus step_between(MesoReplication *r, const MesoVec3 *positions, double share, int32_t frame,
+                               MesoError *error)
+{
+    for (uint32_t v = 0; v < r->rest->vertex_count; v++)
+        r->between[v] = meso_vec3_mad(meso_vec3_scale(r->before[v], (float)(1 - share)), (float)share, positions[v]);
+    return step_to(r, r->between, frame, error);
+}
+
+MesoStatus meso_replicate_step(MesoReplication *r, uint32_t frame, MesoError *error)
+{
+    const MesoVec3 *positions;
+    uint32_t substeps = r->last_frame < 0 ? 1 : r->options.substeps;
+    MesoStatus status = know_before(r, error);
+    if (status == MESO_OK)
+        status = positions_of(r, frame, &positions, error);
+    if (status != MESO_OK)
+        return status;
+    r->passing = r->last_frame < 0 ? 0 : fabs((double)frame - (double)r->last_frame) / substeps;
+    for (uint32_t s = 1; s < substeps && status == MESO_OK; s++)
+        status = step_between(r, positions, (double)s / substeps, (int32_t)frame, error);
+    if (status == MESO_OK)
+        status = step_to(r, positions, (int32_t)frame, error);
+    if (r->before)
+        memcpy(r->before, positions, r->rest->vertex_count * sizeof *r->before);
+    r->last_frame = frame;
+    return status;
 }

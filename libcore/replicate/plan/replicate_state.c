@@ -7,9 +7,14 @@
 
 MesoReplicaState meso_replicate_state(const MesoReplication *r)
 {
-    return (MesoReplicaState){r->step_count, r->tolerance.power, r->detail_count, r->details, r->blocks, r->near_begin,
-                              r->near, r->web.node_count, r->web.triangle_count, r->web.node_corner, r->web.corners,
-                              r->web.twins};
+    return (MesoReplicaState){
+        .step_count = r->step_count, .power = r->tolerance.power, .detail_count = r->detail_count,
+        .details = r->details, .blocks = r->blocks, .near_begin = r->near_begin, .near = r->near,
+        .last_frame = r->last_frame, .grown = r->grown, .fates = r->fates, .merging_count = r->merging_count,
+        .mergings = (const uint32_t (*)[2])r->mergings, .node_count = r->web.node_count,
+        .triangle_count = r->web.triangle_count, .node_corner = r->web.node_corner, .corners = r->web.corners,
+        .twins = r->web.twins,
+    };
 }
 
 /* ---- is it one ---- */
@@ -23,11 +28,35 @@ static bool is_detail(const MesoReplication *r, const MesoReplicaState *s, uint3
 {
     const MesoDetail *d = &s->details[i];
     const MesoMeshPoint *p = &d->point;
-    bool original = i < r->options.original_count;
+    MesoDetail original = i < r->options.original_count ? r->details[i] : (MesoDetail){0};
+    original.point = *p;    /* the paper's rule moves them */
     bool inside = p->triangle < r->rest->triangle_count && p->weight[0] >= 0 && p->weight[1] >= 0 && p->weight[2] >= 0
                   && fabsf(p->weight[0] + p->weight[1] + p->weight[2] - 1) < 1e-3f;
     bool born = d->copied < r->options.original_count && d->rank == i && d->born >= 0;
-    return inside && isfinite(d->angle) && (original ? memcmp(d, &r->details[i], sizeof *d) == 0 : born);
+    return inside && isfinite(d->angle)
+           && (i < r->options.original_count ? memcmp(d, &original, sizeof *d) == 0 : born);
+}
+
+/* Shares, and ends: those alone are out of the web that have died. */
+static bool is_life(const MesoReplicaState *s, uint32_t i, uint32_t node)
+{
+    const MesoDetailFate *fate = &s->fates[i];
+    bool died = s->node_corner[node] == MESO_NO_INDEX;
+    return s->grown[i] >= 0 && s->grown[i] <= 1 && (fate->died != MESO_DETAIL_LIVES) == died
+           && (fate->into == MESO_NO_INDEX || (died && fate->into < s->detail_count));
+}
+
+static MesoStatus check_lives(const MesoReplication *r, const MesoReplicaState *s, MesoError *error)
+{
+    for (uint32_t i = 0; i < s->detail_count; i++)
+        if (!is_life(s, i, r->web.fixed_count + i))
+            return no_state(error, "shares");
+    for (uint32_t m = 0; m < s->merging_count; m++)
+        for (uint32_t k = 0; k < 2; k++)
+            if (s->mergings[m][k] >= s->detail_count || s->mergings[m][0] == s->mergings[m][1]
+                || s->fates[s->mergings[m][k]].died != MESO_DETAIL_LIVES)
+                return no_state(error, "mergings");
+    return s->last_frame >= -1 && s->last_frame <= UINT32_MAX ? MESO_OK : no_state(error, "frames");
 }
 
 static MesoStatus check_details(const MesoReplication *r, const MesoReplicaState *s, MesoError *error)
@@ -53,7 +82,7 @@ static MesoStatus check_indices(const MesoReplicaState *s, MesoError *error)
         if (s->corners[h] >= s->node_count || (s->twins[h] != MESO_NO_INDEX && s->twins[h] >= 3 * s->triangle_count))
             return no_state(error, "triangles");
     for (uint32_t n = 0; n < s->node_count; n++)
-        if (s->node_corner[n] >= 3 * s->triangle_count)
+        if (s->node_corner[n] >= 3 * s->triangle_count && s->node_corner[n] != MESO_NO_INDEX)
             return no_state(error, "nodes");
     return MESO_OK;
 }
@@ -64,7 +93,10 @@ static int64_t euler_of(const MesoWeb *web)
     int64_t sides = 0;
     for (uint32_t h = 0; h < 3 * web->triangle_count; h++)
         sides += web->twins[h] == MESO_NO_INDEX ? 2 : 1;
-    return web->node_count - sides / 2 + web->triangle_count;
+    int64_t nodes = 0;
+    for (uint32_t n = 0; n < web->node_count; n++)
+        nodes += web->node_corner[n] != MESO_NO_INDEX;
+    return nodes - sides / 2 + web->triangle_count;
 }
 
 /* ---- going there ---- */
@@ -85,14 +117,18 @@ static MesoStatus take_details(MesoReplication *r, const MesoReplicaState *s, Me
     r->blocks = copy(&r->arena, s->blocks, n, sizeof *r->blocks, error);
     r->near_begin = copy(&r->arena, s->near_begin, n + 1, sizeof *r->near_begin, error);
     r->near = copy(&r->arena, s->near, near_count, sizeof *r->near, error);
+    r->grown = copy(&r->arena, s->grown, n, sizeof *r->grown, error);
+    r->fates = copy(&r->arena, s->fates, n, sizeof *r->fates, error);
+    r->mergings = copy(&r->arena, s->mergings, s->merging_count, sizeof *r->mergings, error);
     float *areas = MESO_NEW(&r->arena, float, n, error);
-    if (!r->details || !r->blocks || !r->near_begin || !r->near || !areas)
+    if (!r->details || !r->blocks || !r->near_begin || !r->near || !r->grown || !r->fates || !r->mergings || !areas)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < n; i++)
         areas[i] = r->exemplars.originals[r->details[i].copied].area;
     r->areas = areas;
     r->detail_count = r->detail_room = (uint32_t)n;
     r->near_room = near_count;
+    r->merging_count = r->merging_room = s->merging_count;
     return MESO_OK;
 }
 
@@ -119,10 +155,13 @@ MesoStatus meso_replicate_resume(MesoReplication *r, const MesoReplicaState *sta
     if (status == MESO_OK)
         status = check_indices(state, error);
     if (status == MESO_OK)
+        status = check_lives(r, state, error);
+    if (status == MESO_OK)
         status = take_web(r, state, error);
     if (status == MESO_OK)
         status = take_details(r, state, error);
     r->step_count = state->step_count;
     r->tolerance.power = state->power;
+    r->last_frame = state->last_frame;
     return status;
 }

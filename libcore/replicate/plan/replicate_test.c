@@ -27,7 +27,8 @@ static const MesoVec3 *move(void *context, uint32_t frame, MesoError *error)
     return s->moved;
 }
 
-static void start(Stage *s, MesoTriangulation mesh, uint32_t count, Motion motion, uint32_t thread_count)
+static void start_in(Stage *s, MesoReplicateMode mode, MesoTriangulation mesh, uint32_t count, Motion motion,
+                     uint32_t thread_count)
 {
     *s = (Stage){.mesh = mesh, .motion = motion, .count = count};
     s->moved = malloc(mesh.vertex_count * sizeof *s->moved);
@@ -38,8 +39,13 @@ static void start(Stage *s, MesoTriangulation mesh, uint32_t count, Motion motio
         s->originals[i] = (MesoDetail){.point = s->points[i], .size = 1 + (float)(i % 3), .width = 1, .kind = i % 3};
     s->clip = (MesoClip){&s->mesh, FRAMES + 1, move, s};
     MesoReplicateOptions options = {.clip = &s->clip, .originals = s->originals, .original_count = s->count,
-                                    .thread_count = thread_count};
+                                    .mode = mode, .thread_count = thread_count};
     CHECK(meso_replicate_begin(&s->replication, &options, NULL) == MESO_OK);
+}
+
+static void start(Stage *s, MesoTriangulation mesh, uint32_t count, Motion motion, uint32_t thread_count)
+{
+    start_in(s, MESO_REPLICATE_PLAN, mesh, count, motion, thread_count);
 }
 
 static uint32_t run(Stage *s)
@@ -144,7 +150,7 @@ static void test_played(void)
     MesoArena arena;
     MesoReplicaPlan plan;
     MesoPlayer *player;
-    start(&s, meso_fixture_sheet(50, 50, 0.02f), 1500, stretch, 1);
+    start_in(&s, MESO_REPLICATE_PLAY, meso_fixture_sheet(50, 50, 0.02f), 1500, stretch, 1);
     meso_arena_init(&arena);
     run(&s);
     CHECK(meso_replicate_plan(&plan, &arena, s.replication, NULL) == MESO_OK);
@@ -192,7 +198,7 @@ static void test_shrunk(void)
     MesoArena arena;
     MesoReplicaPlan plan;
     MesoPlayer *player;
-    start(&s, meso_fixture_sheet(50, 50, 0.02f), 3000, shrink, 1);
+    start_in(&s, MESO_REPLICATE_PLAY, meso_fixture_sheet(50, 50, 0.02f), 3000, shrink, 1);
     meso_arena_init(&arena);
     CHECK(run(&s) == s.count);
     CHECK(meso_replicate_plan(&plan, &arena, s.replication, NULL) == MESO_OK);

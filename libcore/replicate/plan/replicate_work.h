@@ -27,6 +27,8 @@ struct MesoReplication {
     MesoExemplars exemplars;
     uint32_t detail_count, detail_room;
     MesoDetail *details;
+    float *grown;                   /* [detail_count] */
+    MesoDetailFate *fates;          /* [detail_count] */
     float *areas;                   /* [detail_count] at rest, of the cell of what it is a copy of */
     uint32_t *blocks;               /* [detail_count] part of the surface in which births are counted */
     uint32_t *near_begin;           /* [detail_count + 1] */
@@ -35,7 +37,12 @@ struct MesoReplication {
     MesoNeighbour *above;           /* [original_count] the nearest of lower rank, at rest; or MESO_NO_INDEX */
     MesoTolerance tolerance;
     struct MesoPaperRule *paper;    /* where that is the mode */
+    uint32_t merging_count, merging_room;
+    uint32_t (*mergings)[2];        /* [merging_count] details that come nearer to each other: kept, given */
+    MesoVec3 *before, *between;     /* [rest->vertex_count] positions of the last frame, and of a step, with substeps */
     uint32_t step_count;
+    int64_t last_frame;             /* that has been gone through; -1: none */
+    double passing;                 /* frames that pass in this step */
     uint32_t block_count;
     double *due;                    /* [block_count] details due in a block, less those there */
 };
@@ -61,6 +68,17 @@ MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *
 /* Adds a detail to the web, in or near a triangle of it, and to what is known. */
 MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirth *birth, int32_t frame,
                            MesoError *error);
+
+/* Takes a detail out of the web, at a frame; another one beside it takes its room. False where the web would break. */
+bool meso_let_die(MesoReplication *r, uint32_t detail, int32_t frame);
+
+/* Details die where there are more than are due. MESO_ERR_MEMORY alone. */
+MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error);
+
+static inline bool meso_lives(const MesoReplication *r, uint32_t detail)
+{
+    return r->fates[detail].died == MESO_DETAIL_LIVES;
+}
 
 /* Fills `above`. MESO_ERR_MEMORY alone. */
 MesoStatus meso_find_above(MesoReplication *r, MesoError *error);

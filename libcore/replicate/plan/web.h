@@ -14,7 +14,7 @@ typedef struct MesoWeb {
     MesoMeshPoint *points;      /* [node_count] on the surface */
     MesoVec3 *positions;        /* [node_count] in the frame */
     MesoVec3 *normals;          /* [node_count] */
-    uint32_t *node_corner;      /* [node_count] a half-edge that begins there; MESO_NO_INDEX: none does */
+    uint32_t *node_corner;      /* [node_count] a half-edge that begins there; MESO_NO_INDEX: it has been taken out */
     uint32_t *corners;          /* [3 * triangle_count] nodes; half-edges as in triangulation.h, all wound alike */
     uint32_t *twins;            /* [3 * triangle_count] or MESO_NO_INDEX */
 } MesoWeb;
@@ -56,8 +56,8 @@ static inline double meso_web_area(const MesoWeb *web, uint32_t triangle)
 uint32_t meso_web_ring(const MesoWeb *web, uint32_t node, uint32_t *ring, uint32_t room);
 
 /*
- * Checks that twins are mutual, each node has one fan, no two nodes are joined twice, and vertices - edges + triangles
- * is `euler`. MESO_ERR_INTERNAL with the first place that fails. For tests. O(triangles * degree).
+ * Checks that twins are mutual, each node that has not been taken out has one fan, no two nodes are joined twice, and
+ * vertices - edges + triangles is `euler`. MESO_ERR_INTERNAL with the first place that fails. For tests. O(triangles * degree).
  */
 MesoStatus meso_web_check(const MesoWeb *web, int64_t euler, MesoError *error);
 

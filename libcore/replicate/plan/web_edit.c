@@ -100,6 +100,89 @@ void meso_web_split(MesoWeb *web, uint32_t triangle, uint32_t node)
     web->node_corner[node] = h + 2;
 }
 
+/* ---- merging ---- */
+
+enum { FAN = 64 };
+
+static uint32_t degree_of(const MesoWeb *web, uint32_t node)
+{
+    return meso_web_ring(web, node, NULL, 0);
+}
+
+static MesoVec3 area_vector(const MesoWeb *web, uint32_t a, uint32_t b, uint32_t c)
+{
+    MesoVec3 p = web->positions[a];
+    return meso_vec3_cross(meso_vec3_sub(web->positions[b], p), meso_vec3_sub(web->positions[c], p));
+}
+
+/* Of the fan around `node`, h from it to `into`. */
+static bool can_merge(const MesoWeb *web, uint32_t h, const uint32_t *fan, uint32_t count)
+{
+    uint32_t g = web->twins[h], node = web->corners[h], into = web->corners[g];
+    uint32_t left = meso_web_apex(web, h), right = meso_web_apex(web, g);
+    if (left == right || degree_of(web, left) < 4 || degree_of(web, right) < 4)
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t a = web->corners[meso_next_corner(fan[i])], b = meso_web_apex(web, fan[i]);
+        if (a != into && a != left && a != right && meso_web_joined(web, a, into))
+            return false;
+        if (a != into && b != into
+            && !(meso_vec3_dot(area_vector(web, node, a, b), area_vector(web, into, a, b)) > 0))
+            return false;
+    }
+    return true;
+}
+
+static void drop_triangle(MesoWeb *web, uint32_t triangle)
+{
+    uint32_t last = --web->triangle_count;
+    for (uint32_t k = 0; k < 3 && triangle != last; k++) {
+        uint32_t from = 3 * last + k, to = 3 * triangle + k;
+        web->corners[to] = web->corners[from];
+        meso_web_pair(web, to, web->twins[from]);
+        if (web->node_corner[web->corners[to]] == from)
+            web->node_corner[web->corners[to]] = to;
+    }
+}
+
+static void merge(MesoWeb *web, uint32_t h, const uint32_t *fan, uint32_t count)
+{
+    uint32_t g = web->twins[h], node = web->corners[h], into = web->corners[g];
+    uint32_t n = web->twins[meso_next_corner(h)], p = web->twins[meso_previous_corner(h)];
+    uint32_t gn = web->twins[meso_next_corner(g)], gp = web->twins[meso_previous_corner(g)];
+    uint32_t left = meso_web_apex(web, h), right = meso_web_apex(web, g);
+    for (uint32_t i = 0; i < count; i++)
+        web->corners[fan[i]] = into;
+    meso_web_pair(web, p, n);       /* these two begin or end at the node, and so are there */
+    meso_web_pair(web, gn, gp);
+    web->node_corner[into] = p;
+    web->node_corner[left] = meso_next_corner(p);
+    web->node_corner[right] = gn;
+    web->node_corner[node] = MESO_NO_INDEX;
+    uint32_t first = h / 3, second = g / 3;
+    drop_triangle(web, first > second ? first : second);
+    drop_triangle(web, first > second ? second : first);
+}
+
+bool meso_web_merge(MesoWeb *web, uint32_t node, uint32_t into)
+{
+    uint32_t fan[FAN], count = 0, towards = MESO_NO_INDEX;
+    if (web->node_corner[node] == MESO_NO_INDEX)
+        return false;
+    MesoSpokes s = meso_spokes(web, node);
+    do {
+        if (s.last || s.back || count == FAN)
+            return false;
+        if (web->corners[meso_next_corner(s.now)] == into)
+            towards = s.now;
+        fan[count++] = s.now;
+    } while (meso_spokes_next(web, &s));
+    if (towards == MESO_NO_INDEX || !can_merge(web, towards, fan, count))
+        return false;
+    merge(web, towards, fan, count);
+    return true;
+}
+
 static MesoStatus reserve_nodes(MesoWeb *web, uint64_t count, MesoError *error)
 {
     size_t room = count + count / 2, n = web->node_count;
@@ -179,7 +262,7 @@ MesoStatus meso_web_check(const MesoWeb *web, int64_t euler, MesoError *error)
     for (uint32_t n = 0; n < web->node_count; n++) {
         uint32_t repeated = 0;
         if (web->node_corner[n] == MESO_NO_INDEX)
-            return meso_fail(error, MESO_ERR_INTERNAL, "node %u has no triangle", n);
+            continue;
         if (web->corners[web->node_corner[n]] != n)
             return meso_fail(error, MESO_ERR_INTERNAL, "half-edge of node %u begins elsewhere", n);
         corners += spokes_of(web, n, &repeated);

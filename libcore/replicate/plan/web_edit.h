@@ -40,6 +40,13 @@ void meso_web_flip(MesoWeb *web, uint32_t h);
 /* Triangle (a, b, c) becomes (a, b, node), and behind the last (b, c, node) and (c, a, node). Room is there. */
 void meso_web_split(MesoWeb *web, uint32_t triangle, uint32_t node);
 
+/*
+ * Takes a node out that no border goes through: what is joined to it is joined to `into`, beside it, instead. Two
+ * triangles go; the last ones get their numbers. False, and nothing is done, where two nodes would be joined twice, or a
+ * triangle would turn over. O(degree^2).
+ */
+bool meso_web_merge(MesoWeb *web, uint32_t node, uint32_t into);
+
 MesoStatus meso_web_reserve(MesoWeb *web, uint64_t node_count, uint64_t triangle_count, MesoError *error);
 
 static inline void meso_web_pair(MesoWeb *web, uint32_t h, uint32_t twin)

@@ -1,0 +1,127 @@
+/* Which details die where the surface has shrunk. */
+#include <stdlib.h>
+
+#include "libcore/replicate/plan/replicate_work.h"
+
+enum { RING = 48 };
+
+/* Of details more than are due in a block. Births begin at a half too few: a surface that trembles changes nothing. */
+static const double SURPLUS = 0.75;
+
+/* Copies die before originals that are somewhat more crowded, so that what has come with a stretch goes with it. */
+static const double COPY_FIRST = 1.15;
+
+/* ---- how crowded ---- */
+
+/* What lies around a node, nearest first; details before others. */
+static uint32_t near_nodes(const MesoWeb *web, uint32_t node, uint32_t ring[RING], double distances[RING])
+{
+    uint32_t found[RING], count = meso_web_ring(web, node, found, RING);
+    count = count < RING ? count : RING;
+    for (uint32_t i = 0; i < count; i++) {
+        double d = sqrt(meso_web_length2(web, node, found[i]));
+        uint32_t at = i;
+        d = found[i] < web->fixed_count ? INFINITY : d;
+        for (; at > 0 && d < distances[at - 1]; at--) {
+            distances[at] = distances[at - 1];
+            ring[at] = ring[at - 1];
+        }
+        distances[at] = d;
+        ring[at] = found[i];
+    }
+    return count;
+}
+
+/* How near the nearest are, for what its original has at rest. */
+static double crowd_of(const MesoReplication *r, uint32_t detail)
+{
+    uint32_t ring[RING];
+    double distances[RING], crowd = 0, weight = 1;
+    const MesoOriginal *as = &r->exemplars.originals[r->details[detail].copied];
+    uint32_t count = near_nodes(&r->web, r->web.fixed_count + detail, ring, distances);
+    for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR && k < count; k++, weight *= 0.5) {
+        double rest = (double)as->near[k];
+        if (rest < INFINITY && distances[k] < INFINITY)
+            crowd += weight * rest / fmax(distances[k], 1e-6 * rest);
+    }
+    return crowd * (detail < r->options.original_count ? 1 : COPY_FIRST);
+}
+
+bool meso_let_die(MesoReplication *r, uint32_t detail, int32_t frame)
+{
+    MesoWeb *web = &r->web;
+    uint32_t ring[RING], node = web->fixed_count + detail;
+    double distances[RING];
+    uint32_t count = near_nodes(web, node, ring, distances);
+    for (uint32_t i = 0; i < count; i++)
+        if (meso_web_remove(web, node, ring[i])) {
+            uint32_t into = ring[i] < web->fixed_count ? MESO_NO_INDEX : ring[i] - web->fixed_count;
+            r->fates[detail] = (MesoDetailFate){frame, into};
+            r->due[r->blocks[detail]]++;
+            return true;
+        }
+    return false;
+}
+
+/* ---- all of them ---- */
+
+typedef struct Crowded {
+    double crowd;
+    uint32_t detail;
+} Crowded;
+
+static int by_crowd(const void *a, const void *b)
+{
+    const Crowded *x = a, *y = b;
+    if (x->crowd != y->crowd)
+        return x->crowd > y->crowd ? -1 : 1;
+    return x->detail < y->detail ? -1 : x->detail > y->detail;
+}
+
+static uint32_t gather(Crowded *out, uint32_t *living, const MesoReplication *r)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->detail_count; i++) {
+        if (!meso_lives(r, i))
+            continue;
+        living[r->blocks[i]]++;
+        if (r->due[r->blocks[i]] <= -SURPLUS)
+            out[count++] = (Crowded){crowd_of(r, i), i};
+    }
+    return count;
+}
+
+/* The most crowded first; of those around one that has died, that have more room by now, again when others are done. */
+static void thin(MesoReplication *r, const Crowded *crowded, uint32_t count, uint32_t *living, int32_t frame)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t detail = crowded[i].detail, block = r->blocks[detail];
+            /* the last of a block stays: where the surface grows again, others are born beside it */
+            if (r->due[block] > -SURPLUS || living[block] == 1 || !meso_lives(r, detail)
+                || (pass == 0 && crowd_of(r, detail) < crowded[i].crowd))
+                continue;
+            if (meso_let_die(r, detail, frame))
+                living[block]--;
+        }
+}
+
+MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error)
+{
+    bool any = false;
+    for (uint32_t b = 0; b < r->block_count && !any; b++)
+        any = r->due[b] <= -SURPLUS;
+    if (!any)
+        return MESO_OK;
+    MesoArenaMark mark = meso_arena_mark(&r->scratch);
+    Crowded *crowded = MESO_NEW(&r->scratch, Crowded, r->detail_count, error);
+    uint32_t *living = MESO_NEW(&r->scratch, uint32_t, r->block_count, error);
+    bool there = crowded && living;
+    if (there) {
+        uint32_t count = gather(crowded, living, r);
+        qsort(crowded, count, sizeof *crowded, by_crowd);
+        thin(r, crowded, count, living, frame);
+    }
+    meso_arena_rewind(&r->scratch, mark);
+    return there ? MESO_OK : MESO_ERR_MEMORY;
+}
