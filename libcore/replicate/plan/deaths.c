@@ -5,8 +5,8 @@
 
 enum { RING = 48 };
 
-/* Of details more than are due in a block. Births begin at a half too few: a surface that trembles changes nothing. */
-static const double SURPLUS = 0.75;
+/* Of details more than are due in a block. Births begin at a half too few: what trembles changes nothing. */
+static const double SURPLUS = 0.6;
 
 /* Copies die before originals that are somewhat more crowded, so that what has come with a stretch goes with it. */
 static const double COPY_FIRST = 1.15;

@@ -81,31 +81,52 @@ static MesoStatus take_originals(MesoReplication *r, MesoError *error)
     return status;
 }
 
-/* Parts of the web of BLOCK details or somewhat fewer, each grown from the first that has none. */
+/* A block beside some details of one; that itself where there is none. */
+static uint32_t block_beside(const MesoReplication *r, const uint32_t *members, uint32_t count)
+{
+    uint32_t ring[RING], own = r->blocks[members[0]];
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t around = meso_web_ring(&r->web, r->web.fixed_count + members[i], ring, RING);
+        for (uint32_t k = 0; k < around && k < RING; k++)
+            if (ring[k] >= r->web.fixed_count && r->blocks[ring[k] - r->web.fixed_count] != own)
+                return r->blocks[ring[k] - r->web.fixed_count];
+    }
+    return own;
+}
+
+/* From a detail on, of those that have none; returns how many `members` [BLOCK] there are. */
+static uint32_t grow_block(MesoReplication *r, uint32_t first, uint32_t *members)
+{
+    uint32_t begin = 0, end = 0, ring[RING];
+    members[end++] = first;
+    r->blocks[first] = r->block_count;
+    while (begin < end) {
+        uint32_t count = meso_web_ring(&r->web, r->web.fixed_count + members[begin++], ring, RING);
+        for (uint32_t k = 0; k < count && k < RING && end < BLOCK; k++) {
+            uint32_t other = ring[k] - r->web.fixed_count;
+            if (ring[k] < r->web.fixed_count || r->blocks[other] != MESO_NO_INDEX)
+                continue;
+            r->blocks[other] = r->block_count;
+            members[end++] = other;
+        }
+    }
+    return end;
+}
+
+/* Parts of the web of about BLOCK details; what is left between them is part of one beside it. */
 static MesoStatus make_blocks(MesoReplication *r, MesoError *error)
 {
-    uint32_t *queue = MESO_NEW(&r->arena, uint32_t, r->detail_count, error), ring[RING];
-    if (!queue)
-        return MESO_ERR_MEMORY;
+    uint32_t members[BLOCK];
     for (uint32_t i = 0; i < r->detail_count; i++)
         r->blocks[i] = MESO_NO_INDEX;
     for (uint32_t i = 0; i < r->detail_count; i++) {
-        uint32_t begin = 0, end = 0;
         if (r->blocks[i] != MESO_NO_INDEX)
             continue;
-        queue[end++] = i;
-        r->blocks[i] = r->block_count;
-        while (begin < end) {
-            uint32_t count = meso_web_ring(&r->web, r->web.fixed_count + queue[begin++], ring, RING);
-            for (uint32_t k = 0; k < count && k < RING && end < BLOCK; k++) {
-                uint32_t other = ring[k] - r->web.fixed_count;
-                if (ring[k] < r->web.fixed_count || r->blocks[other] != MESO_NO_INDEX)
-                    continue;
-                r->blocks[other] = r->block_count;
-                queue[end++] = other;
-            }
-        }
-        r->block_count++;
+        uint32_t count = grow_block(r, i, members);
+        uint32_t block = count < BLOCK / 2 ? block_beside(r, members, count) : r->block_count;
+        for (uint32_t k = 0; k < count; k++)
+            r->blocks[members[k]] = block;
+        r->block_count += block == r->block_count;
     }
     r->due = MESO_NEW(&r->arena, double, r->block_count, error);
     return r->due ? MESO_OK : MESO_ERR_MEMORY;

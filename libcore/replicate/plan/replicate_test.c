@@ -1,87 +1,5 @@
 /* Plans of clips, and what comes out when they are played. */
-#include "libcore/mesh/cut/triangulation_fixture.h"
-#include "libcore/replicate/plan/replicate_state.h"
-#include "libcore/replicate/statistics/points_fixture.h"
-
-enum { FRAMES = 20 };
-
-typedef MesoVec3 (*Motion)(MesoVec3 p, float time);
-
-typedef struct Stage {
-    MesoTriangulation mesh;
-    MesoVec3 *moved;
-    Motion motion;
-    MesoClip clip;
-    MesoMeshPoint *points;
-    MesoDetail *originals;
-    uint32_t count;
-    MesoReplication *replication;
-} Stage;
-
-static const MesoVec3 *move(void *context, uint32_t frame, MesoError *error)
-{
-    Stage *s = context;
-    (void)error;
-    for (uint32_t v = 0; v < s->mesh.vertex_count; v++)
-        s->moved[v] = s->motion(s->mesh.positions[v], (float)frame / FRAMES);
-    return s->moved;
-}
-
-static void start_in(Stage *s, MesoReplicateMode mode, MesoTriangulation mesh, uint32_t count, Motion motion,
-                     uint32_t thread_count)
-{
-    *s = (Stage){.mesh = mesh, .motion = motion, .count = count};
-    s->moved = malloc(mesh.vertex_count * sizeof *s->moved);
-    s->points = meso_strew_discs(&s->mesh, &s->count, 0.7, 5);
-    s->originals = calloc(s->count, sizeof *s->originals);
-    CHECK(s->moved && s->originals);
-    for (uint32_t i = 0; i < s->count; i++)
-        s->originals[i] = (MesoDetail){.point = s->points[i], .size = 1 + (float)(i % 3), .width = 1, .kind = i % 3};
-    s->clip = (MesoClip){&s->mesh, FRAMES + 1, move, s};
-    MesoReplicateOptions options = {.clip = &s->clip, .originals = s->originals, .original_count = s->count,
-                                    .mode = mode, .thread_count = thread_count};
-    CHECK(meso_replicate_begin(&s->replication, &options, NULL) == MESO_OK);
-}
-
-static void start(Stage *s, MesoTriangulation mesh, uint32_t count, Motion motion, uint32_t thread_count)
-{
-    start_in(s, MESO_REPLICATE_PLAN, mesh, count, motion, thread_count);
-}
-
-static uint32_t run(Stage *s)
-{
-    uint32_t count;
-    for (uint32_t f = 0; f <= FRAMES; f++)
-        CHECK(meso_replicate_step(s->replication, f, NULL) == MESO_OK);
-    meso_replicate_details(s->replication, &count);
-    return count;
-}
-
-static void end(Stage *s)
-{
-    meso_replicate_release(s->replication);
-    meso_triangulation_release(&s->mesh);
-    free(s->moved);
-    free(s->points);
-    free(s->originals);
-}
-
-static MesoVec3 stretch(MesoVec3 p, float time)
-{
-    return (MesoVec3){p.x * (1 + time), p.y, p.z};
-}
-
-static MesoVec3 scale(MesoVec3 p, float time)
-{
-    return meso_vec3_scale(p, 1 + time);
-}
-
-/* The plane onto a cylinder, whose radius is that of the circle that it goes half around at the end. */
-static MesoVec3 bend(MesoVec3 p, float time)
-{
-    float a = 3.14159265f * time;
-    return a > 0 ? (MesoVec3){sinf(a * p.x) / a, p.y, (1 - cosf(a * p.x)) / a} : p;
-}
+#include "libcore/replicate/plan/clip_stage_fixture.h"
 
 /* Twice the area, twice the details; twice the size, four times; bent, none. Each is a copy, where it was born. */
 static void test_counts(void)
@@ -150,7 +68,7 @@ static void test_played(void)
     MesoArena arena;
     MesoReplicaPlan plan;
     MesoPlayer *player;
-    start_in(&s, MESO_REPLICATE_PLAY, meso_fixture_sheet(50, 50, 0.02f), 1500, stretch, 1);
+    start_in(&s, MESO_REPLICATE_PLAY, meso_fixture_sheet(50, 50, 0.02f), 1500, stretch);
     meso_arena_init(&arena);
     run(&s);
     CHECK(meso_replicate_plan(&plan, &arena, s.replication, NULL) == MESO_OK);
@@ -198,7 +116,7 @@ static void test_shrunk(void)
     MesoArena arena;
     MesoReplicaPlan plan;
     MesoPlayer *player;
-    start_in(&s, MESO_REPLICATE_PLAY, meso_fixture_sheet(50, 50, 0.02f), 3000, shrink, 1);
+    start_in(&s, MESO_REPLICATE_PLAY, meso_fixture_sheet(50, 50, 0.02f), 3000, shrink);
     meso_arena_init(&arena);
     CHECK(run(&s) == s.count);
     CHECK(meso_replicate_plan(&plan, &arena, s.replication, NULL) == MESO_OK);
