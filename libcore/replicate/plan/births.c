@@ -6,13 +6,23 @@
 
 enum { CHOICES = 16, AROUND = 48, WALK_LIMIT = 10000 };
 
+/* What corners that are not alike count, beside distances that are not. */
+static const double UNLIKE = 0.15;
+
 /* ---- choice ---- */
 
 /* Places of details around a triangle. */
 typedef struct Around {
     uint32_t count;
-    MesoVec3 places[AROUND + MESO_EXEMPLAR_INSIDE];
+    float x[AROUND + MESO_EXEMPLAR_INSIDE], y[AROUND + MESO_EXEMPLAR_INSIDE], z[AROUND + MESO_EXEMPLAR_INSIDE];
 } Around;
+
+static void add_place(Around *around, MesoVec3 place)
+{
+    around->x[around->count] = place.x;
+    around->y[around->count] = place.y;
+    around->z[around->count++] = place.z;
+}
 
 static void add_around(Around *around, uint32_t nodes[AROUND], const MesoWeb *web, uint32_t node)
 {
@@ -22,7 +32,7 @@ static void add_around(Around *around, uint32_t nodes[AROUND], const MesoWeb *we
         if (nodes[i] == node)
             return;
     nodes[around->count] = node;
-    around->places[around->count++] = web->positions[node];
+    add_place(around, web->positions[node]);
 }
 
 static void look_around(Around *around, const MesoWeb *web, uint32_t triangle)
@@ -40,18 +50,18 @@ static void look_around(Around *around, const MesoWeb *web, uint32_t triangle)
 /* How far the nearest distances at a place are from those that a detail has at rest. */
 static double misfit(const MesoOriginal *original, const Around *around, MesoVec3 place)
 {
-    float near[MESO_ORIGINAL_NEAR] = {INFINITY, INFINITY, INFINITY};
+    float squares[AROUND + MESO_EXEMPLAR_INSIDE], near[MESO_ORIGINAL_NEAR] = {INFINITY, INFINITY, INFINITY};
     for (uint32_t i = 0; i < around->count; i++) {
-        MesoVec3 apart = meso_vec3_sub(around->places[i], place);
-        float d2 = meso_vec3_dot(apart, apart);
-        if (!(d2 < near[MESO_ORIGINAL_NEAR - 1]))
-            continue;
-        for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
-            if (d2 < near[k]) {
-                float further = near[k];
-                near[k] = d2;
-                d2 = further;
-            }
+        float x = around->x[i] - place.x, y = around->y[i] - place.y, z = around->z[i] - place.z;
+        squares[i] = x * x + y * y + z * z;
+    }
+    for (uint32_t i = 0; i < around->count; i++) {
+        float d2 = squares[i];
+        for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++) {     /* no branches: what comes next cannot be foreseen */
+            float further = d2 < near[k] ? near[k] : d2;
+            near[k] = d2 < near[k] ? d2 : near[k];
+            d2 = further;
+        }
     }
     double sum = 0;
     for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
@@ -62,21 +72,23 @@ static double misfit(const MesoOriginal *original, const Around *around, MesoVec
     return sum;
 }
 
-/* Of what stands at the corners: how large, with how much room, of which kind. */
-static double unlike_corners(const MesoReplication *r, const uint32_t nodes[3], const MesoExemplar *exemplar,
-                             uint32_t turn)
+/* Of what stands at the corners: how large, with how much room, of which kind. NULL: no detail does. */
+static double unlike(const MesoOriginal *as, const MesoOriginal *like)
 {
-    double sum = 0;
+    return as ? fabs((double)as->log_size - (double)like->log_size) + (as->kind != like->kind)
+                + 0.5 * fabs((double)as->log_area - (double)like->log_area) : 0;
+}
+
+/* An exemplar's corners from those of a triangle, in three turns. */
+static void unlike_corners(const MesoReplication *r, const MesoOriginal *as[3], const MesoExemplar *exemplar,
+                           double costs[3])
+{
+    costs[0] = costs[1] = costs[2] = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        if (nodes[k] < r->web.fixed_count)
-            continue;
-        const MesoDetail *here = &r->details[nodes[k] - r->web.fixed_count];
-        const MesoDetail *there = &r->details[exemplar->corners[(k + turn) % 3]];
-        const MesoOriginal *as = &r->exemplars.originals[here->copied], *like = &r->exemplars.originals[there->copied];
-        sum += fabs((double)as->log_size - (double)like->log_size) + (here->kind != there->kind)
-               + 0.5 * fabs((double)as->log_area - (double)like->log_area);
+        const MesoOriginal *like = &r->exemplars.originals[exemplar->corners[k]];
+        for (uint32_t turn = 0; turn < 3; turn++)
+            costs[turn] += unlike(as[(k + 3 - turn) % 3], like);
     }
-    return sum;
 }
 
 static void transfer(const MesoReplication *r, const uint32_t nodes[3], const MesoExemplar *exemplar, uint32_t turn,
@@ -95,24 +107,67 @@ static void transfer(const MesoReplication *r, const uint32_t nodes[3], const Me
                 nearest = nodes[k] - web->fixed_count;
             }
         }
-        births[i] = (MesoBirth){exemplar->inside[i], place, nearest};
+        births[i] = (MesoBirth){exemplar->inside[i], place, nearest, r->blocks[nearest]};
     }
 }
 
-/* Each beside the others that are born with it. */
-static double misfit_of_all(const MesoReplication *r, Around *around, const MesoBirth *births, uint32_t count)
+/* Each beside the others that are born with it; or something that is more than `most`. */
+static double misfit_of_all(const MesoReplication *r, Around *around, const MesoBirth *births, uint32_t count,
+                            double most)
 {
     double sum = 0;
     uint32_t before = around->count;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && sum <= most * count; i++) {
         around->count = before;
         for (uint32_t k = 0; k < count; k++)
             if (k != i)
-                around->places[around->count++] = births[k].place;
+                add_place(around, births[k].place);
         sum += misfit(&r->exemplars.originals[births[i].copied], around, births[i].place);
     }
     around->count = before;
     return sum / count;
+}
+
+/* Each is moved a little, while it has no size yet, to where its distances fit better: by so much of the nearest. */
+static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births, uint32_t count)
+{
+    static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f}, {-1, 0}, {-0.5f, -0.866f}, {0.5f, -0.866f}};
+    static const float reaches[2] = {0.2f, 0.1f};
+    const MesoVec3 *p = r->web.positions;
+    MesoVec3 side = meso_vec3_sub(p[nodes[1]], p[nodes[0]]), other = meso_vec3_sub(p[nodes[2]], p[nodes[0]]);
+    MesoVec3 x = meso_vec3_unit(side, (MesoVec3){1, 0, 0});
+    MesoVec3 y = meso_vec3_cross(meso_vec3_unit(meso_vec3_cross(side, other), (MesoVec3){0, 0, 1}), x);
+    uint32_t before = around->count;
+    for (uint32_t i = 0; i < count; i++) {
+        const MesoOriginal *as = &r->exemplars.originals[births[i].copied];
+        around->count = before;
+        for (uint32_t k = 0; k < count; k++)
+            if (k != i)
+                add_place(around, births[k].place);
+        double least = misfit(as, around, births[i].place);
+        for (uint32_t n = 0; n < 2 && as->near[0] < INFINITY; n++) {
+            MesoVec3 from = births[i].place;
+            for (uint32_t w = 0; w < 6; w++) {
+                MesoVec3 place = meso_vec3_mad(from, reaches[n] * as->near[0] * ways[w][0], x);
+                place = meso_vec3_mad(place, reaches[n] * as->near[0] * ways[w][1], y);
+                double cost = misfit(as, around, place);
+                if (cost < least) {
+                    least = cost;
+                    births[i].place = place;
+                }
+            }
+        }
+    }
+    around->count = before;
+}
+
+/* What the details at the corners are copies of. */
+static void know_corners(const MesoReplication *r, const uint32_t nodes[3], const MesoOriginal *as[3])
+{
+    for (uint32_t k = 0; k < 3; k++) {
+        bool fixed = nodes[k] < r->web.fixed_count;
+        as[k] = fixed ? NULL : &r->exemplars.originals[r->details[nodes[k] - r->web.fixed_count].copied];
+    }
 }
 
 uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
@@ -121,6 +176,7 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
     const MesoWeb *web = &r->web;
     const uint32_t *c = web->corners + 3 * (size_t)triangle;
     const MesoExemplar *similar[CHOICES];
+    const MesoOriginal *as[3];
     double angle = meso_smallest_angle(meso_web_length2(web, c[0], c[1]), meso_web_length2(web, c[1], c[2]),
                                        meso_web_length2(web, c[2], c[0]));
     uint32_t count = meso_exemplars_near(&r->exemplars, meso_web_area(web, triangle), angle, limit, similar, CHOICES);
@@ -128,18 +184,25 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
     double least = INFINITY;
     Around around;
     look_around(&around, web, triangle);
-    for (uint32_t i = 0; i < count; i++)
+    know_corners(r, c, as);
+    for (uint32_t i = 0; i < count; i++) {
+        double unlike[3];
+        unlike_corners(r, as, similar[i], unlike);
         for (uint32_t turn = 0; turn < 3; turn++) {
             MesoBirth tried[MESO_EXEMPLAR_INSIDE];
+            double cost = UNLIKE * unlike[turn];
+            if (!(cost < least))
+                continue;
             transfer(r, c, similar[i], turn, tried);
-            double cost = misfit_of_all(r, &around, tried, similar[i]->inside_count)
-                          + 0.15 * unlike_corners(r, c, similar[i], turn);
+            cost += misfit_of_all(r, &around, tried, similar[i]->inside_count, least - cost);
             if (!(cost < least))
                 continue;
             least = cost;
             made = similar[i]->inside_count;
             memcpy(births, tried, made * sizeof *births);
         }
+    }
+    relax(r, c, &around, births, made);
     return made;
 }
 
@@ -282,6 +345,21 @@ static void remember(MesoReplication *r, uint32_t detail, uint32_t other)
     r->near[at] = (MesoNeighbour){other, d};
 }
 
+/* What is joined to it, and what lies across the sides around that: enough where no plan is made to be played. */
+static void remember_next(MesoReplication *r, uint32_t detail)
+{
+    const MesoWeb *web = &r->web;
+    MesoSpokes s = meso_spokes(web, web->fixed_count + detail);
+    r->near_begin[detail + 1] = r->near_begin[detail];
+    do {
+        uint32_t side = meso_next_corner(s.now), across = web->twins[side];
+        uint32_t nodes[2] = {web->corners[side], across == MESO_NO_INDEX ? 0 : meso_web_apex(web, across)};
+        for (uint32_t k = 0; k < 2; k++)
+            if (nodes[k] >= web->fixed_count && nodes[k] != web->fixed_count + detail)
+                remember(r, detail, nodes[k] - web->fixed_count);
+    } while (meso_spokes_next(web, &s));
+}
+
 static void remember_near(MesoReplication *r, uint32_t detail)
 {
     const MesoWeb *web = &r->web;
@@ -319,9 +397,12 @@ MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirt
     r->areas[detail] = r->areas[birth->copied];
     r->grown[detail] = 0;
     r->fates[detail] = (MesoDetailFate){MESO_DETAIL_LIVES, MESO_NO_INDEX};
-    r->blocks[detail] = r->blocks[birth->beside];
+    r->blocks[detail] = birth->block;
     r->due[r->blocks[detail]]--;
-    remember_near(r, detail);
+    if (r->options.mode == MESO_REPLICATE_PLAY)
+        remember_near(r, detail);
+    else
+        remember_next(r, detail);
     if (r->near_begin[detail + 1] > r->near_begin[detail])
         r->details[detail].radius = r->near[r->near_begin[detail]].distance;
     return MESO_OK;

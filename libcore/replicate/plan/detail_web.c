@@ -6,6 +6,12 @@
 
 enum { GRAIN = 4096 };
 
+/* The angle at a place is not obtuse; by chords, as most are, so that normals need not be read. */
+static bool is_acute(MesoVec3 at, MesoVec3 a, MesoVec3 b)
+{
+    return meso_vec3_dot(meso_vec3_sub(a, at), meso_vec3_sub(b, at)) >= 0;
+}
+
 /*
  * Whether an edge is not Delaunay: the cotangents of the angles that face it add up to less than nothing. What is less
  * by rounding alone stays, or flips would have no end.
@@ -16,6 +22,9 @@ static bool is_bad(const MesoWeb *web, uint32_t h)
     if (g == MESO_NO_INDEX)
         return false;
     uint32_t a = web->corners[h], b = web->corners[g], c = meso_web_apex(web, h), d = meso_web_apex(web, g);
+    const MesoVec3 *p = web->positions;
+    if (is_acute(p[c], p[a], p[b]) && is_acute(p[d], p[a], p[b]))
+        return false;
     double ab = meso_web_length2(web, a, b);
     double ac = meso_web_length2(web, a, c), bc = meso_web_length2(web, b, c);
     double ad = meso_web_length2(web, a, d), bd = meso_web_length2(web, b, d);
@@ -71,7 +80,7 @@ uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride)
         left = false;
         for (uint32_t t = first; t < web->triangle_count; t += stride)
             for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
-                if (web->twins[h] == MESO_NO_INDEX || (stride == 1 && web->twins[h] < h) || !is_bad(web, h))
+                if (web->twins[h] == MESO_NO_INDEX || web->twins[h] < h || !is_bad(web, h))
                     continue;
                 EdgeStack stack;
                 stack.count = 0;

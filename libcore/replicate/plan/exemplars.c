@@ -224,18 +224,22 @@ MesoStatus meso_exemplars_build(MesoExemplars *out, MesoArena *arena, const Meso
     *out = (MesoExemplars){.original_count = web->node_count - web->fixed_count};
     out->originals = MESO_NEW(arena, MesoOriginal, out->original_count, error);
     out->bin_counts = MESO_NEW(arena, uint32_t, BINS * BINS, error);
+    out->keys = MESO_NEW(arena, MesoExemplarKey, BINS * BINS * MESO_EXEMPLAR_BIN_ROOM, error);
     out->bins = MESO_NEW(arena, MesoExemplar, BINS * BINS * MESO_EXEMPLAR_BIN_ROOM, error);
     uint32_t *met = MESO_NEW(arena, uint32_t, BINS * BINS, error);
-    if (!out->originals || !out->bin_counts || !out->bins || !met)
+    if (!out->originals || !out->bin_counts || !out->keys || !out->bins || !met)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < out->original_count; i++)
         know_original(&out->originals[i], rest, web, details, i);
     know_areas(out, web);
     for (uint32_t i = 0; i < out->original_count; i++) {
         out->originals[i].log_area = logf(fmaxf(out->originals[i].area, FLT_MIN));
+        out->originals[i].kind = details[i].kind;
         out->originals[i].log_size = logf(fmaxf(details[i].size, FLT_MIN));
     }
     meet_triangles(out, met, web, seed);
+    for (uint32_t i = 0; i < BINS * BINS * MESO_EXEMPLAR_BIN_ROOM; i++)
+        out->keys[i] = (MesoExemplarKey){out->bins[i].area, out->bins[i].angle, out->bins[i].inside_count};
     return MESO_OK;
 }
 
@@ -267,10 +271,13 @@ static void consider(Nearest *n, const MesoExemplar *exemplar, double error)
 static void consider_bin(Nearest *n, const MesoExemplars *e, uint32_t bin, double area, double angle, uint32_t limit)
 {
     const MesoExemplar *room = &e->bins[(size_t)bin * MESO_EXEMPLAR_BIN_ROOM];
-    for (uint32_t i = 0; i < e->bin_counts[bin]; i++)
-        if (room[i].inside_count <= limit)
-            consider(n, &room[i], fmax(fabs(area - (double)room[i].area) / e->area,
-                                       fabs(angle - (double)room[i].angle) / e->angle));
+    const MesoExemplarKey *keys = &e->keys[(size_t)bin * MESO_EXEMPLAR_BIN_ROOM];
+    for (uint32_t i = 0; i < e->bin_counts[bin]; i++) {
+        double by_area = fabs(area - (double)keys[i].area) / e->area;
+        double by_angle = fabs(angle - (double)keys[i].angle) / e->angle;
+        if (keys[i].inside_count <= limit)
+            consider(n, &room[i], by_area > by_angle ? by_area : by_angle);
+    }
 }
 
 uint32_t meso_exemplars_near(const MesoExemplars *e, double area, double angle, uint32_t inside_limit,

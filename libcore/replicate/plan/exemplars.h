@@ -19,12 +19,19 @@ typedef struct MesoExemplar {
     float weights[MESO_EXEMPLAR_INSIDE][3];     /* of the corners */
 } MesoExemplar;
 
+/* What exemplars are found by. */
+typedef struct MesoExemplarKey {
+    float area, angle;
+    uint32_t inside_count;
+} MesoExemplarKey;
+
 /* What is known of an original at rest. */
 typedef struct MesoOriginal {
     float area;                         /* of its cell: a third of the triangles around it */
     float log_area, log_size;
     float near[MESO_ORIGINAL_NEAR];     /* distances of the nearest others, ascending; INFINITY: no more */
     float turn;                         /* its heading from that of the nearest */
+    uint32_t kind;
 } MesoOriginal;
 
 typedef struct MesoExemplars {
@@ -33,6 +40,7 @@ typedef struct MesoExemplars {
     double area, angle;         /* mean of the triangles; errors are relative to them */
     double most;                /* area of the largest bins */
     uint32_t *bin_counts;       /* [BINS * BINS] by area, then angle */
+    MesoExemplarKey *keys;      /* [BINS * BINS * BIN_ROOM] of `bins` */
     MesoExemplar *bins;         /* [BINS * BINS * BIN_ROOM] */
 } MesoExemplars;
 

@@ -211,7 +211,8 @@ static MesoStatus split(MesoReplication *r, uint32_t triangle, int32_t frame, bo
             || !(w[0] > 0 && w[1] > 0 && w[2] > 0))
             continue;
         uint32_t nearest = w[1] > w[0] ? 1 : 0;
-        MesoBirth birth = {p, {0, 0, 0}, corners[w[2] > w[nearest] ? 2 : nearest]};
+        uint32_t beside = corners[w[2] > w[nearest] ? 2 : nearest];
+        MesoBirth birth = {p, {0, 0, 0}, beside, r->blocks[beside]};
         for (uint32_t k = 0; k < 3; k++)
             birth.place = meso_vec3_mad(birth.place, (float)(w[k] / all), places[k]);
         MesoStatus status = meso_give_birth(r, triangle, &birth, frame, error);

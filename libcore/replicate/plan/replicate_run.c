@@ -9,7 +9,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/split_order.h"
 
-enum { BLOCK = 48, RING = 32, STRIDE = 4 };
+enum { BLOCK = 48, RING = 32, STRIDE = 8 };
 
 /* ---- beginning ---- */
 
@@ -265,8 +265,9 @@ static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit
 {
     MesoReplication *r = order->r;
     MesoBirth births[MESO_EXEMPLAR_INSIDE];
-    uint32_t count = meso_choose_births(r, triangle, limit, births);
+    uint32_t block = meso_block_of(r, triangle), count = meso_choose_births(r, triangle, limit, births);
     for (uint32_t i = 0; i < count; i++) {
+        births[i].block = block;
         MesoStatus status = meso_give_birth(r, triangle, &births[i], frame, error);
         if (status != MESO_OK)
             return status;

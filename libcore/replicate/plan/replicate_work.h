@@ -52,6 +52,7 @@ typedef struct MesoBirth {
     uint32_t copied;
     MesoVec3 place;     /* in the plane of its triangle of the web, not yet on the surface */
     uint32_t beside;    /* detail at the corner that it is nearest to */
+    uint32_t block;     /* in which it was due */
 } MesoBirth;
 
 /* Those that the best of similar exemplars puts into a triangle of the web that has a detail; how many. */

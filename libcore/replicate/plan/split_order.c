@@ -2,7 +2,7 @@
 
 #include "libcore/base/parallel.h"
 
-enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 8, NEW_EACH = 32, WANTED_LEAST = 256, WANTED_EACH = 8 };
+enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 31, NEW_EACH = 32, WANTED_LEAST = 256, WANTED_EACH = 8 };
 
 /* Of a count of excesses. */
 enum { STEPS = 1024, STEPS_A_UNIT = 128 };
@@ -11,7 +11,7 @@ enum { STEPS = 1024, STEPS_A_UNIT = 128 };
 static const float LEAST_EXCESS = 1.2f;
 
 /* How fast the power follows, and from where to where it goes. */
-static const double GAIN = 1.5, LEAST_POWER = -0.2, MOST_POWER = 1.6;
+static const double GAIN = 1.5, LEAST_POWER = 0.0, MOST_POWER = 1.6;
 
 /* ---- tolerance ---- */
 
@@ -43,13 +43,13 @@ static uint32_t draw_of(const MesoReplication *r, uint32_t triangle)
     uint64_t a = c[0] - r->web.fixed_count, b = c[1] - r->web.fixed_count, d = c[2] - r->web.fixed_count;
     uint64_t x = (a + b + d) * 0x9e3779b97f4a7c15u ^ (a * b + b * d + d * a) * 0xbf58476d1ce4e5b9u;
     x = (x ^ x >> 31) * 0x94d049bb133111ebu;
-    return (uint32_t)((x ^ x >> 29) % r->tolerance.count);
+    return (uint32_t)((uint64_t)(uint32_t)(x ^ x >> 29) * r->tolerance.count >> 32);
 }
 
 static double excess_of(const MesoReplication *r, uint32_t triangle)
 {
     double ratio = ratio_of(r, triangle);
-    return ratio > 0 ? ratio * (double)r->tolerance.weights[draw_of(r, triangle)] : 0;
+    return ratio > 0 && r->tolerance.power != 0 ? ratio * (double)r->tolerance.weights[draw_of(r, triangle)] : ratio;
 }
 
 /* Deviation over mean of the edges between details of every `stride`th triangle. */
@@ -163,21 +163,22 @@ bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle)
 
 typedef struct Excesses {
     const MesoReplication *r;
-    float *excesses;
+    uint8_t *bearing;       /* [detail_count] whether details are due in its block */
+    float *excesses;        /* [triangle_count] 0 where none are */
 } Excesses;
 
-/* 0 where no detail is due. */
-static float excess_in_block(const MesoReplication *r, uint32_t triangle)
+static bool is_bearing(const Excesses *e, uint32_t triangle)
 {
-    float excess = (float)excess_of(r, triangle);
-    return excess > 0 && r->due[meso_block_of(r, triangle)] >= 0.5 ? excess : 0;
+    const uint32_t *c = e->r->web.corners + 3 * (size_t)triangle, fixed = e->r->web.fixed_count;
+    uint32_t node = c[0] >= fixed ? c[0] : c[1] >= fixed ? c[1] : c[2];
+    return node >= fixed && e->bearing[node - fixed];
 }
 
 static void excess_range(void *context, uint64_t begin, uint64_t end)
 {
     const Excesses *e = context;
     for (uint64_t t = begin; t < end; t++)
-        e->excesses[t] = excess_in_block(e->r, (uint32_t)t);
+        e->excesses[t] = is_bearing(e, (uint32_t)t) ? (float)excess_of(e->r, (uint32_t)t) : 0;
 }
 
 /* An excess above which there are so many as may be needed, of those that count: not all have to be put in order. */
@@ -199,9 +200,11 @@ MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplica
 {
     uint32_t n = r->web.triangle_count, wanted = WANTED_LEAST + WANTED_EACH * due, count = 0;
     *order = (MesoSplitOrder){.r = r};
-    Excesses all = {r, MESO_NEW(arena, float, n, error)};
-    if (!all.excesses)
+    Excesses all = {r, MESO_NEW(arena, uint8_t, r->detail_count, error), MESO_NEW(arena, float, n, error)};
+    if (!all.bearing || !all.excesses)
         return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        all.bearing[i] = r->due[r->blocks[i]] >= 0.5;
     meso_parallel_for(r->options.thread_count, n, GRAIN, excess_range, &all);
     float threshold = threshold_of(all.excesses, n, wanted);
     for (uint32_t t = 0; t < n; t++)
