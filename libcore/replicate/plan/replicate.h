@@ -28,12 +28,20 @@ typedef enum MesoReplicateMode {
     MESO_REPLICATE_PLAY     /* born by density, and none dies: what a plan that is played has to have */
 } MesoReplicateMode;
 
+/* What says where details are born, but for the paper's rule. */
+typedef enum MesoReplicateBirths {
+    MESO_BIRTHS_USUAL,      /* statistics where details stand in groups, else exemplars */
+    MESO_BIRTHS_EXEMPLARS,  /* triangles of originals with others inside */
+    MESO_BIRTHS_STATISTICS  /* how many others there are at which distance (pair_target.h) */
+} MesoReplicateBirths;
+
 typedef struct MesoReplicateOptions {
     const MesoClip *clip;
     /* [original_count]; rank, copied, radius and born are not read. Faster where they come by triangle. */
     const MesoDetail *originals;
     uint32_t original_count;
     MesoReplicateMode mode;
+    MesoReplicateBirths births;
     double alpha;               /* of the paper's rule: over the largest area at rest; 0: 1.1 */
     double beta;                /* and of the smallest; 0: 0.9 */
     double gamma;               /* share of their distance by which merging details come nearer, each, a frame; 0: 0.1 */

@@ -5,6 +5,7 @@
 
 #include "libcore/base/random.h"
 #include "libcore/mesh/point/vertex_normals.h"
+#include "libcore/replicate/plan/pair_target.h"
 #include "libcore/replicate/plan/paper_rule.h"
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/split_order.h"
@@ -161,6 +162,10 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
         status = make_blocks(r, error);
     if (status == MESO_OK)
         status = meso_find_above(r, error);
+    if (status == MESO_OK)
+        status = meso_pair_target_build(&r->pairs, r, error);
+    r->by_pairs = r->options.births == MESO_BIRTHS_STATISTICS
+                  || (r->options.births == MESO_BIRTHS_USUAL && r->pairs.grouped);
     if (status != MESO_OK || r->options.mode != MESO_REPLICATE_PAPER)
         return status;
     r->paper = MESO_NEW(&r->arena, MesoPaperRule, 1, error);
@@ -304,6 +309,8 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
     if (!(r->detail_count + due < MESO_REPLICA_MOST))
         return meso_fail(error, MESO_ERR_LIMIT, "frame %d: too many details are due: %g", frame,
                          r->detail_count + due);
+    if (r->by_pairs)
+        return meso_bear_by_pairs(r, (uint32_t)due, frame, error);
     MesoSplitOrder order;
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
     meso_tolerance_adapt(&r->tolerance, &r->web);

@@ -16,6 +16,21 @@ typedef struct MesoTolerance {
     double spread;          /* deviation over mean of edges at rest */
 } MesoTolerance;
 
+enum { MESO_TARGET_BINS = 24 };
+
+/* Others by distance. */
+typedef struct MesoPairCounts {
+    double of[MESO_TARGET_BINS];
+} MesoPairCounts;
+
+typedef struct MesoPairTarget {
+    double radius;              /* of the largest distance */
+    MesoPairCounts rest;        /* a detail's, in the mean */
+    MesoPairCounts weights;     /* of a difference, squared */
+    MesoPairCounts debt;        /* of births so far; part of the state */
+    bool grouped;               /* there are far more pairs at small distances than of details strewn freely */
+} MesoPairTarget;
+
 struct MesoReplication {
     MesoArena arena, scratch;
     MesoReplicateOptions options;
@@ -36,6 +51,8 @@ struct MesoReplication {
     MesoNeighbour *near;            /* those around it that were there before */
     MesoNeighbour *above;           /* [original_count] the nearest of lower rank, at rest; or MESO_NO_INDEX */
     MesoTolerance tolerance;
+    MesoPairTarget pairs;
+    bool by_pairs;                  /* births are (pair_target.h) */
     struct MesoPaperRule *paper;    /* where that is the mode */
     uint32_t merging_count, merging_room;
     uint32_t (*mergings)[2];        /* [merging_count] details that come nearer to each other: kept, given */

@@ -1,0 +1,343 @@
+#include "libcore/replicate/plan/pair_target.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "libcore/base/random.h"
+#include "libcore/replicate/plan/web_edit.h"
+
+enum { BINS = MESO_TARGET_BINS, SAMPLE = 16384, TRIED = 32, COPIES = 12, NEAREST = MESO_ORIGINAL_NEAR };
+
+/* Distances are counted up to so many mean spacings. */
+static const double REACH = 4;
+
+/* Of pairs nearer than half a spacing, over those of details strewn freely: groups. */
+static const double GROUPED = 1.5;
+
+/* ---- cells ---- */
+
+/* Details by cell of space, as wide as distances that are counted; those to come are put in, too. */
+typedef struct Cells {
+    float width;
+    uint32_t mask;
+    uint32_t *heads;        /* [mask + 1] or MESO_NO_INDEX */
+    uint32_t *next;         /* [room] */
+    const MesoVec3 *places, *normals;
+} Cells;
+
+static uint32_t slot_of(const Cells *cells, int32_t x, int32_t y, int32_t z)
+{
+    uint32_t key = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u;
+    return (key ^ key >> 15) * 0x9e3779b1u >> 7 & cells->mask;
+}
+
+static int32_t cell_at(float x, float width)
+{
+    return (int32_t)fminf(fmaxf(floorf(x / width), -1e9f), 1e9f);
+}
+
+static void put(Cells *cells, uint32_t detail)
+{
+    MesoVec3 p = cells->places[detail];
+    uint32_t slot = slot_of(cells, cell_at(p.x, cells->width), cell_at(p.y, cells->width), cell_at(p.z, cells->width));
+    cells->next[detail] = cells->heads[slot];
+    cells->heads[slot] = detail;
+}
+
+static MesoStatus make_cells(Cells *cells, MesoReplication *r, double width, uint32_t due, MesoError *error)
+{
+    size_t room = (size_t)r->detail_count + due + 1;
+    *cells = (Cells){.width = (float)width, .mask = 255};
+    while (cells->mask < room)
+        cells->mask = 2 * cells->mask + 1;
+    cells->heads = meso_arena_alloc(&r->scratch, (size_t)cells->mask + 1, sizeof *cells->heads, error);
+    cells->next = meso_arena_alloc(&r->scratch, room, sizeof *cells->next, error);
+    if (!cells->heads || !cells->next)
+        return MESO_ERR_MEMORY;
+    memset(cells->heads, 0xff, ((size_t)cells->mask + 1) * sizeof *cells->heads);
+    cells->places = r->web.positions + r->web.fixed_count;
+    cells->normals = r->web.normals + r->web.fixed_count;
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        if (meso_lives(r, i))
+            put(cells, i);
+    return MESO_OK;
+}
+
+/* ---- around a place ---- */
+
+typedef struct Vicinity {
+    MesoPairCounts counts;
+    float near[NEAREST];    /* squared distances */
+    uint32_t nearest;       /* detail; MESO_NO_INDEX */
+} Vicinity;
+
+static void see(Vicinity *v, uint32_t detail, float d2, double radius)
+{
+    double at = sqrt((double)d2) / radius * BINS;
+    if (at < BINS)
+        v->counts.of[(uint32_t)at]++;
+    if (d2 < v->near[0])
+        v->nearest = detail;
+    for (uint32_t k = 0; k < NEAREST; k++)
+        if (d2 < v->near[k]) {
+            float further = v->near[k];
+            v->near[k] = d2;
+            d2 = further;
+        }
+}
+
+/* Not of the other side of a thin sheet, whose normals point the other way. */
+static void look_around(Vicinity *v, const Cells *cells, MesoVec3 place, MesoVec3 normal, uint32_t self, double radius)
+{
+    *v = (Vicinity){.near = {INFINITY, INFINITY, INFINITY}, .nearest = MESO_NO_INDEX};
+    int32_t x = cell_at(place.x, cells->width), y = cell_at(place.y, cells->width), z = cell_at(place.z, cells->width);
+    float most = (float)(radius * radius);
+    for (int32_t k = 0; k < 27; k++) {
+        int32_t cx = x + k % 3 - 1, cy = y + k / 3 % 3 - 1, cz = z + k / 9 - 1;
+        for (uint32_t i = cells->heads[slot_of(cells, cx, cy, cz)]; i != MESO_NO_INDEX; i = cells->next[i]) {
+            MesoVec3 p = cells->places[i], apart = meso_vec3_sub(p, place);
+            float d2 = meso_vec3_dot(apart, apart);
+            if (!(d2 < most) || i == self || meso_vec3_dot(cells->normals[i], normal) < 0)
+                continue;
+            /* two cells may share a slot */
+            if (cell_at(p.x, cells->width) == cx && cell_at(p.y, cells->width) == cy
+                && cell_at(p.z, cells->width) == cz)
+                see(v, i, d2, radius);
+        }
+    }
+}
+
+/* Of every `stride`th that lives. */
+static MesoPairCounts mean_counts(const MesoReplication *r, const Cells *cells, uint32_t stride)
+{
+    MesoPairCounts mean = {{0}};
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->detail_count; i += stride) {
+        Vicinity v;
+        if (!meso_lives(r, i))
+            continue;
+        look_around(&v, cells, cells->places[i], cells->normals[i], i, r->pairs.radius);
+        for (uint32_t b = 0; b < BINS; b++)
+            mean.of[b] += v.counts.of[b];
+        count++;
+    }
+    for (uint32_t b = 0; b < BINS && count; b++)
+        mean.of[b] /= count;
+    return mean;
+}
+
+static double ring_area(double radius, uint32_t bin)
+{
+    double width = radius / BINS;
+    return MESO_PI * width * width * (2 * bin + 1);
+}
+
+MesoStatus meso_pair_target_build(MesoPairTarget *target, MesoReplication *r, MesoError *error)
+{
+    double area = 0, near = 0, free_near = 0;
+    for (uint32_t t = 0; t < r->rest->triangle_count; t++)
+        area += (double)r->rest_areas[t];
+    *target = (MesoPairTarget){.radius = REACH * sqrt(area / (r->detail_count ? r->detail_count : 1))};
+    if (!(target->radius > 0 && target->radius < (double)FLT_MAX))
+        return MESO_OK;
+    Cells cells;
+    MesoArenaMark mark = meso_arena_mark(&r->scratch);
+    MesoStatus status = make_cells(&cells, r, target->radius, 0, error);
+    if (status == MESO_OK)
+        target->rest = mean_counts(r, &cells, 1 + r->detail_count / (2 * SAMPLE));
+    meso_arena_rewind(&r->scratch, mark);
+    for (uint32_t b = 0; b < BINS; b++) {
+        double expected = ring_area(target->radius, b) * r->detail_count / area;
+        target->weights.of[b] = 1 / expected;
+        near += b < BINS / (2 * REACH) ? target->rest.of[b] : 0;
+        free_near += b < BINS / (2 * REACH) ? expected : 0;
+    }
+    target->grouped = near > GROUPED * free_near;
+    return status;
+}
+
+/* ---- births ---- */
+
+typedef struct Bearing {
+    MesoReplication *r;
+    Cells cells;
+    MesoRandom random;
+    MesoPairCounts wanted;      /* a birth's */
+    double sums[BINS + 1];      /* of what is wanted, where it is */
+    uint32_t *begin, *members;  /* details that live, by block */
+} Bearing;
+
+static double share(Bearing *b)
+{
+    return (double)(meso_random_next(&b->random) >> 11) * 0x1p-53;
+}
+
+/* What births have to have around them, so that all together are as at rest afterwards; no more than they can. */
+static void know_wanted(Bearing *b, uint32_t due)
+{
+    const MesoPairTarget *target = &b->r->pairs;
+    double before = b->r->detail_count;
+    MesoPairCounts now = mean_counts(b->r, &b->cells, 1 + b->r->detail_count / SAMPLE);
+    for (uint32_t i = 0; i < BINS; i++) {
+        double rest = target->rest.of[i], most = 2 * rest + 0.5;
+        double wanted = (rest * (before + due) - now.of[i] * before) / (2 * due);
+        b->wanted.of[i] = fmin(rest + most, fmax(rest - most, wanted));
+        b->sums[i + 1] = b->sums[i] + fmax(0, b->wanted.of[i]);
+    }
+}
+
+static MesoStatus sort_members(Bearing *b, MesoError *error)
+{
+    MesoReplication *r = b->r;
+    b->begin = MESO_NEW(&r->scratch, uint32_t, (size_t)r->block_count + 2, error);
+    b->members = MESO_NEW(&r->scratch, uint32_t, r->detail_count, error);
+    if (!b->begin || !b->members)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        b->begin[r->blocks[i] + 2] += meso_lives(r, i);
+    for (uint32_t k = 2; k < r->block_count + 2; k++)
+        b->begin[k] += b->begin[k - 1];
+    for (uint32_t i = 0; i < r->detail_count; i++)
+        if (meso_lives(r, i))
+            b->members[b->begin[r->blocks[i] + 1]++] = i;
+    return MESO_OK;
+}
+
+/* In a triangle beside a detail. */
+static MesoVec3 place_inside(Bearing *b, uint32_t detail)
+{
+    const MesoWeb *web = &b->r->web;
+    uint32_t node = web->fixed_count + detail, turns = meso_random_below(&b->random, 8);
+    MesoSpokes s = meso_spokes(web, node);
+    for (uint32_t i = 0; i < turns; i++)
+        if (!meso_spokes_next(web, &s))
+            s = meso_spokes(web, node);
+    const uint32_t *c = web->corners + 3 * (size_t)(s.now / 3);
+    double u = share(b), v = share(b);
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    MesoVec3 p = meso_vec3_scale(web->positions[c[0]], (float)(1 - u - v));
+    p = meso_vec3_mad(p, (float)u, web->positions[c[1]]);
+    return meso_vec3_mad(p, (float)v, web->positions[c[2]]);
+}
+
+/* At a distance from a detail of which there are too few. */
+static MesoVec3 place_at_distance(Bearing *b, uint32_t detail)
+{
+    double at = share(b) * b->sums[BINS], angle = 2 * MESO_PI * share(b);
+    uint32_t bin = 0;
+    while (bin + 1 < BINS && b->sums[bin + 1] <= at)
+        bin++;
+    double distance = (bin + share(b)) * b->r->pairs.radius / BINS;
+    MesoVec3 n = b->cells.normals[detail], axis = fabsf(n.x) < 0.6f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(axis, n), axis), y = meso_vec3_cross(n, x);
+    MesoVec3 p = meso_vec3_mad(b->cells.places[detail], (float)(distance * cos(angle)), x);
+    return meso_vec3_mad(p, (float)(distance * sin(angle)), y);
+}
+
+static double cost_of(const Bearing *b, const MesoPairCounts *counts)
+{
+    const MesoPairTarget *target = &b->r->pairs;
+    double cost = 0;
+    for (uint32_t i = 0; i < BINS; i++) {
+        double left = target->debt.of[i] + b->wanted.of[i] - counts->of[i];
+        cost += target->weights.of[i] * left * left;
+    }
+    return cost;
+}
+
+/* Of some originals the one whose nearest are about as near: so what stands alone is as what stands alone at rest. */
+static uint32_t copied_at(Bearing *b, const Vicinity *v)
+{
+    const MesoReplication *r = b->r;
+    uint32_t best = v->nearest == MESO_NO_INDEX ? 0 : r->details[v->nearest].copied;
+    double least = INFINITY;
+    for (uint32_t n = 0; n < COPIES; n++) {
+        uint32_t i = meso_random_below(&b->random, r->options.original_count);
+        const MesoOriginal *as = &r->exemplars.originals[i];
+        double sum = 0;
+        for (uint32_t k = 0; k < NEAREST; k++) {
+            if (!(as->near[k] > 0 && as->near[k] < INFINITY && v->near[k] < INFINITY))
+                continue;
+            double unlike = log(fmax(sqrt((double)v->near[k]) / (double)as->near[k], 1e-3));
+            sum += unlike * unlike;
+        }
+        if (sum < least) {
+            least = sum;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static MesoStatus bear_one(Bearing *b, uint32_t block, int32_t frame, MesoError *error)
+{
+    MesoReplication *r = b->r;
+    MesoPairTarget *target = &r->pairs;
+    uint32_t first = b->begin[block], count = b->begin[block + 1] - first;
+    MesoBirth best = {.block = block};
+    Vicinity v, chosen = {.nearest = MESO_NO_INDEX};
+    double least = INFINITY;
+    for (uint32_t n = 0; n < TRIED; n++) {
+        uint32_t beside = b->members[first + meso_random_below(&b->random, count)];
+        MesoVec3 place = n % 2 ? place_at_distance(b, beside) : place_inside(b, beside);
+        look_around(&v, &b->cells, place, b->cells.normals[beside], MESO_NO_INDEX, target->radius);
+        double cost = cost_of(b, &v.counts);
+        if (n > 0 && !(cost < least))
+            continue;
+        least = cost;
+        best.place = place;
+        best.beside = beside;
+        chosen = v;
+    }
+    best.copied = copied_at(b, &chosen);
+    MesoStatus status = meso_give_birth(r, r->web.node_corner[r->web.fixed_count + best.beside] / 3, &best, frame, error);
+    if (status != MESO_OK)
+        return status;
+    uint32_t born = r->detail_count - 1;
+    b->cells.places = r->web.positions + r->web.fixed_count;
+    b->cells.normals = r->web.normals + r->web.fixed_count;
+    look_around(&v, &b->cells, b->cells.places[born], b->cells.normals[born], born, target->radius);
+    put(&b->cells, born);
+    for (uint32_t i = 0; i < BINS; i++) {
+        double most = 4 * target->rest.of[i] + 4, debt = target->debt.of[i] + b->wanted.of[i] - v.counts.of[i];
+        target->debt.of[i] = fmin(most, fmax(-most, debt));
+    }
+    return MESO_OK;
+}
+
+/* In each block one, and so on until none is due: so none is behind others. */
+static MesoStatus bear_all(Bearing *b, int32_t frame, MesoError *error)
+{
+    MesoReplication *r = b->r;
+    for (bool any = true; any;) {
+        any = false;
+        for (uint32_t block = 0; block < r->block_count; block++) {
+            if (r->due[block] < 0.5 || b->begin[block + 1] == b->begin[block])
+                continue;
+            MesoStatus status = bear_one(b, block, frame, error);
+            if (status != MESO_OK)
+                return status;
+            any = true;
+        }
+    }
+    return MESO_OK;
+}
+
+MesoStatus meso_bear_by_pairs(MesoReplication *r, uint32_t due, int32_t frame, MesoError *error)
+{
+    Bearing b = {.r = r};
+    MesoArenaMark mark = meso_arena_mark(&r->scratch);
+    meso_random_init(&b.random, r->options.seed, 16 + (uint64_t)r->step_count);
+    MesoStatus status = make_cells(&b.cells, r, r->pairs.radius, due, error);
+    if (status == MESO_OK)
+        status = sort_members(&b, error);
+    if (status == MESO_OK) {
+        know_wanted(&b, due);
+        status = bear_all(&b, frame, error);
+    }
+    meso_arena_rewind(&r->scratch, mark);
+    return status;
+}

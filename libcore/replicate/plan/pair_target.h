@@ -1,0 +1,18 @@
+/*
+ * Births by statistics: how many others there are at which distance, of all details together ("Analysis and Synthesis of
+ * Point Distributions based on Pair Correlation", Oeztireli and Gross 2012). Of some places that are tried the one is
+ * taken whose distances bring the sum nearest to what it is at rest; what is left of the difference goes on to the next
+ * birth. So groups stay groups, which triangles with details inside do not keep: those see no further than their sides.
+ */
+#ifndef MESO_PAIR_TARGET_H
+#define MESO_PAIR_TARGET_H
+
+#include "libcore/replicate/plan/replicate_work.h"
+
+/* Of the details at rest. MESO_ERR_MEMORY alone. O(details). */
+MesoStatus meso_pair_target_build(MesoPairTarget *target, MesoReplication *r, MesoError *error);
+
+/* Details are born in all blocks in which they are due; `due` in all. MESO_ERR_MEMORY, MESO_ERR_LIMIT. */
+MesoStatus meso_bear_by_pairs(MesoReplication *r, uint32_t due, int32_t frame, MesoError *error);
+
+#endif
