@@ -1,7 +1,7 @@
 /* Which details die where the surface has shrunk. */
 #include <stdlib.h>
 
-#include "libcore/replicate/plan/replicate_work.h"
+#include "libcore/replicate/plan/pair_target.h"
 
 enum { RING = 48 };
 
@@ -108,11 +108,13 @@ static void thin(MesoReplication *r, const Crowded *crowded, uint32_t count, uin
 
 MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error)
 {
-    bool any = false;
-    for (uint32_t b = 0; b < r->block_count && !any; b++)
-        any = r->due[b] <= -SURPLUS;
-    if (!any)
+    double due = 0;
+    for (uint32_t b = 0; b < r->block_count; b++)
+        due += r->due[b] <= -SURPLUS ? fmax(1, floor(-r->due[b])) : 0;
+    if (due == 0)
         return MESO_OK;
+    if (r->by_pairs)
+        return meso_thin_by_pairs(r, SURPLUS, (uint32_t)fmin(due, r->detail_count), frame, error);
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
     Crowded *crowded = MESO_NEW(&r->scratch, Crowded, r->detail_count, error);
     uint32_t *living = MESO_NEW(&r->scratch, uint32_t, r->block_count, error);

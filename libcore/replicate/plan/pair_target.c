@@ -6,7 +6,7 @@
 #include "libcore/base/random.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { BINS = MESO_TARGET_BINS, SAMPLE = 16384, TRIED = 32, COPIES = 12, NEAREST = MESO_ORIGINAL_NEAR };
+enum { BINS = MESO_TARGET_BINS, SAMPLE = 4096, TRIED = 24, COPIES = 12, NEAREST = MESO_ORIGINAL_NEAR };
 
 /* Distances are counted up to so many mean spacings. */
 static const double REACH = 4;
@@ -172,15 +172,15 @@ static double share(Bearing *b)
     return (double)(meso_random_next(&b->random) >> 11) * 0x1p-53;
 }
 
-/* What births have to have around them, so that all together are as at rest afterwards; no more than they can. */
-static void know_wanted(Bearing *b, uint32_t due)
+/* What births, or deaths, have to have around them, so that all together are as at rest then; no more than they can. */
+static void know_wanted(Bearing *b, double births)
 {
     const MesoPairTarget *target = &b->r->pairs;
-    double before = b->r->detail_count;
+    double before = b->begin[b->r->block_count];
     MesoPairCounts now = mean_counts(b->r, &b->cells, 1 + b->r->detail_count / SAMPLE);
     for (uint32_t i = 0; i < BINS; i++) {
         double rest = target->rest.of[i], most = 2 * rest + 0.5;
-        double wanted = (rest * (before + due) - now.of[i] * before) / (2 * due);
+        double wanted = (rest * (before + births) - now.of[i] * before) / (2 * births);
         b->wanted.of[i] = fmin(rest + most, fmax(rest - most, wanted));
         b->sums[i + 1] = b->sums[i] + fmax(0, b->wanted.of[i]);
     }
@@ -237,15 +237,26 @@ static MesoVec3 place_at_distance(Bearing *b, uint32_t detail)
     return meso_vec3_mad(p, (float)(distance * sin(angle)), y);
 }
 
-static double cost_of(const Bearing *b, const MesoPairCounts *counts)
+/* `sign`: 1 of a birth, -1 of a death. */
+static double cost_of(const Bearing *b, const MesoPairCounts *counts, double sign)
 {
     const MesoPairTarget *target = &b->r->pairs;
     double cost = 0;
     for (uint32_t i = 0; i < BINS; i++) {
-        double left = target->debt.of[i] + b->wanted.of[i] - counts->of[i];
+        double left = target->debt.of[i] + sign * (b->wanted.of[i] - counts->of[i]);
         cost += target->weights.of[i] * left * left;
     }
     return cost;
+}
+
+static void owe(Bearing *b, const MesoPairCounts *counts, double sign)
+{
+    MesoPairTarget *target = &b->r->pairs;
+    for (uint32_t i = 0; i < BINS; i++) {
+        double most = 4 * target->rest.of[i] + 4;
+        double debt = target->debt.of[i] + sign * (b->wanted.of[i] - counts->of[i]);
+        target->debt.of[i] = fmin(most, fmax(-most, debt));
+    }
 }
 
 /* Of some originals the one whose nearest are about as near: so what stands alone is as what stands alone at rest. */
@@ -284,7 +295,7 @@ static MesoStatus bear_one(Bearing *b, uint32_t block, int32_t frame, MesoError 
         uint32_t beside = b->members[first + meso_random_below(&b->random, count)];
         MesoVec3 place = n % 2 ? place_at_distance(b, beside) : place_inside(b, beside);
         look_around(&v, &b->cells, place, b->cells.normals[beside], MESO_NO_INDEX, target->radius);
-        double cost = cost_of(b, &v.counts);
+        double cost = cost_of(b, &v.counts, 1);
         if (n > 0 && !(cost < least))
             continue;
         least = cost;
@@ -301,10 +312,7 @@ static MesoStatus bear_one(Bearing *b, uint32_t block, int32_t frame, MesoError 
     b->cells.normals = r->web.normals + r->web.fixed_count;
     look_around(&v, &b->cells, b->cells.places[born], b->cells.normals[born], born, target->radius);
     put(&b->cells, born);
-    for (uint32_t i = 0; i < BINS; i++) {
-        double most = 4 * target->rest.of[i] + 4, debt = target->debt.of[i] + b->wanted.of[i] - v.counts.of[i];
-        target->debt.of[i] = fmin(most, fmax(-most, debt));
-    }
+    owe(b, &v.counts, 1);
     return MESO_OK;
 }
 
@@ -326,17 +334,79 @@ static MesoStatus bear_all(Bearing *b, int32_t frame, MesoError *error)
     return MESO_OK;
 }
 
+static MesoStatus prepare(Bearing *b, MesoReplication *r, double births, uint64_t stream, MesoError *error)
+{
+    *b = (Bearing){.r = r};
+    meso_random_init(&b->random, r->options.seed, 16 + 2 * (uint64_t)r->step_count + stream);
+    MesoStatus status = make_cells(&b->cells, r, r->pairs.radius, births > 0 ? (uint32_t)births : 0, error);
+    if (status == MESO_OK)
+        status = sort_members(b, error);
+    if (status == MESO_OK)
+        know_wanted(b, births);
+    return status;
+}
+
 MesoStatus meso_bear_by_pairs(MesoReplication *r, uint32_t due, int32_t frame, MesoError *error)
 {
-    Bearing b = {.r = r};
+    Bearing b;
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
-    meso_random_init(&b.random, r->options.seed, 16 + (uint64_t)r->step_count);
-    MesoStatus status = make_cells(&b.cells, r, r->pairs.radius, due, error);
+    MesoStatus status = prepare(&b, r, due, 0, error);
     if (status == MESO_OK)
-        status = sort_members(&b, error);
-    if (status == MESO_OK) {
-        know_wanted(&b, due);
         status = bear_all(&b, frame, error);
+    meso_arena_rewind(&r->scratch, mark);
+    return status;
+}
+
+/* ---- deaths ---- */
+
+static void take(Cells *cells, uint32_t detail)
+{
+    MesoVec3 p = cells->places[detail];
+    uint32_t *at = &cells->heads[slot_of(cells, cell_at(p.x, cells->width), cell_at(p.y, cells->width),
+                                         cell_at(p.z, cells->width))];
+    while (*at != detail)
+        at = &cells->next[*at];
+    *at = cells->next[detail];
+}
+
+/* False where none could be taken out. */
+static bool let_one_die(Bearing *b, uint32_t block, int32_t frame)
+{
+    MesoReplication *r = b->r;
+    uint32_t first = b->begin[block], count = b->begin[block + 1] - first, best = MESO_NO_INDEX;
+    double least = INFINITY;
+    Vicinity v;
+    for (uint32_t n = 0; n < TRIED; n++) {
+        uint32_t detail = b->members[first + meso_random_below(&b->random, count)];
+        if (!meso_lives(r, detail))
+            continue;
+        look_around(&v, &b->cells, b->cells.places[detail], b->cells.normals[detail], detail, r->pairs.radius);
+        double cost = cost_of(b, &v.counts, -1);
+        if (best != MESO_NO_INDEX && !(cost < least))
+            continue;
+        least = cost;
+        best = detail;
+    }
+    if (best == MESO_NO_INDEX || !meso_let_die(r, best, frame))
+        return false;
+    take(&b->cells, best);
+    look_around(&v, &b->cells, b->cells.places[best], b->cells.normals[best], best, r->pairs.radius);
+    owe(b, &v.counts, -1);
+    return true;
+}
+
+MesoStatus meso_thin_by_pairs(MesoReplication *r, double surplus, uint32_t due, int32_t frame, MesoError *error)
+{
+    Bearing b;
+    MesoArenaMark mark = meso_arena_mark(&r->scratch);
+    MesoStatus status = prepare(&b, r, -(double)due, 1, error);
+    for (uint32_t block = 0; block < r->block_count && status == MESO_OK; block++) {
+        uint32_t left = b.begin[block + 1] - b.begin[block], misses = 0;
+        while (r->due[block] <= -surplus && left > 1 && misses < TRIED)
+            if (let_one_die(&b, block, frame))
+                left--;
+            else
+                misses++;
     }
     meso_arena_rewind(&r->scratch, mark);
     return status;

@@ -15,4 +15,7 @@ MesoStatus meso_pair_target_build(MesoPairTarget *target, MesoReplication *r, Me
 /* Details are born in all blocks in which they are due; `due` in all. MESO_ERR_MEMORY, MESO_ERR_LIMIT. */
 MesoStatus meso_bear_by_pairs(MesoReplication *r, uint32_t due, int32_t frame, MesoError *error);
 
+/* Details die in all blocks in which at least `surplus` more are than are due; about `due` in all. */
+MesoStatus meso_thin_by_pairs(MesoReplication *r, double surplus, uint32_t due, int32_t frame, MesoError *error);
+
 #endif

@@ -11,7 +11,7 @@ MesoReplicaState meso_replicate_state(const MesoReplication *r)
         .step_count = r->step_count, .power = r->tolerance.power, .detail_count = r->detail_count,
         .details = r->details, .blocks = r->blocks, .near_begin = r->near_begin, .near = r->near,
         .last_frame = r->last_frame, .grown = r->grown, .fates = r->fates, .merging_count = r->merging_count,
-        .mergings = (const uint32_t (*)[2])r->mergings, .node_count = r->web.node_count,
+        .mergings = (const uint32_t (*)[2])r->mergings, .debts = r->pairs.debt.of, .node_count = r->web.node_count,
         .triangle_count = r->web.triangle_count, .node_corner = r->web.node_corner, .corners = r->web.corners,
         .twins = r->web.twins,
     };
@@ -56,6 +56,9 @@ static MesoStatus check_lives(const MesoReplication *r, const MesoReplicaState *
             if (s->mergings[m][k] >= s->detail_count || s->mergings[m][0] == s->mergings[m][1]
                 || s->fates[s->mergings[m][k]].died != MESO_DETAIL_LIVES)
                 return no_state(error, "mergings");
+    for (uint32_t i = 0; i < MESO_REPLICA_DEBTS; i++)
+        if (!isfinite(s->debts[i]))
+            return no_state(error, "debts");
     return s->last_frame >= -1 && s->last_frame <= UINT32_MAX ? MESO_OK : no_state(error, "frames");
 }
 
@@ -163,5 +166,6 @@ MesoStatus meso_replicate_resume(MesoReplication *r, const MesoReplicaState *sta
     r->step_count = state->step_count;
     r->tolerance.power = state->power;
     r->last_frame = state->last_frame;
+    memcpy(r->pairs.debt.of, state->debts, sizeof r->pairs.debt.of);
     return status;
 }

@@ -7,6 +7,8 @@
 
 #include "libcore/replicate/plan/replicate.h"
 
+enum { MESO_REPLICA_DEBTS = 24 };
+
 typedef struct MesoReplicaState {
     uint32_t step_count;
     double power;                   /* of the tolerance (split_order.h) */
@@ -20,6 +22,7 @@ typedef struct MesoReplicaState {
     const MesoDetailFate *fates;    /* [detail_count] */
     uint32_t merging_count;         /* of the paper's rule */
     const uint32_t (*mergings)[2];  /* [merging_count] details: which is kept, and which goes into it */
+    const double *debts;            /* [MESO_REPLICA_DEBTS] of births by statistics */
     uint32_t node_count, triangle_count;    /* of the web */
     const uint32_t *node_corner;    /* [node_count] */
     const uint32_t *corners;        /* [3 * triangle_count] */

@@ -3,7 +3,7 @@
 #define MESO_REPLICATE_WORK_H
 
 #include "libcore/replicate/plan/exemplars.h"
-#include "libcore/replicate/plan/replicate.h"
+#include "libcore/replicate/plan/replicate_state.h"
 
 enum { MESO_BIRTH_NEAR = 24 };
 
@@ -16,7 +16,7 @@ typedef struct MesoTolerance {
     double spread;          /* deviation over mean of edges at rest */
 } MesoTolerance;
 
-enum { MESO_TARGET_BINS = 24 };
+enum { MESO_TARGET_BINS = MESO_REPLICA_DEBTS };
 
 /* Others by distance. */
 typedef struct MesoPairCounts {
