@@ -100,6 +100,9 @@ const MesoDetailFate *meso_replicate_fates(const MesoReplication *replication);
 MesoStatus meso_replicate_plan(MesoReplicaPlan *plan, MesoArena *arena, const MesoReplication *replication,
                                MesoError *error);
 
+/* Memory that it takes, in bytes. */
+size_t meso_replicate_bytes(const MesoReplication *replication);
+
 void meso_replicate_release(MesoReplication *replication);
 
 #endif

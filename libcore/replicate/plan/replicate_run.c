@@ -234,6 +234,11 @@ const MesoDetailFate *meso_replicate_fates(const MesoReplication *r)
     return r->fates;
 }
 
+size_t meso_replicate_bytes(const MesoReplication *r)
+{
+    return r->arena.used + r->scratch.used;
+}
+
 const MesoWeb *meso_replicate_web(const MesoReplication *r)
 {
     return &r->web;
