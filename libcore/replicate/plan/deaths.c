@@ -8,8 +8,8 @@ enum { RING = 48 };
 /* Of details more than are due in a block. Births begin at a half too few: what trembles changes nothing. */
 static const double SURPLUS = 0.6;
 
-/* Copies die before originals that are somewhat more crowded, so that what has come with a stretch goes with it. */
-static const double COPY_FIRST = 1.15;
+/* Copies die before originals, so that what has come with a stretch goes with it. */
+static const double COPY_FIRST = 1000;
 
 /* ---- how crowded ---- */
 
@@ -32,17 +32,17 @@ static uint32_t near_nodes(const MesoWeb *web, uint32_t node, uint32_t ring[RING
     return count;
 }
 
-/* How near the nearest are, for what its original has at rest. */
+/* How near others are, for what its original has at rest. */
 static double crowd_of(const MesoReplication *r, uint32_t detail)
 {
-    uint32_t ring[RING];
-    double distances[RING], crowd = 0, weight = 1;
-    const MesoOriginal *as = &r->exemplars.originals[r->details[detail].copied];
-    uint32_t count = near_nodes(&r->web, r->web.fixed_count + detail, ring, distances);
-    for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR && k < count; k++, weight *= 0.5) {
-        double rest = (double)as->near[k];
-        if (rest < INFINITY && distances[k] < INFINITY)
-            crowd += weight * rest / fmax(distances[k], 1e-6 * rest);
+    uint32_t ring[RING], node = r->web.fixed_count + detail;
+    double crowd = 0, rest = (double)r->exemplars.originals[r->details[detail].copied].near[0];
+    uint32_t count = meso_web_ring(&r->web, node, ring, RING);
+    for (uint32_t k = 0; k < count && k < RING && rest < INFINITY; k++) {
+        if (ring[k] < r->web.fixed_count)
+            continue;
+        double d2 = fmax(meso_web_length2(&r->web, node, ring[k]), 1e-12 * rest * rest), near = rest * rest / d2;
+        crowd += near * near * near;    /* one that is very near is more than some that are rather near */
     }
     return crowd * (detail < r->options.original_count ? 1 : COPY_FIRST);
 }

@@ -14,6 +14,9 @@ static const double REACH = 4;
 /* Of pairs nearer than half a spacing, over those of details strewn freely: groups. */
 static const double GROUPED = 1.5;
 
+/* What it costs that an original dies. */
+static const double ORIGINAL_LAST = 1e9;
+
 /* ---- cells ---- */
 
 /* Details by cell of space, as wide as distances that are counted; those to come are put in, too. */
@@ -381,7 +384,8 @@ static bool let_one_die(Bearing *b, uint32_t block, int32_t frame)
         if (!meso_lives(r, detail))
             continue;
         look_around(&v, &b->cells, b->cells.places[detail], b->cells.normals[detail], detail, r->pairs.radius);
-        double cost = cost_of(b, &v.counts, -1);
+        /* copies before originals: what has come with a stretch goes with it */
+        double cost = cost_of(b, &v.counts, -1) + (detail < r->options.original_count ? ORIGINAL_LAST : 0);
         if (best != MESO_NO_INDEX && !(cost < least))
             continue;
         least = cost;
