@@ -96,6 +96,16 @@ void meso_details_place(MesoPlacedDetail *out, const MesoTriangulation *rest, co
     meso_parallel_for(thread_count, count, GRAIN, place_range, &placing);
 }
 
+MesoVec3 meso_detail_heading(const MesoTriangulation *rest, const MesoVec3 *positions, const MesoDetail *detail)
+{
+    const Placing p = {.rest = rest, .positions = positions};
+    const MesoVec3 none = {0, 0, 0};
+    MesoVec3 columns[2];
+    if (!deformation(&p, detail->point.triangle, columns))
+        return none;
+    return meso_vec3_unit(turned(columns, cosf(detail->angle), sinf(detail->angle)), none);
+}
+
 static double area_of(const MesoTriangulation *rest, const MesoVec3 *positions, uint32_t triangle)
 {
     MesoVec3 sides[2];

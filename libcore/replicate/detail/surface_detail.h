@@ -52,6 +52,26 @@ static inline MesoVec3 meso_detail_position(const MesoTriangulation *rest, const
     return meso_vec3_mad(p, point->weight[2], positions[corners[2]]);
 }
 
+/* Unit length, in the plane of its triangle; zero where that has no area. */
+MesoVec3 meso_detail_heading(const MesoTriangulation *rest, const MesoVec3 *positions, const MesoDetail *detail);
+
+/* Size over width, of those that are not alike in all directions; else 1. */
+static inline float meso_detail_aspect(const MesoDetail *detail)
+{
+    float aspect = detail->size > 0 && detail->width > 0 ? detail->size / detail->width : 1;
+    return aspect < 16 ? aspect > 0.0625f ? aspect : 0.0625f : 16;
+}
+
+/*
+ * Squared distance in the norm of a detail's ellipse, whose area is that of the unit circle: what is across its heading
+ * is farther than it looks, if it is longer than wide.
+ */
+static inline float meso_detail_norm2(MesoVec3 apart, MesoVec3 heading, float aspect)
+{
+    float along = meso_vec3_dot(apart, heading);
+    return meso_vec3_dot(apart, apart) * aspect + along * along * (1 / aspect - aspect);
+}
+
 /* Area of a triangle in a frame over that at rest; 0 where it had none. */
 double meso_stretch_of_area(const MesoTriangulation *rest, const MesoVec3 *positions, uint32_t triangle);
 

@@ -14,6 +14,7 @@ static const double UNLIKE = 0.15;
 /* Places of details around a triangle. */
 typedef struct Around {
     uint32_t count;
+    MesoVec3 heading;   /* of details that have one, at the corners */
     float x[AROUND + MESO_EXEMPLAR_INSIDE], y[AROUND + MESO_EXEMPLAR_INSIDE], z[AROUND + MESO_EXEMPLAR_INSIDE];
 } Around;
 
@@ -47,13 +48,29 @@ static void look_around(Around *around, const MesoWeb *web, uint32_t triangle)
     }
 }
 
+/* Those of corners, as one: a half turn is none. */
+static MesoVec3 heading_around(const MesoReplication *r, uint32_t triangle)
+{
+    MesoVec3 sum = {0, 0, 0};
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t node = r->web.corners[3 * triangle + k];
+        if (node < r->web.fixed_count)
+            continue;
+        MesoVec3 heading = meso_heading(r, r->now.positions, node - r->web.fixed_count);
+        sum = meso_vec3_mad(sum, meso_vec3_dot(sum, heading) < 0 ? -1 : 1, heading);
+    }
+    return meso_vec3_unit(sum, (MesoVec3){0, 0, 0});
+}
+
 /* How far the nearest distances at a place are from those that a detail has at rest. */
 static double misfit(const MesoOriginal *original, const Around *around, MesoVec3 place)
 {
     float squares[AROUND + MESO_EXEMPLAR_INSIDE], near[MESO_ORIGINAL_NEAR] = {INFINITY, INFINITY, INFINITY};
+    float aspect = original->aspect, across = 1 / aspect - aspect;
     for (uint32_t i = 0; i < around->count; i++) {
         float x = around->x[i] - place.x, y = around->y[i] - place.y, z = around->z[i] - place.z;
-        squares[i] = x * x + y * y + z * z;
+        float along = x * around->heading.x + y * around->heading.y + z * around->heading.z;
+        squares[i] = (x * x + y * y + z * z) * aspect + along * along * across;
     }
     for (uint32_t i = 0; i < around->count; i++) {
         float d2 = squares[i];
@@ -122,7 +139,8 @@ static double misfit_of_all(const MesoReplication *r, Around *around, const Meso
         for (uint32_t k = 0; k < count; k++)
             if (k != i)
                 add_place(around, births[k].place);
-        sum += misfit(&r->exemplars.originals[births[i].copied], around, births[i].place);
+        sum += MESO_COPY_COST * r->copies[births[i].copied]
+               + misfit(&r->exemplars.originals[births[i].copied], around, births[i].place);
     }
     around->count = before;
     return sum / count;
@@ -184,6 +202,7 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
     double least = INFINITY;
     Around around;
     look_around(&around, web, triangle);
+    around.heading = heading_around(r, triangle);
     know_corners(r, c, as);
     for (uint32_t i = 0; i < count; i++) {
         double unlike[3];
@@ -325,11 +344,10 @@ static MesoStatus make_room(MesoReplication *r, MesoError *error)
 }
 
 /* Nearest first, as many as there is room for. */
-static void remember(MesoReplication *r, uint32_t detail, uint32_t other)
+static void remember(MesoReplication *r, uint32_t detail, MesoVec3 heading, uint32_t other)
 {
     uint32_t begin = r->near_begin[detail], *end = &r->near_begin[detail + 1], at = *end;
-    const MesoVec3 *places = r->web.positions + r->web.fixed_count;
-    float d = meso_chord(places, detail, other);
+    float d = meso_distance(r, r->web.positions + r->web.fixed_count, detail, heading, other);
     for (uint32_t i = begin; i < *end; i++)
         if (r->near[i].detail == other)
             return;
@@ -346,7 +364,7 @@ static void remember(MesoReplication *r, uint32_t detail, uint32_t other)
 }
 
 /* What is joined to it, and what lies across the sides around that: enough where no plan is made to be played. */
-static void remember_next(MesoReplication *r, uint32_t detail)
+static void remember_next(MesoReplication *r, uint32_t detail, MesoVec3 heading)
 {
     const MesoWeb *web = &r->web;
     MesoSpokes s = meso_spokes(web, web->fixed_count + detail);
@@ -356,11 +374,11 @@ static void remember_next(MesoReplication *r, uint32_t detail)
         uint32_t nodes[2] = {web->corners[side], across == MESO_NO_INDEX ? 0 : meso_web_apex(web, across)};
         for (uint32_t k = 0; k < 2; k++)
             if (nodes[k] >= web->fixed_count && nodes[k] != web->fixed_count + detail)
-                remember(r, detail, nodes[k] - web->fixed_count);
+                remember(r, detail, heading, nodes[k] - web->fixed_count);
     } while (meso_spokes_next(web, &s));
 }
 
-static void remember_near(MesoReplication *r, uint32_t detail)
+static void remember_near(MesoReplication *r, uint32_t detail, MesoVec3 heading)
 {
     const MesoWeb *web = &r->web;
     uint32_t ring[AROUND], second[AROUND];
@@ -369,10 +387,10 @@ static void remember_near(MesoReplication *r, uint32_t detail)
     for (uint32_t i = 0; i < count && i < AROUND; i++) {
         uint32_t more = meso_web_ring(web, ring[i], second, AROUND);
         if (ring[i] >= web->fixed_count)
-            remember(r, detail, ring[i] - web->fixed_count);
+            remember(r, detail, heading, ring[i] - web->fixed_count);
         for (uint32_t k = 0; k < more && k < AROUND; k++)
             if (second[k] >= web->fixed_count && second[k] != web->fixed_count + detail)
-                remember(r, detail, second[k] - web->fixed_count);
+                remember(r, detail, heading, second[k] - web->fixed_count);
     }
 }
 
@@ -399,10 +417,12 @@ MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirt
     r->fates[detail] = (MesoDetailFate){MESO_DETAIL_LIVES, MESO_NO_INDEX};
     r->blocks[detail] = birth->block;
     r->due[r->blocks[detail]]--;
+    r->copies[birth->copied]++;
+    MesoVec3 heading = meso_heading(r, positions, detail);
     if (r->options.mode == MESO_REPLICATE_PLAY)
-        remember_near(r, detail);
+        remember_near(r, detail, heading);
     else
-        remember_next(r, detail);
+        remember_next(r, detail, heading);
     if (r->near_begin[detail + 1] > r->near_begin[detail])
         r->details[detail].radius = r->near[r->near_begin[detail]].distance;
     return MESO_OK;

@@ -38,10 +38,13 @@ static double crowd_of(const MesoReplication *r, uint32_t detail)
     uint32_t ring[RING], node = r->web.fixed_count + detail;
     double crowd = 0, rest = (double)r->exemplars.originals[r->details[detail].copied].near[0];
     uint32_t count = meso_web_ring(&r->web, node, ring, RING);
+    MesoVec3 heading = meso_heading(r, r->now.positions, detail);
     for (uint32_t k = 0; k < count && k < RING && rest < INFINITY; k++) {
         if (ring[k] < r->web.fixed_count)
             continue;
-        double d2 = fmax(meso_web_length2(&r->web, node, ring[k]), 1e-12 * rest * rest), near = rest * rest / d2;
+        double d = (double)meso_distance(r, r->web.positions + r->web.fixed_count, detail, heading,
+                                         ring[k] - r->web.fixed_count);
+        double near = rest * rest / fmax(d * d, 1e-12 * rest * rest);
         crowd += near * near * near;    /* one that is very near is more than some that are rather near */
     }
     return crowd * (detail < r->options.original_count ? 1 : COPY_FIRST);

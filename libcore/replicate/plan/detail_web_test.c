@@ -149,7 +149,28 @@ static void test_bent(void)
     end(&s);
 }
 
-/* Details on top of each other, on corners and on sides; none; a band with one side. */
+static MesoVec3 on_band(const MesoFixtureSquares *squares, uint32_t column, uint32_t row)
+{
+    float a = 6.2831853f * (float)column / (float)squares->columns;
+    float w = 0.6f * ((float)row / (float)squares->rows - 0.5f), r = 1 + w * cosf(a / 2);
+    return (MesoVec3){r * cosf(a), r * sinf(a), w * sinf(a / 2)};
+}
+
+/* A band with one side is cut open: then it is a strip. */
+static void test_moebius(void)
+{
+    MesoTriangulation mesh = meso_fixture_squares(&(MesoFixtureSquares){60, 8, MESO_SEAM_TWISTED, false, {0, 0},
+                                                                       on_band});
+    uint32_t count = 800;
+    MesoMeshPoint *points = meso_strew_discs(&mesh, &count, 0.7, 3);
+    Stage s = start(mesh, points, count);
+    check_web(&s, 1);
+    CHECK(s.web.fixed_count == 2 * 60 + 2 * 9 - 2);
+    free(points);
+    end(&s);
+}
+
+/* Details on top of each other, on corners and on sides; none. */
 static void test_odd(void)
 {
     MesoTriangulation mesh = meso_fixture_ball(4);
@@ -174,6 +195,7 @@ int main(void)
     test_surfaces();
     test_delaunay();
     test_bent();
+    test_moebius();
     test_odd();
     return 0;
 }

@@ -37,12 +37,16 @@ static void know_original(MesoOriginal *original, const MesoTriangulation *rest,
                           const MesoDetail *details, uint32_t i)
 {
     uint32_t ring[RING], count = meso_web_ring(web, web->fixed_count + i, ring, RING), nearest = MESO_NO_INDEX;
+    float aspect = original->aspect = meso_detail_aspect(&details[i]);
+    MesoVec3 heading = aspect == 1 ? (MesoVec3){0, 0, 0} : heading_at_rest(rest, &details[i]);
     for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
         original->near[k] = INFINITY;
     for (uint32_t r = 0; r < count && r < RING; r++) {
         if (ring[r] < web->fixed_count)
             continue;
-        float d = (float)sqrt(meso_web_length2(web, web->fixed_count + i, ring[r]));
+        MesoVec3 apart = meso_vec3_sub(web->positions[ring[r]], web->positions[web->fixed_count + i]);
+        double arc = meso_web_arc2(web->normals[web->fixed_count + i], web->normals[ring[r]]);
+        float d = (float)sqrt((double)meso_detail_norm2(apart, heading, aspect) * arc);
         if (d < original->near[0])
             nearest = ring[r] - web->fixed_count;
         for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)

@@ -30,6 +30,7 @@ typedef struct MesoOriginal {
     float area;                         /* of its cell: a third of the triangles around it */
     float log_area, log_size;
     float near[MESO_ORIGINAL_NEAR];     /* distances of the nearest others, ascending; INFINITY: no more */
+    float aspect;                       /* of its ellipse, in whose norm distances are */
     float turn;                         /* its heading from that of the nearest */
     uint32_t kind;
 } MesoOriginal;

@@ -271,7 +271,7 @@ static uint32_t copied_at(Bearing *b, const Vicinity *v)
     for (uint32_t n = 0; n < COPIES; n++) {
         uint32_t i = meso_random_below(&b->random, r->options.original_count);
         const MesoOriginal *as = &r->exemplars.originals[i];
-        double sum = 0;
+        double sum = MESO_COPY_COST * r->copies[i];
         for (uint32_t k = 0; k < NEAREST; k++) {
             if (!(as->near[k] > 0 && as->near[k] < INFINITY && v->near[k] < INFINITY))
                 continue;

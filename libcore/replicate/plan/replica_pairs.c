@@ -32,6 +32,7 @@ static MesoNeighbour find_above(const MesoReplication *r, uint32_t detail, uint3
     const MesoWeb *web = &r->web;
     MesoNeighbour above = {MESO_NO_INDEX, INFINITY};
     uint32_t begin = 0, end = 0, ring[RING], last = WIDEST;
+    MesoVec3 heading = meso_heading(r, r->rest->positions, detail);
     queue[end++] = detail;
     stamps[detail] = detail + 1;
     while (begin < end && begin < last) {
@@ -42,7 +43,7 @@ static MesoNeighbour find_above(const MesoReplication *r, uint32_t detail, uint3
                 continue;
             stamps[other] = detail + 1;
             queue[end++] = other;
-            float d = meso_chord(web->positions + web->fixed_count, detail, other);
+            float d = meso_distance(r, web->positions + web->fixed_count, detail, heading, other);
             if (r->details[other].rank < r->details[detail].rank && d < above.distance) {
                 above = (MesoNeighbour){other, d};
                 last = end < last ? end : last;     /* what is joined to those before may be nearer */
@@ -101,14 +102,14 @@ static uint32_t nearest_original(const Pairing *p, uint32_t detail)
  * The original whose distance has grown most by its birth tells how far the surface has come: in the middle of its ramp
  * it is as far as then. At rest none is there that was born.
  */
-static MesoStatus keep_away(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
+static MesoStatus keep_away(Pairing *p, uint32_t detail, MesoVec3 heading, uint32_t *count, MesoError *error)
 {
     const MesoReplication *r = p->r;
     uint32_t best = MESO_NO_INDEX;
     double most = 0, rest = 0;
     for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1]; i++) {
         uint32_t other = r->near[i].detail;
-        double d = meso_chord(p->places, detail, other), ratio = d > 0 ? (double)r->near[i].distance / d : 0;
+        double d = meso_distance(r, p->places, detail, heading, other), ratio = d > 0 ? (double)r->near[i].distance / d : 0;
         if (other < r->options.original_count && ratio > most) {
             most = ratio;
             best = other;
@@ -119,7 +120,7 @@ static MesoStatus keep_away(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
     if (!grows) {
         best = nearest_original(p, detail);
         best = best == MESO_NO_INDEX ? 0 : best;
-        rest = meso_chord(p->places, detail, best);
+        rest = meso_distance(r, p->places, detail, heading, best);
     }
     double from = BEYOND_REST * rest, to = INFINITY;
     if (grows) {
@@ -133,9 +134,10 @@ static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
 {
     const MesoReplication *r = p->r;
     double radius = (double)r->details[detail].radius;
+    MesoVec3 heading = meso_heading(r, r->rest->positions, detail);
     for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1]; i++) {
         uint32_t other = r->near[i].detail;
-        double rest = meso_chord(p->places, detail, other);
+        double rest = meso_distance(r, p->places, detail, heading, other);
         double from = (1 - r->options.ramp) * radius;
         if (!(BEYOND_REST * rest < from))
             continue;       /* it has hardly come nearer */
@@ -143,7 +145,7 @@ static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
         if (status != MESO_OK)
             return status;
     }
-    return keep_away(p, detail, count, error);
+    return keep_away(p, detail, heading, count, error);
 }
 
 static MesoStatus pair_all(Pairing *p, MesoError *error)

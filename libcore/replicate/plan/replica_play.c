@@ -14,6 +14,12 @@ typedef struct Hindrance {
     float from, to;
 } Hindrance;
 
+typedef struct Direction {
+    uint32_t triangle;
+    float angle, aspect;
+    MesoVec3 heading;       /* now */
+} Direction;
+
 struct MesoPlayer {
     uint32_t count, level_count;
     uint32_t *levels;       /* [level_count + 1] first slots: those of a level wait for lower levels alone */
@@ -23,6 +29,8 @@ struct MesoPlayer {
     uint32_t *begin;        /* [count + 1] */
     Hindrance *hindrances;
     MesoVec3 *places;       /* [count] now */
+    const MesoTriangulation *rest;
+    Direction *directions;  /* [count] of ellipses; NULL: none has one */
     float *shares;          /* [count] now */
 };
 
@@ -127,6 +135,22 @@ static void fill(MesoPlayer *p, const Slot *slots, const uint32_t *slot_of, cons
     p->levels[p->level_count] = p->count;
 }
 
+/* Where one is not alike in all directions. */
+static MesoStatus know_directions(MesoPlayer *p, MesoArena *arena, const MesoTriangulation *rest,
+                                  const MesoReplicaPlan *plan, MesoError *error)
+{
+    bool any = false;
+    p->rest = rest;
+    for (uint32_t k = 0; k < plan->detail_count && !any; k++)
+        any = meso_detail_aspect(&plan->details[k]) != 1;
+    p->directions = any ? MESO_NEW(arena, Direction, p->count, error) : NULL;
+    for (uint32_t s = 0; s < p->count && p->directions; s++) {
+        const MesoDetail *detail = &plan->details[p->details[s]];
+        p->directions[s] = (Direction){detail->point.triangle, detail->angle, meso_detail_aspect(detail), {0, 0, 0}};
+    }
+    return any && !p->directions ? MESO_ERR_MEMORY : MESO_OK;
+}
+
 MesoStatus meso_player_build(MesoPlayer **player, MesoArena *arena, const MesoTriangulation *rest,
                              const MesoReplicaPlan *plan, MesoError *error)
 {
@@ -146,7 +170,7 @@ MesoStatus meso_player_build(MesoPlayer **player, MesoArena *arena, const MesoTr
         fill(p, slots, slot_of, rest, plan);
     }
     meso_arena_rewind(arena, mark);
-    return status;
+    return status == MESO_OK ? know_directions(p, arena, rest, plan, error) : status;
 }
 
 /* ---- a shape ---- */
@@ -168,6 +192,10 @@ static void place_range(void *context, uint64_t begin, uint64_t end)
         MesoVec3 at = meso_vec3_scale(playing->positions[c[0]], w[0]);
         at = meso_vec3_mad(at, w[1], playing->positions[c[1]]);
         p->places[s] = meso_vec3_mad(at, w[2], playing->positions[c[2]]);
+        if (p->directions && p->directions[s].aspect != 1) {
+            MesoDetail detail = {.point = {.triangle = p->directions[s].triangle}, .angle = p->directions[s].angle};
+            p->directions[s].heading = meso_detail_heading(p->rest, playing->positions, &detail);
+        }
     }
 }
 
@@ -195,7 +223,8 @@ static void play_range(void *context, uint64_t begin, uint64_t end)
             const Hindrance *h = &p->hindrances[i];
             uint32_t other = h->slot & ~ALWAYS;
             MesoVec3 apart = meso_vec3_sub(p->places[other], at);
-            float d2 = meso_vec3_dot(apart, apart);
+            float d2 = p->directions ? meso_detail_norm2(apart, p->directions[s].heading, p->directions[s].aspect)
+                                     : meso_vec3_dot(apart, apart);
             if (d2 < h->to * h->to)
                 share = fminf(share, share_beside(h->slot & ALWAYS ? 1 : p->shares[other], d2, h));
         }

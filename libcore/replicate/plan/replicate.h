@@ -71,8 +71,8 @@ typedef struct MesoReplication MesoReplication;
 enum { MESO_REPLICA_MOST = 1 << 26 };   /* details */
 
 /*
- * Starts with the originals on the surface at rest. MESO_ERR_INPUT where a detail has no place on the surface, or the
- * surface has one side only; MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(n) of the surface and details.
+ * Starts with the originals on the surface at rest. MESO_ERR_INPUT where a detail has no place on the surface;
+ * MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(n) of the surface and details.
  */
 MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOptions *options, MesoError *error);
 

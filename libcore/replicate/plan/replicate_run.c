@@ -64,8 +64,10 @@ static MesoStatus take_originals(MesoReplication *r, MesoError *error)
     r->near_begin = MESO_NEW(&r->arena, uint32_t, (size_t)n + 1, error);
     r->grown = MESO_NEW(&r->arena, float, n, error);
     r->fates = MESO_NEW(&r->arena, MesoDetailFate, n, error);
+    r->copies = MESO_NEW(&r->arena, uint32_t, n, error);
     MesoMeshPoint *points = MESO_NEW(&r->arena, MesoMeshPoint, n, error);
-    if (!r->details || !r->blocks || !r->areas || !r->near_begin || !r->grown || !r->fates || !points)
+    if (!r->details || !r->blocks || !r->areas || !r->near_begin || !r->grown || !r->fates || !r->copies
+        || !points)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         r->details[i] = r->options.originals[i];

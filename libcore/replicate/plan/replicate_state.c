@@ -128,6 +128,8 @@ static MesoStatus take_details(MesoReplication *r, const MesoReplicaState *s, Me
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < n; i++)
         areas[i] = r->exemplars.originals[r->details[i].copied].area;
+    for (uint32_t i = r->options.original_count; i < n; i++)
+        r->copies[r->details[i].copied]++;
     r->areas = areas;
     r->detail_count = r->detail_room = (uint32_t)n;
     r->near_room = near_count;

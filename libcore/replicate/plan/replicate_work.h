@@ -44,6 +44,7 @@ struct MesoReplication {
     MesoDetail *details;
     float *grown;                   /* [detail_count] */
     MesoDetailFate *fates;          /* [detail_count] */
+    uint32_t *copies;               /* [original_count] births so far of which it is the original */
     float *areas;                   /* [detail_count] at rest, of the cell of what it is a copy of */
     uint32_t *blocks;               /* [detail_count] part of the surface in which births are counted */
     uint32_t *near_begin;           /* [detail_count + 1] */
@@ -63,6 +64,9 @@ struct MesoReplication {
     uint32_t block_count;
     double *due;                    /* [block_count] details due in a block, less those there */
 };
+
+/* What a copy that there is of an original counts, beside a misfit: all have about as many, so kinds keep their shares. */
+#define MESO_COPY_COST 0.2
 
 /* A detail that will be born. */
 typedef struct MesoBirth {
@@ -101,9 +105,20 @@ static inline bool meso_lives(const MesoReplication *r, uint32_t detail)
 /* Fills `above`. MESO_ERR_MEMORY alone. */
 MesoStatus meso_find_above(MesoReplication *r, MesoError *error);
 
-static inline float meso_chord(const MesoVec3 *positions, uint32_t a, uint32_t b)
+/* Of a detail that has no direction: none, and no time is lost on it. */
+static inline MesoVec3 meso_heading(const MesoReplication *r, const MesoVec3 *positions, uint32_t detail)
 {
-    return meso_vec3_length(meso_vec3_sub(positions[a], positions[b]));
+    const MesoVec3 none = {0, 0, 0};
+    return meso_detail_aspect(&r->details[detail]) == 1 ? none
+                                                        : meso_detail_heading(r->rest, positions, &r->details[detail]);
+}
+
+/* From a detail to another, in the norm of the first, whose heading is that. */
+static inline float meso_distance(const MesoReplication *r, const MesoVec3 *places, uint32_t detail, MesoVec3 heading,
+                                  uint32_t other)
+{
+    return sqrtf(meso_detail_norm2(meso_vec3_sub(places[other], places[detail]), heading,
+                                   meso_detail_aspect(&r->details[detail])));
 }
 
 #endif

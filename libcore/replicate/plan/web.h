@@ -22,7 +22,7 @@ typedef struct MesoWeb {
 /* Of an arc over its chord, squared: s / sin(s), s half the angle between the normals; so far and no further. */
 static inline double meso_web_arc2(MesoVec3 a, MesoVec3 b)
 {
-    double s2 = 0.5 * (1 - (double)meso_vec3_dot(a, b));
+    double s2 = 0.5 * (1 - fabs((double)meso_vec3_dot(a, b)));      /* which side is outside does not matter */
     s2 = s2 > 0 ? s2 < 0.5 ? s2 : 0.5 : 0;
     double arc = 1 + s2 * (1.0 / 6 + s2 * (3.0 / 40 + s2 * (15.0 / 336)));
     return arc * arc;

@@ -3,13 +3,15 @@
 #include <string.h>
 
 #include "libcore/replicate/plan/detail_web.h"
+#include "libcore/replicate/plan/oriented_surface.h"
 #include "libcore/replicate/plan/web_edit.h"
 
 enum { STACK = 256, RING = 256, ROUNDS = 50 };
 
-/* A web that is being built: nodes are the surface's vertices, and behind them the details. */
+/* A web that is being built: nodes are those of the surface, and behind them the details. */
 typedef struct Build {
     const MesoTriangulation *mesh;
+    MesoOrientedSurface surface;
     MesoWeb web;
     double *length2;        /* [3 * triangle_room] squared, of half-edges */
     uint32_t *hosts;        /* [triangle_room] the surface's triangle that it lies in, while details are put in */
@@ -85,68 +87,25 @@ static void settle_all(Build *b)
 
 /* ---- the surface ---- */
 
-/* The web's half-edge of a surface's, which runs the other way where its triangle is turned. */
-static uint32_t web_side(const uint8_t *turned, uint32_t h)
-{
-    return turned[h / 3] ? h / 3 * 3 + 2 - h % 3 : h;
-}
-
-/* Winds all triangles of a part as the first of it. */
-static MesoStatus wind(uint8_t *turned, const MesoTriangulation *mesh, MesoArena *arena, MesoError *error)
-{
-    uint32_t *queue = MESO_NEW(arena, uint32_t, mesh->triangle_count, error);
-    uint8_t *seen = MESO_NEW(arena, uint8_t, mesh->triangle_count, error);
-    if (!queue || !seen)
-        return MESO_ERR_MEMORY;
-    for (uint32_t root = 0; root < mesh->triangle_count; root++) {
-        uint32_t begin = 0, end = 0;
-        if (!seen[root])
-            queue[end++] = root;
-        seen[root] = 1;
-        while (begin < end) {
-            uint32_t t = queue[begin++];
-            for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
-                uint32_t across = mesh->twins[h];
-                if (across == MESO_NO_INDEX)
-                    continue;
-                uint8_t as = turned[t] ^ (mesh->corners[across] == mesh->corners[h]);
-                if (seen[across / 3] && turned[across / 3] != as)
-                    return meso_fail(error, MESO_ERR_INPUT, "the surface has one side only, as a Moebius band, at "
-                                     "triangle %u", t);
-                if (!seen[across / 3])
-                    queue[end++] = across / 3;
-                seen[across / 3] = 1;
-                turned[across / 3] = as;
-            }
-        }
-    }
-    return MESO_OK;
-}
-
 static double apart2(MesoVec3 a, MesoVec3 b)
 {
     double x = (double)b.x - a.x, y = (double)b.y - a.y, z = (double)b.z - a.z;
     return x * x + y * y + z * z;
 }
 
-static MesoStatus take_surface(Build *b, MesoArena *arena, MesoError *error)
+static void take_surface(Build *b)
 {
     const MesoTriangulation *mesh = b->mesh;
-    uint8_t *turned = MESO_NEW(arena, uint8_t, mesh->triangle_count, error);
-    MesoStatus status = turned ? wind(turned, mesh, arena, error) : MESO_ERR_MEMORY;
-    if (status != MESO_OK)
-        return status;
     b->web.triangle_count = mesh->triangle_count;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         b->hosts[t] = t;
     for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++) {
-        uint32_t side = web_side(turned, h), from = mesh->corners[h], to = mesh->corners[meso_next_corner(h)];
-        b->web.corners[side] = turned[h / 3] ? to : from;
-        b->web.node_corner[b->web.corners[side]] = side;
-        b->web.twins[side] = mesh->twins[h] == MESO_NO_INDEX ? MESO_NO_INDEX : web_side(turned, mesh->twins[h]);
-        b->length2[side] = apart2(mesh->positions[from], mesh->positions[to]);
+        uint32_t from = b->surface.corners[h], to = b->surface.corners[meso_next_corner(h)];
+        b->web.corners[h] = from;
+        b->web.node_corner[from] = h;
+        b->web.twins[h] = b->surface.twins[h];
+        b->length2[h] = apart2(mesh->positions[b->surface.vertices[from]], mesh->positions[b->surface.vertices[to]]);
     }
-    return MESO_OK;
 }
 
 /* ---- details ---- */
@@ -166,8 +125,8 @@ static Host host_of(const Build *b, uint32_t triangle)
 
 static const double *place_in(const Build *b, const Host *host, uint32_t node)
 {
-    if (node >= b->mesh->vertex_count)
-        return b->places[node - b->mesh->vertex_count];
+    if (node >= b->surface.node_count)
+        return b->places[node - b->surface.node_count];
     return host->places[node == host->nodes[0] ? 0 : node == host->nodes[1] ? 1 : 2];
 }
 
@@ -180,11 +139,12 @@ static double left_of(const double *p, const double *from, const double *to)
 static void place_detail(Build *b, const Host *host, const MesoMeshPoint *point, uint32_t detail)
 {
     const double least = 1e-5;
-    const uint32_t *corners = b->mesh->corners + 3 * (size_t)point->triangle;
+    const uint32_t *corners = b->mesh->corners + 3 * (size_t)point->triangle, *vertices = b->surface.vertices;
     double place[2] = {0, 0}, sum = 0;
     for (uint32_t k = 0; k < 3; k++) {
         double w = fmax(least, (double)point->weight[k]);
-        const double *corner = place_in(b, host, corners[k]);
+        uint32_t at = corners[k] == vertices[host->nodes[0]] ? 0 : corners[k] == vertices[host->nodes[1]] ? 1 : 2;
+        const double *corner = host->places[at];
         place[0] += w * corner[0];
         place[1] += w * corner[1];
         sum += w;
@@ -222,7 +182,7 @@ static uint32_t put_in(Build *b, const Host *host, uint32_t near, uint32_t detai
 {
     const double *place = b->places[detail];
     uint32_t t = locate(b, host, near, place), new = 3 * b->web.triangle_count;
-    uint32_t node = b->mesh->vertex_count + detail, h = 3 * t;
+    uint32_t node = b->surface.node_count + detail, h = 3 * t;
     double sides[3] = {b->length2[h], b->length2[h + 1], b->length2[h + 2]}, spokes[3];
     for (uint32_t k = 0; k < 3; k++)
         spokes[k] = from_place(b, host, b->web.corners[h + k], place);
@@ -405,11 +365,13 @@ static void take_out(Build *b, uint32_t vertex)
 static MesoStatus start(Build *b, MesoArena *arena, const MesoTriangulation *mesh, uint32_t count, MesoError *error)
 {
     *b = (Build){.mesh = mesh, .web = {.arena = arena}};
-    MesoStatus status = meso_web_reserve(&b->web, (uint64_t)mesh->vertex_count + count,
-                                         (uint64_t)mesh->triangle_count + 2 * (uint64_t)count, error);
+    MesoStatus status = meso_orient_surface(&b->surface, arena, mesh, error);
+    if (status == MESO_OK)
+        status = meso_web_reserve(&b->web, (uint64_t)b->surface.node_count + count,
+                                  (uint64_t)mesh->triangle_count + 2 * (uint64_t)count, error);
     if (status != MESO_OK)
         return status;
-    b->web.node_count = mesh->vertex_count + count;
+    b->web.node_count = b->surface.node_count + count;
     b->length2 = MESO_NEW(arena, double, 3 * (size_t)b->web.triangle_room, error);
     b->hosts = MESO_NEW(arena, uint32_t, b->web.triangle_room, error);
     b->dead = MESO_NEW(arena, bool, b->web.triangle_room, error);
@@ -445,10 +407,10 @@ static MesoStatus finish(MesoWeb *web, Build *b, MesoArena *scratch, const MesoM
     if (status != MESO_OK)
         return status;
     const MesoTriangulation *mesh = b->mesh;
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+    for (uint32_t v = 0; v < b->surface.node_count; v++) {
         if (b->web.node_corner[v] == MESO_NO_INDEX)
             continue;
-        uint32_t corner = mesh->vertex_corner[v];
+        uint32_t corner = mesh->vertex_corner[b->surface.vertices[v]];
         web->points[web->node_count] = (MesoMeshPoint){.triangle = corner / 3};
         web->points[web->node_count].weight[corner % 3] = 1;
         new_node[v] = web->node_count++;
@@ -456,7 +418,7 @@ static MesoStatus finish(MesoWeb *web, Build *b, MesoArena *scratch, const MesoM
     web->fixed_count = web->node_count;
     for (uint32_t i = 0; i < count; i++) {
         web->points[web->node_count] = points[i];
-        new_node[mesh->vertex_count + i] = web->node_count++;
+        new_node[b->surface.node_count + i] = web->node_count++;
     }
     copy_triangles(web, b, new_triangle, new_node);
     return MESO_OK;
@@ -471,12 +433,12 @@ MesoStatus meso_web_build(MesoWeb *web, MesoArena *arena, const MesoTriangulatio
     *web = (MesoWeb){.arena = arena};
     MesoStatus status = start(&build, &scratch, mesh, count, error);
     if (status == MESO_OK)
-        status = take_surface(&build, &scratch, error);
+        take_surface(&build);
     if (status == MESO_OK)
         status = put_all(&build, &scratch, points, count, error);
     if (status == MESO_OK) {
         settle_all(&build);
-        for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        for (uint32_t v = 0; v < build.surface.node_count; v++)
             take_out(&build, v);
         status = finish(web, &build, &scratch, points, count, error);
     }
