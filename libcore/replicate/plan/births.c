@@ -4,7 +4,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { CHOICES = 16, AROUND = 48, WALK_LIMIT = 10000 };
+enum { CHOICES = 16, CHOICES_OF_FEW = 32, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
 
 /* What corners that are not alike count, beside distances that are not. */
 static const double UNLIKE = 0.15;
@@ -65,7 +65,9 @@ static MesoVec3 heading_around(const MesoReplication *r, uint32_t triangle)
 /* How far the nearest distances at a place are from those that a detail has at rest. */
 static double misfit(const MesoOriginal *original, const Around *around, MesoVec3 place)
 {
-    float squares[AROUND + MESO_EXEMPLAR_INSIDE], near[MESO_ORIGINAL_NEAR] = {INFINITY, INFINITY, INFINITY};
+    float squares[AROUND + MESO_EXEMPLAR_INSIDE], near[MESO_ORIGINAL_NEAR];
+    for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
+        near[k] = INFINITY;
     float aspect = original->aspect, across = 1 / aspect - aspect;
     for (uint32_t i = 0; i < around->count; i++) {
         float x = around->x[i] - place.x, y = around->y[i] - place.y, z = around->z[i] - place.z;
@@ -193,12 +195,12 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
 {
     const MesoWeb *web = &r->web;
     const uint32_t *c = web->corners + 3 * (size_t)triangle;
-    const MesoExemplar *similar[CHOICES];
+    const MesoExemplar *similar[CHOICES_OF_FEW];
     const MesoOriginal *as[3];
     double angle = meso_smallest_angle(meso_web_length2(web, c[0], c[1]), meso_web_length2(web, c[1], c[2]),
                                        meso_web_length2(web, c[2], c[0]));
-    uint32_t count = meso_exemplars_near(&r->exemplars, meso_web_area(web, triangle), angle, limit, similar, CHOICES);
-    uint32_t made = 0;
+    uint32_t room = r->detail_count < FEW ? CHOICES_OF_FEW : CHOICES, made = 0;
+    uint32_t count = meso_exemplars_near(&r->exemplars, meso_web_area(web, triangle), angle, limit, similar, room);
     double least = INFINITY;
     Around around;
     look_around(&around, web, triangle);

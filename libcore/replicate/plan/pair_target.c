@@ -92,7 +92,9 @@ static void see(Vicinity *v, uint32_t detail, float d2, double radius)
 /* Not of the other side of a thin sheet, whose normals point the other way. */
 static void look_around(Vicinity *v, const Cells *cells, MesoVec3 place, MesoVec3 normal, uint32_t self, double radius)
 {
-    *v = (Vicinity){.near = {INFINITY, INFINITY, INFINITY}, .nearest = MESO_NO_INDEX};
+    *v = (Vicinity){.nearest = MESO_NO_INDEX};
+    for (uint32_t k = 0; k < NEAREST; k++)
+        v->near[k] = INFINITY;
     int32_t x = cell_at(place.x, cells->width), y = cell_at(place.y, cells->width), z = cell_at(place.z, cells->width);
     float most = (float)(radius * radius);
     for (int32_t k = 0; k < 27; k++) {

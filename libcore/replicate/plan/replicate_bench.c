@@ -168,7 +168,7 @@ typedef struct Case {
     Kind kind;
     double tightness;
     uint32_t count;
-    double mean_goal, deviation_goal, g_goal;   /* g 0: what another draw of the same kind differs by */
+    double mean_goal, deviation_goal, g_goal;   /* of few, g may be as far as another draw of the same kind */
 } Case;
 
 static const Case cases[] = {
@@ -395,7 +395,7 @@ static void print_play(Run *run, double g_goal)
         g = fmax(g, meso_pair_difference(&run->before, &now));
         marks = run->marked ? fmax(marks, mark_difference(&run->before, &now)) : 0;
     }
-    printf("  play  ");
+    printf("  play ");
     print_range("density", density, -2, 2);
     print_most("g", g, g_goal);
     if (run->marked)
@@ -415,13 +415,15 @@ static void measure(const Case *c, const char *where, Ground ground, Motion moti
     scene_init(&scene, ground, c->count, motion);
     MesoDetail *originals = strew(c, &scene.mesh, 7, &count);
     run_init(&run, &scene, originals, count, c->kind == GROUPS);
-    double g_goal = c->g_goal > 0 ? c->g_goal : noise_of(&run, c);
+    double g_goal = run.count > 2000 ? c->g_goal : fmax(c->g_goal, noise_of(&run, c));
     printf("%s, %u%s%s%s\n", c->name, run.count, where, *c->paper ? "; the paper: " : "", c->paper);
-    print_steps(&run, c, "plan  ", MESO_REPLICATE_PLAN, MESO_BIRTHS_EXEMPLARS, g_goal);
-    if (all_modes || c->kind == GROUPS)
-        print_steps(&run, c, "pairs ", MESO_REPLICATE_PLAN, MESO_BIRTHS_STATISTICS, g_goal);
+    print_steps(&run, c, "plan ", MESO_REPLICATE_PLAN, MESO_BIRTHS_USUAL, g_goal);
+    if (all_modes && c->kind == GROUPS)
+        print_steps(&run, c, "plan, by exemplars", MESO_REPLICATE_PLAN, MESO_BIRTHS_EXEMPLARS, g_goal);
+    if (all_modes && c->kind != GROUPS)
+        print_steps(&run, c, "plan, by statistics", MESO_REPLICATE_PLAN, MESO_BIRTHS_STATISTICS, g_goal);
     if (all_modes)
-        print_steps(&run, c, "paper ", MESO_REPLICATE_PAPER, MESO_BIRTHS_USUAL, g_goal);
+        print_steps(&run, c, "paper", MESO_REPLICATE_PAPER, MESO_BIRTHS_USUAL, g_goal);
     print_play(&run, g_goal);
     meso_arena_release(&run.arena);
     scene_release(&scene);

@@ -66,7 +66,7 @@ struct MesoReplication {
 };
 
 /* What a copy that there is of an original counts, beside a misfit: all have about as many, so kinds keep their shares. */
-#define MESO_COPY_COST 0.2
+#define MESO_COPY_COST 0.1
 
 /* A detail that will be born. */
 typedef struct MesoBirth {
