@@ -4,7 +4,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { CHOICES = 16, CHOICES_OF_FEW = 32, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
+enum { CHOICES = 10, CHOICES_OF_FEW = 32, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
 
 /* What corners that are not alike count, beside distances that are not. */
 static const double UNLIKE = 0.15;
@@ -71,8 +71,12 @@ static double misfit(const MesoOriginal *original, const Around *around, MesoVec
     float aspect = original->aspect, across = 1 / aspect - aspect;
     for (uint32_t i = 0; i < around->count; i++) {
         float x = around->x[i] - place.x, y = around->y[i] - place.y, z = around->z[i] - place.z;
-        float along = x * around->heading.x + y * around->heading.y + z * around->heading.z;
-        squares[i] = (x * x + y * y + z * z) * aspect + along * along * across;
+        squares[i] = x * x + y * y + z * z;
+    }
+    for (uint32_t i = 0; i < around->count && aspect != 1; i++) {
+        float along = (around->x[i] - place.x) * around->heading.x + (around->y[i] - place.y) * around->heading.y
+                      + (around->z[i] - place.z) * around->heading.z;
+        squares[i] = squares[i] * aspect + along * along * across;
     }
     for (uint32_t i = 0; i < around->count; i++) {
         float d2 = squares[i];
@@ -152,7 +156,7 @@ static double misfit_of_all(const MesoReplication *r, Around *around, const Meso
 static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births, uint32_t count)
 {
     static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f}, {-1, 0}, {-0.5f, -0.866f}, {0.5f, -0.866f}};
-    static const float reaches[2] = {0.2f, 0.1f};
+    static const float reaches[1] = {0.15f};
     const MesoVec3 *p = r->web.positions;
     MesoVec3 side = meso_vec3_sub(p[nodes[1]], p[nodes[0]]), other = meso_vec3_sub(p[nodes[2]], p[nodes[0]]);
     MesoVec3 x = meso_vec3_unit(side, (MesoVec3){1, 0, 0});
@@ -165,7 +169,7 @@ static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *aro
             if (k != i)
                 add_place(around, births[k].place);
         double least = misfit(as, around, births[i].place);
-        for (uint32_t n = 0; n < 2 && as->near[0] < INFINITY; n++) {
+        for (uint32_t n = 0; n < 1 && as->near[0] < INFINITY; n++) {
             MesoVec3 from = births[i].place;
             for (uint32_t w = 0; w < 6; w++) {
                 MesoVec3 place = meso_vec3_mad(from, reaches[n] * as->near[0] * ways[w][0], x);

@@ -72,13 +72,14 @@ static uint32_t settle_stack(MesoWeb *web, EdgeStack *stack, uint32_t limit)
     return flips;
 }
 
-uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride)
+uint32_t meso_web_settle(MesoWeb *web, uint32_t part, uint32_t parts)
 {
-    uint32_t flips = 0;
+    uint32_t flips = 0, begin = (uint32_t)((uint64_t)web->triangle_count * part / parts);
+    uint32_t end = (uint32_t)((uint64_t)web->triangle_count * (part + 1) / parts);
     bool left = true;
     for (uint32_t round = 0; round < ROUNDS && left; round++) {
         left = false;
-        for (uint32_t t = first; t < web->triangle_count; t += stride)
+        for (uint32_t t = begin; t < end; t++)
             for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
                 if (web->twins[h] == MESO_NO_INDEX || web->twins[h] < h || !is_bad(web, h))
                     continue;

@@ -28,10 +28,10 @@ void meso_web_place(MesoWeb *web, const MesoTriangulation *mesh, const MesoVec3 
                     uint32_t thread_count);
 
 /*
- * Flips edges until all are Delaunay, or could not be flipped without joining two nodes twice; of triangles
- * first, first + stride, ... and what flips there make worse. Returns the number of flips. O(triangles / stride).
+ * Flips edges until all are Delaunay, or could not be flipped without joining two nodes twice; of triangles of one part
+ * of so many, and what flips there make worse. Returns the number of flips. O(triangles / parts).
  */
-uint32_t meso_web_settle(MesoWeb *web, uint32_t first, uint32_t stride);
+uint32_t meso_web_settle(MesoWeb *web, uint32_t part, uint32_t parts);
 
 /*
  * Puts a node into a triangle, and settles around it. Its number is node_count before. MESO_ERR_MEMORY, MESO_ERR_LIMIT;

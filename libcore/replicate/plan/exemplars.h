@@ -9,7 +9,7 @@
 #include "libcore/replicate/detail/surface_detail.h"
 #include "libcore/replicate/plan/detail_web.h"
 
-enum { MESO_EXEMPLAR_INSIDE = 6, MESO_EXEMPLAR_BINS = 24, MESO_EXEMPLAR_BIN_ROOM = 96, MESO_ORIGINAL_NEAR = 3 };
+enum { MESO_EXEMPLAR_INSIDE = 6, MESO_EXEMPLAR_BINS = 24, MESO_EXEMPLAR_BIN_ROOM = 48, MESO_ORIGINAL_NEAR = 3 };
 
 typedef struct MesoExemplar {
     float area, angle;          /* the smallest */

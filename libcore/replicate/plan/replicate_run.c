@@ -10,7 +10,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/split_order.h"
 
-enum { BLOCK = 48, RING = 32, STRIDE = 8 };
+enum { BLOCK = 48, RING = 32, PARTS = 8 };
 
 /* ---- beginning ---- */
 
@@ -330,11 +330,11 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
 
 /* ---- a step ---- */
 
-/* Each step looks at some of the triangles; at all, where of those more than a few were no longer Delaunay. */
+/* Each step looks at a part of the triangles; at all, where of those more than a few were no longer Delaunay. */
 static void settle(MesoReplication *r)
 {
-    uint32_t flips = meso_web_settle(&r->web, r->step_count++ % STRIDE, STRIDE);
-    if (flips > r->web.triangle_count / STRIDE / 32)
+    uint32_t flips = meso_web_settle(&r->web, r->step_count++ % PARTS, PARTS);
+    if (flips > r->web.triangle_count / PARTS / 32)
         meso_web_settle(&r->web, 0, 1);
 }
 

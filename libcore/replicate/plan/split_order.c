@@ -2,7 +2,7 @@
 
 #include "libcore/base/parallel.h"
 
-enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 31, NEW_EACH = 32, WANTED_LEAST = 256, WANTED_EACH = 8 };
+enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 31, CHUNK = 16, NEW_EACH = 32, WANTED_LEAST = 256, WANTED_EACH = 6 };
 
 /* Of a count of excesses. */
 enum { STEPS = 1024, STEPS_A_UNIT = 128 };
@@ -15,25 +15,27 @@ static const double GAIN = 4, LEAST_POWER = 0.0, MOST_POWER = 1.6;
 
 /* ---- tolerance ---- */
 
+static float ratio_to(MesoVec3 a, MesoVec3 b, MesoVec3 c, float expected)
+{
+    float twice = meso_vec3_length(meso_vec3_cross(meso_vec3_sub(b, a), meso_vec3_sub(c, a)));
+    return expected > 0 ? twice / expected : 0;
+}
+
 /*
  * Area over what the corners' originals have. One corner may be no detail, at a border, so that details are born there,
  * too; and counts as if it had none: there is nothing beyond it. 0 where it is more.
  */
-static double ratio_of(const MesoReplication *r, uint32_t triangle)
+static float ratio_of(const MesoReplication *r, uint32_t triangle)
 {
-    const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
-    double expected = 0;
-    uint32_t fixed = 0;
-    for (uint32_t k = 0; k < 3; k++)
-        if (c[k] < r->web.fixed_count)
-            fixed++;
-        else
-            expected += (double)r->areas[c[k] - r->web.fixed_count] / 6;
-    if (fixed > 1)
-        return 0;
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle, first = r->web.fixed_count;
     const MesoVec3 *p = r->web.positions;
-    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(p[c[1]], p[c[0]]), meso_vec3_sub(p[c[2]], p[c[0]]));
-    return expected > 0 ? 0.5 * (double)meso_vec3_length(normal) / expected : 0;
+    float expected = 0;
+    uint32_t fixed = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        fixed += c[k] < first;
+        expected += c[k] < first ? 0 : r->areas[c[k] - first];
+    }
+    return fixed > 1 ? 0 : ratio_to(p[c[0]], p[c[1]], p[c[2]], expected / 3);
 }
 
 /* The same whichever corner is the first. */
@@ -46,18 +48,22 @@ static uint32_t draw_of(const MesoReplication *r, uint32_t triangle)
     return (uint32_t)((uint64_t)(uint32_t)(x ^ x >> 29) * r->tolerance.count >> 32);
 }
 
-static double excess_of(const MesoReplication *r, uint32_t triangle)
+static float excess_by(const MesoReplication *r, uint32_t triangle, float ratio)
 {
-    double ratio = ratio_of(r, triangle);
-    return ratio > 0 && r->tolerance.power != 0 ? ratio * (double)r->tolerance.weights[draw_of(r, triangle)] : ratio;
+    return ratio > 0 && r->tolerance.power != 0 ? ratio * r->tolerance.weights[draw_of(r, triangle)] : ratio;
 }
 
-/* Deviation over mean of the edges between details of every `stride`th triangle. */
+static float excess_of(const MesoReplication *r, uint32_t triangle)
+{
+    return excess_by(r, triangle, ratio_of(r, triangle));
+}
+
+/* Deviation over mean of the edges between details, of every `stride`th CHUNK of triangles. */
 static double spread_of(const MesoWeb *web, uint32_t stride)
 {
     double sum = 0, squares = 0;
     uint32_t count = 0;
-    for (uint32_t t = 0; t < web->triangle_count; t += stride)
+    for (uint32_t t = 0; t < web->triangle_count; t += t % CHUNK == CHUNK - 1 ? (stride - 1) * CHUNK + 1 : 1)
         for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
             uint32_t a = web->corners[h], b = web->corners[meso_next_corner(h)];
             if (a < web->fixed_count || b < web->fixed_count)
@@ -83,9 +89,9 @@ MesoStatus meso_tolerance_build(MesoTolerance *tolerance, MesoReplication *r, Me
         return MESO_ERR_MEMORY;
     uint32_t n = r->web.triangle_count;
     for (uint32_t i = 0; i < DRAWS && i < n; i++) {
-        double ratio = ratio_of(r, n > DRAWS ? (uint32_t)((uint64_t)i * n / DRAWS) : i);
+        float ratio = ratio_of(r, n > DRAWS ? (uint32_t)((uint64_t)i * n / DRAWS) : i);
         if (ratio > 0)
-            tolerance->rest[tolerance->count++] = (float)fmax(ratio, 0.05);
+            tolerance->rest[tolerance->count++] = fmaxf(ratio, 0.05f);
     }
     if (tolerance->count == 0)
         tolerance->rest[tolerance->count++] = 1;
@@ -117,9 +123,9 @@ static void exchange(MesoSplitOrder *order, uint32_t i, uint32_t k)
     order->heap[k] = kept;
 }
 
-static void push(MesoSplitOrder *order, uint32_t triangle, double excess)
+static void push(MesoSplitOrder *order, uint32_t triangle, float excess)
 {
-    if (order->count == order->room || !(excess > (double)LEAST_EXCESS))
+    if (order->count == order->room || !(excess > LEAST_EXCESS))
         return;
     uint32_t at = order->count++;
     order->heap[at] = (MesoSplitCandidate){excess, triangle};
@@ -151,7 +157,7 @@ bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle)
 {
     while (order->count > 0) {
         MesoSplitCandidate first = take_first(order);
-        double excess = excess_of(order->r, first.triangle);
+        float excess = excess_of(order->r, first.triangle);
         *triangle = first.triangle;
         if (excess == first.excess)
             return true;
@@ -161,24 +167,51 @@ bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle)
     return false;
 }
 
+/* What a triangle is told by, of one corner, in one place of memory. */
+typedef struct Corner {
+    MesoVec3 position;
+    float area;             /* 0: no detail */
+} Corner;
+
 typedef struct Excesses {
     const MesoReplication *r;
-    uint8_t *bearing;       /* [detail_count] whether details are due in its block */
+    uint8_t *bearing;       /* [node_count] whether details are due in its block */
+    Corner *corners;        /* [node_count] */
     float *excesses;        /* [triangle_count] 0 where none are */
 } Excesses;
 
-static bool is_bearing(const Excesses *e, uint32_t triangle)
+static void corner_range(void *context, uint64_t begin, uint64_t end)
 {
-    const uint32_t *c = e->r->web.corners + 3 * (size_t)triangle, fixed = e->r->web.fixed_count;
-    uint32_t node = c[0] >= fixed ? c[0] : c[1] >= fixed ? c[1] : c[2];
-    return node >= fixed && e->bearing[node - fixed];
+    const Excesses *e = context;
+    const MesoReplication *r = e->r;
+    for (uint64_t n = begin; n < end; n++) {
+        bool fixed = n < r->web.fixed_count;
+        e->corners[n] = (Corner){r->web.positions[n], fixed ? 0 : r->areas[n - r->web.fixed_count]};
+        e->bearing[n] = !fixed && r->due[r->blocks[n - r->web.fixed_count]] >= 0.5;
+    }
+}
+
+/* To the bit as excess_of. */
+static float excess_in_block(const Excesses *e, uint32_t triangle)
+{
+    const MesoReplication *r = e->r;
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle, fixed = r->web.fixed_count;
+    if (c[0] < fixed || c[1] < fixed || c[2] < fixed) {
+        uint32_t node = c[0] >= fixed ? c[0] : c[1] >= fixed ? c[1] : c[2];
+        return e->bearing[node] ? excess_of(r, triangle) : 0;
+    }
+    if (!e->bearing[c[0]])
+        return 0;
+    const Corner *p = &e->corners[c[0]], *q = &e->corners[c[1]], *s = &e->corners[c[2]];
+    float expected = 0 + p->area + q->area + s->area;
+    return excess_by(r, triangle, ratio_to(p->position, q->position, s->position, expected / 3));
 }
 
 static void excess_range(void *context, uint64_t begin, uint64_t end)
 {
     const Excesses *e = context;
     for (uint64_t t = begin; t < end; t++)
-        e->excesses[t] = is_bearing(e, (uint32_t)t) ? (float)excess_of(e->r, (uint32_t)t) : 0;
+        e->excesses[t] = excess_in_block(e, (uint32_t)t);
 }
 
 /* An excess above which there are so many as may be needed, of those that count: not all have to be put in order. */
@@ -200,11 +233,11 @@ MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplica
 {
     uint32_t n = r->web.triangle_count, wanted = WANTED_LEAST + WANTED_EACH * due, count = 0;
     *order = (MesoSplitOrder){.r = r};
-    Excesses all = {r, MESO_NEW(arena, uint8_t, r->detail_count, error), MESO_NEW(arena, float, n, error)};
-    if (!all.bearing || !all.excesses)
+    Excesses all = {r, MESO_NEW(arena, uint8_t, r->web.node_count, error),
+                    MESO_NEW(arena, Corner, r->web.node_count, error), MESO_NEW(arena, float, n, error)};
+    if (!all.bearing || !all.corners || !all.excesses)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < r->detail_count; i++)
-        all.bearing[i] = r->due[r->blocks[i]] >= 0.5;
+    meso_parallel_for(r->options.thread_count, r->web.node_count, GRAIN, corner_range, &all);
     meso_parallel_for(r->options.thread_count, n, GRAIN, excess_range, &all);
     float threshold = threshold_of(all.excesses, n, wanted);
     for (uint32_t t = 0; t < n; t++)
@@ -215,6 +248,6 @@ MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplica
         return MESO_ERR_MEMORY;
     for (uint32_t t = 0; t < n; t++)
         if (all.excesses[t] > threshold)
-            meso_split_push(order, t);
+            push(order, t, all.excesses[t]);
     return MESO_OK;
 }

@@ -9,7 +9,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 
 typedef struct MesoSplitCandidate {
-    double excess;
+    float excess;
     uint32_t triangle;
 } MesoSplitCandidate;
 
