@@ -155,7 +155,8 @@ static double misfit_of_all(const MesoReplication *r, Around *around, const Meso
 /* Each is moved a little, while it has no size yet, to where its distances fit better: by so much of the nearest. */
 static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births, uint32_t count)
 {
-    static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f}, {-1, 0}, {-0.5f, -0.866f}, {0.5f, -0.866f}};
+    static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f},
+                                     {-1, 0}, {-0.5f, -0.866f}, {0.5f, -0.866f}};
     static const float reaches[1] = {0.15f};
     const MesoVec3 *p = r->web.positions;
     MesoVec3 side = meso_vec3_sub(p[nodes[1]], p[nodes[0]]), other = meso_vec3_sub(p[nodes[2]], p[nodes[0]]);

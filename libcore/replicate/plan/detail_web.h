@@ -17,8 +17,8 @@
  *
  * normals  [mesh->vertex_count] unit length
  *
- * A surface that has one side only is cut open (oriented_surface.h). MESO_ERR_LIMIT, MESO_ERR_MEMORY. Arrays are in the arena, which
- * lives as long as the web. About O(n) of vertices and details.
+ * A surface that has one side only is cut open (oriented_surface.h). MESO_ERR_LIMIT, MESO_ERR_MEMORY. Arrays are in the
+ * arena, which lives as long as the web. About O(n) of vertices and details.
  */
 MesoStatus meso_web_build(MesoWeb *web, MesoArena *arena, const MesoTriangulation *mesh, const MesoVec3 *normals,
                           const MesoMeshPoint *points, uint32_t count, MesoError *error);

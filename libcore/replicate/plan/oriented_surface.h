@@ -1,6 +1,6 @@
 /*
- * A surface whose triangles are all wound alike, part by part. One that has one side only, as a Moebius band, is cut open
- * for that: along the sides where two ways around it meet, and vertices there are two nodes or more.
+ * A surface whose triangles are all wound alike, part by part. One that has one side only, as a Moebius band, is cut
+ * open for that: along the sides where two ways around it meet, and vertices there are two nodes or more.
  */
 #ifndef MESO_ORIENTED_SURFACE_H
 #define MESO_ORIENTED_SURFACE_H

@@ -309,7 +309,8 @@ static MesoStatus bear_one(Bearing *b, uint32_t block, int32_t frame, MesoError 
         chosen = v;
     }
     best.copied = copied_at(b, &chosen);
-    MesoStatus status = meso_give_birth(r, r->web.node_corner[r->web.fixed_count + best.beside] / 3, &best, frame, error);
+    uint32_t triangle = r->web.node_corner[r->web.fixed_count + best.beside] / 3;
+    MesoStatus status = meso_give_birth(r, triangle, &best, frame, error);
     if (status != MESO_OK)
         return status;
     uint32_t born = r->detail_count - 1;

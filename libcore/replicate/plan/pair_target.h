@@ -1,8 +1,9 @@
 /*
- * Births by statistics: how many others there are at which distance, of all details together ("Analysis and Synthesis of
- * Point Distributions based on Pair Correlation", Oeztireli and Gross 2012). Of some places that are tried the one is
- * taken whose distances bring the sum nearest to what it is at rest; what is left of the difference goes on to the next
- * birth. So groups stay groups, which triangles with details inside do not keep: those see no further than their sides.
+ * Births by statistics: how many others there are at which distance, of all details together ("Analysis and Synthesis
+ * of Point Distributions based on Pair Correlation", Oeztireli and Gross 2012). Of some places that are tried the one
+ * is taken whose distances bring the sum nearest to what it is at rest; what is left of the difference goes on to the
+ * next birth. So groups stay groups, which triangles with details inside do not keep: those see no further than their
+ * sides.
  */
 #ifndef MESO_PAIR_TARGET_H
 #define MESO_PAIR_TARGET_H

@@ -109,7 +109,8 @@ static MesoStatus keep_away(Pairing *p, uint32_t detail, MesoVec3 heading, uint3
     double most = 0, rest = 0;
     for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1]; i++) {
         uint32_t other = r->near[i].detail;
-        double d = meso_distance(r, p->places, detail, heading, other), ratio = d > 0 ? (double)r->near[i].distance / d : 0;
+        double d = meso_distance(r, p->places, detail, heading, other);
+        double ratio = d > 0 ? (double)r->near[i].distance / d : 0;
         if (other < r->options.original_count && ratio > most) {
             most = ratio;
             best = other;

@@ -1,4 +1,4 @@
-/* Patterns that keep: groups, large ones alone, details longer than wide; on a band with one side; and through folds. */
+/* Patterns that keep: groups, large ones alone, details longer than wide; on a band with one side; through folds. */
 #include "libcore/field/triangle_frames.h"
 #include "libcore/replicate/plan/clip_stage_fixture.h"
 

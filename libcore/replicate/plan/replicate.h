@@ -44,7 +44,7 @@ typedef struct MesoReplicateOptions {
     MesoReplicateBirths births;
     double alpha;               /* of the paper's rule: over the largest area at rest; 0: 1.1 */
     double beta;                /* and of the smallest; 0: 0.9 */
-    double gamma;               /* share of their distance by which merging details come nearer, each, a frame; 0: 0.1 */
+    double gamma;               /* share of their distance by which each of two that merge moves a frame; 0: 0.1 */
     double mu;                  /* share of its size by which a detail grows or shrinks a frame, at most; 0: 0.1 */
     uint32_t substeps;          /* a frame is gone through in so many steps, on straight lines; 0: 1 */
     double ramp;                /* of a distance over which a detail comes and goes; 0: 0.06 */
@@ -70,6 +70,8 @@ typedef struct MesoReplication MesoReplication;
 
 enum { MESO_REPLICA_MOST = 1 << 26 };   /* details */
 
+enum { MESO_REPLICA_DEBTS = 24 };       /* distances at which births by statistics are counted */
+
 /*
  * Starts with the originals on the surface at rest. MESO_ERR_INPUT where a detail has no place on the surface;
  * MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(n) of the surface and details.
@@ -77,9 +79,10 @@ enum { MESO_REPLICA_MOST = 1 << 26 };   /* details */
 MesoStatus meso_replicate_begin(MesoReplication **out, const MesoReplicateOptions *options, MesoError *error);
 
 /*
- * Goes through a frame: details are born that its stretch asks for, and die where it has shrunk. Frames come in an order
- * that is part of what the outcome is a function of; time passes by the difference of their numbers. MESO_ERR_INPUT by frame and vertex where a place is no number, MESO_ERR_LIMIT where more than
- * MESO_REPLICA_MOST details are due, MESO_ERR_MEMORY. O(surface + details).
+ * Goes through a frame: details are born that its stretch asks for, and die where it has shrunk. Frames come in an
+ * order that is part of what the outcome is a function of; time passes by the difference of their numbers.
+ * MESO_ERR_INPUT by frame and vertex where a place is no number, MESO_ERR_LIMIT where more than MESO_REPLICA_MOST
+ * details are due, MESO_ERR_MEMORY. O(surface + details).
  */
 MesoStatus meso_replicate_step(MesoReplication *replication, uint32_t frame, MesoError *error);
 

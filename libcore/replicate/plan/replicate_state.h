@@ -7,8 +7,6 @@
 
 #include "libcore/replicate/plan/replicate.h"
 
-enum { MESO_REPLICA_DEBTS = 24 };
-
 typedef struct MesoReplicaState {
     uint32_t step_count;
     double power;                   /* of the tolerance (split_order.h) */

@@ -3,7 +3,7 @@
 #define MESO_REPLICATE_WORK_H
 
 #include "libcore/replicate/plan/exemplars.h"
-#include "libcore/replicate/plan/replicate_state.h"
+#include "libcore/replicate/plan/replicate.h"
 
 enum { MESO_BIRTH_NEAR = 24 };
 
@@ -65,7 +65,7 @@ struct MesoReplication {
     double *due;                    /* [block_count] details due in a block, less those there */
 };
 
-/* What a copy that there is of an original counts, beside a misfit: all have about as many, so kinds keep their shares. */
+/* What a copy that there is of an original counts, beside a misfit: all have about as many, and kinds their shares. */
 #define MESO_COPY_COST 0.1
 
 /* A detail that will be born. */

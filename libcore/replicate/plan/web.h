@@ -57,7 +57,8 @@ uint32_t meso_web_ring(const MesoWeb *web, uint32_t node, uint32_t *ring, uint32
 
 /*
  * Checks that twins are mutual, each node that has not been taken out has one fan, no two nodes are joined twice, and
- * vertices - edges + triangles is `euler`. MESO_ERR_INTERNAL with the first place that fails. For tests. O(triangles * degree).
+ * vertices - edges + triangles is `euler`. MESO_ERR_INTERNAL with the first place that fails. For tests.
+ * O(triangles * degree).
  */
 MesoStatus meso_web_check(const MesoWeb *web, int64_t euler, MesoError *error);
 

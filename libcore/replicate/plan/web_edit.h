@@ -42,8 +42,8 @@ void meso_web_split(MesoWeb *web, uint32_t triangle, uint32_t node);
 
 /*
  * Takes a node out that no border goes through: what is joined to it is joined to `into`, beside it, instead. Two
- * triangles go; the last ones get their numbers. False, and nothing is done, where two nodes would be joined twice, or a
- * triangle would turn over. O(degree^2).
+ * triangles go; the last ones get their numbers. False, and nothing is done, where two nodes would be joined twice, or
+ * a triangle would turn over. O(degree^2).
  */
 bool meso_web_merge(MesoWeb *web, uint32_t node, uint32_t into);
 
