@@ -4,7 +4,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { CHOICES = 10, CHOICES_OF_FEW = 32, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
+enum { CHOICES = 10, CHOICES_OF_FEW = 64, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
 
 /* What corners that are not alike count, beside distances that are not. */
 static const double UNLIKE = 0.15;
@@ -157,12 +157,12 @@ static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *aro
 {
     static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f},
                                      {-1, 0}, {-0.5f, -0.866f}, {0.5f, -0.866f}};
-    static const float reaches[1] = {0.15f};
+    static const float reaches[3] = {0.15f, 0.08f, 0.04f};
     const MesoVec3 *p = r->web.positions;
     MesoVec3 side = meso_vec3_sub(p[nodes[1]], p[nodes[0]]), other = meso_vec3_sub(p[nodes[2]], p[nodes[0]]);
     MesoVec3 x = meso_vec3_unit(side, (MesoVec3){1, 0, 0});
     MesoVec3 y = meso_vec3_cross(meso_vec3_unit(meso_vec3_cross(side, other), (MesoVec3){0, 0, 1}), x);
-    uint32_t before = around->count;
+    uint32_t before = around->count, rounds = r->detail_count < FEW ? 3 : 1;
     for (uint32_t i = 0; i < count; i++) {
         const MesoOriginal *as = &r->exemplars.originals[births[i].copied];
         around->count = before;
@@ -170,7 +170,7 @@ static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *aro
             if (k != i)
                 add_place(around, births[k].place);
         double least = misfit(as, around, births[i].place);
-        for (uint32_t n = 0; n < 1 && as->near[0] < INFINITY; n++) {
+        for (uint32_t n = 0; n < rounds && as->near[0] < INFINITY; n++) {
             MesoVec3 from = births[i].place;
             for (uint32_t w = 0; w < 6; w++) {
                 MesoVec3 place = meso_vec3_mad(from, reaches[n] * as->near[0] * ways[w][0], x);

@@ -301,7 +301,8 @@ static void run_init(Run *run, Scene *scene, MesoDetail *originals, uint32_t cou
 static MesoReplication *begin(Run *run, MesoReplicateMode mode, MesoReplicateBirths births, double *seconds)
 {
     MesoReplicateOptions options = {.clip = &run->scene->clip, .originals = run->originals,
-                                    .original_count = run->count, .thread_count = 1, .mode = mode, .births = births};
+                                    .original_count = run->count, .thread_count = 1, .mode = mode, .births = births,
+                                    .substeps = mode == MESO_REPLICATE_PLAY ? 3 : 1};
     MesoReplication *r;
     double start = cpu_seconds();
     MesoStatus status = meso_replicate_begin(&r, &options, NULL);

@@ -48,6 +48,8 @@ static bool is_life(const MesoReplicaState *s, uint32_t i, uint32_t node)
 
 static MesoStatus check_lives(const MesoReplication *r, const MesoReplicaState *s, MesoError *error)
 {
+    if (!s->grown || !s->fates || !s->debts || (s->merging_count > 0 && !s->mergings))
+        return no_state(error, "shares");
     for (uint32_t i = 0; i < s->detail_count; i++)
         if (!is_life(s, i, r->web.fixed_count + i))
             return no_state(error, "shares");
