@@ -426,7 +426,7 @@ MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirt
     r->due[r->blocks[detail]]--;
     r->copies[birth->copied]++;
     MesoVec3 heading = meso_heading(r, positions, detail);
-    if (r->options.mode == MESO_REPLICATE_PLAY)
+    if (r->options.mode == MESO_REPLICATE_PLAN)
         remember_near(r, detail, heading);
     else
         remember_next(r, detail, heading);

@@ -43,7 +43,7 @@ static inline void set_stage(Stage *s, MesoTriangulation mesh, uint32_t count, M
         s->originals[i] = (MesoDetail){.point = s->points[i], .size = 1 + (float)(i % 3), .width = 1, .kind = i % 3};
     s->clip = (MesoClip){&s->mesh, FRAMES + 1, move, s};
     s->options = (MesoReplicateOptions){.clip = &s->clip, .originals = s->originals, .original_count = s->count,
-                                        .thread_count = 1};
+                                        .mode = MESO_REPLICATE_LIVE, .thread_count = 1};
 }
 
 static inline void start_in(Stage *s, MesoReplicateMode mode, MesoTriangulation mesh, uint32_t count, Motion motion)

@@ -343,6 +343,7 @@ static MesoStatus bear_all(Bearing *b, int32_t frame, MesoError *error)
 static MesoStatus prepare(Bearing *b, MesoReplication *r, double births, uint64_t stream, MesoError *error)
 {
     *b = (Bearing){.r = r};
+    r->pairs.debt = (MesoPairCounts){{0}};      /* what is left over is seen in the next step */
     meso_random_init(&b->random, r->options.seed, 16 + 2 * (uint64_t)r->step_count + stream);
     MesoStatus status = make_cells(&b->cells, r, r->pairs.radius, births > 0 ? (uint32_t)births : 0, error);
     if (status == MESO_OK)

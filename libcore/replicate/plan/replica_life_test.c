@@ -106,7 +106,7 @@ static Change change_at(MesoReplicateMode mode, Motion motion, uint32_t frames)
 static void test_no_pop(void)
 {
     for (uint32_t times = 1; times <= 4; times *= 2) {
-        Change plan = change_at(MESO_REPLICATE_PLAN, breathe, FRAMES * times);
+        Change plan = change_at(MESO_REPLICATE_LIVE, breathe, FRAMES * times);
         Change paper = change_at(MESO_REPLICATE_PAPER, press, FRAMES * times);
         CHECK(plan.size > 0 && plan.size <= RATE / times + 1e-6 && plan.place == 0);
         CHECK(paper.size > 0 && paper.size <= RATE / times + 1e-6);
@@ -253,8 +253,8 @@ int main(void)
     test_density();
     test_paper_merges();
     test_substeps();
-    resume_everywhere(MESO_REPLICATE_PLAN, breathe, 1);
-    resume_everywhere(MESO_REPLICATE_PLAN, breathe, 3);
+    resume_everywhere(MESO_REPLICATE_LIVE, breathe, 1);
+    resume_everywhere(MESO_REPLICATE_LIVE, breathe, 3);
     resume_everywhere(MESO_REPLICATE_PAPER, press, 1);
     return 0;
 }

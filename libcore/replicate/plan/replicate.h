@@ -23,9 +23,9 @@ typedef struct MesoClip {
 } MesoClip;
 
 typedef enum MesoReplicateMode {
-    MESO_REPLICATE_PLAN,    /* born and dying by density, as the surface is from frame to frame */
+    MESO_REPLICATE_PLAN,    /* born by density, and none dies: what a plan that is played has to have */
     MESO_REPLICATE_PAPER,   /* the paper's rule (paper_rule.h), of 500 originals at most, for comparison */
-    MESO_REPLICATE_PLAY     /* born by density, and none dies: what a plan that is played has to have */
+    MESO_REPLICATE_LIVE     /* born and dying by density, as the surface is from frame to frame */
 } MesoReplicateMode;
 
 /* What says where details are born, but for the paper's rule. */
@@ -70,8 +70,6 @@ typedef struct MesoReplication MesoReplication;
 
 enum { MESO_REPLICA_MOST = 1 << 26 };   /* details */
 
-enum { MESO_REPLICA_DEBTS = 24 };       /* distances at which births by statistics are counted */
-
 /*
  * Starts with the originals on the surface at rest. MESO_ERR_INPUT where a detail has no place on the surface;
  * MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(n) of the surface and details.
@@ -91,7 +89,7 @@ const MesoDetail *meso_replicate_details(const MesoReplication *replication, uin
 const MesoWeb *meso_replicate_web(const MesoReplication *replication);
 
 /*
- * [count] shares of their sizes, in [0,1]: those born begin at 0 and grow, those dead shrink. Not of mode PLAY: there
+ * [count] shares of their sizes, in [0,1]: those born begin at 0 and grow, those dead shrink. Not of mode PLAN: there
  * play says it.
  */
 const float *meso_replicate_grown(const MesoReplication *replication);

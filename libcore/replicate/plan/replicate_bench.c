@@ -302,7 +302,7 @@ static MesoReplication *begin(Run *run, MesoReplicateMode mode, MesoReplicateBir
 {
     MesoReplicateOptions options = {.clip = &run->scene->clip, .originals = run->originals,
                                     .original_count = run->count, .thread_count = 1, .mode = mode, .births = births,
-                                    .substeps = mode == MESO_REPLICATE_PLAY ? 3 : 1};
+                                    .substeps = mode == MESO_REPLICATE_PLAN ? 3 : 1};
     MesoReplication *r;
     double start = cpu_seconds();
     MesoStatus status = meso_replicate_begin(&r, &options, NULL);
@@ -364,7 +364,7 @@ static void print_play(Run *run, double g_goal)
     MesoReplicaPlan plan;
     MesoPlayer *player;
     double build, seconds = 0, change = 0, g = 0, marks = 0;
-    MesoReplication *r = begin(run, MESO_REPLICATE_PLAY, MESO_BIRTHS_USUAL, &build);
+    MesoReplication *r = begin(run, MESO_REPLICATE_PLAN, MESO_BIRTHS_USUAL, &build);
     CHECK(r);
     for (uint32_t f = 0; f <= FRAMES; f++)
         CHECK(meso_replicate_step(r, f, NULL) == MESO_OK);
@@ -418,11 +418,11 @@ static void measure(const Case *c, const char *where, Ground ground, Motion moti
     run_init(&run, &scene, originals, count, c->kind == GROUPS);
     double g_goal = run.count > 2000 ? c->g_goal : fmax(c->g_goal, noise_of(&run, c));
     printf("%s, %u%s%s%s\n", c->name, run.count, where, *c->paper ? "; the paper: " : "", c->paper);
-    print_steps(&run, c, "plan ", MESO_REPLICATE_PLAN, MESO_BIRTHS_USUAL, g_goal);
+    print_steps(&run, c, "plan ", MESO_REPLICATE_LIVE, MESO_BIRTHS_USUAL, g_goal);
     if (all_modes && c->kind == GROUPS)
-        print_steps(&run, c, "plan, by exemplars", MESO_REPLICATE_PLAN, MESO_BIRTHS_EXEMPLARS, g_goal);
+        print_steps(&run, c, "plan, by exemplars", MESO_REPLICATE_LIVE, MESO_BIRTHS_EXEMPLARS, g_goal);
     if (all_modes && c->kind != GROUPS)
-        print_steps(&run, c, "plan, by statistics", MESO_REPLICATE_PLAN, MESO_BIRTHS_STATISTICS, g_goal);
+        print_steps(&run, c, "plan, by statistics", MESO_REPLICATE_LIVE, MESO_BIRTHS_STATISTICS, g_goal);
     if (all_modes)
         print_steps(&run, c, "paper", MESO_REPLICATE_PAPER, MESO_BIRTHS_USUAL, g_goal);
     print_play(&run, g_goal);
@@ -450,7 +450,7 @@ static void print_step_time(uint32_t count, double begin_goal, double step_goal)
     scene.frames = 100;
     MesoDetail *originals = strew(&c, &scene.mesh, 7, &count);
     run_init(&run, &scene, originals, count, false);
-    MesoReplication *r = begin(&run, MESO_REPLICATE_PLAN, MESO_BIRTHS_USUAL, &build);
+    MesoReplication *r = begin(&run, MESO_REPLICATE_LIVE, MESO_BIRTHS_USUAL, &build);
     size_t before = meso_replicate_bytes(r);
     for (uint32_t f = 0; f < TALLEST; f++) {
         double start = cpu_seconds();

@@ -310,7 +310,7 @@ static MesoStatus bear(MesoSplitOrder *order, int32_t frame, MesoError *error)
 static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
 {
     double due = count_due(r);
-    MesoStatus status = r->options.mode == MESO_REPLICATE_PLAN ? meso_thin_out(r, frame, error) : MESO_OK;
+    MesoStatus status = r->options.mode == MESO_REPLICATE_LIVE ? meso_thin_out(r, frame, error) : MESO_OK;
     if (due < 0.5 || status != MESO_OK)
         return status;
     if (!(r->detail_count + due < MESO_REPLICA_MOST))

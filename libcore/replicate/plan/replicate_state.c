@@ -11,7 +11,7 @@ MesoReplicaState meso_replicate_state(const MesoReplication *r)
         .step_count = r->step_count, .power = r->tolerance.power, .detail_count = r->detail_count,
         .details = r->details, .blocks = r->blocks, .near_begin = r->near_begin, .near = r->near,
         .last_frame = r->last_frame, .grown = r->grown, .fates = r->fates, .merging_count = r->merging_count,
-        .mergings = (const uint32_t (*)[2])r->mergings, .debts = r->pairs.debt.of, .node_count = r->web.node_count,
+        .mergings = (const uint32_t (*)[2])r->mergings, .node_count = r->web.node_count,
         .triangle_count = r->web.triangle_count, .node_corner = r->web.node_corner, .corners = r->web.corners,
         .twins = r->web.twins,
     };
@@ -37,30 +37,33 @@ static bool is_detail(const MesoReplication *r, const MesoReplicaState *s, uint3
            && (i < r->options.original_count ? memcmp(d, &original, sizeof *d) == 0 : born);
 }
 
-/* Shares, and ends: those alone are out of the web that have died. */
-static bool is_life(const MesoReplicaState *s, uint32_t i, uint32_t node)
+/* Those alone are out of the web that have died. */
+static bool has_died(const MesoReplicaState *s, uint32_t detail)
 {
-    const MesoDetailFate *fate = &s->fates[i];
-    bool died = s->node_corner[node] == MESO_NO_INDEX;
-    return s->grown[i] >= 0 && s->grown[i] <= 1 && (fate->died != MESO_DETAIL_LIVES) == died
-           && (fate->into == MESO_NO_INDEX || (died && fate->into < s->detail_count));
+    return s->node_corner[s->node_count - s->detail_count + detail] == MESO_NO_INDEX;
 }
 
-static MesoStatus check_lives(const MesoReplication *r, const MesoReplicaState *s, MesoError *error)
+static bool is_life(const MesoReplicaState *s, uint32_t i)
 {
-    if (!s->grown || !s->fates || !s->debts || (s->merging_count > 0 && !s->mergings))
-        return no_state(error, "shares");
+    bool died = has_died(s, i);
+    if (s->grown && !(s->grown[i] >= 0 && s->grown[i] <= 1))
+        return false;
+    return !s->fates || ((s->fates[i].died != MESO_DETAIL_LIVES) == died
+                         && (s->fates[i].into == MESO_NO_INDEX || (died && s->fates[i].into < s->detail_count)));
+}
+
+static MesoStatus check_lives(const MesoReplicaState *s, MesoError *error)
+{
+    if (s->merging_count > 0 && !s->mergings)
+        return no_state(error, "mergings");
     for (uint32_t i = 0; i < s->detail_count; i++)
-        if (!is_life(s, i, r->web.fixed_count + i))
+        if (!is_life(s, i))
             return no_state(error, "shares");
     for (uint32_t m = 0; m < s->merging_count; m++)
         for (uint32_t k = 0; k < 2; k++)
             if (s->mergings[m][k] >= s->detail_count || s->mergings[m][0] == s->mergings[m][1]
-                || s->fates[s->mergings[m][k]].died != MESO_DETAIL_LIVES)
+                || has_died(s, s->mergings[m][k]))
                 return no_state(error, "mergings");
-    for (uint32_t i = 0; i < MESO_REPLICA_DEBTS; i++)
-        if (!isfinite(s->debts[i]))
-            return no_state(error, "debts");
     return s->last_frame >= -1 && s->last_frame <= UINT32_MAX ? MESO_OK : no_state(error, "frames");
 }
 
@@ -122,12 +125,17 @@ static MesoStatus take_details(MesoReplication *r, const MesoReplicaState *s, Me
     r->blocks = copy(&r->arena, s->blocks, n, sizeof *r->blocks, error);
     r->near_begin = copy(&r->arena, s->near_begin, n + 1, sizeof *r->near_begin, error);
     r->near = copy(&r->arena, s->near, near_count, sizeof *r->near, error);
-    r->grown = copy(&r->arena, s->grown, n, sizeof *r->grown, error);
-    r->fates = copy(&r->arena, s->fates, n, sizeof *r->fates, error);
+    r->grown = MESO_NEW(&r->arena, float, n, error);
+    r->fates = MESO_NEW(&r->arena, MesoDetailFate, n, error);
     r->mergings = copy(&r->arena, s->mergings, s->merging_count, sizeof *r->mergings, error);
     float *areas = MESO_NEW(&r->arena, float, n, error);
     if (!r->details || !r->blocks || !r->near_begin || !r->near || !r->grown || !r->fates || !r->mergings || !areas)
         return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < n; i++) {
+        bool died = has_died(s, i);
+        r->grown[i] = s->grown ? s->grown[i] : died ? 0 : 1;
+        r->fates[i] = s->fates ? s->fates[i] : (MesoDetailFate){died ? 0 : MESO_DETAIL_LIVES, MESO_NO_INDEX};
+    }
     for (uint32_t i = 0; i < n; i++)
         areas[i] = r->exemplars.originals[r->details[i].copied].area;
     for (uint32_t i = r->options.original_count; i < n; i++)
@@ -162,7 +170,7 @@ MesoStatus meso_replicate_resume(MesoReplication *r, const MesoReplicaState *sta
     if (status == MESO_OK)
         status = check_indices(state, error);
     if (status == MESO_OK)
-        status = check_lives(r, state, error);
+        status = check_lives(state, error);
     if (status == MESO_OK)
         status = take_web(r, state, error);
     if (status == MESO_OK)
@@ -170,6 +178,5 @@ MesoStatus meso_replicate_resume(MesoReplication *r, const MesoReplicaState *sta
     r->step_count = state->step_count;
     r->tolerance.power = state->power;
     r->last_frame = state->last_frame;
-    memcpy(r->pairs.debt.of, state->debts, sizeof r->pairs.debt.of);
     return status;
 }

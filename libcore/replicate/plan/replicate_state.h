@@ -16,11 +16,10 @@ typedef struct MesoReplicaState {
     const uint32_t *near_begin;     /* [detail_count + 1] */
     const MesoNeighbour *near;      /* [near_begin[detail_count]] those that were there before */
     int64_t last_frame;             /* that has been gone through; -1: none */
-    const float *grown;             /* [detail_count] */
-    const MesoDetailFate *fates;    /* [detail_count] */
+    const float *grown;             /* [detail_count]; NULL: all of those that live, none of the others */
+    const MesoDetailFate *fates;    /* [detail_count]; NULL: when and into what they died is not known */
     uint32_t merging_count;         /* of the paper's rule */
     const uint32_t (*mergings)[2];  /* [merging_count] details: which is kept, and which goes into it */
-    const double *debts;            /* [MESO_REPLICA_DEBTS] of births by statistics */
     uint32_t node_count, triangle_count;    /* of the web */
     const uint32_t *node_corner;    /* [node_count] */
     const uint32_t *corners;        /* [3 * triangle_count] */

@@ -16,7 +16,7 @@ typedef struct MesoTolerance {
     double spread;          /* deviation over mean of edges at rest */
 } MesoTolerance;
 
-enum { MESO_TARGET_BINS = MESO_REPLICA_DEBTS };
+enum { MESO_TARGET_BINS = 24 };
 
 /* Others by distance. */
 typedef struct MesoPairCounts {
@@ -27,7 +27,7 @@ typedef struct MesoPairTarget {
     double radius;              /* of the largest distance */
     MesoPairCounts rest;        /* a detail's, in the mean */
     MesoPairCounts weights;     /* of a difference, squared */
-    MesoPairCounts debt;        /* of births so far; part of the state */
+    MesoPairCounts debt;        /* of births and deaths of a step so far */
     bool grouped;               /* there are far more pairs at small distances than of details strewn freely */
 } MesoPairTarget;
 
