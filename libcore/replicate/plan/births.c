@@ -4,7 +4,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { CHOICES = 10, CHOICES_OF_FEW = 64, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
+enum { CHOICES = 12, CHOICES_OF_FEW = 64, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
 
 /* What corners that are not alike count, beside distances that are not. */
 static const double UNLIKE = 0.15;

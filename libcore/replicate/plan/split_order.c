@@ -11,7 +11,7 @@ enum { STEPS = 1024, STEPS_A_UNIT = 128 };
 static const float LEAST_EXCESS = 1.2f;
 
 /* How fast the power follows, and from where to where it goes. */
-static const double GAIN = 4, LEAST_POWER = 0.0, MOST_POWER = 1.6;
+static const double GAIN = 6, LEAST_POWER = 0.0, MOST_POWER = 1.6;
 
 /* ---- tolerance ---- */
 
