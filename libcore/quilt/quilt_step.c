@@ -101,7 +101,7 @@ static MesoStatus meet(Candidate *c, const MesoQuiltWork *work, MesoArena *arena
 {
     MesoQuiltStep *step = &c->step;
     step->warp = (MesoThinPlate){0};
-    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
+    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, MESO_CUT_ENDS, &c->shares, step, work, arena, error);
     if (!status)
         status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, &c->shares, step, work,
                                    arena, error);
@@ -198,11 +198,14 @@ static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, MesoQ
     return MESO_OK;
 }
 
-/* Both sides are cut again where placement or warp have moved it. */
-static MesoStatus cut_again(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, float reach,
-                            MesoArena *arena, MesoError *error)
+/* Both sides as they are to be joined: cut anew where the warp has moved them. */
+static MesoStatus cut_all(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
+                          MesoError *error)
 {
-    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, &c->shares, step, work, arena, error);
+    float reach = step->warp.count ? MESO_REACH_LAST : REACH_BEFORE_WARP;
+    MesoStatus status = step->warp.count ? meso_strands_share(&c->shares, step, work, arena, error) : MESO_OK;
+    if (!status)
+        status = meso_strands_cut_shared(&c->old_side, &c->new_side, MESO_CUT_ALL, &c->shares, step, work, arena, error);
     return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, &c->shares, step,
                                                work, arena, error);
 }
@@ -221,11 +224,12 @@ static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *wo
     *step = c->step;
     if (!status)
         status = collect_pulls(&pulls, &count, step, &c->new_side, &c->shares, &c->wholes, work, arena, error);
-    if (status || !count)
+    if (status)
         return status;
     step->tally->report.correspondence_count += count;
-    status = fit_warp(step, pulls, count, work, arena, error);
-    return status || !step->warp.count ? status : cut_again(c, step, work, MESO_REACH_LAST, arena, error);
+    if (count)
+        status = fit_warp(step, pulls, count, work, arena, error);
+    return status ? status : cut_all(c, step, work, arena, error);
 }
 
 /* The angle by which the swatch's x axis is turned in the chart: that of the guide, on the mean over the chart. */

@@ -241,12 +241,19 @@ typedef struct MesoStrandSide {
     uint32_t section_count;
 } MesoStrandSide;
 
-MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
-                            const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error);
+/* What a side is to have: its sections are the same, but most of what asks for them needs nothing else. */
+typedef enum MesoCutExtent {
+    MESO_CUT_ALL,       /* all that is kept, and what is deformed with it */
+    MESO_CUT_ENDS       /* only triangles at the cut */
+} MesoCutExtent;
+
+MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoCutExtent extent,
+                            MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                            MesoArena *arena, MesoError *error);
 /* The same, as `shares` says already. */
-MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, const MesoRingShares *shares,
-                                   const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
-                                   MesoError *error);
+MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoCutExtent extent,
+                                   const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                                   MesoArena *arena, MesoError *error);
 /*
  * Pairs sections that lie across the seam from each other, up to `reach` times a strand's own reach beside its way: as
  * many as can be, those nearest to each other on the whole; and says what they are to move by. `flaws`: strands that

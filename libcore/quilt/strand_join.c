@@ -283,7 +283,8 @@ MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_s
     MesoStatus status = MESO_OK;
     if (meso_strands_draw_back(shares, old_side, new_side, step, work)) {
         float flaws;
-        status = meso_strands_cut_shared(&joint->old_side, &joint->new_side, shares, step, work, arena, error);
+        status = meso_strands_cut_shared(&joint->old_side, &joint->new_side, MESO_CUT_ALL, shares, step, work, arena,
+                                         error);
         if (!status)
             status = meso_strands_pair(&joint->old_side, &joint->new_side, &flaws, MESO_REACH_LAST, shares, step, work,
                                        arena, error);

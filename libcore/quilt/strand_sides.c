@@ -56,106 +56,141 @@ static MesoStatus cut_side(MesoStrandSide *side, const uint32_t *rings, const Me
 
 /* ---- both sides ---- */
 
-static MesoStatus side_room(MesoStrandSide *side, MesoArena *arena, uint32_t vertices, uint32_t triangles,
-                            MesoError *error)
+/* The mesh that a side is part of. */
+typedef struct Source {
+    uint32_t vertex_count, triangle_count;
+    const uint32_t *corners;    /* [3 * triangle_count] */
+    const uint32_t *names, *triangles;  /* of its vertices and triangles; NULL: their own numbers */
+    const MesoVec3 *positions;  /* [vertex_count] */
+    float *values;              /* [vertex_count] -INFINITY: not there, nor are the triangles around */
+    float above, below;         /* triangles that are wanted have a value above, and one below */
+} Source;
+
+static bool is_wanted(const Source *from, const uint32_t *corner)
 {
-    *side = (MesoStrandSide){0};
-    side->positions = MESO_NEW(arena, MesoVec3, vertices, error);
-    side->values = MESO_NEW(arena, float, vertices, error);
-    side->vertices = MESO_NEW(arena, uint32_t, vertices, error);
-    side->triangles = MESO_NEW(arena, uint32_t, triangles, error);
-    side->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)triangles, error);
-    return side->positions && side->values && side->vertices && side->triangles && side->corners ? MESO_OK
-                                                                                                  : MESO_ERR_MEMORY;
+    float a = from->values[corner[0]], b = from->values[corner[1]], c = from->values[corner[2]];
+    return a > -INFINITY && b > -INFINITY && c > -INFINITY && (a > from->above || b > from->above || c > from->above) &&
+           (a < from->below || b < from->below || c < from->below);
 }
 
-/* Adds a triangle of a larger mesh; `numbers` by vertex there, MESO_NO_INDEX where it is new. */
-static void add_triangle(MesoStrandSide *side, uint32_t *numbers, const uint32_t *corners, uint32_t triangle,
-                         const MesoVec3 *positions, const float *values, const uint32_t *names)
+enum { AT_KEPT = 1, AT_DROPPED = 2, AT_CUT = 3 };
+
+/* Which vertices belong to triangles that are kept, and to such as are not. */
+static uint8_t *mark_vertices(const Source *from, MesoArena *arena, MesoError *error)
 {
-    uint32_t *to = &side->corners[3 * (size_t)side->triangle_count];
-    for (size_t k = 0; k < 3; k++) {
-        uint32_t v = corners[k];
-        if (numbers[v] == MESO_NO_INDEX) {
-            numbers[v] = side->vertex_count;
-            side->positions[side->vertex_count] = positions[v];
-            side->values[side->vertex_count] = values[v];
-            side->vertices[side->vertex_count++] = names ? names[v] : v;
-        }
-        to[k] = numbers[v];
+    uint8_t *marks = MESO_NEW(arena, uint8_t, from->vertex_count, error);
+    for (uint32_t t = 0; marks && t < from->triangle_count; t++) {
+        const uint32_t *corner = &from->corners[3 * (size_t)t];
+        if (!is_wanted(from, corner))
+            continue;
+        bool kept = from->values[corner[0]] > 0 && from->values[corner[1]] > 0 && from->values[corner[2]] > 0;
+        for (int k = 0; k < 3; k++)
+            marks[corner[k]] |= kept ? AT_KEPT : AT_DROPPED;
     }
-    side->triangles[side->triangle_count++] = triangle;
+    return marks;
 }
 
-/* The rings that a side's vertices are in. */
-static uint32_t *rings_of(const MesoStrandSide *side, const uint32_t *numbers, const MesoStrandRings *rings,
-                          uint32_t vertex_count, MesoArena *arena, MesoError *error)
+/* Lists the triangles that the side is to have: all that are wanted, or those at the cut. */
+static MesoStatus list_triangles(MesoStrandSide *side, const Source *from, MesoCutExtent extent, MesoArena *arena,
+                                 MesoError *error)
 {
-    uint32_t *here = MESO_NEW(arena, uint32_t, side->vertex_count, error);
-    for (uint32_t v = 0; here && v < vertex_count; v++)
-        if (numbers[v] != MESO_NO_INDEX)
-            here[numbers[v]] = rings->of_vertex[v];
-    return here;
+    side->triangles = MESO_NEW(arena, uint32_t, from->triangle_count, error);
+    const uint8_t *marks = extent == MESO_CUT_ENDS ? mark_vertices(from, arena, error) : NULL;
+    if (!side->triangles || (extent == MESO_CUT_ENDS && !marks))
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < from->triangle_count; t++) {
+        const uint32_t *corner = &from->corners[3 * (size_t)t];
+        if (is_wanted(from, corner) && (!marks || marks[corner[0]] == AT_CUT || marks[corner[1]] == AT_CUT ||
+                                        marks[corner[2]] == AT_CUT))
+            side->triangles[side->triangle_count++] = t;
+    }
+    return MESO_OK;
 }
 
-static MesoStatus cut_old(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltStep *step,
-                          const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+/* `rings` [vertices of the source]; of the side's vertices they come to be in `here`. */
+static MesoStatus take_triangles(MesoStrandSide *side, uint32_t **here, const Source *from, const uint32_t *rings,
+                                 MesoArena *arena, MesoError *error)
+{
+    uint32_t most = side->triangle_count < from->vertex_count / 3 ? 3 * side->triangle_count : from->vertex_count;
+    side->positions = MESO_NEW(arena, MesoVec3, most, error);
+    side->values = MESO_NEW(arena, float, most, error);
+    side->vertices = MESO_NEW(arena, uint32_t, most, error);
+    side->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)side->triangle_count, error);
+    *here = MESO_NEW(arena, uint32_t, most, error);
+    uint32_t *numbers = MESO_NEW(arena, uint32_t, from->vertex_count, error);    /* plus 1; 0: none yet */
+    if (!side->positions || !side->values || !side->vertices || !side->corners || !*here || !numbers)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < side->triangle_count; i++) {
+        uint32_t t = side->triangles[i];
+        for (size_t k = 0; k < 3; k++) {
+            uint32_t v = from->corners[3 * (size_t)t + k];
+            if (!numbers[v]) {
+                uint32_t n = side->vertex_count++;
+                side->positions[n] = from->positions[v];
+                side->values[n] = from->values[v];
+                side->vertices[n] = from->names ? from->names[v] : v;
+                (*here)[n] = rings[v];
+                numbers[v] = n + 1;
+            }
+            side->corners[3 * (size_t)i + k] = numbers[v] - 1;
+        }
+        side->triangles[i] = from->triangles ? from->triangles[t] : t;
+    }
+    return MESO_OK;
+}
+
+/* `rings` [vertices of the source], `axes` by ring. */
+static MesoStatus cut_out(MesoStrandSide *side, const Source *from, MesoCutExtent extent, const uint32_t *rings,
+                          const MesoVec3 *axes, MesoArena *arena, MesoError *error)
+{
+    uint32_t *here;
+    *side = (MesoStrandSide){0};
+    MesoStatus status = list_triangles(side, from, extent, arena, error);
+    if (!status)
+        status = take_triangles(side, &here, from, rings, arena, error);
+    return status ? status : cut_side(side, here, axes, arena, error);
+}
+
+static MesoStatus cut_old(MesoStrandSide *side, MesoCutExtent extent, const MesoRingShares *shares,
+                          const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     const MesoOldGeometry *old = &step->old;
-    MesoStatus status = side_room(side, arena, old->vertex_count, old->triangle_count, error);
-    float *values = MESO_NEW(arena, float, old->vertex_count, error);
-    uint32_t *numbers = MESO_NEW(arena, uint32_t, old->vertex_count, error);
-    if (status || !values || !numbers)
+    Source from = {old->vertex_count, old->triangle_count, old->corners, old->vertices, old->triangles, old->positions,
+                   MESO_NEW(arena, float, old->vertex_count, error), -INFINITY, BAND_EDGES * work->swatch->mean_edge};
+    if (!from.values)
         return MESO_ERR_MEMORY;
-    for (uint32_t v = 0; v < old->vertex_count; v++) {
-        values[v] = shares->old_values[step->old_rings.of_vertex[v]];
-        numbers[v] = MESO_NO_INDEX;
-    }
-    float band = BAND_EDGES * work->swatch->mean_edge;
-    for (uint32_t t = 0; t < old->triangle_count; t++) {
-        const uint32_t *corner = &old->corners[3 * (size_t)t];
-        if (values[corner[0]] < band || values[corner[1]] < band || values[corner[2]] < band)
-            add_triangle(side, numbers, corner, old->triangles[t], old->positions, values, old->vertices);
-    }
-    uint32_t *rings = rings_of(side, numbers, &step->old_rings, old->vertex_count, arena, error);
-    return rings ? cut_side(side, rings, step->old_rings.axes, arena, error) : MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < old->vertex_count; v++)
+        from.values[v] = shares->old_values[step->old_rings.of_vertex[v]];
+    return cut_out(side, &from, extent, step->old_rings.of_vertex, step->old_rings.axes, arena, error);
 }
 
-static MesoStatus cut_new(MesoStrandSide *side, const MesoRingShares *shares, const MesoQuiltWork *work,
-                          MesoArena *arena, MesoError *error)
+static MesoStatus cut_new(MesoStrandSide *side, MesoCutExtent extent, const MesoRingShares *shares,
+                          const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
-    MesoStatus status = side_room(side, arena, swatch->vertex_count, swatch->triangle_count, error);
-    float *values = MESO_NEW(arena, float, swatch->vertex_count, error);
-    uint32_t *numbers = MESO_NEW(arena, uint32_t, swatch->vertex_count, error);
-    if (status || !values || !numbers)
+    Source from = {swatch->vertex_count, swatch->triangle_count, swatch->corners, NULL, NULL, shares->places,
+                   MESO_NEW(arena, float, swatch->vertex_count, error), 0, INFINITY};
+    if (!from.values)
         return MESO_ERR_MEMORY;
     for (uint32_t v = 0; v < swatch->vertex_count; v++) {
         uint32_t ring = work->rings.of_vertex[v];
-        values[v] = ring == MESO_NO_INDEX ? -INFINITY : shares->new_values[ring];
-        numbers[v] = MESO_NO_INDEX;
+        from.values[v] = ring == MESO_NO_INDEX ? -INFINITY : shares->new_values[ring];
     }
-    for (uint32_t t = 0; t < swatch->triangle_count; t++) {
-        const uint32_t *corner = &swatch->corners[3 * (size_t)t];
-        float a = values[corner[0]], b = values[corner[1]], c = values[corner[2]];
-        if ((a > 0 || b > 0 || c > 0) && a > -INFINITY && b > -INFINITY && c > -INFINITY)
-            add_triangle(side, numbers, corner, t, shares->places, values, NULL);
-    }
-    uint32_t *rings = rings_of(side, numbers, &work->rings, swatch->vertex_count, arena, error);
-    return rings ? cut_side(side, rings, shares->new_axes, arena, error) : MESO_ERR_MEMORY;
+    return cut_out(side, &from, extent, work->rings.of_vertex, shares->new_axes, arena, error);
 }
 
-MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, const MesoRingShares *shares,
-                                   const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
-                                   MesoError *error)
+MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoCutExtent extent,
+                                   const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                                   MesoArena *arena, MesoError *error)
 {
-    MesoStatus status = cut_old(old_side, shares, step, work, arena, error);
-    return status ? status : cut_new(new_side, shares, work, arena, error);
+    MesoStatus status = cut_old(old_side, extent, shares, step, work, arena, error);
+    return status ? status : cut_new(new_side, extent, shares, work, arena, error);
 }
 
-MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoRingShares *shares,
-                            const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoCutExtent extent,
+                            MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                            MesoArena *arena, MesoError *error)
 {
     MesoStatus status = meso_strands_share(shares, step, work, arena, error);
-    return status ? status : meso_strands_cut_shared(old_side, new_side, shares, step, work, arena, error);
+    return status ? status : meso_strands_cut_shared(old_side, new_side, extent, shares, step, work, arena, error);
 }
