@@ -1,6 +1,8 @@
 /* Which rings of strands belong to which side of the seam. */
 #include "libcore/quilt/quilt_work.h"
 
+#include <stdlib.h>
+
 /*
  * Rings of one strand, as both sides have it: they lie beside each other by no more than so many times a ring's reach,
  * and along by no more than so many steps from ring to ring; and go the same way, by the cosine. Thin strands reach so
@@ -30,6 +32,7 @@ typedef struct RingSide {
     uint8_t *fixed;             /* [rings->count] it reaches to the chart's rim: old ones stay, new ones do not come */
     uint32_t near_count;
     uint32_t *near;             /* [near_count] rings near the seam */
+    uint32_t *by_x;             /* [near_count] the same, from left to right */
     MesoVec3 *ways;             /* [rings->count] beside the strand, to the same one of the other side */
     uint8_t *has_other;         /* [rings->count] */
 } RingSide;
@@ -57,6 +60,36 @@ static float rim_at(const MesoQuiltStep *step, MesoVec3 p)
 
 /* ---- the sides ---- */
 
+/* Where a ring is, for sorting. */
+typedef struct RingPlace {
+    float x;
+    uint32_t ring;
+} RingPlace;
+
+static int compare_places(const void *a, const void *b)
+{
+    const RingPlace *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->ring < q->ring ? -1 : p->ring > q->ring;
+}
+
+static MesoStatus sort_near(RingSide *side, MesoArena *arena, MesoError *error)
+{
+    side->by_x = MESO_NEW(arena, uint32_t, side->near_count, error);
+    MesoArenaMark mark = meso_arena_mark(arena);
+    RingPlace *places = MESO_NEW(arena, RingPlace, side->near_count, error);
+    if (!side->by_x || !places)
+        return MESO_ERR_MEMORY;
+    for (uint32_t m = 0; m < side->near_count; m++)
+        places[m] = (RingPlace){side->middles[side->near[m]].x, side->near[m]};
+    qsort(places, side->near_count, sizeof *places, compare_places);
+    for (uint32_t m = 0; m < side->near_count; m++)
+        side->by_x[m] = places[m].ring;
+    meso_arena_rewind(arena, mark);
+    return MESO_OK;
+}
+
 /* Rings near the seam, and such as would change sides but for the rim, with room around. */
 static MesoStatus list_near(RingSide *side, const MesoQuiltStep *step, MesoArena *arena, MesoError *error)
 {
@@ -70,7 +103,7 @@ static MesoStatus list_near(RingSide *side, const MesoQuiltStep *step, MesoArena
         if (fabsf(side->values[r]) < reach || fabsf(rim_at(step, side->middles[r])) < reach)
             side->near[side->near_count++] = r;
     }
-    return MESO_OK;
+    return sort_near(side, arena, error);
 }
 
 static MesoStatus side_room(RingSide *side, const MesoStrandRings *rings, MesoArena *arena, MesoError *error)
@@ -165,29 +198,60 @@ static bool way_beside(MesoVec3 *way, float *distance, const RingSide *a, uint32
     return meso_vec3_length(*way) < BESIDE_MOST * (a_reach > b_reach ? a_reach : b_reach);
 }
 
+/* That rings of one strand are apart, at most. */
+static float farthest_apart(const RingSide *side)
+{
+    float farthest = 0;
+    for (uint32_t m = 0; m < side->near_count; m++) {
+        uint32_t r = side->near[m];
+        float far = BESIDE_MOST * reach_of(side->rings, r) + ALONG_MOST * side->rings->steps[r];
+        farthest = far > farthest ? far : farthest;
+    }
+    return farthest;
+}
+
+/* The first of the rings by x that lies right of a place. */
+static uint32_t first_right_of(const RingSide *side, float x)
+{
+    uint32_t low = 0, high = side->near_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (side->middles[side->by_x[middle]].x > x)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+/* The nearest that is the same strand; of equal ones the first. */
+static void find_other(RingSide *a, uint32_t r, const RingSide *b, float farthest, uint8_t *meets_fixed)
+{
+    MesoVec3 p = a->middles[r], way;
+    float least = INFINITY, distance;
+    uint32_t best = MESO_NO_INDEX;
+    for (uint32_t n = first_right_of(b, p.x - farthest); n < b->near_count; n++) {
+        uint32_t q = b->by_x[n];
+        if (b->middles[q].x >= p.x + farthest)
+            break;
+        if (!(fabsf(b->middles[q].y - p.y) < farthest) || !way_beside(&way, &distance, a, r, b, q) ||
+            !(distance < least || (distance == least && q < best)))
+            continue;
+        least = distance;
+        best = q;
+        a->ways[r] = way;
+    }
+    if (best != MESO_NO_INDEX) {
+        a->has_other[r] = 1;
+        meets_fixed[r] = b->fixed[best];
+    }
+}
+
 static void find_others(RingSide *a, const RingSide *b, uint8_t *meets_fixed)
 {
-    float farthest = 0;     /* that rings of one strand are apart */
-    for (uint32_t k = 0; k < 2; k++)
-        for (uint32_t m = 0; m < (k ? a : b)->near_count; m++) {
-            const RingSide *side = k ? a : b;
-            uint32_t r = side->near[m];
-            float far = BESIDE_MOST * reach_of(side->rings, r) + ALONG_MOST * side->rings->steps[r];
-            farthest = far > farthest ? far : farthest;
-        }
-    for (uint32_t m = 0; m < a->near_count; m++) {
-        float least = INFINITY, distance;
-        MesoVec3 way;
-        uint32_t r = a->near[m];
-        for (uint32_t n = 0; n < b->near_count; n++)
-            if (fabsf(b->middles[b->near[n]].x - a->middles[r].x) < farthest &&
-                way_beside(&way, &distance, a, r, b, b->near[n]) && distance < least) {
-                least = distance;
-                a->ways[r] = way;
-                a->has_other[r] = 1;
-                meets_fixed[r] = b->fixed[b->near[n]];
-            }
-    }
+    float a_apart = farthest_apart(a), b_apart = farthest_apart(b);
+    for (uint32_t m = 0; m < a->near_count; m++)
+        find_other(a, a->near[m], b, a_apart > b_apart ? a_apart : b_apart, meets_fixed);
 }
 
 /*
