@@ -2,7 +2,11 @@
 
 #include <string.h>
 
+#include "libcore/math/envelope.h"
 #include "libcore/math/sparse_cholesky.h"
+
+/* Rows of a system that goes by its envelope have a length of no more than this, as the root of the mean of squares. */
+#define LENGTH_MOST 96.0
 
 /* The system is of displacements: what does not move is 0 there, and what it was costs no digits. */
 typedef struct Band {
@@ -12,7 +16,9 @@ typedef struct Band {
     size_t *ends;               /* [vertex_count] */
     uint32_t *places;           /* [vertex_count] its unknown; MESO_NO_INDEX: does not move */
     uint32_t free_count;
-    uint32_t *vertices;         /* [free_count] vertices that move, nearest to pulls first */
+    uint32_t *vertices;         /* [free_count] vertices that move, by their places */
+    bool in_envelope;           /* rows are short: no triplets then */
+    MesoEnvelope envelope;
     size_t triplet_count;
     MesoTriplet *triplets;
     double *moves;              /* [3 * free_count] */
@@ -125,6 +131,92 @@ static MesoStatus check_free(const Band *band, const MesoVec3 *positions, MesoEr
     return MESO_OK;
 }
 
+/* ---- their order ---- */
+
+typedef struct Order {
+    uint32_t *list, count;      /* [free_count] */
+    uint32_t *rounds, round;    /* [vertex_count] the last walk that came by, plus 1 */
+} Order;
+
+/* What hangs together with a vertex, by breadth. */
+static void walk(const Band *band, Order *order, uint32_t begin, uint32_t first)
+{
+    order->count = begin;
+    order->round++;
+    order->list[order->count++] = first;
+    order->rounds[first] = order->round;
+    for (uint32_t i = begin; i < order->count; i++)
+        for (size_t n = band->begins[order->list[i]]; n < band->ends[order->list[i]]; n++) {
+            uint32_t v = band->neighbours[n];
+            if (band->places[v] == MESO_NO_INDEX || order->rounds[v] == order->round)
+                continue;
+            order->rounds[v] = order->round;
+            order->list[order->count++] = v;
+        }
+}
+
+/*
+ * One part after the other, each by breadth from the vertex where such a walk ends: neighbours have places near to each
+ * other (Cuthill and McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969).
+ */
+static MesoStatus order_free(Band *band, MesoArena *scratch, MesoError *error)
+{
+    Order order = {.list = MESO_NEW(scratch, uint32_t, band->free_count, error),
+                   .rounds = MESO_NEW(scratch, uint32_t, band->vertex_count, error)};
+    if (!order.list || !order.rounds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t f = 0, done = 0; f < band->free_count; f++) {
+        if (order.rounds[band->vertices[f]])
+            continue;
+        walk(band, &order, done, band->vertices[f]);
+        walk(band, &order, done, order.list[order.count - 1]);
+        done = order.count;
+    }
+    band->vertices = order.list;
+    for (uint32_t f = 0; f < band->free_count; f++)
+        band->places[order.list[f]] = f;
+    return MESO_OK;
+}
+
+static void lower(uint32_t *least, uint32_t place)
+{
+    *least = place < *least ? place : *least;
+}
+
+/* The first unknown that the rows which have a vertex have as well. */
+static uint32_t first_seen(const Band *band, uint32_t v)
+{
+    uint32_t least = band->places[v];
+    for (size_t n = band->begins[v]; n < band->ends[v]; n++) {
+        uint32_t row = band->neighbours[n];
+        lower(&least, band->places[row]);
+        for (size_t m = band->begins[row]; m < band->ends[row]; m++)
+            lower(&least, band->places[band->neighbours[m]]);
+    }
+    return least;
+}
+
+/* Plans the envelope; whether it is worth it. */
+static MesoStatus plan_envelope(Band *band, MesoArena *scratch, const MesoBandPull *pulls, uint32_t pull_count,
+                                MesoError *error)
+{
+    uint32_t *firsts = MESO_NEW(scratch, uint32_t, band->free_count, error);
+    if (!firsts)
+        return MESO_ERR_MEMORY;
+    for (uint32_t f = 0; f < band->free_count; f++)
+        firsts[f] = first_seen(band, band->vertices[f]);
+    for (uint32_t p = 0; p < pull_count; p++)
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3 && pulls[p].weight[a] != 0; b++)
+                if (pulls[p].weight[b] != 0)
+                    lower(&firsts[band->places[pulls[p].v[a]]], band->places[pulls[p].v[b]]);
+    double squares = 0;
+    for (uint32_t f = 0; f < band->free_count; f++)
+        squares += (double)(f - firsts[f] + 1) * (double)(f - firsts[f] + 1);
+    band->in_envelope = squares <= LENGTH_MOST * LENGTH_MOST * (double)band->free_count;
+    return band->in_envelope ? meso_envelope_new(&band->envelope, scratch, band->free_count, firsts, error) : MESO_OK;
+}
+
 /* ---- the system ---- */
 
 /* The entry of L at `row` for the vertex itself, and for each of its neighbours. */
@@ -138,82 +230,53 @@ static double ring_entry(const Band *band, uint32_t row)
     return -1 / (double)(band->ends[row] - band->begins[row]);
 }
 
-/* Sums of one column of L'L, by unknown, and which of them there are. */
-typedef struct Column {
-    double *sums;               /* [free_count] */
-    uint32_t *marks;            /* [free_count] the column that was the last to have it, plus 1 */
-    uint32_t *listed, count;    /* [free_count] unknowns not below the column's own */
-    uint32_t own;
-} Column;
-
-static void add_entry(Column *column, uint32_t unknown, double value)
+/* To a place of the lower triangle. */
+static void add_value(Band *band, uint32_t row, uint32_t column, double value)
 {
-    if (unknown == MESO_NO_INDEX || unknown < column->own)
-        return;
-    if (column->marks[unknown] != column->own + 1) {
-        column->marks[unknown] = column->own + 1;
-        column->sums[unknown] = 0;
-        column->listed[column->count++] = unknown;
-    }
-    column->sums[unknown] += value;
+    if (band->in_envelope)
+        *meso_envelope_at(&band->envelope, row, column) += value;
+    else
+        band->triplets[band->triplet_count++] = (MesoTriplet){row, column, value};
 }
 
-/* Row `row` of L, times its entry at the column's vertex. */
-static void add_row(const Band *band, Column *column, uint32_t row, double entry)
+/* Row `row` of L, times its entry at the vertex of column `own`: what is not above the diagonal. */
+static void add_row(Band *band, uint32_t own, uint32_t row, double entry)
 {
     double ring = entry * ring_entry(band, row);
-    add_entry(column, band->places[row], entry * own_entry(band, row));
-    for (size_t n = band->begins[row]; n < band->ends[row]; n++)
-        add_entry(column, band->places[band->neighbours[n]], ring);
+    if (band->places[row] != MESO_NO_INDEX && band->places[row] >= own)
+        add_value(band, band->places[row], own, entry * own_entry(band, row));
+    for (size_t n = band->begins[row]; n < band->ends[row]; n++) {
+        uint32_t place = band->places[band->neighbours[n]];
+        if (place != MESO_NO_INDEX && place >= own)
+            add_value(band, place, own, ring);
+    }
 }
 
 /*
  * L'L of all vertices that see one that moves. Being a neighbour is mutual, so the rows that have a vertex are its own
  * and those of its neighbours.
  */
-static void sum_column(const Band *band, Column *column, uint32_t own)
+static void add_laplacian(Band *band)
 {
-    uint32_t v = band->vertices[own];
-    column->own = own;
-    column->count = 0;
-    add_entry(column, own, 0);      /* the diagonal, be it of a vertex on its own */
-    add_row(band, column, v, own_entry(band, v));
-    for (size_t n = band->begins[v]; n < band->ends[v]; n++)
-        add_row(band, column, band->neighbours[n], ring_entry(band, band->neighbours[n]));
+    for (uint32_t own = 0; own < band->free_count; own++) {
+        uint32_t v = band->vertices[own];
+        add_row(band, own, v, own_entry(band, v));
+        for (size_t n = band->begins[v]; n < band->ends[v]; n++)
+            add_row(band, own, band->neighbours[n], ring_entry(band, band->neighbours[n]));
+    }
 }
 
-/* At most as many as the walk of sum_column() meets, nine a pull, and one of the ridge. */
+/* At most as many as add_laplacian() meets, nine a pull, and one of the ridge. */
 static size_t bound_triplets(const Band *band, uint32_t pull_count)
 {
     size_t bound = 9 * (size_t)pull_count + band->free_count;
     for (uint32_t f = 0; f < band->free_count; f++) {
         uint32_t v = band->vertices[f];
-        size_t met = 1 + band->ends[v] - band->begins[v];
+        bound += 1 + 2 * (band->ends[v] - band->begins[v]);
         for (size_t n = band->begins[v]; n < band->ends[v]; n++)
-            met += band->ends[band->neighbours[n]] - band->begins[band->neighbours[n]];
-        bound += met < band->free_count - f ? met : band->free_count - f;
+            bound += band->ends[band->neighbours[n]] - band->begins[band->neighbours[n]];
     }
     return bound;
-}
-
-static void add_triplet(Band *band, uint32_t a, uint32_t b, double value)
-{
-    band->triplets[band->triplet_count++] = (MesoTriplet){a > b ? a : b, a > b ? b : a, value};
-}
-
-static MesoStatus add_laplacian(Band *band, MesoArena *scratch, MesoError *error)
-{
-    Column column;
-    if (!(column.sums = MESO_NEW(scratch, double, band->free_count, error)) ||
-        !(column.marks = MESO_NEW(scratch, uint32_t, band->free_count, error)) ||
-        !(column.listed = MESO_NEW(scratch, uint32_t, band->free_count, error)))
-        return MESO_ERR_MEMORY;
-    for (uint32_t f = 0; f < band->free_count; f++) {
-        sum_column(band, &column, f);
-        for (uint32_t k = 0; k < column.count; k++)
-            add_triplet(band, column.listed[k], f, column.sums[column.listed[k]]);
-    }
-    return MESO_OK;
 }
 
 /* From where a pull's point is to its target. */
@@ -243,7 +306,7 @@ static void add_pull(Band *band, const MesoBandPull *pull, const MesoVec3 *posit
         for (int b = 0; b < 3; b++) {
             uint32_t other = pull->weight[b] != 0 ? band->places[pull->v[b]] : MESO_NO_INDEX;
             if (other <= row)   /* a vertex that is named twice counts with the sum of its weights */
-                add_triplet(band, row, other, strength * pull->weight[b]);
+                add_value(band, row, other, strength * pull->weight[b]);
         }
         for (size_t c = 0; c < 3; c++)
             band->moves[3 * (size_t)row + c] += strength * gap[c];
@@ -260,19 +323,18 @@ static void add_ridge(Band *band, double mu)
 {
     for (uint32_t f = 0; f < band->free_count; f++) {
         uint32_t v = band->vertices[f];
-        add_triplet(band, f, f, band->ends[v] > band->begins[v] ? RIDGE : LONE_RIDGE * mu);
+        add_value(band, f, f, band->ends[v] > band->begins[v] ? RIDGE : LONE_RIDGE * mu);
     }
 }
 
 static MesoStatus fill_system(Band *band, MesoArena *scratch, const MesoVec3 *positions, const MesoBandPull *pulls,
                               uint32_t pull_count, double mu, MesoError *error)
 {
-    if (!(band->triplets = MESO_NEW(scratch, MesoTriplet, bound_triplets(band, pull_count), error)) ||
+    size_t triplets = band->in_envelope ? 0 : bound_triplets(band, pull_count);
+    if (!(band->triplets = MESO_NEW(scratch, MesoTriplet, triplets, error)) ||
         !(band->moves = MESO_NEW(scratch, double, 3 * (size_t)band->free_count, error)))
         return MESO_ERR_MEMORY;
-    MesoStatus status = add_laplacian(band, scratch, error);
-    if (status)
-        return status;
+    add_laplacian(band);
     for (uint32_t p = 0; p < pull_count; p++)
         add_pull(band, &pulls[p], positions, mu);
     add_ridge(band, mu);
@@ -281,8 +343,15 @@ static MesoStatus fill_system(Band *band, MesoArena *scratch, const MesoVec3 *po
 
 static MesoStatus solve(Band *band, MesoArena *scratch, MesoError *error)
 {
+    MesoStatus status;
+    if (band->in_envelope) {
+        status = meso_envelope_factor(&band->envelope, error);
+        if (!status)
+            meso_envelope_solve(&band->envelope, band->moves);
+        return status;
+    }
     MesoCholesky factor;
-    MesoStatus status = meso_cholesky_analyse(&factor, scratch, band->free_count, band->triplets, band->triplet_count,
+    status = meso_cholesky_analyse(&factor, scratch, band->free_count, band->triplets, band->triplet_count,
                                               error);
     if (!status)
         status = meso_cholesky_factor(&factor, band->triplets, band->triplet_count, error);
@@ -329,6 +398,10 @@ static MesoStatus deform(Band *band, MesoVec3 *positions, MesoArena *scratch, co
     find_neighbours(band, corners, triangle_count);
     find_free(band, pulls, pull_count, rings);
     status = check_free(band, positions, error);
+    if (!status)
+        status = order_free(band, scratch, error);
+    if (!status)
+        status = plan_envelope(band, scratch, pulls, pull_count, error);
     if (!status)
         status = fill_system(band, scratch, positions, pulls, pull_count, mu, error);
     if (!status)
