@@ -3,6 +3,9 @@
 /* How far outside of a triangle, as a weight, a place still belongs to it: so that none falls between two. */
 #define EDGE_SLACK 1e-5f
 
+/* What rounding leaves of the square of a distance. */
+#define FREE_SHARE 0.999f
+
 static MesoVec2 corner_place(const MesoQuiltPlane *plane, uint32_t triangle, uint32_t k)
 {
     return plane->places[plane->chart->corners[3 * (size_t)triangle + k]];
@@ -67,6 +70,35 @@ static MesoStatus index_triangles(MesoQuiltPlane *plane, MesoArena *arena, MesoE
     return MESO_OK;
 }
 
+static float square_to_segment(MesoVec2 p, MesoVec2 a, MesoVec2 b)
+{
+    MesoVec2 along = meso_vec2_sub(b, a), off = meso_vec2_sub(p, a);
+    float square = along.x * along.x + along.y * along.y;
+    float t = square > 0 ? (off.x * along.x + off.y * along.y) / square : 0;
+    t = t > 0 ? t < 1 ? t : 1 : 0;
+    off = (MesoVec2){off.x - t * along.x, off.y - t * along.y};
+    return off.x * off.x + off.y * off.y;
+}
+
+/* The circle around the first triangle, where the chart began, to the nearest of its outer edges. */
+static void measure_free(MesoQuiltPlane *plane)
+{
+    const MesoChart *chart = plane->chart;
+    MesoVec2 sum = meso_vec2_add(corner_place(plane, 0, 0), corner_place(plane, 0, 1));
+    sum = meso_vec2_add(sum, corner_place(plane, 0, 2));
+    plane->middle = (MesoVec2){sum.x / 3, sum.y / 3};
+    float least = INFINITY;
+    for (uint32_t h = 0; h < 3 * chart->triangle_count; h++) {
+        uint32_t across = plane->base->twins[3 * chart->triangles[h / 3] + h % 3];
+        if (across != MESO_NO_INDEX && plane->chart_triangles[across / 3] != MESO_NO_INDEX)
+            continue;
+        float square = square_to_segment(plane->middle, corner_place(plane, h / 3, h % 3),
+                                         corner_place(plane, h / 3, (h + 1) % 3));
+        least = square < least ? square : least;
+    }
+    plane->free_square = least < INFINITY ? FREE_SHARE * least : 0;
+}
+
 MesoStatus meso_quilt_plane_make(MesoQuiltPlane *plane, MesoArena *arena, const MesoTriangulation *base,
                                  const MesoChart *chart, uint32_t *chart_triangles, float angle, float scale,
                                  float height_scale, float offset, MesoError *error)
@@ -93,6 +125,7 @@ MesoStatus meso_quilt_plane_make(MesoQuiltPlane *plane, MesoArena *arena, const 
     plane->rows = (uint32_t)(depth / plane->cell) + 1;
     for (uint32_t t = 0; t < chart->triangle_count; t++)
         chart_triangles[chart->triangles[t]] = t;
+    measure_free(plane);
     return index_triangles(plane, arena, error);
 }
 
@@ -102,27 +135,43 @@ void meso_quilt_plane_forget(MesoQuiltPlane *plane)
         plane->chart_triangles[plane->chart->triangles[t]] = MESO_NO_INDEX;
 }
 
+/* Whether a triangle has a place, and the weights of corners 1 and 2 there. */
+static bool weigh(const MesoQuiltPlane *plane, uint32_t triangle, MesoVec2 place, float *b1, float *b2)
+{
+    MesoVec2 a = corner_place(plane, triangle, 0), d = meso_vec2_sub(place, a);
+    MesoVec2 e1 = meso_vec2_sub(corner_place(plane, triangle, 1), a);
+    MesoVec2 e2 = meso_vec2_sub(corner_place(plane, triangle, 2), a);
+    float area = meso_vec2_cross(e1, e2);
+    float w1 = meso_vec2_cross(d, e2), w2 = meso_vec2_cross(e1, d);
+    float slack = -EDGE_SLACK * area;
+    if (!(w1 >= slack && w2 >= slack && area - w1 - w2 >= slack && area > 0))
+        return false;
+    *b1 = w1 / area;
+    *b2 = w2 / area;
+    return true;
+}
+
 uint32_t meso_quilt_plane_locate(const MesoQuiltPlane *plane, MesoVec2 place, float *b1, float *b2)
 {
     float x = (place.x - plane->low.x) / plane->cell, y = (place.y - plane->low.y) / plane->cell;
     if (!(x > -0.01f && y > -0.01f && x < (float)plane->columns + 0.01f && y < (float)plane->rows + 0.01f))
         return MESO_NO_INDEX;
     size_t cell = (size_t)clamp_cell(y, plane->rows) * plane->columns + clamp_cell(x, plane->columns);
-    for (uint32_t i = plane->begin[cell]; i < plane->begin[cell + 1]; i++) {
-        uint32_t t = plane->found[i];
-        MesoVec2 a = corner_place(plane, t, 0);
-        MesoVec2 e1 = meso_vec2_sub(corner_place(plane, t, 1), a), e2 = meso_vec2_sub(corner_place(plane, t, 2), a);
-        MesoVec2 d = meso_vec2_sub(place, a);
-        float area = meso_vec2_cross(e1, e2);
-        float w1 = meso_vec2_cross(d, e2), w2 = meso_vec2_cross(e1, d);
-        float slack = -EDGE_SLACK * area;
-        if (w1 >= slack && w2 >= slack && area - w1 - w2 >= slack && area > 0) {
-            *b1 = w1 / area;
-            *b2 = w2 / area;
-            return t;
-        }
-    }
+    for (uint32_t i = plane->begin[cell]; i < plane->begin[cell + 1]; i++)
+        if (weigh(plane, plane->found[i], place, b1, b2))
+            return plane->found[i];
     return MESO_NO_INDEX;
+}
+
+bool meso_quilt_plane_has(const MesoQuiltPlane *plane, MesoVec2 place, uint32_t *near)
+{
+    float b1, b2, x = place.x - plane->middle.x, y = place.y - plane->middle.y;
+    if (x * x + y * y < plane->free_square)
+        return true;
+    if (*near != MESO_NO_INDEX && weigh(plane, *near, place, &b1, &b2))
+        return true;
+    *near = meso_quilt_plane_locate(plane, place, &b1, &b2);
+    return *near != MESO_NO_INDEX;
 }
 
 bool meso_quilt_plane_to(const MesoQuiltPlane *plane, MesoQuiltVertex vertex, MesoVec3 *point)

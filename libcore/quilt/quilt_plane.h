@@ -11,6 +11,8 @@ typedef struct MesoQuiltPlane {
     float height_scale, offset;
     MesoVec2 *places;               /* [chart->vertex_count] */
     MesoVec2 low, high;             /* around them */
+    MesoVec2 middle;            /* no place within a circle around it is off the chart: */
+    float free_square;          /* the square of its radius */
     uint32_t *chart_triangles;      /* [base->triangle_count] of the chart, or MESO_NO_INDEX; the caller's */
     uint32_t columns, rows;         /* a grid to find triangles by */
     float cell;
@@ -29,6 +31,12 @@ void meso_quilt_plane_forget(MesoQuiltPlane *plane);
 
 /* Chart triangle at a place, with the weights of corners 1 and 2; MESO_NO_INDEX outside. O(1) on the mean. */
 uint32_t meso_quilt_plane_locate(const MesoQuiltPlane *plane, MesoVec2 place, float *b1, float *b2);
+
+/*
+ * Whether the chart has a place. `near`: the triangle that has one near to it, or MESO_NO_INDEX; comes to be that of the
+ * place. Faster where one place after the other lies in the same.
+ */
+bool meso_quilt_plane_has(const MesoQuiltPlane *plane, MesoVec2 place, uint32_t *near);
 
 /* From the base to the plane and back; false outside of the chart. */
 bool meso_quilt_plane_to(const MesoQuiltPlane *plane, MesoQuiltVertex vertex, MesoVec3 *point);

@@ -23,6 +23,12 @@ enum { PULLS_MOST = 24 };
 /* Rings with a vertex so near to the chart's rim, in mean edges of the swatch, stay as they are. */
 #define RIM_EDGES 1.0f
 
+/* Where the middle of a ring is. */
+typedef struct RingPlace {
+    float x, y;
+    uint32_t ring;
+} RingPlace;
+
 /* The rings of one side as they lie in the plane. */
 typedef struct RingSide {
     const MesoStrandRings *rings;
@@ -32,7 +38,7 @@ typedef struct RingSide {
     uint8_t *fixed;             /* [rings->count] it reaches to the chart's rim: old ones stay, new ones do not come */
     uint32_t near_count;
     uint32_t *near;             /* [near_count] rings near the seam */
-    uint32_t *by_x;             /* [near_count] the same, from left to right */
+    RingPlace *by_x;            /* [near_count] the same, from left to right */
     MesoVec3 *ways;             /* [rings->count] beside the strand, to the same one of the other side */
     uint8_t *has_other;         /* [rings->count] */
 } RingSide;
@@ -60,12 +66,6 @@ static float rim_at(const MesoQuiltStep *step, MesoVec3 p)
 
 /* ---- the sides ---- */
 
-/* Where a ring is, for sorting. */
-typedef struct RingPlace {
-    float x;
-    uint32_t ring;
-} RingPlace;
-
 static int compare_places(const void *a, const void *b)
 {
     const RingPlace *p = a, *q = b;
@@ -76,17 +76,14 @@ static int compare_places(const void *a, const void *b)
 
 static MesoStatus sort_near(RingSide *side, MesoArena *arena, MesoError *error)
 {
-    side->by_x = MESO_NEW(arena, uint32_t, side->near_count, error);
-    MesoArenaMark mark = meso_arena_mark(arena);
-    RingPlace *places = MESO_NEW(arena, RingPlace, side->near_count, error);
-    if (!side->by_x || !places)
+    side->by_x = MESO_NEW(arena, RingPlace, side->near_count, error);
+    if (!side->by_x)
         return MESO_ERR_MEMORY;
-    for (uint32_t m = 0; m < side->near_count; m++)
-        places[m] = (RingPlace){side->middles[side->near[m]].x, side->near[m]};
-    qsort(places, side->near_count, sizeof *places, compare_places);
-    for (uint32_t m = 0; m < side->near_count; m++)
-        side->by_x[m] = places[m].ring;
-    meso_arena_rewind(arena, mark);
+    for (uint32_t m = 0; m < side->near_count; m++) {
+        MesoVec3 p = side->middles[side->near[m]];
+        side->by_x[m] = (RingPlace){p.x, p.y, side->near[m]};
+    }
+    qsort(side->by_x, side->near_count, sizeof *side->by_x, compare_places);
     return MESO_OK;
 }
 
@@ -147,12 +144,6 @@ static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, const Meso
     return list_near(side, step, arena, error);
 }
 
-static bool is_on_chart(const MesoQuiltStep *step, MesoVec3 p)
-{
-    float b1, b2;
-    return meso_quilt_plane_locate(&step->plane, (MesoVec2){p.x, p.y}, &b1, &b2) != MESO_NO_INDEX;
-}
-
 static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep *step, const MesoQuiltWork *work,
                            MesoArena *arena, MesoError *error)
 {
@@ -172,12 +163,14 @@ static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep
         side->fixed[r] = rim_at(step, middles[r]) < 0;
     }
     float deep = -DEEP_EDGES * work->swatch->mean_edge;
+    uint32_t near = MESO_NO_INDEX;
     for (uint32_t v = 0; v < work->swatch->vertex_count; v++) {
         uint32_t r = rings->of_vertex[v];
         if (r == MESO_NO_INDEX || side->values[r] < deep || rim_at(step, middles[r]) < 0)
             continue;
         places[v] = meso_step_warp(step, meso_step_from_swatch(step, work->swatch->positions[v]));
-        side->fixed[r] = side->fixed[r] || !is_on_chart(step, places[v]);
+        side->fixed[r] = side->fixed[r] ||
+                         !meso_quilt_plane_has(&step->plane, (MesoVec2){places[v].x, places[v].y}, &near);
     }
     return list_near(side, step, arena, error);
 }
@@ -216,7 +209,7 @@ static uint32_t first_right_of(const RingSide *side, float x)
     uint32_t low = 0, high = side->near_count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (side->middles[side->by_x[middle]].x > x)
+        if (side->by_x[middle].x > x)
             high = middle;
         else
             low = middle + 1;
@@ -231,10 +224,10 @@ static void find_other(RingSide *a, uint32_t r, const RingSide *b, float farthes
     float least = INFINITY, distance;
     uint32_t best = MESO_NO_INDEX;
     for (uint32_t n = first_right_of(b, p.x - farthest); n < b->near_count; n++) {
-        uint32_t q = b->by_x[n];
-        if (b->middles[q].x >= p.x + farthest)
+        uint32_t q = b->by_x[n].ring;
+        if (b->by_x[n].x >= p.x + farthest)
             break;
-        if (!(fabsf(b->middles[q].y - p.y) < farthest) || !way_beside(&way, &distance, a, r, b, q) ||
+        if (!(fabsf(b->by_x[n].y - p.y) < farthest) || !way_beside(&way, &distance, a, r, b, q) ||
             !(distance < least || (distance == least && q < best)))
             continue;
         least = distance;
