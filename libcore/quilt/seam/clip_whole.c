@@ -48,7 +48,7 @@ static EdgeEntry *entry_of(const Cutter *c, uint32_t from, uint32_t to)
     return &c->edges[at];
 }
 
-/* Vertices of what is kept and of what is not; how many half-edges may be looked up. */
+/* Vertices of what is kept and of what is not; at how many corners both meet. */
 static uint32_t mark_touched(Cutter *c)
 {
     uint32_t count = 0;
@@ -56,7 +56,7 @@ static uint32_t mark_touched(Cutter *c)
         c->touched[c->corners[h]] |= is_kept(c, h / 3) ? TOUCHES_KEPT : TOUCHES_DROPPED;
     for (uint32_t h = 0; h < 3 * c->triangle_count; h++)
         count += c->touched[c->corners[h]] == TOUCHES_BOTH;
-    return 2 * count;
+    return count;
 }
 
 /* False where an edge is there twice. */
@@ -157,6 +157,7 @@ static void collect_loops(MesoClip *clip, Cutter *c)
             add_loop(clip, c, made);
 }
 
+/* `made`: no more vertices than that are made. */
 static MesoStatus make_room(MesoClip *clip, const Cutter *c, MesoArena *arena, uint32_t made, MesoError *error)
 {
     clip->vertices = MESO_NEW(arena, uint32_t, c->vertex_count, error);
@@ -170,38 +171,41 @@ static MesoStatus make_room(MesoClip *clip, const Cutter *c, MesoArena *arena, u
            clip->loops ? MESO_OK : MESO_ERR_MEMORY;
 }
 
+static MesoStatus make_scratch(Cutter *c, MesoArena *arena, uint32_t made, MesoError *error)
+{
+    size_t corner_count = 3 * (size_t)c->triangle_count;
+    while (c->edge_room < 4 * (uint64_t)made && c->edge_room < UINT32_MAX / 2)
+        c->edge_room *= 2;
+    c->edges = MESO_NEW(arena, EdgeEntry, c->edge_room, error);
+    c->fans = MESO_NEW(arena, uint32_t, corner_count, error);
+    c->made = MESO_NEW(arena, uint32_t, corner_count, error);
+    c->next = MESO_NEW(arena, uint32_t, made, error);
+    c->previous = MESO_NEW(arena, uint32_t, made, error);
+    return c->edges && c->fans && c->made && c->next && c->previous ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 MesoStatus meso_clip_whole(MesoClip *clip, MesoArena *arena, const float *values, uint32_t vertex_count,
                            const uint32_t *corners, uint32_t triangle_count, MesoError *error)
 {
     *clip = (MesoClip){0};
-    size_t corner_count = 3 * (size_t)triangle_count;
     Cutter c = {.values = values, .corners = corners, .vertex_count = vertex_count, .triangle_count = triangle_count,
-                .edge_room = 16};
-    /* what is asked for is not known yet: at most a made vertex a corner */
-    MesoStatus status = make_room(clip, &c, arena, (uint32_t)corner_count, error);
+                .edge_room = 16, .touched = MESO_NEW(arena, uint8_t, vertex_count, error)};
+    if (!c.touched)
+        return MESO_ERR_MEMORY;
+    uint32_t made = mark_touched(&c);
+    MesoStatus status = make_room(clip, &c, arena, made, error);
     if (status)
         return status;
     MesoArenaMark mark = meso_arena_mark(arena);
-    c.touched = MESO_NEW(arena, uint8_t, vertex_count, error);
     uint32_t *kept = MESO_NEW(arena, uint32_t, vertex_count, error);
-    c.fans = MESO_NEW(arena, uint32_t, corner_count, error);
-    c.made = MESO_NEW(arena, uint32_t, corner_count, error);
-    c.next = MESO_NEW(arena, uint32_t, corner_count, error);
-    c.previous = MESO_NEW(arena, uint32_t, corner_count, error);
-    if (!c.touched || !kept || !c.fans || !c.made || !c.next || !c.previous)
-        return MESO_ERR_MEMORY;
-    uint32_t looked_up = mark_touched(&c);
-    while (c.edge_room < 2 * (uint64_t)looked_up && c.edge_room < UINT32_MAX / 2)
-        c.edge_room *= 2;
-    c.edges = MESO_NEW(arena, EdgeEntry, c.edge_room, error);
-    if (!c.edges)
+    if (!kept || make_scratch(&c, arena, made, error))
         return MESO_ERR_MEMORY;
     for (uint32_t v = 0; v < vertex_count; v++)
         if (c.touched[v] == TOUCHES_KEPT) {
             kept[v] = clip->kept_count;
             clip->vertices[clip->kept_count++] = v;
         }
-    meso_sets_init(c.fans, (uint32_t)corner_count);
+    meso_sets_init(c.fans, 3 * triangle_count);
     bool manifold = list_edges(&c);
     if (manifold) {
         join_fans(&c);
