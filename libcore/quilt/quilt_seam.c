@@ -229,7 +229,8 @@ static float mismatch_at(const MesoMatchField *field, MesoMatchPoint point)
         at[k] = (uint32_t)(cell > 0 ? cell < last ? cell : last : 0);
     }
     size_t bin = meso_match_nearest_bin(point.normal);
-    return field->costs[((bin * field->count[2] + at[2]) * field->count[1] + at[1]) * field->count[0] + at[0]] - 1;
+    size_t voxel = ((bin * field->count[2] + at[2]) * field->count[1] + at[1]) * field->count[0] + at[0];
+    return meso_match_excess(field->costs[voxel]);
 }
 
 /* Mean mismatch of the older quilt's vertices by cell; 0 where it has none. */

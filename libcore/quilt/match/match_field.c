@@ -47,10 +47,12 @@ typedef struct Builder {
     MesoVoxelGrid grid;
     uint32_t begins[MESO_MATCH_BINS + 1];
     uint32_t *list;         /* [triangle_count] faces by bin */
-    float *distances;       /* [bins * voxels] to the nearest face of a bin: where the field's costs come to be */
-    uint32_t *nearest;      /* [bins * voxels] that face: where its faces do */
+    bool known[MESO_MATCH_BINS];    /* bins that have faces; the nearest are kept where the field's faces come to be */
+    uint32_t worker_count;
+    float *squares;         /* [worker_count * voxels] */
+    uint32_t *nearest;      /* [worker_count * voxels] */
     char *scratch;
-    size_t scratch_size;    /* of each bin */
+    size_t scratch_size;    /* of each worker */
 } Builder;
 
 /* Voxels around the tile and the swatch's box, one more above and below, on the lattice through the origin. */
@@ -82,10 +84,11 @@ static MesoStatus allocate(Builder *builder, MesoArena *arena, MesoError *error)
     MesoMatchField *field = builder->field;
     builder->scratch_size = meso_nearest_faces_scratch(&builder->grid);
     builder->list = MESO_NEW(arena, uint32_t, field->swatch->triangle_count, error);
-    builder->distances = field->costs;
-    builder->nearest = field->faces;
-    builder->scratch = meso_arena_alloc(arena, MESO_MATCH_BINS, builder->scratch_size, error);
-    return builder->list && builder->scratch ? MESO_OK : MESO_ERR_MEMORY;
+    size_t voxels = meso_voxel_count(&builder->grid);
+    builder->squares = MESO_NEW(arena, float, builder->worker_count * voxels, error);
+    builder->nearest = MESO_NEW(arena, uint32_t, builder->worker_count * voxels, error);
+    builder->scratch = meso_arena_alloc(arena, builder->worker_count, builder->scratch_size, error);
+    return builder->list && builder->squares && builder->nearest && builder->scratch ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static void sort_faces(Builder *builder)
@@ -102,16 +105,28 @@ static void sort_faces(Builder *builder)
         builder->list[fill[meso_match_nearest_bin(field->face_normals[f])]++] = f;
 }
 
-static void measure_bins(void *context, uint64_t begin, uint64_t end)
+static void put_face(const MesoMatchField *field, size_t at, uint32_t face)
+{
+    if (field->faces)
+        field->faces[at] = (uint16_t)face;
+    else
+        field->many_faces[at] = face;
+}
+
+static void measure_bins(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Builder *builder = context;
     const MesoSwatch *swatch = builder->field->swatch;
     size_t voxels = meso_voxel_count(&builder->grid);
+    uint32_t *nearest = builder->nearest + worker * voxels;
     for (size_t bin = (size_t)begin; bin < end; bin++) {
         uint32_t first = builder->begins[bin];
-        meso_nearest_faces(builder->distances + bin * voxels, builder->nearest + bin * voxels, &builder->grid,
-                           swatch->positions, swatch->corners, builder->list + first, builder->begins[bin + 1] - first,
-                           builder->scratch + bin * builder->scratch_size);
+        meso_nearest_faces(nearest, builder->squares + worker * voxels, &builder->grid, swatch->positions,
+                           swatch->corners, builder->list + first, builder->begins[bin + 1] - first,
+                           builder->scratch + worker * builder->scratch_size);
+        builder->known[bin] = nearest[0] != MESO_NO_INDEX;
+        for (size_t v = 0; v < voxels && builder->known[bin]; v++)
+            put_face(builder->field, bin * voxels + v, nearest[v]);
     }
 }
 
@@ -136,18 +151,24 @@ static uint32_t whole_lanes(uint32_t count)
     return (count + LANES - 1) / LANES * LANES;
 }
 
-/* Returns false where the bin has no face. */
-static bool load_stretch(Stretch *stretch, const Builder *builder, size_t at, uint32_t count)
+static float distance_to(const MesoSwatch *swatch, uint32_t face, MesoVec3 point)
+{
+    const uint32_t *corners = &swatch->corners[3 * (size_t)face];
+    const MesoVec3 *p = swatch->positions;
+    return sqrtf(meso_triangle_square(point, p[corners[0]], p[corners[1]], p[corners[2]]));
+}
+
+/* `at`: the first voxel, (x, y, z), in the table of the bin. */
+static void load_stretch(Stretch *stretch, const Builder *builder, size_t at, const uint32_t place[3], uint32_t count)
 {
     const MesoMatchField *field = builder->field;
-    if (builder->nearest[at] == MESO_NO_INDEX)
-        return false;
     stretch->least = INFINITY;
     for (uint32_t i = 0; i < whole_lanes(count); i++) {
-        size_t from = at + (i < count ? i : count - 1);
-        uint32_t face = builder->nearest[from];
+        uint32_t from = i < count ? i : count - 1, face = meso_match_face(field, at + from);
         MesoVec3 n = field->face_normals[face];
-        float factor = 1 + field->lambda * builder->distances[from];
+        MesoVec3 centre = meso_voxel_centre(&builder->grid, place[0] + from, place[1], place[2]);
+        float factor = i < count ? 1 + field->lambda * distance_to(field->swatch, face, centre)
+                                 : stretch->factors[count - 1];
         stretch->factors[i] = factor;
         stretch->x[i] = n.x;
         stretch->y[i] = n.y;
@@ -155,7 +176,6 @@ static bool load_stretch(Stretch *stretch, const Builder *builder, size_t at, ui
         stretch->faces[i] = face;
         stretch->least = factor < stretch->least ? factor : stretch->least;
     }
-    return true;
 }
 
 /* Where the faces are better with a normal in direction `n` than what is there, they take its place. By masks: branches
@@ -190,14 +210,16 @@ static float largest_cost(const Best *best, uint32_t count)
 }
 
 /* All that is known of a stretch is loaded before what is best takes its place. */
-static void combine_stretch(const Builder *builder, size_t at, uint32_t count)
+static void combine_stretch(const Builder *builder, const uint32_t place[3], uint32_t count)
 {
     const MesoMatchField *field = builder->field;
     size_t voxels = meso_voxel_count(&builder->grid);
+    size_t at = ((size_t)place[2] * field->count[1] + place[1]) * field->count[0] + place[0];
     Stretch stretches[MESO_MATCH_BINS];
     uint32_t known_count = 0;
     for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++)
-        known_count += load_stretch(&stretches[known_count], builder, bin * voxels + at, count);
+        if (builder->known[bin])
+            load_stretch(&stretches[known_count++], builder, bin * voxels + at, place, count);
     for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++) {
         MesoVec3 direction = meso_match_direction(bin);
         float largest = INFINITY;
@@ -213,8 +235,10 @@ static void combine_stretch(const Builder *builder, size_t at, uint32_t count)
             keep_better(&best, stretch, direction, count);
             largest = largest_cost(&best, count);
         }
-        memcpy(field->costs + bin * voxels + at, best.costs, count * sizeof(float));
-        memcpy(field->faces + bin * voxels + at, best.faces, count * sizeof(uint32_t));
+        for (uint32_t i = 0; i < count; i++) {
+            field->costs[bin * voxels + at + i] = meso_match_excess_code(best.costs[i] - 1);
+            put_face(field, bin * voxels + at + i, best.faces[i]);
+        }
     }
 }
 
@@ -224,8 +248,10 @@ static void combine_rows(void *context, uint64_t begin, uint64_t end)
     uint32_t length = builder->grid.count[0], pieces = (length + CHUNK - 1) / CHUNK;
     uint32_t piece = (length + pieces - 1) / pieces;
     for (uint64_t row = begin; row < end; row++)
-        for (uint32_t x = 0; x < length; x += piece)
-            combine_stretch(builder, (size_t)row * length + x, length - x < piece ? length - x : piece);
+        for (uint32_t x = 0; x < length; x += piece) {
+            uint32_t rows = builder->grid.count[1], place[3] = {x, (uint32_t)(row % rows), (uint32_t)(row / rows)};
+            combine_stretch(builder, place, length - x < piece ? length - x : piece);
+        }
 }
 
 MesoStatus meso_match_field_build(MesoMatchField *field, MesoArena *arena, const MesoSwatch *swatch, float lambda,
@@ -240,20 +266,26 @@ MesoStatus meso_match_field_build(MesoMatchField *field, MesoArena *arena, const
     MesoStatus status = place_voxels(field, swatch, error);
     if (status != MESO_OK)
         return status;
-    Builder builder = {field, {{field->count[0], field->count[1], field->count[2]}, voxel, field->low}, {0}, NULL, NULL,
-                       NULL, NULL, 0};
+    Builder builder = {.field = field,
+                       .grid = {{field->count[0], field->count[1], field->count[2]}, voxel, field->low},
+                       .worker_count = thread_count ? thread_count : meso_parallel_cores()};
+    if (builder.worker_count > MESO_MATCH_BINS)
+        builder.worker_count = MESO_MATCH_BINS;
     size_t cells = MESO_MATCH_BINS * meso_voxel_count(&builder.grid);
-    field->costs = MESO_NEW(arena, float, cells, error);
-    field->faces = MESO_NEW(arena, uint32_t, cells, error);
+    bool many = swatch->triangle_count > UINT16_MAX;
+    field->costs = MESO_NEW(arena, uint16_t, cells, error);
+    field->faces = many ? NULL : MESO_NEW(arena, uint16_t, cells, error);
+    field->many_faces = many ? MESO_NEW(arena, uint32_t, cells, error) : NULL;
     field->face_normals = MESO_NEW(arena, MesoVec3, swatch->triangle_count, error);
     MesoArenaMark mark = meso_arena_mark(arena);
-    if (!field->costs || !field->faces || !field->face_normals || allocate(&builder, arena, error) != MESO_OK)
+    if (!field->costs || !(field->faces || field->many_faces) || !field->face_normals ||
+        allocate(&builder, arena, error) != MESO_OK)
         return MESO_ERR_MEMORY;
 
     for (uint32_t f = 0; f < swatch->triangle_count; f++)
         field->face_normals[f] = face_normal(swatch, f);
     sort_faces(&builder);
-    meso_parallel_for(thread_count, MESO_MATCH_BINS, 1, measure_bins, &builder);
+    meso_parallel_team(builder.worker_count, MESO_MATCH_BINS, 1, measure_bins, &builder);
     meso_parallel_for(thread_count, (uint64_t)field->count[1] * field->count[2], 32, combine_rows, &builder);
     meso_arena_rewind(arena, mark);
     return MESO_OK;
@@ -354,7 +386,8 @@ static void try_table(Climb *climb)
     for (int k = 0; k < 3; k++)
         for (int n = 0; n < 4 && blend.weights[k] > 0; n++) {
             size_t layer = (size_t)blend.bins[k] * field->count[2] + z[n == 3];
-            try_face(climb, field->faces[(layer * field->count[1] + y[n == 2]) * field->count[0] + x[n == 1]]);
+            size_t at = (layer * field->count[1] + y[n == 2]) * field->count[0] + x[n == 1];
+            try_face(climb, meso_match_face(field, at));
         }
 }
 

@@ -49,7 +49,7 @@ typedef struct Search {
     float margin, total;    /* of the weights */
 } Search;
 
-/* The shifts of one turn: from (first_x, first_y) on, in voxels, and the sum of D at each. */
+/* The shifts of one turn: from (first_x, first_y) on, in voxels, and the sum of D - 1 at each. */
 typedef struct Sheet {
     int32_t first_x, first_y;
     uint32_t columns, rows;
@@ -103,15 +103,15 @@ static size_t voxel_at(float x, uint32_t last)
  * Adds three tables, each times a weight, to all shifts. This is where the time goes: rows are contiguous, and nothing
  * overlaps.
  */
-static void add_tables(const Sheet *sheet, const float *const tables[3], const float weights[3], size_t stride)
+static void add_tables(const Sheet *sheet, const uint16_t *const tables[3], const float weights[3], size_t stride)
 {
     const float u = weights[0], v = weights[1], w = weights[2];
     for (uint32_t y = 0; y < sheet->rows; y++) {
         float *restrict sums = sheet->sums + (size_t)y * sheet->columns;
-        const float *restrict a = tables[0] + y * stride, *restrict b = tables[1] + y * stride;
-        const float *restrict c = tables[2] + y * stride;
+        const uint16_t *restrict a = tables[0] + y * stride, *restrict b = tables[1] + y * stride;
+        const uint16_t *restrict c = tables[2] + y * stride;
         for (uint32_t x = 0; x < sheet->columns; x++)
-            sums[x] += u * a[x] + v * b[x] + w * c[x];
+            sums[x] += u * meso_match_excess(a[x]) + v * meso_match_excess(b[x]) + w * meso_match_excess(c[x]);
     }
 }
 
@@ -122,7 +122,7 @@ static void add_point(const Sheet *sheet, const MesoMatchField *field, MesoMatch
     size_t y = voxel_at(p.y + (float)sheet->first_y, field->count[1] - sheet->rows);
     size_t z = voxel_at(p.z, field->count[2] - 1);
     MesoMatchBlend blend = meso_match_blend(point.normal);
-    const float *tables[3];
+    const uint16_t *tables[3];
     for (int k = 0; k < 3; k++) {
         tables[k] = &field->costs[((blend.bins[k] * (size_t)field->count[2] + z) * field->count[1] + y) *
                                       field->count[0] + x];
@@ -183,7 +183,7 @@ static bool take_best(MesoMatch *match, Sheet *sheets, const Search *search, flo
     if (!(least < INFINITY))
         return false;
     *match = (MesoMatch){shift_at(&sheets[turn], search->field, best), turn, 0};
-    match->cost = search->total > 0 ? least / search->total - 1 : 0;
+    match->cost = search->total > 0 ? least / search->total : 0;
     take_around(&sheets[turn], best, apart / search->field->voxel);
     return true;
 }

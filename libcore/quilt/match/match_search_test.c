@@ -65,13 +65,28 @@ static void test_table(void)
                                  field.low.y + ((float)at[1] + 0.5f) * field.voxel,
                                  field.low.z + ((float)at[2] + 0.5f) * field.voxel},
                                 meso_match_direction(bin)};
-        float least = meso_match_exact(&swatch, field.lambda, point, &face), cost = field.costs[bin * voxels + v];
+        float least = meso_match_exact(&swatch, field.lambda, point, &face);
+        float cost = 1 + meso_match_excess(field.costs[bin * voxels + v]);
         CHECK(cost >= least * (1 - 1e-5f) && cost < least * 1.6f);
-        CHECK(field.faces[bin * voxels + v] < swatch.triangle_count);
+        CHECK(meso_match_face(&field, bin * voxels + v) < swatch.triangle_count);
         exact += cost < least * (1 + 1e-3f);
         ratio += (double)(cost / least);
     }
     CHECK(exact > tried * 6 / 10 && ratio < 1.02 * (double)tried);
+}
+
+/* Sixteen bits of a cost: no less than it, by less than one part in 2048. */
+static void test_codes(void)
+{
+    MesoRandom random;
+    meso_random_init(&random, 12, 0);
+    for (int i = 0; i < 10000; i++) {
+        float excess = ldexpf(meso_fixture_float(&random, 1, 2), (int)meso_random_below(&random, 31) - 16);
+        float kept = meso_match_excess(meso_match_excess_code(excess));
+        CHECK(kept >= excess && kept <= excess * (1 + 1.0f / 2048));
+    }
+    CHECK(meso_match_excess(meso_match_excess_code(0)) < 1e-4f);
+    CHECK(meso_match_excess(meso_match_excess_code(INFINITY)) > 6e4f);
 }
 
 /* Pairs are exact for the face that is given; returns how much more they cost than the best of all, as a part of it. */
@@ -116,8 +131,8 @@ static void test_threads(void)
         MesoArenaMark mark = meso_arena_mark(&arena);
         MesoMatchField again;
         CHECK(meso_match_field_build(&again, &arena, &swatch, field.lambda, field.voxel, threads, NULL) == MESO_OK);
-        CHECK(memcmp(again.costs, field.costs, cells * sizeof(float)) == 0);
-        CHECK(memcmp(again.faces, field.faces, cells * sizeof(uint32_t)) == 0);
+        CHECK(memcmp(again.costs, field.costs, cells * sizeof *field.costs) == 0);
+        CHECK(memcmp(again.faces, field.faces, cells * sizeof *field.faces) == 0);
         meso_arena_rewind(&arena, mark);
     }
 }
@@ -284,6 +299,7 @@ int main(void)
     meso_fixture_weave(&swatch, &arena, TILE, 13, 6, 0.1f, 5);
     CHECK(meso_match_field_build(&field, &arena, &swatch, 1 / swatch.mean_edge, 0.1f, 1, NULL) == MESO_OK);
     test_bins();
+    test_codes();
     test_table();
     test_pairs();
     test_threads();

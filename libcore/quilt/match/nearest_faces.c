@@ -127,34 +127,17 @@ static void corners_of(MesoVec3 triangle[3], const MesoVec3 *positions, const ui
         triangle[k] = positions[corners[3 * (size_t)face + k]];
 }
 
-static void measure(float *distances, const uint32_t *faces, const MesoVoxelGrid *grid, const MesoVec3 *positions,
-                    const uint32_t *corners)
-{
-    size_t v = 0;
-    MesoVec3 triangle[3];
-    for (uint32_t z = 0; z < grid->count[2]; z++)
-        for (uint32_t y = 0; y < grid->count[1]; y++)
-            for (uint32_t x = 0; x < grid->count[0]; x++, v++) {
-                if (faces[v] == MESO_NO_INDEX)
-                    continue;
-                corners_of(triangle, positions, corners, faces[v]);
-                MesoVec3 p = meso_voxel_centre(grid, x, y, z);
-                distances[v] = sqrtf(meso_triangle_square(p, triangle[0], triangle[1], triangle[2]));
-            }
-}
-
-void meso_nearest_faces(float *distances, uint32_t *faces, const MesoVoxelGrid *grid, const MesoVec3 *positions,
+void meso_nearest_faces(uint32_t *faces, float *squares, const MesoVoxelGrid *grid, const MesoVec3 *positions,
                         const uint32_t *corners, const uint32_t *list, uint32_t list_count, void *scratch)
 {
     MesoVec3 triangle[3];
     for (size_t v = 0; v < meso_voxel_count(grid); v++) {
-        distances[v] = INFINITY;
+        squares[v] = INFINITY;
         faces[v] = MESO_NO_INDEX;
     }
     for (uint32_t i = 0; i < list_count; i++) {
         corners_of(triangle, positions, corners, list[i]);
-        paint(distances, faces, grid, triangle, list[i]);
+        paint(squares, faces, grid, triangle, list[i]);
     }
-    transform(distances, faces, grid, scratch);
-    measure(distances, faces, grid, positions, corners);
+    transform(squares, faces, grid, scratch);
 }

@@ -27,19 +27,20 @@ static inline MesoVec3 meso_voxel_centre(const MesoVoxelGrid *grid, uint32_t x, 
 size_t meso_nearest_faces_scratch(const MesoVoxelGrid *grid);
 
 /*
- * Writes for each voxel the distance from its centre to a face that is near, and that face.
+ * Writes for each voxel a face that is near to its centre.
  *
- * distances, faces    [voxels] INFINITY and MESO_NO_INDEX where none of the faces comes into the grid
+ * faces               [voxels] MESO_NO_INDEX where none of the faces comes into the grid
+ * squares             [voxels] scratch
  * positions, corners  of the mesh
  * list                [list_count] the faces in question
  * scratch             [meso_nearest_faces_scratch()] bytes, aligned to 4
  *
  * Voxels within a voxel of a face have it by exact distances. From there squares spread by an exact transform, line by
  * line in x, y and z (Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions", 2012), with the face
- * that they are of. The distances written are those to that face: no less than the least, and rarely more than half a
- * voxel more. O(voxels + what boxes around the faces hold).
+ * that they are of: rarely more than half a voxel farther than the nearest. O(voxels + what boxes around the faces
+ * hold).
  */
-void meso_nearest_faces(float *distances, uint32_t *faces, const MesoVoxelGrid *grid, const MesoVec3 *positions,
+void meso_nearest_faces(uint32_t *faces, float *squares, const MesoVoxelGrid *grid, const MesoVec3 *positions,
                         const uint32_t *corners, const uint32_t *list, uint32_t list_count, void *scratch);
 
 #endif
