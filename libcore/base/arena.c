@@ -11,6 +11,12 @@
 
 enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
 
+/*
+ * Blocks of that size come from the system, and go back to it: malloc() would keep what it once had, in pieces that
+ * nothing else fits into.
+ */
+enum { MAPPED_SIZE = 1 << 21 };
+
 /* Pages of large blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. */
 enum { LARGE_PAGE = 1 << 21 };
 
@@ -21,6 +27,7 @@ struct MesoArenaBlock {
     size_t used;
     size_t dirty;           /* bytes that were handed out once: not zero now */
     void *adopted;          /* from elsewhere; the block has no room then */
+    size_t mapped;          /* bytes from the system; 0: by malloc() */
 };
 
 static size_t round_up(size_t size)
@@ -42,19 +49,39 @@ static void ask_for_large_pages(void *data, size_t size)
 #endif
 }
 
-/* calloc gives fresh zero pages for large blocks without touching them. */
+/* Zero; by calloc(), or in fresh pages. */
+static MesoArenaBlock *take_room(size_t size)
+{
+    if (size < MAPPED_SIZE)
+        return calloc(1, size);
+    MesoArenaBlock *block = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (block == MAP_FAILED)
+        return NULL;
+    ask_for_large_pages(block, size);
+    block->mapped = size;
+    return block;
+}
+
 static MesoArenaBlock *new_block(size_t size)
 {
     size_t header = round_up(sizeof(MesoArenaBlock));
     if (size > SIZE_MAX - header - ALIGNMENT)
         return NULL;
-    MesoArenaBlock *block = calloc(1, header + size + ALIGNMENT);
+    MesoArenaBlock *block = take_room(header + size + ALIGNMENT);
     if (!block)
         return NULL;
-    ask_for_large_pages(block, header + size);
     block->data = (unsigned char *)round_up((uintptr_t)block + header);
     block->size = size;
     return block;
+}
+
+static void free_block(MesoArenaBlock *block)
+{
+    free(block->adopted);
+    if (block->mapped)
+        munmap(block, block->mapped);
+    else
+        free(block);
 }
 
 void meso_arena_init(MesoArena *arena)
@@ -65,6 +92,20 @@ void meso_arena_init(MesoArena *arena)
 void meso_arena_release(MesoArena *arena)
 {
     meso_arena_rewind(arena, (MesoArenaMark){0});
+    arena->most = 0;
+}
+
+void meso_arena_clear(MesoArena *arena)
+{
+    size_t most = arena->most;
+    MesoArenaBlock *block = arena->head;
+    if (block && !block->previous && !block->adopted && block->size >= most)
+        meso_arena_rewind(arena, (MesoArenaMark){block, 0, 0});
+    else
+        meso_arena_release(arena);
+    if (!arena->head && most)
+        arena->head = new_block(most + most / 8);   /* no more than a wish */
+    arena->most = 0;
 }
 
 void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *error)
@@ -96,6 +137,7 @@ void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *e
     if (block->used > block->dirty)
         block->dirty = block->used;
     arena->used += bytes;
+    arena->most = arena->used > arena->most ? arena->used : arena->most;
     return data;
 }
 
@@ -145,8 +187,7 @@ void meso_arena_rewind(MesoArena *arena, MesoArenaMark mark)
         MesoArenaBlock *block = arena->head;
         assert(block);
         arena->head = block->previous;
-        free(block->adopted);
-        free(block);
+        free_block(block);
     }
     if (arena->head)
         arena->head->used = mark.block_used;

@@ -20,6 +20,7 @@ typedef struct MesoArenaBlock MesoArenaBlock;
 typedef struct MesoArena {
     MesoArenaBlock *head;   /* newest block */
     size_t used;            /* bytes handed out, all blocks */
+    size_t most;            /* that have been at once since it was empty */
 } MesoArena;
 
 typedef struct MesoArenaMark {
@@ -32,6 +33,9 @@ void meso_arena_init(MesoArena *arena);
 
 /* Frees everything. `arena` may be used again as after meso_arena_init(). */
 void meso_arena_release(MesoArena *arena);
+
+/* Gives all back but one block, so large that the same again finds room in it: for scratch that comes in rounds. */
+void meso_arena_clear(MesoArena *arena);
 
 /*
  * Returns `count * size` zeroed bytes, aligned to 64; for a count of 0 a

@@ -231,8 +231,9 @@ static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, 
     else if (error)
         *error = round->errors[i];
     for (int k = 0; k < MESO_QUILT_TRIALS; k++)
-        meso_arena_release(&round->patches[i].trial_arenas[k]);
-    meso_arena_release(&round->arenas[i]);
+        if (round->patches[i].trial_arenas[k])
+            meso_arena_pool_return(&round->work->pool, round->patches[i].trial_arenas[k]);
+    meso_arena_clear(&round->arenas[i]);
     return status;
 }
 
@@ -263,6 +264,8 @@ static MesoStatus insist(Round *round, uint32_t seed, Front *front, MesoError *e
 static MesoStatus run_round(Round *round, const Seed *seeds, Front *front, MesoError *error)
 {
     bool done[MESO_QUILT_PATCHES];
+    for (uint32_t i = round->count; i < MESO_QUILT_PATCHES; i++)
+        meso_arena_release(&round->arenas[i]);
     for (uint32_t i = 0; i < round->count; i++)
         begin_patch(round, i, seeds[i].triangle, TIGHTNESS[0]);
     prepare(round, round->count);
@@ -400,8 +403,12 @@ static MesoStatus run(MesoQuiltWork *work, Round *round, MesoError *error)
         status = meso_chart_maker_init(&round->makers[i], work->base, error);
     if (!status)
         status = grow(work, round, &front, error);
-    for (int i = 0; i < MESO_QUILT_PATCHES; i++)
+    for (int i = 0; i < MESO_QUILT_PATCHES; i++) {
         meso_chart_maker_release(&round->makers[i]);
+        meso_arena_release(&round->arenas[i]);
+    }
+    for (int i = 0; i < MESO_QUILT_ARENAS; i++)
+        meso_arena_release(&work->pool.arenas[i]);
     meso_arena_release(&scratch);
     return status;
 }

@@ -30,6 +30,22 @@ MesoVec3 meso_step_warp(const MesoQuiltStep *step, MesoVec3 p)
     return meso_vec3_mad(p, fade, move);
 }
 
+/* ---- scratch ---- */
+
+MesoArena *meso_arena_pool_lend(MesoArenaPool *pool)
+{
+    uint32_t i = 0;
+    while (atomic_exchange(&pool->lent[i], true))
+        i = (i + 1) % MESO_QUILT_ARENAS;
+    return &pool->arenas[i];
+}
+
+void meso_arena_pool_return(MesoArenaPool *pool, MesoArena *arena)
+{
+    meso_arena_clear(arena);
+    atomic_store(&pool->lent[arena - pool->arenas], false);
+}
+
 /* ---- pairs of both sides ---- */
 
 /* Where a point of the new side belongs. */
@@ -122,7 +138,7 @@ static MesoStatus try_placement(Candidate *c, const MesoQuiltWork *work, MesoAre
 typedef struct Trials {
     MesoQuiltWork *work;
     Candidate candidates[MESO_QUILT_TRIALS];
-    MesoArena *arenas;          /* one for each */
+    MesoArena **arenas;         /* one for each, lent when its turn comes */
     MesoStatus statuses[MESO_QUILT_TRIALS];
     MesoError errors[MESO_QUILT_TRIALS];
     uint32_t first;             /* that the range begins with */
@@ -131,9 +147,11 @@ typedef struct Trials {
 static void try_range(void *context, uint64_t begin, uint64_t end)
 {
     Trials *trials = context;
-    for (uint64_t i = trials->first + begin; i < trials->first + end; i++)
-        trials->statuses[i] = try_placement(&trials->candidates[i], trials->work, &trials->arenas[i],
+    for (uint64_t i = trials->first + begin; i < trials->first + end; i++) {
+        trials->arenas[i] = meso_arena_pool_lend(&trials->work->pool);
+        trials->statuses[i] = try_placement(&trials->candidates[i], trials->work, trials->arenas[i],
                                             &trials->errors[i]);
+    }
 }
 
 /* Cores that no patch keeps at work, and the one that asks. */
@@ -191,8 +209,10 @@ static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, MesoQ
         return status;
     *best = trials.candidates[chosen];
     for (uint32_t i = 0; i < found; i++)
-        if (i != chosen)
-            meso_arena_release(&patch->trial_arenas[i]);
+        if (i != chosen && patch->trial_arenas[i]) {
+            meso_arena_pool_return(&work->pool, patch->trial_arenas[i]);
+            patch->trial_arenas[i] = NULL;
+        }
     step->tally->report.retry_count += chosen > 0;
     step->tally->cost_sum += best->step.match.cost;
     return MESO_OK;

@@ -29,6 +29,17 @@ enum { MESO_QUILT_PATCHES = 4 };
 /* Placements of a patch that are looked at closely. */
 enum { MESO_QUILT_TRIALS = 4 };
 
+/* Scratch for placements, lent to those who ask: as many as there can be at once. */
+enum { MESO_QUILT_ARENAS = MESO_QUILT_PATCHES * MESO_QUILT_TRIALS };
+
+typedef struct MesoArenaPool {
+    MesoArena arenas[MESO_QUILT_ARENAS];
+    atomic_bool lent[MESO_QUILT_ARENAS];
+} MesoArenaPool;
+
+MesoArena *meso_arena_pool_lend(MesoArenaPool *pool);
+void meso_arena_pool_return(MesoArenaPool *pool, MesoArena *arena);
+
 typedef struct MesoQuiltTally {
     MesoQuiltReport report;
     double cost_sum, square_sum;
@@ -62,6 +73,7 @@ typedef struct MesoQuiltWork {
     uint32_t *chart_triangles;  /* [triangle_count] MESO_NO_INDEX between steps */
     MesoQuiltTally tally;       /* of all steps */
     atomic_uint busy_patches;   /* that are being made ready: cores beyond these try placements */
+    MesoArenaPool pool;
     bool welds;                 /* the swatch has strands and is periodic: patches may fit vertex by vertex */
 
     /* lengths in units of the swatch */
@@ -301,7 +313,7 @@ typedef struct MesoQuiltPatch {
     MesoStrandJoint joint;
     MesoWholePlan wholes;
     bool laid_out;              /* marks in the work are to be taken back */
-    MesoArena trial_arenas[MESO_QUILT_TRIALS];
+    MesoArena *trial_arenas[MESO_QUILT_TRIALS];     /* of the pool, or NULL */
 } MesoQuiltPatch;
 
 MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error);

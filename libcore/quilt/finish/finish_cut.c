@@ -104,7 +104,10 @@ static MesoStatus cut_element(Cutter *c, uint32_t element, MesoError *error)
     return status;
 }
 
-/* Triangles that the border crosses: so many points, twice, and as many triangles more there may be. */
+/*
+ * Triangles that the border crosses: so many points, twice, and as many triangles more there may be; and as many edges
+ * are open then, which are closed by a triangle each, around a point for three of them or more.
+ */
 static uint64_t count_crossed(const Cutter *c)
 {
     uint64_t crossed = 0;
@@ -126,7 +129,8 @@ MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoErr
         c.values[v] = meso_finish_inside(work, quilt->vertices[v]);
     if (!status) {
         uint64_t crossed = count_crossed(&c);
-        status = meso_finish_reserve(work, quilt->vertex_count + 2 * crossed, quilt->triangle_count + crossed, error);
+        status = meso_finish_reserve(work, quilt->vertex_count + 2 * crossed + crossed / 3,
+                                     quilt->triangle_count + 2 * crossed, error);
     }
     for (uint32_t e = 0; !status && e < quilt->element_count; e++) {
         float least, most;

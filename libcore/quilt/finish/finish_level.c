@@ -172,7 +172,7 @@ static void find_differences(double *trust, double *d, const Level *level, const
     }
 }
 
-MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
+static MesoStatus level_strands(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
     Level level = {0};
@@ -194,5 +194,13 @@ MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoE
         work->vertices[v].height -= (float)s[v];
         work->points[v] = meso_finish_point(work, work->vertices[v]);
     }
+    return status;
+}
+
+MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
+{
+    MesoArenaMark mark = meso_arena_mark(work->arena);
+    MesoStatus status = level_strands(work, quilt, error);
+    meso_arena_rewind(work->arena, mark);
     return status;
 }

@@ -9,6 +9,8 @@ MesoStatus meso_finish_reserve(MesoFinishWork *work, uint64_t vertex_count, uint
     if (vertex_count > MESO_NO_INDEX / 3 || triangle_count > MESO_NO_INDEX / 3)
         return meso_fail(error, MESO_ERR_LIMIT, "the quilt has more than %u triangles", MESO_NO_INDEX / 3);
     size_t vertices = vertex_count + 1, triangles = triangle_count + 1;
+    if (vertices <= work->vertex_room && triangles <= work->triangle_room)
+        return MESO_OK;
     uint32_t v = work->vertex_count, t = work->triangle_count;
 #define ENLARGE(array, count, room, width) \
     (work->array = meso_arena_enlarge(work->arena, work->array, (width) * (size_t)(count), (width) * (room), \
