@@ -6,6 +6,10 @@
 #include "libcore/base/disjoint_sets.h"
 #include "libcore/quilt/swatch/swatch_elements.h"
 
+/* What has been taken away makes room when there is so much more than at the last packing, and a little. */
+#define PACK_RATIO 1.4
+#define PACK_LEAST 32768
+
 /* An array that is owned by the composite, half as large again; false where memory is out. */
 static bool enlarge(void *array, uint32_t room, size_t width)
 {
@@ -30,7 +34,8 @@ static MesoStatus out_of_room(MesoError *error, uint32_t room, const char *what)
 
 MesoStatus meso_composite_init(MesoComposite *composite, uint32_t base_count, MesoError *error)
 {
-    *composite = (MesoComposite){0};
+    *composite = (MesoComposite){.base_count = base_count, .triangle_limit = PACK_LEAST,
+                                 .whole_vertex_limit = PACK_LEAST};
     size_t size = ((size_t)base_count + 1) * sizeof(uint32_t);
     composite->triangle_head = malloc(size);
     composite->whole_head = malloc(size);
@@ -158,6 +163,144 @@ void meso_composite_tidy(MesoComposite *composite, uint32_t base_triangle)
             *link = composite->wholes[*link].next;
         else
             link = &composite->wholes[*link].next;
+    }
+}
+
+/* ---- packing ---- */
+
+/* Gives back what an array has beyond some room. */
+static void shrink(void *array, uint32_t room, size_t width)
+{
+    void *smaller = realloc(*(void **)array, room * width);
+    if (smaller)
+        *(void **)array = smaller;
+}
+
+static uint32_t room_for(uint32_t count)
+{
+    return count + count / 4 + 1024;
+}
+
+/* Numbers the vertices of what lives, in their order, in `marks`, and moves them there. */
+static void pack_vertices(MesoComposite *c)
+{
+    uint32_t kept = 0;
+    for (uint32_t t = 0; t < c->triangle_count; t++)
+        for (size_t k = 0; k < 3 && !meso_composite_is_dead(c, t); k++)
+            c->marks[c->corners[3 * (size_t)t + k]] = 0;
+    for (uint32_t v = 0; v < c->vertex_count; v++) {
+        if (c->marks[v] == MESO_NO_INDEX)
+            continue;
+        c->vertices[kept] = c->vertices[v];
+        c->vertex_origins[kept] = c->vertex_origins[v];
+        c->marks[v] = kept++;
+    }
+    c->vertex_count = kept;
+}
+
+/* Moves the triangles that live; `numbers` comes to be where each has gone. */
+static void pack_triangles(MesoComposite *c, uint32_t *numbers)
+{
+    uint32_t kept = 0;
+    for (uint32_t t = 0; t < c->triangle_count; t++) {
+        numbers[t] = MESO_NO_INDEX;
+        if (meso_composite_is_dead(c, t))
+            continue;
+        for (size_t k = 0; k < 3; k++)
+            c->corners[3 * (size_t)kept + k] = c->marks[c->corners[3 * (size_t)t + k]];
+        c->triangle_origins[kept] = c->triangle_origins[t];
+        c->patches[kept] = c->patches[t];
+        c->next[kept] = c->next[t];
+        numbers[t] = kept++;
+    }
+    c->triangle_count = kept;
+}
+
+/* Links and caps by the new numbers, once no list has anything that is dead. */
+static void renumber_triangles(MesoComposite *c, const uint32_t *numbers)
+{
+    uint32_t caps = 0;
+    for (uint32_t b = 0; b < c->base_count; b++)
+        if (c->triangle_head[b] != MESO_NO_INDEX)
+            c->triangle_head[b] = numbers[c->triangle_head[b]];
+    for (uint32_t t = 0; t < c->triangle_count; t++)
+        if (c->next[t] != MESO_NO_INDEX)
+            c->next[t] = numbers[c->next[t]];
+    for (uint32_t i = 0; i < c->cap_count; i++)
+        if (numbers[c->caps[i]] != MESO_NO_INDEX)
+            c->caps[caps++] = numbers[c->caps[i]];
+    c->cap_count = caps;
+}
+
+static void pack_strands(MesoComposite *c)
+{
+    uint32_t *numbers = malloc(((size_t)c->triangle_count + 1) * sizeof *numbers), marks = c->vertex_count;
+    if (!numbers)
+        return;     /* another time */
+    pack_vertices(c);
+    pack_triangles(c, numbers);
+    renumber_triangles(c, numbers);
+    free(numbers);
+    memset(c->marks, 0xff, marks * sizeof *c->marks);
+    c->vertex_room = room_for(c->vertex_count);
+    c->triangle_room = room_for(c->triangle_count);
+    shrink(&c->vertices, c->vertex_room, sizeof *c->vertices);
+    shrink(&c->vertex_origins, c->vertex_room, sizeof *c->vertex_origins);
+    shrink(&c->marks, c->vertex_room, sizeof *c->marks);
+    shrink(&c->corners, c->triangle_room, 3 * sizeof *c->corners);
+    shrink(&c->triangle_origins, c->triangle_room, sizeof *c->triangle_origins);
+    shrink(&c->patches, c->triangle_room, sizeof *c->patches);
+    shrink(&c->next, c->triangle_room, sizeof *c->next);
+}
+
+static void pack_wholes(MesoComposite *c, const MesoSwatch *swatch)
+{
+    uint32_t *numbers = malloc(((size_t)c->whole_count + 1) * sizeof *numbers), kept = 0, vertices = 0;
+    if (!numbers)
+        return;
+    for (uint32_t w = 0; w < c->whole_count; w++) {
+        MesoPlacedWhole whole = c->wholes[w];
+        uint32_t count = swatch->vertex_begin[whole.element + 1] - swatch->vertex_begin[whole.element];
+        if (whole.dead)
+            continue;
+        memmove(&c->whole_vertices[vertices], &c->whole_vertices[whole.vertex_begin], count * sizeof *c->whole_vertices);
+        whole.vertex_begin = vertices;
+        vertices += count;
+        numbers[w] = kept;
+        c->wholes[kept++] = whole;
+    }
+    for (uint32_t b = 0; b < c->base_count; b++)
+        if (c->whole_head[b] != MESO_NO_INDEX)
+            c->whole_head[b] = numbers[c->whole_head[b]];
+    for (uint32_t w = 0; w < kept; w++)
+        if (c->wholes[w].next != MESO_NO_INDEX)
+            c->wholes[w].next = numbers[c->wholes[w].next];
+    free(numbers);
+    c->whole_count = kept;
+    c->whole_vertex_count = vertices;
+    c->whole_vertex_room = room_for(vertices);
+    shrink(&c->whole_vertices, c->whole_vertex_room, sizeof *c->whole_vertices);
+}
+
+static uint32_t pack_limit(uint32_t count)
+{
+    double limit = PACK_RATIO * count + PACK_LEAST;
+    return limit < MESO_NO_INDEX ? (uint32_t)limit : MESO_NO_INDEX;
+}
+
+void meso_composite_pack(MesoComposite *composite, const MesoSwatch *swatch)
+{
+    bool strands = composite->triangle_count > composite->triangle_limit;
+    bool wholes = composite->whole_vertex_count > composite->whole_vertex_limit;
+    for (uint32_t b = 0; b < composite->base_count && (strands || wholes); b++)
+        meso_composite_tidy(composite, b);
+    if (strands) {
+        pack_strands(composite);
+        composite->triangle_limit = pack_limit(composite->triangle_count);
+    }
+    if (wholes) {
+        pack_wholes(composite, swatch);
+        composite->whole_vertex_limit = pack_limit(composite->whole_vertex_count);
     }
 }
 

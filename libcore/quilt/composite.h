@@ -2,7 +2,7 @@
  * Composite: the quilt while it grows. Strands are one soup of triangles, found
  * by the triangle of the base under their first corner; whole elements are
  * copies that stay together and are found by the triangle under their centre.
- * What is taken away is marked dead until the end.
+ * What is taken away is marked dead, and goes when the composite is packed.
  */
 #ifndef MESO_COMPOSITE_H
 #define MESO_COMPOSITE_H
@@ -33,7 +33,9 @@ typedef struct MesoComposite {
     MesoQuiltVertex *whole_vertices;
     uint32_t *caps;             /* [cap_count] the first triangle of each cap */
     uint32_t cap_count, cap_room;
-    uint32_t *triangle_head, *whole_head;   /* by triangle of the base, or MESO_NO_INDEX */
+    uint32_t base_count;
+    uint32_t *triangle_head, *whole_head;   /* [base_count] by triangle of the base, or MESO_NO_INDEX */
+    uint32_t triangle_limit, whole_vertex_limit;    /* beyond these it is packed */
 } MesoComposite;
 
 MesoStatus meso_composite_init(MesoComposite *composite, uint32_t base_count, MesoError *error);
@@ -57,6 +59,12 @@ static inline bool meso_composite_is_dead(const MesoComposite *composite, uint32
 
 /* Takes dead triangles and elements out of the lists under a triangle of the base. */
 void meso_composite_tidy(MesoComposite *composite, uint32_t base_triangle);
+
+/*
+ * Between steps: where there is so much of it that it is worth while, what is dead makes room for what comes, and all
+ * else has other numbers, in the same order. O(1) on the mean for each that was added.
+ */
+void meso_composite_pack(MesoComposite *composite, const MesoSwatch *swatch);
 
 /* What lives, by element: connected triangles, and whole elements. To `arena`. O(all). MESO_ERR_LIMIT, _MEMORY. */
 MesoStatus meso_composite_finish(MesoQuilt *quilt, MesoArena *arena, const MesoComposite *composite,

@@ -304,6 +304,7 @@ static MesoStatus grow(MesoQuiltWork *work, Round *round, Front *front, MesoErro
             status = check_limits(work, error);
         if (status)
             return status;
+        meso_composite_pack(&work->composite, work->swatch);
         if (work->options.progress)
             work->options.progress(work->options.context, front->done_count, work->base->triangle_count);
     }
