@@ -5,6 +5,8 @@
 /* Halvings on the way to the border: 2^-14 of an edge of the swatch is nothing. */
 enum { HALVINGS = 14 };
 
+enum { ROOM_LEAST = 1024 };
+
 typedef struct Cutter {
     MesoFinishWork *work;
     const MesoQuilt *quilt;
@@ -104,10 +106,7 @@ static MesoStatus cut_element(Cutter *c, uint32_t element, MesoError *error)
     return status;
 }
 
-/*
- * Triangles that the border crosses: so many points, twice, and as many triangles more there may be; and as many edges
- * are open then, which are closed by a triangle each, around a point for three of them or more.
- */
+/* Triangles that the border crosses. */
 static uint64_t count_crossed(const Cutter *c)
 {
     uint64_t crossed = 0;
@@ -128,9 +127,13 @@ MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoErr
     for (uint32_t v = 0; !status && v < quilt->vertex_count; v++)
         c.values[v] = meso_finish_inside(work, quilt->vertices[v]);
     if (!status) {
-        uint64_t crossed = count_crossed(&c);
-        status = meso_finish_reserve(work, quilt->vertex_count + 2 * crossed + crossed / 3,
-                                     quilt->triangle_count + 2 * crossed, error);
+        /*
+         * Two points for each triangle that is crossed, and a triangle more; then an edge is open, and closed by one
+         * triangle, around a point for three of them or more. And some room for what is open already.
+         */
+        uint64_t crossed = count_crossed(&c), some = ROOM_LEAST + quilt->triangle_count / 64;
+        status = meso_finish_reserve(work, quilt->vertex_count + 2 * crossed + (crossed + some) / 3,
+                                     quilt->triangle_count + 2 * crossed + some, error);
     }
     for (uint32_t e = 0; !status && e < quilt->element_count; e++) {
         float least, most;

@@ -131,12 +131,7 @@ static float within(float value, float most)
 /* In the original's triangle; what the border has made lies in it. */
 static MesoQuiltVertex original_place(const MesoFinishWork *work, uint32_t v)
 {
-    MesoQuiltVertex from = work->vertices[v];
-    const MesoVec2 *corner = &work->base->corner_weights[3 * (size_t)from.triangle];
-    float b0 = 1 - from.b1 - from.b2;
-    MesoQuiltVertex to = {work->base->triangles[from.triangle],
-                          b0 * corner[0].x + from.b1 * corner[1].x + from.b2 * corner[2].x,
-                          b0 * corner[0].y + from.b1 * corner[1].y + from.b2 * corner[2].y, from.height};
+    MesoQuiltVertex to = meso_finish_original(work, work->vertices[v]);
     if (work->at_border[v]) {
         to.b1 = within(to.b1, 1);
         to.b2 = within(to.b2, 1 - to.b1);

@@ -69,6 +69,15 @@ MesoVec3 meso_finish_point(const MesoFinishWork *work, MesoQuiltVertex vertex)
     return meso_vec3_mad(meso_finish_foot(work, vertex), vertex.height, n);
 }
 
+MesoQuiltVertex meso_finish_original(const MesoFinishWork *work, MesoQuiltVertex vertex)
+{
+    const MesoVec2 *corner = &work->base->corner_weights[3 * (size_t)vertex.triangle];
+    float b0 = 1 - vertex.b1 - vertex.b2;
+    return (MesoQuiltVertex){work->base->triangles[vertex.triangle],
+                             b0 * corner[0].x + vertex.b1 * corner[1].x + vertex.b2 * corner[2].x,
+                             b0 * corner[0].y + vertex.b1 * corner[1].y + vertex.b2 * corner[2].y, vertex.height};
+}
+
 float meso_finish_inside(const MesoFinishWork *work, MesoQuiltVertex vertex)
 {
     const float *inside = work->base->inside;

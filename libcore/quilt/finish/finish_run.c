@@ -21,6 +21,27 @@ static MesoStatus find_normals(MesoFinishWork *work, MesoError *error)
     return MESO_OK;
 }
 
+/* Nothing but whole elements without open ends, and no border: they stay as they are. */
+static bool is_finished(const MesoFinishWork *work)
+{
+    bool strands = false;
+    for (uint32_t e = 0; e < work->swatch->element_count; e++)
+        strands |= work->swatch->kinds[e] == MESO_ELEMENT_STRAND;
+    return !strands && !work->swatch->loop_count && !work->base->inside;
+}
+
+static MesoStatus finish(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *work, MesoError *error)
+{
+    MesoStatus status = find_normals(work, error);
+    if (!status)
+        status = meso_finish_cut(work, quilt, error);
+    if (!status && work->options->scale > 0)
+        status = meso_finish_level(work, quilt, error);
+    if (!status)
+        status = meso_finish_close(work, error);
+    return status ? status : meso_finish_gather(quilt, arena, work, error);
+}
+
 MesoStatus meso_quilt_finish(MesoQuilt *quilt, MesoArena *arena, const MesoQuiltBase *base, const MesoSwatch *swatch,
                              const MesoFinishOptions *options, MesoError *error)
 {
@@ -29,15 +50,12 @@ MesoStatus meso_quilt_finish(MesoQuilt *quilt, MesoArena *arena, const MesoQuilt
     MesoFinishWork work = {.base = base, .swatch = swatch, .options = options, .report = &quilt->report,
                            .arena = &scratch};
     quilt->report.open_count = 0;
-    MesoStatus status = find_normals(&work, error);
-    if (!status)
-        status = meso_finish_cut(&work, quilt, error);
-    if (!status && options->scale > 0)
-        status = meso_finish_level(&work, quilt, error);
-    if (!status)
-        status = meso_finish_close(&work, error);
-    if (!status)
-        status = meso_finish_gather(quilt, arena, &work, error);
+    MesoStatus status = MESO_OK;
+    if (!is_finished(&work))
+        status = finish(quilt, arena, &work, error);
+    else
+        for (uint32_t v = 0; v < quilt->vertex_count; v++)
+            quilt->vertices[v] = meso_finish_original(&work, quilt->vertices[v]);
     meso_arena_release(&scratch);
     return status;
 }

@@ -36,6 +36,9 @@ void meso_finish_add_triangle(MesoFinishWork *work, const uint32_t *corners, uin
 MesoVec3 meso_finish_foot(const MesoFinishWork *work, MesoQuiltVertex vertex);
 MesoVec3 meso_finish_point(const MesoFinishWork *work, MesoQuiltVertex vertex);
 
+/* In the triangle of the original. */
+MesoQuiltVertex meso_finish_original(const MesoFinishWork *work, MesoQuiltVertex vertex);
+
 /* Walks from a triangle towards a point near the surface; at an end of the surface, to the nearest place there. */
 MesoQuiltVertex meso_finish_locate(const MesoFinishWork *work, uint32_t triangle, MesoVec3 foot, float height);
 

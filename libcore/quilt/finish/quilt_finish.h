@@ -18,7 +18,7 @@ typedef struct MesoFinishOptions {
 } MesoFinishOptions;
 
 /*
- * Finishes a quilt over `base`->mesh, in place; its arrays are anew in `arena`:
+ * Finishes a quilt over `base`->mesh, in place; its arrays are anew in `arena` where any of this changes it:
  *
  * - Strands are cut where base->inside is 0, whole elements that reach further beyond than `overhang` are left out.
  * - Loops of open edges, wherever they come from, are closed by caps: flat ones by the ears of the loop, others, and
