@@ -177,8 +177,8 @@ bool meso_quilt_plane_has(const MesoQuiltPlane *plane, MesoVec2 place, uint32_t 
 bool meso_quilt_plane_to(const MesoQuiltPlane *plane, MesoQuiltVertex vertex, MesoVec3 *point)
 {
     uint32_t t = plane->chart_triangles[vertex.triangle];
-    if (t == MESO_NO_INDEX)
-        return false;
+    if (t == MESO_NO_INDEX || t >= plane->chart->triangle_count || plane->chart->triangles[t] != vertex.triangle)
+        return false;   /* nor is it of another chart */
     MesoVec2 a = corner_place(plane, t, 0), b = corner_place(plane, t, 1), c = corner_place(plane, t, 2);
     float b0 = 1 - vertex.b1 - vertex.b2;
     *point = (MesoVec3){b0 * a.x + vertex.b1 * b.x + vertex.b2 * c.x, b0 * a.y + vertex.b1 * b.y + vertex.b2 * c.y,

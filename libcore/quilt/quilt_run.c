@@ -21,6 +21,13 @@ enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
  */
 #define SEED_REACH 0.2f
 
+/* Triangles that are looked at for seeds of one round. */
+enum { SEED_TRIES = 24 };
+
+/* What is under a chart reaches out of it by so many edges of the swatch, or reaches of its whole elements. */
+#define OUT_EDGES 4.0f
+#define OUT_WHOLES 2.0f
+
 typedef struct Front {
     uint32_t *triangles;    /* [count] not done, next to what is; in the order in which they came */
     float *constraints;     /* [count] share of done triangles around them */
@@ -73,18 +80,6 @@ typedef struct Seed {
     uint32_t triangle;
     float constraint;   /* share of what is done around it */
 } Seed;
-
-static bool is_apart(const MesoQuiltWork *work, const Seed *seeds, uint32_t count, uint32_t triangle, float apart)
-{
-    MesoVec3 p = work->base->positions[work->base->corners[3 * (size_t)triangle]];
-    for (uint32_t i = 0; i < count; i++) {
-        MesoVec3 q = work->base->positions[work->base->corners[3 * (size_t)seeds[i].triangle]];
-        MesoVec3 d = meso_vec3_sub(p, q);
-        if (!(meso_vec3_dot(d, d) > apart * apart))
-            return false;
-    }
-    return true;
-}
 
 static MesoVec3 centre_of(const MesoTriangulation *base, uint32_t triangle)
 {
@@ -146,14 +141,20 @@ static uint32_t move_in(Front *front, const MesoQuiltWork *work, uint32_t seed)
     return best;
 }
 
-/*
- * Next to the most constrained triangle: that with the largest share of done ones around it, then the oldest; and some
- * more, each the most constrained one that is so far from those before it that their charts cannot touch. None at the
- * end.
- */
-static uint32_t next_seeds(Seed seeds[MESO_QUILT_PATCHES], Front *front, const MesoQuiltWork *work)
+/* Whether a triangle is so far from all seeds, but for `less`. */
+static bool is_apart(const MesoQuiltWork *work, const Seed *seeds, uint32_t count, uint32_t triangle, float less)
 {
-    uint32_t kept = 0, count = 0;
+    float apart = work->seeds_apart - less;
+    for (uint32_t i = 0; i < count; i++)
+        if (!(square_between(centre_of(work->base, triangle), centre_of(work->base, seeds[i].triangle)) > apart * apart))
+            return false;
+    return true;
+}
+
+/* Drops what is done, and measures what is not. */
+static void measure_front(Front *front, const MesoQuiltWork *work)
+{
+    uint32_t kept = 0;
     for (uint32_t i = 0; i < front->count; i++) {
         uint32_t triangle = front->triangles[i], all;
         if (work->covers[triangle] == MESO_COVER_DONE)
@@ -163,15 +164,40 @@ static uint32_t next_seeds(Seed seeds[MESO_QUILT_PATCHES], Front *front, const M
         front->triangles[kept++] = triangle;
     }
     front->count = kept;
-    for (; count < MESO_QUILT_PATCHES; count++) {
-        Seed best = {MESO_NO_INDEX, -1};
-        for (uint32_t i = 0; i < front->count; i++)
-            if (front->constraints[i] > best.constraint &&
-                is_apart(work, seeds, count, front->triangles[i], work->seeds_apart))
-                best = (Seed){front->triangles[i], front->constraints[i]};
-        if (best.triangle == MESO_NO_INDEX)
+}
+
+/* The most constrained triangle of those that may be far enough from the seeds before; it does not come again. */
+static Seed take_constrained(Front *front, const MesoQuiltWork *work, const Seed *seeds, uint32_t count)
+{
+    Seed best = {MESO_NO_INDEX, -1};
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < front->count; i++)
+        if (front->constraints[i] > best.constraint &&
+            is_apart(work, seeds, count, front->triangles[i], work->seed_reach)) {
+            best = (Seed){front->triangles[i], front->constraints[i]};
+            at = i;
+        }
+    if (best.triangle != MESO_NO_INDEX)
+        front->constraints[at] = -1;
+    return best;
+}
+
+/*
+ * In the middle of what is not done next to the most constrained triangle: that with the largest share of done ones
+ * around it, then the oldest; and some more, each next to the most constrained one from which it comes to lie so far from
+ * those before it that their charts cannot touch. None at the end.
+ */
+static uint32_t next_seeds(Seed seeds[MESO_QUILT_PATCHES], Front *front, const MesoQuiltWork *work)
+{
+    uint32_t count = 0;
+    measure_front(front, work);
+    for (int tries = 0; count < MESO_QUILT_PATCHES && tries < SEED_TRIES; tries++) {
+        Seed seed = take_constrained(front, work, seeds, count);
+        if (seed.triangle == MESO_NO_INDEX)
             break;
-        seeds[count] = (Seed){move_in(front, work, best.triangle), best.constraint};
+        seed.triangle = move_in(front, work, seed.triangle);
+        if (is_apart(work, seeds, count, seed.triangle, 0))
+            seeds[count++] = seed;
     }
     if (count)
         return count;
@@ -343,18 +369,14 @@ static void choose_lengths(MesoQuiltWork *work)
                          work->whole_margin;
 }
 
-/* Charts around seeds that are so far apart, in a straight line, do not touch, however long their triangles are. */
+/*
+ * Charts lie within their radius from their seed's middle, as the crow flies. Seeds that are so far apart have charts
+ * that do not touch, nor does what is under one of them reach the other.
+ */
 static float distance_apart(const MesoQuiltWork *work)
 {
-    float longest = 0;
-    for (uint32_t c = 0; c < 3 * work->base->triangle_count; c++) {
-        MesoVec3 a = work->base->positions[work->base->corners[c]];
-        MesoVec3 b = work->base->positions[work->base->corners[meso_next_corner(c)]];
-        MesoVec3 d = meso_vec3_sub(a, b);
-        float square = meso_vec3_dot(d, d);
-        longest = square > longest ? square : longest;
-    }
-    return 2 * work->chart_radius * work->options.scale + 2 * work->seed_reach + 6 * sqrtf(longest);
+    float out = fmaxf(OUT_EDGES * work->swatch->mean_edge, OUT_WHOLES * work->whole_margin);
+    return (2 * work->chart_radius + out) * work->options.scale;
 }
 
 static float choose_voxel(const MesoSwatch *swatch)
