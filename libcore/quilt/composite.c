@@ -263,7 +263,8 @@ static void pack_wholes(MesoComposite *c, const MesoSwatch *swatch)
         uint32_t count = swatch->vertex_begin[whole.element + 1] - swatch->vertex_begin[whole.element];
         if (whole.dead)
             continue;
-        memmove(&c->whole_vertices[vertices], &c->whole_vertices[whole.vertex_begin], count * sizeof *c->whole_vertices);
+        memmove(&c->whole_vertices[vertices], &c->whole_vertices[whole.vertex_begin],
+                count * sizeof *c->whole_vertices);
         whole.vertex_begin = vertices;
         vertices += count;
         numbers[w] = kept;

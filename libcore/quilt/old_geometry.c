@@ -1,4 +1,5 @@
 /* The quilt over a chart, in its plane. */
+#include "libcore/base/grow.h"
 #include "libcore/quilt/quilt_work.h"
 
 static uint32_t count_listed(const MesoQuiltWork *work, const MesoChart *chart, uint32_t *wholes)
@@ -15,7 +16,23 @@ static uint32_t count_listed(const MesoQuiltWork *work, const MesoChart *chart, 
     return triangles;
 }
 
-/* Number of a vertex in the step; MESO_NO_INDEX where it lies outside of the chart. */
+/* Room for so many vertices; what is there stays. */
+static MesoStatus reserve(MesoOldGeometry *old, uint32_t *room, uint32_t wanted, MesoArena *arena, MesoError *error)
+{
+    uint32_t count = old->vertex_count;
+    uint32_t *vertices = meso_arena_enlarge(arena, old->vertices, count, wanted, sizeof *vertices, error);
+    MesoVec3 *positions = meso_arena_enlarge(arena, old->positions, count, wanted, sizeof *positions, error);
+    MesoVec3 *normals = meso_arena_enlarge(arena, old->normals, count, wanted, sizeof *normals, error);
+    if (!vertices || !positions || !normals)
+        return MESO_ERR_MEMORY;
+    old->vertices = vertices;
+    old->positions = positions;
+    old->normals = normals;
+    *room = wanted;
+    return MESO_OK;
+}
+
+/* Number of a vertex in the step; MESO_NO_INDEX where it lies outside of the chart. There has to be room. */
 static uint32_t load_vertex(MesoOldGeometry *old, const MesoQuiltStep *step, MesoComposite *composite, uint32_t vertex)
 {
     uint32_t *mark = &composite->marks[vertex];
@@ -55,20 +72,22 @@ MesoStatus meso_old_geometry_load(MesoQuiltStep *step, MesoQuiltWork *work, Meso
     for (uint32_t i = 0; i < chart->triangle_count; i++)
         meso_composite_tidy(composite, chart->triangles[i]);
     uint32_t wholes, triangles = count_listed(work, chart, &wholes);
-    old->vertices = MESO_NEW(arena, uint32_t, 3 * (size_t)triangles, error);
-    old->positions = MESO_NEW(arena, MesoVec3, 3 * (size_t)triangles, error);
-    old->normals = MESO_NEW(arena, MesoVec3, 3 * (size_t)triangles, error);
     old->triangles = MESO_NEW(arena, uint32_t, triangles, error);
     old->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)triangles, error);
     old->wholes = MESO_NEW(arena, uint32_t, wholes, error);
     old->centres = MESO_NEW(arena, MesoVec3, wholes, error);
-    if (!old->vertices || !old->positions || !old->normals || !old->triangles || !old->corners || !old->wholes ||
-        !old->centres)
+    /* of meshes that close there are half as many vertices as triangles */
+    uint32_t room = 0;
+    MesoStatus status = reserve(old, &room, triangles / 2 + triangles / 8 + 64, arena, error);
+    if (!old->triangles || !old->corners || !old->wholes || !old->centres || status)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < chart->triangle_count; i++) {
         uint32_t under = chart->triangles[i];
-        for (uint32_t t = composite->triangle_head[under]; t != MESO_NO_INDEX; t = composite->next[t])
+        for (uint32_t t = composite->triangle_head[under]; t != MESO_NO_INDEX; t = composite->next[t]) {
+            if (room - old->vertex_count < 3 && (status = reserve(old, &room, 2 * room, arena, error)))
+                return status;
             load_triangle(old, step, composite, t);
+        }
         for (uint32_t w = composite->whole_head[under]; w != MESO_NO_INDEX; w = composite->wholes[w].next) {
             meso_quilt_plane_to(&step->plane, composite->wholes[w].centre, &old->centres[old->whole_count]);
             old->wholes[old->whole_count++] = w;

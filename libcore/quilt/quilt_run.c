@@ -145,8 +145,9 @@ static uint32_t move_in(Front *front, const MesoQuiltWork *work, uint32_t seed)
 static bool is_apart(const MesoQuiltWork *work, const Seed *seeds, uint32_t count, uint32_t triangle, float less)
 {
     float apart = work->seeds_apart - less;
+    MesoVec3 centre = centre_of(work->base, triangle);
     for (uint32_t i = 0; i < count; i++)
-        if (!(square_between(centre_of(work->base, triangle), centre_of(work->base, seeds[i].triangle)) > apart * apart))
+        if (!(square_between(centre, centre_of(work->base, seeds[i].triangle)) > apart * apart))
             return false;
     return true;
 }
@@ -184,8 +185,8 @@ static Seed take_constrained(Front *front, const MesoQuiltWork *work, const Seed
 
 /*
  * In the middle of what is not done next to the most constrained triangle: that with the largest share of done ones
- * around it, then the oldest; and some more, each next to the most constrained one from which it comes to lie so far from
- * those before it that their charts cannot touch. None at the end.
+ * around it, then the oldest; and some more, each next to the most constrained one from which it comes to lie so far
+ * from those before it that their charts cannot touch. None at the end.
  */
 static uint32_t next_seeds(Seed seeds[MESO_QUILT_PATCHES], Front *front, const MesoQuiltWork *work)
 {
@@ -259,6 +260,8 @@ static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, 
     for (int k = 0; k < MESO_QUILT_TRIALS; k++)
         if (round->patches[i].trial_arenas[k])
             meso_arena_pool_return(&round->work->pool, round->patches[i].trial_arenas[k]);
+    if (round->patches[i].step.beside)
+        meso_arena_pool_return(&round->work->pool, round->patches[i].step.beside);
     meso_arena_clear(&round->arenas[i]);
     return status;
 }

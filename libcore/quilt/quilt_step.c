@@ -46,6 +46,47 @@ void meso_arena_pool_return(MesoArenaPool *pool, MesoArena *arena)
     atomic_store(&pool->lent[arena - pool->arenas], false);
 }
 
+/* ---- cores ---- */
+
+/* Cores that no patch keeps at work, and the one that asks. */
+static uint32_t idle_cores(const MesoQuiltWork *work)
+{
+    uint32_t threads = work->options.thread_count ? work->options.thread_count : meso_parallel_cores();
+    uint32_t busy = atomic_load(&work->busy_patches);
+    return threads > busy ? threads - busy + 1 : 1;
+}
+
+/* Tasks of both sides. */
+typedef struct Sides {
+    MesoSideTask *task;
+    void *context;
+    MesoArena *arenas[2];
+    MesoStatus statuses[2];
+    MesoError errors[2];
+} Sides;
+
+static void do_side(void *context, uint64_t begin, uint64_t end)
+{
+    Sides *sides = context;
+    for (uint64_t i = begin; i < end; i++)
+        sides->statuses[i] = sides->task(sides->context, (int)i, sides->arenas[i], &sides->errors[i]);
+}
+
+MesoStatus meso_quilt_both(MesoSideTask *task, void *context, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                           MesoArena *arena, MesoError *error)
+{
+    bool together = step->beside && idle_cores(work) > 1;
+    Sides sides = {.task = task, .context = context, .arenas = {arena, together ? step->beside : arena}};
+    meso_parallel_for(together ? 2 : 1, 2, 1, do_side, &sides);
+    for (int i = 0; i < 2; i++)
+        if (sides.statuses[i]) {
+            if (error)
+                *error = sides.errors[i];
+            return sides.statuses[i];
+        }
+    return MESO_OK;
+}
+
 /* ---- pairs of both sides ---- */
 
 /* Where a point of the new side belongs. */
@@ -117,7 +158,8 @@ static MesoStatus meet(Candidate *c, const MesoQuiltWork *work, MesoArena *arena
 {
     MesoQuiltStep *step = &c->step;
     step->warp = (MesoThinPlate){0};
-    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, MESO_CUT_ENDS, &c->shares, step, work, arena, error);
+    MesoStatus status = meso_strands_cut(&c->old_side, &c->new_side, MESO_CUT_ENDS, &c->shares, step, work, arena,
+                                         error);
     if (!status)
         status = meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, REACH_BEFORE_WARP, &c->shares, step, work,
                                    arena, error);
@@ -152,14 +194,6 @@ static void try_range(void *context, uint64_t begin, uint64_t end)
         trials->statuses[i] = try_placement(&trials->candidates[i], trials->work, trials->arenas[i],
                                             &trials->errors[i]);
     }
-}
-
-/* Cores that no patch keeps at work, and the one that asks. */
-static uint32_t idle_cores(MesoQuiltWork *work)
-{
-    uint32_t threads = work->options.thread_count ? work->options.thread_count : meso_parallel_cores();
-    uint32_t busy = atomic_load(&work->busy_patches);
-    return threads > busy ? threads - busy + 1 : 1;
 }
 
 /*
@@ -225,7 +259,8 @@ static MesoStatus cut_all(Candidate *c, const MesoQuiltStep *step, const MesoQui
     float reach = step->warp.count ? MESO_REACH_LAST : REACH_BEFORE_WARP;
     MesoStatus status = step->warp.count ? meso_strands_share(&c->shares, step, work, arena, error) : MESO_OK;
     if (!status)
-        status = meso_strands_cut_shared(&c->old_side, &c->new_side, MESO_CUT_ALL, &c->shares, step, work, arena, error);
+        status = meso_strands_cut_shared(&c->old_side, &c->new_side, MESO_CUT_ALL, &c->shares, step, work, arena,
+                                         error);
     return status ? status : meso_strands_pair(&c->old_side, &c->new_side, &c->flaws, reach, &c->shares, step,
                                                work, arena, error);
 }
@@ -302,9 +337,10 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
     double *seconds = step->tally->report.seconds, clocks[5] = {meso_seconds()};
     MesoStatus status = survey(patch, work, arena, error);
     clocks[1] = meso_seconds();
-    Candidate c;
+    Candidate c = {0};
     if (!status)
         status = choose_placement(&c, patch, work, arena, error);
+    step->beside = c.step.beside = status ? NULL : meso_arena_pool_lend(&work->pool);
     if (!status)
         status = fit(&c, step, work, arena, error);
     clocks[2] = meso_seconds();

@@ -115,6 +115,7 @@ typedef struct MesoSeamGround {
  */
 typedef struct MesoQuiltStep {
     uint32_t seed, patch;
+    MesoArena *beside;          /* where there may be two of its tasks at the same time: scratch for the second */
     MesoChartMaker *maker;
     MesoQuiltTally *tally;
     float tightness;            /* of the margins: 1, or less where a patch was too small for them */
@@ -135,6 +136,13 @@ typedef struct MesoQuiltStep {
     float warp_limit;           /* the longest way of any of its points */
     float warp_reach;           /* distance from the seam at which that has faded out */
 } MesoQuiltStep;
+
+/* What is to be done for one side of a seam: 0 the older one, 1 the new one. */
+typedef MesoStatus MesoSideTask(void *context, int side, MesoArena *arena, MesoError *error);
+
+/* Both sides, at the same time where the step may and a core is idle; of errors the older side's. */
+MesoStatus meso_quilt_both(MesoSideTask *task, void *context, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                           MesoArena *arena, MesoError *error);
 
 /* From the swatch to the plane and back. */
 static inline MesoVec2 meso_step_turn(const MesoQuiltStep *step, MesoVec2 p)
@@ -313,7 +321,7 @@ typedef struct MesoQuiltPatch {
     MesoStrandJoint joint;
     MesoWholePlan wholes;
     bool laid_out;              /* marks in the work are to be taken back */
-    MesoArena *trial_arenas[MESO_QUILT_TRIALS];     /* of the pool, or NULL */
+    MesoArena *trial_arenas[MESO_QUILT_TRIALS];     /* of the pool, or NULL; as step.beside */
 } MesoQuiltPatch;
 
 MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error);

@@ -50,8 +50,7 @@ static MesoVec3 turned(MesoVec3 v, MesoVec3 from, MesoVec3 to)
 }
 
 /* Moves the sections that have a partner; the strands behind follow over some rings. */
-static MesoStatus deform_side(MesoStrandSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work,
-                              MesoArena *arena, MesoError *error)
+static MesoStatus deform_side(MesoStrandSide *side, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     uint32_t pull_count = 0, count = side->clip.kept_count + side->clip.made_count;
     MesoBandPull *pulls = MESO_NEW(arena, MesoBandPull, side->clip.made_count, error);
@@ -77,11 +76,33 @@ static MesoStatus deform_side(MesoStrandSide *side, const MesoQuiltStep *step, c
         moved[v] = side->clipped[v];
     MesoStatus status = meso_band_deform(moved, arena, count, side->clip.corners, side->clip.triangle_count, pulls,
                                          pull_count, BAND_RINGS, SECTION_WEIGHT * work->options.mu, NULL, NULL, error);
-    if (status)
-        return status;
-    count_moves(step->tally, work->swatch->mean_edge, side->clipped, moved, count);
-    side->clipped = moved;
-    return MESO_OK;
+    if (!status)
+        side->clipped = moved;
+    return status;
+}
+
+typedef struct Deforming {
+    MesoStrandSide *sides[2];
+    const MesoQuiltWork *work;
+} Deforming;
+
+static MesoStatus deform_one(void *context, int side, MesoArena *arena, MesoError *error)
+{
+    const Deforming *d = context;
+    return deform_side(d->sides[side], d->work, arena, error);
+}
+
+static MesoStatus deform_sides(MesoStrandJoint *joint, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                               MesoArena *arena, MesoError *error)
+{
+    Deforming d = {{&joint->old_side, &joint->new_side}, work};
+    const MesoVec3 *before[2] = {joint->old_side.clipped, joint->new_side.clipped};
+    MesoStatus status = meso_quilt_both(deform_one, &d, step, work, arena, error);
+    for (int i = 0; i < 2 && !status; i++)
+        if (d.sides[i]->clipped != before[i])
+            count_moves(step->tally, work->swatch->mean_edge, before[i], d.sides[i]->clipped,
+                        d.sides[i]->clip.kept_count + d.sides[i]->clip.made_count);
+    return status;
 }
 
 /* ---- to the composite ---- */
@@ -290,9 +311,7 @@ MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_s
                                        arena, error);
     }
     if (!status)
-        status = deform_side(&joint->old_side, step, work, arena, error);
-    if (!status)
-        status = deform_side(&joint->new_side, step, work, arena, error);
+        status = deform_sides(joint, step, work, arena, error);
     if (status)
         return status;
     measure_again(&joint->old_side);

@@ -291,33 +291,55 @@ static MesoStatus list_pulls(MesoRingShares *shares, const RingSide *side, const
     return MESO_OK;
 }
 
+typedef struct Sharing {
+    RingSide sides[2];
+    uint8_t *meets[2];          /* [rings of the side] the other side's ring is fixed */
+    MesoVec3 *places;
+    const MesoQuiltStep *step;
+    const MesoQuiltWork *work;
+} Sharing;
+
+static MesoStatus make_side(void *context, int side, MesoArena *arena, MesoError *error)
+{
+    Sharing *s = context;
+    MesoStatus status = side ? make_new(&s->sides[1], s->places, s->step, s->work, arena, error)
+                             : make_old(&s->sides[0], s->step, s->work, arena, error);
+    if (status)
+        return status;
+    s->meets[side] = MESO_NEW(arena, uint8_t, s->sides[side].rings->count, error);
+    return s->meets[side] ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus find_side(void *context, int side, MesoArena *arena, MesoError *error)
+{
+    Sharing *s = context;
+    (void)arena;
+    (void)error;
+    find_others(&s->sides[side], &s->sides[1 - side], s->meets[side]);
+    return MESO_OK;
+}
+
 MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                               MesoArena *arena, MesoError *error)
 {
-    RingSide old_side, new_side;
-    *shares = (MesoRingShares){.places = MESO_NEW(arena, MesoVec3, work->swatch->vertex_count, error)};
+    Sharing s = {.places = MESO_NEW(arena, MesoVec3, work->swatch->vertex_count, error), .step = step, .work = work};
+    *shares = (MesoRingShares){.places = s.places};
     if (!shares->places)
         return MESO_ERR_MEMORY;
-    MesoStatus status = make_old(&old_side, step, work, arena, error);
+    MesoStatus status = meso_quilt_both(make_side, &s, step, work, arena, error);
     if (!status)
-        status = make_new(&new_side, shares->places, step, work, arena, error);
+        status = meso_quilt_both(find_side, &s, step, work, arena, error);
     if (status)
         return status;
-    uint8_t *old_meets = MESO_NEW(arena, uint8_t, old_side.rings->count, error);
-    uint8_t *new_meets = MESO_NEW(arena, uint8_t, new_side.rings->count, error);
-    if (!old_meets || !new_meets)
-        return MESO_ERR_MEMORY;
-    find_others(&old_side, &new_side, old_meets);
-    find_others(&new_side, &old_side, new_meets);
-    share_out(&old_side, old_meets, step, false);
-    share_out(&new_side, new_meets, step, true);
-    shares->old_values = old_side.values;
-    shares->new_values = new_side.values;
-    shares->old_ways = old_side.ways;
-    shares->new_ways = new_side.ways;
-    shares->new_middles = new_side.middles;
-    shares->new_axes = new_side.axes;
-    shares->old_has = old_side.has_other;
-    shares->new_has = new_side.has_other;
-    return list_pulls(shares, &new_side, new_meets, arena, error);
+    share_out(&s.sides[0], s.meets[0], step, false);
+    share_out(&s.sides[1], s.meets[1], step, true);
+    shares->old_values = s.sides[0].values;
+    shares->new_values = s.sides[1].values;
+    shares->old_ways = s.sides[0].ways;
+    shares->new_ways = s.sides[1].ways;
+    shares->new_middles = s.sides[1].middles;
+    shares->new_axes = s.sides[1].axes;
+    shares->old_has = s.sides[0].has_other;
+    shares->new_has = s.sides[1].has_other;
+    return list_pulls(shares, &s.sides[1], s.meets[1], arena, error);
 }

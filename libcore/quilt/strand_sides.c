@@ -179,12 +179,27 @@ static MesoStatus cut_new(MesoStrandSide *side, MesoCutExtent extent, const Meso
     return cut_out(side, &from, extent, work->rings.of_vertex, shares->new_axes, arena, error);
 }
 
+typedef struct Cut {
+    MesoStrandSide *old_side, *new_side;
+    MesoCutExtent extent;
+    const MesoRingShares *shares;
+    const MesoQuiltStep *step;
+    const MesoQuiltWork *work;
+} Cut;
+
+static MesoStatus cut_one(void *context, int side, MesoArena *arena, MesoError *error)
+{
+    const Cut *cut = context;
+    return side ? cut_new(cut->new_side, cut->extent, cut->shares, cut->work, arena, error)
+                : cut_old(cut->old_side, cut->extent, cut->shares, cut->step, cut->work, arena, error);
+}
+
 MesoStatus meso_strands_cut_shared(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoCutExtent extent,
                                    const MesoRingShares *shares, const MesoQuiltStep *step, const MesoQuiltWork *work,
                                    MesoArena *arena, MesoError *error)
 {
-    MesoStatus status = cut_old(old_side, extent, shares, step, work, arena, error);
-    return status ? status : cut_new(new_side, extent, shares, work, arena, error);
+    Cut cut = {old_side, new_side, extent, shares, step, work};
+    return meso_quilt_both(cut_one, &cut, step, work, arena, error);
 }
 
 MesoStatus meso_strands_cut(MesoStrandSide *old_side, MesoStrandSide *new_side, MesoCutExtent extent,
