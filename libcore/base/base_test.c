@@ -43,6 +43,32 @@ static void test_arena(void)
     CHECK(arena.head == NULL && arena.used == 0);
 }
 
+/* What comes again after a clear finds one block that has room for all of it, small or from the system; and zeros. */
+static void test_arena_clear(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    meso_arena_clear(&arena);
+    CHECK(arena.head == NULL);
+    const size_t sizes[] = {100, 1 << 18, 3 << 20, 5000};
+    MesoArenaBlock *block = NULL;
+    for (int round = 0; round < 4; round++) {
+        for (int i = 0; i < 4; i++) {
+            unsigned char *data = MESO_NEW(&arena, unsigned char, sizes[i], NULL);
+            CHECK(data && data[0] == 0 && data[sizes[i] - 1] == 0);
+            memset(data, 7, sizes[i]);
+        }
+        CHECK(round == 0 || arena.head == block);
+        meso_arena_clear(&arena);
+        block = arena.head;
+        CHECK(block && arena.used == 0);
+    }
+    CHECK(meso_arena_adopt(&arena, malloc(10), NULL) && MESO_NEW(&arena, char, 10, NULL));
+    meso_arena_clear(&arena);
+    meso_arena_release(&arena);
+    CHECK(arena.head == NULL && arena.used == 0);
+}
+
 static void test_error(void)
 {
     MesoError error;
@@ -171,6 +197,7 @@ static void test_team_that_stays(void)
 int main(void)
 {
     test_arena();
+    test_arena_clear();
     test_error();
     test_random();
     test_bits();
