@@ -30,7 +30,7 @@ static const FaultRow ROWS[MESO_FAULT_COUNT] = {
     [MESO_FAULT_FOLD] = {"folded slots", NULL, .plain = true, .cages = true},
     [MESO_FAULT_CROSSING] = {"pairs that cross", "deep", .space = true},
     [MESO_FAULT_SELF_CROSSING] = {"pairs of triangles of one thing that cross", "deep", .space = true},
-    [MESO_FAULT_THIN] = {"triangles over what is too thin", "thick", .space = true},
+    [MESO_FAULT_THIN] = {"places over what is too thin", "thick", .space = true},
     [MESO_FAULT_FLOATING] = {"pieces that float", NULL, 0},
 };
 

@@ -191,13 +191,17 @@ typedef struct Groups {
     uint32_t count;
 } Groups;
 
+/* From cuts at even distances: they are sorted by triangles, and so lie along the things. */
 static void measure_depths(void *context, uint64_t begin, uint64_t end)
 {
     const Groups *groups = context;
     for (uint64_t g = begin; g < end; g++) {
         Group *group = &groups->groups[g];
-        uint32_t seeds = group->count < SEEDS ? group->count : SEEDS;
-        group->depth = meso_inspect_depth(groups->work, group->cuts, seeds);
+        MesoInspectCut seeds[SEEDS];
+        uint32_t count = group->count < SEEDS ? group->count : SEEDS;
+        for (uint32_t i = 0; i < count; i++)
+            seeds[i] = group->cuts[(uint64_t)i * group->count / count];
+        group->depth = meso_inspect_depth(groups->work, seeds, count);
     }
 }
 

@@ -9,6 +9,9 @@ enum { MOST_FOLLOWED = 128, MOST_REACHED = 4 * MOST_FOLLOWED, PATIENCE = 32, TAB
 /* Distances that differ by less are those of one point, of an edge or a corner, from several triangles. */
 #define SAME_DISTANCE 1e-9
 
+/* Below a surface the way to it is straight; where it is not, the point is beyond a rim, and neither above nor below. */
+#define STRAIGHT_COSINE 0.7
+
 /* What points are measured against: all of a thing, or, where it cuts through itself, the part that it runs into. */
 typedef struct Against {
     const MesoInspectWork *work;
@@ -23,7 +26,7 @@ static double segment_parameter(MesoVec3d a, MesoVec3d b, MesoVec3d p)
     MesoVec3d along = meso_vec3d_sub(b, a);
     double length = meso_vec3d_dot(along, along);
     double t = length > 0 ? meso_vec3d_dot(meso_vec3d_sub(p, a), along) / length : 0;
-    return fmin(fmax(t, 0), 1);
+    return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
 /* The way from the nearest point of a triangle to p. */
@@ -78,7 +81,7 @@ static double depth_at(Against *against, MesoVec3d point)
     against->steepness = 0;
     against->behind = false;
     meso_inspect_tree_nearest(&against->work->tree, point, against->thing, &square, distance_to, against);
-    return against->behind && isfinite(square) ? sqrt(square) : 0;
+    return against->behind && against->steepness > STRAIGHT_COSINE ? sqrt(square) : 0;
 }
 
 /* ---- the way in ---- */

@@ -1,4 +1,4 @@
-/* The thinnest section: from each triangle straight inwards to what looks the other way. */
+/* The thinnest section: from each place straight inwards to what looks the other way. */
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,35 +8,41 @@
 
 enum { GRAIN = 1 << 11, SAMPLES = 1000 };
 
-/* Rays start near the corners, so that a section that shrinks to a point is met near it. */
-#define NEAR_CORNER 0.9
 /* What ends a section looks away from the ray, give or take 60 degrees. */
 #define OPPOSITE_COSINE 0.5
 
 typedef struct Thinnest {
     double way;
-    uint32_t triangle;
-    uint64_t count;         /* of triangles over what is too thin */
+    uint32_t half;          /* whose place it is below */
+    uint64_t count;         /* of places over what is too thin */
 } Thinnest;
 
 typedef struct Sections {
     const MesoInspectWork *work;
     Thinnest *ranges;
-    uint8_t *thin;          /* [triangle_count] */
+    uint32_t *first;        /* [place_count] half-edges + 1 that speak for places */
+    MesoVec3 *inward;       /* [place_count] sums of area vectors, turned around */
+    uint8_t *thin;          /* [place_count] */
     _Atomic uint64_t best;  /* bits of the least way so far: they sort as positive doubles do */
 } Sections;
 
 typedef struct Ray {
     const MesoInspectWork *work;
-    uint32_t triangle;
+    uint32_t place, thing;
     MesoVec3d origin, direction;
 } Ray;
+
+static bool has_place(const MesoInspectWork *work, uint32_t triangle, uint32_t place)
+{
+    const uint32_t *places = &work->places[3 * triangle];
+    return places[0] == place || places[1] == place || places[2] == place;
+}
 
 static double way_through(void *context, uint32_t item)
 {
     const Ray *ray = context;
     const MesoInspectWork *work = ray->work;
-    if (item == ray->triangle || work->things[item] != work->things[ray->triangle])
+    if (work->things[item] != ray->thing || has_place(work, item, ray->place))
         return INFINITY;
     MesoInspectTriangle t = meso_inspect_triangle(work->mesh, item);
     double slope = meso_vec3d_dot(t.normal, ray->direction);
@@ -50,21 +56,40 @@ static double way_through(void *context, uint32_t item)
     return way >= 0 ? way : INFINITY;
 }
 
-/* From near corner k, or from the middle for k = 3; INFINITY where nothing is met before `limit`. */
-static double section_below(const MesoInspectWork *work, uint32_t triangle, uint32_t k, double limit)
+/* INFINITY where nothing is met before `limit`. */
+static double section_below(const Sections *sections, uint32_t half, double limit)
 {
-    MesoInspectTriangle t = meso_inspect_triangle(work->mesh, triangle);
-    Ray ray = {.work = work, .triangle = triangle, .direction = meso_vec3d_scale(t.normal, -1)};
-    if (meso_vec3d_dot(t.normal, t.normal) == 0)
+    const MesoInspectWork *work = sections->work;
+    uint32_t place = work->places[half];
+    MesoVec3d inward = meso_vec3d(sections->inward[place]);
+    double length = meso_vec3d_length(inward), way = limit;
+    if (!(length > 0))
         return INFINITY;
-    for (uint32_t i = 0; i < 3; i++) {
-        double weight = k == 3 ? 1.0 / 3 : i == k ? NEAR_CORNER : (1 - NEAR_CORNER) / 2;
-        ray.origin = meso_vec3d_mad(ray.origin, weight, t.p[i]);
-    }
-    double way = limit;
-    uint32_t met = meso_inspect_tree_ray(&work->tree, ray.origin, ray.direction, work->things[triangle], &way,
-                                         way_through, &ray);
+    Ray ray = {.work = work, .place = place, .thing = work->things[half / 3],
+               .origin = meso_vec3d(meso_inspect_corner(work->mesh, half)),
+               .direction = meso_vec3d_scale(inward, 1 / length)};
+    uint32_t met = meso_inspect_tree_ray(&work->tree, ray.origin, ray.direction, ray.thing, &way, way_through, &ray);
     return met == MESO_NO_INDEX ? INFINITY : way;
+}
+
+/* The first half-edge of each place speaks for it. */
+static MesoStatus describe_places(Sections *sections, MesoError *error)
+{
+    const MesoInspectWork *work = sections->work;
+    sections->first = MESO_NEW(work->scratch, uint32_t, work->place_count, error);
+    sections->inward = MESO_NEW(work->scratch, MesoVec3, work->place_count, error);
+    sections->thin = MESO_NEW(work->scratch, uint8_t, work->place_count, error);
+    if (!sections->first || !sections->inward || !sections->thin)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = work->mesh->triangle_count; t-- > 0;) {
+        MesoVec3 outward = meso_vec3d_narrow(meso_inspect_triangle(work->mesh, t).normal);
+        for (uint32_t k = 0; k < 3 && work->mates[3 * t] != MESO_MATE_OUT && meso_vec3_finite(outward); k++) {
+            MesoVec3 *inward = &sections->inward[work->places[3 * t + k]];
+            *inward = meso_vec3_sub(*inward, outward);
+            sections->first[work->places[3 * t + k]] = 3 * t + k + 1;
+        }
+    }
+    return MESO_OK;
 }
 
 static double read_best(Sections *sections)
@@ -83,30 +108,32 @@ static void lower_best(Sections *sections, double way)
         ;
 }
 
+static void measure_place(Sections *sections, Thinnest *range, uint32_t half)
+{
+    double asked = sections->work->options->thinnest;
+    double way = section_below(sections, half, fmax(nextafter(read_best(sections), INFINITY), asked));
+    if (way < asked) {
+        sections->thin[sections->work->places[half]] = 1;
+        range->count++;
+    }
+    if (way < range->way || (way == range->way && half < range->half)) {
+        range->way = way;
+        range->half = half;
+        lower_best(sections, way);
+    }
+}
+
 /* Only what is as thin as the thinnest so far is looked for, so that rays are short, or as what is too thin. */
 static void measure_range(void *context, uint64_t begin, uint64_t end)
 {
     Sections *sections = context;
     const MesoInspectWork *work = sections->work;
     Thinnest *range = &sections->ranges[begin / GRAIN];
-    double asked = work->options->thinnest;
     *range = (Thinnest){INFINITY, MESO_NO_INDEX, 0};
-    for (uint64_t i = begin; i < end; i++) {
-        uint32_t t = work->tree.order[i];
-        double least = INFINITY;
-        for (uint32_t k = 0; k < 3; k++) {
-            double limit = fmax(nextafter(read_best(sections), INFINITY), asked);
-            least = fmin(least, section_below(work, t, k, limit));
-        }
-        if (least < asked) {
-            sections->thin[t] = 1;
-            range->count++;
-        }
-        if (least < range->way || (least == range->way && t < range->triangle)) {
-            *range = (Thinnest){least, t, range->count};
-            lower_best(sections, least);
-        }
-    }
+    for (uint64_t i = begin; i < end; i++)
+        for (uint32_t k = 0, t = work->tree.order[i]; k < 3; k++)
+            if (sections->first[work->places[3 * t + k]] == 3 * t + k + 1)
+                measure_place(sections, range, 3 * t + k);
 }
 
 static int compare_doubles(const void *a, const void *b)
@@ -115,19 +142,40 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median over triangles at even distances along the tree. */
-static double usual_thickness(const MesoInspectWork *work)
+/* The median over places at even distances along the tree. */
+static double usual_thickness(const Sections *sections)
 {
+    const MesoInspectWork *work = sections->work;
     double ways[SAMPLES];
     uint32_t count = 0, items = work->tree.item_count;
     for (uint32_t i = 0; i < SAMPLES && i < items; i++) {
         uint64_t at = items <= SAMPLES ? i : (uint64_t)i * items / SAMPLES;
-        double way = section_below(work, work->tree.order[at], 3, INFINITY);
+        double way = section_below(sections, 3 * work->tree.order[at], INFINITY);
         if (isfinite(way))
             ways[count++] = way;
     }
     qsort(ways, count, sizeof *ways, compare_doubles);
     return count ? ways[count / 2] : 0;
+}
+
+static void note_thinnest(const Sections *sections, uint64_t range_count)
+{
+    const MesoInspectWork *work = sections->work;
+    Thinnest all = {INFINITY, MESO_NO_INDEX, 0};
+    for (uint64_t r = 0; r < range_count; r++) {
+        const Thinnest *range = &sections->ranges[r];
+        all.count += range->count;
+        if (range->way < all.way || (range->way == all.way && range->half < all.half)) {
+            all.way = range->way;
+            all.half = range->half;
+        }
+    }
+    bool found = isfinite(all.way);
+    work->result->thinnest = found ? all.way : 0;
+    work->result->findings[MESO_FAULT_THIN] = (MesoFinding){
+        all.count, work->result->thinnest, found ? all.half / 3 : MESO_NO_INDEX, MESO_NO_INDEX};
+    for (uint32_t h = 0; h < 3 * work->mesh->triangle_count; h++)
+        work->result->marks[h / 3] |= sections->thin[work->places[h]] ? 1u << MESO_FAULT_THIN : 0;
 }
 
 MesoStatus meso_inspect_thickness(MesoInspectWork *work, MesoError *error)
@@ -136,30 +184,16 @@ MesoStatus meso_inspect_thickness(MesoInspectWork *work, MesoError *error)
     uint64_t range_count = (work->tree.item_count + (uint64_t)GRAIN - 1) / GRAIN;
     Sections sections = {.work = work};
     sections.ranges = MESO_NEW(work->scratch, Thinnest, range_count, error);
-    sections.thin = MESO_NEW(work->scratch, uint8_t, work->mesh->triangle_count, error);
-    if (!sections.ranges || !sections.thin)
-        return MESO_ERR_MEMORY;
-    work->result->usual_thickness = usual_thickness(work);
-    double limit = work->result->usual_thickness > 0 ? work->result->usual_thickness : INFINITY;
+    MesoStatus status = sections.ranges ? describe_places(&sections, error) : MESO_ERR_MEMORY;
+    if (status)
+        return status;
+    double limit = work->result->usual_thickness = usual_thickness(&sections);
+    limit = limit > 0 ? limit : INFINITY;
     uint64_t bits;
     memcpy(&bits, &limit, sizeof bits);
     sections.best = bits;
     meso_parallel_for(work->options->thread_count, work->tree.item_count, GRAIN, measure_range, &sections);
-
-    Thinnest all = {INFINITY, MESO_NO_INDEX, 0};
-    for (uint64_t r = 0; r < range_count; r++) {
-        const Thinnest *range = &sections.ranges[r];
-        all.count += range->count;
-        if (range->way < all.way || (range->way == all.way && range->triangle < all.triangle)) {
-            all.way = range->way;
-            all.triangle = range->triangle;
-        }
-    }
-    MesoFinding *finding = &work->result->findings[MESO_FAULT_THIN];
-    *finding = (MesoFinding){all.count, isfinite(all.way) ? all.way : 0, all.triangle, MESO_NO_INDEX};
-    work->result->thinnest = finding->worst;
-    for (uint32_t t = 0; t < work->mesh->triangle_count; t++)
-        work->result->marks[t] |= sections.thin[t] ? 1u << MESO_FAULT_THIN : 0;
+    note_thinnest(&sections, range_count);
     meso_arena_rewind(work->scratch, mark);
     return MESO_OK;
 }

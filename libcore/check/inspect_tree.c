@@ -173,17 +173,17 @@ void meso_inspect_tree_meet(const MesoInspectTree *tree, MesoBox box, uint32_t b
     }
 }
 
-static bool is_of_others(const MesoInspectTree *tree, uint32_t node, uint32_t only)
+static inline bool is_of_others(const MesoInspectTree *tree, uint32_t node, uint32_t only)
 {
     return only != MESO_NO_INDEX && tree->owners[node] != only && tree->owners[node] != MESO_NO_INDEX;
 }
 
-static double outside(double low, double high, double x)
+static inline double outside(double low, double high, double x)
 {
     return x < low ? low - x : x > high ? x - high : 0;
 }
 
-static double square_to_box(const MesoBox *box, MesoVec3d p)
+static inline double square_to_box(const MesoBox *box, MesoVec3d p)
 {
     double x = outside((double)box->low.x, (double)box->high.x, p.x);
     double y = outside((double)box->low.y, (double)box->high.y, p.y);
@@ -230,26 +230,28 @@ uint32_t meso_inspect_tree_nearest(const MesoInspectTree *tree, MesoVec3d point,
     return nearest;
 }
 
-/* Narrows [*from, *to] to where the ray is between two planes. */
-static void narrow(double low, double high, double origin, double direction, double *from, double *to)
+/* A ray as boxes are asked about it: an axis that it does not move along has an infinite inverse. */
+typedef struct Slabs {
+    MesoVec3d origin, inverse;
+} Slabs;
+
+/* Narrows [*from, *to] to where the ray is between two planes. Plain comparisons: fmin() is a call. On a plane that it
+ * runs along, 0 times infinity is no number, which narrows nothing. */
+static inline void narrow(double low, double high, double origin, double inverse, double *from, double *to)
 {
-    if (direction == 0) {
-        if (origin < low || origin > high)
-            *from = INFINITY;
-        return;
-    }
-    double a = (low - origin) / direction, b = (high - origin) / direction;
-    *from = fmax(*from, a < b ? a : b);
-    *to = fmin(*to, a < b ? b : a);
+    double a = (low - origin) * inverse, b = (high - origin) * inverse;
+    double first = a < b ? a : b, last = a < b ? b : a;
+    *from = first > *from ? first : *from;
+    *to = last < *to ? last : *to;
 }
 
 /* How far along the ray the box begins; INFINITY: not before `way`. */
-static double way_to_box(const MesoBox *box, MesoVec3d origin, MesoVec3d direction, double way)
+static inline double way_to_box(const MesoBox *box, const Slabs *ray, double way)
 {
     double from = 0, to = way;
-    narrow((double)box->low.x, (double)box->high.x, origin.x, direction.x, &from, &to);
-    narrow((double)box->low.y, (double)box->high.y, origin.y, direction.y, &from, &to);
-    narrow((double)box->low.z, (double)box->high.z, origin.z, direction.z, &from, &to);
+    narrow((double)box->low.x, (double)box->high.x, ray->origin.x, ray->inverse.x, &from, &to);
+    narrow((double)box->low.y, (double)box->high.y, ray->origin.y, ray->inverse.y, &from, &to);
+    narrow((double)box->low.z, (double)box->high.z, ray->origin.z, ray->inverse.z, &from, &to);
     return from <= to ? from : INFINITY;
 }
 
@@ -257,9 +259,10 @@ uint32_t meso_inspect_tree_ray(const MesoInspectTree *tree, MesoVec3d origin, Me
                                double *way, double (*hit)(void *context, uint32_t item), void *context)
 {
     struct { uint32_t node; double way; } stack[DEEPEST];
+    const Slabs ray = {origin, {1 / direction.x, 1 / direction.y, 1 / direction.z}};
     uint32_t depth = 0, nearest = MESO_NO_INDEX;
     stack[depth].node = 1;
-    stack[depth++].way = way_to_box(&tree->boxes[1], origin, direction, *way);
+    stack[depth++].way = way_to_box(&tree->boxes[1], &ray, *way);
     while (depth > 0) {
         uint32_t node = stack[--depth].node;
         if (stack[depth].way > *way || stack[depth].way == INFINITY || is_of_others(tree, node, only))
@@ -268,13 +271,16 @@ uint32_t meso_inspect_tree_ray(const MesoInspectTree *tree, MesoVec3d origin, Me
             try_leaf(tree, node - tree->leaf_room, way, &nearest, hit, context);
             continue;
         }
-        double left = way_to_box(&tree->boxes[2 * node], origin, direction, *way);
-        double right = way_to_box(&tree->boxes[2 * node + 1], origin, direction, *way);
+        double left = way_to_box(&tree->boxes[2 * node], &ray, *way);
+        double right = way_to_box(&tree->boxes[2 * node + 1], &ray, *way);
         uint32_t near = right < left ? 1 : 0;
+        double farther = near ? left : right, closer = near ? right : left;
         stack[depth].node = 2 * node + 1 - near;
-        stack[depth++].way = near ? left : right;
+        stack[depth].way = farther;
+        depth += farther < INFINITY;
         stack[depth].node = 2 * node + near;
-        stack[depth++].way = near ? right : left;
+        stack[depth].way = closer;
+        depth += closer < INFINITY;
     }
     return nearest;
 }

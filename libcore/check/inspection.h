@@ -43,7 +43,7 @@ typedef enum MesoFault {
     MESO_FAULT_FOLD,            /* hexahedra that are turned inside out at a corner */
     MESO_FAULT_CROSSING,        /* pairs of things that cut through each other; how deep */
     MESO_FAULT_SELF_CROSSING,   /* pairs of triangles of one thing that do; how deep */
-    MESO_FAULT_THIN,            /* triangles over something thinner than asked; the thinnest of all */
+    MESO_FAULT_THIN,            /* places over something thinner than asked; the thinnest of all */
     MESO_FAULT_FLOATING,        /* pieces whose boxes hang together with most of the area by no chain of boxes */
     MESO_FAULT_COUNT
 } MesoFault;
@@ -97,8 +97,8 @@ typedef struct MesoInspection {
  * Crossings: triangles of which a side of one goes through the inside of the other, by more than the coordinates'
  * rounding; those that share a place only touch. The depth is how far below the surface of the one the other's
  * vertices get, followed inwards from where they cut through each other, among 256 triangles a pair.
- * Thickness: along the face's normal, from near the corners of each triangle inwards to the first one of the same
- * thing that looks the other way.
+ * Thickness: from each place inwards, along the mean normal of its triangles, to the first triangle of the same thing
+ * that looks the other way.
  *
  * `marks` and `pairs` go to `arena`. O(n log n) and some 150 bytes a triangle, as long as triangles are small beside
  * the whole; the same for any number of threads. MESO_ERR_LIMIT for over 2^30 triangles; MESO_ERR_MEMORY.
