@@ -4,7 +4,7 @@
  */
 #include "libcore/check/inspect_work.h"
 
-enum { MOST_FOLLOWED = 128, MOST_REACHED = 4 * MOST_FOLLOWED, PATIENCE = 32, TABLE = 2048 };
+enum { MOST_FOLLOWED = 64, MOST_REACHED = 4 * MOST_FOLLOWED, PATIENCE = 12, TABLE = 2048 };
 
 /* Distances that differ by less are those of one point, of an edge or a corner, from several triangles. */
 #define SAME_DISTANCE 1e-9

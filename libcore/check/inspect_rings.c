@@ -285,7 +285,7 @@ static void measure_end(Rings *rings, uint32_t open, uint32_t corner)
 {
     uint32_t ring = rings->ring_of[open], facing = rings->rings[ring].facing;
     Asking asking = {.rings = rings, .ring = facing, .point = at(rings, corner)};
-    double square = INFINITY, unused;
+    double square = INFINITY;
     uint32_t line = meso_inspect_tree_nearest(&rings->lines, asking.point, MESO_NO_INDEX, &square, line_distance, &asking);
     if (line == MESO_NO_INDEX)
         return;
@@ -294,9 +294,6 @@ static void measure_end(Rings *rings, uint32_t open, uint32_t corner)
         gap->worst = sqrt(square);
         gap->triangle = corner / 3;
     }
-    uint32_t half = rings->halves[line];
-    bool end = nearest_along(rings, line, asking.point, &unused) > 0.5;
-    note_angle(rings->work, corner, half, corner_angle(rings->work->mesh, corner, end ? meso_half_next(half) : half));
 }
 
 static void measure_gaps(Rings *rings)

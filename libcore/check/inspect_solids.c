@@ -35,9 +35,9 @@ static void judge_normals(MesoInspectWork *work, uint32_t t)
 MesoStatus meso_inspect_normals(MesoInspectWork *work, MesoError *error)
 {
     (void)error;
-    const uint32_t flat = 1u << MESO_FAULT_FLAT;
+    const uint32_t none = 1u << MESO_FAULT_FLAT | 1u << MESO_FAULT_DOUBLE;
     for (uint32_t t = 0; work->mesh->normals && t < work->mesh->triangle_count; t++)
-        if (!(work->result->marks[t] & flat) && meso_inspect_is_finite(work->mesh, t))
+        if (!(work->result->marks[t] & none) && meso_inspect_is_finite(work->mesh, t))
             judge_normals(work, t);
     return MESO_OK;
 }

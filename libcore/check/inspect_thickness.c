@@ -8,8 +8,8 @@
 
 enum { GRAIN = 1 << 11, SAMPLES = 1000 };
 
-/* What ends a section looks away from the ray, give or take 60 degrees. */
-#define OPPOSITE_COSINE 0.5
+/* What ends a section looks away from the ray, give or take 75 degrees. */
+#define OPPOSITE_COSINE 0.25
 
 typedef struct Thinnest {
     double way;
@@ -28,7 +28,7 @@ typedef struct Sections {
 
 typedef struct Ray {
     const MesoInspectWork *work;
-    uint32_t place, thing;
+    uint32_t place, triangle;
     MesoVec3d origin, direction;
 } Ray;
 
@@ -42,7 +42,7 @@ static double way_through(void *context, uint32_t item)
 {
     const Ray *ray = context;
     const MesoInspectWork *work = ray->work;
-    if (work->things[item] != ray->thing || has_place(work, item, ray->place))
+    if (work->pieces[item] != work->pieces[ray->triangle] || has_place(work, item, ray->place))
         return INFINITY;
     MesoInspectTriangle t = meso_inspect_triangle(work->mesh, item);
     double slope = meso_vec3d_dot(t.normal, ray->direction);
@@ -65,10 +65,11 @@ static double section_below(const Sections *sections, uint32_t half, double limi
     double length = meso_vec3d_length(inward), way = limit;
     if (!(length > 0))
         return INFINITY;
-    Ray ray = {.work = work, .place = place, .thing = work->things[half / 3],
+    Ray ray = {.work = work, .place = place, .triangle = half / 3,
                .origin = meso_vec3d(meso_inspect_corner(work->mesh, half)),
                .direction = meso_vec3d_scale(inward, 1 / length)};
-    uint32_t met = meso_inspect_tree_ray(&work->tree, ray.origin, ray.direction, ray.thing, &way, way_through, &ray);
+    uint32_t met = meso_inspect_tree_ray(&work->tree, ray.origin, ray.direction, work->things[half / 3], &way,
+                                         way_through, &ray);
     return met == MESO_NO_INDEX ? INFINITY : way;
 }
 
