@@ -9,6 +9,7 @@
 #   check-patterns    the random patterns alone
 #   check-growth      growth over $(CHECK_MESHES) broken meshes alone
 #   check-reference   comparison with the prototype's published data in $(DATA)
+#   check-pairs       what meso-check says of the models of all pairs in $(DATA): a table
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
@@ -161,6 +162,8 @@ check-growth: $(OUT)/test/libcore/growth/engine/growth_test
 	@nice $< $(CHECK_MESHES)
 check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
+check-pairs: all
+	@scripts/check-pairs $(BIN) $(DATA)
 bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
@@ -194,7 +197,7 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
-        check-reference bench bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts \
+        check-reference check-pairs bench bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts \
         fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

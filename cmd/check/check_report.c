@@ -174,11 +174,14 @@ static void print_sizes(const MesoCheckFindings *findings)
 {
     const MesoInspection *found = findings->inspection;
     const MesoBox *box = &found->box;
-    printf("%-14s %" PRIu64 " faces, %u triangles, %u places, %u piece%s, %.5g x %.5g x %.5g, area %.5g, volume %.5g\n",
+    printf("%-14s %" PRIu64 " faces, %u triangles, %u places, %u piece%s, %.5g x %.5g x %.5g, area %.5g, volume %.5g",
            "sizes", findings->input->face_count, findings->input->mesh.triangle_count, found->vertex_count,
            found->piece_count, found->piece_count == 1 ? "" : "s", (double)box->high.x - (double)box->low.x,
            (double)box->high.y - (double)box->low.y, (double)box->high.z - (double)box->low.z, found->area,
            found->volume);
+    if (findings->input->edge > 0)
+        printf(", over edges of %.5g", (double)findings->input->edge);
+    printf("\n");
 }
 
 static void print_fault(const MesoCheckFindings *findings, MesoFault fault)

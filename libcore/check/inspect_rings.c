@@ -10,6 +10,10 @@
 #define SAME_ANGLE 0.001
 /* Rings that face each other end in opposite directions, give or take 75 degrees. */
 #define FACING_COSINE -0.25
+/* What is torn apart lies beside the other, as where shells differ, give or take 30 degrees; straight ahead it lies no
+ * further than half the ring's own size, beyond which there are the two sides of a hole. */
+#define AHEAD_COSINE 0.5
+#define AHEAD_SHARE 0.5
 /* A point is on a line that passes it by less than this share of its length. */
 #define ON_LINE 1e-5
 
@@ -17,6 +21,7 @@ typedef struct Ring {
     uint32_t slot, first, count;    /* first of the open half-edges */
     MesoVec3d middle;               /* of the corners; a sum at first */
     MesoVec3d outward;              /* where the surface ends */
+    MesoBox box;
     double reach;                   /* square of how far another one may be */
     uint32_t facing;                /* ring, or MESO_NO_INDEX */
 } Ring;
@@ -132,11 +137,14 @@ static MesoStatus describe_rings(Rings *rings, MesoError *error)
         if (ring->count++ == 0) {
             ring->first = i;
             ring->facing = MESO_NO_INDEX;
+            ring->box = meso_box_empty();
             ring->slot = meso_inspect_slot(rings->work, half);
             meso_inspect_note(rings->work, MESO_FAULT_OPEN, half / 3, 0);
         }
         rings->work->result->marks[half / 3] |= 1u << MESO_FAULT_OPEN;
         ring->middle = meso_vec3d_add(ring->middle, at(rings, half));
+        meso_box_add(&ring->box, meso_inspect_corner(rings->work->mesh, half));
+        meso_box_add(&ring->box, meso_inspect_corner(rings->work->mesh, meso_half_next(half)));
         if (length > 0)
             ring->outward = meso_vec3d_mad(ring->outward, 1 / length, meso_vec3d_cross(along, normal));
     }
@@ -161,6 +169,11 @@ static MesoStatus find_rings(Rings *rings, MesoError *error)
 }
 
 /* ---- rings that face each other ---- */
+
+static double box_width(const MesoBox *box)
+{
+    return meso_vec3d_length(meso_vec3d_sub(meso_vec3d(box->high), meso_vec3d(box->low)));
+}
 
 /* How far a slot reaches is how far the other side of a torn joint may be. */
 static MesoStatus measure_reach(Rings *rings, MesoError *error)
@@ -187,8 +200,7 @@ static MesoStatus measure_reach(Rings *rings, MesoError *error)
     }
     for (uint32_t r = 0; r < rings->count; r++) {
         const MesoBox *box = &boxes[meso_index_map_find(&map, rings->rings[r].slot)];
-        MesoVec3d across = meso_vec3d_sub(meso_vec3d(box->high), meso_vec3d(box->low));
-        rings->rings[r].reach = meso_vec3d_dot(across, across);
+        rings->rings[r].reach = box_width(box) * box_width(box);
     }
     return MESO_OK;
 }
@@ -206,7 +218,10 @@ static double facing_distance(void *context, uint32_t item)
     if (a->slot == b->slot || !(meso_vec3d_dot(a->outward, b->outward) < FACING_COSINE * lengths))
         return INFINITY;
     MesoVec3d way = meso_vec3d_sub(b->middle, a->middle);
-    return meso_vec3d_dot(way, way);
+    double square = meso_vec3d_dot(way, way), ahead = fabs(meso_vec3d_dot(way, a->outward));
+    double near = AHEAD_SHARE * box_width(&a->box);
+    bool beside = ahead <= AHEAD_COSINE * meso_vec3d_length(a->outward) * sqrt(square);
+    return beside || square <= near * near ? square : INFINITY;
 }
 
 static MesoStatus pair_rings(Rings *rings, MesoError *error)

@@ -92,8 +92,9 @@ typedef struct MesoInspection {
  * Inspects a mesh whose indices are in range. Positions that are the same floats are one place, and what meets there
  * is joined; triangles that have no area by their indices, or are there twice, are reported and then left out.
  *
- * Continuity: rings of two slots are paired where each is the other's nearest, they end towards each other, and lie no
- * further apart than their slots are wide. The gap is the largest distance of a point of one from the other's line.
+ * Continuity: rings of two slots are paired where each is the other's nearest, they end in opposite directions, and lie
+ * side by side no further apart than their slots are wide, or end to end within half their own size. The gap is the
+ * largest distance of a point of one from the other's line.
  * Crossings: triangles of which a side of one goes through the inside of the other, by more than the coordinates'
  * rounding; those that share a place only touch. The depth is how far below the surface of the one the other's
  * vertices get, followed inwards from where they cut through each other, over 64 triangles of each at most.

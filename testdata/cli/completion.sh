@@ -1,5 +1,5 @@
 # What the shells' completions offer.
-for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-decor meso-quilt meso-grow meso-render meso-info; do
+for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-decor meso-quilt meso-grow meso-render meso-check meso-info; do
     "$scripts/make-completion" bash "$(command -v $tool)" >$tool.bash
     for shell in zsh fish; do
         "$scripts/make-completion" $shell "$(command -v $tool)" >$tool.$shell
@@ -45,6 +45,9 @@ offer meso-map --mesh-path ''
 offer meso-map --json = ''
 offer meso-map --json ''
 offer meso-render ''
+offer meso-check --m
+offer meso-check ''
+offer meso-check --mark ''
 offer meso-info g.meso h.png ''
 offer meso-info --slots ''
 
