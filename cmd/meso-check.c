@@ -119,7 +119,9 @@ static MesoStatus check_shape(Arguments *a, const MesoInput *file)
         status = write_marks(a, &findings);
     if (!status && wants_lines(tool))
         status = meso_check_print(&findings, &tool->error);
-    return status ? status : meso_check_judge(&findings, &tool->error);
+    if (!status)
+        status = meso_check_judge(&findings, &tool->error);
+    return status == MESO_ERR_INPUT ? meso_fail_prefix(&tool->error, file->path) : status;
 }
 
 /* ---- assignments ---- */

@@ -14,6 +14,21 @@
 static const char *const THINGS[] = {"strand", "element", "detail"};
 enum { THING_COUNT = sizeof THINGS / sizeof *THINGS, MOST_TRIANGLES = 1 << 30, WINDOW = 1 << 16 };
 
+/* ---- quads ---- */
+
+static MesoVec3d area_of(const MesoVec3 *positions, uint32_t a, uint32_t b, uint32_t c)
+{
+    MesoVec3d p = meso_vec3d(positions[a]);
+    return meso_vec3d_cross(meso_vec3d_sub(meso_vec3d(positions[b]), p), meso_vec3d_sub(meso_vec3d(positions[c]), p));
+}
+
+/* The corner that a quad is cut from: one that is not convex is cut where both halves turn as it does. */
+static uint32_t quad_begin(const MesoVec3 *positions, const uint32_t *v)
+{
+    MesoVec3d a = area_of(positions, v[0], v[1], v[2]), b = area_of(positions, v[0], v[2], v[3]);
+    return meso_vec3d_dot(a, b) < 0 ? 1 : 0;
+}
+
 /* ---- meshes ---- */
 
 static bool is_of_ids(const MesoAttribute *ids)
@@ -42,20 +57,9 @@ static MesoStatus read_id(const MesoAttribute *ids, uint32_t face, uint32_t *id,
     return MESO_OK;
 }
 
-static MesoVec3d area_of(const MesoPolygonMesh *mesh, uint32_t a, uint32_t b, uint32_t c)
-{
-    MesoVec3d p = meso_vec3d(mesh->positions[mesh->corners[a]]);
-    return meso_vec3d_cross(meso_vec3d_sub(meso_vec3d(mesh->positions[mesh->corners[b]]), p),
-                            meso_vec3d_sub(meso_vec3d(mesh->positions[mesh->corners[c]]), p));
-}
-
-/* The corner that a face's fan begins at: a quad that is not convex is cut where both halves turn as it does. */
 static uint32_t fan_begin(const MesoPolygonMesh *mesh, uint32_t begin, uint32_t sides)
 {
-    if (sides != 4)
-        return 0;
-    MesoVec3d a = area_of(mesh, begin, begin + 1, begin + 2), b = area_of(mesh, begin, begin + 2, begin + 3);
-    return meso_vec3d_dot(a, b) < 0 ? 1 : 0;
+    return sides == 4 ? quad_begin(mesh->positions, &mesh->corners[begin]) : 0;
 }
 
 typedef struct Cutting {
@@ -208,9 +212,10 @@ static void fill_part(Filling *filling, uint32_t part)
     }
     for (uint64_t f = 0; f < faces; f++) {
         const uint32_t *v = filling->faces[f].v;
-        put_triangle(filling, part, v[0], v[1], v[2]);
+        uint32_t first = v[3] == MESO_NO_INDEX ? 0 : quad_begin(filling->positions, v);
+        put_triangle(filling, part, v[first], v[first + 1], v[first + 2]);
         if (v[3] != MESO_NO_INDEX)
-            put_triangle(filling, part, v[0], v[2], v[3]);
+            put_triangle(filling, part, v[first], v[first + 2], v[(first + 3) % 4]);
     }
 }
 

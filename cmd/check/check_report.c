@@ -230,6 +230,19 @@ static void exceed(Verdict *verdict, const char *name, double value, const char 
     verdict->count++;
 }
 
+/* A bound of what cannot be looked for must not seem to hold. */
+static MesoStatus check_known(const MesoCheckFindings *findings, MesoError *error)
+{
+    const MesoInspectedMesh *mesh = &findings->input->mesh;
+    const MesoCheckBounds *bounds = findings->bounds;
+    if ((bounds->given.gap || bounds->given.angle) && !mesh->slots)
+        return meso_fail(error, MESO_ERR_INPUT, "no slots are in it, which --max-%s is about",
+                         bounds->given.gap ? "gap" : "angle");
+    if (bounds->given.angle && !mesh->normals)
+        return meso_fail(error, MESO_ERR_INPUT, "no normals are in it, which --max-angle is about");
+    return MESO_OK;
+}
+
 MesoStatus meso_check_judge(const MesoCheckFindings *findings, MesoError *error)
 {
     const MesoCheckBounds *bounds = findings->bounds;
@@ -239,6 +252,8 @@ MesoStatus meso_check_judge(const MesoCheckFindings *findings, MesoError *error)
     uint64_t crossings = f[MESO_FAULT_CROSSING].count + f[MESO_FAULT_SELF_CROSSING].count;
     double faults = findings->input->looped;
     Verdict verdict = {.count = 0};
+    if (check_known(findings, error))
+        return error->status;
     for (uint32_t i = 0; i < MESO_FAULT_COUNT; i++)
         faults += ROWS[i].plain ? (double)f[i].count : 0;
     const struct {

@@ -26,7 +26,7 @@ json_t *meso_check_json(const MesoCheckFindings *findings);
 /* A line for what the mesh is, and one for each kind of fault, to standard output. */
 MesoStatus meso_check_print(const MesoCheckFindings *findings, MesoError *error);
 
-/* MESO_ERR_NO with all bounds that are exceeded. */
+/* MESO_ERR_NO with all bounds that are exceeded; MESO_ERR_INPUT for one of what cannot be looked for. */
 MesoStatus meso_check_judge(const MesoCheckFindings *findings, MesoError *error);
 
 #endif

@@ -14,6 +14,8 @@
  * further than half the ring's own size, beyond which there are the two sides of a hole. */
 #define AHEAD_COSINE 0.5
 #define AHEAD_SHARE 0.5
+/* And not as far away as across half of what is in its slot. */
+#define REACH_SHARE 0.5
 /* A point is on a line that passes it by less than this share of its length. */
 #define ON_LINE 1e-5
 
@@ -200,7 +202,7 @@ static MesoStatus measure_reach(Rings *rings, MesoError *error)
     }
     for (uint32_t r = 0; r < rings->count; r++) {
         const MesoBox *box = &boxes[meso_index_map_find(&map, rings->rings[r].slot)];
-        rings->rings[r].reach = box_width(box) * box_width(box);
+        rings->rings[r].reach = REACH_SHARE * box_width(box) * REACH_SHARE * box_width(box);
     }
     return MESO_OK;
 }

@@ -93,7 +93,7 @@ typedef struct MesoInspection {
  * is joined; triangles that have no area by their indices, or are there twice, are reported and then left out.
  *
  * Continuity: rings of two slots are paired where each is the other's nearest, they end in opposite directions, and lie
- * side by side no further apart than their slots are wide, or end to end within half their own size. The gap is the
+ * side by side no further apart than half of what their slots hold is wide, or end to end within half their own size. The gap is the
  * largest distance of a point of one from the other's line.
  * Crossings: triangles of which a side of one goes through the inside of the other, by more than the coordinates'
  * rounding; those that share a place only touch. The depth is how far below the surface of the one the other's
