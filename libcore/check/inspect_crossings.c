@@ -8,7 +8,7 @@
 #include "libcore/check/inspect_work.h"
 
 /* GRAIN leaves are looked through at a time; the last FEW pairs of things that were met are remembered. */
-enum { GRAIN = 256, FEW = 8, SEEDS = 16, BETWEEN = 1, WITHIN = 2 };
+enum { GRAIN = 256, FEW = 8, SEEDS = 4, BETWEEN = 1, WITHIN = 2 };
 
 MesoStatus meso_inspect_triangle_tree(MesoInspectWork *work, MesoError *error)
 {

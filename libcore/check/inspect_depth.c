@@ -4,7 +4,7 @@
  */
 #include "libcore/check/inspect_work.h"
 
-enum { MOST_FOLLOWED = 64, MOST_REACHED = 4 * MOST_FOLLOWED, PATIENCE = 12, TABLE = 2048 };
+enum { MOST_FOLLOWED = 32, MOST_REACHED = 4 * MOST_FOLLOWED, PATIENCE = 8, TABLE = 512 };
 
 /* Distances that differ by less are those of one point, of an edge or a corner, from several triangles. */
 #define SAME_DISTANCE 1e-9
@@ -50,6 +50,26 @@ static MesoVec3d way_from(const MesoInspectTriangle *t, MesoVec3d p)
     return best;
 }
 
+/* Whether the box around a triangle is further away than the nearest one so far: cheap, and most are. */
+static bool is_far(const Against *against, uint32_t item)
+{
+    const MesoInspectedMesh *mesh = against->work->mesh;
+    MesoVec3 a = meso_inspect_corner(mesh, 3 * item), b = meso_inspect_corner(mesh, 3 * item + 1);
+    MesoVec3 c = meso_inspect_corner(mesh, 3 * item + 2);
+    const double p[3] = {against->point.x, against->point.y, against->point.z};
+    const float corners[3][3] = {{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}};
+    double square = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const float *x = corners[axis];
+        double low = (double)(x[0] < x[1] ? x[0] : x[1]), high = (double)(x[0] > x[1] ? x[0] : x[1]);
+        low = (double)x[2] < low ? (double)x[2] : low;
+        high = (double)x[2] > high ? (double)x[2] : high;
+        double away = p[axis] < low ? low - p[axis] : p[axis] > high ? p[axis] - high : 0;
+        square += away * away;
+    }
+    return square > against->square * (1 + SAME_DISTANCE);
+}
+
 /* Of triangles that are as near, the one whose plane the way leaves most straightly says on which side the point is
  * (Thuermer and Wuethrich 1998 weigh normals by angles for the same end). */
 static double distance_to(void *context, uint32_t item)
@@ -58,6 +78,8 @@ static double distance_to(void *context, uint32_t item)
     const MesoInspectWork *work = against->work;
     if (work->things[item] != against->thing ||
         (against->part != MESO_NO_INDEX && work->parts[item] != against->part))
+        return INFINITY;
+    if (is_far(against, item))
         return INFINITY;
     MesoInspectTriangle t = meso_inspect_triangle(work->mesh, item);
     MesoVec3d way = way_from(&t, against->point);
@@ -104,7 +126,7 @@ typedef struct Flood {
 
 static double depth_of_place(Flood *flood, uint32_t place, MesoVec3d point)
 {
-    uint32_t at = (place * UINT32_C(2654435761)) >> 21;
+    uint32_t at = (place * UINT32_C(2654435761)) >> 23;
     while (flood->places[at] && flood->places[at] != place + 1)
         at = (at + 1) % TABLE;
     if (flood->places[at])

@@ -97,7 +97,7 @@ typedef struct MesoInspection {
  * largest distance of a point of one from the other's line.
  * Crossings: triangles of which a side of one goes through the inside of the other, by more than the coordinates'
  * rounding; those that share a place only touch. The depth is how far below the surface of the one the other's
- * vertices get, followed inwards from where they cut through each other, over 64 triangles of each at most.
+ * vertices get, followed inwards from where they cut through each other, over 32 triangles of each at most.
  * Thickness: from each place inwards, along the mean normal of its triangles, to the first triangle of the same piece
  * that looks the other way.
  *
