@@ -54,9 +54,11 @@ static MesoStatus check_arguments(const Arguments *a, MesoError *error)
 {
     const MesoCheckBounds *b = &a->bounds;
     if (b->fast && (b->given.crossings || b->given.depth || b->given.thickness))
-        return meso_fail(error, MESO_ERR_USAGE, "--fast looks for no crossings and no thin sections, which a bound asks for");
+        return meso_fail(error, MESO_ERR_USAGE, "--fast looks for no crossings and no thin sections, "
+                         "which a bound asks for");
     if (!a->tiles != !a->surface)
-        return meso_fail(error, MESO_ERR_USAGE, "--tiles and --surface go together: an assignment is checked against both");
+        return meso_fail(error, MESO_ERR_USAGE, "--tiles and --surface go together: an assignment is "
+                         "checked against both");
     if (a->mark && strcmp(a->mark, "-") == 0 && (!a->tool.output || strcmp(a->tool.output, "-") == 0))
         return meso_fail(error, MESO_ERR_USAGE, "what is marked and what was found cannot both go to standard output");
     return MESO_OK;
@@ -218,11 +220,12 @@ int main(int argc, char **argv)
                     .given = &b->given.thickness, .more = MESO_OPTION_OVERRIDES),
         MESO_COUNT(0, "max-floating", "N", "pieces apart from the others", &b->floating, 0, 4294967295,
                    .given = &b->given.floating, .more = MESO_OPTION_OVERRIDES),
-        MESO_COUNT(0, "max-faults", "N", "of everything that is wrong wherever it is: what is no number or no area, doubled, "
-                   "wound or folded the wrong way, in T-joints, or touches itself (default 0)", &b->faults, 0, 4294967295),
+        MESO_COUNT(0, "max-faults", "N", "of everything that is wrong wherever it is: what is no number or no "
+                   "area, doubled, wound or folded the wrong way, in T-joints, or touches itself (default 0)", &b->faults, 0, 4294967295),
         MESO_GROUP("Checking"),
         MESO_FLAG(0, "fast", "look for no crossings and no thin sections", &b->fast),
-        MESO_OUTPUT_FILE(0, "mark", "OUT.ply", "write the triangles with their faults as colours and a channel", &a.mark),
+        MESO_OUTPUT_FILE(0, "mark", "OUT.ply", "write the triangles with their faults as colours and a channel",
+                         &a.mark),
         MESO_INPUT_FILE(0, "tiles", "TILES", "the tile set of an assignment, with --surface", &a.tiles),
         MESO_INPUT_FILE(0, "surface", "SURFACE", "the surface of an assignment, with --tiles", &a.surface),
         MESO_TOOL_OPTIONS(a.tool),

@@ -12,7 +12,7 @@
 #include "libcore/scene/parts.h"
 
 static const char *const THINGS[] = {"strand", "element", "detail"};
-enum { THING_COUNT = sizeof THINGS / sizeof *THINGS, MOST_TRIANGLES = 1 << 30, WINDOW = 1 << 16 };
+enum { THING_COUNT = sizeof THINGS / sizeof *THINGS, MOST_TRIANGLES = 1 << 30 };
 
 /* ---- quads ---- */
 

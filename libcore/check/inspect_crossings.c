@@ -10,6 +10,9 @@
 /* GRAIN leaves are looked through at a time; the last FEW pairs of things that were met are remembered. */
 enum { GRAIN = 256, FEW = 8, SEEDS = 4, BETWEEN = 1, WITHIN = 2 };
 
+/* Triangles that are followed into what they cut through: as many a pair, and all together. */
+enum { LEAST_FOLLOWED = 4, MOST_FOLLOWED = 32, DEPTH_WORK = 1 << 14 };
+
 MesoStatus meso_inspect_triangle_tree(MesoInspectWork *work, MesoError *error)
 {
     const MesoInspectedMesh *mesh = work->mesh;
@@ -195,13 +198,15 @@ typedef struct Groups {
 static void measure_depths(void *context, uint64_t begin, uint64_t end)
 {
     const Groups *groups = context;
+    uint32_t most = DEPTH_WORK / groups->count;
+    most = most < LEAST_FOLLOWED ? LEAST_FOLLOWED : most > MOST_FOLLOWED ? MOST_FOLLOWED : most;
     for (uint64_t g = begin; g < end; g++) {
         Group *group = &groups->groups[g];
         MesoInspectCut seeds[SEEDS];
         uint32_t count = group->count < SEEDS ? group->count : SEEDS;
         for (uint32_t i = 0; i < count; i++)
             seeds[i] = group->cuts[(uint64_t)i * group->count / count];
-        group->depth = meso_inspect_depth(groups->work, seeds, count);
+        group->depth = meso_inspect_depth(groups->work, seeds, count, most);
     }
 }
 
@@ -218,7 +223,8 @@ static void note_group(MesoInspectWork *work, const Group *group)
         return;
     }
     result->pairs[result->pair_count++] = (MesoCrossingPair){
-        .a = work->thing_ids ? work->thing_ids[cut->a] : cut->a, .b = work->thing_ids ? work->thing_ids[cut->b] : cut->b,
+        .a = work->thing_ids ? work->thing_ids[cut->a] : cut->a,
+        .b = work->thing_ids ? work->thing_ids[cut->b] : cut->b,
         .triangle_pairs = pairs, .depth = group->depth, .triangle = cut->s};
 }
 

@@ -4,12 +4,12 @@
  */
 #include "libcore/check/inspect_work.h"
 
-enum { MOST_FOLLOWED = 32, MOST_REACHED = 4 * MOST_FOLLOWED, PATIENCE = 8, TABLE = 512 };
+enum { MOST_REACHED = 128, PATIENCE = 8, TABLE = 512 };
 
 /* Distances that differ by less are those of one point, of an edge or a corner, from several triangles. */
 #define SAME_DISTANCE 1e-9
 
-/* Below a surface the way to it is straight; where it is not, the point is beyond a rim, and neither above nor below. */
+/* Below a surface the way to it is straight; where it is not, the point is beyond a rim, neither above nor below. */
 #define STRAIGHT_COSINE 0.7
 
 /* What points are measured against: all of a thing, or, where it cuts through itself, the part that it runs into. */
@@ -85,7 +85,8 @@ static double distance_to(void *context, uint32_t item)
     MesoVec3d way = way_from(&t, against->point);
     double square = meso_vec3d_dot(way, way), height = meso_vec3d_dot(way, t.normal);
     double steepness = square > 0 ? fabs(height) / sqrt(square) : 0;
-    bool nearer = square < against->square * (1 - SAME_DISTANCE), same = square <= against->square * (1 + SAME_DISTANCE);
+    bool nearer = square < against->square * (1 - SAME_DISTANCE);
+    bool same = square <= against->square * (1 + SAME_DISTANCE);
     if (nearer || (same && steepness > against->steepness)) {
         against->square = nearer ? square : against->square;
         against->steepness = steepness;
@@ -170,11 +171,11 @@ static Reached *deepest_to_follow(Flood *flood)
 }
 
 /* Until it has long gone no deeper. */
-static double follow(Flood *flood)
+static double follow(Flood *flood, uint32_t most)
 {
     double deepest = 0;
     uint32_t since = 0;
-    for (uint32_t i = 0; i < MOST_FOLLOWED && since < PATIENCE; i++, since++) {
+    for (uint32_t i = 0; i < most && since < PATIENCE; i++, since++) {
         Reached *next = deepest_to_follow(flood);
         if (!next)
             break;
@@ -199,7 +200,6 @@ typedef struct Exit {
     const Against *against;
     uint32_t entry;             /* triangle */
     MesoVec3d origin, direction;
-    double rounding;
 } Exit;
 
 static double exit_at(void *context, uint32_t item)
@@ -227,7 +227,7 @@ static double depth_of_sides(Against *against, uint32_t s, uint32_t t)
         MesoInspectHole hole;
         if (!meso_inspect_pierces(&into, from.p[k], from.p[(k + 1) % 3], work->rounding, &hole))
             continue;
-        Exit leaving = {against, t, hole.at, meso_vec3d_sub(hole.inner, hole.at), work->rounding};
+        Exit leaving = {against, t, hole.at, meso_vec3d_sub(hole.inner, hole.at)};
         double way = 1;
         meso_inspect_tree_ray(&work->tree, leaving.origin, leaving.direction, against->thing, &way, exit_at, &leaving);
         deepest = fmax(deepest, depth_at(against, meso_vec3d_mad(leaving.origin, 0.5 * way, leaving.direction)));
@@ -236,7 +236,8 @@ static double depth_of_sides(Against *against, uint32_t s, uint32_t t)
 }
 
 /* One of the two into the other. */
-static double depth_one_way(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count, bool backwards)
+static double depth_one_way(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count, uint32_t most,
+                            bool backwards)
 {
     uint32_t first = backwards ? cuts[0].s : cuts[0].t;
     bool within = cuts[0].a == cuts[0].b;
@@ -252,10 +253,10 @@ static double depth_one_way(const MesoInspectWork *work, const MesoInspectCut *c
         reach(&flood, s);
         deepest = fmax(deepest, depth_of_sides(&flood.against, s, t));
     }
-    return fmax(deepest, follow(&flood));
+    return fmax(deepest, follow(&flood, most));
 }
 
-double meso_inspect_depth(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count)
+double meso_inspect_depth(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count, uint32_t most)
 {
-    return fmax(depth_one_way(work, cuts, count, false), depth_one_way(work, cuts, count, true));
+    return fmax(depth_one_way(work, cuts, count, most, false), depth_one_way(work, cuts, count, most, true));
 }

@@ -243,7 +243,8 @@ static MesoStatus pair_rings(Rings *rings, MesoError *error)
     for (uint32_t r = 0; r < rings->count; r++) {
         Facing facing = {rings, &rings->rings[r]};
         double square = rings->rings[r].reach;
-        nearest[r] = meso_inspect_tree_nearest(&tree, rings->rings[r].middle, MESO_NO_INDEX, &square, facing_distance, &facing);
+        nearest[r] = meso_inspect_tree_nearest(&tree, rings->rings[r].middle, MESO_NO_INDEX, &square,
+                                               facing_distance, &facing);
     }
     for (uint32_t r = 0; r < rings->count; r++)
         if (nearest[r] != MESO_NO_INDEX && nearest[nearest[r]] == r)
@@ -303,7 +304,8 @@ static void measure_end(Rings *rings, uint32_t open, uint32_t corner)
     uint32_t ring = rings->ring_of[open], facing = rings->rings[ring].facing;
     Asking asking = {.rings = rings, .ring = facing, .point = at(rings, corner)};
     double square = INFINITY;
-    uint32_t line = meso_inspect_tree_nearest(&rings->lines, asking.point, MESO_NO_INDEX, &square, line_distance, &asking);
+    uint32_t line = meso_inspect_tree_nearest(&rings->lines, asking.point, MESO_NO_INDEX, &square,
+                                              line_distance, &asking);
     if (line == MESO_NO_INDEX)
         return;
     MesoFinding *gap = &rings->work->result->findings[MESO_FAULT_GAP];

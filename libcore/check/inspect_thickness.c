@@ -10,6 +10,8 @@ enum { GRAIN = 1 << 11, SAMPLES = 1000 };
 
 /* What ends a section looks away from the ray, give or take 75 degrees. */
 #define OPPOSITE_COSINE 0.25
+/* Of places within this share of the usual thickness one is measured: sweeps have many more columns than that. */
+#define SPOT_SHARE (1.0 / 16)
 
 typedef struct Thinnest {
     double way;
@@ -92,6 +94,80 @@ static MesoStatus describe_places(Sections *sections, MesoError *error)
     }
     return MESO_OK;
 }
+
+/* ---- one place for many ---- */
+
+/* What places have in common that are measured once. */
+typedef struct Spot {
+    int64_t cell[3];
+    uint32_t piece, facing;         /* facing: the axis that is nearest to the way inwards, and its sign */
+} Spot;
+
+static uint32_t facing_of(MesoVec3 v)
+{
+    float x = fabsf(v.x), y = fabsf(v.y), z = fabsf(v.z);
+    if (x >= y && x >= z)
+        return v.x < 0;
+    return y >= z ? 2 + (v.y < 0) : 4 + (v.z < 0);
+}
+
+static Spot spot_of(const Sections *sections, uint32_t half, double cell)
+{
+    const MesoInspectWork *work = sections->work;
+    MesoVec3 p = meso_inspect_corner(work->mesh, half);
+    MesoVec3 low = work->result->box.low;
+    const double at[3] = {(double)p.x - (double)low.x, (double)p.y - (double)low.y, (double)p.z - (double)low.z};
+    Spot spot = {.piece = work->pieces[half / 3], .facing = facing_of(sections->inward[work->places[half]])};
+    for (int i = 0; i < 3; i++)
+        spot.cell[i] = at[i] / cell < 1e18 ? (int64_t)(at[i] / cell) : INT64_MAX;
+    return spot;
+}
+
+static bool same_spot(const Spot *a, const Spot *b)
+{
+    return a->cell[0] == b->cell[0] && a->cell[1] == b->cell[1] && a->cell[2] == b->cell[2] && a->piece == b->piece &&
+           a->facing == b->facing;
+}
+
+static uint64_t hash_of(const Spot *spot)
+{
+    uint64_t hash = spot->piece * UINT64_C(0x9e3779b97f4a7c15) + spot->facing;
+    for (int i = 0; i < 3; i++)
+        hash = (hash ^ (uint64_t)spot->cell[i]) * UINT64_C(0xd6e8feb86659fd93);
+    return hash ^ hash >> 32;
+}
+
+/* Places closer to each other than `cell` that look the same way are as thick: the first of them is measured. */
+static MesoStatus thin_out(Sections *sections, double cell, MesoError *error)
+{
+    const MesoInspectWork *work = sections->work;
+    MesoArenaMark mark = meso_arena_mark(work->scratch);
+    uint64_t room = 64;
+    while (room < 2 * (uint64_t)work->place_count)
+        room *= 2;
+    uint32_t *table = MESO_NEW(work->scratch, uint32_t, room, error);
+    if (!table)
+        return MESO_ERR_MEMORY;
+    for (uint32_t p = 0; p < work->place_count; p++) {
+        if (!sections->first[p])
+            continue;
+        Spot spot = spot_of(sections, sections->first[p] - 1, cell);
+        uint64_t at = hash_of(&spot) & (room - 1);
+        for (; table[at]; at = (at + 1) & (room - 1)) {
+            Spot other = spot_of(sections, table[at] - 1, cell);
+            if (same_spot(&spot, &other))
+                break;
+        }
+        if (table[at])
+            sections->first[p] = 0;
+        else
+            table[at] = sections->first[p];
+    }
+    meso_arena_rewind(work->scratch, mark);
+    return MESO_OK;
+}
+
+/* ---- the thinnest ---- */
 
 static double read_best(Sections *sections)
 {
@@ -188,7 +264,10 @@ MesoStatus meso_inspect_thickness(MesoInspectWork *work, MesoError *error)
     MesoStatus status = sections.ranges ? describe_places(&sections, error) : MESO_ERR_MEMORY;
     if (status)
         return status;
-    double limit = work->result->usual_thickness = usual_thickness(&sections);
+    work->result->usual_thickness = usual_thickness(&sections);
+    double limit = work->result->usual_thickness;
+    if (limit > 0 && thin_out(&sections, limit * SPOT_SHARE, error))
+        return MESO_ERR_MEMORY;
     limit = limit > 0 ? limit : INFINITY;
     uint64_t bits;
     memcpy(&bits, &limit, sizeof bits);

@@ -113,8 +113,9 @@ typedef struct MesoInspectCut {
     uint64_t pairs;
 } MesoInspectCut;
 
-/* How far two things that cut through each other at `cuts` [count], all of the same two, get into each other. */
-double meso_inspect_depth(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count);
+/* How far two things that cut through each other at `cuts` [count], all of the same two, get into each other; at most
+ * `most` triangles of each are followed. */
+double meso_inspect_depth(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count, uint32_t most);
 
 /* The steps, in their order; each leaves its scratch behind it. */
 MesoStatus meso_inspect_places(MesoInspectWork *work, MesoError *error);

@@ -93,13 +93,14 @@ typedef struct MesoInspection {
  * is joined; triangles that have no area by their indices, or are there twice, are reported and then left out.
  *
  * Continuity: rings of two slots are paired where each is the other's nearest, they end in opposite directions, and lie
- * side by side no further apart than half of what their slots hold is wide, or end to end within half their own size. The gap is the
- * largest distance of a point of one from the other's line.
+ * side by side no further apart than half of what their slots hold is wide, or end to end within half their own size.
+ * The gap is the largest distance of a point of one from the other's line.
  * Crossings: triangles of which a side of one goes through the inside of the other, by more than the coordinates'
  * rounding; those that share a place only touch. The depth is how far below the surface of the one the other's
- * vertices get, followed inwards from where they cut through each other, over 32 triangles of each at most.
- * Thickness: from each place inwards, along the mean normal of its triangles, to the first triangle of the same piece
- * that looks the other way.
+ * vertices get, followed inwards from where they cut through each other, over 32 triangles of each at most, fewer
+ * where there are hundreds of pairs: it may be deeper.
+ * Thickness: from each place (of those that lie within a sixteenth of the usual thickness, the first) inwards, along
+ * the mean normal of its triangles, to the first triangle of the same piece that looks the other way.
  *
  * `marks` and `pairs` go to `arena`. O(n log n) and some 150 bytes a triangle, as long as triangles are small beside
  * the whole; the same for any number of threads. MESO_ERR_LIMIT for over 2^30 triangles; MESO_ERR_MEMORY.

@@ -83,7 +83,7 @@ static uint32_t split_side(Model *m, uint32_t triangle, uint32_t k)
     return v;
 }
 
-/* On the last ring of a slot, where the next one has no such vertex: the quad's first triangle has its side d c there. */
+/* On the last ring of a slot, where the next one has no such vertex: side d c of the quad's first triangle. */
 static void t_joint_between(Model *m)
 {
     split_side(m, sweep_triangle(0, 3, ALONG - 2, 1), 1);
@@ -292,12 +292,13 @@ static const struct {
     {"flat face", flat_face, {{MESO_FAULT_FLAT, 1}}, 0, 0, 0},
     {"collapsed face", collapsed_face, {{MESO_FAULT_FLAT, 1}}, 0, 0, 0},
     {"lost face", lose_face, {{MESO_FAULT_OPEN, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
-    {"open end", open_end, {{MESO_FAULT_GAP, 2}, {MESO_FAULT_OPEN, 2}, {MESO_FAULT_LEAK, 1}}, MESO_FAULT_GAP, 0.3, 0.05},
+    {"open end", open_end, {{MESO_FAULT_GAP, 2}, {MESO_FAULT_OPEN, 2}, {MESO_FAULT_LEAK, 1}},
+     MESO_FAULT_GAP, 0.3, 0.05},
     {"crossing", cross, {{MESO_FAULT_CROSSING, 1}}, MESO_FAULT_CROSSING, 0.2, 0.03},
     {"crossing itself", cross_itself, {{MESO_FAULT_SELF_CROSSING, UINT64_MAX}}, MESO_FAULT_SELF_CROSSING, 0.2, 0.03},
     {"floating ring", float_away, {{MESO_FAULT_FLOATING, 1}}, 0, 0, 0},
     {"floating crumb", float_small, {{MESO_FAULT_FLOATING, 1}}, 0, 0, 0},
-    {"thin section", pinch_section, {{MESO_FAULT_THIN, AROUND}}, MESO_FAULT_THIN, 0.04, 2e-3},
+    {"thin section", pinch_section, {{MESO_FAULT_THIN, UINT64_MAX}}, MESO_FAULT_THIN, 0.04, 2e-3},
     {"turned normal", turn_normal, {{MESO_FAULT_NORMAL, 6}}, 0, 0, 0},
     {"vanished normal", vanish_normal, {{MESO_FAULT_NORMAL, 6}}, 0, 0, 0},
     {"bent joint", bend_joint, {{MESO_FAULT_ANGLE, AROUND}}, MESO_FAULT_ANGLE, 5, 1e-4},
@@ -373,7 +374,8 @@ static void sizes_are_those_of_tori(void)
 /* A box as 12 triangles; its walls are as thick as it is wide. */
 static void put_box(Model *m, MesoVec3 low, MesoVec3 high, uint32_t thing)
 {
-    static const uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    static const uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2},
+                                          {1, 3, 7, 5}};
     uint32_t first = m->vertex_count;
     for (uint32_t i = 0; i < 8; i++) {
         MesoVec3 p = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};

@@ -1,4 +1,4 @@
-/* A small model in which nothing is wrong: two rings that are linked as in a chain, of sweeps as meso-map writes them. */
+/* A small model in which nothing is wrong: two rings, linked as in a chain, of sweeps as meso-map writes them. */
 #ifndef MESO_LINKED_RINGS_FIXTURE_H
 #define MESO_LINKED_RINGS_FIXTURE_H
 
