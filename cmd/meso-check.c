@@ -221,7 +221,8 @@ int main(int argc, char **argv)
         MESO_COUNT(0, "max-floating", "N", "pieces apart from the others", &b->floating, 0, 4294967295,
                    .given = &b->given.floating, .more = MESO_OPTION_OVERRIDES),
         MESO_COUNT(0, "max-faults", "N", "of everything that is wrong wherever it is: what is no number or no "
-                   "area, doubled, wound or folded the wrong way, in T-joints, or touches itself (default 0)", &b->faults, 0, 4294967295),
+                   "area, doubled, wound or folded the wrong way, in T-joints, or touches itself (default 0)",
+                   &b->faults, 0, 4294967295),
         MESO_GROUP("Checking"),
         MESO_FLAG(0, "fast", "look for no crossings and no thin sections", &b->fast),
         MESO_OUTPUT_FILE(0, "mark", "OUT.ply", "write the triangles with their faults as colours and a channel",

@@ -10,6 +10,7 @@
 #include "formats/product/file_kind.h"
 #include "libcore/math/vec3d.h"
 #include "libcore/scene/parts.h"
+#include "libcore/shell/hexahedra.h"
 
 static const char *const THINGS[] = {"strand", "element", "detail"};
 enum { THING_COUNT = sizeof THINGS / sizeof *THINGS, MOST_TRIANGLES = 1 << 30 };
@@ -287,24 +288,22 @@ static MesoStatus fill_scene(MesoCheckInput *input, MesoArena *arena, const Meso
     return status;
 }
 
-/* Over each slot from the offset to half the thickness above it, along the corners' normals (MesoGen, section 3.5). */
+/* Where the model says that its shell is; whether that is folded is not its word. */
 static MesoStatus make_cages(MesoCheckInput *input, MesoArena *arena, const MesoModel *model, MesoError *error)
 {
-    const MesoQuadMesh *surface = &model->surface;
-    const float heights[2] = {model->options.offset, model->options.offset + 0.5f * model->options.thickness};
-    MesoVec3 *cages = MESO_NEW(arena, MesoVec3, 8 * (size_t)surface->face_count, error);
-    if (!cages)
-        return MESO_ERR_MEMORY;
-    for (uint32_t f = 0; f < surface->face_count; f++)
-        for (uint32_t k = 0; k < 8; k++) {
-            size_t corner = 4 * (size_t)f + (k & 3);
-            cages[8 * (size_t)f + k] = meso_vec3_mad(surface->positions[surface->face_vertices[corner]],
-                                                     heights[k >> 2], surface->normals[surface->face_normals[corner]]);
-        }
+    MesoShell shell;
+    uint32_t count = model->surface.face_count;
+    MesoVec3 *cages = MESO_NEW(arena, MesoVec3, 8 * (size_t)count, error);
+    MesoStatus status = cages ? meso_model_shell(&shell, arena, model, error) : MESO_ERR_MEMORY;
+    for (uint32_t f = 0; f < count && !status; f++) {
+        MesoCage cage = meso_shell_cage(&shell, f);
+        for (uint32_t k = 0; k < 8; k++)
+            cages[8 * (size_t)f + k] = meso_cage_corner(&cage, k);
+    }
     input->mesh.cages = cages;
-    input->mesh.cage_count = surface->face_count;
-    input->edge = surface->mean_edge_length;
-    return MESO_OK;
+    input->mesh.cage_count = status ? 0 : count;
+    input->edge = model->surface.mean_edge_length;
+    return status;
 }
 
 static MesoStatus read_model(MesoCheckInput *input, MesoTool *tool, const MesoInput *file)
