@@ -15,8 +15,8 @@ typedef struct FaultRow {
 static const FaultRow ROWS[MESO_FAULT_COUNT] = {
     [MESO_FAULT_GAP] = {"torn rings between slots", "wide", .slots = true},
     [MESO_FAULT_ANGLE] = {"bent joints between slots", "degrees", .slots = true, .normals = true},
-    [MESO_FAULT_OPEN] = {"open rings", NULL, 0},
-    [MESO_FAULT_LEAK] = {"that leak", NULL, 0},
+    [MESO_FAULT_OPEN] = {"open rings", NULL, .plain = false},
+    [MESO_FAULT_LEAK] = {"that leak", NULL, .plain = false},
     [MESO_FAULT_T_JOINT] = {"T-joints", NULL, .plain = true},
     [MESO_FAULT_WINDING] = {"edges wound against each other", NULL, .plain = true},
     [MESO_FAULT_INVERTED] = {"triangles wound against their normals", NULL, .plain = true, .normals = true},
@@ -31,7 +31,7 @@ static const FaultRow ROWS[MESO_FAULT_COUNT] = {
     [MESO_FAULT_CROSSING] = {"pairs that cross", "deep", .space = true},
     [MESO_FAULT_SELF_CROSSING] = {"pairs of triangles of one thing that cross", "deep", .space = true},
     [MESO_FAULT_THIN] = {"places over what is too thin", "thick", .space = true},
-    [MESO_FAULT_FLOATING] = {"pieces that float", NULL, 0},
+    [MESO_FAULT_FLOATING] = {"pieces that float", NULL, .plain = false},
 };
 
 /* Whether it was looked for. */

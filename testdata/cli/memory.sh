@@ -95,6 +95,7 @@ each meso-grow -q --threads 1 --until 4 ivy.grammar cube.obj -o out/i.meso
 most=30
 each meso-grow -q --threads 1 --until 3 --trace out/c.jsonl cracks.grammar cube.obj -o out/c.svg
 each meso-decor -q --threads 1 --geodesics exact polyline-closed.pattern.json vase.obj -o out/v.ply --lines out/v.obj
+each meso-check -q --threads 2 --max-faults 9999 --mark out/marks.ply cube.meso -o out/found.json
 for file in quad.tiles.json cube.obj cube.slots cube.meso cube.glb; do
     each meso-info $file
 done
