@@ -61,6 +61,11 @@ grep -e open -e gap -e fold meso.txt
 sed 1d ply.txt | grep -v fold >ply.faults
 grep -v -e sizes -e fold meso.txt | diff - ply.faults
 
+# A model in which nothing is wrong.
+meso-solve -q "$testdata/cli/quad.tiles.json" vase.obj -o plain.slots
+meso-map -q "$testdata/cli/quad.tiles.json" vase.obj plain.slots -o plain.meso
+meso-check -q --fast --max-gap 0 --max-angle 0.01 plain.meso; echo "status $?"
+
 # Assignments.
 meso-check vase.slots; echo "status $?"
 meso-check vase.slots --tiles vase.tiles.json --surface vase.obj; echo "status $?"
