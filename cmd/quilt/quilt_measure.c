@@ -69,9 +69,11 @@ static void put_looks(json_t *object, const MesoQuiltCheck *k)
     const MesoLikeness *l = &k->likeness;
     const Count edges[] = {{"edges", k->seams.seam_edge_count}};
     const Number seams[] = {{"length_distance", k->seams.length_distance}, {"angle_distance", k->seams.angle_distance}};
-    const Count windows[] = {{"windows", l->window_count}, {"swatch_windows", l->swatch_window_count}};
+    const Count windows[] = {{"windows", l->window_count}, {"laid_windows", l->laid_window_count},
+                             {"swatch_windows", l->swatch_window_count}};
     const Number distances[] = {{"radius", l->radius}, {"distance", l->distance}, {"largest", l->largest_distance},
-                                {"swatch_distance", l->swatch_distance}};
+                                {"laid_distance", l->laid_distance}, {"swatch_distance", l->swatch_distance},
+                                {"ratio", l->ratio}};
     PUT_BOTH("seams", edges, seams);
     PUT_BOTH("likeness", windows, distances);
 }
@@ -97,8 +99,9 @@ static void say(const MesoTool *tool, const MesoQuiltCheck *k)
                   k->expected_crossings);
     meso_tool_say(tool, "%u of %u places are empty", k->cover.empty_count, k->cover.place_count);
     if (k->likeness.window_count)
-        meso_tool_say(tool, "%u windows are %.4f from the swatch, those of the swatch %.4f", k->likeness.window_count,
-                      k->likeness.distance, k->likeness.swatch_distance);
+        meso_tool_say(tool, "%u windows are %.4f from the swatch, its own %.4f, and %.4f bent over the surface: %.2f",
+                      k->likeness.window_count, k->likeness.distance, k->likeness.swatch_distance,
+                      k->likeness.laid_distance, k->likeness.ratio);
 }
 
 MesoStatus meso_quilt_measure(MesoTool *tool, const MesoQuilt *quilt, const MesoSwatch *swatch,

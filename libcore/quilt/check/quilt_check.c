@@ -116,7 +116,7 @@ static MesoStatus check_cover(const Checking *c, MesoError *error)
 
 static MesoStatus check_likeness(const Checking *c, MesoError *error)
 {
-    const MesoLikenessOptions options = {(float)c->scale, (float)c->height_scale, c->offset, c->thread_count};
+    const MesoLikenessOptions options = {(float)c->scale, (float)c->height_scale, c->offset, 0, c->thread_count};
     return meso_check_likeness(&c->check->likeness, c->arena, c->quilt, c->swatch, c->mesh.positions, c->base, &options,
                                error);
 }
