@@ -37,6 +37,8 @@ static MesoStatus finish(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *wor
         status = meso_finish_cut(work, quilt, error);
     if (!status && work->options->scale > 0)
         status = meso_finish_level(work, quilt, error);
+    if (!status && work->options->scale > 0)
+        status = meso_finish_part(work, error);
     if (!status)
         status = meso_finish_close(work, error);
     return status ? status : meso_finish_gather(quilt, arena, work, error);

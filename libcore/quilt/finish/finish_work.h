@@ -56,6 +56,9 @@ MesoStatus meso_finish_close(MesoFinishWork *work, MesoError *error);
 /* Takes slow drifts of height out of strands, before they are closed. `quilt`: what it was before. */
 MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error);
 
+/* Parts strands that run through each other where they cross, by their heights. */
+MesoStatus meso_finish_part(MesoFinishWork *work, MesoError *error);
+
 /* Makes the quilt of what there is, but for small pieces. */
 MesoStatus meso_finish_gather(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *work, MesoError *error);
 

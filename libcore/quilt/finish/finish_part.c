@@ -1,0 +1,526 @@
+/*
+ * Strands that run through each other, parted. Where patches do not fit, a strand may come to cross another at its own
+ * height, or to lie in one beside it. Of two that cross, the one that lies higher there on the whole goes up and the
+ * other one down, as far as their sections need; of two side by side each gives way. What is next to it along the strand
+ * follows. Rings move as wholes.
+ */
+#include "libcore/base/disjoint_sets.h"
+#include "libcore/base/grow.h"
+#include "libcore/quilt/finish/finish_work.h"
+#include "libcore/quilt/quilt_work.h"
+
+#include <string.h>
+
+/* Strands cross where the cosine between them is at most this; normals of one side of the surface have at least that. */
+#define CROSS_MOST 0.7f
+#define SIDE_LEAST 0.5f
+
+/* How far strands are looked for beside each other, in sums of their half widths; they give way by one at most. */
+#define BESIDE_MOST 1.5f
+
+/* Of a ring's step: how far along a strand it stands for it. */
+#define ALONG_MOST 0.55f
+
+/* Sections need a little more than they have. */
+#define ROOM 1.03f
+
+/* What of their sections strands of the swatch may lie in each other before they are left as they are. */
+#define SWATCH_MOST 0.2f
+
+/* Rings to both sides that say which strand is the higher one; steps of parting, each with one of smoothing. */
+enum { AROUND = 5, STEPS = 32 };
+
+typedef struct Ring {
+    MesoVec3 foot, axis, normal;        /* its middle on the surface, along the strand, up */
+    float height, half_width, half_height, step;
+    uint32_t next[2];                   /* along the strand, or MESO_NO_INDEX */
+    uint32_t count, first, links;       /* vertices, the first of them, edges to other rings */
+    bool held;                          /* stays where it is on the surface */
+    float low, high;                    /* of its heights */
+    int32_t cell[3];
+    uint32_t next_in_cell;
+} Ring;
+
+/* A ring's middle over or under another strand, or beside it, at the nearest of its rings. */
+typedef struct Contact {
+    uint32_t ring, other;
+    bool beside;
+    float gap;                          /* between the middles of such as cross, at the least */
+    float sign;                         /* 1: the ring is the higher one, -1 */
+} Contact;
+
+/* What becomes of rings. */
+typedef struct Moves {
+    MesoVec3 *asides;                   /* [ring_count] along the surface */
+    float *heights;                     /* [ring_count] */
+} Moves;
+
+typedef struct Strands {
+    uint32_t ring_count, contact_count, contact_room;
+    Ring *rings;
+    uint32_t *heads, head_mask;         /* of rings by their cell, hashed */
+    float cell;
+    Contact *contacts;                  /* by ring */
+    uint32_t *begin;                    /* [ring_count + 1] into the contacts */
+    MesoArena *arena;
+} Strands;
+
+/* What rings are made of. */
+typedef struct Tubes {
+    uint32_t vertex_count, triangle_count;
+    const MesoVec3 *feet;               /* [vertex_count] */
+    const float *heights;               /* [vertex_count] */
+    const uint32_t *corners;            /* [3 * triangle_count] */
+    uint32_t *of_vertex;                /* [vertex_count] ring, or MESO_NO_INDEX */
+} Tubes;
+
+/* ---- rings ---- */
+
+static void link_rings(Ring *rings, uint32_t a, uint32_t b)
+{
+    MesoVec3 d = meso_vec3_sub(rings[b].foot, rings[a].foot);
+    Ring *ring = &rings[a];
+    ring->step += meso_vec3_length(d);
+    ring->links++;
+    float side = meso_vec3_dot(ring->axis, d) < 0 ? -1 : 1;
+    ring->axis = meso_vec3_mad(ring->axis, side, d);
+    if (ring->next[0] == MESO_NO_INDEX)
+        ring->next[0] = b;
+    else if (ring->next[0] != b && ring->next[1] == MESO_NO_INDEX)
+        ring->next[1] = b;
+}
+
+static void measure_rings(Ring *rings, uint32_t count, const Tubes *tubes)
+{
+    for (uint32_t r = 0; r < count; r++)
+        rings[r] = (Ring){.next = {MESO_NO_INDEX, MESO_NO_INDEX}, .low = INFINITY, .high = -INFINITY};
+    for (uint32_t v = 0; v < tubes->vertex_count; v++) {
+        if (tubes->of_vertex[v] == MESO_NO_INDEX)
+            continue;
+        Ring *ring = &rings[tubes->of_vertex[v]];
+        ring->first = ring->count++ ? ring->first : v;
+        ring->foot = meso_vec3_add(ring->foot, tubes->feet[v]);
+        ring->height += tubes->heights[v];
+        ring->low = fminf(ring->low, tubes->heights[v]);
+        ring->high = fmaxf(ring->high, tubes->heights[v]);
+    }
+    for (uint32_t r = 0; r < count; r++) {
+        rings[r].foot = meso_vec3_scale(rings[r].foot, 1 / (float)rings[r].count);
+        rings[r].height /= (float)rings[r].count;
+        rings[r].half_height = (rings[r].high - rings[r].low) / 2;
+    }
+    for (uint32_t c = 0; c < 3 * tubes->triangle_count; c++) {
+        uint32_t a = tubes->of_vertex[tubes->corners[c]], b = tubes->of_vertex[tubes->corners[meso_next_corner(c)]];
+        if (a == b || a == MESO_NO_INDEX || b == MESO_NO_INDEX)
+            continue;
+        link_rings(rings, a, b);
+        link_rings(rings, b, a);
+    }
+    for (uint32_t r = 0; r < count; r++) {
+        rings[r].axis = meso_vec3_direction(rings[r].axis, (MesoVec3){0, 0, 0});
+        rings[r].step = rings[r].links ? rings[r].step / (float)rings[r].links : 0;
+    }
+    for (uint32_t v = 0; v < tubes->vertex_count; v++) {
+        if (tubes->of_vertex[v] == MESO_NO_INDEX)
+            continue;
+        Ring *ring = &rings[tubes->of_vertex[v]];
+        MesoVec3 off = meso_vec3_sub(tubes->feet[v], ring->foot);
+        off = meso_vec3_mad(off, -meso_vec3_dot(off, ring->axis), ring->axis);
+        ring->half_width = fmaxf(ring->half_width, meso_vec3_length(off));
+    }
+}
+
+/* ---- rings by place ---- */
+
+static uint32_t *head_of(const Strands *s, const int32_t cell[3])
+{
+    uint32_t key = (uint32_t)cell[0] * 73856093u ^ (uint32_t)cell[1] * 19349663u ^ (uint32_t)cell[2] * 83492791u;
+    return &s->heads[(key ^ key >> 15) & s->head_mask];
+}
+
+static MesoStatus sort_rings(Strands *s, MesoError *error)
+{
+    uint32_t size = 16;
+    while (size < 2 * s->ring_count)
+        size *= 2;
+    s->heads = MESO_NEW(s->arena, uint32_t, size, error);
+    if (!s->heads)
+        return MESO_ERR_MEMORY;
+    memset(s->heads, 0xff, size * sizeof *s->heads);
+    s->head_mask = size - 1;
+    for (uint32_t r = 0; r < s->ring_count; r++)
+        s->cell = fmaxf(s->cell, 2 * BESIDE_MOST * s->rings[r].half_width + s->rings[r].step);
+    for (uint32_t r = 0; r < s->ring_count && s->cell > 0; r++) {
+        Ring *ring = &s->rings[r];
+        const float place[3] = {ring->foot.x, ring->foot.y, ring->foot.z};
+        for (int k = 0; k < 3; k++)
+            ring->cell[k] = (int32_t)fmaxf(fminf(floorf(place[k] / s->cell), 1e9f), -1e9f);
+        uint32_t *head = head_of(s, ring->cell);
+        ring->next_in_cell = *head;
+        *head = r;
+    }
+    return MESO_OK;
+}
+
+/* ---- contacts ---- */
+
+static bool touches(Contact *contact, const Ring *ring, const Ring *other)
+{
+    float cosine = meso_vec3_dot(ring->axis, other->axis);
+    MesoVec3 d = meso_vec3_sub(other->foot, ring->foot);
+    float along = meso_vec3_dot(d, other->axis), side = meso_vec3_dot(d, d) - along * along;
+    float width = other->half_width * other->half_width, widths = BESIDE_MOST * (ring->half_width + other->half_width);
+    contact->beside = fabsf(cosine) > CROSS_MOST;
+    if (fabsf(along) > ALONG_MOST * other->step || !(side < (contact->beside ? widths * widths : width)) ||
+        meso_vec3_dot(ring->normal, other->normal) < SIDE_LEAST)
+        return false;
+    if (contact->beside)
+        return true;
+    contact->gap = ROOM * (ring->half_height + other->half_height * sqrtf(1 - fmaxf(side, 0) / width));
+    return true;
+}
+
+static MesoStatus add_contact(Strands *s, Contact contact, MesoError *error)
+{
+    if (s->contact_count == s->contact_room) {
+        uint32_t room = s->contact_room ? 2 * s->contact_room : 1024;
+        s->contacts = meso_arena_enlarge(s->arena, s->contacts, s->contact_count, room, sizeof *s->contacts, error);
+        if (!s->contacts)
+            return MESO_ERR_MEMORY;
+        s->contact_room = room;
+    }
+    s->contacts[s->contact_count++] = contact;
+    return MESO_OK;
+}
+
+static MesoStatus meet(Strands *s, uint32_t r, MesoError *error)
+{
+    const Ring *ring = &s->rings[r];
+    for (int32_t i = 0; i < 27; i++) {
+        const int32_t cell[3] = {ring->cell[0] + i % 3 - 1, ring->cell[1] + i / 3 % 3 - 1, ring->cell[2] + i / 9 - 1};
+        for (uint32_t q = *head_of(s, cell); q != MESO_NO_INDEX; q = s->rings[q].next_in_cell) {
+            Contact contact = {.ring = r, .other = q};
+            if (q != r && q != ring->next[0] && q != ring->next[1] && memcmp(s->rings[q].cell, cell, sizeof cell) == 0 && touches(&contact, ring, &s->rings[q]) &&
+                add_contact(s, contact, error))
+                return MESO_ERR_MEMORY;
+        }
+    }
+    return MESO_OK;
+}
+
+static MesoStatus find_contacts(Strands *s, MesoError *error)
+{
+    s->begin = MESO_NEW(s->arena, uint32_t, (size_t)s->ring_count + 1, error);
+    MesoStatus status = s->begin ? sort_rings(s, error) : MESO_ERR_MEMORY;
+    for (uint32_t r = 0; r < s->ring_count && !status && s->cell > 0; r++) {
+        status = meet(s, r, error);
+        s->begin[r + 1] = s->contact_count;
+    }
+    return status;
+}
+
+/* ---- which one is higher ---- */
+
+/* The rings around one, along its strand, itself among them; how many there are. */
+static uint32_t list_around(uint32_t list[2 * AROUND + 1], const Ring *rings, uint32_t ring)
+{
+    uint32_t count = 0;
+    list[count++] = ring;
+    for (int side = 0; side < 2; side++) {
+        uint32_t before = ring, at = rings[ring].next[side];
+        for (int i = 0; i < AROUND && at != MESO_NO_INDEX; i++) {
+            list[count++] = at;
+            uint32_t next = rings[at].next[rings[at].next[0] == before];
+            before = at;
+            at = next;
+        }
+    }
+    return count;
+}
+
+/* By how much rings of one list are higher than those of the other that they are in contact with. */
+static float height_between(const Strands *s, const uint32_t *list, uint32_t count, const uint32_t *others,
+                            uint32_t other_count)
+{
+    float sum = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = s->begin[list[i]]; k < s->begin[list[i] + 1]; k++)
+            for (uint32_t j = 0; j < other_count; j++)
+                if (s->contacts[k].other == others[j] && !s->contacts[k].beside)
+                    sum += s->rings[list[i]].height - s->rings[others[j]].height;
+    return sum;
+}
+
+static void find_signs(Strands *s)
+{
+    uint32_t list[2 * AROUND + 1], others[2 * AROUND + 1];
+    for (uint32_t k = 0; k < s->contact_count; k++) {
+        Contact *contact = &s->contacts[k];
+        if (contact->beside)
+            continue;
+        uint32_t count = list_around(list, s->rings, contact->ring);
+        uint32_t other_count = list_around(others, s->rings, contact->other);
+        float higher = height_between(s, list, count, others, other_count) -
+                       height_between(s, others, other_count, list, count);
+        contact->sign = higher > 0 || (!(higher < 0) && contact->ring < contact->other) ? 1 : -1;
+    }
+}
+
+static MesoStatus build(Strands *s, MesoArena *arena, const Tubes *tubes, uint32_t ring_count, MesoError *error)
+{
+    *s = (Strands){.ring_count = ring_count, .arena = arena, .rings = MESO_NEW(arena, Ring, ring_count, error)};
+    if (!s->rings)
+        return MESO_ERR_MEMORY;
+    measure_rings(s->rings, ring_count, tubes);
+    return MESO_OK;
+}
+
+/* ---- parting ---- */
+
+/* Of two that cross, by how much they are nearer to each other than their sections need. */
+static float lacking(const Strands *s, const Contact *contact, const Moves *moves)
+{
+    float apart = s->rings[contact->ring].height - s->rings[contact->other].height;
+    if (moves)
+        apart += moves->heights[contact->ring] - moves->heights[contact->other];
+    return contact->gap - contact->sign * apart;
+}
+
+/* The same of two side by side, whose sections are ellipses; `way`: to the ring, along the surface. */
+static float lacking_beside(MesoVec3 *way, const Strands *s, const Contact *contact, const Moves *moves)
+{
+    const Ring *a = &s->rings[contact->ring], *b = &s->rings[contact->other];
+    MesoVec3 d = meso_vec3_sub(a->foot, b->foot);
+    float up = a->height - b->height, high = a->half_height + b->half_height;
+    if (moves) {
+        d = meso_vec3_add(d, meso_vec3_sub(moves->asides[contact->ring], moves->asides[contact->other]));
+        up += moves->heights[contact->ring] - moves->heights[contact->other];
+    }
+    if (!(fabsf(up) < high))
+        return 0;
+    d = meso_vec3_mad(d, -meso_vec3_dot(d, b->axis), b->axis);
+    d = meso_vec3_mad(d, -meso_vec3_dot(d, a->normal), a->normal);
+    *way = meso_vec3_direction(d, meso_vec3_cross(a->normal, b->axis));
+    return ROOM * (a->half_width + b->half_width) * sqrtf(1 - up * up / (high * high)) - meso_vec3_length(d);
+}
+
+static void push_apart(const Strands *s, MesoVec3 *pushes, const Contact *contact, const Moves *moves)
+{
+    MesoVec3 way;
+    float lack = lacking_beside(&way, s, contact, moves);
+    if (!(lack > 0))
+        return;
+    /* the other one is in contact with this one, too, mostly: each does half of it */
+    pushes[contact->ring] = meso_vec3_mad(pushes[contact->ring], lack / 4, way);
+    pushes[contact->other] = meso_vec3_mad(pushes[contact->other], -lack / 4, way);
+}
+
+/* What moves are made of. */
+typedef struct Pushes {
+    float *ups, *downs;                 /* [ring_count] */
+    MesoVec3 *asides;                   /* [ring_count] */
+} Pushes;
+
+static void push(const Strands *s, Moves *moves, Pushes *pushes)
+{
+    memset(pushes->ups, 0, s->ring_count * sizeof *pushes->ups);
+    memset(pushes->downs, 0, s->ring_count * sizeof *pushes->downs);
+    memset(pushes->asides, 0, s->ring_count * sizeof *pushes->asides);
+    for (uint32_t k = 0; k < s->contact_count; k++) {
+        const Contact *contact = &s->contacts[k];
+        if (contact->beside) {
+            push_apart(s, pushes->asides, contact, moves);
+            continue;
+        }
+        float half = lacking(s, contact, moves) / 2;
+        uint32_t upper = contact->sign > 0 ? contact->ring : contact->other;
+        uint32_t lower = contact->sign > 0 ? contact->other : contact->ring;
+        pushes->ups[upper] = fmaxf(pushes->ups[upper], half);
+        pushes->downs[lower] = fmaxf(pushes->downs[lower], half);
+    }
+    for (uint32_t r = 0; r < s->ring_count; r++) {
+        moves->heights[r] += pushes->ups[r] - pushes->downs[r];
+        moves->asides[r] = meso_vec3_add(moves->asides[r], pushes->asides[r]);
+    }
+}
+
+/* Rings go down no further than to the ground, and aside no further than they are wide. */
+static void bound(Moves *moves, const Ring *ring, uint32_t r, float ground)
+{
+    moves->heights[r] = fmaxf(moves->heights[r], fminf(0, ground - ring->low));
+    float length = meso_vec3_length(moves->asides[r]);
+    if (ring->held)
+        moves->asides[r] = (MesoVec3){0, 0, 0};
+    else if (length > ring->half_width)
+        moves->asides[r] = meso_vec3_scale(moves->asides[r], ring->half_width / length);
+}
+
+/* What is before and after a ring has a quarter each; `before` is scratch. */
+static void smooth(const Strands *s, Moves *moves, Pushes *before, float ground)
+{
+    memcpy(before->ups, moves->heights, s->ring_count * sizeof *before->ups);
+    memcpy(before->asides, moves->asides, s->ring_count * sizeof *before->asides);
+    for (uint32_t r = 0; r < s->ring_count; r++) {
+        const uint32_t *next = s->rings[r].next;
+        uint32_t a = next[0] == MESO_NO_INDEX ? r : next[0], b = next[1] == MESO_NO_INDEX ? r : next[1];
+        moves->heights[r] = before->ups[r] / 2 + (before->ups[a] + before->ups[b]) / 4;
+        moves->asides[r] = meso_vec3_mad(meso_vec3_scale(before->asides[r], 0.5f), 0.25f,
+                                         meso_vec3_add(before->asides[a], before->asides[b]));
+        bound(moves, &s->rings[r], r, ground);
+    }
+}
+
+static bool is_lacking(const Strands *s, const Contact *contact)
+{
+    MesoVec3 way;
+    return (contact->beside ? lacking_beside(&way, s, contact, NULL) : lacking(s, contact, NULL)) > 0;
+}
+
+/* `any`: something lies in something else. */
+static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, float ground, MesoError *error)
+{
+    *any = false;
+    for (uint32_t k = 0; k < s->contact_count && !*any; k++)
+        *any = is_lacking(s, &s->contacts[k]);
+    if (!*any)
+        return MESO_OK;
+    uint32_t count = s->ring_count;
+    Pushes pushes = {MESO_NEW(s->arena, float, count, error), MESO_NEW(s->arena, float, count, error),
+                     MESO_NEW(s->arena, MesoVec3, count, error)};
+    *moves = (Moves){MESO_NEW(s->arena, MesoVec3, count, error), MESO_NEW(s->arena, float, count, error)};
+    if (!pushes.ups || !pushes.downs || !pushes.asides || !moves->asides || !moves->heights)
+        return MESO_ERR_MEMORY;
+    for (int step = 0; step < STEPS; step++) {
+        push(s, moves, &pushes);
+        smooth(s, moves, &pushes, ground);
+    }
+    return MESO_OK;
+}
+
+/* ---- of the swatch, and of the quilt ---- */
+
+/* Whether strands of the swatch lie in each other: then that is how it looks. */
+static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, const MesoSwatch *swatch, MesoArena *arena,
+                                 MesoError *error)
+{
+    Strands s;
+    MesoVec3 *feet = MESO_NEW(arena, MesoVec3, swatch->vertex_count, error);
+    float *heights = MESO_NEW(arena, float, swatch->vertex_count, error);
+    if (!feet || !heights)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < swatch->vertex_count; v++) {
+        feet[v] = (MesoVec3){swatch->positions[v].x, swatch->positions[v].y, 0};
+        heights[v] = swatch->positions[v].z;
+    }
+    const Tubes tubes = {swatch->vertex_count, swatch->triangle_count, feet, heights, swatch->corners, named->of_vertex};
+    MesoStatus status = build(&s, arena, &tubes, named->count, error);
+    for (uint32_t r = 0; r < named->count && !status; r++)
+        s.rings[r].normal = (MesoVec3){0, 0, 1};
+    if (!status)
+        status = find_contacts(&s, error);
+    if (status)
+        return status;
+    find_signs(&s);
+    *parted = true;
+    for (uint32_t k = 0; k < s.contact_count && *parted; k++)
+        *parted = s.contacts[k].beside || lacking(&s, &s.contacts[k], NULL) <= SWATCH_MOST * s.contacts[k].gap;
+    return MESO_OK;
+}
+
+/* Rings of the swatch, as far as they hang together here. */
+static uint32_t name_rings(uint32_t *of_vertex, uint32_t *sets, const MesoStrandRings *named,
+                           const MesoFinishWork *work)
+{
+    uint32_t count = 0;
+    meso_sets_init(sets, work->vertex_count);
+    for (uint32_t v = 0; v < work->vertex_count; v++)
+        of_vertex[v] = named->of_vertex[work->origins[v]];
+    for (uint32_t c = 0; c < 3 * work->triangle_count; c++) {
+        uint32_t a = work->corners[c], b = work->corners[meso_next_corner(c)];
+        if (of_vertex[a] == of_vertex[b] && of_vertex[a] != MESO_NO_INDEX)
+            meso_sets_join(sets, a, b);
+    }
+    for (uint32_t v = 0; v < work->vertex_count; v++)
+        if (of_vertex[v] != MESO_NO_INDEX) {
+            uint32_t root = meso_sets_root(sets, v);
+            of_vertex[v] = root == v ? count++ : of_vertex[root];
+        }
+    return count;
+}
+
+static MesoVec3 normal_under(const MesoFinishWork *work, uint32_t vertex)
+{
+    const MesoTriangulation *mesh = &work->base->mesh;
+    const uint32_t *corners = &mesh->corners[3 * (size_t)work->vertices[vertex].triangle];
+    MesoVec3 a = mesh->positions[corners[0]], b = meso_vec3_sub(mesh->positions[corners[1]], a);
+    return meso_vec3_direction(meso_vec3_cross(b, meso_vec3_sub(mesh->positions[corners[2]], a)), (MesoVec3){0, 0, 0});
+}
+
+/* Borders have made some of a ring: it stays where they are. */
+static void hold_borders(Strands *s, const Tubes *tubes, const MesoFinishWork *work)
+{
+    for (uint32_t v = 0; v < tubes->vertex_count; v++)
+        if (work->at_border[v] && tubes->of_vertex[v] != MESO_NO_INDEX)
+            s->rings[tubes->of_vertex[v]].held = true;
+}
+
+static void move_vertex(MesoFinishWork *work, uint32_t v, MesoVec3 foot, MesoVec3 aside, float up)
+{
+    MesoQuiltVertex *vertex = &work->vertices[v];
+    if (aside.x != 0 || aside.y != 0 || aside.z != 0)
+        *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, aside), vertex->height);
+    vertex->height += up;
+    work->points[v] = meso_finish_point(work, *vertex);
+}
+
+static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named, MesoError *error)
+{
+    uint32_t n = work->vertex_count;
+    MesoArena *arena = work->arena;
+    uint32_t *of_vertex = MESO_NEW(arena, uint32_t, n, error), *sets = MESO_NEW(arena, uint32_t, n, error);
+    MesoVec3 *feet = MESO_NEW(arena, MesoVec3, n, error);
+    float *heights = MESO_NEW(arena, float, n, error);
+    if (!of_vertex || !sets || !feet || !heights)
+        return MESO_ERR_MEMORY;
+    uint32_t count = name_rings(of_vertex, sets, named, work);
+    for (uint32_t v = 0; v < n; v++) {
+        feet[v] = meso_finish_foot(work, work->vertices[v]);
+        heights[v] = work->vertices[v].height;
+    }
+    Strands s;
+    Moves moves;
+    bool any;
+    const Tubes tubes = {n, work->triangle_count, feet, heights, work->corners, of_vertex};
+    MesoStatus status = build(&s, arena, &tubes, count, error);
+    for (uint32_t r = 0; r < count && !status; r++)
+        s.rings[r].normal = normal_under(work, s.rings[r].first);
+    if (!status)
+        status = find_contacts(&s, error);
+    if (status)
+        return status;
+    find_signs(&s);
+    hold_borders(&s, &tubes, work);
+    status = find_moves(&moves, &any, &s, work->options->offset, error);
+    for (uint32_t v = 0; v < n && !status && any; v++)
+        if (of_vertex[v] != MESO_NO_INDEX)
+            move_vertex(work, v, feet[v], moves.asides[of_vertex[v]], moves.heights[of_vertex[v]]);
+    return status;
+}
+
+MesoStatus meso_finish_part(MesoFinishWork *work, MesoError *error)
+{
+    MesoArenaMark mark = meso_arena_mark(work->arena);
+    MesoStrandRings named;
+    bool parted = false, has_strands = false;
+    for (uint32_t e = 0; e < work->swatch->element_count; e++)
+        has_strands |= work->swatch->kinds[e] == MESO_ELEMENT_STRAND;
+    if (!has_strands)
+        return MESO_OK;
+    MesoStatus status = meso_strands_find_rings(&named, work->swatch, work->arena, error);
+    if (!status)
+        status = look_at_swatch(&parted, &named, work->swatch, work->arena, error);
+    if (!status && parted)
+        status = part_quilt(work, &named, error);
+    meso_arena_rewind(work->arena, mark);
+    return status;
+}
