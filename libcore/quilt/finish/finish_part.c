@@ -321,7 +321,7 @@ typedef struct Pushes {
     MesoVec3 *asides;                   /* [ring_count] */
 } Pushes;
 
-static void push(const Strands *s, Moves *moves, Pushes *pushes)
+static void push(const Strands *s, Moves *moves, Pushes *pushes, float ground)
 {
     memset(pushes->ups, 0, s->ring_count * sizeof *pushes->ups);
     memset(pushes->downs, 0, s->ring_count * sizeof *pushes->downs);
@@ -332,11 +332,12 @@ static void push(const Strands *s, Moves *moves, Pushes *pushes)
             push_apart(s, pushes->asides, contact, moves);
             continue;
         }
-        float half = lacking(s, contact, moves) / 2;
+        float lack = lacking(s, contact, moves);
         uint32_t upper = contact->sign > 0 ? contact->ring : contact->other;
         uint32_t lower = contact->sign > 0 ? contact->other : contact->ring;
-        pushes->ups[upper] = fmaxf(pushes->ups[upper], half);
-        pushes->downs[lower] = fmaxf(pushes->downs[lower], half);
+        float room = fmaxf(s->rings[lower].low + moves->heights[lower] - ground, 0), down = fminf(lack / 2, room);
+        pushes->ups[upper] = fmaxf(pushes->ups[upper], lack - down);
+        pushes->downs[lower] = fmaxf(pushes->downs[lower], down);
     }
     for (uint32_t r = 0; r < s->ring_count; r++) {
         moves->heights[r] += pushes->ups[r] - pushes->downs[r];
@@ -391,7 +392,7 @@ static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, float gr
     if (!pushes.ups || !pushes.downs || !pushes.asides || !moves->asides || !moves->heights)
         return MESO_ERR_MEMORY;
     for (int step = 0; step < STEPS; step++) {
-        push(s, moves, &pushes);
+        push(s, moves, &pushes, ground);
         smooth(s, moves, &pushes, ground);
     }
     return MESO_OK;

@@ -261,9 +261,70 @@ static void test_level(void)
     meso_arena_release(&arena);
 }
 
+/* The mean place of an element's vertices within a distance of a point. */
+static MesoVec3 middle_near(const MesoQuilt *q, const MesoTriangulation *plane, uint32_t element, MesoVec3 near,
+                            float most)
+{
+    MesoVec3 sum = {0, 0, 0};
+    float count = 0;
+    for (uint32_t v = q->vertex_begin[element]; v < q->vertex_begin[element + 1]; v++) {
+        MesoVec3 p = point_of(plane, q->vertices[v]);
+        if (hypotf(p.x - near.x, p.y - near.y) > most)
+            continue;
+        sum = meso_vec3_add(sum, p);
+        count++;
+    }
+    CHECK(count > 0);
+    return meso_vec3_scale(sum, 1 / count);
+}
+
+/* Turns an element by a quarter about a point. */
+static void turn(MesoQuilt *q, const MesoTriangulation *mesh, uint32_t element, MesoVec3 about)
+{
+    for (uint32_t v = q->vertex_begin[element]; v < q->vertex_begin[element + 1]; v++) {
+        MesoVec3 p = meso_vec3_sub(point_of(mesh, q->vertices[v]), about);
+        q->vertices[v] = place_at(mesh, meso_vec3_add(about, (MesoVec3){-p.y, p.x, p.z}));
+    }
+}
+
+/* Bars through each other go over and under; bars in each other lie side by side. Elsewhere they stay. */
+static void test_part(void)
+{
+    MesoArena arena;
+    MesoError error = {0};
+    meso_arena_init(&arena);
+    MesoSwatch swatch = make_swatch(&arena);
+    MesoTriangulation plane = meso_fixture_sheet(2, 2, 4);
+    MesoQuiltBase base;
+    CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
+    MesoVec3 at = meso_vec3_add(swatch.positions[0], (MesoVec3){0, BAR_SIDE / 2, BAR_SIDE / 2});
+    const MesoFinishOptions options = {.scale = 1, .offset = -1};
+    const MesoVec3 middle = {2, 2, 0}, move = {-2 - at.x, 2 - at.y, -0.7f};
+    const Copy across[] = {{0, RINGS - 1, move}, {0, RINGS - 1, move}};
+    MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, across, 2);
+    turn(&q, &base.mesh, 1, middle);
+    CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &options, &error) == MESO_OK && q.element_count == 2);
+    MesoVec3 a = middle_near(&q, &plane, 0, middle, 0.25f);
+    MesoVec3 b = middle_near(&q, &plane, 1, middle, 0.25f);
+    MesoVec3 far = middle_near(&q, &plane, 0, (MesoVec3){0.5f, 2, 0}, 0.3f);
+    printf("%g %g %g\n", a.z, b.z, far.z);
+    CHECK(fabsf(a.z - b.z) > 0.16f && fabsf(far.z + 0.9f) < 0.02f);
+    const Copy beside[] = {{0, RINGS - 1, move}, {0, RINGS - 1, meso_vec3_add(move, (MesoVec3){0, 0.1f, 0})}};
+    q = lay_out(&arena, &swatch, &base.mesh, beside, 2);
+    CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &options, &error) == MESO_OK && q.element_count == 2);
+    a = middle_near(&q, &plane, 0, middle, 0.4f);
+    b = middle_near(&q, &plane, 1, (MesoVec3){2, 2.1f, 0}, 0.4f);
+    printf("%g %g\n", a.y, b.y);
+    CHECK(b.y - a.y > 0.18f && fabsf(a.y + b.y - 4.1f) < 0.02f && fabsf(a.z - b.z) < 0.01f);
+    meso_quilt_base_release(&base);
+    meso_triangulation_release(&plane);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     test_level();
+    test_part();
     test_plane(false);
     test_plane(true);
     test_wholes();
