@@ -121,6 +121,8 @@ static void put_lay(json_t *object, const MesoQuiltLay *lay)
         json_object_set_new(part, "charts", json_integer(lay->chart_count));
         json_object_set_new(part, "chart_area_ratio", meso_json_shortest(lay->area_ratio));
         json_object_set_new(part, "elements_over_seams", json_integer(lay->seam_count));
+        json_object_set_new(part, "flat_tetrahedra", json_integer(lay->flat_count));
+        json_object_set_new(part, "plain_triangles", json_integer(lay->plain_count));
     }
     json_object_set_new(object, "layer", part);
 }

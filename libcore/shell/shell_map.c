@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "libcore/shell/prisms.h"
 #include "libcore/shell/shell_map_relax.h"
 #include "libcore/shell/shell_stretch.h"
 
@@ -16,7 +17,9 @@ static MesoStatus allocate(MesoShellMap *map, const MesoAtlas *atlas, MesoArena 
     map->low_uv = MESO_NEW(arena, double, 2 * (size_t)map->vertex_count, error);
     map->high_uv = MESO_NEW(arena, double, 2 * (size_t)map->vertex_count, error);
     map->held = MESO_NEW(arena, uint8_t, map->vertex_count, error);
-    return map->corners && map->origins && map->low_uv && map->high_uv && map->held ? MESO_OK : MESO_ERR_MEMORY;
+    map->plain = MESO_NEW(arena, uint8_t, map->mesh->triangle_count, error);
+    return map->corners && map->origins && map->low_uv && map->high_uv && map->held && map->plain ? MESO_OK
+                                                                                                   : MESO_ERR_MEMORY;
 }
 
 static void place_vertices(MesoShellMap *map, const MesoAtlas *atlas)
@@ -56,14 +59,19 @@ static void hold_vertices(MesoShellMap *map)
         }
     for (uint32_t t = 0; t < map->mesh->triangle_count; t++) {
         MesoShellPrism prism = meso_shell_prism(map, t);
-        for (uint32_t k = 0; k < 3 && !meso_shell_prism_stands(&prism); k++)
+        uint32_t negative_count = 0, flat_count = 0;
+        if (meso_shell_prism_stands(&prism))
+            continue;
+        for (uint32_t k = 0; k < 3; k++)
             map->held[map->corners[3 * (size_t)t + k]] = 1;
+        meso_shell_prism_count(&prism, &negative_count, &flat_count);
+        map->plain[t] = negative_count > 0;
     }
 }
 
 typedef struct Sums {
     MesoShellStretch there, back;
-    uint32_t inverted_count;
+    uint32_t inverted_count, flat_count;
 } Sums;
 
 static Sums measure(const MesoShellMap *map)
@@ -71,16 +79,16 @@ static Sums measure(const MesoShellMap *map)
     Sums sums = {0};
     for (uint32_t t = 0; t < map->mesh->triangle_count; t++) {
         MesoShellPrism prism = meso_shell_prism(map, t);
-        bool stands = meso_shell_prism_stands(&prism);
+        if (!meso_shell_prism_stands(&prism)) {
+            if (!map->plain[t])
+                meso_shell_prism_count(&prism, &sums.inverted_count, &sums.flat_count);
+            continue;
+        }
         for (uint32_t part = 0; part < 3; part++) {
             MesoVec3d texture[4], shell[4];
             meso_shell_prism_part(&prism, part, texture, shell);
-            if (stands) {
-                meso_shell_stretch_add(&sums.there, texture, shell);
-                meso_shell_stretch_add(&sums.back, shell, texture);
-            } else {
-                sums.inverted_count += !(meso_tetrahedron_det(texture) > 0 && meso_tetrahedron_det(shell) > 0);
-            }
+            meso_shell_stretch_add(&sums.there, texture, shell);
+            meso_shell_stretch_add(&sums.back, shell, texture);
         }
     }
     sums.inverted_count += sums.there.inverted_count;
@@ -111,6 +119,14 @@ static MesoStatus optimise(MesoShellMap *map, Sums *best, uint32_t sweeps, MesoA
     return MESO_OK;
 }
 
+static uint32_t count_plain(const MesoShellMap *map)
+{
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < map->mesh->triangle_count; t++)
+        count += map->plain[t];
+    return count;
+}
+
 MesoStatus meso_shell_map_build(MesoShellMap *map, MesoShellMapReport *report, MesoArena *arena,
                                 const MesoTriangulation *mesh, const MesoAtlas *atlas, const MesoVec3 *directions,
                                 const MesoShellMapOptions *options, MesoError *error)
@@ -131,7 +147,7 @@ MesoStatus meso_shell_map_build(MesoShellMap *map, MesoShellMapReport *report, M
     if (report)
         *report = (MesoShellMapReport){meso_shell_stretch(&before.there), meso_shell_stretch(&after.there),
                                        meso_shell_stretch(&before.back), meso_shell_stretch(&after.back),
-                                       after.inverted_count};
+                                       after.inverted_count, after.flat_count, count_plain(map)};
     return status;
 }
 
@@ -145,6 +161,8 @@ typedef struct Found {
 /* Looks at a triangle's tetrahedra, and keeps the best. */
 static void look(const MesoShellMap *map, uint32_t triangle, MesoVec3d at, Found *found)
 {
+    if (map->plain[triangle])
+        return;
     MesoShellPrism prism = meso_shell_prism(map, triangle);
     for (uint32_t part = 0; part < 3; part++) {
         MesoVec3d texture[4], shell[4], point = {0, 0, 0};
@@ -202,6 +220,8 @@ MesoVec3 meso_shell_map_point(const MesoShellMap *map, uint32_t triangle, float 
     enum { STEPS = 256 };
     const double inside = -1e-9;
     const double b[3] = {1 - (double)b1 - b2, b1, b2};
+    if (map->plain[triangle])
+        return meso_prism_point(map->mesh, map->directions, triangle, b1, b2, h);
     MesoVec3d at = {0, 0, h};
     for (uint32_t k = 0; k < 3; k++) {
         size_t v = map->corners[3 * (size_t)triangle + k];

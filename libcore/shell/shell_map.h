@@ -24,7 +24,9 @@ typedef struct MesoShellMapOptions {
 typedef struct MesoShellMapReport {
     double stretch_before, stretch_after;                   /* from the texture to the shell */
     double stretch_before_inverse, stretch_after_inverse;   /* and back: the paper's */
-    uint32_t inverted_count;    /* tetrahedra that are negative or flat: of triangles too low, or without a layer */
+    uint32_t inverted_count;    /* tetrahedra that are negative: none */
+    uint32_t flat_count;        /* such without a volume: of triangles too low, or without a layer at a vertex */
+    uint32_t plain_count;       /* triangles that have negative ones, whose points are those of their prisms instead */
 } MesoShellMapReport;
 
 /*

@@ -177,6 +177,28 @@ static void test_shear(void)
     meso_arena_release(&arena);
 }
 
+/* By hand: a layer that is folded goes by its prism; one without thickness at a vertex is flat, and no more. */
+static void test_no_layer(void)
+{
+    const MesoVec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0.2f, 0.7f, 0}};
+    const MesoVec3 directions[2][3] = {{{2, 0, 1}, {-2, 0, 1}, {0, 0, 1}}, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}};
+    const uint32_t corners[3] = {0, 1, 2};
+    MesoTriangulation mesh = meso_fixture_triangulation(positions, 3, corners, 1);
+    MesoAtlas atlas = charts_of(&mesh, 0);
+    for (int flat = 0; flat < 2; flat++) {
+        MesoShellMap map;
+        MesoShellMapReport report;
+        MesoError error;
+        CHECK(meso_shell_map_build(&map, &report, &arena, &mesh, &atlas, directions[flat],
+                                   &(MesoShellMapOptions){.high = 1}, &error) == MESO_OK);
+        CHECK(report.inverted_count == 0 && report.plain_count == !flat && (report.flat_count > 0) == flat);
+        MesoVec3 prism = meso_prism_point(&mesh, directions[flat], 0, 0.25f, 0.5f, 1);
+        check_near(meso_shell_map_point(&map, 0, 0.25f, 0.5f, 1), prism, 1);
+    }
+    meso_triangulation_release(&mesh);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
@@ -184,6 +206,7 @@ int main(void)
     test_plain();
     test_less_stretch();
     test_shear();
+    test_no_layer();
     meso_arena_release(&arena);
     return 0;
 }

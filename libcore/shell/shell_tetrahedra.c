@@ -27,6 +27,17 @@ void meso_shell_prism_part(const MesoShellPrism *prism, uint32_t part, MesoVec3d
     }
 }
 
+void meso_shell_prism_count(const MesoShellPrism *prism, uint32_t *negative_count, uint32_t *flat_count)
+{
+    for (uint32_t part = 0; part < 3; part++) {
+        MesoVec3d texture[4], shell[4];
+        meso_shell_prism_part(prism, part, texture, shell);
+        double least = fmin(meso_tetrahedron_det(texture), meso_tetrahedron_det(shell));
+        *negative_count += least < 0;
+        *flat_count += least == 0;
+    }
+}
+
 bool meso_shell_prism_stands(const MesoShellPrism *prism)
 {
     /* as shares of what a prism of the same sides and height can have: floats tell no less */

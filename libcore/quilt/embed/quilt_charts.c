@@ -43,6 +43,8 @@ static void report(MesoQuiltLay *lay, const MesoShellMapReport *map, const MesoA
     layer->stretch_before_inverse = map->stretch_before_inverse;
     layer->stretch_after_inverse = map->stretch_after_inverse;
     layer->inverted_count = map->inverted_count;
+    lay->flat_count = map->flat_count;
+    lay->plain_count = map->plain_count;
     lay->chart_count = atlas->chart_count;
     lay->area_ratio = atlas->largest_ratio;
     lay->seam_count = count_seams(quilt, atlas);

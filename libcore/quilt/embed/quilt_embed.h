@@ -15,6 +15,8 @@ typedef struct MesoQuiltLay {
     MesoPrismReport layer;      /* with charts, its stretch is that of the shell map; zero where there is no layer */
     uint32_t chart_count;       /* 0 without charts */
     uint32_t seam_count;        /* elements that lie in several charts */
+    uint32_t flat_count;        /* tetrahedra of the charts' map without a volume */
+    uint32_t plain_count;       /* triangles of the base that go by their prisms instead of it */
     float area_ratio;           /* of the atlas, largest over least */
 } MesoQuiltLay;
 

@@ -9,7 +9,7 @@
 #include "libcore/quilt/quilt.h"
 
 typedef struct MesoFinishOptions {
-    float scale;            /* of MesoQuiltOptions; 0: pieces stay however small they are, and heights as they are */
+    float scale;            /* of MesoQuiltOptions; 0: pieces stay however small they are, strands where they are */
     float height_scale;     /* of MesoQuiltOptions */
     float offset;
     float overhang;         /* whole elements may reach beyond a border by so much, in the surface's units */
@@ -27,6 +27,8 @@ typedef struct MesoFinishOptions {
  * - Pieces of strands no longer than about one and a half times the reach of their section are left out: those whose
  *   points are nowhere further apart than 2.5 times the largest reach of their swatch element's open ends.
  * - Strands come back to the heights that the swatch has them at, but for what joins need of them.
+ * - Where they run through each other, strands that cross go over and under, and others lie side by side: as far as their
+ *   sections need, and not where strands of the swatch lie in each other.
  * - Vertices have triangles and weights of the original that `base` comes from.
  * - Elements are what hangs together, in the order in which they were, pieces of one by their first triangle.
  *

@@ -307,14 +307,12 @@ static void test_part(void)
     MesoVec3 a = middle_near(&q, &plane, 0, middle, 0.25f);
     MesoVec3 b = middle_near(&q, &plane, 1, middle, 0.25f);
     MesoVec3 far = middle_near(&q, &plane, 0, (MesoVec3){0.5f, 2, 0}, 0.3f);
-    printf("%g %g %g\n", a.z, b.z, far.z);
     CHECK(fabsf(a.z - b.z) > 0.16f && fabsf(far.z + 0.9f) < 0.02f);
     const Copy beside[] = {{0, RINGS - 1, move}, {0, RINGS - 1, meso_vec3_add(move, (MesoVec3){0, 0.1f, 0})}};
     q = lay_out(&arena, &swatch, &base.mesh, beside, 2);
     CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &options, &error) == MESO_OK && q.element_count == 2);
     a = middle_near(&q, &plane, 0, middle, 0.4f);
     b = middle_near(&q, &plane, 1, (MesoVec3){2, 2.1f, 0}, 0.4f);
-    printf("%g %g\n", a.y, b.y);
     CHECK(b.y - a.y > 0.18f && fabsf(a.y + b.y - 4.1f) < 0.02f && fabsf(a.z - b.z) < 0.01f);
     meso_quilt_base_release(&base);
     meso_triangulation_release(&plane);
