@@ -315,29 +315,41 @@ static void push_apart(const Strands *s, MesoVec3 *pushes, const Contact *contac
     pushes[contact->other] = meso_vec3_mad(pushes[contact->other], -lack / 4, way);
 }
 
+/* The layer: that of the swatch. */
+typedef struct Bounds {
+    float low, high;
+} Bounds;
+
 /* What moves are made of. */
 typedef struct Pushes {
     float *ups, *downs;                 /* [ring_count] */
     MesoVec3 *asides;                   /* [ring_count] */
 } Pushes;
 
-static void push(const Strands *s, Moves *moves, Pushes *pushes, float ground)
+/* Each of two that cross does half of it; where there is no room in the layer, the other one does the rest. */
+static void push_over(const Strands *s, Pushes *pushes, const Contact *contact, const Moves *moves, Bounds bounds)
+{
+    float lack = lacking(s, contact, moves);
+    uint32_t upper = contact->sign > 0 ? contact->ring : contact->other;
+    uint32_t lower = contact->sign > 0 ? contact->other : contact->ring;
+    float above = fmaxf(bounds.high - s->rings[upper].high - moves->heights[upper], 0);
+    float below = fmaxf(s->rings[lower].low + moves->heights[lower] - bounds.low, 0);
+    float up = fminf(fmaxf(lack / 2, lack - below), above), down = fminf(lack - up, below);
+    pushes->ups[upper] = fmaxf(pushes->ups[upper], up);
+    pushes->downs[lower] = fmaxf(pushes->downs[lower], down);
+}
+
+static void push(const Strands *s, Moves *moves, Pushes *pushes, Bounds bounds)
 {
     memset(pushes->ups, 0, s->ring_count * sizeof *pushes->ups);
     memset(pushes->downs, 0, s->ring_count * sizeof *pushes->downs);
     memset(pushes->asides, 0, s->ring_count * sizeof *pushes->asides);
     for (uint32_t k = 0; k < s->contact_count; k++) {
         const Contact *contact = &s->contacts[k];
-        if (contact->beside) {
+        if (contact->beside)
             push_apart(s, pushes->asides, contact, moves);
-            continue;
-        }
-        float lack = lacking(s, contact, moves);
-        uint32_t upper = contact->sign > 0 ? contact->ring : contact->other;
-        uint32_t lower = contact->sign > 0 ? contact->other : contact->ring;
-        float room = fmaxf(s->rings[lower].low + moves->heights[lower] - ground, 0), down = fminf(lack / 2, room);
-        pushes->ups[upper] = fmaxf(pushes->ups[upper], lack - down);
-        pushes->downs[lower] = fmaxf(pushes->downs[lower], down);
+        else
+            push_over(s, pushes, contact, moves, bounds);
     }
     for (uint32_t r = 0; r < s->ring_count; r++) {
         moves->heights[r] += pushes->ups[r] - pushes->downs[r];
@@ -345,10 +357,11 @@ static void push(const Strands *s, Moves *moves, Pushes *pushes, float ground)
     }
 }
 
-/* Rings go down no further than to the ground, and aside no further than they are wide. */
-static void bound(Moves *moves, const Ring *ring, uint32_t r, float ground)
+/* Rings do not leave the layer, and go aside no further than they are wide. */
+static void bound(Moves *moves, const Ring *ring, uint32_t r, Bounds bounds)
 {
-    moves->heights[r] = fmaxf(moves->heights[r], fminf(0, ground - ring->low));
+    moves->heights[r] = fmaxf(moves->heights[r], fminf(0, bounds.low - ring->low));
+    moves->heights[r] = fminf(moves->heights[r], fmaxf(0, bounds.high - ring->high));
     float length = meso_vec3_length(moves->asides[r]);
     if (ring->held)
         moves->asides[r] = (MesoVec3){0, 0, 0};
@@ -357,7 +370,7 @@ static void bound(Moves *moves, const Ring *ring, uint32_t r, float ground)
 }
 
 /* What is before and after a ring has a quarter each; `before` is scratch. */
-static void smooth(const Strands *s, Moves *moves, Pushes *before, float ground)
+static void smooth(const Strands *s, Moves *moves, Pushes *before, Bounds bounds)
 {
     memcpy(before->ups, moves->heights, s->ring_count * sizeof *before->ups);
     memcpy(before->asides, moves->asides, s->ring_count * sizeof *before->asides);
@@ -367,7 +380,7 @@ static void smooth(const Strands *s, Moves *moves, Pushes *before, float ground)
         moves->heights[r] = before->ups[r] / 2 + (before->ups[a] + before->ups[b]) / 4;
         moves->asides[r] = meso_vec3_mad(meso_vec3_scale(before->asides[r], 0.5f), 0.25f,
                                          meso_vec3_add(before->asides[a], before->asides[b]));
-        bound(moves, &s->rings[r], r, ground);
+        bound(moves, &s->rings[r], r, bounds);
     }
 }
 
@@ -378,7 +391,7 @@ static bool is_lacking(const Strands *s, const Contact *contact)
 }
 
 /* `any`: something lies in something else. */
-static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, float ground, MesoError *error)
+static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, Bounds bounds, MesoError *error)
 {
     *any = false;
     for (uint32_t k = 0; k < s->contact_count && !*any; k++)
@@ -392,8 +405,8 @@ static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, float gr
     if (!pushes.ups || !pushes.downs || !pushes.asides || !moves->asides || !moves->heights)
         return MESO_ERR_MEMORY;
     for (int step = 0; step < STEPS; step++) {
-        push(s, moves, &pushes, ground);
-        smooth(s, moves, &pushes, ground);
+        push(s, moves, &pushes, bounds);
+        smooth(s, moves, &pushes, bounds);
     }
     return MESO_OK;
 }
@@ -501,7 +514,9 @@ static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named,
         return status;
     find_signs(&s);
     hold_borders(&s, &tubes, work);
-    status = find_moves(&moves, &any, &s, work->options->offset, error);
+    const MesoFinishOptions *o = work->options;
+    float top = o->offset + (o->height_scale > 0 ? o->height_scale : o->scale) * work->swatch->size.z;
+    status = find_moves(&moves, &any, &s, (Bounds){o->offset, top}, error);
     for (uint32_t v = 0; v < n && !status && any; v++)
         if (of_vertex[v] != MESO_NO_INDEX)
             move_vertex(work, v, feet[v], moves.asides[of_vertex[v]], moves.heights[of_vertex[v]]);

@@ -2,7 +2,7 @@
 
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
-/* A bar along x of square section, open at its ends, and an octahedron: what the quilts here are made of. */
+/* A bar along x of square section, open at its ends, and a higher octahedron: what the quilts here are made of. */
 enum { RINGS = 41 };
 #define BAR_LENGTH 8.0f
 #define BAR_SIDE 0.2f
@@ -32,7 +32,8 @@ static MesoSwatch make_swatch(MesoArena *arena)
     for (uint32_t k = 0; k < 6; k++) {
         float r = k % 2 ? -0.1f : 0.1f;
         uint32_t axis = k / 2;
-        mesh.positions[first + k] = (MesoVec3){axis == 0 ? 4 + r : 4, axis == 1 ? 3 + r : 3, axis == 2 ? r : 0};
+        mesh.positions[first + k] = (MesoVec3){axis == 0 ? 4 + r : 4, axis == 1 ? 3 + r : 3,
+                                                axis == 2 ? 0.3f + r : 0.3f};
     }
     for (uint32_t k = 0; k < 8; k++) {
         uint32_t x = first + (k & 1), y = first + 2 + (k >> 1 & 1), z = first + 4 + (k >> 2 & 1);
