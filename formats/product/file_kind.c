@@ -50,7 +50,8 @@ static MesoFileKind kind_of_format(const MesoInput *input, size_t at)
     } formats[] = {{"meso-tiles", MESO_FILE_TILES}, {"meso-constraints", MESO_FILE_CONSTRAINTS},
                    {"meso-report", MESO_FILE_REPORT}, {"meso-slots", MESO_FILE_LISTING},
                    {"meso-pattern", MESO_FILE_PATTERN}, {"meso-macros", MESO_FILE_MACROS},
-                   {"meso-regions", MESO_FILE_REGIONS}};
+                   {"meso-regions", MESO_FILE_REGIONS}, {"meso-details", MESO_FILE_DETAILS},
+                   {"meso-deform", MESO_FILE_DEFORM}};
     if (at == input->size || input->data[at] != '"')
         return MESO_FILE_UNKNOWN;
     size_t end = skip_string(input, at);
@@ -163,7 +164,9 @@ static MesoFileKind kind_of_container(const MesoInput *input)
 {
     const char *kind = input->size >= 16 ? (const char *)input->data + 8 : "";
     return strncmp(kind, "model", 8) == 0 ? MESO_FILE_MODEL
-        : strncmp(kind, "quilt", 8) == 0 ? MESO_FILE_QUILT : MESO_FILE_SLOTS;
+        : strncmp(kind, "quilt", 8) == 0 ? MESO_FILE_QUILT
+        : strncmp(kind, "state", 8) == 0 ? MESO_FILE_STATE
+        : strncmp(kind, "plan", 8) == 0 ? MESO_FILE_PLAN : MESO_FILE_SLOTS;
 }
 
 MesoFileKind meso_file_kind(const MesoInput *input)
@@ -207,6 +210,10 @@ const char *meso_file_kind_phrase(MesoFileKind kind)
     case MESO_FILE_PATTERN: return "a pattern";
     case MESO_FILE_MACROS: return "a file of macros";
     case MESO_FILE_REGIONS: return "a tree of regions";
+    case MESO_FILE_DETAILS: return "details";
+    case MESO_FILE_DEFORM: return "a deformation";
+    case MESO_FILE_STATE: return "a state of details (.state)";
+    case MESO_FILE_PLAN: return "a plan of details (.plan)";
     case MESO_FILE_CSV: return "a listing of slots (CSV)";
     case MESO_FILE_UNKNOWN: break;
     }

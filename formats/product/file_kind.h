@@ -29,12 +29,17 @@ typedef enum MesoFileKind {
     MESO_FILE_MACROS = 1 << 19,         /* of patterns */
     MESO_FILE_REGIONS = 1 << 20,        /* of a finished pattern */
     MESO_FILE_QUILT = 1 << 21,
-    MESO_FILE_GRAMMAR = 1 << 22
+    MESO_FILE_GRAMMAR = 1 << 22,
+    MESO_FILE_DETAILS = 1 << 23,
+    MESO_FILE_DEFORM = 1 << 24,
+    MESO_FILE_STATE = 1 << 25,          /* of details that replicate */
+    MESO_FILE_PLAN = 1 << 26            /* likewise */
 } MesoFileKind;
 
 /* All that begin as JSON text. */
 enum { MESO_FILES_OF_JSON = MESO_FILE_SEED_LINES * 2 - 1 + MESO_FILE_GLTF + MESO_FILE_JSON +
-                          MESO_FILE_LISTING + MESO_FILE_PATTERN + MESO_FILE_MACROS + MESO_FILE_REGIONS };
+                          MESO_FILE_LISTING + MESO_FILE_PATTERN + MESO_FILE_MACROS + MESO_FILE_REGIONS +
+                          MESO_FILE_DETAILS + MESO_FILE_DEFORM };
 
 /*
  * Goes by the first bytes, by the keys of the outermost object of JSON, and by

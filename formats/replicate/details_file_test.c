@@ -89,8 +89,8 @@ static void test_kinds(void)
     CHECK(k->geometry == MESO_DETAIL_MESH && k->length == 0 && k->lift == 0 && !k->own_material);
     CHECK(c.details.material_count == 2 && c.details.materials[1].metallic == 1);
     CHECK_TEXT(c.details.material_names[1], "blue");
-    k = kind("{\"mesh\": \"spine.obj\", \"length\": 2, \"lift\": -0.5, \"material\": \"blue\"}");
-    CHECK(k->length == 2 && k->lift == -0.5f && k->own_material && k->material == 1);
+    k = kind("{\"mesh\": \"spine.obj\", \"length\": 2, \"lift\": -0.5, \"upright\": true, \"material\": \"blue\"}");
+    CHECK(k->upright && k->length == 2 && k->lift == -0.5f && k->own_material && k->material == 1);
     k = kind("{\"bump\": {}}");
     CHECK(k->geometry == MESO_DETAIL_BUMP && k->profile == MESO_BUMP_GAUSS && k->height == 0.25f);
     CHECK_TEXT(k->file, "");
@@ -106,7 +106,8 @@ static void test_kinds(void)
     bad_kind("3", "d.json: kinds.k: an object is needed here, not a number");
     bad_kind("{\"mesh\": \"\"}", "d.json: kinds.k.mesh: empty");
     bad_kind("{\"mesh\": \"a\", \"size\": 1}",
-             "d.json: kinds.k: unknown key \"size\"; there are \"mesh\", \"length\", \"lift\", \"material\"");
+             "d.json: kinds.k: unknown key \"size\"; there are \"mesh\", \"length\", \"lift\", \"upright\", "
+             "\"material\"");
     bad_kind("{\"mesh\": \"a\", \"material\": \"blu\"}",
              "d.json: kinds.k.material: no material 'blu'; did you mean 'blue'?");
     bad_kind("{\"bump\": {\"profile\": \"gaus\"}}",

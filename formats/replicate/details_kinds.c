@@ -6,15 +6,16 @@ static const char *const profiles[] = {"gauss", "ring", "image", NULL};
 
 static void read_mesh(const MesoJsonField *field, MesoDetailKind *kind)
 {
-    static const char *const keys[] = {"mesh", "length", "lift", "material", NULL};
+    static const char *const keys[] = {"mesh", "length", "lift", "upright", "material", NULL};
     MesoJsonField mesh = meso_json_key(field, "mesh"), length = meso_json_key(field, "length");
-    MesoJsonField lift = meso_json_key(field, "lift");
+    MesoJsonField lift = meso_json_key(field, "lift"), upright = meso_json_key(field, "upright");
     if (!meso_json_object(field, keys))
         return;
     kind->geometry = MESO_DETAIL_MESH;
     kind->file = meso_details_name(&mesh);
     kind->length = meso_json_float_in(&length, 0, 1e18f, true, 0);
     kind->lift = meso_json_float_in(&lift, -100, 100, false, 0);
+    kind->upright = meso_json_bool(&upright, false);
 }
 
 static void read_bump(const MesoJsonField *field, MesoDetailKind *kind)

@@ -32,6 +32,7 @@ typedef struct MesoDetailKind {
     const char *file;       /* of the mesh or the picture, as it is written; "" for others */
     float length;           /* what is so long in the mesh becomes a detail's size; 0: all of it along x */
     float lift;             /* of a mesh over the surface, in shares of the size */
+    bool upright;           /* a mesh stands up straight, whatever the slope */
     MesoBumpProfile profile;
     float height;           /* of a bump, in shares of the size; not positive goes down */
     uint32_t material;
