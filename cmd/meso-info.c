@@ -9,6 +9,7 @@
 #include "cmd/info/info_describe.h"
 #include "cmd/info/info_grammar.h"
 #include "cmd/info/info_quilt.h"
+#include "cmd/info/info_replicate.h"
 #include "formats/file/container.h"
 #include "formats/json/json_text.h"
 #include "formats/product/file_kind.h"
@@ -53,6 +54,8 @@ static MesoStatus describe_container(json_t *facts, MesoArena *arena, const Meso
                                      MesoError *error)
 {
     MesoFileKind kind = meso_file_kind(input);
+    if (kind == MESO_FILE_STATE || kind == MESO_FILE_PLAN)
+        return (kind == MESO_FILE_STATE ? meso_info_state : meso_info_plan)(facts, arena, input, error);
     MesoStatus status = put_kind(facts, kind == MESO_FILE_MODEL ? "model" : kind == MESO_FILE_QUILT ? "quilt" : "slots",
                                  error);
     if (status)
@@ -99,8 +102,8 @@ static MesoStatus describe(json_t *facts, MesoArena *arena, const MesoInput *inp
         return meso_info_mesh(facts, arena, input, error);
     return meso_fail(error, MESO_ERR_INPUT,
                      "%s: no kind of file that is known here: .slots or a listing of slots, .meso, .quilt, "
-                     ".tiles.json or a prototype's tile set, constraints, report, pattern, .grammar, .jsonl of seeds, .obj, "
-                     ".ply, .off, .glb, .drc, .exr, .png",
+                     ".tiles.json or a prototype's tile set, constraints, report, pattern, .grammar, .jsonl of seeds, details, .state, "
+                     ".plan, .obj, .ply, .off, .glb, .drc, .exr, .png",
                      input->path);
 }
 

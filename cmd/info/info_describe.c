@@ -7,6 +7,7 @@
 
 #include "cmd/common/scene_report.h"
 #include "cmd/info/info_decor.h"
+#include "cmd/info/info_replicate.h"
 #include "formats/json/json_text.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/surface_read.h"
@@ -402,12 +403,14 @@ MesoStatus meso_info_json(json_t *facts, MesoArena *arena, const MesoInput *inpu
         status = put_constraints(facts, arena, root, input->path, error);
     else if (format && meso_info_decor(facts, format, root, input->path, &status, error))
         ;
+    else if (format && meso_info_replicate(facts, arena, format, root, input, &status, error))
+        ;
     else if ((format && strcmp(format, "meso-tiles") == 0) || meso_prototype_recognise(root))
         status = put_tiles(facts, arena, root, input, error);
     else
         status = meso_fail(error, MESO_ERR_INPUT,
-                           "%s: neither a tile set, constraints, a report, a pattern, macros nor regions; the suite knows "
-                           "no other JSON",
+                           "%s: neither a tile set, constraints, a report, a pattern, macros, regions, details nor "
+                           "deformations; the suite knows no other JSON",
                            input->path);
     json_decref(root);
     return status;

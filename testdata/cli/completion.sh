@@ -1,5 +1,5 @@
 # What the shells' completions offer.
-for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-decor meso-quilt meso-grow meso-render meso-check meso-info; do
+for tool in meso-mesh meso-tile meso-solve meso-suggest meso-map meso-decor meso-quilt meso-grow meso-replicate meso-render meso-check meso-info; do
     "$scripts/make-completion" bash "$(command -v $tool)" >$tool.bash
     for shell in zsh fish; do
         "$scripts/make-completion" $shell "$(command -v $tool)" >$tool.$shell

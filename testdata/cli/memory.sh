@@ -95,6 +95,10 @@ each meso-grow -q --threads 1 --until 4 ivy.grammar cube.obj -o out/i.meso
 most=30
 each meso-grow -q --threads 1 --until 3 --trace out/c.jsonl cracks.grammar cube.obj -o out/c.svg
 each meso-decor -q --threads 1 --geodesics exact polyline-closed.pattern.json vase.obj -o out/v.ply --lines out/v.obj
+sed 's/"count": 80/"count": 12/' "$fixtures/knobs.details.json" >knobs.details.json
+meso-replicate -q --deform stretch --count 2 cube.obj -o body-%d.obj
+each meso-replicate -q --threads 1 --fineness 3 --frames 1 --state out/k.state knobs.details.json body-%d.obj -o out/k-%d.ply
+each meso-replicate -q --threads 1 --fineness 3 --mode play --plan out/k.plan knobs.details.json body-%d.obj -o out/k.glb
 each meso-check -q --threads 2 --max-faults 9999 --mark out/marks.ply cube.meso -o out/found.json
 for file in quad.tiles.json cube.obj cube.slots cube.meso cube.glb; do
     each meso-info $file
