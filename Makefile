@@ -20,6 +20,7 @@
 #   bench-replicate   details on a patch that is stretched, beside the paper's Table 1; times
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   quilts            ten pictures of quilts, to build/quilts
+#   details           three strips of details that replicate, to build/details
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
 #   clean
@@ -77,7 +78,7 @@ TESTS   := $(patsubst %.c,%,$(filter %_test.c,$(SOURCES)))
 BENCHES := $(patsubst %.c,%,$(filter %_bench.c,$(SOURCES)))
 FUZZERS := $(patsubst %.c,%,$(filter %_fuzz.c,$(SOURCES)))
 REFERENCES := $(patsubst %.c,%,$(filter %_reference.c,$(SOURCES)))
-GENERATORS := make_vase make_teapot make_torus_knot make_mask make_column make_body
+GENERATORS := make_vase make_teapot make_torus_knot make_mask make_column make_body make_scenery
 SHADERS := $(wildcard shaders/*.glsl)
 
 # Each archive may call those behind it and none before it: the linker goes through them once.
@@ -132,6 +133,10 @@ $(GENERATORS:%=$(OUT)/scripts/%): $(OUT)/scripts/%: $(OUT)/obj/scripts/%.c.o $(O
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^ -lm
 
+$(OUT)/scripts/make_strip: $(OUT)/obj/scripts/make_strip.c.o
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ -lpng
+
 $(OUT)/scripts/check_drat: $(OUT)/obj/scripts/check_drat.c.o
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -o $@ $^
@@ -184,6 +189,8 @@ demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 quilts: all generators
 	@scripts/make-quilts $(OUT) $(BIN) $(BUILD)/quilts
+details: all generators $(OUT)/scripts/make_strip
+	@scripts/make-details $(OUT) $(BIN) $(BUILD)/details
 fuzz-run: fuzzers all generators
 	@scripts/run-fuzzers $(OUT) $(BIN) $(FUZZ_SECONDS) $(FUZZERS)
 
@@ -198,6 +205,6 @@ clean:
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
         check-reference check-pairs bench bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts \
-        fuzz-run fuzzers benches references install clean
+        details fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
