@@ -33,7 +33,8 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "geodesics", "HOW",
                     "distances by fronts (default), by the graph of the paper, or exact, which is slow", &a.engine,
                     "fronts|graph|exact"),
-        MESO_DRACO_OPTIONS(a.output),
+        MESO_MESH_OPTIONS(a.output),
+        MESO_UP_OPTION(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -55,7 +55,7 @@ int main(int argc, char **argv)
         MESO_TEXT(0, "surface", "MATERIAL", "show the surface too, made of this: own, \"clay\", \"clay #a8653f 0.7\"",
                   &a.surface),
         MESO_TEXT(0, "seeds", "LIST", "one product for each of these seeds: 1-10,20; -o has %d", &a.seeds),
-        MESO_DRACO_OPTIONS(a.output),
+        MESO_MESH_OPTIONS(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

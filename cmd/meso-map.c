@@ -427,7 +427,8 @@ int main(int argc, char **argv)
         MESO_PAIRS_OPTION(a.pairs),
         MESO_CHOICE(0, "embed", "HOW", "of a quilt: how it lies over its surface (default: as it was made)", &a.embedding,
                     MESO_QUILT_EMBEDDING_NAMES),
-        MESO_DRACO_OPTIONS(a.output),
+        MESO_MESH_OPTIONS(a.output),
+        MESO_UP_OPTION(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -68,7 +68,8 @@ int main(int argc, char **argv)
         MESO_FLAG(0, "check", "measure how good the quilt is, and say it", &a.check),
         MESO_TEXT(0, "surface", "MATERIAL", "show the surface too, made of this: own, \"clay\", \"clay #a8653f 0.7\"",
                   &a.under),
-        MESO_DRACO_OPTIONS(a.output),
+        MESO_MESH_OPTIONS(a.output),
+        MESO_UP_OPTION(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

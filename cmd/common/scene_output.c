@@ -8,11 +8,11 @@
 #include "formats/model/model_body.h"
 
 static const MesoSceneKind KINDS[] = {
-    {"meso", NULL, false, NULL},
-    {"ply", meso_ply_write, false, NULL},
-    {"obj", meso_obj_write, false, NULL},
-    {"glb", meso_glb_write, true, "write .ply"},
-    {"drc", meso_drc_write, true, "write .glb"},
+    {"meso", NULL, MESO_SCENE_NO_DRACO, false, NULL},
+    {"ply", meso_ply_write, MESO_SCENE_NO_DRACO, false, NULL},
+    {"obj", meso_obj_write, MESO_SCENE_NO_DRACO, false, NULL},
+    {"glb", meso_glb_write, MESO_SCENE_MAY_DRACO, true, "write .ply"},
+    {"drc", meso_drc_write, MESO_SCENE_DRACO, false, "write .glb"},
 };
 
 const MesoSceneKind *meso_scene_kind_named(const char *name)
@@ -23,15 +23,27 @@ const MesoSceneKind *meso_scene_kind_named(const char *name)
     return NULL;
 }
 
-/* An option that would change nothing was meant for something else. */
-static MesoStatus check_draco_options(const MesoSceneOutput *output, MesoError *error)
+static bool is_draco(const MesoSceneOutput *output)
 {
-    const char *given = output->given.speed ? "speed" : NULL;
-    given = output->given.normal_bits ? "normal-bits" : given;
-    given = output->given.position_bits ? "position-bits" : given;
-    if (!given || output->kind->draco)
-        return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .%s", given, output->kind->name);
+    return output->kind->draco == MESO_SCENE_DRACO ||
+           (output->kind->draco == MESO_SCENE_MAY_DRACO && strcmp(output->compress, "draco") == 0);
+}
+
+/* An option that would change nothing was meant for something else. */
+static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
+{
+    const char *draco = output->given.speed ? "speed" : NULL;
+    draco = output->given.normal_bits ? "normal-bits" : draco;
+    draco = output->given.position_bits ? "position-bits" : draco;
+    const char *placed = output->given.unit ? "unit" : output->given.up ? "up" : NULL;
+    if (draco && !is_draco(output))
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc, and for .glb with --compress draco; the output is .%s",
+                         draco, output->kind->name);
+    if (output->given.compress && output->kind->draco != MESO_SCENE_MAY_DRACO)
+        return meso_fail(error, MESO_ERR_USAGE, "--compress is for .glb; the output is .%s", output->kind->name);
+    if (placed && !output->kind->placed)
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb; the output is .%s", placed, output->kind->name);
+    return MESO_OK;
 }
 
 MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
@@ -43,7 +55,7 @@ MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
     const char *name = output->to ? output->to : dot ? dot + 1 : "";
     output->kind = meso_scene_kind_named(name);
     if (output->kind)
-        return check_draco_options(output, &tool->error);
+        return check_options(output, &tool->error);
     return meso_fail(&tool->error, MESO_ERR_USAGE,
                      "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb or "
                      ".drc, or give --to", tool->output);
@@ -67,6 +79,9 @@ static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, cons
         .position_bits = output->position_bits,
         .normal_bits = output->normal_bits,
         .speed = output->speed,
+        .compression = is_draco(output) ? MESO_GLB_DRACO : MESO_GLB_PLAIN,
+        .z_up = strcmp(output->up, "z") == 0,
+        .unit = output->unit,
         .provenance = &tool->provenance,
         .progress = meso_tool_progress,
         .progress_context = tool,
@@ -105,7 +120,7 @@ static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, c
     MesoStatus status = meso_output_open(file, tool->output, &tool->error);
     if (status)
         return status;
-    meso_tool_progress_begin(tool, "writing", output->kind->draco ? "triangles" : "vertices");
+    meso_tool_progress_begin(tool, "writing", is_draco(output) ? "triangles" : "vertices");
     return output->kind->write ? write_mesh(tool, output, parts, product->smaller, *file)
                                : write_model(tool, product, *file);
 }

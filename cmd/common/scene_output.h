@@ -3,7 +3,7 @@
  * -o, the options of the writers, the file that appears whole or not at all, and the report.
  *
  *     MyArguments a = {.output = MESO_SCENE_OUTPUT_DEFAULTS};
- *     MesoOption options[] = {MESO_SCENE_KIND_OPTION(a.output), ..., MESO_DRACO_OPTIONS(a.output),
+ *     MesoOption options[] = {MESO_SCENE_KIND_OPTION(a.output), ..., MESO_MESH_OPTIONS(a.output),
  *                             MESO_TOOL_OPTIONS(a.tool), {0}};
  *     ...
  *     status = meso_tool_choose_scene_kind(tool, &a.output);      before the work
@@ -24,32 +24,45 @@ typedef struct MesoSceneKind {
     const char *name;           /* and extension */
     MesoStatus (*write)(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoOutput *output,
                         MesoError *error);      /* NULL: a model */
-    bool draco;
+    enum { MESO_SCENE_NO_DRACO, MESO_SCENE_MAY_DRACO, MESO_SCENE_DRACO } draco;
+    bool placed;                /* says which axis is up, and the unit */
     const char *instead;        /* what helps where the product is too large for the kind; NULL: nothing */
 } MesoSceneKind;
 
 typedef struct MesoSceneOutput {
     const MesoSceneKind *kind;  /* found by meso_tool_choose_scene_kind() */
     const char *to;             /* --to */
+    const char *compress, *up;  /* --compress, --up */
+    float unit;                 /* --unit */
     uint32_t position_bits, normal_bits, speed;
     struct {
-        bool position_bits, normal_bits, speed;
+        bool compress, up, unit, position_bits, normal_bits, speed;
     } given;
 } MesoSceneOutput;
 
-#define MESO_SCENE_OUTPUT_DEFAULTS {.position_bits = 14, .normal_bits = 10, .speed = 7}
+#define MESO_SCENE_OUTPUT_DEFAULTS \
+    {.compress = "none", .up = "y", .unit = 1, .position_bits = 14, .normal_bits = 10, .speed = 7}
 
 #define MESO_SCENE_KIND_OPTION(o)                                                             \
     MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &(o).to, \
                 "meso|ply|obj|glb|drc", .more = MESO_OPTION_OUTWARD)
 
-#define MESO_DRACO_OPTIONS(o)                                                                 \
-    MESO_GROUP("Draco (.drc, .glb)"), \
-    MESO_COUNT(0, "position-bits", "N", "precision of positions (default 14)", &(o).position_bits, 4, 24, \
+/* Which axis of the scene is up: for the tools that have no --up of their own. */
+#define MESO_UP_OPTION(o)                                                                     \
+    MESO_CHOICE(0, "up", "AXIS", "that is up in the product's coordinates, y (default) or z, for .glb", &(o).up, \
+                "y|z", .given = &(o).given.up)
+
+#define MESO_MESH_OPTIONS(o)                                                                  \
+    MESO_GROUP("Meshes (.glb, .drc)"), \
+    MESO_CHOICE(0, "compress", "HOW", "of .glb: none (default), which everything opens, or draco", &(o).compress, \
+                "none|draco", .given = &(o).given.compress), \
+    MESO_NUMBER(0, "unit", "M", "metres of one unit of the product, for .glb (default 1)", &(o).unit, 1e-9, 1e9, \
+                .given = &(o).given.unit), \
+    MESO_COUNT(0, "position-bits", "N", "Draco: precision of positions (default 14)", &(o).position_bits, 4, 24, \
                .given = &(o).given.position_bits), \
-    MESO_COUNT(0, "normal-bits", "N", "precision of normals (default 10)", &(o).normal_bits, 4, 16, \
+    MESO_COUNT(0, "normal-bits", "N", "Draco: precision of normals (default 10)", &(o).normal_bits, 4, 16, \
                .given = &(o).given.normal_bits), \
-    MESO_COUNT(0, "speed", "N", "0 smallest to 10 fastest (default 7)", &(o).speed, 0, 10, \
+    MESO_COUNT(0, "speed", "N", "Draco: 0 smallest to 10 fastest (default 7)", &(o).speed, 0, 10, \
                .given = &(o).given.speed)
 
 /* The kind by its name, "glb", in either case; NULL for others. */

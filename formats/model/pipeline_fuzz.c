@@ -70,10 +70,11 @@ static bool solve(MesoModel *model, const MesoVariantSet *variants, MesoArena *a
 static void write_mesh(const MesoSceneParts *t, MesoArena *arena)
 {
     const MesoProvenance provenance = {.tool = "fuzz", .command_line = "fuzz"};
-    const MesoMeshWriteOptions options = {.thread_count = 1, .speed = 10, .provenance = &provenance};
+    uint64_t count = t->vertex_begin[t->part_count];
+    const MesoMeshWriteOptions options = {.thread_count = 1, .speed = 10, .provenance = &provenance,
+                                          .compression = count % 2 ? MESO_GLB_PLAIN : MESO_GLB_DRACO};
     MesoOutput *output;
     MesoError error;
-    uint64_t count = t->vertex_begin[t->part_count];
     MesoMeshVertex *vertices = MESO_NEW(arena, MesoMeshVertex, count, &error);
     CHECK(vertices);
     meso_scene_vertices(t, 0, t->part_count, vertices);

@@ -2,8 +2,6 @@
 
 #include <assert.h>
 
-#include "formats/scene/mesh_window.h"
-
 enum { POSITION_BITS = 14, NORMAL_BITS = 10, UV_BITS = 12 };
 
 MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoSceneParts *parts,

@@ -1,9 +1,9 @@
-/* Ranges of a parts through Draco: what .drc and .glb share. */
+/* Ranges of parts through Draco: what .drc and .glb share. */
 #ifndef MESO_DRACO_MESH_H
 #define MESO_DRACO_MESH_H
 
 #include "formats/scene/draco_adapter.h"
-#include "formats/scene/mesh_file.h"
+#include "formats/scene/mesh_window.h"
 
 /*
  * Options for all meshes of a scene: one grid for all of them, so that
@@ -12,11 +12,6 @@
  */
 MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoSceneParts *parts,
                                    const MesoMeshWriteOptions *options, MesoError *error);
-
-/* Parts [begin, end). */
-typedef struct MesoPartRange {
-    uint32_t begin, end;
-} MesoPartRange;
 
 /* Tessellates and encodes the parts of `ranges`, which have faces, as one mesh. Threads may call
  * this at once. */

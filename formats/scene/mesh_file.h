@@ -1,4 +1,4 @@
-/* Meshes out: binary PLY, OBJ, Draco, GLB with KHR_draco_mesh_compression. */
+/* Meshes out: binary PLY, OBJ, Draco, GLB. */
 #ifndef MESO_MESH_FILE_H
 #define MESO_MESH_FILE_H
 
@@ -6,11 +6,19 @@
 #include "formats/product/provenance.h"
 #include "libcore/scene/parts.h"
 
+typedef enum MesoGlbCompression {
+    MESO_GLB_PLAIN,
+    MESO_GLB_DRACO              /* KHR_draco_mesh_compression */
+} MesoGlbCompression;
+
 typedef struct MesoMeshWriteOptions {
     uint32_t thread_count;      /* 0: all cores */
     uint32_t position_bits;     /* Draco; 0: 14 */
     uint32_t normal_bits;       /* Draco; 0: 10 */
     uint32_t speed;             /* Draco, 0 best to 10 fastest */
+    MesoGlbCompression compression;
+    bool z_up;                  /* the scene's up is z, and not y; where the kind of file can say so */
+    float unit;                 /* metres of one scene unit, likewise; 0: 1 */
     const MesoProvenance *provenance;
     const char *smaller;        /* what would make the product smaller, for messages; may be NULL */
     /* Called now and then with the work done so far; may be NULL. */
@@ -26,11 +34,11 @@ enum { MESO_DRACO_TRIANGLES = 1 << 26 };
  * Each writes all parts of a scene, with their ids in every channel: the ones
  * of a channel with names in 16 bits, beside the names, the others in 32. Where
  * a body has colours, all vertices have. PLY and OBJ stream in windows of
- * bounded size, whatever the mesh (a body is held whole); Draco and GLB hold
- * what they encode: up to MESO_DRACO_TRIANGLES in one .drc, a piece of one
- * material at a time in .glb, beside the compressed result. MESO_ERR_LIMIT
- * beyond what a format can hold; MESO_ERR_INPUT for a scene without geometry.
- * Bytes do not depend on the thread count.
+ * bounded size, whatever the mesh (a body is held whole), and so does GLB that
+ * is not compressed; Draco holds what it encodes: up to MESO_DRACO_TRIANGLES in
+ * one .drc, a piece of one material at a time in .glb, beside the compressed
+ * result. MESO_ERR_LIMIT beyond what a format can hold; MESO_ERR_INPUT for a
+ * scene without geometry. Bytes do not depend on the thread count.
  */
 MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                           MesoOutput *output, MesoError *error);

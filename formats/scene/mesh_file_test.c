@@ -1,75 +1,9 @@
 /*
  * Mesh writers: what is read back from each kind of file is the scene's geometry
- * itself, bit by bit (PLY, OBJ) or to the rounding of Draco (its own decoder
- * reads .drc and the pieces of .glb); the bytes do not depend on the threads;
- * what a format cannot hold is refused.
+ * itself, bit by bit (PLY, OBJ) or to the rounding of Draco, by its own decoder;
+ * the bytes do not depend on the threads; what a format cannot hold is refused.
  */
-#include <errno.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <jansson.h>
-
-#include "formats/file/input.h"
-#include "formats/scene/mesh_file.h"
-#include "formats/scene/scene_fixture.h"
-
-typedef MesoStatus WriteMesh(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
-                             MesoOutput *output, MesoError *error);
-
-static char folder[] = "/tmp/mesh_file_test.XXXXXX";
-
-static const char *path_of(const char *name)
-{
-    static char paths[8][64];
-    static int next;
-    char *path = paths[next++ % 8];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
-}
-
-static MesoInput write_mesh(WriteMesh *write, const MesoSceneParts *t, uint32_t threads, const char *path)
-{
-    MesoProvenance provenance = {.tool = "meso-map", .command_line = "meso-map 'a b' \"c\"", .seed = 7};
-    MesoMeshWriteOptions options = {.thread_count = threads, .speed = 7, .provenance = &provenance};
-    MesoOutput *output;
-    MesoInput input;
-    MesoError error;
-    CHECK(meso_output_open(&output, path, &error) == MESO_OK);
-    CHECK(write(t, &options, output, &error) == MESO_OK);
-    CHECK(meso_output_commit(output, &error) == MESO_OK);
-    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
-    return input;
-}
-
-static void check_threads(WriteMesh *write, const MesoSceneParts *t, const MesoInput *expected)
-{
-    for (uint32_t threads = 1; threads <= 3; threads += 2) {
-        MesoInput again = write_mesh(write, t, threads, path_of("again"));
-        CHECK(again.size == expected->size && memcmp(again.data, expected->data, again.size) == 0);
-        meso_input_close(&again);
-    }
-}
-
-/* All polygons at once, in the scene's arena. */
-typedef struct Whole {
-    uint64_t vertex_count, face_count;
-    MesoMeshVertex *vertices;
-    MesoMeshFace *faces;
-} Whole;
-
-static Whole make_whole(SceneFixture *s)
-{
-    MesoError error;
-    const MesoSceneParts *t = &s->parts;
-    Whole whole = {t->vertex_begin[t->part_count], t->face_begin[t->part_count], NULL, NULL};
-    whole.vertices = MESO_NEW(&s->arena, MesoMeshVertex, whole.vertex_count, &error);
-    whole.faces = MESO_NEW(&s->arena, MesoMeshFace, whole.face_count, &error);
-    CHECK(whole.vertices && whole.faces);
-    meso_scene_vertices(t, 0, t->part_count, whole.vertices);
-    meso_scene_faces(t, 0, t->part_count, 0, whole.faces);
-    return whole;
-}
+#include "formats/scene/mesh_file_fixture.h"
 
 /* First and last part of the faces, walking along. */
 static uint32_t part_of_face(const MesoSceneParts *t, uint32_t part, uint64_t face)
@@ -80,15 +14,6 @@ static uint32_t part_of_face(const MesoSceneParts *t, uint32_t part, uint64_t fa
 }
 
 /* ---- PLY ---- */
-
-static const uint8_t *after(const MesoInput *input, const char *line)
-{
-    size_t length = strlen(line);
-    for (size_t i = 0; i + length <= input->size && i < 1 << 14; i++)
-        if (memcmp(input->data + i, line, length) == 0)
-            return input->data + i + length;
-    return NULL;
-}
 
 static void check_ply_faces(const MesoSceneParts *t, const Whole *whole, const uint8_t *row, const uint8_t *end)
 {
@@ -250,56 +175,6 @@ static void test_obj(void)
 
 /* ---- Draco, read back by its own decoder ---- */
 
-typedef struct Decoded {
-    uint64_t vertex_count, face_count;
-    MesoBox box;
-} Decoded;
-
-static uint64_t number_after(const MesoInput *input, const char *line)
-{
-    const uint8_t *digits = after(input, line);
-    CHECK(digits);
-    return strtoull((const char *)digits, NULL, 10);
-}
-
-/* The decoder writes positions and normals as 24 bytes, and colours as 3 more, then the faces. */
-static Decoded decode(const char *path)
-{
-    char command[512];
-    const char *ply = path_of("decoded.ply");
-    MesoInput input;
-    MesoError error;
-    snprintf(command, sizeof command, "draco_decoder -i %s -o %s >/dev/null 2>&1", path, ply);
-    CHECK(system(command) == 0);
-    CHECK(meso_input_open(&input, ply, &error) == MESO_OK);
-    Decoded d = {number_after(&input, "element vertex "), number_after(&input, "element face "), meso_box_empty()};
-    const uint8_t *rows = after(&input, "end_header\n");
-    size_t row = after(&input, "property uchar red\n") ? 27 : 24;
-    CHECK(rows && (size_t)(input.data + input.size - rows) >= row * d.vertex_count);
-    for (uint64_t i = 0; i < d.vertex_count; i++) {
-        MesoVec3 p;
-        memcpy(&p, rows + row * i, 12);
-        meso_box_add(&d.box, p);
-    }
-    meso_input_close(&input);
-    remove(ply);
-    return d;
-}
-
-static bool contains(const MesoInput *input, const char *text)
-{
-    size_t length = strlen(text);
-    for (size_t i = 0; i + length <= input->size; i++)
-        if (memcmp(input->data + i, text, length) == 0)
-            return true;
-    return false;
-}
-
-static void check_near(MesoVec3 a, MesoVec3 b, float tolerance)
-{
-    CHECK(fabsf(a.x - b.x) <= tolerance && fabsf(a.y - b.y) <= tolerance && fabsf(a.z - b.z) <= tolerance);
-}
-
 static void bounds_of(const Whole *whole, MesoVec3 *low, MesoVec3 *high)
 {
     *low = *high = whole->vertices[0].position;
@@ -332,99 +207,6 @@ static void test_drc(void)
     scene_fixture_release(&fixture);
 }
 
-/* ---- GLB ---- */
-
-static uint32_t word(const MesoInput *input, size_t offset)
-{
-    uint32_t value;
-    CHECK(offset + 4 <= input->size);
-    memcpy(&value, input->data + offset, 4);
-    return value;
-}
-
-static uint32_t integer(const json_t *object, const char *key)
-{
-    CHECK(json_is_integer(json_object_get(object, key)));
-    return (uint32_t)json_integer_value(json_object_get(object, key));
-}
-
-static MesoVec3 point(const json_t *array)
-{
-    CHECK(json_array_size(array) == 3);
-    return (MesoVec3){(float)json_number_value(json_array_get(array, 0)),
-                      (float)json_number_value(json_array_get(array, 1)),
-                      (float)json_number_value(json_array_get(array, 2))};
-}
-
-/* Decodes one primitive and compares it with what its accessors promise; returns its triangles. */
-static uint64_t check_primitive(const json_t *root, const json_t *primitive, const uint8_t *data, size_t size,
-                                const char *numbers)
-{
-    const json_t *draco = json_object_get(json_object_get(primitive, "extensions"), "KHR_draco_mesh_compression");
-    const json_t *view = json_array_get(json_object_get(root, "bufferViews"), integer(draco, "bufferView"));
-    const json_t *accessors = json_object_get(root, "accessors");
-    const json_t *attributes = json_object_get(primitive, "attributes");
-    const json_t *position = json_array_get(accessors, integer(attributes, "POSITION"));
-    const json_t *indices = json_array_get(accessors, integer(primitive, "indices"));
-    const json_t *slot = json_array_get(accessors, integer(attributes, numbers));
-    size_t offset = json_object_get(view, "byteOffset") ? integer(view, "byteOffset") : 0;
-    size_t length = integer(view, "byteLength");
-    CHECK(offset + length <= size && offset % 4 == 0);
-    CHECK(json_object_size(json_object_get(draco, "attributes")) == json_object_size(attributes));
-    CHECK(integer(slot, "componentType") == 5123 &&
-          strcmp(json_string_value(json_object_get(slot, "type")), "VEC2") == 0);
-
-    const char *path = path_of("piece.drc");
-    FILE *file = fopen(path, "wb");
-    CHECK(file && fwrite(data + offset, 1, length, file) == length && fclose(file) == 0);
-    Decoded d = decode(path);
-    CHECK(d.vertex_count == integer(position, "count") && d.vertex_count == integer(slot, "count"));
-    CHECK(3 * d.face_count == integer(indices, "count"));
-    check_near(d.box.low, point(json_object_get(position, "min")), 0);
-    check_near(d.box.high, point(json_object_get(position, "max")), 0);
-    remove(path);
-    return d.face_count;
-}
-
-static void check_glb(const SceneFixture *fixture, const MesoInput *input, size_t least_primitives)
-{
-    uint32_t json_size = word(input, 12), data_at = 20 + json_size + 8;
-    CHECK(word(input, 0) == 0x46546c67 && word(input, 4) == 2 && word(input, 8) == input->size);
-    CHECK(word(input, 16) == 0x4e4f534a && word(input, data_at - 4) == 0x004e4942);
-    CHECK(data_at + word(input, data_at - 8) == input->size);
-    json_t *root = json_loadb((const char *)input->data + 20, json_size, 0, NULL);
-    CHECK(root);
-    const json_t *meshes = json_object_get(root, "meshes");
-    const json_t *extras = json_object_get(json_object_get(root, "asset"), "extras");
-    CHECK(json_array_size(meshes) == 4);
-    CHECK(strcmp(json_string_value(json_object_get(json_array_get(meshes, 2), "name")), "weft/stud") == 0);
-    CHECK(strcmp(json_string_value(json_array_get(json_object_get(extras, "tiles"), 0)), "plain \"weave\"") == 0);
-    CHECK(strstr(json_string_value(json_object_get(extras, "provenance")), "\"seed\":7"));
-
-    uint64_t triangles = 0, primitive_count = 0;
-    for (size_t m = 0; m < json_array_size(meshes); m++) {
-        const json_t *primitives = json_object_get(json_array_get(meshes, m), "primitives");
-        primitive_count += json_array_size(primitives);
-        for (size_t p = 0; p < json_array_size(primitives); p++)
-            triangles += check_primitive(root, json_array_get(primitives, p), input->data + data_at,
-                                         input->size - data_at, "_SLOT");
-    }
-    CHECK(primitive_count >= least_primitives);
-    CHECK(triangles == fixture->parts.triangle_count);
-    json_decref(root);
-}
-
-static void test_glb(void)
-{
-    SceneFixture fixture;
-    scene_fixture_init(&fixture, 24, 28, 0.02f);
-    MesoInput input = write_mesh(meso_glb_write, &fixture.parts, 2, path_of("x.glb"));
-    check_glb(&fixture, &input, 5);   /* four materials, one of which needs two pieces */
-    check_threads(meso_glb_write, &fixture.parts, &input);
-    meso_input_close(&input);
-    scene_fixture_release(&fixture);
-}
-
 /* ---- bodies with colours, and channels of another kind ---- */
 
 static void test_colored_ply(const MesoSceneParts *parts, const ColoredFixture *c)
@@ -452,27 +234,10 @@ static void test_colored_obj(const MesoSceneParts *parts)
     meso_input_close(&input);
 }
 
-static void test_colored_draco(const MesoSceneParts *parts)
+static void test_colored_drc(const MesoSceneParts *parts)
 {
     MesoInput input = write_mesh(meso_drc_write, parts, 2, path_of("x.drc"));
     CHECK(contains(&input, "[\"leaf\",\"stem one\"]") && contains(&input, "states") && contains(&input, "element"));
-    meso_input_close(&input);
-    input = write_mesh(meso_glb_write, parts, 2, path_of("x.glb"));
-    json_t *root = json_loadb((const char *)input.data + 20, word(&input, 12), 0, NULL);
-    const json_t *extras = json_object_get(json_object_get(json_object_get(root, "asset"), "extras"), "regions");
-    const json_t *mesh = json_array_get(json_object_get(root, "meshes"), 0);
-    const json_t *attributes = json_object_get(json_array_get(json_object_get(mesh, "primitives"), 0), "attributes");
-    const json_t *accessors = json_object_get(root, "accessors");
-    const json_t *color = json_array_get(accessors, integer(attributes, "COLOR_0"));
-    const json_t *element = json_array_get(accessors, integer(attributes, "_ELEMENT"));
-    CHECK(strcmp(json_string_value(json_array_get(extras, 1)), "stem one") == 0);
-    CHECK(integer(color, "componentType") == 5121 && json_is_true(json_object_get(color, "normalized")));
-    CHECK(strcmp(json_string_value(json_object_get(element, "type")), "VEC2") == 0);
-    CHECK(json_object_get(attributes, "_REGION") && json_object_get(attributes, "_STATE"));
-    CHECK(check_primitive(root, json_array_get(json_object_get(mesh, "primitives"), 0),
-                          input.data + 20 + word(&input, 12) + 8, word(&input, 20 + word(&input, 12)),
-                          "_ELEMENT") == 1);
-    json_decref(root);
     meso_input_close(&input);
 }
 
@@ -486,7 +251,7 @@ static void test_colored(void)
     CHECK(meso_scene_parts_init(&parts, &arena, &c.scene, NULL) == MESO_OK);
     test_colored_ply(&parts, &c);
     test_colored_obj(&parts);
-    test_colored_draco(&parts);
+    test_colored_drc(&parts);
     meso_arena_release(&arena);
 }
 
@@ -525,7 +290,6 @@ static void test_refusals(void)
     uint32_t slots = fixture.scene.channels[0].count;
     fixture.scene.channels[0].count = (1u << 30) + 1;
     CHECK(try_write(meso_drc_write, &fixture.parts, &error) == MESO_ERR_LIMIT);
-    CHECK(try_write(meso_glb_write, &fixture.parts, &error) == MESO_ERR_LIMIT);
     fixture.scene.channels[0].count = slots;
 
     fixture.scene.sweeps[1].p[1].y = NAN;
@@ -572,13 +336,10 @@ int main(void)
     test_winding();
     test_obj();
     test_drc();
-    test_glb();
     test_colored();
     test_refusals();
     test_progress();
-    static const char *const products[] = {"x.ply", "x.obj", "x.drc", "x.glb", "again"};
-    for (int i = 0; i < 5; i++)
-        remove(path_of(products[i]));
-    CHECK(rmdir(folder) == 0);
+    static const char *const products[] = {"x.ply", "x.obj", "x.drc", "again"};
+    remove_products(products, 4);
     return 0;
 }

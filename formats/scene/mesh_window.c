@@ -76,14 +76,30 @@ static void run_item(void *context, uint64_t begin, uint64_t end)
     }
 }
 
-static uint64_t largest_part(const MesoMeshPass *pass, const MesoSceneParts *parts)
+/* The next part to format, and how many are behind it. */
+typedef struct Cursor {
+    const MesoPartRange *ranges;
+    uint32_t range_count, range, part;
+    uint64_t parts_done, part_count;
+} Cursor;
+
+static uint64_t largest_part(const MesoMeshPass *pass, const MesoSceneParts *parts, const Cursor *cursor)
 {
     uint64_t largest = 0;
-    for (uint32_t part = 0; part < parts->part_count; part++) {
-        uint64_t bound = chunk_bound(pass, parts, part, part + 1);
-        largest = bound > largest ? bound : largest;
-    }
+    for (uint32_t i = 0; i < cursor->range_count; i++)
+        for (uint32_t part = cursor->ranges[i].begin; part < cursor->ranges[i].end; part++) {
+            uint64_t bound = chunk_bound(pass, parts, part, part + 1);
+            largest = bound > largest ? bound : largest;
+        }
     return largest;
+}
+
+static Cursor begin_ranges(const MesoPartRange *ranges, uint32_t count)
+{
+    Cursor cursor = {ranges, count, 0, count ? ranges[0].begin : 0, 0, 0};
+    for (uint32_t i = 0; i < count; i++)
+        cursor.part_count += ranges[i].end - ranges[i].begin;
+    return cursor;
 }
 
 static MesoStatus make_window(Window *window, MesoArena *arena, uint32_t chunk_count,
@@ -99,46 +115,53 @@ static MesoStatus make_window(Window *window, MesoArena *arena, uint32_t chunk_c
     return MESO_OK;
 }
 
-/* Gives each chunk as many parts as its memory holds, at least one; returns the first part left. */
-static uint32_t cut_window(Window *window, uint32_t chunk_capacity, uint64_t capacity,
-                           const MesoMeshPass *pass, const MesoSceneParts *parts, uint32_t part)
+/* Gives a chunk as many parts of the cursor's range as its memory holds, at least one. */
+static void cut_chunk(Chunk *chunk, uint64_t capacity, const MesoMeshPass *pass, const MesoSceneParts *parts,
+                      Cursor *cursor)
 {
-    window->chunk_count = 0;
-    while (window->chunk_count < chunk_capacity && part < parts->part_count) {
-        Chunk *chunk = &window->chunks[window->chunk_count++];
-        chunk->begin = part++;
-        while (part < parts->part_count && chunk_bound(pass, parts, chunk->begin, part + 1) <= capacity)
-            part++;
-        chunk->end = part;
-    }
-    return part;
+    const uint32_t range_end = cursor->ranges[cursor->range].end;
+    chunk->begin = cursor->part++;
+    while (cursor->part < range_end && chunk_bound(pass, parts, chunk->begin, cursor->part + 1) <= capacity)
+        cursor->part++;
+    chunk->end = cursor->part;
+    cursor->parts_done += chunk->end - chunk->begin;
 }
 
-static void report(const MesoMeshStream *stream, uint64_t work, uint32_t part)
+static void cut_window(Window *window, uint32_t chunk_capacity, uint64_t capacity, const MesoMeshPass *pass,
+                       const MesoSceneParts *parts, Cursor *cursor)
+{
+    window->chunk_count = 0;
+    while (window->chunk_count < chunk_capacity && cursor->range < cursor->range_count) {
+        if (cursor->part < cursor->ranges[cursor->range].end)
+            cut_chunk(&window->chunks[window->chunk_count++], capacity, pass, parts, cursor);
+        else if (++cursor->range < cursor->range_count)
+            cursor->part = cursor->ranges[cursor->range].begin;
+    }
+}
+
+static void report(const MesoMeshStream *stream, uint64_t work, const Cursor *cursor)
 {
     const MesoMeshWriteOptions *options = stream->options;
-    uint64_t part_count = stream->parts->part_count;
-    double share = part_count ? (double)part / (double)part_count : 1;
+    double share = cursor->part_count ? (double)cursor->parts_done / (double)cursor->part_count : 1;
     if (options->progress)
         options->progress(options->progress_context, stream->done + (uint64_t)(share * (double)work),
                           stream->total);
 }
 
 static MesoStatus run_windows(Run *run, Window windows[2], uint32_t chunk_capacity,
-                              uint64_t capacity, uint64_t work)
+                              uint64_t capacity, Cursor *cursor, uint64_t work)
 {
     const MesoSceneParts *parts = run->stream->parts;
     uint32_t threads = run->stream->options->thread_count;
-    uint32_t part = 0;
     run->filling = &windows[0];
     run->full = &windows[1];
     do {
-        part = cut_window(run->filling, chunk_capacity, capacity, run->pass, parts, part);
+        cut_window(run->filling, chunk_capacity, capacity, run->pass, parts, cursor);
         meso_parallel_for(threads, (uint64_t)run->filling->chunk_count + 1, 1, run_item, run);
         Window *full = run->filling;
         run->filling = run->full;
         run->full = full;
-        report(run->stream, work, part);
+        report(run->stream, work, cursor);
     } while (!run->status && run->full->chunk_count > 0);
     return run->status;
 }
@@ -146,7 +169,9 @@ static MesoStatus run_windows(Run *run, Window windows[2], uint32_t chunk_capaci
 MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass, uint64_t work,
                                 MesoError *error)
 {
-    uint64_t capacity = largest_part(pass, stream->parts);
+    const MesoPartRange all = {0, stream->parts->part_count};
+    Cursor cursor = begin_ranges(stream->ranges ? stream->ranges : &all, stream->ranges ? stream->range_count : 1);
+    uint64_t capacity = largest_part(pass, stream->parts, &cursor);
     if (capacity < MESO_WINDOW_CHUNK)
         capacity = MESO_WINDOW_CHUNK;
     uint64_t chunks = MESO_WINDOW_BYTES / capacity;
@@ -160,7 +185,7 @@ MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass
     if (!status)
         status = make_window(&windows[1], &arena, chunk_capacity, capacity, error);
     if (!status) {
-        status = run_windows(&run, windows, chunk_capacity, capacity, work);
+        status = run_windows(&run, windows, chunk_capacity, capacity, &cursor, work);
         if (status && error)
             *error = run.error;
     }

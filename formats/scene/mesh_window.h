@@ -20,6 +20,11 @@ typedef struct MesoMeshPass {
     uint32_t vertex_scratch, face_scratch;
 } MesoMeshPass;
 
+/* Parts [begin, end). */
+typedef struct MesoPartRange {
+    uint32_t begin, end;
+} MesoPartRange;
+
 /* Where a writer stands, over all its passes. */
 typedef struct MesoMeshStream {
     const MesoSceneParts *parts;
@@ -27,10 +32,12 @@ typedef struct MesoMeshStream {
     MesoOutput *output;
     uint64_t offset;            /* of the next byte in the output */
     uint64_t done, total;       /* for the progress */
+    uint32_t range_count;
+    const MesoPartRange *ranges;    /* [range_count] what the passes go over, in this order; NULL: all parts */
 } MesoMeshStream;
 
 /*
- * Runs `pass` over all parts and writes its bytes, in order, from
+ * Runs `pass` over all parts, or over those of the ranges, and writes its bytes, in order, from
  * `stream->offset` on, which is moved. While one thread writes a window the
  * others format the next: two windows of about MESO_WINDOW_BYTES are held, or
  * of the largest part where that is more. `work` is added to `stream->done` in

@@ -224,7 +224,7 @@ MesoStatus meso_obj_write(const MesoSceneParts *parts, const MesoMeshWriteOption
         .face_scratch = sizeof(MesoMeshFace),
     };
     uint64_t vertex_count = parts->vertex_begin[parts->part_count];
-    MesoMeshStream stream = {parts, options, output, 0, 0, vertex_count};
+    MesoMeshStream stream = {.parts = parts, .options = options, .output = output, .total = vertex_count};
     MesoArena arena;
     meso_arena_init(&arena);
     MesoStatus status = meso_mesh_check_counts(parts, options, "an OBJ file", error);

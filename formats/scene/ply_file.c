@@ -175,7 +175,7 @@ MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOption
 
     uint64_t vertex_count = parts->vertex_begin[parts->part_count];
     uint64_t face_count = parts->face_begin[parts->part_count];
-    MesoMeshStream stream = {parts, options, output, 0, 0, vertex_count + face_count};
+    MesoMeshStream stream = {.parts = parts, .options = options, .output = output, .total = vertex_count + face_count};
     bool has_colors = meso_scene_is_colored(parts->scene);
     MesoArena arena;
     meso_arena_init(&arena);

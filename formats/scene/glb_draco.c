@@ -4,22 +4,13 @@
  * decode everything before it shows something.
  */
 #include <stdatomic.h>
+#include <string.h>
 
-#include "formats/scene/draco_mesh.h"
-#include "formats/scene/gltf_adapter.h"
-#include "formats/scene/mesh_file.h"
-#include "formats/scene/mesh_window.h"
+#include "formats/scene/glb_parts.h"
 #include "libcore/base/parallel.h"
 
 /* Half a million triangles a piece; only a larger part makes a larger piece. */
 enum { PIECE_FACES = 1 << 18 };
-
-/* A run of parts of one material, no larger than a piece. */
-typedef struct Run {
-    MesoPartRange range;
-    uint32_t material;
-    uint64_t face_count;
-} Run;
 
 /* Runs of one material that become one primitive. */
 typedef struct Piece {
@@ -43,40 +34,7 @@ typedef struct Encoding {
     atomic_flag reporting;
 } Encoding;
 
-/* Runs in the order of the parts; `runs` NULL only counts. */
-static uint32_t cut_runs(const MesoSceneParts *parts, Run *runs)
-{
-    uint32_t count = 0;
-    for (uint32_t part = 0; part < parts->part_count;) {
-        Run run = {{part, part}, meso_scene_part(parts, part).material, 0};
-        uint64_t first = parts->face_begin[part];
-        do
-            part++;
-        while (part < parts->part_count && parts->face_begin[part + 1] - first <= PIECE_FACES &&
-               meso_scene_part(parts, part).material == run.material);
-        run.range.end = part;
-        run.face_count = parts->face_begin[part] - first;
-        if (run.face_count == 0)
-            continue;
-        if (runs)
-            runs[count] = run;
-        count++;
-    }
-    return count;
-}
-
-/* Puts runs of one material next to each other, otherwise in the order that they had. */
-static void sort_runs(const Run *runs, uint32_t count, uint32_t *bins, uint32_t bin_count, Run *sorted)
-{
-    for (uint32_t i = 0; i < count; i++)
-        bins[runs[i].material + 1]++;
-    for (uint32_t m = 0; m < bin_count; m++)
-        bins[m + 1] += bins[m];
-    for (uint32_t i = 0; i < count; i++)
-        sorted[bins[runs[i].material]++] = runs[i];
-}
-
-static void join_runs(Encoding *encoding, const Run *runs, uint32_t count)
+static void join_runs(Encoding *encoding, const MesoGlbRun *runs, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         Piece *last = encoding->piece_count ? &encoding->pieces[encoding->piece_count - 1] : NULL;
@@ -94,19 +52,16 @@ static void join_runs(Encoding *encoding, const Run *runs, uint32_t count)
 
 static MesoStatus make_pieces(Encoding *encoding, MesoArena *arena, MesoError *error)
 {
-    const MesoSceneParts *parts = encoding->parts;
-    uint32_t count = cut_runs(parts, NULL);
-    uint32_t material_count = parts->scene->material_count;
-    Run *runs = MESO_NEW(arena, Run, count, error);
-    Run *sorted = MESO_NEW(arena, Run, count, error);
-    uint32_t *bins = MESO_NEW(arena, uint32_t, (size_t)material_count + 1, error);
+    MesoGlbRun *runs;
+    uint32_t count;
+    MesoStatus status = meso_glb_runs(&runs, &count, encoding->parts, PIECE_FACES, arena, error);
+    if (status)
+        return status;
     encoding->ranges = MESO_NEW(arena, MesoPartRange, count, error);
     encoding->pieces = MESO_NEW(arena, Piece, count, error);
-    if (!runs || !sorted || !bins || !encoding->ranges || !encoding->pieces)
+    if (!encoding->ranges || !encoding->pieces)
         return MESO_ERR_MEMORY;
-    cut_runs(parts, runs);
-    sort_runs(runs, count, bins, material_count, sorted);
-    join_runs(encoding, sorted, count);
+    join_runs(encoding, runs, count);
     return MESO_OK;
 }
 
@@ -130,7 +85,7 @@ static void encode_pieces(void *context, uint64_t begin, uint64_t end)
     for (uint64_t i = begin; i < end; i++) {
         const Piece *piece = &encoding->pieces[i];
         if (atomic_load(&encoding->bytes) > UINT32_MAX)
-            continue;   /* too large already, as the adapter will find */
+            continue;   /* too large already, as the heads will find */
         encoding->status[i] = meso_draco_encode_parts(
             encoding->parts, piece->range_end - piece->range_begin,
             encoding->ranges + piece->range_begin, &encoding->draco, &encoding->results[i],
@@ -174,54 +129,57 @@ static void drop_empty(Encoding *encoding)
     encoding->piece_count = kept;
 }
 
-static MesoStatus make_meshes(const Encoding *encoding, MesoGltfScene *scene, MesoArena *arena,
-                              MesoError *error)
+/* What Draco made, each from a multiple of 4 on; returns the size of all. */
+static uint64_t place(const Encoding *encoding, MesoGlbPrimitive *primitives)
 {
-    const MesoSceneParts *parts = encoding->parts;
-    MesoGltfMesh *meshes = MESO_NEW(arena, MesoGltfMesh, encoding->piece_count, error);
-    if (!meshes)
-        return MESO_ERR_MEMORY;
+    uint64_t size = 0;
     for (uint32_t i = 0; i < encoding->piece_count; i++) {
-        uint32_t material = encoding->pieces[i].material;
-        if (i == 0 || material != encoding->pieces[i - 1].material) {
-            char name[MESO_MESH_NAME];
-            meso_mesh_material_name(parts->scene, material, name);
-            MesoGltfMesh *mesh = &meshes[scene->mesh_count++];
-            mesh->name = meso_arena_copy_text(arena, name, error);
-            mesh->material = &parts->scene->materials[material];
-            mesh->piece_begin = i;
-            if (!mesh->name)
-                return MESO_ERR_MEMORY;
-        }
-        meshes[scene->mesh_count - 1].piece_end = i + 1;
+        const MesoDracoResult *result = &encoding->results[i];
+        primitives[i] = (MesoGlbPrimitive){
+            .material = encoding->pieces[i].material, .vertex_count = result->vertex_count,
+            .triangle_count = result->triangle_count, .low = result->decoded_low, .high = result->decoded_high,
+            .vertices_at = size, .draco = result};
+        size += (result->size + 3) & ~(uint64_t)3;
     }
-    scene->meshes = meshes;
-    return MESO_OK;
+    return size;
 }
 
-static MesoStatus make_asset(const Encoding *encoding, MesoGltfScene *scene, MesoArena *arena,
-                             MesoError *error)
+static MesoStatus write_pieces(Encoding *encoding, MesoOutput *output, MesoError *error)
 {
-    const MesoProvenance *provenance = encoding->options->provenance;
-    scene->generator = meso_arena_print(arena, error, "%s %s", provenance ? provenance->tool : "meso", MESO_VERSION);
-    scene->provenance = meso_mesh_provenance(encoding->options, arena, error);
-    if (!scene->generator || !scene->provenance)
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < encoding->piece_count && !status; i++) {
+        MesoDracoResult *result = &encoding->results[i];
+        status = meso_output_write(output, result->data, result->size, error);
+        if (!status)
+            status = meso_output_write(output, "\0\0\0", (4 - result->size % 4) % 4, error);
+        meso_draco_result_release(result);
+    }
+    return status;
+}
+
+static MesoStatus write_file(Encoding *encoding, MesoArena *arena, MesoOutput *output, MesoError *error)
+{
+    uint32_t head[5], binary_head[2];
+    MesoGlbPrimitive *primitives = MESO_NEW(arena, MesoGlbPrimitive, encoding->piece_count, error);
+    if (!primitives)
         return MESO_ERR_MEMORY;
-    scene->channel_count = encoding->parts->scene->channel_count;
-    scene->channels = encoding->parts->scene->channels;
-    scene->colored = encoding->draco.colored;
-    scene->smaller = encoding->options->smaller;
-    return MESO_OK;
-}
-
-static MesoStatus append(void *output, const void *data, size_t size, MesoError *error)
-{
-    return meso_output_write(output, data, size, error);
+    uint64_t size = place(encoding, primitives);
+    const char *text = meso_glb_json(encoding->parts, encoding->options, primitives, encoding->piece_count, size, arena,
+                                     error);
+    if (!text)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = meso_glb_heads(head, binary_head, strlen(text), size, encoding->options, error);
+    if (!status)
+        status = meso_output_write(output, head, sizeof head, error);
+    if (!status)
+        status = meso_output_write(output, text, strlen(text), error);
+    if (!status)
+        status = meso_output_write(output, binary_head, sizeof binary_head, error);
+    return status ? status : write_pieces(encoding, output, error);
 }
 
 static MesoStatus run(Encoding *encoding, MesoArena *arena, MesoOutput *output, MesoError *error)
 {
-    MesoGltfScene scene = {0};
     MesoStatus status = make_pieces(encoding, arena, error);
     if (!status)
         status = meso_draco_options_make(&encoding->draco, encoding->parts, encoding->options, error);
@@ -231,26 +189,18 @@ static MesoStatus run(Encoding *encoding, MesoArena *arena, MesoOutput *output, 
     if (status)
         return status;
     drop_empty(encoding);
-    scene.pieces = encoding->results;
-    status = make_meshes(encoding, &scene, arena, error);
-    if (!status)
-        status = make_asset(encoding, &scene, arena, error);
-    if (status)
-        return status;
-    if (scene.mesh_count == 0)
+    if (encoding->piece_count == 0)
         return meso_fail(error, MESO_ERR_INPUT, "no geometry to write: all triangles are degenerate");
-    return meso_gltf_write(&scene, append, output, error);
+    return write_file(encoding, arena, output, error);
 }
 
-MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
-                          MesoOutput *output, MesoError *error)
+MesoStatus meso_glb_write_draco(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoOutput *output,
+                                MesoError *error)
 {
     MesoArena arena;
     Encoding encoding = {.parts = parts, .options = options, .reporting = ATOMIC_FLAG_INIT};
     meso_arena_init(&arena);
-    MesoStatus status = meso_mesh_check_counts(parts, options, "a GLB file", error);
-    if (!status)
-        status = run(&encoding, &arena, output, error);
+    MesoStatus status = run(&encoding, &arena, output, error);
     for (uint32_t i = 0; encoding.results && i < encoding.piece_count; i++)
         meso_draco_result_release(&encoding.results[i]);
     meso_arena_release(&arena);

@@ -1,0 +1,281 @@
+/* The JSON part of GLB files: accessors of plain rows, or of what a decoder will give. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/json/json_text.h"
+#include "formats/scene/glb_parts.h"
+
+enum {
+    TYPE_BYTE = 5121, TYPE_SHORT = 5123, TYPE_UINT = 5125, TYPE_FLOAT = 5126,
+    ARRAY_BUFFER = 34962, ELEMENT_BUFFER = 34963
+};
+
+static const char DRACO[] = "KHR_draco_mesh_compression";
+
+typedef struct Document {
+    const MesoSceneParts *parts;
+    const MesoMeshWriteOptions *options;
+    json_t *views, *accessors, *materials, *meshes, *nodes;     /* of `root` */
+    json_t *root;
+    bool colored;
+    int failed;         /* of Jansson: memory is out */
+} Document;
+
+static void set(Document *d, json_t *object, const char *key, json_t *value)
+{
+    d->failed |= json_object_set_new(object, key, value);
+}
+
+/* Appends, and returns the number of the item. */
+static json_int_t add(Document *d, json_t *list, json_t *item)
+{
+    d->failed |= json_array_append_new(list, item);
+    return (json_int_t)json_array_size(list) - 1;
+}
+
+static json_t *add_list(Document *d, const char *name)
+{
+    json_t *list = json_array();
+    set(d, d->root, name, list);
+    return list;
+}
+
+/* ---- accessors ---- */
+
+static json_int_t add_view(Document *d, uint64_t offset, uint64_t size, uint32_t stride, int target)
+{
+    json_t *view = json_pack("{s:i, s:I, s:I}", "buffer", 0, "byteOffset", (json_int_t)offset, "byteLength",
+                             (json_int_t)size);
+    if (stride)
+        set(d, view, "byteStride", json_integer(stride));
+    if (target)
+        set(d, view, "target", json_integer(target));
+    return add(d, d->views, view);
+}
+
+/* One whose compressed values lie in no view has view -1. */
+static json_int_t add_accessor(Document *d, json_int_t view, uint32_t offset, const char *type, int component,
+                               uint64_t count)
+{
+    json_t *accessor = json_pack("{s:s, s:i, s:I}", "type", type, "componentType", component, "count",
+                                 (json_int_t)count);
+    if (view >= 0)
+        set(d, accessor, "bufferView", json_integer(view));
+    if (view >= 0 && offset)
+        set(d, accessor, "byteOffset", json_integer(offset));
+    return add(d, d->accessors, accessor);
+}
+
+/* -0 would depend on which vertex came first. */
+static json_t *vector(MesoVec3 v)
+{
+    return json_pack("[f, f, f]", (double)v.x + 0.0, (double)v.y + 0.0, (double)v.z + 0.0);
+}
+
+/* "_TILE" for the channel "tile". */
+static void attribute_name(const MesoIdChannel *channel, char name[MESO_CHANNEL_NAME + 1])
+{
+    size_t size = 0;
+    name[size++] = '_';
+    for (const char *c = channel->name; *c && size < MESO_CHANNEL_NAME; c++)
+        name[size++] = *c >= 'a' && *c <= 'z' ? (char)(*c - 'a' + 'A') : *c;
+    name[size] = 0;
+}
+
+/* What one attribute is called, where it lies in a row, and what Draco numbers it. */
+static void add_attribute(Document *d, json_t *attributes, json_t *draco, const char *name, json_int_t accessor,
+                          uint32_t draco_id)
+{
+    set(d, attributes, name, json_integer(accessor));
+    if (draco)
+        set(d, draco, name, json_integer(draco_id));
+}
+
+static json_t *add_attributes(Document *d, const MesoGlbPrimitive *primitive, json_int_t view, json_t *draco)
+{
+    static const MesoDracoResult none = {0};
+    const MesoScene *scene = d->parts->scene;
+    const MesoDracoResult *ids = primitive->draco ? primitive->draco : &none;
+    uint64_t count = primitive->vertex_count;
+    json_t *attributes = json_object();
+    json_int_t position = add_accessor(d, view, 0, "VEC3", TYPE_FLOAT, count);
+    set(d, json_array_get(d->accessors, (size_t)position), "min", vector(primitive->low));
+    set(d, json_array_get(d->accessors, (size_t)position), "max", vector(primitive->high));
+    add_attribute(d, attributes, draco, "POSITION", position, ids->position_id);
+    add_attribute(d, attributes, draco, "NORMAL", add_accessor(d, view, 12, "VEC3", TYPE_FLOAT, count),
+                  ids->normal_id);
+    add_attribute(d, attributes, draco, "TEXCOORD_0", add_accessor(d, view, 24, "VEC2", TYPE_FLOAT, count),
+                  ids->uv_id);
+    uint32_t offset = sizeof(MesoMeshVertex);
+    if (d->colored) {
+        json_int_t color = add_accessor(d, view, offset, "VEC3", TYPE_BYTE, count);
+        set(d, json_array_get(d->accessors, (size_t)color), "normalized", json_true());
+        add_attribute(d, attributes, draco, "COLOR_0", color, ids->color_id);
+        offset += 4;
+    }
+    for (uint32_t c = 0; c < scene->channel_count; c++, offset += 4) {
+        char name[MESO_CHANNEL_NAME + 1];
+        attribute_name(&scene->channels[c], name);
+        const char *type = scene->channels[c].names ? "SCALAR" : "VEC2";    /* the format has no whole 32 bits */
+        add_attribute(d, attributes, draco, name, add_accessor(d, view, offset, type, TYPE_SHORT, count),
+                      ids->channel_id[c]);
+    }
+    return attributes;
+}
+
+/* ---- meshes ---- */
+
+static json_t *make_plain(Document *d, const MesoGlbPrimitive *p)
+{
+    uint32_t stride = meso_glb_stride(d->parts->scene);
+    json_int_t vertices = add_view(d, p->vertices_at, stride * p->vertex_count, stride, ARRAY_BUFFER);
+    json_int_t indices = add_view(d, p->indices_at, 12 * p->triangle_count, 0, ELEMENT_BUFFER);
+    json_t *attributes = add_attributes(d, p, vertices, NULL);
+    return json_pack("{s:o, s:I}", "attributes", attributes, "indices",
+                     add_accessor(d, indices, 0, "SCALAR", TYPE_UINT, 3 * p->triangle_count));
+}
+
+static json_t *make_compressed(Document *d, const MesoGlbPrimitive *p)
+{
+    json_t *ids = json_object();
+    json_int_t view = add_view(d, p->vertices_at, p->draco->size, 0, 0);
+    json_t *attributes = add_attributes(d, p, -1, ids);
+    return json_pack("{s:o, s:I, s:{s:{s:I, s:o}}}", "attributes", attributes, "indices",
+                     add_accessor(d, -1, 0, "SCALAR", TYPE_UINT, 3 * p->triangle_count), "extensions", DRACO,
+                     "bufferView", view, "attributes", ids);
+}
+
+/* Sweeps that end at a border are open tubes: their insides can be seen. */
+static json_t *material_of(const MesoMaterial *m, const char *name)
+{
+    return json_pack("{s:o, s:b, s:{s:[f, f, f, f], s:f, s:f}}", "name", meso_json_string(name), "doubleSided", 1,
+                     "pbrMetallicRoughness", "baseColorFactor", (double)m->albedo[0], (double)m->albedo[1],
+                     (double)m->albedo[2], 1.0, "roughnessFactor", (double)m->roughness, "metallicFactor",
+                     (double)m->metallic);
+}
+
+/* Slashes in names of nodes are paths to some programs. */
+static json_t *node_name(const char *name)
+{
+    char plain[MESO_MESH_NAME];
+    size_t size = 0;
+    for (; name[size] && size + 1 < sizeof plain; size++)
+        plain[size] = name[size] == '/' ? '_' : name[size];
+    plain[size] = 0;
+    return meso_json_string(plain);
+}
+
+/* The primitives of one material, from `first` on; returns how many. */
+static uint32_t add_mesh(Document *d, const MesoGlbPrimitive *first, uint32_t count)
+{
+    const MesoScene *scene = d->parts->scene;
+    char name[MESO_MESH_NAME];
+    json_t *primitives = json_array();
+    uint32_t used = 0;
+    meso_mesh_material_name(scene, first->material, name);
+    json_int_t material = add(d, d->materials, material_of(&scene->materials[first->material], name));
+    for (; used < count && first[used].material == first->material; used++) {
+        json_t *primitive = (first[used].draco ? make_compressed : make_plain)(d, &first[used]);
+        set(d, primitive, "material", json_integer(material));
+        add(d, primitives, primitive);
+    }
+    json_int_t mesh = add(d, d->meshes, json_pack("{s:o, s:o}", "name", node_name(name), "primitives", primitives));
+    add(d, d->nodes, json_pack("{s:o, s:I}", "name", node_name(name), "mesh", mesh));
+    return used;
+}
+
+/* The format's up is y, its unit the metre. */
+static void add_root(Document *d)
+{
+    const double unit = d->options->unit > 0 ? (double)d->options->unit : 1, half = 0.70710678118654752;
+    json_t *children = json_array();
+    for (size_t i = 1; i < json_array_size(d->nodes); i++)
+        add(d, children, json_integer((json_int_t)i));
+    json_t *root = json_array_get(d->nodes, 0);
+    set(d, root, "name", json_string("meso"));
+    if (d->options->z_up)
+        set(d, root, "rotation", json_pack("[f, f, f, f]", -half, 0.0, 0.0, half));
+    if (unit > 1 || unit < 1)
+        set(d, root, "scale", json_pack("[f, f, f]", unit, unit, unit));
+    set(d, root, "children", children);
+}
+
+/* ---- the document ---- */
+
+static json_t *names_of(const MesoIdChannel *channel)
+{
+    json_t *names = json_array();
+    for (uint32_t i = 0; names && i < channel->count; i++)
+        json_array_append_new(names, meso_json_string(channel->names[i]));
+    return names;
+}
+
+static MesoStatus add_asset(Document *d, MesoArena *arena, MesoError *error)
+{
+    const MesoScene *scene = d->parts->scene;
+    const MesoProvenance *provenance = d->options->provenance;
+    const char *generator = meso_arena_print(arena, error, "%s %s", provenance ? provenance->tool : "meso",
+                                             MESO_VERSION);
+    const char *text = meso_mesh_provenance(d->options, arena, error);
+    json_t *extras = json_object();
+    set(d, d->root, "asset", json_pack("{s:s, s:o, s:o}", "version", "2.0", "generator",
+                                       meso_json_string(generator ? generator : ""), "extras", extras));
+    if (!generator || !text)
+        return MESO_ERR_MEMORY;
+    if (*text)
+        set(d, extras, "provenance", meso_json_string(text));
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        const char *key = meso_mesh_names_key(&scene->channels[c], arena, error);
+        if (!key)
+            return MESO_ERR_MEMORY;
+        if (scene->channels[c].names)
+            set(d, extras, key, names_of(&scene->channels[c]));
+    }
+    return MESO_OK;
+}
+
+static MesoStatus describe(Document *d, const MesoGlbPrimitive *primitives, uint32_t count, uint64_t size,
+                           MesoArena *arena, MesoError *error)
+{
+    MesoStatus status = add_asset(d, arena, error);
+    if (status)
+        return status;
+    for (int i = 0; i < 2 && primitives[0].draco; i++)
+        set(d, d->root, i ? "extensionsRequired" : "extensionsUsed", json_pack("[s]", DRACO));
+    set(d, d->root, "scene", json_integer(0));
+    set(d, d->root, "scenes", json_pack("[{s:[i]}]", "nodes", 0));
+    d->nodes = add_list(d, "nodes");
+    d->materials = add_list(d, "materials");
+    d->meshes = add_list(d, "meshes");
+    d->accessors = add_list(d, "accessors");
+    d->views = add_list(d, "bufferViews");
+    set(d, d->root, "buffers", json_pack("[{s:I}]", "byteLength", (json_int_t)size));
+    add(d, d->nodes, json_object());
+    for (uint32_t i = 0; i < count;)
+        i += add_mesh(d, &primitives[i], count - i);
+    add_root(d);
+    return MESO_OK;
+}
+
+/* The text with spaces behind it. */
+static const char *pad(const char *text, MesoArena *arena, MesoError *error)
+{
+    static const char spaces[] = "   ";
+    return meso_arena_print(arena, error, "%s%.*s", text, (int)((4 - strlen(text) % 4) % 4), spaces);
+}
+
+const char *meso_glb_json(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          const MesoGlbPrimitive *primitives, uint32_t count, uint64_t size, MesoArena *arena,
+                          MesoError *error)
+{
+    Document d = {.parts = parts, .options = options, .root = json_object(),
+                  .colored = meso_scene_is_colored(parts->scene)};
+    MesoStatus status = describe(&d, primitives, count, size, arena, error);
+    char *text = status || d.failed ? NULL : json_dumps(d.root, JSON_COMPACT | JSON_REAL_PRECISION(9));
+    const char *padded = text ? pad(text, arena, error) : NULL;
+    if (!text && !status)
+        meso_fail(error, MESO_ERR_MEMORY, "out of memory");
+    free(text);
+    json_decref(d.root);
+    return padded;
+}
