@@ -13,6 +13,7 @@ static const MesoSceneKind KINDS[] = {
     {"obj", meso_obj_write, MESO_SCENE_NO_DRACO, false, NULL},
     {"glb", meso_glb_write, MESO_SCENE_MAY_DRACO, true, "write .ply"},
     {"drc", meso_drc_write, MESO_SCENE_DRACO, false, "write .glb"},
+    {"stl", meso_stl_write, MESO_SCENE_NO_DRACO, false, "write .ply"},
 };
 
 const MesoSceneKind *meso_scene_kind_named(const char *name)
@@ -46,6 +47,21 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
     return MESO_OK;
 }
 
+/*
+ * The file of materials that goes with an OBJ of a name in .obj: the same name in .mtl. NULL, with `*status`
+ * MESO_OK, where there is none to go with: other kinds, and standard output, which has no name.
+ */
+static const char *materials_path(MesoTool *tool, const MesoSceneOutput *output, MesoStatus *status)
+{
+    const size_t length = strlen(tool->output);
+    *status = MESO_OK;
+    if (output->kind->write != meso_obj_write || length < 5 || strcasecmp(tool->output + length - 4, ".obj") != 0)
+        return NULL;
+    const char *path = meso_arena_print(&tool->arena, &tool->error, "%.*s.mtl", (int)length - 4, tool->output);
+    *status = path ? meso_tool_check_output(tool, "-o", path) : MESO_ERR_MEMORY;
+    return path;
+}
+
 MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
 {
     if (!tool->output)
@@ -54,11 +70,15 @@ MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
     const char *dot = strrchr(slash ? slash : tool->output, '.');
     const char *name = output->to ? output->to : dot ? dot + 1 : "";
     output->kind = meso_scene_kind_named(name);
-    if (output->kind)
-        return check_options(output, &tool->error);
+    if (output->kind) {
+        MesoStatus status = check_options(output, &tool->error);
+        if (!status)
+            materials_path(tool, output, &status);
+        return status;
+    }
     return meso_fail(&tool->error, MESO_ERR_USAGE,
-                     "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb or "
-                     ".drc, or give --to", tool->output);
+                     "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb, "
+                     ".drc or .stl, or give --to", tool->output);
 }
 
 /* "lower --divisions, or write .ply"; `text` gets NULL where nothing helps. */
@@ -72,9 +92,11 @@ static MesoStatus advise(const char **text, MesoTool *tool, const char *smaller,
 }
 
 static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneParts *parts,
-                             const char *smaller, MesoOutput *file)
+                             const char *smaller, const char *materials, MesoOutput *file)
 {
+    const char *slash = materials ? strrchr(materials, '/') : NULL;
     MesoMeshWriteOptions options = {
+        .materials = slash ? slash + 1 : materials,
         .thread_count = tool->threads,
         .position_bits = output->position_bits,
         .normal_bits = output->normal_bits,
@@ -114,27 +136,40 @@ static void report(MesoTool *tool, const MesoSceneKind *kind, const MesoScenePar
                       (unsigned long long)vertex_count, (unsigned long long)parts->triangle_count);
 }
 
-static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product,
-                                const MesoSceneParts *parts, MesoOutput **file)
+static MesoStatus write_materials(MesoTool *tool, const MesoScene *scene, const char *path, MesoOutput **file)
 {
-    MesoStatus status = meso_output_open(file, tool->output, &tool->error);
+    MesoStatus status = path ? meso_output_open(file, path, &tool->error) : MESO_OK;
+    return status || !path ? status : meso_mtl_write(scene, &tool->provenance, *file, &tool->error);
+}
+
+/* files[0] is the product, files[1] its materials. */
+static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product,
+                                const MesoSceneParts *parts, MesoOutput **files)
+{
+    MesoStatus status;
+    const char *materials = materials_path(tool, output, &status);
+    if (!status)
+        status = meso_output_open(&files[0], tool->output, &tool->error);
+    if (!status)
+        status = write_materials(tool, product->scene, materials, &files[1]);
     if (status)
         return status;
     meso_tool_progress_begin(tool, "writing", is_draco(output) ? "triangles" : "vertices");
-    return output->kind->write ? write_mesh(tool, output, parts, product->smaller, *file)
-                               : write_model(tool, product, *file);
+    return output->kind->write ? write_mesh(tool, output, parts, product->smaller, materials, files[0])
+                               : write_model(tool, product, files[0]);
 }
 
 MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product)
 {
-    MesoOutput *files[1 + MESO_SCENE_BESIDE] = {NULL};
+    enum { OWN = 2 };
+    MesoOutput *files[OWN + MESO_SCENE_BESIDE] = {NULL};
     MesoSceneParts parts;
     MesoStatus status = meso_scene_parts_init(&parts, &tool->arena, product->scene, &tool->error);
     for (int i = 0; i < MESO_SCENE_BESIDE; i++)
-        files[1 + i] = product->beside[i];
+        files[OWN + i] = product->beside[i];
     if (!status)
-        status = write_product(tool, output, product, &parts, &files[0]);
-    status = meso_output_finish_all(files, 1 + MESO_SCENE_BESIDE, status, &tool->error);
+        status = write_product(tool, output, product, &parts, files);
+    status = meso_output_finish_all(files, OWN + MESO_SCENE_BESIDE, status, &tool->error);
     if (!status)
         report(tool, output->kind, &parts);
     return status;

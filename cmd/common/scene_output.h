@@ -17,8 +17,8 @@
 #include "formats/scene/mesh_file.h"
 
 /* For the synopsis, and for the words of MesoToolInfo. */
-#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|.ply|.obj|.glb|.drc"
-#define MESO_SCENE_OUTPUT_WORDS "--output .meso .ply .obj .glb .drc\n"
+#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|.ply|.obj|.glb|.drc|.stl"
+#define MESO_SCENE_OUTPUT_WORDS "--output .meso .ply .obj .glb .drc .stl\n"
 
 typedef struct MesoSceneKind {
     const char *name;           /* and extension */
@@ -45,7 +45,7 @@ typedef struct MesoSceneOutput {
 
 #define MESO_SCENE_KIND_OPTION(o)                                                             \
     MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &(o).to, \
-                "meso|ply|obj|glb|drc", .more = MESO_OPTION_OUTWARD)
+                "meso|ply|obj|glb|drc|stl", .more = MESO_OPTION_OUTWARD)
 
 /* Which axis of the scene is up: for the tools that have no --up of their own. */
 #define MESO_UP_OPTION(o)                                                                     \

@@ -1,6 +1,8 @@
 /* Scenes out: the kind that a name asks for, the file, the report. */
 #include "cmd/common/scene_output.h"
 
+#include <sys/stat.h>
+
 #include "cmd/common/progress.h"
 #include "formats/file/test_folder.h"
 #include "formats/scene/scene_fixture.h"
@@ -60,9 +62,12 @@ static void test_options_of_another_writer(void)
     Frame frame;
     frame_init(&frame, NULL);
     frame.output.given.speed = true;
-    CHECK(strcmp(kind_of(&frame, "out.glb", NULL), "glb") == 0 && strcmp(kind_of(&frame, "out.drc", NULL), "drc") == 0);
+    CHECK(kind_of(&frame, "out.glb", NULL)[0] == 0 && strcmp(kind_of(&frame, "out.drc", NULL), "drc") == 0);
+    frame.output.compress = "draco";
+    CHECK(strcmp(kind_of(&frame, "out.glb", NULL), "glb") == 0);
     CHECK(kind_of(&frame, "out.meso", NULL)[0] == 0);
-    CHECK(strcmp(frame.tool.error.message, "--speed is for .drc and .glb; the output is .meso") == 0);
+    CHECK(strcmp(frame.tool.error.message,
+                 "--speed is for .drc, and for .glb with --compress draco; the output is .meso") == 0);
     frame.output.given.position_bits = true;
     CHECK(kind_of(&frame, "out.obj", NULL)[0] == 0 && strstr(frame.tool.error.message, "--position-bits"));
     frame_release(&frame);
@@ -78,7 +83,7 @@ static void test_products(const TestFolder *folder)
 {
     ColoredFixture fixture;
     colored_fixture_init(&fixture);
-    static const char *const names[] = {"out.meso", "out.ply", "out.obj", "out.glb", "out.drc"};
+    static const char *const names[] = {"out.meso", "out.ply", "out.obj", "out.glb", "out.drc", "out.stl"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         Frame frame;
         MesoInput input;
@@ -92,6 +97,7 @@ static void test_products(const TestFolder *folder)
         CHECK(strcmp(json_string_value(json_object_get(frame.tool.report, "kind")), names[i] + 4) == 0);
         meso_input_close(&input);
         CHECK(unlink(frame.tool.output) == 0);
+        CHECK((unlink(test_path(folder, "out.mtl")) == 0) == (i == 2));
         frame_release(&frame);
     }
 }
@@ -129,6 +135,21 @@ static void test_nothing_to_write(const TestFolder *folder)
     frame_release(&frame);
 }
 
+/* An OBJ and its materials come together, or neither does. */
+static void test_materials(const TestFolder *folder)
+{
+    Frame frame;
+    ColoredFixture fixture;
+    colored_fixture_init(&fixture);
+    frame_init(&frame, test_path(folder, "in.obj"));
+    CHECK(mkdir(test_path(folder, "in.mtl"), 0700) == 0);
+    CHECK(meso_tool_choose_scene_kind(&frame.tool, &frame.output) == MESO_OK);
+    CHECK(meso_tool_write_scene(&frame.tool, &frame.output, &(MesoSceneProduct){.scene = &fixture.scene}) ==
+          MESO_ERR_OUTPUT);
+    CHECK(access(frame.tool.output, F_OK) != 0 && rmdir(test_path(folder, "in.mtl")) == 0);
+    frame_release(&frame);
+}
+
 int main(void)
 {
     TestFolder folder = test_folder_make();
@@ -136,6 +157,7 @@ int main(void)
     test_options_of_another_writer();
     test_products(&folder);
     test_model_of_the_method(&folder);
+    test_materials(&folder);
     test_nothing_to_write(&folder);
     test_folder_remove(&folder);
     return 0;

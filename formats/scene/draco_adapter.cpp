@@ -23,6 +23,9 @@ using draco::GeometryAttribute;
  */
 constexpr uint32_t CORNERS = 2;
 
+/* Entries of metadata have names of at most 255 bytes. */
+constexpr size_t MATERIAL_NAME = 200;
+
 /* Adds an attribute whose value i belongs to vertex i; gives back where the values go, zeroes now. */
 template <typename T>
 T *add_attribute(draco::Mesh *mesh, GeometryAttribute::Type type, draco::DataType data_type,
@@ -115,14 +118,38 @@ void add_channel(draco::Mesh *mesh, const MesoDracoMesh &from, uint32_t channel,
     }
 }
 
+/* A name as OBJ files have it, which ends at white space; none twice, and none of the entries that have a meaning. */
+std::string material_entry(const MesoScene &scene, uint32_t material, const draco::Metadata &metadata)
+{
+    std::string name(scene.material_names[material], strnlen(scene.material_names[material], MATERIAL_NAME));
+    for (char &c : name)
+        if (static_cast<unsigned char>(c) <= 0x20)
+            c = '_';
+    while (name.empty() || metadata.entries().count(name))
+        name += "+";
+    return name;
+}
+
+/* Draco's own writer of OBJ takes the names of materials from here, and refuses a mesh without a name of their file. */
+void name_materials(draco::Mesh *mesh, const MesoScene &scene, int attribute)
+{
+    auto metadata = std::make_unique<draco::AttributeMetadata>();
+    metadata->AddEntryString("name", "material");
+    metadata->AddEntryString("file_name", "materials.mtl");
+    for (uint32_t m = 0; m < scene.material_count; m++)
+        metadata->AddEntryInt(material_entry(scene, m, *metadata), static_cast<int32_t>(m));
+    mesh->AddAttributeMetadata(attribute, std::move(metadata));
+}
+
 void add_numbers(draco::Mesh *mesh, const MesoDracoMesh &from, bool for_gltf, Ids *ids)
 {
     for (uint32_t c = 0; c < from.scene->channel_count; c++)
         add_channel(mesh, from, c, for_gltf, ids);
     if (for_gltf)
         return;
-    uint16_t *material = add_attribute<uint16_t>(mesh, GeometryAttribute::GENERIC, draco::DT_UINT16, 1, "material",
+    uint16_t *material = add_attribute<uint16_t>(mesh, GeometryAttribute::GENERIC, draco::DT_UINT16, 1, nullptr,
                                                  from.vertex_count, &ids->material);
+    name_materials(mesh, *from.scene, ids->material);
     for_parts(from, [material](size_t i, const MesoPart &part) {
         material[i] = static_cast<uint16_t>(part.material);
     });

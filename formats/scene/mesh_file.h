@@ -1,4 +1,4 @@
-/* Meshes out: binary PLY, OBJ, Draco, GLB. */
+/* Meshes out: binary PLY, OBJ, STL, Draco, GLB. */
 #ifndef MESO_MESH_FILE_H
 #define MESO_MESH_FILE_H
 
@@ -20,6 +20,7 @@ typedef struct MesoMeshWriteOptions {
     bool z_up;                  /* the scene's up is z, and not y; where the kind of file can say so */
     float unit;                 /* metres of one scene unit, likewise; 0: 1 */
     const MesoProvenance *provenance;
+    const char *materials;      /* name of the file from meso_mtl_write(), for OBJ; NULL: none */
     const char *smaller;        /* what would make the product smaller, for messages; may be NULL */
     /* Called now and then with the work done so far; may be NULL. */
     void (*progress)(void *context, uint64_t done, uint64_t total);
@@ -33,9 +34,10 @@ enum { MESO_DRACO_TRIANGLES = 1 << 26 };
 /*
  * Each writes all parts of a scene, with their ids in every channel: the ones
  * of a channel with names in 16 bits, beside the names, the others in 32. Where
- * a body has colours, all vertices have. PLY and OBJ stream in windows of
- * bounded size, whatever the mesh (a body is held whole), and so does GLB that
- * is not compressed; Draco holds what it encodes: up to MESO_DRACO_TRIANGLES in
+ * a body has colours, all vertices have; in PLY they always have, times the
+ * materials' albedo. PLY and OBJ stream in windows of
+ * bounded size, whatever the mesh (a body is held whole), and so do STL and GLB that is
+ * not compressed; Draco holds what it encodes: up to MESO_DRACO_TRIANGLES in
  * one .drc, a piece of one material at a time in .glb, beside the compressed
  * result. MESO_ERR_LIMIT beyond what a format can hold; MESO_ERR_INPUT for a
  * scene without geometry. Bytes do not depend on the thread count.
@@ -48,5 +50,13 @@ MesoStatus meso_drc_write(const MesoSceneParts *parts, const MesoMeshWriteOption
                           MesoOutput *output, MesoError *error);
 MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                           MesoOutput *output, MesoError *error);
+
+/* Triangles with the normals of their planes, in the format's binary form, which holds no ids and no materials. */
+MesoStatus meso_stl_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
+                          MesoOutput *output, MesoError *error);
+
+/* Materials by the names that OBJ files use: Kd, and Pr and Pm for roughness and metallic. */
+MesoStatus meso_mtl_write(const MesoScene *scene, const MesoProvenance *provenance, MesoOutput *output,
+                          MesoError *error);
 
 #endif

@@ -36,6 +36,19 @@ static void check_ply_faces(const MesoSceneParts *t, const Whole *whole, const u
     CHECK(row == end);
 }
 
+/* The colour is the material's. */
+static void check_ply_vertices(const MesoSceneParts *t, const Whole *whole, const uint8_t *row)
+{
+    for (uint32_t part = 0; part < t->part_count; part++) {
+        const float *albedo = t->scene->materials[meso_scene_part(t, part).material].albedo;
+        for (uint64_t v = t->vertex_begin[part]; v < t->vertex_begin[part + 1]; v++, row += 35) {
+            CHECK(memcmp(row, &whole->vertices[v], 32) == 0);
+            for (int c = 0; c < 3; c++)
+                CHECK(fabsf((float)row[32 + c] - 255 * albedo[c]) <= 0.501f);
+        }
+    }
+}
+
 /* Large enough for several windows. */
 static void test_ply(void)
 {
@@ -55,9 +68,9 @@ static void test_ply(void)
     CHECK(after(&input, count));
 
     const uint8_t *rows = after(&input, "end_header\n");
-    size_t vertex_bytes = whole.vertex_count * 32;
+    size_t vertex_bytes = whole.vertex_count * 35;
     CHECK(rows && (size_t)(input.data + input.size - rows) > vertex_bytes);
-    CHECK(memcmp(rows, whole.vertices, vertex_bytes) == 0);
+    check_ply_vertices(t, &whole, rows);
     check_ply_faces(t, &whole, rows + vertex_bytes, input.data + input.size);
     check_threads(meso_ply_write, t, &input);
     meso_input_close(&input);
@@ -173,6 +186,61 @@ static void test_obj(void)
     scene_fixture_release(&fixture);
 }
 
+static void test_materials(void)
+{
+    SceneFixture fixture;
+    MesoInput input;
+    MesoOutput *output;
+    MesoError error;
+    scene_fixture_init(&fixture, 2, 3, 0.1f);
+    const MesoMeshWriteOptions options = {.materials = "x y.mtl"};
+    input = write_mesh_as(meso_obj_write, &fixture.parts, &options, 2, path_of("x.obj"));
+    CHECK(after(&input, "\nmtllib x y.mtl\no "));
+    meso_input_close(&input);
+    CHECK(meso_output_open(&output, path_of("x.obj"), &error) == MESO_OK);
+    CHECK(meso_mtl_write(&fixture.scene, NULL, output, &error) == MESO_OK);
+    CHECK(meso_output_commit(output, &error) == MESO_OK && meso_input_open(&input, path_of("x.obj"), &error) == MESO_OK);
+    CHECK(after(&input, "newmtl warp/strand\nKd 0.5 0.2 0.1\nPr 0.5\nPm 0\nnewmtl weft/strand\nKd 0.1 0.3 0.6\n"));
+    meso_input_close(&input);
+    scene_fixture_release(&fixture);
+}
+
+/* ---- STL ---- */
+
+static const uint8_t *check_triangle(const Whole *whole, const uint8_t *row, const uint32_t corners[3])
+{
+    MesoVec3 at[4], along[3];
+    memcpy(at, row, sizeof at);
+    for (int k = 0; k < 3; k++)
+        CHECK(memcmp(&at[1 + k], &whole->vertices[corners[k]].position, 12) == 0);
+    for (int k = 0; k < 3; k++)
+        along[k] = meso_vec3_sub(at[1 + (k + 1) % 3], at[1 + k]);
+    CHECK(fabsf(meso_vec3_dot(at[0], along[0])) < 1e-3f && fabsf(meso_vec3_dot(at[0], along[1])) < 1e-3f);
+    CHECK(fabsf(meso_vec3_length(at[0]) - 1) < 1e-4f && meso_vec3_dot(at[0], meso_vec3_cross(along[0], along[1])) > 0);
+    return row + 50;
+}
+
+static void test_stl(void)
+{
+    SceneFixture fixture;
+    uint32_t count;
+    scene_fixture_init(&fixture, 4, 9, 0.02f);
+    Whole whole = make_whole(&fixture);
+    MesoInput input = write_mesh(meso_stl_write, &fixture.parts, 2, path_of("x.stl"));
+    memcpy(&count, input.data + 80, sizeof count);
+    CHECK(count == fixture.parts.triangle_count && input.size == 84 + (size_t)50 * count);
+    const uint8_t *row = input.data + 84;
+    for (uint64_t i = 0; i < whole.face_count; i++) {
+        const uint32_t *v = whole.faces[i].v;
+        row = check_triangle(&whole, row, v);
+        if (v[3] != MESO_NO_INDEX)
+            row = check_triangle(&whole, row, (const uint32_t[]){v[0], v[2], v[3]});
+    }
+    check_threads(meso_stl_write, &fixture.parts, &input);
+    meso_input_close(&input);
+    scene_fixture_release(&fixture);
+}
+
 /* ---- Draco, read back by its own decoder ---- */
 
 static void bounds_of(const Whole *whole, MesoVec3 *low, MesoVec3 *high)
@@ -198,6 +266,13 @@ static void test_drc(void)
     bounds_of(&whole, &low, &high);
     MesoVec3 extent = meso_vec3_sub(high, low);
     float step = fmaxf(extent.x, fmaxf(extent.y, extent.z)) / (float)((1 << 14) - 1);
+    char command[512];
+    snprintf(command, sizeof command, "draco_decoder -i %s -o %s >/dev/null 2>&1", path_of("x.drc"), path_of("x.obj"));
+    CHECK(system(command) == 0);
+    MesoInput text;
+    CHECK(meso_input_open(&text, path_of("x.obj"), &(MesoError){0}) == MESO_OK);
+    CHECK(contains(&text, "usemtl warp/strand\n") && contains(&text, "usemtl plain_\"weave\"/inner_1\n"));
+    meso_input_close(&text);
     check_near(d.box.low, low, 0.51f * step);
     check_near(d.box.high, high, 0.51f * step);
     CHECK(contains(&input, "slot") && contains(&input, "material") && contains(&input, "provenance"));
@@ -257,8 +332,9 @@ static void test_colored(void)
 
 /* ---- refusals ---- */
 
-static WriteMesh *const WRITERS[] = {meso_ply_write, meso_obj_write, meso_drc_write, meso_glb_write};
-enum { WRITER_COUNT = 4 };
+static WriteMesh *const WRITERS[] = {meso_ply_write, meso_obj_write, meso_drc_write, meso_glb_write,
+                                    meso_stl_write};
+enum { WRITER_COUNT = 5 };
 
 static MesoStatus try_write(WriteMesh *write, const MesoSceneParts *t, MesoError *error)
 {
@@ -335,11 +411,13 @@ int main(void)
     test_ply();
     test_winding();
     test_obj();
+    test_materials();
+    test_stl();
     test_drc();
     test_colored();
     test_refusals();
     test_progress();
-    static const char *const products[] = {"x.ply", "x.obj", "x.drc", "again"};
-    remove_products(products, 4);
+    static const char *const products[] = {"x.ply", "x.obj", "x.drc", "x.stl", "again"};
+    remove_products(products, 5);
     return 0;
 }

@@ -188,8 +188,34 @@ static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError
     const char *text = meso_provenance_lines(stream->options->provenance, "# ", arena, error);
     if (!text)
         return MESO_ERR_MEMORY;
+    const char *file = stream->options->materials;
+    if (file)
+        text = meso_arena_print(arena, error, "%smtllib %s\n", text, file);
+    if (!text)
+        return MESO_ERR_MEMORY;
     stream->offset = strlen(text);
     return meso_output_write(stream->output, text, strlen(text), error);
+}
+
+MesoStatus meso_mtl_write(const MesoScene *scene, const MesoProvenance *provenance, MesoOutput *output,
+                          MesoError *error)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    const char *head = meso_provenance_lines(provenance, "# ", &arena, error);
+    MesoStatus status = head ? meso_output_write(output, head, strlen(head), error) : MESO_ERR_MEMORY;
+    for (uint32_t m = 0; m < scene->material_count && !status; m++) {
+        const MesoMaterial *look = &scene->materials[m];
+        char name[MESO_MESH_NAME], text[LINE_TEXT + 8 * (MESO_FLOAT_TEXT + 8)], *end = text;
+        meso_mesh_material_name(scene, m, name);
+        end = put_line(end, "newmtl ", name);
+        end = put_vector(end, "Kd", look->albedo, 3);
+        end = put_vector(end, "Pr", &look->roughness, 1);
+        end = put_vector(end, "Pm", &look->metallic, 1);
+        status = meso_output_write(output, text, (size_t)(end - text), error);
+    }
+    meso_arena_release(&arena);
+    return status;
 }
 
 static Objects find_objects(const MesoScene *scene)

@@ -1,5 +1,5 @@
 /*
- * Binary PLY, little-endian: vertices as they lie in memory, then faces with
+ * Binary PLY, little-endian: vertices as they lie in memory, with colours, then faces with
  * the ids and the material of the part that they belong to.
  */
 #include <string.h>
@@ -12,32 +12,53 @@ _Static_assert(sizeof(MesoMeshColor) == 3, "layout of the rows");
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows are written as they lie in memory");
 
 /* Count and corners of a quad; ids and material. */
-enum { CORNERS_BYTES = 1 + 16, MAX_TAIL = 4 * MESO_ID_CHANNELS + 2 };
+enum { VERTEX_BYTES = sizeof(MesoMeshVertex) + sizeof(MesoMeshColor), CORNERS_BYTES = 1 + 16, MAX_TAIL = 4 * MESO_ID_CHANNELS + 2 };
+
+static uint8_t byte_of(float value)
+{
+    return (uint8_t)(value <= 0 ? 0 : value >= 1 ? 255 : value * 255 + 0.5f);
+}
+
+/* Colours of 255 are white. */
+static MesoMeshColor tinted(const MesoMaterial *material, MesoMeshColor color)
+{
+    return (MesoMeshColor){byte_of(material->albedo[0] * (float)color.r / 255),
+                           byte_of(material->albedo[1] * (float)color.g / 255),
+                           byte_of(material->albedo[2] * (float)color.b / 255)};
+}
+
+/* Rows of one part: its vertices with one colour, or with their own. */
+static uint8_t *put_rows(uint8_t *out, const MesoMeshVertex *vertices, const MesoMeshColor *colors, uint64_t count,
+                         const MesoMaterial *material)
+{
+    MesoMeshColor color = tinted(material, (MesoMeshColor){255, 255, 255});
+    for (uint64_t i = 0; i < count; i++, out += VERTEX_BYTES) {
+        if (colors)
+            color = tinted(material, colors[i]);
+        memcpy(out, &vertices[i], sizeof *vertices);
+        memcpy(out + sizeof *vertices, &color, sizeof color);
+    }
+    return out;
+}
 
 static size_t format_vertices(const void *context, const MesoSceneParts *parts, uint32_t begin,
                               uint32_t end, uint8_t *out, uint8_t *scratch)
 {
-    (void)context;
-    (void)scratch;
-    meso_scene_vertices(parts, begin, end, (MesoMeshVertex *)(void *)out);
-    return (size_t)(parts->vertex_begin[end] - parts->vertex_begin[begin]) * sizeof(MesoMeshVertex);
-}
-
-static size_t format_colored(const void *context, const MesoSceneParts *parts, uint32_t begin,
-                             uint32_t end, uint8_t *out, uint8_t *scratch)
-{
-    const size_t row = sizeof(MesoMeshVertex) + sizeof(MesoMeshColor);
-    uint64_t count = parts->vertex_begin[end] - parts->vertex_begin[begin];
+    const bool *colored = context;
+    uint64_t first = parts->vertex_begin[begin], count = parts->vertex_begin[end] - first;
     MesoMeshVertex *vertices = (MesoMeshVertex *)(void *)scratch;
     MesoMeshColor *colors = (MesoMeshColor *)(void *)(vertices + count);
-    (void)context;
+    uint8_t *next = out;
     meso_scene_vertices(parts, begin, end, vertices);
-    meso_scene_colors(parts, begin, end, colors);
-    for (uint64_t i = 0; i < count; i++) {
-        memcpy(out + row * i, &vertices[i], sizeof *vertices);
-        memcpy(out + row * i + sizeof *vertices, &colors[i], sizeof *colors);
+    if (*colored)
+        meso_scene_colors(parts, begin, end, colors);
+    for (uint32_t part = begin; part < end; part++) {
+        uint64_t at = parts->vertex_begin[part] - first;
+        const MesoMaterial *material = &parts->scene->materials[meso_scene_part(parts, part).material];
+        next = put_rows(next, vertices + at, *colored ? colors + at : NULL,
+                        parts->vertex_begin[part + 1] - parts->vertex_begin[part], material);
     }
-    return row * (size_t)count;
+    return (size_t)(next - out);
 }
 
 /* What follows the corners in each row of a part; returns its size. */
@@ -132,18 +153,18 @@ static MesoStatus put_face_properties(MesoMeshStream *stream, MesoArena *arena, 
     return status ? status : put(stream, "property ushort material\n", error);
 }
 
-static MesoStatus put_elements(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
+static MesoStatus put_elements(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
     const MesoSceneParts *parts = stream->parts;
-    const char *colors = colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "";
     const char *text = meso_arena_print(arena, error,
                                         "element vertex %llu\n"
                                         "property float x\nproperty float y\nproperty float z\n"
                                         "property float nx\nproperty float ny\nproperty float nz\n"
-                                        "property float s\nproperty float t\n%s"
+                                        "property float s\nproperty float t\n"
+                                        "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                         "element face %llu\n"
                                         "property list uchar uint vertex_indices\n",
-                                        (unsigned long long)parts->vertex_begin[parts->part_count], colors,
+                                        (unsigned long long)parts->vertex_begin[parts->part_count],
                                         (unsigned long long)parts->face_begin[parts->part_count]);
     MesoStatus status = put(stream, text, error);
     if (!status)
@@ -151,7 +172,7 @@ static MesoStatus put_elements(MesoMeshStream *stream, bool colored, MesoArena *
     return status ? status : put(stream, "end_header\n", error);
 }
 
-static MesoStatus put_header(MesoMeshStream *stream, bool colored, MesoArena *arena, MesoError *error)
+static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
     const char *provenance = meso_provenance_lines(stream->options->provenance, "comment ", arena, error);
     if (!provenance)
@@ -161,14 +182,12 @@ static MesoStatus put_header(MesoMeshStream *stream, bool colored, MesoArena *ar
         status = put(stream, provenance, error);
     if (!status)
         status = put_names(stream, arena, error);
-    return status ? status : put_elements(stream, colored, arena, error);
+    return status ? status : put_elements(stream, arena, error);
 }
 
 MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOptions *options,
                           MesoOutput *output, MesoError *error)
 {
-    static const MesoMeshPass plain = {.format = format_vertices, .vertex_bytes = 32};
-    static const MesoMeshPass colored = {.format = format_colored, .vertex_bytes = 35, .vertex_scratch = 35};
     /* A row of a triangle is written with one corner too many, over which the tail goes. */
     static const MesoMeshPass faces = {.format = format_faces, .face_bytes = CORNERS_BYTES + MAX_TAIL,
                                        .face_scratch = 16};
@@ -176,14 +195,16 @@ MesoStatus meso_ply_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     uint64_t vertex_count = parts->vertex_begin[parts->part_count];
     uint64_t face_count = parts->face_begin[parts->part_count];
     MesoMeshStream stream = {.parts = parts, .options = options, .output = output, .total = vertex_count + face_count};
-    bool has_colors = meso_scene_is_colored(parts->scene);
+    const bool colored = meso_scene_is_colored(parts->scene);
+    const MesoMeshPass vertices = {.format = format_vertices, .context = &colored, .vertex_bytes = VERTEX_BYTES,
+                                   .vertex_scratch = VERTEX_BYTES};
     MesoArena arena;
     meso_arena_init(&arena);
     MesoStatus status = meso_mesh_check_counts(parts, options, "a PLY file", error);
     if (!status)
-        status = put_header(&stream, has_colors, &arena, error);
+        status = put_header(&stream, &arena, error);
     if (!status)
-        status = meso_mesh_stream_run(&stream, has_colors ? &colored : &plain, vertex_count, error);
+        status = meso_mesh_stream_run(&stream, &vertices, vertex_count, error);
     if (!status)
         status = meso_mesh_stream_run(&stream, &faces, face_count, error);
     meso_arena_release(&arena);
