@@ -1,7 +1,11 @@
 # Other programs read what is written here.
 cp "$fixtures/vase.meso" .
 meso-map -q --divisions 6 vase.meso -o vase.drc
-meso-map -q --divisions 6 vase.meso -o vase.glb
+for kind in glb obj stl; do
+    meso-map -q --divisions 6 vase.meso -o vase.$kind
+done
+meso-map -q --divisions 6 --compress draco vase.meso -o draco.glb
+meso-map -q --divisions 6 --up z --unit 0.01 vase.meso -o turned.glb
 meso-map -q --divisions 6 vase.meso -o vase.ply
 meso-render -q --size 160x120 vase.meso -o vase.exr --png vase.png
 
@@ -9,9 +13,16 @@ draco_decoder -i vase.drc -o decoded.ply >/dev/null || echo "draco_decoder: stat
 for element in vertex face; do
     grep -a "^element $element" decoded.ply >counts && grep -q '[1-9]' counts || echo "no $element in the Draco file"
 done
+if command -v assimp >tool; then
+    for kind in glb obj stl ply; do
+        meso-map -q --divisions 3 --section-step 0.2 --json=report vase.meso -o small.$kind
+        faces=$(sed -n 's/ *"triangles": \([0-9]*\),.*/\1/p' report)
+        assimp info small.$kind | sed -n 's/^Faces: *//p' | grep -qx "$faces" || echo "assimp: not all faces of $kind"
+    done
+fi
 meso-decor -q "$fixtures/eleven-steps.pattern.json" "$fixtures/vase.obj" -o decor.glb
 if [ -d "$npm/node_modules/gltf-validator" ]; then
-    for file in vase.glb decor.glb; do
+    for file in vase.glb draco.glb turned.glb decor.glb; do
         NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" $file >said || { echo "validator: $?" && cat said; }
     done
 elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it

@@ -31,12 +31,12 @@ for kind in ply obj glb drc meso; do
     meso-map -q --json=report --threads 2 house.ply -o x.$kind
     json report
 done
-grep -v '^# provenance' x.obj
+grep -v '^# provenance\|^mtllib' x.obj
 meso-info x.meso >facts
 json facts
 meso-map -q x.meso -o y.obj
-grep -v '^# provenance' x.obj >x.plain
-grep -v '^# provenance' y.obj | cmp - x.plain
+grep -v '^# provenance\|^mtllib' x.obj >x.plain
+grep -v '^# provenance\|^mtllib' y.obj | cmp - x.plain
 
 # A mesh of ours gives itself back, vertex by vertex.
 meso-map -q --divisions 4 --section-step 0.2 vase.meso -o vase.ply

@@ -20,9 +20,15 @@ mkdir one two
     meso-map -q --to meso ../two/vase.tiles.json "$here/vase.obj" --divisions=12 --offset 0 --tangent-scale 1.0 \
         --section-step 2e-2 --mesh-path nowhere/ "$here/vase.slots" -o - >vase.meso
     for kind in ply obj drc glb; do
-        case $kind in drc | glb) spelled='--speed 7 --position-bits 14 --normal-bits 10' ;; *) spelled= ;; esac
+        case $kind in
+            drc) spelled='--speed 7 --position-bits 14 --normal-bits 10' ;;
+            glb) spelled='--compress none --up y --unit 1.0' ;;
+            *) spelled= ;;
+        esac
         # shellcheck disable=SC2086
         meso-map -q --to $kind --seed 0 $spelled ../two/vase.meso --divisions 05 --json=out/map.json -o - >mesh.$kind
+        # Without a name there is no file of materials to go with it.
+        [ $kind != obj ] || meso-map -q ../two/vase.meso --divisions 5 -o ./mesh.obj
     done
     meso-render -q ./vase.meso --fov 30 --samples 4 --ground none --size 40x30 --to exr -o - --png vase.png >vase.exr
     grep '"command"' out/*.json

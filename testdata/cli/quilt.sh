@@ -168,7 +168,7 @@ try meso-quilt nuts.ply --plane 3 -o x.ply
 try meso-quilt nuts.ply --plane 0x3 -o x.ply
 try meso-quilt nuts.ply --plane 3xinf -o x.ply
 try meso-quilt -q rings.ply --plane 0.5x0.5 -o x.quilt
-try meso-quilt nuts.ply torus.obj -o x.stl
+try meso-quilt nuts.ply torus.obj -o x.stp
 try meso-quilt --speed 3 nuts.ply torus.obj -o x.quilt
 try meso-quilt torus.quilt torus.obj -o x.ply
 try meso-quilt nuts.ply nuts.quilt -o x.ply
