@@ -3,7 +3,7 @@
 #include "libcore/chart/geometry_image.h"
 #include "libcore/growth/shape/terminal_shape.h"
 
-#define OUTPUTS "OUT.meso|.ply|.obj|.glb|.drc|.svg"
+#define OUTPUTS "OUT.meso|.ply|.obj|.glb|.drc|.stl|.usda|.svg"
 
 static const MesoToolInfo GROW_TOOL = {
     .name = "meso-grow",
@@ -15,7 +15,7 @@ static const MesoToolInfo GROW_TOOL = {
                 "meso-grow --seeds 1-10 cracks.grammar mask.obj -o cracks-%d.meso",
     .words = "1 .grammar\n"
              "2 .obj .ply .off .glb .gltf .drc\n"
-             "--output .meso .ply .obj .glb .drc .svg\n"
+             "--output .meso .ply .obj .glb .drc .stl .usda .svg\n"
              "--trace .jsonl\n"
              "--json .json",
     .operands_low = 2,
@@ -27,7 +27,7 @@ int main(int argc, char **argv)
     MesoGrowArguments a = {.output = MESO_SCENE_OUTPUT_DEFAULTS, .up = {0, 1, 0}, .detail = MESO_NO_INDEX};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.output.to,
-                    "meso|ply|obj|glb|drc|svg", .more = MESO_OPTION_OUTWARD),
+                    "meso|ply|obj|glb|drc|stl|usda|svg", .more = MESO_OPTION_OUTWARD),
         MESO_GROUP("Growth"),
         MESO_LIST(0, "set", "NAME=VALUE", "a parameter of the grammar; several with commas between, or given again",
                   &a.set),

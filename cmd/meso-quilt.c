@@ -1,7 +1,7 @@
 /* meso-quilt: grows a swatch of geometry over a surface, patch by patch. */
 #include "cmd/quilt/quilt_job.h"
 
-#define OUTPUTS "OUT.meso|.quilt|.ply|.obj|.glb|.drc"
+#define OUTPUTS "OUT.meso|.quilt|.ply|.obj|.glb|.drc|.stl|.usda"
 
 static const MesoToolInfo QUILT_TOOL = {
     .name = "meso-quilt",
@@ -15,7 +15,7 @@ static const MesoToolInfo QUILT_TOOL = {
                 "meso-quilt --swatch ivy --jitter 0.1 -o ivy.ply",
     .words = "1 .obj .ply .off .glb .gltf .drc\n"
              "2 .obj .ply .off .glb .gltf .drc\n"
-             "--output .meso .quilt .ply .obj .glb .drc\n"
+             "--output .meso .quilt .ply .obj .glb .drc .stl .usda\n"
              "--guide *\n"
              "--swatch weave wire mail rings nuts apples ivy scales armour\n"
              "--json .json",
@@ -29,7 +29,7 @@ int main(int argc, char **argv)
                             .guide = "smooth", .embedding = "prisms"};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.output.to,
-                    "meso|quilt|ply|obj|glb|drc", .more = MESO_OPTION_OUTWARD),
+                    "meso|quilt|ply|obj|glb|drc|stl|usda", .more = MESO_OPTION_OUTWARD),
         MESO_GROUP("Swatch"),
         MESO_TEXT(0, "swatch", "NAME", "a recipe in place of SWATCH: weave, wire, mail, rings, nuts, apples, ivy, "
                   "scales or armour", &a.swatch),

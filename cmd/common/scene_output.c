@@ -6,6 +6,7 @@
 
 #include "cmd/common/scene_report.h"
 #include "formats/model/model_body.h"
+#include "formats/scene/strand/usda_scene.h"
 
 static const MesoSceneKind KINDS[] = {
     {"meso", NULL, MESO_SCENE_NO_DRACO, false, NULL},
@@ -14,6 +15,7 @@ static const MesoSceneKind KINDS[] = {
     {"glb", meso_glb_write, MESO_SCENE_MAY_DRACO, true, "write .ply"},
     {"drc", meso_drc_write, MESO_SCENE_DRACO, false, "write .glb"},
     {"stl", meso_stl_write, MESO_SCENE_NO_DRACO, false, "write .ply"},
+    {"usda", meso_usda_scene_write, MESO_SCENE_NO_DRACO, true, NULL},
 };
 
 const MesoSceneKind *meso_scene_kind_named(const char *name)
@@ -43,7 +45,7 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
     if (output->given.compress && output->kind->draco != MESO_SCENE_MAY_DRACO)
         return meso_fail(error, MESO_ERR_USAGE, "--compress is for .glb; the output is .%s", output->kind->name);
     if (placed && !output->kind->placed)
-        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb; the output is .%s", placed, output->kind->name);
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb and .usda; the output is .%s", placed, output->kind->name);
     return MESO_OK;
 }
 
@@ -78,7 +80,7 @@ MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
     }
     return meso_fail(&tool->error, MESO_ERR_USAGE,
                      "no kind of file is known by the name '%s': end it in .meso, .ply, .obj, .glb, "
-                     ".drc or .stl, or give --to", tool->output);
+                     ".drc, .stl or .usda, or give --to", tool->output);
 }
 
 /* "lower --divisions, or write .ply"; `text` gets NULL where nothing helps. */

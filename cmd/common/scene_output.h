@@ -17,8 +17,8 @@
 #include "formats/scene/mesh_file.h"
 
 /* For the synopsis, and for the words of MesoToolInfo. */
-#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|.ply|.obj|.glb|.drc|.stl"
-#define MESO_SCENE_OUTPUT_WORDS "--output .meso .ply .obj .glb .drc .stl\n"
+#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|.ply|.obj|.glb|.drc|.stl|.usda"
+#define MESO_SCENE_OUTPUT_WORDS "--output .meso .ply .obj .glb .drc .stl .usda\n"
 
 typedef struct MesoSceneKind {
     const char *name;           /* and extension */
@@ -45,18 +45,18 @@ typedef struct MesoSceneOutput {
 
 #define MESO_SCENE_KIND_OPTION(o)                                                             \
     MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &(o).to, \
-                "meso|ply|obj|glb|drc|stl", .more = MESO_OPTION_OUTWARD)
+                "meso|ply|obj|glb|drc|stl|usda", .more = MESO_OPTION_OUTWARD)
 
 /* Which axis of the scene is up: for the tools that have no --up of their own. */
 #define MESO_UP_OPTION(o)                                                                     \
-    MESO_CHOICE(0, "up", "AXIS", "that is up in the product's coordinates, y (default) or z, for .glb", &(o).up, \
+    MESO_CHOICE(0, "up", "AXIS", "that is up in the product's coordinates, y (default) or z, for .glb and .usda", &(o).up, \
                 "y|z", .given = &(o).given.up)
 
 #define MESO_MESH_OPTIONS(o)                                                                  \
-    MESO_GROUP("Meshes (.glb, .drc)"), \
+    MESO_GROUP("Meshes (.glb, .drc, .usda)"), \
     MESO_CHOICE(0, "compress", "HOW", "of .glb: none (default), which everything opens, or draco", &(o).compress, \
                 "none|draco", .given = &(o).given.compress), \
-    MESO_NUMBER(0, "unit", "M", "metres of one unit of the product, for .glb (default 1)", &(o).unit, 1e-9, 1e9, \
+    MESO_NUMBER(0, "unit", "M", "metres of one unit, for .glb and .usda (default 1)", &(o).unit, 1e-9, 1e9, \
                 .given = &(o).given.unit), \
     MESO_COUNT(0, "position-bits", "N", "Draco: precision of positions (default 14)", &(o).position_bits, 4, 24, \
                .given = &(o).given.position_bits), \

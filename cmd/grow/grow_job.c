@@ -51,7 +51,7 @@ static MesoStatus choose_kind(Job *job)
     job->as_drawing = a->output.to ? strcmp(a->output.to, "svg") == 0 : ends_in(path, ".svg");
     if (!job->as_drawing && !a->output.to && !(dot && meso_scene_kind_named(dot + 1)))
         return meso_fail(&job->tool->error, MESO_ERR_USAGE, "no kind of file is known by the name '%s': end it in "
-                         ".meso, .ply, .obj, .glb, .drc or .svg, or give --to", path);
+                         ".meso, .ply, .obj, .glb, .drc, .stl, .usda or .svg, or give --to", path);
     if (!job->as_drawing)
         return meso_tool_choose_scene_kind(job->tool, &a->output);
     if (!job->tool->output)

@@ -78,19 +78,19 @@ static MesoStatus choose_kind(Job *job)
     job->as_quilt = o->to ? strcmp(o->to, "quilt") == 0 : ends_in(path, ".quilt");
     if (!job->as_quilt && !o->to && !(dot && meso_scene_kind_named(dot + 1)))
         return meso_fail(&job->tool->error, MESO_ERR_USAGE, "no kind of file is known by the name '%s': end it in "
-                         ".meso, .quilt, .ply, .obj, .glb or .drc, or give --to", path);
+                         ".meso, .quilt, .ply, .obj, .glb, .drc, .stl or .usda, or give --to", path);
     if (!job->as_quilt)
         return meso_tool_choose_scene_kind(job->tool, &a->output);
     if (a->under)
         return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--surface is for meshes and models; a .quilt holds its "
                          "surface");
     const char *given = o->given.position_bits ? "position-bits" : o->given.normal_bits ? "normal-bits"
-        : o->given.speed ? "speed" : NULL;
+        : o->given.speed ? "speed" : o->given.compress ? "compress" : o->given.unit ? "unit" : o->given.up ? "up" : NULL;
     if (!job->tool->output)
         job->tool->output = "-";
     if (!given)
         return MESO_OK;
-    return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--%s is for .drc and .glb; the output is .quilt", given);
+    return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--%s is for meshes; the output is .quilt", given);
 }
 
 static MesoStatus read_seeds(Job *job)
