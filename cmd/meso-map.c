@@ -10,6 +10,7 @@
 #include "cmd/common/scene_output.h"
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
+#include "cmd/map/map_join.h"
 #include "cmd/map/map_shell.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/surface_read.h"
@@ -24,7 +25,8 @@ static const MesoToolInfo MAP_TOOL = {
     .name = "meso-map",
     .synopsis = "meso-map [options] TILES SURFACE SLOTS -o " MESO_SCENE_OUTPUT_NAMES "\n"
                 "meso-map [options] MODEL -o " MESO_SCENE_OUTPUT_NAMES "\n"
-                "meso-map [options] QUILT SURFACE -o " MESO_SCENE_OUTPUT_NAMES,
+                "meso-map [options] QUILT SURFACE -o " MESO_SCENE_OUTPUT_NAMES "\n"
+                "meso-map --join PART... -o OUT.ply",
     .purpose = "Write what an assignment, a model or a mesh is as a model or a mesh.",
     .examples = "meso-map vase.tiles.json vase.obj vase.slots -o vase.meso\n"
                 "meso-map --divisions 24 vase.meso -o vase.glb\n"
@@ -37,7 +39,7 @@ static const MesoToolInfo MAP_TOOL = {
              MESO_SCENE_OUTPUT_WORDS
              "--json .json",
     .operands_low = 1,
-    .operands_high = 3,
+    .operands_high = UINT32_MAX,
 };
 
 typedef struct MapArguments {
@@ -50,6 +52,7 @@ typedef struct MapArguments {
     const char *mesh_path;
     bool strict;
     bool pairs;                 /* --quads-from-triangles */
+    bool join;                  /* --join */
     const char *embedding;      /* --embed; NULL: as the quilt says */
     MesoSceneOutput output;
 } MapArguments;
@@ -79,6 +82,8 @@ static bool names_quilt(const char *path)
 
 static MesoStatus check_operands(const MapArguments *a, MesoError *error)
 {
+    if (a->tool.operand_count > 3)
+        return meso_fail(error, MESO_ERR_USAGE, "%u operands given, at most 3 needed", a->tool.operand_count);
     if ((a->shell.thickness_by || a->shell.offset_by) && a->tool.operand_count < 3)
         return meso_fail(error, MESO_ERR_USAGE, "--thickness-by and --offset-by are for SURFACE, whose attributes a "
                          "model does not have");
@@ -383,6 +388,8 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
     Mapped mapped;
     MesoStatus status = meso_tool_choose_scene_kind(&a->tool, &a->output);
+    if (!status && a->join)
+        return meso_map_join(&a->tool, &a->output);
     if (!status)
         status = check_operands(a, error);
     meso_map_shell_set(&a->shell, &a->options);
@@ -429,6 +436,8 @@ int main(int argc, char **argv)
                     MESO_QUILT_EMBEDDING_NAMES),
         MESO_MESH_OPTIONS(a.output),
         MESO_UP_OPTION(a.output),
+        MESO_PART_OPTIONS(a.output),
+        MESO_FLAG(0, "join", "the operands are parts; put them together", &a.join, .more = MESO_OPTION_OUTWARD),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

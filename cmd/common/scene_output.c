@@ -1,5 +1,6 @@
 #include "cmd/common/scene_output.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -49,6 +50,40 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
     return MESO_OK;
 }
 
+/* Two whole numbers with a character between them, and nothing behind. */
+static bool parse_pair(const char *text, char between, uint32_t pair[2])
+{
+    for (int i = 0; i < 2; i++) {
+        char *end;
+        unsigned long long value = strtoull(text, &end, 10);
+        if (*text < '0' || *text > '9' || *end != (i ? 0 : between) || value > UINT32_MAX)
+            return false;
+        pair[i] = (uint32_t)value;
+        text = end + 1;
+    }
+    return true;
+}
+
+static MesoStatus make_rule(MesoSceneOutput *output, MesoError *error)
+{
+    uint32_t pair[2];
+    if (output->slots && output->shard)
+        return meso_fail(error, MESO_ERR_USAGE, "--slots and --shard each say which part; give one of them");
+    if ((output->slots || output->shard) && !output->kind->write)
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; a model is small", output->slots ? "slots" : "shard");
+    if (output->slots && (!parse_pair(output->slots, '-', pair) || pair[0] > pair[1]))
+        return meso_fail(error, MESO_ERR_USAGE, "--slots takes two numbers, the lower one first: 0-99, not '%s'",
+                         output->slots);
+    if (output->slots)
+        output->rule = (MesoSelectionRule){.low = pair[0], .high = pair[1]};
+    if (output->shard && (!parse_pair(output->shard, '/', pair) || pair[0] < 1 || pair[0] > pair[1]))
+        return meso_fail(error, MESO_ERR_USAGE, "--shard takes a number and of how many: 1/4 to 4/4, not '%s'",
+                         output->shard);
+    if (output->shard)
+        output->rule = (MesoSelectionRule){.shard = pair[0] - 1, .shard_count = pair[1]};
+    return MESO_OK;
+}
+
 /*
  * The file of materials that goes with an OBJ of a name in .obj: the same name in .mtl. NULL, with `*status`
  * MESO_OK, where there is none to go with: other kinds, and standard output, which has no name.
@@ -75,6 +110,8 @@ MesoStatus meso_tool_choose_scene_kind(MesoTool *tool, MesoSceneOutput *output)
     if (output->kind) {
         MesoStatus status = check_options(output, &tool->error);
         if (!status)
+            status = make_rule(output, &tool->error);
+        if (!status)
             materials_path(tool, output, &status);
         return status;
     }
@@ -93,8 +130,15 @@ static MesoStatus advise(const char **text, MesoTool *tool, const char *smaller,
     return *text ? MESO_OK : MESO_ERR_MEMORY;
 }
 
+/* What of a scene is written: `selection` and `box` are NULL for all of it. */
+typedef struct Slice {
+    const MesoSelection *selection;
+    const MesoBox *box;
+} Slice;
+
 static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneParts *parts,
-                             const char *smaller, const char *materials, MesoOutput *file)
+                             const Slice *slice, const char *smaller, const char *materials,
+                             MesoOutput *file)
 {
     const char *slash = materials ? strrchr(materials, '/') : NULL;
     MesoMeshWriteOptions options = {
@@ -107,6 +151,8 @@ static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, cons
         .z_up = strcmp(output->up, "z") == 0,
         .unit = output->unit,
         .provenance = &tool->provenance,
+        .selection = slice->selection,
+        .box = slice->box,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };
@@ -146,7 +192,7 @@ static MesoStatus write_materials(MesoTool *tool, const MesoScene *scene, const 
 
 /* files[0] is the product, files[1] its materials. */
 static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product,
-                                const MesoSceneParts *parts, MesoOutput **files)
+                                const MesoSceneParts *parts, const Slice *slice, MesoOutput **files)
 {
     MesoStatus status;
     const char *materials = materials_path(tool, output, &status);
@@ -157,8 +203,19 @@ static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, c
     if (status)
         return status;
     meso_tool_progress_begin(tool, "writing", is_draco(output) ? "triangles" : "vertices");
-    return output->kind->write ? write_mesh(tool, output, parts, product->smaller, materials, files[0])
+    return output->kind->write ? write_mesh(tool, output, parts, slice, product->smaller, materials, files[0])
                                : write_model(tool, product, files[0]);
+}
+
+/* `parts` become those that are selected. */
+static MesoStatus select_parts(MesoTool *tool, const MesoSceneOutput *output, MesoSceneParts *parts,
+                               MesoSelection *selection, MesoBox *box)
+{
+    const MesoSceneParts whole = *parts;
+    MesoStatus status = meso_selection_make(selection, &tool->arena, &whole, &output->rule, &tool->error);
+    if (!status && is_draco(output))
+        status = meso_scene_parts_box(&whole, tool->threads, box, &tool->error);
+    return status ? status : meso_scene_parts_init(parts, &tool->arena, &selection->scene, &tool->error);
 }
 
 MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product)
@@ -166,11 +223,18 @@ MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, 
     enum { OWN = 2 };
     MesoOutput *files[OWN + MESO_SCENE_BESIDE] = {NULL};
     MesoSceneParts parts;
+    MesoSelection selection;
+    MesoBox box;
+    Slice slice = {NULL, NULL};
     MesoStatus status = meso_scene_parts_init(&parts, &tool->arena, product->scene, &tool->error);
     for (int i = 0; i < MESO_SCENE_BESIDE; i++)
         files[OWN + i] = product->beside[i];
+    if (!status && (output->slots || output->shard)) {
+        slice = (Slice){&selection, is_draco(output) ? &box : NULL};
+        status = select_parts(tool, output, &parts, &selection, &box);
+    }
     if (!status)
-        status = write_product(tool, output, product, &parts, files);
+        status = write_product(tool, output, product, &parts, &slice, files);
     status = meso_output_finish_all(files, OWN + MESO_SCENE_BESIDE, status, &tool->error);
     if (!status)
         report(tool, output->kind, &parts);

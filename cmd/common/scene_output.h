@@ -34,6 +34,8 @@ typedef struct MesoSceneOutput {
     const char *to;             /* --to */
     const char *compress, *up;  /* --compress, --up */
     float unit;                 /* --unit */
+    const char *slots, *shard;  /* --slots, --shard; NULL: all of it */
+    MesoSelectionRule rule;     /* what they say, from meso_tool_choose_scene_kind() */
     uint32_t position_bits, normal_bits, speed;
     struct {
         bool compress, up, unit, position_bits, normal_bits, speed;
@@ -64,6 +66,12 @@ typedef struct MesoSceneOutput {
                .given = &(o).given.normal_bits), \
     MESO_COUNT(0, "speed", "N", "Draco: 0 smallest to 10 fastest (default 7)", &(o).speed, 0, 10, \
                .given = &(o).given.speed)
+
+/* A part of the product, of which --provenance says nothing: put together, the parts are the whole. */
+#define MESO_PART_OPTIONS(o)                                                                  \
+    MESO_GROUP("Parts"), \
+    MESO_TEXT(0, "slots", "A-B", "write these slots alone", &(o).slots, .more = MESO_OPTION_OUTWARD), \
+    MESO_TEXT(0, "shard", "I/N", "write share I of N, from 1 on", &(o).shard, .more = MESO_OPTION_OUTWARD)
 
 /* The kind by its name, "glb", in either case; NULL for others. */
 const MesoSceneKind *meso_scene_kind_named(const char *name);

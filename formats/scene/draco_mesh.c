@@ -16,6 +16,8 @@ MesoStatus meso_draco_options_make(MesoDracoOptions *draco, const MesoSceneParts
     MesoStatus status = meso_scene_parts_box(parts, options->thread_count, &box, error);
     if (status)
         return status;
+    if (options->box)
+        box = *options->box;
     *draco = (MesoDracoOptions){
         .position_bits = options->position_bits ? options->position_bits : POSITION_BITS,
         .normal_bits = options->normal_bits ? options->normal_bits : NORMAL_BITS,

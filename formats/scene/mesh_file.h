@@ -4,6 +4,7 @@
 
 #include "formats/file/output.h"
 #include "formats/product/provenance.h"
+#include "formats/scene/part/selection.h"
 #include "libcore/scene/parts.h"
 
 typedef enum MesoGlbCompression {
@@ -21,6 +22,8 @@ typedef struct MesoMeshWriteOptions {
     float unit;                 /* metres of one scene unit, likewise; 0: 1 */
     const MesoProvenance *provenance;
     const char *materials;      /* name of the file from meso_mtl_write(), for OBJ; NULL: none */
+    const MesoSelection *selection;     /* what the parts are of, for PLY; NULL: they are the whole */
+    const MesoBox *box;         /* of the whole, for Draco's grid; NULL: that of the parts */
     const char *smaller;        /* what would make the product smaller, for messages; may be NULL */
     /* Called now and then with the work done so far; may be NULL. */
     void (*progress)(void *context, uint64_t done, uint64_t total);

@@ -172,6 +172,25 @@ static MesoStatus put_elements(MesoMeshStream *stream, MesoArena *arena, MesoErr
     return status ? status : put(stream, "end_header\n", error);
 }
 
+/* Where the rows lie in the whole, for what joins them. */
+static MesoStatus put_selection(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
+{
+    const MesoSelection *s = stream->options->selection;
+    MesoStatus status = MESO_OK;
+    if (s)
+        status = put(stream, meso_arena_print(arena, error, "comment whole %u %llu %llu\n", s->part_count,
+                                              (unsigned long long)s->vertex_count,
+                                              (unsigned long long)s->face_count), error);
+    for (uint32_t i = 0; s && i < s->run_count && !status; i++) {
+        const MesoSelectedRun *run = &s->runs[i];
+        status = put(stream, meso_arena_print(arena, error, "comment run %u %u %llu %llu %llu %llu\n", run->part,
+                                              run->part_count, (unsigned long long)run->vertex,
+                                              (unsigned long long)run->vertex_count, (unsigned long long)run->face,
+                                              (unsigned long long)run->face_count), error);
+    }
+    return status;
+}
+
 static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
     const char *provenance = meso_provenance_lines(stream->options->provenance, "comment ", arena, error);
@@ -182,6 +201,8 @@ static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError
         status = put(stream, provenance, error);
     if (!status)
         status = put_names(stream, arena, error);
+    if (!status)
+        status = put_selection(stream, arena, error);
     return status ? status : put_elements(stream, arena, error);
 }
 
