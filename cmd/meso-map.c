@@ -436,6 +436,7 @@ int main(int argc, char **argv)
                     MESO_QUILT_EMBEDDING_NAMES),
         MESO_MESH_OPTIONS(a.output),
         MESO_UP_OPTION(a.output),
+        MESO_STRAND_OPTIONS(a.output),
         MESO_PART_OPTIONS(a.output),
         MESO_FLAG(0, "join", "the operands are parts; put them together", &a.join, .more = MESO_OPTION_OUTWARD),
         MESO_TOOL_OPTIONS(a.tool),

@@ -7,6 +7,7 @@
 
 #include "cmd/common/scene_report.h"
 #include "formats/model/model_body.h"
+#include "formats/scene/strand/strand_scene.h"
 #include "formats/scene/strand/usda_scene.h"
 
 static const MesoSceneKind KINDS[] = {
@@ -45,6 +46,9 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
                          draco, output->kind->name);
     if (output->given.compress && output->kind->draco != MESO_SCENE_MAY_DRACO)
         return meso_fail(error, MESO_ERR_USAGE, "--compress is for .glb; the output is .%s", output->kind->name);
+    if ((output->weld || output->cap_borders) && !output->kind->write)
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; the output is .%s",
+                         output->weld ? "weld" : "cap-borders", output->kind->name);
     if (placed && !output->kind->placed)
         return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb and .usda; the output is .%s", placed, output->kind->name);
     return MESO_OK;
@@ -69,6 +73,8 @@ static MesoStatus make_rule(MesoSceneOutput *output, MesoError *error)
     uint32_t pair[2];
     if (output->slots && output->shard)
         return meso_fail(error, MESO_ERR_USAGE, "--slots and --shard each say which part; give one of them");
+    if (output->slots && output->weld)
+        return meso_fail(error, MESO_ERR_USAGE, "--slots cuts strands, --weld joins them; --shard takes whole ones");
     if ((output->slots || output->shard) && !output->kind->write)
         return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; a model is small", output->slots ? "slots" : "shard");
     if (output->slots && (!parse_pair(output->slots, '-', pair) || pair[0] > pair[1]))
@@ -130,14 +136,16 @@ static MesoStatus advise(const char **text, MesoTool *tool, const char *smaller,
     return *text ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* What of a scene is written: `selection` and `box` are NULL for all of it. */
+/* What is written, of a scene: all of it where `selection` and `box` are NULL. */
 typedef struct Slice {
+    MesoSceneParts parts;
     const MesoSelection *selection;
     const MesoBox *box;
+    MesoStrands strands;        /* count 0: not told */
 } Slice;
 
-static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneParts *parts,
-                             const Slice *slice, const char *smaller, const char *materials,
+static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, const Slice *slice,
+                             const char *smaller, const char *materials,
                              MesoOutput *file)
 {
     const char *slash = materials ? strrchr(materials, '/') : NULL;
@@ -153,11 +161,13 @@ static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, cons
         .provenance = &tool->provenance,
         .selection = slice->selection,
         .box = slice->box,
+        .strand_count = slice->strands.count,
+        .strand_lengths = slice->strands.length,
         .progress = meso_tool_progress,
         .progress_context = tool,
     };
     MesoStatus status = advise(&options.smaller, tool, smaller, output->kind->instead);
-    return status ? status : output->kind->write(parts, &options, file, &tool->error);
+    return status ? status : output->kind->write(&slice->parts, &options, file, &tool->error);
 }
 
 static MesoStatus write_model(MesoTool *tool, const MesoSceneProduct *product, MesoOutput *file)
@@ -192,7 +202,7 @@ static MesoStatus write_materials(MesoTool *tool, const MesoScene *scene, const 
 
 /* files[0] is the product, files[1] its materials. */
 static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product,
-                                const MesoSceneParts *parts, const Slice *slice, MesoOutput **files)
+                                const Slice *slice, MesoOutput **files)
 {
     MesoStatus status;
     const char *materials = materials_path(tool, output, &status);
@@ -203,40 +213,64 @@ static MesoStatus write_product(MesoTool *tool, const MesoSceneOutput *output, c
     if (status)
         return status;
     meso_tool_progress_begin(tool, "writing", is_draco(output) ? "triangles" : "vertices");
-    return output->kind->write ? write_mesh(tool, output, parts, slice, product->smaller, materials, files[0])
+    return output->kind->write ? write_mesh(tool, output, slice, product->smaller, materials, files[0])
                                : write_model(tool, product, files[0]);
 }
 
-/* `parts` become those that are selected. */
-static MesoStatus select_parts(MesoTool *tool, const MesoSceneOutput *output, MesoSceneParts *parts,
-                               MesoSelection *selection, MesoBox *box)
+/* Strands closed, numbered and welded, as the options say. `scene` is made over. */
+static MesoStatus make_strands(MesoTool *tool, const MesoSceneOutput *output, MesoScene *scene, MesoStrands *strands)
 {
-    const MesoSceneParts whole = *parts;
+    const MesoScene given = *scene;
+    MesoScene closed = given;
+    MesoStatus status = MESO_OK;
+    if (output->cap_borders)
+        status = meso_strand_scene_cap(&closed, &tool->arena, &given, &tool->error);
+    if (!status)
+        status = meso_strands_find(strands, &tool->arena, &closed, &tool->error);
+    if (status)
+        return status;
+    if (output->weld)
+        return meso_strand_scene_weld(scene, &tool->arena, &closed, strands, tool->threads, &tool->error);
+    status = meso_strand_scene_number(scene, &tool->arena, &closed, strands, &tool->error);
+    if (scene->channel_count == closed.channel_count)
+        strands->count = 0;
+    return status;
+}
+
+/* The parts become those that are selected. */
+static MesoStatus select_parts(MesoTool *tool, const MesoSceneOutput *output, Slice *slice, MesoSelection *selection,
+                               MesoBox *box)
+{
+    const MesoSceneParts whole = slice->parts;
+    slice->selection = selection;
+    slice->box = is_draco(output) ? box : NULL;
     MesoStatus status = meso_selection_make(selection, &tool->arena, &whole, &output->rule, &tool->error);
-    if (!status && is_draco(output))
+    if (!status && slice->box)
         status = meso_scene_parts_box(&whole, tool->threads, box, &tool->error);
-    return status ? status : meso_scene_parts_init(parts, &tool->arena, &selection->scene, &tool->error);
+    return status ? status : meso_scene_parts_init(&slice->parts, &tool->arena, &selection->scene, &tool->error);
 }
 
 MesoStatus meso_tool_write_scene(MesoTool *tool, const MesoSceneOutput *output, const MesoSceneProduct *product)
 {
     enum { OWN = 2 };
     MesoOutput *files[OWN + MESO_SCENE_BESIDE] = {NULL};
-    MesoSceneParts parts;
+    MesoScene scene = *product->scene;
     MesoSelection selection;
     MesoBox box;
-    Slice slice = {NULL, NULL};
-    MesoStatus status = meso_scene_parts_init(&parts, &tool->arena, product->scene, &tool->error);
+    Slice slice = {.selection = NULL};
+    MesoStatus status = MESO_OK;
     for (int i = 0; i < MESO_SCENE_BESIDE; i++)
         files[OWN + i] = product->beside[i];
-    if (!status && (output->slots || output->shard)) {
-        slice = (Slice){&selection, is_draco(output) ? &box : NULL};
-        status = select_parts(tool, output, &parts, &selection, &box);
-    }
+    if (output->kind->write && scene.sweep_count > 0)
+        status = make_strands(tool, output, &scene, &slice.strands);
     if (!status)
-        status = write_product(tool, output, product, &parts, &slice, files);
+        status = meso_scene_parts_init(&slice.parts, &tool->arena, &scene, &tool->error);
+    if (!status && (output->slots || output->shard))
+        status = select_parts(tool, output, &slice, &selection, &box);
+    if (!status)
+        status = write_product(tool, output, product, &slice, files);
     status = meso_output_finish_all(files, OWN + MESO_SCENE_BESIDE, status, &tool->error);
     if (!status)
-        report(tool, output->kind, &parts);
+        report(tool, output->kind, &slice.parts);
     return status;
 }

@@ -35,6 +35,7 @@ typedef struct MesoSceneOutput {
     const char *compress, *up;  /* --compress, --up */
     float unit;                 /* --unit */
     const char *slots, *shard;  /* --slots, --shard; NULL: all of it */
+    bool weld, cap_borders;     /* --weld, --cap-borders */
     MesoSelectionRule rule;     /* what they say, from meso_tool_choose_scene_kind() */
     uint32_t position_bits, normal_bits, speed;
     struct {
@@ -66,6 +67,11 @@ typedef struct MesoSceneOutput {
                .given = &(o).given.normal_bits), \
     MESO_COUNT(0, "speed", "N", "Draco: 0 smallest to 10 fastest (default 7)", &(o).speed, 0, 10, \
                .given = &(o).given.speed)
+
+#define MESO_STRAND_OPTIONS(o)                                                                \
+    MESO_GROUP("Strands of meshes"), \
+    MESO_FLAG(0, "weld", "each strand as one mesh", &(o).weld), \
+    MESO_FLAG(0, "cap-borders", "close the ends of strands that borders cut", &(o).cap_borders)
 
 /* A part of the product, of which --provenance says nothing: put together, the parts are the whole. */
 #define MESO_PART_OPTIONS(o)                                                                  \

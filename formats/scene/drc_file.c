@@ -33,6 +33,8 @@ static MesoStatus make_texts(MesoDracoText *texts, uint32_t *count, const MesoSc
                                                 meso_mesh_names(channel->names, channel->count, arena, error)};
     }
     texts[(*count)++] = (MesoDracoText){"materials", meso_mesh_material_names(scene, arena, error)};
+    if (options->strand_count)
+        texts[(*count)++] = (MesoDracoText){"strand_lengths", meso_mesh_strand_array(options, arena, error)};
     texts[(*count)++] = (MesoDracoText){"provenance", meso_mesh_provenance(options, arena, error)};
     for (uint32_t i = 0; i < *count; i++)
         if (!texts[i].key || !texts[i].value)
@@ -45,7 +47,7 @@ static MesoStatus encode(const MesoSceneParts *parts, const MesoMeshWriteOptions
                          MesoArena *arena, MesoDracoResult *result, MesoError *error)
 {
     MesoDracoOptions draco;
-    MesoDracoText texts[MESO_ID_CHANNELS + 2];
+    MesoDracoText texts[MESO_ID_CHANNELS + 3];
     uint32_t text_count;
     MesoStatus status = make_texts(texts, &text_count, parts->scene, options, arena, error);
     if (!status)

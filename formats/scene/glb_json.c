@@ -210,6 +210,14 @@ static json_t *names_of(const MesoIdChannel *channel)
     return names;
 }
 
+static json_t *lengths_of(const MesoMeshWriteOptions *options)
+{
+    json_t *lengths = json_array();
+    for (uint32_t i = 0; lengths && i < options->strand_count; i++)
+        json_array_append_new(lengths, meso_json_shortest(options->strand_lengths[i]));
+    return lengths;
+}
+
 static MesoStatus add_asset(Document *d, MesoArena *arena, MesoError *error)
 {
     const MesoScene *scene = d->parts->scene;
@@ -224,6 +232,8 @@ static MesoStatus add_asset(Document *d, MesoArena *arena, MesoError *error)
         return MESO_ERR_MEMORY;
     if (*text)
         set(d, extras, "provenance", meso_json_string(text));
+    if (d->options->strand_count)
+        set(d, extras, "strand_lengths", lengths_of(d->options));
     for (uint32_t c = 0; c < scene->channel_count; c++) {
         const char *key = meso_mesh_names_key(&scene->channels[c], arena, error);
         if (!key)

@@ -23,6 +23,8 @@ typedef struct MesoMeshWriteOptions {
     const MesoProvenance *provenance;
     const char *materials;      /* name of the file from meso_mtl_write(), for OBJ; NULL: none */
     const MesoSelection *selection;     /* what the parts are of, for PLY; NULL: they are the whole */
+    uint32_t strand_count;      /* lengths of the channel "strand", but in STL and USD; 0: they are not told */
+    const float *strand_lengths;        /* [strand_count] */
     const MesoBox *box;         /* of the whole, for Draco's grid; NULL: that of the parts */
     const char *smaller;        /* what would make the product smaller, for messages; may be NULL */
     /* Called now and then with the work done so far; may be NULL. */

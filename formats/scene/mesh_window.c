@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/file/float_text.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/parallel.h"
 
@@ -272,6 +273,40 @@ const char *meso_mesh_material_names(const MesoScene *scene, MesoArena *arena, M
 const char *meso_mesh_names_key(const MesoIdChannel *channel, MesoArena *arena, MesoError *error)
 {
     return meso_arena_print(arena, error, "%ss", channel->name);
+}
+
+/* What stands before, between and behind the lengths of all strands. */
+static const char *strand_text(const MesoMeshWriteOptions *options, const char *begin, const char *mark, bool numbered,
+                               const char *end, MesoArena *arena, MesoError *error)
+{
+    enum { NUMBER = 12 };
+    size_t item = strlen(mark) + NUMBER + MESO_FLOAT_TEXT + 4;
+    size_t size = strlen(begin) + options->strand_count * item + strlen(end) + 1;
+    char *text = meso_arena_alloc(arena, size, 1, error), *out = text;
+    if (!text)
+        return NULL;
+    out += sprintf(out, "%s", begin);
+    for (uint32_t i = 0; i < options->strand_count; i++) {
+        out += sprintf(out, "%s", i || numbered ? mark : "");
+        out += numbered ? sprintf(out, "%u ", i) : 0;
+        out = meso_float_text(options->strand_lengths[i], out);
+        if (numbered)
+            *out++ = '\n';
+    }
+    sprintf(out, "%s", end);
+    return text;
+}
+
+const char *meso_mesh_strand_lines(const MesoMeshWriteOptions *options, const char *mark, MesoArena *arena,
+                                   MesoError *error)
+{
+    const char *line = meso_arena_print(arena, error, "%sstrand_length ", mark);
+    return line ? strand_text(options, "", line, true, "", arena, error) : NULL;
+}
+
+const char *meso_mesh_strand_array(const MesoMeshWriteOptions *options, MesoArena *arena, MesoError *error)
+{
+    return options->strand_count ? strand_text(options, "[", ",", false, "]", arena, error) : "";
 }
 
 const char *meso_mesh_provenance(const MesoMeshWriteOptions *options, MesoArena *arena,

@@ -68,6 +68,13 @@ const char *meso_mesh_material_names(const MesoScene *scene, MesoArena *arena, M
 /* What files call the names of a channel: "tiles". NULL with `error` filled. */
 const char *meso_mesh_names_key(const MesoIdChannel *channel, MesoArena *arena, MesoError *error);
 
+/* A line MARK "strand_length NUMBER LENGTH" for each strand that the options tell of; NULL with `error` filled. */
+const char *meso_mesh_strand_lines(const MesoMeshWriteOptions *options, const char *mark, MesoArena *arena,
+                                   MesoError *error);
+
+/* The lengths as a JSON array on one line; "" where the options have none. */
+const char *meso_mesh_strand_array(const MesoMeshWriteOptions *options, MesoArena *arena, MesoError *error);
+
 /* The provenance as one line; "" where the options have none. */
 const char *meso_mesh_provenance(const MesoMeshWriteOptions *options, MesoArena *arena,
                                  MesoError *error);

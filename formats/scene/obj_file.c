@@ -186,7 +186,10 @@ static size_t format_parts(const void *context, const MesoSceneParts *parts, uin
 static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError *error)
 {
     const char *text = meso_provenance_lines(stream->options->provenance, "# ", arena, error);
-    if (!text)
+    const char *lengths = text ? meso_mesh_strand_lines(stream->options, "# ", arena, error) : NULL;
+    if (lengths)
+        text = meso_arena_print(arena, error, "%s%s", text, lengths);
+    if (!text || !lengths)
         return MESO_ERR_MEMORY;
     const char *file = stream->options->materials;
     if (file)

@@ -202,6 +202,8 @@ static MesoStatus put_header(MesoMeshStream *stream, MesoArena *arena, MesoError
     if (!status)
         status = put_names(stream, arena, error);
     if (!status)
+        status = put(stream, meso_mesh_strand_lines(stream->options, "comment ", arena, error), error);
+    if (!status)
         status = put_selection(stream, arena, error);
     return status ? status : put_elements(stream, arena, error);
 }

@@ -85,19 +85,30 @@ static void join(Finder *f, const End *a, const End *b)
     f->mate[b->number] = a->number;
 }
 
+/* Whether two ends may go on into each other; in one slot, only a cap and what it closes. */
+static bool may_join(const Finder *f, const End *a, const End *b, bool same_slot)
+{
+    uint32_t x = a->number / 2, y = b->number / 2;
+    if (f->mate[a->number] != MESO_NO_INDEX || f->mate[b->number] != MESO_NO_INDEX)
+        return false;
+    if (!same_slot)
+        return f->scene->sweeps[x].ids != f->scene->sweeps[y].ids;
+    return f->is_cap[x] != f->is_cap[y];
+}
+
 /*
  * Ends at one place, narrow ones first. Where a section is used twice in a tile, each of the two goes on into another slot
  * if it can; alone with each other, they are the two ends of a loop within one.
  */
 static void pair_group(Finder *f, const End *ends, uint32_t count)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t slot = f->scene->sweeps[ends[i].number / 2].ids;
-        for (uint32_t k = i + 1; k < count && f->mate[ends[i].number] == MESO_NO_INDEX; k++)
-            if (f->mate[ends[k].number] == MESO_NO_INDEX &&
-                (count == 2 || f->scene->sweeps[ends[k].number / 2].ids != slot))
-                join(f, &ends[i], &ends[k]);
-    }
+    if (count == 2)
+        join(f, &ends[0], &ends[1]);
+    for (int same_slot = 0; same_slot < 2; same_slot++)
+        for (uint32_t i = 0; i < count; i++)
+            for (uint32_t k = i + 1; k < count; k++)
+                if (may_join(f, &ends[i], &ends[k], same_slot))
+                    join(f, &ends[i], &ends[k]);
 }
 
 static MesoStatus pair_ends(Finder *f, MesoArena *arena, MesoError *error)

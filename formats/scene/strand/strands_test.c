@@ -165,7 +165,7 @@ static void check_curves(SceneFixture *fixture, const char *text)
     check_points(fixture, values);
     CHECK(read_array(&text, "float[] widths = [", values, ROOM) == ends && values[0] > 0);
     CHECK(strncmp(text, "] (interpolation = \"varying\")", 29) == 0);
-    CHECK(read_array(&text, "int[] primvars:strand = [", values, ROOM) == curves && values[curves - 1] == curves - 1);
+    CHECK(read_array(&text, "int[] primvars:strand = [", values, ROOM) == curves && values[curves - 1] == (float)(curves - 1));
     CHECK(read_array(&text, "float[] primvars:strand_length = [", lengths, 256) == curves && lengths[0] > 1);
     CHECK(read_array(&text, "int[] primvars:slot = [", values, ROOM) == ends && values[0] < 25);
     CHECK(read_array(&text, "int[] primvars:tile = [", values, ROOM) == ends);

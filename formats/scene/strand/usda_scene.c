@@ -25,6 +25,7 @@ typedef struct Writer {
     const MesoSceneParts *parts;
     const MesoMeshWriteOptions *options;
     MesoStrands strands;
+    uint32_t strand_channel;        /* the one called "strand", or MESO_NO_INDEX */
     uint32_t curve_count;
     Curve *curves;                  /* [curve_count] */
     MesoMeshVertex *vertices;       /* [of the largest body] */
@@ -186,9 +187,12 @@ static void put_widths(Writer *w, const Curve *curve)
     }
 }
 
+/* As the channel numbers it, where there is one. */
 static void put_strand(Writer *w, const Curve *curve)
 {
-    put_whole(w, curve->strand);
+    const MesoScene *scene = w->parts->scene;
+    uint32_t row = scene->sweeps[w->strands.pieces[curve->begin].sweep].ids;
+    put_whole(w, w->strand_channel == MESO_NO_INDEX ? curve->strand : meso_scene_id(scene, row, w->strand_channel));
 }
 
 static void put_length(Writer *w, const Curve *curve)
@@ -249,6 +253,8 @@ static void print_curves(Writer *w, uint32_t material)
     each_curve(w, material, put_length);
     end_array(w, "uniform");
     for (uint32_t channel = 0; channel < w->parts->scene->channel_count; channel++) {
+        if (channel == w->strand_channel)
+            continue;
         print_channel(w, channel);
         for (uint32_t c = 0; c < w->curve_count; c++)
             if (w->curves[c].material == material)
@@ -456,6 +462,10 @@ static MesoStatus allocate(Writer *w, MesoArena *arena, MesoError *error)
         vertices = v > vertices ? v : vertices;
         faces = f > faces ? f : faces;
     }
+    w->strand_channel = MESO_NO_INDEX;
+    for (uint32_t c = 0; c < parts->scene->channel_count; c++)
+        if (strcmp(parts->scene->channels[c].name, "strand") == 0)
+            w->strand_channel = c;
     w->curve_count = cut_curves(w, NULL);
     w->curves = MESO_NEW(arena, Curve, w->curve_count, error);
     w->vertices = MESO_NEW(arena, MesoMeshVertex, vertices, error);
