@@ -202,19 +202,19 @@ static void add_root(Document *d)
 
 /* ---- the document ---- */
 
-static json_t *names_of(const MesoIdChannel *channel)
+static json_t *names_of(Document *d, const MesoIdChannel *channel)
 {
     json_t *names = json_array();
-    for (uint32_t i = 0; names && i < channel->count; i++)
-        json_array_append_new(names, meso_json_string(channel->names[i]));
+    for (uint32_t i = 0; i < channel->count; i++)
+        add(d, names, meso_json_string(channel->names[i]));
     return names;
 }
 
-static json_t *lengths_of(const MesoMeshWriteOptions *options)
+static json_t *lengths_of(Document *d)
 {
     json_t *lengths = json_array();
-    for (uint32_t i = 0; lengths && i < options->strand_count; i++)
-        json_array_append_new(lengths, meso_json_shortest(options->strand_lengths[i]));
+    for (uint32_t i = 0; i < d->options->strand_count; i++)
+        add(d, lengths, meso_json_shortest(d->options->strand_lengths[i]));
     return lengths;
 }
 
@@ -233,13 +233,13 @@ static MesoStatus add_asset(Document *d, MesoArena *arena, MesoError *error)
     if (*text)
         set(d, extras, "provenance", meso_json_string(text));
     if (d->options->strand_count)
-        set(d, extras, "strand_lengths", lengths_of(d->options));
+        set(d, extras, "strand_lengths", lengths_of(d));
     for (uint32_t c = 0; c < scene->channel_count; c++) {
         const char *key = meso_mesh_names_key(&scene->channels[c], arena, error);
         if (!key)
             return MESO_ERR_MEMORY;
         if (scene->channels[c].names)
-            set(d, extras, key, names_of(&scene->channels[c]));
+            set(d, extras, key, names_of(d, &scene->channels[c]));
     }
     return MESO_OK;
 }

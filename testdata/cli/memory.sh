@@ -80,9 +80,15 @@ each meso-solve -q --threads 1 --report out/why.json quad.tiles.json cube.obj -o
 each meso-solve -q --threads 1 --engine exact quad.tiles.json cube.obj -o out/cube.slots
 each meso-solve -q --threads 1 --seeds 1-3 --each out/%d.slots quad.tiles.json cube.obj -o out/lines.jsonl
 each meso-map -q --threads 1 quad.tiles.json cube.obj cube.slots -o out/cube.meso
-for kind in ply obj glb drc; do
+for kind in ply obj glb drc stl usda; do
     each meso-map -q --threads 1 cube.meso -o out/cube.$kind
 done
+each meso-map -q --threads 1 --compress draco cube.meso -o out/cube.glb
+each meso-map -q --threads 1 --weld --cap-borders cube.meso -o out/cube.ply
+for share in 1 2; do
+    meso-map -q --shard $share/2 cube.meso -o share-$share.ply
+done
+each meso-map -q --join share-1.ply share-2.ply -o out/cube.ply
 each meso-mesh -q --threads 1 weld=0.1 clean separate orient subdivide=2 info cube.obj -o out/cube.obj --json=out/cube.json
 each meso-mesh -q --threads 1 subdivide=linear,2 decimate=50% cube.obj -o out/cube.ply
 cp "$fixtures"/*.pattern.json "$fixtures/flowers.macros.json" "$fixtures/vase.obj" .
