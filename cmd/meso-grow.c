@@ -3,7 +3,7 @@
 #include "libcore/chart/geometry_image.h"
 #include "libcore/growth/shape/terminal_shape.h"
 
-#define OUTPUTS "OUT.meso|.ply|.obj|.glb|.drc|.stl|.usda|.svg"
+#define OUTPUTS "OUT.meso|MESH|.svg"
 
 static const MesoToolInfo GROW_TOOL = {
     .name = "meso-grow",

@@ -1,7 +1,7 @@
 /* meso-quilt: grows a swatch of geometry over a surface, patch by patch. */
 #include "cmd/quilt/quilt_job.h"
 
-#define OUTPUTS "OUT.meso|.quilt|.ply|.obj|.glb|.drc|.stl|.usda"
+#define OUTPUTS "OUT.meso|.quilt|MESH"
 
 static const MesoToolInfo QUILT_TOOL = {
     .name = "meso-quilt",

@@ -46,6 +46,9 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
                          draco, output->kind->name);
     if (output->given.compress && output->kind->draco != MESO_SCENE_MAY_DRACO)
         return meso_fail(error, MESO_ERR_USAGE, "--compress is for .glb; the output is .%s", output->kind->name);
+    if ((output->lengths || output->tangents) && (output->kind->draco != MESO_SCENE_MAY_DRACO || is_draco(output)))
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb that is not compressed",
+                         output->lengths ? "lengths" : "tangents");
     if ((output->weld || output->cap_borders) && !output->kind->write)
         return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; the output is .%s",
                          output->weld ? "weld" : "cap-borders", output->kind->name);
@@ -156,6 +159,8 @@ static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, cons
         .normal_bits = output->normal_bits,
         .speed = output->speed,
         .compression = is_draco(output) ? MESO_GLB_DRACO : MESO_GLB_PLAIN,
+        .lengths = output->lengths,
+        .tangents = output->tangents,
         .z_up = strcmp(output->up, "z") == 0,
         .unit = output->unit,
         .provenance = &tool->provenance,

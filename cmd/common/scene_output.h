@@ -17,7 +17,7 @@
 #include "formats/scene/mesh_file.h"
 
 /* For the synopsis, and for the words of MesoToolInfo. */
-#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|.ply|.obj|.glb|.drc|.stl|.usda"
+#define MESO_SCENE_OUTPUT_NAMES "OUT.meso|MESH"
 #define MESO_SCENE_OUTPUT_WORDS "--output .meso .ply .obj .glb .drc .stl .usda\n"
 
 typedef struct MesoSceneKind {
@@ -35,6 +35,7 @@ typedef struct MesoSceneOutput {
     const char *compress, *up;  /* --compress, --up */
     float unit;                 /* --unit */
     const char *slots, *shard;  /* --slots, --shard; NULL: all of it */
+    bool lengths, tangents;     /* --lengths, --tangents */
     bool weld, cap_borders;     /* --weld, --cap-borders */
     MesoSelectionRule rule;     /* what they say, from meso_tool_choose_scene_kind() */
     uint32_t position_bits, normal_bits, speed;
@@ -61,6 +62,8 @@ typedef struct MesoSceneOutput {
                 "none|draco", .given = &(o).given.compress), \
     MESO_NUMBER(0, "unit", "M", "metres of one unit, for .glb and .usda (default 1)", &(o).unit, 1e-9, 1e9, \
                 .given = &(o).given.unit), \
+    MESO_FLAG(0, "lengths", "of .glb: lengths around and along as second texture coordinates", &(o).lengths), \
+    MESO_FLAG(0, "tangents", "of .glb: tangents", &(o).tangents), \
     MESO_COUNT(0, "position-bits", "N", "Draco: precision of positions (default 14)", &(o).position_bits, 4, 24, \
                .given = &(o).given.position_bits), \
     MESO_COUNT(0, "normal-bits", "N", "Draco: precision of normals (default 10)", &(o).normal_bits, 4, 16, \

@@ -120,6 +120,12 @@ static json_t *add_attributes(Document *d, const MesoGlbPrimitive *primitive, js
         add_attribute(d, attributes, draco, name, add_accessor(d, view, offset, type, TYPE_SHORT, count),
                       ids->channel_id[c]);
     }
+    if (d->options->lengths && !draco) {
+        set(d, attributes, "TEXCOORD_1", json_integer(add_accessor(d, view, offset, "VEC2", TYPE_FLOAT, count)));
+        offset += 8;
+    }
+    if (d->options->tangents && !draco)
+        set(d, attributes, "TANGENT", json_integer(add_accessor(d, view, offset, "VEC4", TYPE_FLOAT, count)));
     return attributes;
 }
 
@@ -127,7 +133,7 @@ static json_t *add_attributes(Document *d, const MesoGlbPrimitive *primitive, js
 
 static json_t *make_plain(Document *d, const MesoGlbPrimitive *p)
 {
-    uint32_t stride = meso_glb_stride(d->parts->scene);
+    uint32_t stride = meso_glb_stride(d->parts->scene, d->options);
     json_int_t vertices = add_view(d, p->vertices_at, stride * p->vertex_count, stride, ARRAY_BUFFER);
     json_int_t indices = add_view(d, p->indices_at, 12 * p->triangle_count, 0, ELEMENT_BUFFER);
     json_t *attributes = add_attributes(d, p, vertices, NULL);

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "formats/scene/surface_frame.h"
+
 /* Runs in the order of the parts; `runs` NULL only counts. */
 static uint32_t cut_runs(const MesoSceneParts *parts, uint64_t most_faces, MesoGlbRun *runs)
 {
@@ -53,9 +55,11 @@ MesoStatus meso_glb_runs(MesoGlbRun **runs, uint32_t *count, const MesoScenePart
     return MESO_OK;
 }
 
-uint32_t meso_glb_stride(const MesoScene *scene)
+uint32_t meso_glb_stride(const MesoScene *scene, const MesoMeshWriteOptions *options)
 {
-    return (uint32_t)sizeof(MesoMeshVertex) + (meso_scene_is_colored(scene) ? 4 : 0) + 4 * scene->channel_count;
+    return (uint32_t)sizeof(MesoMeshVertex) + (meso_scene_is_colored(scene) ? 4 : 0) + 4 * scene->channel_count +
+           (options->lengths ? (uint32_t)sizeof(MesoVec2) : 0) +
+           (options->tangents ? (uint32_t)sizeof(MesoTangent) : 0);
 }
 
 MesoStatus meso_glb_heads(uint32_t head[5], uint32_t binary_head[2], size_t json_size, uint64_t size,

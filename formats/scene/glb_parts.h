@@ -29,8 +29,9 @@ typedef struct MesoGlbPrimitive {
     const MesoDracoResult *draco;   /* NULL: plain */
 } MesoGlbPrimitive;
 
-/* Bytes of one vertex, plain: as in MesoMeshVertex, its colour where the scene has some, and 4 an id. */
-uint32_t meso_glb_stride(const MesoScene *scene);
+/* Bytes of one vertex, plain: as in MesoMeshVertex, its colour where the scene has some, 4 an id, and what the options
+ * have of lengths and tangents. */
+uint32_t meso_glb_stride(const MesoScene *scene, const MesoMeshWriteOptions *options);
 
 /*
  * The JSON part: a root, below it a node with a mesh for each material, and in it the primitives [count], of which

@@ -9,13 +9,16 @@
 #include <string.h>
 
 #include "formats/scene/glb_parts.h"
+#include "formats/scene/surface_frame.h"
+
+enum { FRAME_BYTES = sizeof(MesoTangent) + sizeof(MesoVec2) };
 
 /* One primitive while it is written. */
 typedef struct Piece {
     uint32_t run_count;
     const MesoPartRange *ranges;    /* [run_count] in the order of the parts */
     const uint64_t *base;           /* [run_count] vertices before each */
-    bool colored;
+    bool colored, lengths, tangents;
     uint32_t stride;
     pthread_mutex_t *lock;
     MesoBox *box;                   /* of its positions, under the lock */
@@ -61,13 +64,40 @@ static uint8_t *format_part(const Piece *piece, const MesoSceneParts *parts, uin
     return out;
 }
 
+/* What stands at the end of the rows of a part. `scratch` holds what they are made from and made of. */
+static void format_frames(const Piece *piece, const MesoSceneParts *parts, uint32_t part,
+                          const MesoMeshVertex *vertices, uint8_t *scratch, uint8_t *out)
+{
+    uint64_t count = parts->vertex_begin[part + 1] - parts->vertex_begin[part];
+    uint64_t face_count = parts->face_begin[part + 1] - parts->face_begin[part];
+    MesoTangent *tangents = (MesoTangent *)(void *)scratch;
+    MesoMeshFace *faces = (MesoMeshFace *)(void *)(tangents + count);
+    MesoVec2 *lengths = (MesoVec2 *)(void *)(faces + face_count);
+    uint8_t *end = out + piece->stride;
+    if (piece->tangents) {
+        meso_scene_faces(parts, part, part + 1, 0, faces);
+        meso_surface_tangents(count, vertices, face_count, faces, tangents);
+        end -= sizeof *tangents;
+        for (uint64_t i = 0; i < count; i++)
+            memcpy(end + i * piece->stride, &tangents[i], sizeof *tangents);
+    }
+    if (piece->lengths) {
+        meso_surface_lengths(parts, part, vertices, lengths);
+        end -= sizeof *lengths;
+        for (uint64_t i = 0; i < count; i++)
+            memcpy(end + i * piece->stride, &lengths[i], sizeof *lengths);
+    }
+}
+
 static size_t format_vertices(const void *context, const MesoSceneParts *parts, uint32_t begin, uint32_t end,
                               uint8_t *out, uint8_t *scratch)
 {
     const Piece *piece = context;
     uint64_t first = parts->vertex_begin[begin], count = parts->vertex_begin[end] - first;
     MesoMeshVertex *vertices = (MesoMeshVertex *)(void *)scratch;
-    MesoMeshColor *colors = (MesoMeshColor *)(void *)(vertices + count);
+    uint8_t *frames = (uint8_t *)(vertices + count);
+    MesoMeshColor *colors = (MesoMeshColor *)(frames + (piece->lengths || piece->tangents
+        ? count * FRAME_BYTES + (parts->face_begin[end] - parts->face_begin[begin]) * sizeof(MesoMeshFace) : 0));
     uint8_t *next = out;
     meso_scene_vertices(parts, begin, end, vertices);
     if (piece->colored)
@@ -75,6 +105,8 @@ static size_t format_vertices(const void *context, const MesoSceneParts *parts, 
     bound(piece, vertices, count);
     for (uint32_t part = begin; part < end; part++) {
         uint64_t at = parts->vertex_begin[part] - first;
+        if (piece->lengths || piece->tangents)
+            format_frames(piece, parts, part, vertices + at, frames, next);
         next = format_part(piece, parts, part, vertices + at, piece->colored ? colors + at : NULL, next);
     }
     return (size_t)(next - out);
@@ -151,7 +183,9 @@ static MesoStatus allocate(Writer *w, MesoError *error)
 static void make_pieces(Writer *w)
 {
     const MesoSceneParts *parts = w->stream.parts;
-    const Piece common = {.colored = meso_scene_is_colored(parts->scene), .stride = meso_glb_stride(parts->scene),
+    const MesoMeshWriteOptions *options = w->stream.options;
+    const Piece common = {.colored = meso_scene_is_colored(parts->scene), .lengths = options->lengths,
+                          .tangents = options->tangents, .stride = meso_glb_stride(parts->scene, options),
                           .lock = &w->lock, .finite = &w->finite};
     for (uint32_t i = 0; i < w->run_count; i++) {
         const MesoPartRange range = w->runs[i].range;
@@ -197,7 +231,7 @@ static MesoStatus leave_room(Writer *w, MesoError *error)
     meso_arena_rewind(w->arena, mark);
     w->binary_at = MESO_GLB_HEAD + w->json_size + MESO_GLB_BINARY_HEAD;
     w->stream.offset = w->binary_at;
-    uint64_t size = meso_glb_stride(parts->scene) * parts->vertex_begin[parts->part_count] +
+    uint64_t size = meso_glb_stride(parts->scene, w->stream.options) * parts->vertex_begin[parts->part_count] +
                     12 * parts->triangle_count;
     return meso_glb_heads(head, binary_head, w->json_size, size, w->stream.options, error);
 }
@@ -205,8 +239,11 @@ static MesoStatus leave_room(Writer *w, MesoError *error)
 static MesoStatus write_binary(Writer *w, MesoError *error)
 {
     const Piece *first = &w->pieces[0];
+    bool framed = first->lengths || first->tangents;
     MesoMeshPass vertices = {.format = format_vertices, .vertex_bytes = first->stride,
-                             .vertex_scratch = sizeof(MesoMeshVertex) + (first->colored ? sizeof(MesoMeshColor) : 0)};
+                             .vertex_scratch = sizeof(MesoMeshVertex) + (first->colored ? sizeof(MesoMeshColor) : 0) +
+                                               (framed ? FRAME_BYTES : 0),
+                             .face_scratch = framed ? sizeof(MesoMeshFace) : 0};
     MesoMeshPass indices = {.format = format_indices, .face_bytes = 24, .face_scratch = sizeof(MesoMeshFace)};
     MesoStatus status = MESO_OK;
     for (uint32_t i = 0; !status && i < 2 * w->primitive_count; i++) {

@@ -109,6 +109,14 @@ static void bench_copy(uint64_t total, const char *folder)
     meso_arena_release(&arena);
 }
 
+static MesoStatus write_draco(const MesoSceneParts *parts, const MesoMeshWriteOptions *options, MesoOutput *output,
+                              MesoError *error)
+{
+    MesoMeshWriteOptions draco = *options;
+    draco.compression = MESO_GLB_DRACO;
+    return meso_glb_write(parts, &draco, output, error);
+}
+
 int main(int argc, char **argv)
 {
     const char *folder = argc > 1 ? argv[1] : ".";
@@ -116,6 +124,8 @@ int main(int argc, char **argv)
     bench_copy(bench("ply", meso_ply_write, 50, threads, folder), folder);
     bench("obj", meso_obj_write, 25, threads, folder);
     bench("drc", meso_drc_write, 16, threads, folder);
-    bench("glb", meso_glb_write, 25, threads, folder);
+    bench("draco.glb", write_draco, 25, threads, folder);
+    bench("glb", meso_glb_write, 50, threads, folder);
+    bench("stl", meso_stl_write, 50, threads, folder);
     return 0;
 }

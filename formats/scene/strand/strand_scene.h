@@ -2,7 +2,7 @@
 #ifndef MESO_STRAND_SCENE_H
 #define MESO_STRAND_SCENE_H
 
-#include "formats/scene/strand/strands.h"
+#include "formats/scene/strand/sweep_strands.h"
 #include "libcore/scene/parts.h"
 
 /*

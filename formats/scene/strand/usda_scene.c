@@ -11,7 +11,7 @@
 
 #include "formats/file/float_text.h"
 #include "formats/scene/mesh_window.h"
-#include "formats/scene/strand/strands.h"
+#include "formats/scene/strand/sweep_strands.h"
 
 enum { BUFFER = 1 << 16, ITEM = 1 << 10 };
 

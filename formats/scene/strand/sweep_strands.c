@@ -1,4 +1,4 @@
-#include "formats/scene/strand/strands.h"
+#include "formats/scene/strand/sweep_strands.h"
 
 #include <math.h>
 #include <stdlib.h>

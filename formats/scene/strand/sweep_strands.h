@@ -1,6 +1,6 @@
 /* Strands: sweeps that go on into each other, found by where they end. */
-#ifndef MESO_STRANDS_H
-#define MESO_STRANDS_H
+#ifndef MESO_SWEEP_STRANDS_H
+#define MESO_SWEEP_STRANDS_H
 
 #include "libcore/base/arena.h"
 #include "libcore/scene/scene.h"

@@ -1,5 +1,5 @@
 /* Strands of a weave, of a ring, and of ends that share a place; and the curves of a file, read back. */
-#include "formats/scene/strand/strands.h"
+#include "formats/scene/strand/sweep_strands.h"
 
 #include "formats/scene/mesh_file_fixture.h"
 #include "formats/scene/strand/usda_scene.h"
