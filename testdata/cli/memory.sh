@@ -85,10 +85,6 @@ for kind in ply obj glb drc stl usda; do
 done
 each meso-map -q --threads 1 --compress draco cube.meso -o out/cube.glb
 each meso-map -q --threads 1 --weld --cap-borders cube.meso -o out/cube.ply
-for share in 1 2; do
-    meso-map -q --shard $share/2 cube.meso -o share-$share.ply
-done
-each meso-map -q --join share-1.ply share-2.ply -o out/cube.ply
 each meso-mesh -q --threads 1 weld=0.1 clean separate orient subdivide=2 info cube.obj -o out/cube.obj --json=out/cube.json
 each meso-mesh -q --threads 1 subdivide=linear,2 decimate=50% cube.obj -o out/cube.ply
 cp "$fixtures"/*.pattern.json "$fixtures/flowers.macros.json" "$fixtures/vase.obj" .
