@@ -241,8 +241,8 @@ static MesoStatus write_binary(Writer *w, MesoError *error)
     const Piece *first = &w->pieces[0];
     bool framed = first->lengths || first->tangents;
     MesoMeshPass vertices = {.format = format_vertices, .vertex_bytes = first->stride,
-                             .vertex_scratch = sizeof(MesoMeshVertex) + (first->colored ? sizeof(MesoMeshColor) : 0) +
-                                               (framed ? FRAME_BYTES : 0),
+                             .vertex_scratch = (uint32_t)(sizeof(MesoMeshVertex) + (framed ? FRAME_BYTES : 0) +
+                                                          (first->colored ? sizeof(MesoMeshColor) : 0)),
                              .face_scratch = framed ? sizeof(MesoMeshFace) : 0};
     MesoMeshPass indices = {.format = format_indices, .face_bytes = 24, .face_scratch = sizeof(MesoMeshFace)};
     MesoStatus status = MESO_OK;
