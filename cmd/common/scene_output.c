@@ -42,8 +42,8 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
     draco = output->given.position_bits ? "position-bits" : draco;
     const char *placed = output->given.unit ? "unit" : output->given.up ? "up" : NULL;
     if (draco && !is_draco(output))
-        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc, and for .glb with --compress draco; the output is .%s",
-                         draco, output->kind->name);
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc, and for .glb with --compress draco; the output is "
+                         ".%s", draco, output->kind->name);
     if (output->given.compress && output->kind->draco != MESO_SCENE_MAY_DRACO)
         return meso_fail(error, MESO_ERR_USAGE, "--compress is for .glb; the output is .%s", output->kind->name);
     if ((output->lengths || output->tangents) && (output->kind->draco != MESO_SCENE_MAY_DRACO || is_draco(output)))
@@ -53,7 +53,8 @@ static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; the output is .%s",
                          output->weld ? "weld" : "cap-borders", output->kind->name);
     if (placed && !output->kind->placed)
-        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb and .usda; the output is .%s", placed, output->kind->name);
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb and .usda; the output is .%s", placed,
+                         output->kind->name);
     return MESO_OK;
 }
 
@@ -79,7 +80,8 @@ static MesoStatus make_rule(MesoSceneOutput *output, MesoError *error)
     if (output->slots && output->weld)
         return meso_fail(error, MESO_ERR_USAGE, "--slots cuts strands, --weld joins them; --shard takes whole ones");
     if ((output->slots || output->shard) && !output->kind->write)
-        return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; a model is small", output->slots ? "slots" : "shard");
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; a model is small",
+                         output->slots ? "slots" : "shard");
     if (output->slots && (!parse_pair(output->slots, '-', pair) || pair[0] > pair[1]))
         return meso_fail(error, MESO_ERR_USAGE, "--slots takes two numbers, the lower one first: 0-99, not '%s'",
                          output->slots);

@@ -53,8 +53,8 @@ typedef struct MesoSceneOutput {
 
 /* Which axis of the scene is up: for the tools that have no --up of their own. */
 #define MESO_UP_OPTION(o)                                                                     \
-    MESO_CHOICE(0, "up", "AXIS", "that is up in the product's coordinates, y (default) or z, for .glb and .usda", &(o).up, \
-                "y|z", .given = &(o).given.up)
+    MESO_CHOICE(0, "up", "AXIS", "that is up in the product's coordinates, y (default) or z, for .glb and .usda", \
+                &(o).up, "y|z", .given = &(o).given.up)
 
 #define MESO_MESH_OPTIONS(o)                                                                  \
     MESO_GROUP("Meshes (.glb, .drc, .usda)"), \

@@ -85,7 +85,8 @@ static MesoStatus choose_kind(Job *job)
         return meso_fail(&job->tool->error, MESO_ERR_USAGE, "--surface is for meshes and models; a .quilt holds its "
                          "surface");
     const char *given = o->given.position_bits ? "position-bits" : o->given.normal_bits ? "normal-bits"
-        : o->given.speed ? "speed" : o->given.compress ? "compress" : o->given.unit ? "unit" : o->given.up ? "up" : NULL;
+        : o->given.speed ? "speed" : o->given.compress ? "compress" : o->given.unit ? "unit"
+        : o->given.up ? "up" : NULL;
     if (!job->tool->output)
         job->tool->output = "-";
     if (!given)

@@ -199,7 +199,8 @@ static void test_materials(void)
     meso_input_close(&input);
     CHECK(meso_output_open(&output, path_of("x.obj"), &error) == MESO_OK);
     CHECK(meso_mtl_write(&fixture.scene, NULL, output, &error) == MESO_OK);
-    CHECK(meso_output_commit(output, &error) == MESO_OK && meso_input_open(&input, path_of("x.obj"), &error) == MESO_OK);
+    CHECK(meso_output_commit(output, &error) == MESO_OK);
+    CHECK(meso_input_open(&input, path_of("x.obj"), &error) == MESO_OK);
     CHECK(after(&input, "newmtl warp/strand\nKd 0.5 0.2 0.1\nPr 0.5\nPm 0\nnewmtl weft/strand\nKd 0.1 0.3 0.6\n"));
     meso_input_close(&input);
     scene_fixture_release(&fixture);

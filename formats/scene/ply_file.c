@@ -12,7 +12,8 @@ _Static_assert(sizeof(MesoMeshColor) == 3, "layout of the rows");
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "rows are written as they lie in memory");
 
 /* Count and corners of a quad; ids and material. */
-enum { VERTEX_BYTES = sizeof(MesoMeshVertex) + sizeof(MesoMeshColor), CORNERS_BYTES = 1 + 16, MAX_TAIL = 4 * MESO_ID_CHANNELS + 2 };
+enum { VERTEX_BYTES = sizeof(MesoMeshVertex) + sizeof(MesoMeshColor) };
+enum { CORNERS_BYTES = 1 + 16, MAX_TAIL = 4 * MESO_ID_CHANNELS + 2 };
 
 static uint8_t byte_of(float value)
 {

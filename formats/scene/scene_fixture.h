@@ -125,7 +125,8 @@ static inline void colored_fixture_init(ColoredFixture *c)
     *c = (ColoredFixture){.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
                    .colors = {{255, 0, 0}, {0, 51, 0}, {0, 0, 102}}, .corners = {0, 1, 2},
                    .ids = {0, 0, 0, 1, 70000, 0},
-                   .material = {.albedo = {1, 1, 1}}, .names = {{"leaf", "stem one"}, {"green", "dry"}, {"paint", NULL}}};
+                   .material = {.albedo = {1, 1, 1}},
+                   .names = {{"leaf", "stem one"}, {"green", "dry"}, {"paint", NULL}}};
     c->body = (MesoBody){3, 1, 3, c->positions, c->normals, NULL, c->colors, c->corners};
     c->placed = (MesoPlacedBody){.ids = 1};
     c->scene = (MesoScene){.channel_count = 3,

@@ -5,9 +5,9 @@
 #include "libcore/scene/parts.h"
 
 /*
- * Lengths over the surface of one part to `out` [its vertices], in scene units: of a sweep, around from its first column
- * and along from its first ring, each by the chords of its own ring and column; of a body, its texture coordinates.
- * `vertices` are those of the part.
+ * Lengths over the surface of one part to `out` [its vertices], in scene units: of a sweep, around from its first
+ * column and along from its first ring, each by the chords of its own ring and column; of a body, its texture
+ * coordinates. `vertices` are those of the part.
  */
 void meso_surface_lengths(const MesoSceneParts *parts, uint32_t part, const MesoMeshVertex *vertices, MesoVec2 *out);
 
@@ -17,8 +17,9 @@ typedef struct MesoTangent {
 } MesoTangent;
 
 /*
- * Tangents of one part to `out` [its vertices], from how texture coordinates lie on its faces [face_count], whose corners
- * count from `vertices`, mean over those around each vertex. Where they say nothing, any across the normal.
+ * Tangents of one part to `out` [its vertices], from how texture coordinates lie on its faces [face_count], whose
+ * corners count from `vertices`, mean over those around each vertex. Where they say nothing, any across the
+ * normal.
  */
 void meso_surface_tangents(uint64_t vertex_count, const MesoMeshVertex *vertices, uint64_t face_count,
                            const MesoMeshFace *faces, MesoTangent *out);

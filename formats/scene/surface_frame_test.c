@@ -30,8 +30,8 @@ static void test_blank(void)
     CHECK(fabsf(t[0].x) < 1e-6f && fabsf(t[0].y * t[0].y + t[0].z * t[0].z - 1) < 1e-6f && t[0].w == 1);
 }
 
-static void check_sweep(const SceneFixture *fixture, uint32_t part, const MesoMeshVertex *vertices, const MesoVec2 *lengths,
-                        const MesoTangent *tangents)
+static void check_sweep(const SceneFixture *fixture, uint32_t part, const MesoMeshVertex *vertices,
+                        const MesoVec2 *lengths, const MesoTangent *tangents)
 {
     const MesoSweptKind *kind = &fixture->scene.kinds[meso_scene_kind(&fixture->scene, part)];
     const MesoSweepColumn *columns = fixture->scene.columns + kind->column_begin;

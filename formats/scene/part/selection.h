@@ -27,8 +27,8 @@ typedef struct MesoSelectionRule {
 } MesoSelectionRule;
 
 /*
- * Parts keep their order, so that their vertices and faces are those of the whole. O(parts). MESO_ERR_INPUT where nothing
- * is selected, MESO_ERR_MEMORY.
+ * Parts keep their order, so that their vertices and faces are those of the whole. O(parts). MESO_ERR_INPUT where
+ * nothing is selected, MESO_ERR_MEMORY.
  */
 MesoStatus meso_selection_make(MesoSelection *selection, MesoArena *arena, const MesoSceneParts *whole,
                                const MesoSelectionRule *rule, MesoError *error);

@@ -6,8 +6,8 @@
 #include "libcore/scene/parts.h"
 
 /*
- * `out` is `in`, with a cap (scene.h) on each open end of a strand: those that the surface's borders cut. It starts with the
- * end's own ring, to the bit, and shares the arrays that stay. O(scene). MESO_ERR_MEMORY.
+ * `out` is `in`, with a cap (scene.h) on each open end of a strand: those that the surface's borders cut. It
+ * starts with the end's own ring, to the bit, and shares the arrays that stay. O(scene). MESO_ERR_MEMORY.
  */
 MesoStatus meso_strand_scene_cap(MesoScene *out, MesoArena *arena, const MesoScene *in, MesoError *error);
 
@@ -20,10 +20,11 @@ MesoStatus meso_strand_scene_number(MesoScene *out, MesoArena *arena, const Meso
                                     MesoError *error);
 
 /*
- * `out` has a body for each strand in place of its sweeps: vertices at the same place, to the bit, are one, and what then
- * is no triangle or quad any more is left out. So a strand is closed but for the ends that are open. Normals are the mean
- * of those that met; u goes around and v along the strand, 1 a sweep. A body has its first sweep's material, and of ids
- * only "strand" is left, as above. All is held in memory. MESO_ERR_MEMORY, MESO_ERR_LIMIT.
+ * `out` has a body for each strand in place of its sweeps: vertices at the same place, to the bit, are one, and
+ * what then is no triangle or quad any more is left out. So a strand is closed but for the ends that are open.
+ * Normals are the mean of those that met; u goes around and v along the strand, 1 a sweep. A body has its first
+ * sweep's material, and of ids only "strand" is left, as above. All is held in memory. MESO_ERR_MEMORY,
+ * MESO_ERR_LIMIT.
  */
 MesoStatus meso_strand_scene_weld(MesoScene *out, MesoArena *arena, const MesoScene *in, const MesoStrands *strands,
                                   uint32_t thread_count, MesoError *error);

@@ -125,7 +125,8 @@ static void test_caps(SceneFixture *f)
     for (uint32_t s = 0; s < after.count; s++) {
         uint32_t last = after.pieces[after.begin[s + 1] - 1].sweep, first = after.pieces[after.begin[s]].sweep;
         if (after.begin[s + 1] - after.begin[s] == N + 2)
-            CHECK(capped.kinds[meso_scene_kind(&capped, first)].cap && capped.kinds[meso_scene_kind(&capped, last)].cap);
+            CHECK(capped.kinds[meso_scene_kind(&capped, first)].cap &&
+                  capped.kinds[meso_scene_kind(&capped, last)].cap);
     }
 }
 

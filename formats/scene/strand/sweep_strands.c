@@ -97,8 +97,8 @@ static bool may_join(const Finder *f, const End *a, const End *b, bool same_slot
 }
 
 /*
- * Ends at one place, narrow ones first. Where a section is used twice in a tile, each of the two goes on into another slot
- * if it can; alone with each other, they are the two ends of a loop within one.
+ * Ends at one place, narrow ones first. Where a section is used twice in a tile, each of the two goes on into
+ * another slot if it can; alone with each other, they are the two ends of a loop within one.
  */
 static void pair_group(Finder *f, const End *ends, uint32_t count)
 {

@@ -21,10 +21,10 @@ typedef struct MesoStrands {
 } MesoStrands;
 
 /*
- * Two ends of sweeps belong together where they are at the same place, to the bit, and of one material; of several, those
- * that are as wide as each other. A cap is an end, and so a piece of the strand that it closes. Strands are in the order of
- * their first sweeps, and begin at an open end or a cap; closed ones begin with their first sweep.
- * O(sweeps log sweeps + columns). MESO_ERR_MEMORY.
+ * Two ends of sweeps belong together where they are at the same place, to the bit, and of one material; of
+ * several, those that are as wide as each other. A cap is an end, and so a piece of the strand that it closes.
+ * Strands are in the order of their first sweeps, and begin at an open end or a cap; closed ones begin with their
+ * first sweep. O(sweeps log sweeps + columns). MESO_ERR_MEMORY.
  */
 MesoStatus meso_strands_find(MesoStrands *strands, MesoArena *arena, const MesoScene *scene, MesoError *error);
 

@@ -63,7 +63,8 @@ typedef struct Square {
 static void square_init(Square *q, uint32_t count, const uint32_t (*ends)[2])
 {
     static const MesoVec3 corners[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    *q = (Square){.name = "m", .kind = {.column_count = 4, .joint_count = 3, .division_count = 3, .instance_count = count},
+    *q = (Square){.name = "m", .kind = {.column_count = 4, .joint_count = 3, .division_count = 3,
+                           .instance_count = count},
                   .ids = {0, 1, 2, 3}};
     for (uint32_t c = 0; c < 4; c++)
         q->columns[c] = (MesoSweepColumn){.start = {c < 2 ? 0.1f : -0.1f, 0}, .end = {0.1f, 0}, .joins_next = c < 3};
@@ -165,7 +166,8 @@ static void check_curves(SceneFixture *fixture, const char *text)
     check_points(fixture, values);
     CHECK(read_array(&text, "float[] widths = [", values, ROOM) == ends && values[0] > 0);
     CHECK(strncmp(text, "] (interpolation = \"varying\")", 29) == 0);
-    CHECK(read_array(&text, "int[] primvars:strand = [", values, ROOM) == curves && values[curves - 1] == (float)(curves - 1));
+    CHECK(read_array(&text, "int[] primvars:strand = [", values, ROOM) == curves &&
+          values[curves - 1] == (float)(curves - 1));
     CHECK(read_array(&text, "float[] primvars:strand_length = [", lengths, 256) == curves && lengths[0] > 1);
     CHECK(read_array(&text, "int[] primvars:slot = [", values, ROOM) == ends && values[0] < 25);
     CHECK(read_array(&text, "int[] primvars:tile = [", values, ROOM) == ends);

@@ -179,8 +179,8 @@ static MesoStatus adopt(const Welder *w, MesoArena *arena, MesoError *error)
     MesoStatus status = MESO_OK;
     for (uint32_t s = 0; s < w->strands->count; s++) {
         if (!status && w->status[s])
-            status = meso_fail(error, w->status[s], w->status[s] == MESO_ERR_LIMIT ? "a strand of over 2^32 vertices"
-                                                                                   : "out of memory for welded strands");
+            status = meso_fail(error, w->status[s], "%s", w->status[s] == MESO_ERR_LIMIT
+                                   ? "a strand of over 2^32 vertices" : "out of memory for welded strands");
         if (!status && !meso_arena_adopt(arena, w->blocks[s], error))
             status = MESO_ERR_MEMORY;
         if (status)

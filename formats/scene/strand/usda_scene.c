@@ -15,6 +15,8 @@
 
 enum { BUFFER = 1 << 16, ITEM = 1 << 10 };
 
+static const char BINDING[] = "(\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n";
+
 /* A stretch of a strand of one material: what becomes one curve. */
 typedef struct Curve {
     uint32_t strand, begin, end;    /* pieces [begin, end) of the strands */
@@ -233,8 +235,7 @@ static void print_curves(Writer *w, uint32_t material)
 {
     if (!has_curves(w, material))
         return;
-    print(w, "    def BasisCurves \"Strands_%u\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n",
-          material);
+    print(w, "    def BasisCurves \"Strands_%u\" %s", material, BINDING);
     print(w, "        uniform token type = \"cubic\"\n        uniform token basis = \"bezier\"\n"
              "        uniform token wrap = \"nonperiodic\"\n");
     begin_array(w, "int[] curveVertexCounts");
@@ -360,7 +361,7 @@ static void print_bodies(Writer *w, uint32_t material)
     };
     if (!has_bodies(w, material))
         return;
-    print(w, "    def Mesh \"Bodies_%u\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n", material);
+    print(w, "    def Mesh \"Bodies_%u\" %s", material, BINDING);
     print(w, "        uniform token subdivisionScheme = \"none\"\n");
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         begin_array(w, arrays[i].declaration);
