@@ -77,7 +77,7 @@ int main(int argc, char **argv)
         MESO_NUMBER(0, "amount", "A", "how much: times as long, degrees of twist and bend, or how far inflate goes",
                     &a.amount, -1e6, 1e6, .given = &a.given.amount),
         MESO_COUNT(0, "count", "N", "how many frames (default 24)", &a.count, 1, 1000000),
-        MESO_DRACO_OPTIONS(a.output),
+        MESO_MESH_OPTIONS(a.output),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/replicate/glb_parts.h"
+#include "formats/replicate/instance_glb_parts.h"
 #include "libcore/base/grow.h"
 
 typedef struct Kept {

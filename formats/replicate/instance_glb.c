@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "formats/replicate/glb_parts.h"
+#include "formats/replicate/instance_glb_parts.h"
 
 enum { CHUNK = 4096 };
 

@@ -2,8 +2,8 @@
  * Parts of GLB files of instances: the JSON part is made first, and names the pieces of the binary part, which are then
  * written in that order. All pieces are made of words of 32 bits, and so all are aligned.
  */
-#ifndef MESO_GLB_PARTS_H
-#define MESO_GLB_PARTS_H
+#ifndef MESO_INSTANCE_GLB_PARTS_H
+#define MESO_INSTANCE_GLB_PARTS_H
 
 #include <jansson.h>
 

@@ -1,4 +1,4 @@
-#include "formats/replicate/glb_parts.h"
+#include "formats/replicate/instance_glb_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
