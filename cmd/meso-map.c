@@ -12,6 +12,7 @@
 #include "cmd/common/tool.h"
 #include "cmd/map/map_join.h"
 #include "cmd/map/map_shell.h"
+#include "cmd/map/map_sweep.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/mesh/surface_read.h"
 #include "formats/model/model_file.h"
@@ -49,6 +50,7 @@ typedef struct MapArguments {
         bool thickness, offset, section_scale, tangent_scale, divisions, section_step;
     } given;
     MesoMapShell shell;
+    MesoMapSweep sweep;
     const char *mesh_path;
     bool strict;
     bool pairs;                 /* --quads-from-triangles */
@@ -62,11 +64,14 @@ typedef struct MapArguments {
                            offsetof(MapArguments, given.name)}
 #define SHELL_ROW(name) {offsetof(MesoMapOptions, name), sizeof((MesoMapOptions){0}.name), \
                          offsetof(MapArguments, shell.given.name)}
+#define SWEEP_ROW(name, option) {offsetof(MesoMapOptions, name), sizeof((MesoMapOptions){0}.name), \
+                                 offsetof(MapArguments, sweep.given.option)}
 static const struct {
     size_t offset, size, given;
 } MAPPING[] = {MAPPING_ROW(thickness), MAPPING_ROW(offset), MAPPING_ROW(section_scale), MAPPING_ROW(tangent_scale),
-               MAPPING_ROW(divisions), MAPPING_ROW(section_step), SHELL_ROW(normals), SHELL_ROW(side),
-               SHELL_ROW(limit_folds)};
+               MAPPING_ROW(divisions), MAPPING_ROW(section_step), SWEEP_ROW(frame, frame),
+               SWEEP_ROW(section_size, section_size), SWEEP_ROW(tolerance, tolerance),
+               SWEEP_ROW(tolerance_in, tolerance), SHELL_ROW(normals), SHELL_ROW(side), SHELL_ROW(limit_folds)};
 enum { MAPPING_COUNT = sizeof MAPPING / sizeof *MAPPING };
 
 static const bool *is_given(const MapArguments *a, uint32_t option)
@@ -112,6 +117,8 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
     a->given.divisions &= a->options.divisions != DEFAULTS.divisions;
     a->shell.given.normals &= a->options.normals != DEFAULTS.normals;
     a->shell.given.side &= a->options.side != DEFAULTS.side;
+    a->sweep.given.frame &= a->options.frame != DEFAULTS.frame;
+    a->sweep.given.section_size &= a->options.section_size != DEFAULTS.section_size;
     a->tool.provenance.command_line = meso_tool_command(&a->tool, NULL, &a->tool.arena, error);
     return a->tool.provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
 }
@@ -286,6 +293,8 @@ static void merge_options(void *context, MesoMapOptions *options)
         if (*is_given(a, i))
             memcpy((char *)options + MAPPING[i].offset, (const char *)&a->options + MAPPING[i].offset,
                    MAPPING[i].size);
+    if (a->given.divisions || a->given.section_step)    /* they stand in place of a tolerance */
+        options->tolerance = 0;
 }
 
 /* A model of tiles, expanded; or the scene of another one, with `tiling` NULL. `inputs` stay open: both may point
@@ -387,7 +396,9 @@ static MesoStatus write_product(MapArguments *a, const Mapped *mapped)
 static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
     Mapped mapped;
-    MesoStatus status = meso_tool_choose_scene_kind(&a->tool, &a->output);
+    MesoStatus status = meso_map_sweep_set(&a->sweep, a->given.divisions || a->given.section_step, &a->options, error);
+    if (!status)
+        status = meso_tool_choose_scene_kind(&a->tool, &a->output);
     if (!status && a->join)
         return meso_map_join(&a->tool, &a->output);
     if (!status)
@@ -428,6 +439,7 @@ int main(int argc, char **argv)
                     &a.options.section_step, 1e-4, 1, .given = &a.given.section_step,
                     .more = MESO_OPTION_OVERRIDES),
         MESO_MAP_SHELL_OPTIONS(a.shell),
+        MESO_MAP_SWEEP_OPTIONS(a.sweep),
         MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
                     &a.mesh_path, .more = MESO_OPTION_OUTWARD),
         MESO_STRICT_OPTION(a.strict),

@@ -12,11 +12,15 @@ layout(location = 8) in vec3 up1;
 layout(location = 9) in vec3 direction0;
 layout(location = 10) in vec3 direction1;
 layout(location = 11) in uint ids;
+layout(location = 12) in vec3 size_twist;       // size at both ends, twist
 
 layout(location = 0) uniform mat4 clip_from_world;
 layout(location = 1) uniform vec4 depth_axis;
 layout(location = 2) uniform float section_scale;
 layout(location = 3) uniform float cap_rise;
+layout(location = 8) uniform float turn;
+layout(location = 9) uniform int least_turn;    // the rule of frames: 0 paper, 1 minimal
+layout(location = 10) uniform vec4 middle;      // start.xy, end.xy
 
 out vec3 world_normal;
 out float view_depth;
@@ -29,32 +33,101 @@ vec3 unit(vec3 v, vec3 otherwise)
     return square > 0.0 ? v * inversesqrt(square) : otherwise;
 }
 
+vec3 across(vec3 up, vec3 tangent)
+{
+    vec3 axis = abs(tangent.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    return unit(cross(up, tangent), unit(cross(axis, tangent), axis));
+}
+
+vec2 turned(vec2 p, float angle)
+{
+    float c = cos(angle), s = sin(angle);
+    return vec2(c * p.x - s * p.y, s * p.x + c * p.y);
+}
+
+#ifndef CAP
+const int FRAME_STEPS = 8;      // MESO_FRAME_STEPS
+
+vec3 point_at(float v)
+{
+    float w = 1.0 - v;
+    return w * w * w * p0 + 3.0 * w * w * v * p1 + 3.0 * w * v * v * p2 + v * v * v * p3;
+}
+
+vec3 derivative_at(float v)
+{
+    float w = 1.0 - v;
+    return 3.0 * (w * w * (p1 - p0) + 2.0 * w * v * (p2 - p1) + v * v * (p3 - p2));
+}
+
+vec3 reflected(vec3 a, vec3 axis)
+{
+    float square = dot(axis, axis);
+    return square > 0.0 ? a - 2.0 * dot(axis, a) / square * axis : a;
+}
+
+// Double reflections from the start to v, in (0,1).
+vec3 least_turned(float v)
+{
+    vec3 point = p0, tangent = direction0, x = across(up0, direction0);
+    for (int i = 1; i <= FRAME_STEPS; i++) {
+        float at = min(float(i) / float(FRAME_STEPS), v);
+        vec3 next = point_at(at);
+        vec3 next_tangent = unit(derivative_at(at), at > 0.5 ? direction1 : direction0);
+        vec3 between = next - point;
+        vec3 to = reflected(reflected(x, between), next_tangent - reflected(tangent, between));
+        x = unit(to - dot(to, next_tangent) * next_tangent, x);
+        if (at == v)
+            break;
+        point = next;
+        tangent = next_tangent;
+    }
+    return x;
+}
+#endif
+
 void main()
 {
     float v = along;
 #ifdef CAP
     vec3 tangent = direction0, up = up0;
-    vec3 origin = p0 + section_scale * cap_rise * v * tangent;
-    vec2 s = (1.0 - v * v * v * v) * profile.xy;
-    vec2 n = cap_rise * profile_normal.xy;
-    float lean = 4.0 * v * v * v * dot(profile.xy, profile_normal.xy);
+    vec3 origin = p0 + section_scale * cap_rise * size_twist.x * v * tangent;
+    vec2 start = size_twist.x * profile.xy;
+    vec2 s = (1.0 - v * v * v * v) * start;
+    vec2 n = cap_rise * size_twist.x * profile_normal.xy;
+    float lean = 4.0 * v * v * v * dot(start, profile_normal.xy);
+    vec3 x = across(up, tangent);
     material_blend = 0.0;
 #else
-    float w = 1.0 - v, blend = v * v * (3.0 - 2.0 * v);
-    vec3 origin = w * w * w * p0 + 3.0 * w * w * v * p1 + 3.0 * w * v * v * p2 + v * v * v * p3;
-    vec3 derivative = 3.0 * (w * w * (p1 - p0) + 2.0 * w * v * (p2 - p1) + v * v * (p3 - p2));
+    bool inside = v > 0.0 && v < 1.0;
+    float w = 1.0 - v, blend = v * v * (3.0 - 2.0 * v), twist = size_twist.z;
+    vec3 origin = point_at(v), derivative = derivative_at(v);
     vec3 direction = v > 0.5 ? direction1 : direction0;
-    vec3 tangent = v == 0.0 || v == 1.0 ? direction : unit(derivative, direction);
-    vec3 up = mix(up0, up1, v);
-    vec2 s = mix(profile.xy, profile.zw, blend);
-    vec2 n = mix(profile_normal.xy, profile_normal.zw, blend);
+    vec3 tangent = inside ? unit(derivative, direction) : direction;
+    vec3 x;
+    if (least_turn != 0 && inside)
+        x = least_turned(v);
+    else
+        x = across(mix(up0, up1, v), tangent);
+    vec2 start = size_twist.x * profile.xy, end = size_twist.y * profile.zw;
+    vec2 start_normal = size_twist.x * profile_normal.xy, end_normal = size_twist.y * profile_normal.zw;
+    vec2 s = mix(start, end, blend), n = mix(start_normal, end_normal, blend);
+    float slope = dot(end - start, n);
+    if (inside && (turn != 0.0 || twist != 0.0)) {
+        vec2 middle0 = size_twist.x * middle.xy, middle1 = size_twist.y * middle.zw;
+        vec2 q0 = start - middle0, q1 = turned(end - middle1, -turn);
+        vec2 q = turned(mix(q0, q1, blend), turn * blend);
+        n = turned(mix(start_normal, turned(end_normal, -turn), blend), turn * blend);
+        s = mix(middle0, middle1, blend) + q;
+        slope = dot(middle1 - middle0 + turned(q1 - q0, turn * blend), n) + turn * (q.x * n.y - q.y * n.x)
+            + twist * (s.x * n.y - s.y * n.x);
+        s = turned(s, twist * blend);
+        n = turned(n, twist * blend);
+    }
     float speed = length(derivative);
-    float lean = speed > 0.0
-        ? -section_scale * 6.0 * v * w * dot(profile.zw - profile.xy, n) / speed : 0.0;
+    float lean = speed > 0.0 ? -section_scale * 6.0 * v * w * slope / speed : 0.0;
     material_blend = v;
 #endif
-    vec3 axis = abs(tangent.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
-    vec3 x = unit(cross(up, tangent), unit(cross(axis, tangent), axis));
     vec3 y = cross(tangent, x);
     vec3 position = origin + section_scale * (s.x * x + s.y * y);
     world_normal = unit(n.x * x + n.y * y + lean * tangent, x);

@@ -30,6 +30,9 @@ static const MappingRow ROWS[] = {
     WORD_ROW(normals, meso_shell_normals_names),
     WORD_ROW(side, meso_shell_side_names),
     {"limit_folds", offsetof(MesoMapOptions, limit_folds), WHOLE, NULL, 0, 1},
+    WORD_ROW(section_size, meso_section_size_names),
+    {"tolerance", offsetof(MesoMapOptions, tolerance), NUMBER, NULL, 0, 4 * MESO_COORDINATE_LIMIT},
+    WORD_ROW(tolerance_in, meso_tolerance_unit_names),
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 

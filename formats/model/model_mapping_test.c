@@ -17,11 +17,14 @@ static MesoStatus read_text(MesoMapOptions *options, const char *text, MesoError
 static void test_text(void)
 {
     MesoMapOptions options = {.frame = MESO_FRAME_MINIMAL, .normals = MESO_NORMALS_FLAT, .side = MESO_SHELL_BOTH,
-                              .limit_folds = 1, .divisions = 7}, back = {.divisions = 7};
+                              .limit_folds = 1, .section_size = MESO_SECTION_SLOT,
+                              .tolerance = 0.001f, .tolerance_in = MESO_TOLERANCE_SCENE, .divisions = 7};
+    MesoMapOptions back = {.divisions = 7};
     MesoError error;
     char *text;
     CHECK(meso_mapping_text(&text, &options, &error) == MESO_OK);
-    CHECK_TEXT(text, "{\"frame\":\"minimal\",\"normals\":\"flat\",\"side\":\"both\",\"limit_folds\":1}");
+    CHECK_TEXT(text, "{\"frame\":\"minimal\",\"normals\":\"flat\",\"side\":\"both\",\"limit_folds\":1,"
+                     "\"section_size\":\"slot\",\"tolerance\":0.001,\"tolerance_in\":\"scene\"}");
     CHECK(read_text(&back, text, &error) == MESO_OK);
     CHECK(memcmp(&back, &options, sizeof options) == 0);
     free(text);
@@ -36,7 +39,7 @@ static void test_wrong_text(void)
     static const char *const wrong[][2] = {
         {"{", "chunk 'mapping':1:1: string or '}' expected near end of file"},
         {"[]", "chunk 'mapping': an object is needed here, not an array"},
-        {"{\"frames\": 1}", "chunk 'mapping': unknown key \"frames\"; there are \"frame\""},
+        {"{\"frames\": 1}", "chunk 'mapping': unknown key \"frames\"; there are \"frame\", "},
         {"{\"frame\": 1}", "chunk 'mapping': frame: a frame is needed here, one of \"paper\", \"minimal\""},
         {"{\"frame\": \"minimum\"}", "chunk 'mapping': frame: no frame 'minimum'; did you mean 'minimal'?"},
     };

@@ -40,8 +40,8 @@ static inline void scene_fixture_tiles(SceneFixture *s)
     s->sections[2] = (MesoSection){"stud", 1, 2, {{1, 1, 1}, 1, 1}};
     s->interfaces[0] = (MesoInterface){"warp", 0, 1, {0, 0, 0}, false, false};
     s->interfaces[1] = (MesoInterface){"weft", 1, 2, {0, 0, 0}, false, false};
-    s->sweeps[0] = (MesoSweep){0, 2, 0, 0, false, 0};
-    s->sweeps[1] = (MesoSweep){1, 3, 1, 1, false, 0};
+    s->sweeps[0] = (MesoSweep){.from_side = 0, .to_side = 2};
+    s->sweeps[1] = (MesoSweep){.from_side = 1, .to_side = 3, .from_section = 1, .to_section = 1};
     s->tiles[0] = (MesoTile){.name = "plain \"weave\"", .side_count = 4, .labels = {1, 2, -1, -2},
                              .sweep_begin = 0, .sweep_count = 2, .inner_count = 1};
     s->tiles[1] = (MesoTile){.name = "float", .side_count = 4, .labels = {1, 2, -1, -2},

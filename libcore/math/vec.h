@@ -28,6 +28,11 @@ static inline MesoVec2 meso_vec2_sub(MesoVec2 a, MesoVec2 b)
     return (MesoVec2){a.x - b.x, a.y - b.y};
 }
 
+static inline MesoVec2 meso_vec2_scale(MesoVec2 a, float s)
+{
+    return (MesoVec2){a.x * s, a.y * s};
+}
+
 static inline MesoVec2 meso_vec2_lerp(MesoVec2 a, MesoVec2 b, float t)
 {
     return (MesoVec2){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t};

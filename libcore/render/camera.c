@@ -114,7 +114,7 @@ static void add_kind(Frame *frame, const MesoScene *scene, const MesoSweptKind *
     for (uint32_t i = 0; i < kind->instance_count; i++) {
         const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
         if (kind->cap)
-            add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * scene->section_scale));
+            add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * sweep->size[0] * scene->section_scale));
         for (uint32_t k = 0; k <= 4 && !kind->cap; k++)
             add_ball(frame, curve_point(sweep->p, (float)k / 4), radius);
     }

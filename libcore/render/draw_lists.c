@@ -14,7 +14,7 @@ static const uint64_t MAX_ELEMENTS = INT32_MAX;
 /* Uniforms by the locations that the shaders give them. */
 enum {
     CLIP_FROM_WORLD, DEPTH_AXIS, SECTION_SCALE, CAP_RISE, START_COLOR, END_COLOR,
-    START_METALLIC, END_METALLIC
+    START_METALLIC, END_METALLIC, TURN, LEAST_TURN, MIDDLE
 };
 
 typedef struct PatternVertex {
@@ -47,7 +47,8 @@ static GLuint upload(const MesoGl *gl, const void *data, size_t size)
 /* How far the surface of a kind may lie from the control points of its instances. */
 static float kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
 {
-    return fmaxf(meso_scene_kind_radius(scene, kind), MESO_CAP_RISE * scene->section_scale);
+    float rise = MESO_CAP_RISE * scene->section_scale * meso_scene_kind_size(scene, kind);
+    return fmaxf(meso_scene_kind_radius(scene, kind), rise);
 }
 
 /* Scene units that one pixel shows at the kind's point nearest to the eye; 0 where the eye is inside. */
@@ -85,11 +86,11 @@ static MesoStatus make_plan(Plan *plan, MesoArena *arena, const MesoScene *scene
     if (!plan->kept || !plan->kept_count || !plan->ring_count)
         return MESO_ERR_MEMORY;
 
-    float scale = scene->section_scale;
     for (uint32_t k = 0; k < scene->kind_count; k++) {
         const MesoSweptKind *kind = &scene->kinds[k];
         float tolerance = tolerance_pixels > 0
             ? tolerance_pixels * finest_pixel(scene, kind, view, height) : 0;
+        float scale = scene->section_scale * meso_scene_kind_size(scene, kind);
         plan->kept[k] = MESO_NEW(arena, uint32_t, kind->column_count, error);
         if (!plan->kept[k])
             return MESO_ERR_MEMORY;
@@ -146,7 +147,7 @@ static void describe_sweeps(MesoDrawLists *lists)
     gl->VertexArrayVertexBuffer(array, 1, lists->instances, 0, sizeof(MesoSweepInstance));
     gl->VertexArrayBindingDivisor(array, 1, 1);
     gl->VertexArrayElementBuffer(array, lists->pattern_indices);
-    for (GLuint i = 0; i < 12; i++) {
+    for (GLuint i = 0; i < 13; i++) {
         gl->EnableVertexArrayAttrib(array, i);
         gl->VertexArrayAttribBinding(array, i, i < 3 ? 0 : 1);
         if (i < 3)
@@ -155,8 +156,10 @@ static void describe_sweeps(MesoDrawLists *lists)
         else if (i < 11)    /* p[4], up[2], direction[2] follow each other */
             gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE,
                                         (i - 3) * (GLuint)sizeof(MesoVec3));
-        else
+        else if (i == 11)
             gl->VertexArrayAttribIFormat(array, i, 1, GL_UNSIGNED_INT, offsetof(MesoSweepInstance, ids));
+        else                /* size[2] and twist */
+            gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE, offsetof(MesoSweepInstance, size));
     }
 }
 
@@ -503,6 +506,11 @@ static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, GL
         return;
     if (shaded)
         set_materials(lists, program, kind->start_material, kind->cap ? kind->start_material : kind->end_material);
+    if (!kind->cap) {
+        gl->ProgramUniform1f(program, TURN, kind->turn);
+        gl->ProgramUniform4f(program, MIDDLE, kind->middle[0].x, kind->middle[0].y, kind->middle[1].x,
+                             kind->middle[1].y);
+    }
     gl->UseProgram(program);
     gl->DrawElementsInstancedBaseVertexBaseInstance(
         GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT, index_offset(draw->index_begin),
@@ -530,6 +538,8 @@ void meso_draw_lists_draw(const MesoDrawLists *lists, const MesoDrawPrograms *pr
         gl->ProgramUniform1f(all[i], SECTION_SCALE, lists->scene->section_scale);
         if (all[i] == programs->cap)
             gl->ProgramUniform1f(all[i], CAP_RISE, MESO_CAP_RISE);
+        else
+            gl->ProgramUniform1i(all[i], LEAST_TURN, lists->scene->frame_rule == MESO_FRAME_MINIMAL);
     }
 
     gl->BindVertexArray(lists->sweep_array);

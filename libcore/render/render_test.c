@@ -37,7 +37,7 @@ static void make_bar(Bar *bar)
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
         MesoVec2 s = {RADIUS * n.x, RADIUS * n.y};
-        bar->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES};
+        bar->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, 0};
     }
     bar->kinds[0] = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES,
         .division_count = 9, .instance_count = 1, .start_material = 0, .end_material = 1};
@@ -45,10 +45,10 @@ static void make_bar(Bar *bar)
         .division_count = 9, .instance_begin = 1, .instance_count = 1, .cap = true};
     bar->instances[0] = (MesoSweepInstance){
         {{-1, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{1, 0, 0}, {1, 0, 0}}, 0};
+        {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
     bar->instances[1] = (MesoSweepInstance){
         {{-1, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{-1, 0, 0}, {-1, 0, 0}}, 1};
+        {{-1, 0, 0}, {-1, 0, 0}}, 1, {1, 1}, 0};
     const uint32_t ids[4] = {40, 6, 41, 8};
     memcpy(bar->ids, ids, sizeof ids);
     bar->scene = (MesoScene){.channel_count = 2, .channels = {{"slot", 42, NULL}, {"tile", 9, NULL}},

@@ -16,7 +16,7 @@ static void make_circle(void)
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
         MesoVec2 s = {RADIUS * n.x, RADIUS * n.y};
-        columns[i] = (MesoSweepColumn){s, s, n, n, 0, i < SIDES};
+        columns[i] = (MesoSweepColumn){s, s, n, n, 0, i < SIDES, 0};
     }
 }
 
@@ -64,7 +64,7 @@ static void test_rings(void)
     const float k = 0.5522847f;
     make_circle();
     MesoSweepInstance instance = {{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                  {{0, 1, 0}, {-1, 0, 0}}, 0};
+                                  {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0};
     MesoSweptKind kind = {.column_count = SIDES + 1, .division_count = 100, .instance_count = 1};
     MesoScene scene = {.kinds = &kind, .columns = columns, .sweeps = &instance, .kind_count = 1,
                        .sweep_count = 1, .section_scale = 1};
@@ -78,7 +78,7 @@ static void test_rings(void)
     CHECK(meso_detail_rings(&scene, &kind, 1e-6f) == 5);
 
     MesoSweepInstance line = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                              {{1, 0, 0}, {1, 0, 0}}, 0};
+                              {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
     scene.sweeps = &line;
     kind.division_count = 100;
     CHECK(meso_detail_rings(&scene, &kind, 1e-3f) == 2);

@@ -10,7 +10,7 @@
 
 static uint64_t kind_vertex_count(const MesoSweptKind *kind)
 {
-    return (uint64_t)kind->column_count * kind->division_count;
+    return (uint64_t)kind->column_count * kind->division_count - kind->absent[0] - kind->absent[1];
 }
 
 static uint64_t kind_face_count(const MesoSweptKind *kind)
@@ -18,10 +18,10 @@ static uint64_t kind_face_count(const MesoSweptKind *kind)
     return (uint64_t)kind->joint_count * (kind->division_count - 1);
 }
 
-/* A cap's last row are triangles. */
+/* A cap's last row are triangles, and so are some joints at ends. */
 static uint64_t kind_triangle_count(const MesoSweptKind *kind)
 {
-    return 2 * kind_face_count(kind) - (kind->cap ? kind->joint_count : 0);
+    return 2 * kind_face_count(kind) - (kind->cap ? kind->joint_count : 0) - kind->fans[0] - kind->fans[1];
 }
 
 static uint64_t body_triangle_count(const MesoBody *body)

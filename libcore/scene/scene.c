@@ -1,5 +1,7 @@
 #include "libcore/scene/scene.h"
 
+const char *const meso_frame_rule_names[] = {"paper", "minimal", NULL};
+
 uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep)
 {
     uint32_t low = 0, high = scene->kind_count;
@@ -13,6 +15,16 @@ uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep)
     return low;
 }
 
+float meso_scene_kind_size(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    float size = 0;
+    for (uint32_t i = 0; i < kind->instance_count; i++) {
+        const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
+        size = fmaxf(size, fmaxf(sweep->size[0], sweep->size[1]));
+    }
+    return size;
+}
+
 float meso_scene_kind_radius(const MesoScene *scene, const MesoSweptKind *kind)
 {
     float radius = 0;
@@ -20,7 +32,7 @@ float meso_scene_kind_radius(const MesoScene *scene, const MesoSweptKind *kind)
         const MesoSweepColumn *column = &scene->columns[kind->column_begin + c];
         radius = fmaxf(radius, fmaxf(meso_vec2_length(column->start), meso_vec2_length(column->end)));
     }
-    return radius * scene->section_scale;
+    return radius * meso_scene_kind_size(scene, kind) * scene->section_scale;
 }
 
 bool meso_scene_is_colored(const MesoScene *scene)

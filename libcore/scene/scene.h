@@ -8,19 +8,31 @@
  *
  *     B(v)    cubic Bezier over p[0..3] (MesoGen, section 3.5)
  *     T(v)    unit B'(v); at the ends exactly direction[0], direction[1]
- *     X(v)    unit cross(lerp(up[0], up[1], v), T)        Y(v) = cross(T, X)
+ *     X(v)    by the scene's rule of frames, across T             Y(v) = cross(T, X)
  *     w(v)    v v (3 - 2 v)
- *     s(v)    lerp(c.start, c.end, w)
+ *     R(a)    turns by the angle a, from X to Y
+ *     a, b    size[0] c.start, size[1] c.end;   with their middles a', b': size[0] middle[0], size[1] middle[1]
+ *     q(v)    lerp(a - a', R(-turn) (b - b'), w)
+ *     s(v)    R(twist w) (lerp(a', b', w) + R(turn w) q)
  *     P(v)    B + section_scale * (s.x X + s.y Y)
  *
- * with the normal n.x X + n.y Y - tilt T made unit, where n is the 2D normal
- * interpolated like s and tilt = section_scale w'(v) dot(c.end - c.start, n) / |B'|.
+ * Shapes are blended where they are not turned, and turned then: a section that turns keeps its width. Where nothing
+ * turns, s is lerp(a, b, w); at v 1 it is b, in the plane of the end's own up. The normal is n.x X + n.y Y - tilt T
+ * made unit, where n is turned like s from the 2D normal that is interpolated like q, and tilt is
+ * section_scale / |B'| times dot(n, s'(v)).
  *
- * A cap has the straight axis T = direction[0], X and Y from up[0], s = start, and
+ * The rules of frames:
  *
- *     P(v) = p[0] + section_scale * ((1 - v^4) (s.x X + s.y Y) + MESO_CAP_RISE v T)
+ *     paper      X = unit cross(lerp(up[0], up[1], v), T); twist is 0
+ *     minimal    X starts as unit cross(up[0], T) and turns about T no more than it has to: MESO_FRAME_STEPS equal
+ *                steps of the double reflection of "Computation of Rotation Minimizing Frames" (Wang et al. 2008),
+ *                the last one cut off at v; twist is the angle that is then left to unit cross(up[1], T)
  *
- * with the normal MESO_CAP_RISE (n.x X + n.y Y) + 4 v^3 dot(s, n) T made unit.
+ * A cap has the straight axis T = direction[0], X and Y from up[0], s = size[0] start, and
+ *
+ *     P(v) = p[0] + section_scale * ((1 - v^4) (s.x X + s.y Y) + MESO_CAP_RISE size[0] v T)
+ *
+ * with the normal MESO_CAP_RISE size[0] (n.x X + n.y Y) + 4 v^3 dot(s, n) T made unit.
  * (The prototype's dome, radius 1 - t^2 and rise sqrt(t) / 8, with t = v^2.)
  */
 #ifndef MESO_SCENE_H
@@ -34,6 +46,9 @@
 
 /* Height of a cap over its end, in units of the profiles (the prototype's). */
 #define MESO_CAP_RISE 0.125f
+
+/* Steps of the rule of frames that turns least. */
+enum { MESO_FRAME_STEPS = 8 };
 
 /*
  * What tells the parts of a scene apart: "slot" and "tile", "region", "element". Each part has one id in every
@@ -55,16 +70,28 @@ typedef struct MesoSweepColumn {
     MesoVec2 start_normal, end_normal;  /* outward, as long as the chord that they are normal to */
     float u;                            /* around, in [0,1] */
     uint32_t joins_next;                /* 1 if quads lie between this column and the next */
+    uint32_t absent;                    /* bits MESO_ABSENT_*: it has no vertex on that ring */
 } MesoSweepColumn;
+
+/*
+ * A ring at an end has the points that its own drawing needs, whatever else the sweep needs between: the next ring's
+ * vertices of other columns fan out from the last column before that has one there. The first and the last column have.
+ */
+enum { MESO_ABSENT_START = 1, MESO_ABSENT_END = 2 };
 
 /* Sweeps that share their columns. The columns run clockwise around the trajectory. */
 typedef struct MesoSweptKind {
     uint32_t column_begin, column_count;
     uint32_t joint_count;               /* columns that join the next */
-    uint32_t division_count;            /* vertices along, at least 2 */
+    uint32_t division_count;            /* vertices along, at least 2; at least 3 where some are absent */
+    float ease;                         /* ring r of n + 1 lies at v = t - ease sin(2 pi t) / (2 pi), t = r / n */
+    uint32_t absent[2];                 /* columns that have no vertex at the start, at the end */
+    uint32_t fans[2];                   /* joints there that are triangles: their second column is absent */
     uint32_t instance_begin, instance_count;
     uint32_t start_material, end_material;  /* drawn as a blend; files know the first */
     bool cap;
+    float turn;                 /* of the section along the sweep, in radians, from X to Y */
+    MesoVec2 middle[2];         /* about which it turns, at the start and at the end, in units of the profiles */
 } MesoSweptKind;
 
 typedef struct MesoSweepInstance {
@@ -72,7 +99,17 @@ typedef struct MesoSweepInstance {
     MesoVec3 up[2];             /* of the profile's y direction at both ends; not of unit length */
     MesoVec3 direction[2];      /* unit tangents at both ends, from start to end */
     uint32_t ids;               /* row of the scene's ids */
+    float size[2];              /* factor on the profiles at both ends */
+    float twist;                /* of the frame along the sweep, in radians; see the rules of frames */
 } MesoSweepInstance;
+
+/* How the frame of a sweep turns along it. */
+typedef enum MesoFrameRule {
+    MESO_FRAME_PAPER,       /* the up vector runs straight from end to end (MesoGen, section 3.5) */
+    MESO_FRAME_MINIMAL      /* no more than the trajectory makes it, and what is left smoothly */
+} MesoFrameRule;
+
+extern const char *const meso_frame_rule_names[];   /* ended by NULL */
 
 /* ---- bodies ---- */
 
@@ -133,6 +170,7 @@ typedef struct MesoScene {
     uint32_t *ids;                  /* [id_row_count * channel_count], row by row */
 
     float section_scale;            /* scene units of one unit of the profiles */
+    MesoFrameRule frame_rule;       /* of all sweeps */
     float thickness;                /* of the layer that the scene makes, for ambient occlusion; 0: it is none */
     uint32_t kind_count, column_count, sweep_count;
     MesoSweptKind *kinds;           /* [kind_count] */
@@ -154,8 +192,11 @@ void meso_scene_measure(MesoScene *scene);
 /* Kind of a sweep. O(log kinds). */
 uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep);
 
-/* The largest distance of a kind's profile from its trajectory, in scene units. */
+/* The largest distance of a kind's profile from its trajectory, in scene units. O(columns + instances). */
 float meso_scene_kind_radius(const MesoScene *scene, const MesoSweptKind *kind);
+
+/* The largest size of a kind's instances. */
+float meso_scene_kind_size(const MesoScene *scene, const MesoSweptKind *kind);
 
 /* Id of a row in a channel. */
 static inline uint32_t meso_scene_id(const MesoScene *scene, uint32_t row, uint32_t channel)

@@ -20,18 +20,120 @@ static Plane make_plane(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float sp
     return (Plane){origin, x, meso_vec3_cross(tangent, x), tangent, speed};
 }
 
-/* At the ends all comes from the ports alone: the neighbour computes the same floats. */
-static Plane sweep_plane(const MesoSweepInstance *sweep, float v)
+/* ---- frames that turn least ---- */
+
+/* X and T of the trajectory at one place. */
+typedef struct Station {
+    MesoVec3 point, x, tangent;
+} Station;
+
+/* The mirror image of `a` in the plane across `axis`. */
+static MesoVec3 reflect(MesoVec3 a, MesoVec3 axis)
 {
+    float square = meso_vec3_dot(axis, axis);
+    return square > 0 ? meso_vec3_mad(a, -2 * meso_vec3_dot(axis, a) / square, axis) : a;
+}
+
+static MesoVec3 tangent_at(const MesoSweepInstance *sweep, float v)
+{
+    if (v == 0 || v == 1)
+        return sweep->direction[v == 1];
+    return meso_vec3_unit(meso_bezier_derivative(sweep->p, v), sweep->direction[v > 0.5f]);
+}
+
+/* Double reflection: in the plane between both points, then in the one that takes the tangent there. */
+static Station step_to(const Station *from, const MesoSweepInstance *sweep, float v)
+{
+    Station to = {.point = meso_bezier_point(sweep->p, v), .tangent = tangent_at(sweep, v)};
+    MesoVec3 between = meso_vec3_sub(to.point, from->point);
+    MesoVec3 x = reflect(from->x, between), tangent = reflect(from->tangent, between);
+    x = reflect(x, meso_vec3_sub(to.tangent, tangent));
+    to.x = meso_vec3_unit(meso_vec3_mad(x, -meso_vec3_dot(x, to.tangent), to.tangent), from->x);
+    return to;
+}
+
+static Station first_station(const MesoSweepInstance *sweep)
+{
+    Plane start = make_plane(sweep->p[0], sweep->up[0], sweep->direction[0], 0);
+    return (Station){start.origin, start.x, start.tangent};
+}
+
+static void make_stations(const MesoSweepInstance *sweep, Station stations[MESO_FRAME_STEPS + 1])
+{
+    stations[0] = first_station(sweep);
+    for (uint32_t i = 0; i < MESO_FRAME_STEPS; i++)
+        stations[i + 1] = step_to(&stations[i], sweep, (float)(i + 1) / MESO_FRAME_STEPS);
+}
+
+float meso_sweep_twist(const MesoSweepInstance *sweep)
+{
+    Station stations[MESO_FRAME_STEPS + 1];
+    make_stations(sweep, stations);
+    const Station *last = &stations[MESO_FRAME_STEPS];
+    Plane end = make_plane(sweep->p[3], sweep->up[1], sweep->direction[1], 0);
+    MesoVec3 y = meso_vec3_cross(last->tangent, last->x);
+    return atan2f(meso_vec3_dot(end.x, y), meso_vec3_dot(end.x, last->x));
+}
+
+/* ---- planes along a trajectory ---- */
+
+/* An angle, by its cosine and sine. */
+typedef struct Angle {
+    float c, s;
+} Angle;
+
+static Angle make_angle(float angle)
+{
+    return angle == 0 ? (Angle){1, 0} : (Angle){cosf(angle), sinf(angle)};
+}
+
+static MesoVec2 turned(MesoVec2 p, Angle angle)
+{
+    return (MesoVec2){angle.c * p.x - angle.s * p.y, angle.s * p.x + angle.c * p.y};
+}
+
+/* What the rings of one sweep share. */
+typedef struct Track {
+    const MesoSweptKind *kind;
+    const MesoSweepInstance *sweep;
+    MesoFrameRule rule;
+    Station stations[MESO_FRAME_STEPS + 1];     /* of the rule that needs them */
+    Angle back;             /* R(-turn) */
+    MesoVec2 middle[2];     /* a', b' */
+} Track;
+
+static Track make_track(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    Track track = {.kind = kind, .sweep = sweep, .rule = scene->frame_rule, .back = make_angle(-kind->turn),
+                   .middle = {meso_vec2_scale(kind->middle[0], sweep->size[0]),
+                              meso_vec2_scale(kind->middle[1], sweep->size[1])}};
+    if (track.rule == MESO_FRAME_MINIMAL)
+        make_stations(sweep, track.stations);
+    return track;
+}
+
+static MesoVec3 least_turned_x(const Track *track, float v)
+{
+    uint32_t before = (uint32_t)(v * MESO_FRAME_STEPS);
+    return step_to(&track->stations[before], track->sweep, v).x;
+}
+
+/* At the ends all comes from the ports alone: the neighbour computes the same floats. */
+static Plane plane_at(const Track *track, float v)
+{
+    const MesoSweepInstance *sweep = track->sweep;
     if (v == 0 || v == 1) {
         uint32_t end = v == 1;
         float speed = 3 * meso_vec3_length(meso_vec3_sub(sweep->p[end ? 3 : 1], sweep->p[end ? 2 : 0]));
         return make_plane(sweep->p[end ? 3 : 0], sweep->up[end], sweep->direction[end], speed);
     }
-    MesoVec3 derivative = meso_bezier_derivative(sweep->p, v);
+    MesoVec3 derivative = meso_bezier_derivative(sweep->p, v), point = meso_bezier_point(sweep->p, v);
     MesoVec3 tangent = meso_vec3_unit(derivative, sweep->direction[v > 0.5f]);
-    return make_plane(meso_bezier_point(sweep->p, v), meso_vec3_lerp(sweep->up[0], sweep->up[1], v),
-                      tangent, meso_vec3_length(derivative));
+    float speed = meso_vec3_length(derivative);
+    if (track->rule == MESO_FRAME_PAPER)
+        return make_plane(point, meso_vec3_lerp(sweep->up[0], sweep->up[1], v), tangent, speed);
+    MesoVec3 x = least_turned_x(track, v);
+    return (Plane){point, x, meso_vec3_cross(tangent, x), tangent, speed};
 }
 
 static MesoVec3 in_plane(const Plane *plane, MesoVec2 n)
@@ -47,26 +149,120 @@ static MesoMeshVertex sweep_vertex(const Plane *plane, MesoVec2 s, MesoVec3 norm
                             meso_vec3_unit(normal, plane->x), {u, v}};
 }
 
+/* ---- tubes ---- */
+
+/* A ring: how far along, and how far turned. */
+typedef struct Ring {
+    Plane plane;
+    float v, w, tilt_scale;
+    bool turns;
+    Angle turn, twist;
+} Ring;
+
+static Ring ring_at(const MesoScene *scene, const Track *track, float v)
+{
+    Ring ring = {.plane = plane_at(track, v), .v = v, .w = v * v * (3 - 2 * v)};
+    float speed = ring.plane.speed;
+    ring.tilt_scale = speed > 0 ? scene->section_scale * 6 * v * (1 - v) / speed : 0;
+    ring.turns = (track->kind->turn != 0 || track->sweep->twist != 0) && v > 0 && v < 1;
+    if (ring.turns) {
+        ring.turn = make_angle(track->kind->turn * ring.w);
+        ring.twist = make_angle(track->sweep->twist * ring.w);
+    }
+    return ring;
+}
+
+/* Where a ring meets a column, in its plane: s, n, and dot(n, s') without w'. */
+typedef struct Meeting {
+    MesoVec2 at, normal;
+    float slope;
+} Meeting;
+
+static inline Meeting meet(const Ring *ring, MesoVec2 start, MesoVec2 end, MesoVec2 start_normal, MesoVec2 end_normal)
+{
+    MesoVec2 at = ring->v == 0 ? start : ring->v == 1 ? end : meso_vec2_lerp(start, end, ring->w);
+    MesoVec2 n = meso_vec2_lerp(start_normal, end_normal, ring->w), change = meso_vec2_sub(end, start);
+    return (Meeting){at, n, change.x * n.x + change.y * n.y};
+}
+
+static Meeting meet_turned(const Track *track, const Ring *ring, MesoVec2 start, MesoVec2 end, MesoVec2 start_normal,
+                           MesoVec2 end_normal)
+{
+    const MesoVec2 *middle = track->middle;
+    MesoVec2 q0 = meso_vec2_sub(start, middle[0]), q1 = turned(meso_vec2_sub(end, middle[1]), track->back);
+    MesoVec2 q = turned(meso_vec2_lerp(q0, q1, ring->w), ring->turn);
+    MesoVec2 n = turned(meso_vec2_lerp(start_normal, turned(end_normal, track->back), ring->w), ring->turn);
+    MesoVec2 change = meso_vec2_add(meso_vec2_sub(middle[1], middle[0]), turned(meso_vec2_sub(q1, q0), ring->turn));
+    MesoVec2 at = meso_vec2_add(meso_vec2_lerp(middle[0], middle[1], ring->w), q);
+    float slope = change.x * n.x + change.y * n.y + track->kind->turn * meso_vec2_cross(q, n) +
+                  track->sweep->twist * meso_vec2_cross(at, n);
+    return (Meeting){turned(at, ring->twist), turned(n, ring->twist), slope};
+}
+
+static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column,
+                                          Meeting m)
+{
+    MesoVec3 normal = meso_vec3_mad(in_plane(&ring->plane, m.normal), -ring->tilt_scale * m.slope, ring->plane.tangent);
+    return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
+}
+
+static MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, const Ring *ring,
+                                  const MesoSweepColumn *column)
+{
+    const float *size = track->sweep->size;
+    MesoVec2 start = meso_vec2_scale(column->start, size[0]), end = meso_vec2_scale(column->end, size[1]);
+    MesoVec2 start_normal = meso_vec2_scale(column->start_normal, size[0]);
+    MesoVec2 end_normal = meso_vec2_scale(column->end_normal, size[1]);
+    return place_vertex(scene, ring, column, ring->turns
+        ? meet_turned(track, ring, start, end, start_normal, end_normal)
+        : meet(ring, start, end, start_normal, end_normal));
+}
+
+/* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
+static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
+                                     const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
+{
+    const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
+    bool plain = !ring->turns && track->sweep->size[0] == 1 && track->sweep->size[1] == 1;
+    if (plain && !absent && !grid->columns) {
+        for (uint32_t c = 0; c < grid->column_count; c++)   /* most are so: nothing to decide in the loop */
+            *out++ = place_vertex(scene, ring, &columns[c],
+                                  meet(ring, columns[c].start, columns[c].end, columns[c].start_normal,
+                                       columns[c].end_normal));
+        return out;
+    }
+    for (uint32_t c = 0; c < grid->column_count; c++) {
+        const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
+        if (!(column->absent & absent))
+            *out++ = tube_vertex(scene, track, ring, column);
+    }
+    return out;
+}
+
+static float ring_place(const MesoSweptKind *kind, const MesoSweepGrid *grid, uint32_t ring)
+{
+    const float round = 2 * (float)MESO_PI;
+    uint32_t last = grid->ring_count - 1;
+    float t = (float)ring / (float)last;
+    bool even = !grid->own || kind->ease == 0 || ring == 0 || ring == last;
+    return even ? t : t - kind->ease * sinf(round * t) / round;
+}
+
+static uint32_t absent_on(const MesoSweptKind *kind, const MesoSweepGrid *grid, uint32_t ring)
+{
+    if (!grid->own)
+        return 0;
+    return ring == 0 && kind->absent[0] ? MESO_ABSENT_START
+         : ring + 1 == grid->ring_count && kind->absent[1] ? MESO_ABSENT_END : 0;
+}
+
 static void tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    float scale = scene->section_scale;
-    uint32_t last = grid->ring_count - 1;
-    for (uint32_t ring = 0; ring <= last; ring++) {
-        float v = (float)ring / (float)last, w = v * v * (3 - 2 * v);
-        Plane plane = sweep_plane(sweep, v);
-        float tilt_scale = plane.speed > 0 ? scale * 6 * v * (1 - v) / plane.speed : 0;
-        for (uint32_t c = 0; c < grid->column_count; c++) {
-            const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
-            MesoVec2 at = ring == 0 ? column->start : ring == last ? column->end
-                        : meso_vec2_lerp(column->start, column->end, w);
-            MesoVec2 n = meso_vec2_lerp(column->start_normal, column->end_normal, w);
-            MesoVec2 change = meso_vec2_sub(column->end, column->start);
-            float tilt = tilt_scale * (change.x * n.x + change.y * n.y);
-            MesoVec3 normal = meso_vec3_mad(in_plane(&plane, n), -tilt, plane.tangent);
-            *out++ = sweep_vertex(&plane, at, normal, scale, column->u, v);
-        }
+    Track track = make_track(scene, kind, sweep);
+    for (uint32_t r = 0; r < grid->ring_count; r++) {
+        Ring ring = ring_at(scene, &track, ring_place(kind, grid, r));
+        out = ring_vertices(scene, &track, &ring, grid, absent_on(kind, grid, r), out);
     }
 }
 
@@ -74,26 +270,28 @@ static void cap_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
                          const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    float scale = scene->section_scale;
+    float scale = scene->section_scale, rise = MESO_CAP_RISE * cap->size[0];
     uint32_t last = grid->ring_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
         float v = (float)ring / (float)last, radius = 1 - v * v * v * v;
         Plane plane = make_plane(cap->p[0], cap->up[0], cap->direction[0], 0);
-        plane.origin = meso_vec3_mad(plane.origin, scale * MESO_CAP_RISE * v, plane.tangent);
+        plane.origin = meso_vec3_mad(plane.origin, scale * rise * v, plane.tangent);
         for (uint32_t c = 0; c < grid->column_count; c++) {
             const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
-            MesoVec2 at = column->start, n = column->start_normal;
+            MesoVec2 at = meso_vec2_scale(column->start, cap->size[0]), n = column->start_normal;
             float lean = 4 * v * v * v * (at.x * n.x + at.y * n.y);
-            MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(&plane, n), MESO_CAP_RISE), lean, plane.tangent);
+            MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(&plane, n), rise), lean, plane.tangent);
             *out++ = sweep_vertex(&plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scale, column->u, v);
         }
     }
 }
 
-MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweepInstance *sweep, MesoVec2 profile, float v)
+MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                          const MesoSweepColumn *column, float v)
 {
-    Plane plane = sweep_plane(sweep, v);
-    return meso_vec3_mad(plane.origin, scene->section_scale, in_plane(&plane, profile));
+    Track track = make_track(scene, kind, sweep);
+    Ring ring = ring_at(scene, &track, v);
+    return tube_vertex(scene, &track, &ring, column).position;
 }
 
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
@@ -105,8 +303,40 @@ void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const Me
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                          MesoMeshVertex *out)
 {
-    const MesoSweepGrid whole = {.column_count = kind->column_count, .ring_count = kind->division_count};
+    const MesoSweepGrid whole = {.column_count = kind->column_count, .ring_count = kind->division_count,
+                                 .own = true};
     meso_sweep_grid(scene, kind, sweep, &whole, out);
+}
+
+/* A row of faces from a whole ring to the next. */
+static MesoMeshFace *whole_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t here, bool tip,
+                               MesoMeshFace *out)
+{
+    uint32_t ahead = here + kind->column_count;
+    for (uint32_t c = 0; c < kind->column_count; c++, here++, ahead++)
+        if (columns[c].joins_next)
+            *out++ = (MesoMeshFace){{here, ahead, tip ? here + 1 : ahead + 1, tip ? MESO_NO_INDEX : here + 1}};
+    return out;
+}
+
+/* A row between the ring at an end, from `first`, and a whole one; both walk on by the columns that they have. */
+static MesoMeshFace *end_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t first, uint32_t whole,
+                             bool end, MesoMeshFace *out)
+{
+    uint32_t absent = end ? MESO_ABSENT_END : MESO_ABSENT_START, last = first;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        last += c > 0 && !(columns[c].absent & absent);
+        if (!columns[c].joins_next)
+            continue;
+        uint32_t inner = whole + c;
+        if (columns[c + 1].absent & absent)
+            *out++ = end ? (MesoMeshFace){{inner, last, inner + 1, MESO_NO_INDEX}}
+                         : (MesoMeshFace){{last, inner, inner + 1, MESO_NO_INDEX}};
+        else
+            *out++ = end ? (MesoMeshFace){{inner, last, last + 1, inner + 1}}
+                         : (MesoMeshFace){{last, inner, inner + 1, last + 1}};
+    }
+    return out;
 }
 
 /* The rings run clockwise around the tangent: along, then around is counter-clockwise from outside. */
@@ -114,12 +344,13 @@ void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     uint32_t width = kind->column_count, last = kind->division_count - 1;
-    for (uint32_t ring = 0; ring < last; ring++)
-        for (uint32_t c = 0; c < width; c++) {
-            if (!columns[c].joins_next)
-                continue;
-            uint32_t here = base + ring * width + c, ahead = here + width;
-            bool tip = kind->cap && ring + 1 == last;
-            *out++ = (MesoMeshFace){{here, ahead, tip ? here + 1 : ahead + 1, tip ? MESO_NO_INDEX : here + 1}};
-        }
+    for (uint32_t ring = 0; ring < last; ring++) {
+        uint32_t here = base + ring * width - (ring > 0 ? kind->absent[0] : 0);
+        if (ring == 0 && kind->absent[0])
+            out = end_row(kind, columns, base, base + width - kind->absent[0], false, out);
+        else if (ring + 1 == last && kind->absent[1])
+            out = end_row(kind, columns, here + width, here, true, out);
+        else
+            out = whole_row(kind, columns, here, kind->cap && ring + 1 == last, out);
+    }
 }

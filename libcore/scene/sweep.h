@@ -4,22 +4,28 @@
 
 #include "libcore/scene/scene.h"
 
-/* P for one instance of a swept kind at v in [0,1], with the profile point s(v). */
-MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweepInstance *sweep, MesoVec2 profile, float v);
+/* P of an instance of a swept kind that is no cap, at one of its columns, or one like them, and v in [0,1]. */
+MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                          const MesoSweepColumn *column, float v);
+
+/* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]. */
+float meso_sweep_twist(const MesoSweepInstance *sweep);
 
 /* Which columns of a kind, and how many rings, as a level of detail has them (detail.h). */
 typedef struct MesoSweepGrid {
     const uint32_t *columns;    /* [column_count] ascending columns of the kind; NULL: all of them */
     uint32_t column_count, ring_count;
+    bool own;                   /* rings as the kind has them, eased and without what is absent; else even and whole */
 } MesoSweepGrid;
 
-/* Vertices of one instance of `kind` on these, to `out` [column_count * ring_count], ring by ring. */
+/* Vertices of an instance of `kind` on these, to `out` [column_count * ring_count less what is absent], by rings. */
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                      const MesoSweepGrid *grid, MesoMeshVertex *out);
 
 /*
- * Vertices of one instance of `kind`, ring by ring, to `out` [column_count * division_count]; and its faces, whose
- * indices count from `base`, to `out` [joint_count * (division_count - 1)]. A cap's last row are triangles.
+ * Vertices of one instance of `kind`, ring by ring, to `out` [column_count * division_count less both absent]; and
+ * its faces, whose indices count from `base`, to `out` [joint_count * (division_count - 1)]. A cap's last row are
+ * triangles.
  */
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                          MesoMeshVertex *out);

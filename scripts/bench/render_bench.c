@@ -31,7 +31,7 @@ static void make_field(Field *field, MesoArena *arena)
     for (uint32_t i = 0; i <= SIDES; i++) {
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)}, s = {0.3f * n.x, 0.3f * n.y};
-        field->columns[i] = (MesoSweepColumn){s, s, n, n, 0, i < SIDES};
+        field->columns[i] = (MesoSweepColumn){s, s, n, n, 0, i < SIDES, 0};
     }
     MesoSweepInstance *instances = MESO_NEW(arena, MesoSweepInstance, count, &error);
     CHECK(instances);
@@ -40,7 +40,7 @@ static void make_field(Field *field, MesoArena *arena)
         float lift = (i + i / FIELD) % 2 ? step : -step;
         instances[i] = (MesoSweepInstance){
             {{x, y, 0}, {x + step / 3, y, lift}, {x + 2 * step / 3, y, lift}, {x + step, y, 0}},
-            {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, i};
+            {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, i, {1, 1}, 0};
     }
     uint32_t *ids = MESO_NEW(arena, uint32_t, count, &error);
     CHECK(ids);

@@ -288,18 +288,27 @@ static void read_end(Parser *parser, const MesoJsonField *field, const MesoTile 
     meso_arena_rewind(arena, mark);
 }
 
+static float read_number(const MesoJsonField *object, const char *key)
+{
+    MesoJsonField field = meso_json_key(object, key);
+    return meso_json_float(&field, 0);
+}
+
 static void read_sweep(Parser *parser, const MesoJsonField *field, const MesoTile *tile)
 {
-    static const char *const keys[] = {"from", "to", "half_turn", "turn", NULL};
+    static const char *const keys[] = {"from", "to", "half_turn", "turn", "turns", "tangent_scale", NULL};
     if (!meso_json_object(field, keys))
         return;
     MesoJsonField from = meso_json_key(field, "from"), to = meso_json_key(field, "to");
     MesoJsonField half_turn = meso_json_key(field, "half_turn"), turn = meso_json_key(field, "turn");
+    MesoJsonField turns = meso_json_key(field, "turns");
     MesoSweep *sweep = &parser->set->sweeps[parser->set->sweep_count++];
     read_end(parser, &from, tile, &sweep->from_side, &sweep->from_section);
     read_end(parser, &to, tile, &sweep->to_side, &sweep->to_section);
     sweep->half_turn = meso_json_bool(&half_turn, false);
     sweep->turn = meso_json_float(&turn, 0);
+    sweep->turns = (int32_t)meso_json_whole(&turns, INT32_MIN, INT32_MAX, 0);
+    sweep->tangent_scale = read_number(field, "tangent_scale");
 }
 
 static void read_inner(Parser *parser, const MesoJsonField *field)
@@ -339,7 +348,7 @@ static void read_sides(Parser *parser, const MesoJsonField *field, MesoTile *til
 static void read_tile(Parser *parser, const MesoJsonField *field)
 {
     static const char *const keys[] = {"name", "sides", "rotation", "flip_x", "flip_y", "ignored",
-                                       "sweeps", "inner", NULL};
+                                       "tangent_scale", "sweeps", "inner", NULL};
     MesoTileSet *set = parser->set;
     if (!meso_json_object(field, keys))
         return;
@@ -356,6 +365,7 @@ static void read_tile(Parser *parser, const MesoJsonField *field)
         .flip_x = read_flag(field, "flip_x", set->default_flip_x),
         .flip_y = read_flag(field, "flip_y", set->default_flip_y),
         .ignored = read_flag(field, "ignored", false),
+        .tangent_scale = read_number(field, "tangent_scale"),
     };
     read_sides(parser, field, tile);
     for (uint32_t i = 0; i < tile->sweep_count && meso_json_good(field); i++) {

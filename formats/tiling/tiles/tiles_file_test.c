@@ -25,7 +25,8 @@ static const char everything[] =
     "  {\"name\": \"free\", \"border\": \"any\", \"sections\": []}],\n"
     " \"tiles\": [\n"
     "  {\"name\": \"t1\", \"sides\": [\"a\", \"a'\", \"free\", \"rand'\"], \"flip_x\": false, \"sweeps\": [\n"
-    "    {\"from\": \"0/rod\", \"to\": \"1/x/y\", \"half_turn\": true, \"turn\": 0.375}]},\n"
+    "    {\"from\": \"0/rod\", \"to\": \"1/x/y\", \"half_turn\": true, \"turn\": 0.375, \"turns\": -2, "
+    "\"tangent_scale\": 1.5}]},\n"
     "  {\"name\": \"t2\", \"sides\": [\"a\", \"a\", \"a\", \"a\", null, \"a'\"], \"rotation\": false, \"flip_y\": true,\n"
     "   \"ignored\": true, \"sweeps\": [{\"from\": \"5/rod\", \"to\": \"5/rod\"}],\n"
     "   \"inner\": [{\"mesh\": \"b.obj\", \"transform\": [1,2,3,4,5,6,7,8,9,10,11,12], \"roughness\": 1},\n"
@@ -92,6 +93,7 @@ static void test_everything(void)
 
     const MesoSweep *sweep = &set.sweeps[0];
     CHECK(sweep->from_side == 0 && sweep->to_side == 1 && sweep->half_turn && sweep->turn == 0.375f);
+    CHECK(sweep->turns == -2 && sweep->tangent_scale == 1.5f && t1->tangent_scale == 0);
     CHECK(sweep->from_section == 0 && sweep->to_section == 1);
     CHECK(set.inners[0].transform[11] == 12 && set.inners[0].material.roughness == 1);
     CHECK(set.inners[1].transform[0] == 1 && set.inners[1].transform[3] == 0);
@@ -139,6 +141,7 @@ static void check_round_trip(const MesoTileSet *set)
         CHECK(x->from_side == y->from_side && x->from_section == y->from_section);
         CHECK(x->to_side == y->to_side && x->to_section == y->to_section);
         CHECK(x->half_turn == y->half_turn && x->turn == y->turn);
+        CHECK(x->turns == y->turns && x->tangent_scale == y->tangent_scale);
     }
     for (uint32_t i = 0; i < set->inner_count; i++)
         CHECK(memcmp(set->inners[i].transform, again.inners[i].transform, 12 * sizeof(float)) == 0);
@@ -238,7 +241,7 @@ static void test_refused(void)
          "x.json: defaults: unknown key \"rotations\"; there are \"rotation\", \"flip_x\", \"flip_y\""},
         {"\"half_turn\"", "\"halfturn\"",
          "x.json: tiles[0].sweeps[0]: unknown key \"halfturn\"; there are \"from\", \"to\", \"half_turn\", "
-         "\"turn\""},
+         "\"turn\", \"turns\", \"tangent_scale\""},
         {"\"free\", \"rand'\"", "\"fee\", \"rand'\"",
          "x.json: tiles[0].sides[2]: unknown interface 'fee'; its name must be among \"interfaces\""},
         {"\"free\", \"rand'\"", "3, \"rand'\"",

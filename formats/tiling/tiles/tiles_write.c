@@ -140,6 +140,10 @@ static json_t *write_sweep(Writer *writer, const MesoSweep *sweep)
         put(writer, object, "half_turn", json_true());
     if (sweep->turn != 0)
         put(writer, object, "turn", number(sweep->turn));
+    if (sweep->turns != 0)
+        put(writer, object, "turns", json_integer(sweep->turns));
+    if (sweep->tangent_scale != 0)
+        put(writer, object, "tangent_scale", number(sweep->tangent_scale));
     return object;
 }
 
@@ -171,6 +175,8 @@ static json_t *write_tile(Writer *writer, const MesoTile *tile)
     put_flag(writer, object, "flip_x", tile->flip_x, set->default_flip_x);
     put_flag(writer, object, "flip_y", tile->flip_y, set->default_flip_y);
     put_flag(writer, object, "ignored", tile->ignored, false);
+    if (tile->tangent_scale != 0)
+        put(writer, object, "tangent_scale", number(tile->tangent_scale));
 
     json_t *sweeps = json_array();
     for (uint32_t i = 0; i < tile->sweep_count; i++)

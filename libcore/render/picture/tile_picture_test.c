@@ -55,7 +55,7 @@ static void make_bundle(Bundle *b, MesoVec3 at)
     for (uint32_t i = 0; i <= SIDES; i++) {
         double angle = -2 * 3.14159265358979 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)}, s = {0.12f * n.x, 0.12f * n.y};
-        b->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES};
+        b->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, 0};
     }
     b->kinds[0] = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES, .division_count = RINGS,
                                   .instance_count = TUBES, .end_material = 1};
@@ -71,6 +71,7 @@ static void make_bundle(Bundle *b, MesoVec3 at)
         sweep->direction[0] = meso_vec3_unit(meso_vec3_sub(sweep->p[1], sweep->p[0]), sweep->up[0]);
         sweep->direction[1] = meso_vec3_unit(meso_vec3_sub(sweep->p[3], sweep->p[2]), sweep->up[0]);
         sweep->ids = t;
+        sweep->size[0] = sweep->size[1] = 1;
     }
     for (uint32_t i = 0; i <= TUBES; i++)
         b->ids[i] = 3 * i + 1;

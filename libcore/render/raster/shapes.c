@@ -21,7 +21,8 @@ static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, uint32_t level, b
     if (!kept)
         return MESO_ERR_MEMORY;
     uint32_t *joints = kept + kind->column_count;
-    tolerance = scene->section_scale > 0 ? tolerance / scene->section_scale : 0;
+    float scale = scene->section_scale * meso_scene_kind_size(scene, kind);
+    tolerance = scale > 0 ? tolerance / scale : 0;
     out->count = (seen ? meso_detail_columns : meso_detail_silhouette)(columns, kind->column_count, tolerance, kept);
     out->kept = kept;
     out->joints = joints;
@@ -193,7 +194,8 @@ static MesoBox sweep_box(const MesoShapes *shapes, uint32_t sweep)
 {
     const MesoScene *scene = shapes->scene;
     MesoBox box = meso_box_empty();
-    float reach = fmaxf(shapes->details[shapes->kind_of[sweep]].radius, MESO_CAP_RISE * scene->section_scale);
+    float rise = MESO_CAP_RISE * scene->section_scale * scene->sweeps[sweep].size[0];
+    float reach = fmaxf(shapes->details[shapes->kind_of[sweep]].radius, rise);
     for (uint32_t k = 0; k < 4; k++)
         meso_box_add_around(&box, meso_vec3_sub(scene->sweeps[sweep].p[k], shapes->anchor), reach);
     return box;

@@ -6,10 +6,15 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/scene/placed.h"
+#include "libcore/scene/sweep.h"
 #include "libcore/shell/hexahedra.h"
+#include "libcore/tiling/strand/steps.h"
 #include "libcore/tiling/strand/trajectory.h"
 
 enum { INSTANCES_A_RANGE = 1024 };
+
+/* Of the tolerance for what columns are off; the steps along get most of what is left. */
+static const float AROUND_SHARE = 0.7f;
 
 typedef struct Builder {
     const MesoModel *model;
@@ -20,6 +25,7 @@ typedef struct Builder {
     MesoShell shell;
     uint32_t *bucket_slots;     /* [slot_count] slots by tile and mirroring, ascending within */
     uint32_t *bucket_begin;     /* [2 * tile_count + 1] */
+    float *slot_sizes;          /* [slot_count] mean length of the slot's edges, where sections follow it; or NULL */
     atomic_uint_fast64_t failed;    /* smallest instance that has no port */
 } Builder;
 
@@ -89,6 +95,37 @@ static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, Me
 
 /* ---- instances ---- */
 
+static float slot_size(const MesoQuadMesh *mesh, uint32_t slot)
+{
+    const uint32_t *corners = mesh->face_vertices + 4 * (size_t)slot;
+    float sum = 0;
+    for (uint32_t i = 0; i < 4; i++)
+        sum += meso_vec3_length(meso_vec3_sub(mesh->positions[corners[(i + 1) % 4]], mesh->positions[corners[i]]));
+    return sum / 4;
+}
+
+/* The tolerance in units of the profiles, where they are largest; 0 is none. */
+static float profile_tolerance(const MesoMapOptions *options, const MesoModel *model)
+{
+    const MesoQuadMesh *surface = &model->surface;
+    float largest = 0, mean = surface->mean_edge_length;
+    for (uint32_t slot = 0; slot < surface->face_count && options->section_size == MESO_SECTION_SLOT; slot++)
+        largest = fmaxf(largest, slot_size(surface, slot));
+    float size = largest > 0 && mean > 0 ? largest / mean : 1;
+    return meso_map_options_tolerance(options, mean) / (options->section_scale * size);
+}
+
+static MesoStatus measure_slots(Builder *b, MesoArena *scratch, MesoError *error)
+{
+    if (b->options.section_size == MESO_SECTION_SCENE)
+        return MESO_OK;
+    uint32_t count = b->model->surface.face_count;
+    b->slot_sizes = MESO_NEW(scratch, float, count, error);
+    for (uint32_t slot = 0; b->slot_sizes && slot < count; slot++)
+        b->slot_sizes[slot] = slot_size(&b->model->surface, slot);
+    return b->slot_sizes ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side, uint32_t section,
                             MesoPort *port, MesoError *error)
 {
@@ -103,6 +140,31 @@ static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side,
                                 (label < 0) != meso_transform_flips(transform), port, error);
 }
 
+/* Of the sections there: both slots of an edge say the same, so that their rings are equal. */
+static float port_size(const Builder *b, uint32_t slot, uint32_t tile_side)
+{
+    if (b->options.section_size == MESO_SECTION_SCENE)
+        return 1;
+    float mean = b->model->surface.mean_edge_length, own = b->slot_sizes[slot];
+    if (!(mean > 0))
+        return 1;
+    uint32_t other = tile_side >= MESO_SIDE_TOP ? MESO_NO_INDEX
+        : b->model->graph.twin[4 * (size_t)slot + meso_transform_side(b->model->assignment.transform[slot], tile_side)];
+    return 0.5f * (own + b->slot_sizes[other == MESO_NO_INDEX ? slot : other / 4]) / mean;
+}
+
+static float one_if_none(float scale)
+{
+    return scale == 0 ? 1 : scale;
+}
+
+static float tangent_scale(const Builder *b, const MesoKindOrigin *origin)
+{
+    const MesoTileSet *set = &b->model->tile_set;
+    return b->options.tangent_scale * one_if_none(set->tiles[origin->tile].tangent_scale) *
+           one_if_none(set->sweeps[origin->sweep].tangent_scale);
+}
+
 static MesoStatus make_cap(const Builder *b, const MesoKindOrigin *origin, uint32_t slot,
                            MesoSweepInstance *out, MesoError *error)
 {
@@ -110,8 +172,9 @@ static MesoStatus make_cap(const Builder *b, const MesoKindOrigin *origin, uint3
     MesoStatus status = find_port(b, slot, origin->start_side, origin->start_section, &port, error);
     if (status)
         return status;
-    float rise = MESO_CAP_RISE * b->options.section_scale;
-    *out = (MesoSweepInstance){.up = {port.up, port.up}, .direction = {port.inward, port.inward}, .ids = slot};
+    float size = port_size(b, slot, origin->start_side), rise = MESO_CAP_RISE * b->options.section_scale * size;
+    *out = (MesoSweepInstance){.up = {port.up, port.up}, .direction = {port.inward, port.inward}, .ids = slot,
+                               .size = {size, size}};
     for (int i = 0; i < 4; i++)
         out->p[i] = meso_vec3_mad(port.point, rise * (float)i / 3, port.inward);
     return MESO_OK;
@@ -128,8 +191,11 @@ static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, uin
         return status;
     *out = (MesoSweepInstance){.up = {start.up, end.up},
                                .direction = {start.inward, meso_vec3_scale(end.inward, -1)},
-                               .ids = slot};
-    meso_trajectory(&start, &end, origin->start_side == origin->end_side, b->options.tangent_scale, out->p);
+                               .ids = slot,
+                               .size = {port_size(b, slot, origin->start_side), port_size(b, slot, origin->end_side)}};
+    meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(b, origin), out->p);
+    if (b->options.frame == MESO_FRAME_MINIMAL)
+        out->twist = meso_sweep_twist(out);
     return MESO_OK;
 }
 
@@ -345,8 +411,11 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
                          MesoError *error)
 {
     MesoProfileSet profiles;
-    MesoStatus status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours,
-                                               b->options.divisions, error);
+    float tolerance = meso_map_options_tolerance(&b->options, b->model->surface.mean_edge_length);
+    MesoStatus status = measure_slots(b, scratch, error);
+    if (!status)
+        status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours, b->options.divisions,
+                                        AROUND_SHARE * profile_tolerance(&b->options, b->model), error);
     if (!status)
         status = fill_buckets(b, scratch, error);
     if (!status)
@@ -359,6 +428,8 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)
         status = make_instances(b, thread_count, error);
+    if (!status && tolerance > 0)
+        status = meso_scene_choose_steps(b->scene, &b->origins, arena, tolerance, thread_count, error);
     if (!status)
         status = make_bodies(b, arena, error);
     if (!status)
@@ -372,6 +443,16 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
     return status;
 }
 
+/*
+ * Of contours that columns are chosen from: what they are off the drawing, and their alignment to whole points, are
+ * small parts of the tolerance.
+ */
+static float contour_step(const MesoMapOptions *options, const MesoModel *model)
+{
+    float tolerance = profile_tolerance(options, model);
+    return tolerance > 0 ? fminf(fmaxf(tolerance / 2, 2e-4f), 0.02f) : options->section_step;
+}
+
 MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
                                   const MesoModel *model, const MesoContourSet *contours,
                                   uint32_t thread_count, MesoError *error)
@@ -380,7 +461,8 @@ MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, Me
     meso_arena_init(&scratch);
     MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
     Builder builder = {.model = model, .scene = scene, .options = options, .contours = contours};
-    *scene = (MesoScene){.section_scale = options.section_scale, .thickness = options.thickness};
+    *scene = (MesoScene){.section_scale = options.section_scale, .thickness = options.thickness,
+                         .frame_rule = (MesoFrameRule)options.frame};
     MesoStatus status = expand(&builder, arena, &scratch, thread_count, error);
     meso_arena_release(&scratch);
     if (expansion)
@@ -395,7 +477,8 @@ MesoStatus meso_model_expand(MesoScene *scene, MesoExpansion *expansion, MesoAre
     MesoContourSet contours;
     meso_arena_init(&scratch);
     MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
-    MesoStatus status = meso_contour_set_build(&contours, &scratch, &model->tile_set, options.section_step, error);
+    float step = contour_step(&options, model);
+    MesoStatus status = meso_contour_set_build(&contours, &scratch, &model->tile_set, step, error);
     if (!status)
         status = meso_model_expand_over(scene, expansion, arena, model, &contours, thread_count, error);
     meso_arena_release(&scratch);

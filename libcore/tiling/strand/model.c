@@ -1,6 +1,7 @@
 #include "libcore/tiling/strand/model.h"
 
-const char *const meso_frame_rule_names[] = {"paper", "minimal", NULL};
+const char *const meso_section_size_names[] = {"scene", "slot", NULL};
+const char *const meso_tolerance_unit_names[] = {"edge", "scene", NULL};
 
 static float positive_or(float value, float otherwise)
 {
@@ -31,7 +32,20 @@ const char *meso_map_options_problem(const MesoMapOptions *options)
         return "frame";
     if (options->normals > MESO_NORMALS_FLAT || options->side > MESO_SHELL_INSIDE || options->limit_folds > 1)
         return "form of the shell";
+    if (options->section_size > MESO_SECTION_SLOT)
+        return "section size";
+    if (!within(options->tolerance, 0, longest) || options->tolerance_in > MESO_TOLERANCE_SCENE)
+        return "tolerance";
     return NULL;
+}
+
+float meso_map_options_tolerance(const MesoMapOptions *options, float mean_edge_length)
+{
+    float edge = positive_or(mean_edge_length, 1);
+    if (!(options->tolerance > 0))
+        return 0;
+    float in_edges = options->tolerance / (options->tolerance_in == MESO_TOLERANCE_SCENE ? edge : 1);
+    return edge * fminf(fmaxf(in_edges, MESO_TOLERANCE_LEAST), MESO_TOLERANCE_MOST);
 }
 
 MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length)

@@ -9,17 +9,30 @@
 #include "libcore/mesh/quad_mesh.h"
 #include "libcore/mesh/slot_graph.h"
 #include "libcore/mesh/triangle_mesh.h"
+#include "libcore/scene/scene.h"
 #include "libcore/shell/shell_form.h"
 #include "libcore/tiling/problem/assignment.h"
 #include "libcore/tiling/tile/tile_set.h"
 
-/* How the frame of a sweep turns along it (scene.h). */
-typedef enum MesoFrameRule {
-    MESO_FRAME_PAPER,       /* the up vector runs straight from end to end */
-    MESO_FRAME_MINIMAL      /* it turns no more than the trajectory makes it, and what is left evenly */
-} MesoFrameRule;
+/* What the section scale is the length of. */
+typedef enum MesoSectionSize {
+    MESO_SECTION_SCENE,     /* one edge length in the drawings, everywhere */
+    MESO_SECTION_SLOT       /* the same on slots of mean size; sections grow and shrink with their slots */
+} MesoSectionSize;
 
-extern const char *const meso_frame_rule_names[];   /* ended by NULL */
+extern const char *const meso_section_size_names[];     /* ended by NULL */
+
+/* What a tolerance is measured in. */
+typedef enum MesoToleranceUnit {
+    MESO_TOLERANCE_EDGE,    /* the mean edge length of the surface */
+    MESO_TOLERANCE_SCENE    /* scene units */
+} MesoToleranceUnit;
+
+extern const char *const meso_tolerance_unit_names[];   /* ended by NULL */
+
+/* Bounds of a tolerance that is not 0, in edge lengths; in scene units it may be any length. */
+#define MESO_TOLERANCE_LEAST 1e-5f
+#define MESO_TOLERANCE_MOST 1.0f
 
 /* Lengths in scene units. Zero (or negative) lengths stand for the default in brackets. */
 typedef struct MesoMapOptions {
@@ -29,10 +42,13 @@ typedef struct MesoMapOptions {
     float tangent_scale;    /* factor on the handles of trajectories [1] */
     float section_step;     /* sampling step of contours in edge lengths [0.02] */
     uint32_t divisions;     /* vertices along a sweep [12], at least 2 */
-    uint32_t frame;         /* a MesoFrameRule */
     uint32_t normals;       /* MesoShellNormals */
     uint32_t side;          /* MesoShellSide */
     uint32_t limit_folds;   /* 1: the shell is lowered where it would fold */
+    uint32_t frame;         /* a MesoFrameRule (scene.h) */
+    uint32_t section_size;  /* a MesoSectionSize */
+    float tolerance;        /* of steps along and around, instead of divisions and section step; 0 is none */
+    uint32_t tolerance_in;  /* a MesoToleranceUnit */
 } MesoMapOptions;
 
 /* Bounds of the factors and the lifts of a shell's vertices. */
@@ -57,6 +73,9 @@ typedef struct MesoModel {
  * divisions outside [2, 4096], rules that there are not, and what is not a number.
  */
 const char *meso_map_options_problem(const MesoMapOptions *options);
+
+/* The tolerance of resolved options in scene units, or 0, for a surface of that mean edge length; within its bounds. */
+float meso_map_options_tolerance(const MesoMapOptions *options, float mean_edge_length);
 
 /* `options` with every default filled in from the mean edge length. */
 MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length);

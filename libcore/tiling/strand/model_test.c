@@ -39,5 +39,13 @@ int main(void)
     wrong = all;
     wrong.frame = 2;
     CHECK(strcmp(meso_map_options_problem(&wrong), "frame") == 0);
+    wrong = all;
+    wrong.tolerance = -1;
+    CHECK(strcmp(meso_map_options_problem(&wrong), "tolerance") == 0);
+
+    MesoMapOptions near = {.tolerance = 0.01f};     /* in edge lengths, or in scene units */
+    CHECK(meso_map_options_tolerance(&all, 3) == 0 && meso_map_options_tolerance(&near, 2) == 0.02f);
+    near.tolerance_in = MESO_TOLERANCE_SCENE;
+    CHECK(fabsf(meso_map_options_tolerance(&near, 2) - 0.01f) < 1e-8f);
     return 0;
 }

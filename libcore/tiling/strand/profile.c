@@ -6,113 +6,29 @@
 
 #include "libcore/base/disjoint_sets.h"
 #include "libcore/base/grow.h"
-
-/* A ring's corner is sharp where it turns by more than 50 degrees: discs of 8 points stay round. */
-static const float CREASE_COSINE = 0.6428f;
+#include "libcore/tiling/strand/column_thin.h"
+#include "libcore/tiling/strand/contour_ring.h"
 
 enum { MIN_CAP_DIVISIONS = 4 };
 
-/* One resampled contour. */
-typedef struct Ring {
-    uint32_t count;
-    MesoVec2 *points;       /* [count] */
-    bool *creased;          /* [count] a sharp corner */
-} Ring;
+/*
+ * A section that turns by less, in radians, is blended straight, which costs it at most two percent of its width.
+ * Drawings that are not each other's image differ by as much, and sets align them so by their `turn`.
+ */
+static const double LEAST_TURN = 2 * MESO_PI / 16;
 
 typedef struct Builder {
     const MesoTileSet *set;
     const MesoContourSet *contours;
     MesoArena *arena, *scratch;
     MesoProfileSet *out;
-    Ring *rings;            /* [contour_count] */
+    MesoRing *rings;            /* [contour_count] */
+    uint32_t *ring_begin;       /* [contour_count + 1] the points of all rings in one row */
+    bool spread;                /* rings by parts of the contours, for columns to be chosen from */
     uint32_t divisions;
     uint32_t column_capacity, kind_capacity;
+    MesoColumnPlace *places;    /* [column_count of the profiles] */
 } Builder;
-
-/* ---- rings ---- */
-
-typedef struct Share {
-    double rest;
-    uint32_t segment;
-} Share;
-
-static int compare_shares(const void *a, const void *b)
-{
-    const Share *x = a, *y = b;
-    if (x->rest != y->rest)
-        return x->rest > y->rest ? -1 : 1;
-    return x->segment < y->segment ? -1 : x->segment > y->segment;
-}
-
-static double segment_length(const MesoVec2 *p, uint32_t count, uint32_t i)
-{
-    return (double)meso_vec2_length(meso_vec2_sub(p[(i + 1) % count], p[i]));
-}
-
-MesoStatus meso_contour_resample(const MesoVec2 *contour, uint32_t contour_count, MesoVec2 *out,
-                                 uint32_t count, MesoArena *scratch, MesoError *error)
-{
-    assert(count >= contour_count && contour_count > 0);
-    MesoArenaMark mark = meso_arena_mark(scratch);
-    Share *shares = MESO_NEW(scratch, Share, contour_count, error);
-    uint32_t *extra = MESO_NEW(scratch, uint32_t, contour_count, error);
-    if (!shares || !extra)
-        return MESO_ERR_MEMORY;
-
-    /* Largest remainders: whole shares first, then one each where most is left. */
-    double total = 0;
-    for (uint32_t i = 0; i < contour_count; i++)
-        total += segment_length(contour, contour_count, i);
-    uint32_t left = count - contour_count;
-    for (uint32_t i = 0; i < contour_count; i++) {
-        double share = total > 0 ? (count - contour_count) * segment_length(contour, contour_count, i) / total : 0;
-        extra[i] = (uint32_t)share < left ? (uint32_t)share : left;
-        shares[i] = (Share){share - extra[i], i};
-        left -= extra[i];
-    }
-    qsort(shares, contour_count, sizeof *shares, compare_shares);
-    for (uint32_t i = 0; left > 0; i = (i + 1) % contour_count, left--)
-        extra[shares[i].segment]++;
-
-    for (uint32_t i = 0; i < contour_count; i++)
-        for (uint32_t k = 0; k <= extra[i]; k++)
-            *out++ = meso_vec2_lerp(contour[i], contour[(i + 1) % contour_count],
-                                    (float)k / (float)(extra[i] + 1));
-    meso_arena_rewind(scratch, mark);
-    return MESO_OK;
-}
-
-static MesoVec2 segment_direction(MesoVec2 a, MesoVec2 b)
-{
-    MesoVec2 d = meso_vec2_sub(b, a);
-    float length = meso_vec2_length(d);
-    return length > 0 ? (MesoVec2){d.x / length, d.y / length} : (MesoVec2){1, 0};
-}
-
-static void find_creases(Ring *ring)
-{
-    for (uint32_t i = 0; i < ring->count; i++) {
-        MesoVec2 here = ring->points[i];
-        MesoVec2 a = segment_direction(ring->points[(i + ring->count - 1) % ring->count], here);
-        MesoVec2 b = segment_direction(here, ring->points[(i + 1) % ring->count]);
-        ring->creased[i] = a.x * b.x + a.y * b.y < CREASE_COSINE;
-    }
-}
-
-static MesoStatus make_ring(Builder *b, uint32_t contour, uint32_t count, MesoError *error)
-{
-    const MesoContour *c = &b->contours->contours[contour];
-    Ring *ring = &b->rings[contour];
-    *ring = (Ring){count, MESO_NEW(b->scratch, MesoVec2, count, error),
-                   MESO_NEW(b->scratch, bool, count, error)};
-    if (!ring->points || !ring->creased)
-        return MESO_ERR_MEMORY;
-    MesoStatus status = meso_contour_resample(b->contours->points + c->point_begin, c->point_count,
-                                              ring->points, count, b->scratch, error);
-    if (!status)
-        find_creases(ring);
-    return status;
-}
 
 /* ---- pairing of contours ---- */
 
@@ -149,14 +65,20 @@ static bool nth_pair(const Builder *b, uint32_t from, uint32_t to, uint32_t n, u
     return pair[0] != MESO_NO_INDEX || pair[1] != MESO_NO_INDEX;
 }
 
+static bool is_hole(const Builder *b, const uint32_t pair[2])
+{
+    return b->contours->contours[pair[0] != MESO_NO_INDEX ? pair[0] : pair[1]].hole;
+}
+
 /* Joins the contours that sweeps pair, and gives every class the count of its largest. */
 static MesoStatus make_rings(Builder *b, MesoError *error)
 {
     uint32_t count = b->contours->contour_count;
     uint32_t *parent = MESO_NEW(b->scratch, uint32_t, count, error);
     uint32_t *most = MESO_NEW(b->scratch, uint32_t, count, error);
-    b->rings = MESO_NEW(b->scratch, Ring, count, error);
-    if (!parent || !most || !b->rings)
+    b->rings = MESO_NEW(b->scratch, MesoRing, count, error);
+    b->ring_begin = MESO_NEW(b->scratch, uint32_t, (size_t)count + 1, error);
+    if (!parent || !most || !b->rings || !b->ring_begin)
         return MESO_ERR_MEMORY;
     meso_sets_init(parent, count);
     for (uint32_t s = 0; s < b->set->sweep_count; s++) {
@@ -170,19 +92,22 @@ static MesoStatus make_rings(Builder *b, MesoError *error)
         uint32_t root = meso_sets_root(parent, c), own = b->contours->contours[c].point_count;
         most[root] = most[root] > own ? most[root] : own;
     }
-    for (uint32_t c = 0; c < count; c++) {
-        MesoStatus status = make_ring(b, c, most[meso_sets_root(parent, c)], error);
-        if (status)
-            return status;
+    MesoStatus status = MESO_OK;
+    for (uint32_t c = 0; c < count && !status; c++) {
+        const MesoContour *contour = &b->contours->contours[c];
+        status = (b->spread ? meso_ring_spread : meso_ring_resample)(
+            &b->rings[c], b->scratch, b->contours->points + contour->point_begin, contour->point_count,
+            most[meso_sets_root(parent, c)], error);
+        b->ring_begin[c + 1] = b->ring_begin[c] + b->rings[c].count;
     }
-    return MESO_OK;
+    return status;
 }
 
 /* ---- columns ---- */
 
 /* A ring as one end of a sweep walks it: which point at step k, in the sweep's own plane. */
 typedef struct Walk {
-    const Ring *ring;       /* NULL: all in one point */
+    const MesoRing *ring;       /* NULL: all in one point */
     MesoVec2 point;         /* that one */
     float x_sign;
     bool backwards;
@@ -190,12 +115,12 @@ typedef struct Walk {
 } Walk;
 
 /* The plane has x along cross(up, tangent): against the drawing's x at the start, with it at the end. */
-static Walk walk_start(const Ring *ring, bool flipped)
+static Walk walk_start(const MesoRing *ring, bool flipped)
 {
     return (Walk){ring, {0, 0}, flipped ? 1.0f : -1.0f, flipped, 0};
 }
 
-static Walk walk_end(const Ring *ring, const MesoSweep *sweep, bool start_flipped, bool end_flipped,
+static Walk walk_end(const MesoRing *ring, const MesoSweep *sweep, bool start_flipped, bool end_flipped,
                      uint32_t count)
 {
     double phase = (start_flipped != end_flipped ? 0.5 : 0) + (sweep->half_turn ? 0 : 0.5) + (double)sweep->turn;
@@ -244,6 +169,49 @@ static MesoVec2 walk_middle(const Walk *walk)
     return (MesoVec2){(float)(x / walk->ring->count), (float)(y / walk->ring->count)};
 }
 
+/* ---- turns ---- */
+
+/* How the profiles of a sweep turn, as its kind has it. */
+typedef struct Turn {
+    float angle;
+    MesoVec2 middle[2];
+} Turn;
+
+/*
+ * The turn about both middles that takes the one walk nearest to the other, from X to Y. Walks are aligned to whole
+ * points, so that less than one says nothing: straight tubes stay as they are.
+ */
+static Turn find_turn(const Walk *start, const Walk *end, bool mirrored)
+{
+    double cross = 0, dot = 0;
+    uint32_t count = start->ring->count;
+    Turn turn = {0, {walk_middle(start), walk_middle(end)}};
+    for (uint32_t k = 0; k < count; k++) {
+        MesoVec2 a = meso_vec2_sub(walk_point(start, k), turn.middle[0]);
+        MesoVec2 b = meso_vec2_sub(walk_point(end, k), turn.middle[1]);
+        cross += (double)meso_vec2_cross(a, b);
+        dot += (double)a.x * (double)b.x + (double)a.y * (double)b.y;
+    }
+    double angle = atan2(cross, dot), point = 2 * MESO_PI / count;
+    if (fabs(angle) < fmax(LEAST_TURN, 1.01 * point))
+        return (Turn){0};
+    if (fabs(angle) > MESO_PI - 1e-3)   /* half a turn: the side says which way, and mirrors turn the other way */
+        angle = mirrored ? -MESO_PI : MESO_PI;
+    turn.angle = (float)angle;
+    return turn;
+}
+
+/* Whole turns more, the other way in mirrors. */
+static Turn add_turns(Turn turn, const MesoSweep *sweep, bool mirrored, const Walk *start, const Walk *end)
+{
+    if (sweep->turns == 0)
+        return turn;
+    if (turn.angle == 0)
+        turn = (Turn){0, {walk_middle(start), walk_middle(end)}};
+    turn.angle += (float)(2 * MESO_PI * (mirrored ? -sweep->turns : sweep->turns));
+    return turn;
+}
+
 /* Which neighbours a column takes its normal from. */
 typedef enum Facing { BOTH, PREVIOUS, NEXT } Facing;
 
@@ -254,15 +222,23 @@ static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t 
     uint32_t from = facing == NEXT ? k : k + count - 1, to = facing == PREVIOUS ? k : k + 1;
     return (MesoSweepColumn){walk_point(start, k), walk_point(end, k),
                              walk_normal(start_normals, from, to), walk_normal(end_normals, from, to),
-                             (float)k / (float)count, joins};
+                             (float)k / (float)count, joins, 0};
 }
 
-static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoError *error)
+static uint32_t place_of(const Builder *b, const Walk *walk, uint32_t k)
+{
+    return walk->ring ? b->ring_begin[walk->ring - b->rings] + walk_index(walk, k) : MESO_NO_INDEX;
+}
+
+static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoColumnPlace place, MesoError *error)
 {
     MesoProfileSet *out = b->out;
+    uint32_t capacity = b->column_capacity;
     out->columns = MESO_GROW(b->scratch, out->columns, out->column_count, b->column_capacity, 64, error);
-    if (!out->columns)
+    b->places = MESO_GROW(b->scratch, b->places, out->column_count, capacity, 64, error);
+    if (!out->columns || !b->places)
         return MESO_ERR_MEMORY;
+    b->places[out->column_count] = place;
     out->columns[out->column_count++] = column;
     return MESO_OK;
 }
@@ -271,11 +247,13 @@ static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count,
 {
     for (uint32_t k = 0; k <= count; k++) {
         bool creased = walk_creased(&start, k) || walk_creased(&end, k);
+        MesoColumnPlace place = {place_of(b, &start, k), place_of(b, &end, k), creased};
         MesoStatus status = MESO_OK;
         if (creased && k > 0)
-            status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, false), error);
+            status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, false), place, error);
         if (!status && (k < count || !creased))
-            status = push_column(b, make_column(&start, &end, k, count, creased ? NEXT : BOTH, k < count), error);
+            status = push_column(b, make_column(&start, &end, k, count, creased ? NEXT : BOTH, k < count), place,
+                                 error);
         if (status)
             return status;
     }
@@ -283,7 +261,7 @@ static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count,
 }
 
 /* A kind with the columns of two walks; the materials are those of the sections. */
-static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t divisions, Walk start, Walk end,
+static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t divisions, Walk start, Walk end, Turn turn,
                             MesoError *error)
 {
     MesoProfileSet *out = b->out;
@@ -295,7 +273,8 @@ static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t division
 
     MesoSweptKind kind = {.column_begin = out->column_count, .joint_count = count, .division_count = divisions,
                           .start_material = origin.start_section, .end_material = origin.end_section,
-                          .cap = origin.sweep == MESO_NO_INDEX};
+                          .cap = origin.sweep == MESO_NO_INDEX, .turn = turn.angle,
+                          .middle = {turn.middle[0], turn.middle[1]}};
     MesoStatus status = push_columns(b, start, end, count, error);
     if (status)
         return status;
@@ -312,7 +291,7 @@ static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t division
 
 /* ---- kinds ---- */
 
-static const Ring *ring_or_none(const Builder *b, uint32_t contour)
+static const MesoRing *ring_or_none(const Builder *b, uint32_t contour)
 {
     return contour == MESO_NO_INDEX ? NULL : &b->rings[contour];
 }
@@ -323,14 +302,22 @@ static MesoStatus push_sweep(Builder *b, uint32_t tile, uint32_t sweep_index, bo
     const MesoSweep *s = &b->set->sweeps[sweep_index];
     bool start_flipped = (t->labels[s->from_side] < 0) != mirrored;
     bool end_flipped = (t->labels[s->to_side] < 0) != mirrored;
-    uint32_t pair[2];
+    uint32_t pair[2], outline_count = 0;
+    Turn turn = {0};
 
     for (uint32_t n = 0; nth_pair(b, s->from_section, s->to_section, n, pair); n++) {
-        const Ring *from = ring_or_none(b, pair[0]), *to = ring_or_none(b, pair[1]);
+        const MesoRing *from = ring_or_none(b, pair[0]), *to = ring_or_none(b, pair[1]);
         uint32_t count = from ? from->count : to->count;
-        MesoKindOrigin origin = {tile, sweep_index, s->from_side, s->to_side, s->from_section, s->to_section, mirrored};
-        MesoStatus status = push_kind(b, origin, b->divisions, walk_start(from, start_flipped),
-                                      walk_end(to, s, start_flipped, end_flipped, count), error);
+        Walk start = walk_start(from, start_flipped), end = walk_end(to, s, start_flipped, end_flipped, count);
+        MesoKindOrigin origin = {tile, sweep_index, s->from_side, s->to_side, s->from_section, s->to_section,
+                                 mirrored, 0};
+        bool hole = is_hole(b, pair);
+        outline_count += !hole;
+        if (!hole && from && to)
+            turn = add_turns(find_turn(&start, &end, mirrored), s, mirrored, &start, &end);
+        else if (!hole || outline_count > 1)    /* nothing to turn, or not known with which outline */
+            turn = (Turn){0};
+        MesoStatus status = push_kind(b, origin, b->divisions, start, end, turn, error);
         if (status)
             return status;
     }
@@ -360,9 +347,9 @@ static MesoStatus push_caps(Builder *b, uint32_t tile, uint32_t side, bool mirro
         if (section_is_swept(b->set, t, side, section))
             continue;
         for (uint32_t c = contour_begin(b, section); c < contour_end(b, section); c++) {
-            MesoKindOrigin origin = {tile, MESO_NO_INDEX, side, side, section, section, mirrored};
+            MesoKindOrigin origin = {tile, MESO_NO_INDEX, side, side, section, section, mirrored, 0};
             Walk walk = walk_start(&b->rings[c], flipped);
-            MesoStatus status = push_kind(b, origin, divisions, walk, walk, error);
+            MesoStatus status = push_kind(b, origin, divisions, walk, walk, (Turn){0}, error);
             if (status)
                 return status;
         }
@@ -420,16 +407,20 @@ static MesoStatus keep(MesoProfileSet *out, MesoArena *arena, MesoError *error)
 }
 
 MesoStatus meso_profile_set_build(MesoProfileSet *profiles, MesoArena *arena, const MesoTileSet *set,
-                                  const MesoContourSet *contours, uint32_t divisions, MesoError *error)
+                                  const MesoContourSet *contours, uint32_t divisions, float tolerance,
+                                  MesoError *error)
 {
     MesoArena scratch;
     meso_arena_init(&scratch);
     *profiles = (MesoProfileSet){0};
     Builder builder = {.set = set, .contours = contours, .arena = arena, .scratch = &scratch,
-                       .out = profiles, .divisions = divisions};
+                       .out = profiles, .divisions = divisions, .spread = tolerance > 0};
     MesoStatus status = make_rings(&builder, error);
     if (!status)
         status = push_all(&builder, error);
+    if (!status && tolerance > 0)
+        status = meso_columns_thin(profiles, builder.places, builder.rings, contours->contour_count, &scratch,
+                                   tolerance, error);
     if (!status)
         status = keep(profiles, arena, error);
     meso_arena_release(&scratch);

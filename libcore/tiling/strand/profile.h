@@ -6,24 +6,8 @@
 #ifndef MESO_PROFILE_H
 #define MESO_PROFILE_H
 
-#include "libcore/scene/scene.h"
+#include "libcore/tiling/strand/profile_set.h"
 #include "libcore/tiling/tile/contour.h"
-
-/* Where a swept kind of the scene comes from. */
-typedef struct MesoKindOrigin {
-    uint32_t tile, sweep;               /* sweep is MESO_NO_INDEX for a cap */
-    uint32_t start_side, end_side;      /* of the tile; equal for a cap */
-    uint32_t start_section, end_section;
-    bool mirrored;                      /* the tile's transform flips */
-} MesoKindOrigin;
-
-typedef struct MesoProfileSet {
-    uint32_t kind_count, column_count;
-    MesoSweptKind *kinds;       /* [kind_count] by tile, mirrored, then sweeps before caps; no instances yet */
-    MesoKindOrigin *origins;    /* [kind_count] */
-    MesoSweepColumn *columns;
-    uint32_t *tile_kinds;       /* [2 * tile_count + 1]: kinds of tile t unmirrored from 2 t, mirrored from 2 t + 1 */
-} MesoProfileSet;
 
 /*
  * Makes the kinds of all tiles of a checked set.
@@ -38,15 +22,16 @@ typedef struct MesoProfileSet {
  *     start at u (1 - u if flipped), end at 1 - u (u if flipped), plus half a
  *     turn if the flips differ, half a turn unless `half_turn`, and `turn`
  *
+ * A section turns along the sweep by the angle between the points that this pairs, at most half a turn, and by
+ * `turns` more; each outline about its own middle, a hole with the only outline there is.
+ *
  * divisions   vertices along a sweep; caps get a quarter, at least 4
+ * tolerance   in units of the profiles: columns are dropped within it (column_thin.h); 0 keeps all
  *
  * O(points of all kinds).
  */
 MesoStatus meso_profile_set_build(MesoProfileSet *profiles, MesoArena *arena, const MesoTileSet *set,
-                                  const MesoContourSet *contours, uint32_t divisions, MesoError *error);
-
-/* Resamples `contour` to `count` >= its own points, in order, keeping them all. For profiles and tests. */
-MesoStatus meso_contour_resample(const MesoVec2 *contour, uint32_t contour_count, MesoVec2 *out,
-                                 uint32_t count, MesoArena *scratch, MesoError *error);
+                                  const MesoContourSet *contours, uint32_t divisions, float tolerance,
+                                  MesoError *error);
 
 #endif

@@ -59,6 +59,8 @@ typedef struct MesoSweep {
     uint32_t from_section, to_section;  /* into the set's sections */
     bool half_turn;                     /* turns the end section by half a turn */
     float turn;                         /* and by this much more, in turns [0,1) */
+    int32_t turns;                      /* whole turns more along the way, [-64,64]; they change no end */
+    float tangent_scale;                /* factor on the handles of its trajectories; 0 stands for 1 */
 } MesoSweep;
 
 /* A mesh of the artist's that a tile carries along. */
@@ -76,6 +78,7 @@ typedef struct MesoTile {
     int32_t labels[MESO_SIDE_COUNT];
     uint32_t sweep_begin, sweep_count;
     uint32_t inner_begin, inner_count;
+    float tangent_scale;                /* on those of all its sweeps; 0 stands for 1 */
     bool rotation, flip_x, flip_y;      /* transforms that it allows */
     bool ignored;                       /* kept in the set, not used in tilings */
 } MesoTile;

@@ -7,7 +7,7 @@
 
 #include "libcore/tiling/tile/variant.h"
 
-enum { NAME_LENGTH = 200, PLACE_LENGTH = 640 };
+enum { NAME_LENGTH = 200, PLACE_LENGTH = 640, MOST_TURNS = 64 };
 
 /* Drawings may leave the unit square a little: strokes end where they end. */
 static const float CENTER_LOW = -1, CENTER_HIGH = 2, SIZE_HIGH = 4, ANGLE_HIGH = 100;
@@ -315,6 +315,13 @@ static bool shows_section(const MesoTileSet *set, const MesoTile *tile, uint32_t
            set->sections[section].interface == meso_label_interface(label);
 }
 
+/* 0 stands for 1. */
+static void check_tangent_scale(Check *check, float scale)
+{
+    if (scale != 0 && !(scale >= 1e-3f && scale <= 1e3f))
+        wrong(check, "tangent_scale is %g; it must be from 0.001 to 1000", (double)scale);
+}
+
 static void check_sweep(Check *check, const MesoTile *tile, const MesoSweep *sweep)
 {
     const uint32_t sides[2] = {sweep->from_side, sweep->to_side};
@@ -331,6 +338,9 @@ static void check_sweep(Check *check, const MesoTile *tile, const MesoSweep *swe
     }
     if (!(isfinite(sweep->turn) && sweep->turn >= 0 && sweep->turn < 1))
         wrong(check, "turn is %g; it must be from 0 to less than 1", (double)sweep->turn);
+    if (sweep->turns < -MOST_TURNS || sweep->turns > MOST_TURNS)
+        wrong(check, "turns is %d; it must be from -%d to %d", sweep->turns, MOST_TURNS, MOST_TURNS);
+    check_tangent_scale(check, sweep->tangent_scale);
 }
 
 static void check_tile(Check *check, uint32_t t)
@@ -338,6 +348,7 @@ static void check_tile(Check *check, uint32_t t)
     const MesoTileSet *set = check->set;
     const MesoTile *tile = &set->tiles[t];
     look_at_tile(check, t, NULL, 0);
+    check_tangent_scale(check, tile->tangent_scale);
     if (tile->side_count != 4 && tile->side_count != 6) {
         wrong(check, "has %u sides; it must have 4, or 6 with top and bottom", tile->side_count);
         return;

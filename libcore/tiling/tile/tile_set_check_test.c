@@ -143,6 +143,9 @@ static void test_values(void)
     EXPECT_ERROR(f.csg[0].angle = NAN,
                  "interfaces[0] 'a', section '1': angle is nan; it must be from -100 to 100");
     EXPECT_ERROR(f.sweeps[0].turn = 1, "tiles[0] 'flat', sweep 0: turn is 1; it must be from 0 to less than 1");
+    EXPECT_ERROR(f.sweeps[0].turns = -65, "tiles[0] 'flat', sweep 0: turns is -65; it must be from -64 to 64");
+    EXPECT_ERROR(f.sweeps[0].tangent_scale = -1,
+                 "tiles[0] 'flat', sweep 0: tangent_scale is -1; it must be from 0.001 to 1000");
     EXPECT_ERROR(f.interfaces[0].border_only = true,
                  "interfaces[0] 'a': border exempt and border only exclude each other");
 }

@@ -29,6 +29,8 @@ typedef struct PlacedSweep {
     uint32_t side[2], section[2];
     uint32_t half_turn;
     uint32_t turn_bits;
+    int32_t turns;
+    uint32_t tangent_bits;
 } PlacedSweep;
 
 static int compare_placed(const void *a, const void *b)
@@ -43,12 +45,14 @@ static PlacedSweep place_sweep(const MesoSweep *sweep, MesoTransform transform)
                  meso_transform_side(transform, sweep->to_side)},
         .section = {sweep->from_section, sweep->to_section},
         .half_turn = sweep->half_turn,
+        .turns = meso_transform_flips(transform) ? -sweep->turns : sweep->turns,
     };
     /* The mirror image of a sweep turns the other way; 0 also stands for -0 here. */
     float turn = sweep->turn == 0 ? 0.0f : sweep->turn;
     if (meso_transform_flips(transform) && turn != 0)
         turn = 1 - turn;
     memcpy(&placed.turn_bits, &turn, sizeof turn);
+    memcpy(&placed.tangent_bits, &sweep->tangent_scale, sizeof placed.tangent_bits);
 
     bool directed = sweep->half_turn || turn != 0;
     bool descends = placed.side[0] > placed.side[1] ||

@@ -177,6 +177,9 @@ static void test_variants(void)
     straight.half_turn = false;
     straight.turn = 0.25f;
     CHECK(count_variants(round, &straight, 1, &transforms) == 8);
+    straight.turn = 0;      /* turned all the way it looks the same from both ends, but not in a mirror */
+    straight.turns = 1;
+    CHECK(count_variants(round, &straight, 1, &transforms) == 4);
 
     /* A cross of two: as a set, whatever the order. */
     MesoSweep cross[2] = {{.from_side = 0, .to_side = 2}, {.from_side = 3, .to_side = 1}};

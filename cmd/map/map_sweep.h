@@ -1,0 +1,29 @@
+/* Options of meso-map about sweeps: their frames, the size of their sections, a tolerance. */
+#ifndef MESO_MAP_SWEEP_H
+#define MESO_MAP_SWEEP_H
+
+#include "cmd/common/tool.h"
+#include "libcore/tiling/strand/model.h"
+
+typedef struct MesoMapSweep {
+    const char *frame, *section_size;   /* names of MesoFrameRule and MesoSectionSize; NULL: not given */
+    const char *tolerance;              /* a number, and perhaps a unit */
+    struct {
+        bool frame, section_size, tolerance;
+    } given;
+} MesoMapSweep;
+
+#define MESO_MAP_SWEEP_OPTIONS(sweep)                                                                         \
+    MESO_CHOICE(0, "frame", "RULE", "how sections turn along their sweeps (default paper)", &(sweep).frame,   \
+                "paper|minimal", .given = &(sweep).given.frame, .more = MESO_OPTION_OVERRIDES),               \
+    MESO_CHOICE(0, "section-size", "OF", "what --section-scale is for: the scene, or a slot of mean size "    \
+                "(default scene)", &(sweep).section_size, "scene|slot", .given = &(sweep).given.section_size, \
+                .more = MESO_OPTION_OVERRIDES),                                                               \
+    MESO_TEXT(0, "tolerance", "X", "steps along and around so that the polygons stay so near to the surface, " \
+              "in edge lengths, or with 'u' behind in scene units", &(sweep).tolerance,                       \
+              .given = &(sweep).given.tolerance, .more = MESO_OPTION_OVERRIDES)
+
+/* Puts what was given into `options`; `steps`: divisions or a section step were given, which exclude a tolerance. */
+MesoStatus meso_map_sweep_set(const MesoMapSweep *sweep, bool steps, MesoMapOptions *options, MesoError *error);
+
+#endif

@@ -1,0 +1,126 @@
+/* Pictures of sweeps that the shader bends are those of the polygons that the mapper makes of them. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "libcore/base/check.h"
+#include "libcore/render/render.h"
+#include "libcore/scene/parts.h"
+
+enum { SIDES = 32, RINGS = 65, WIDTH = 160, HEIGHT = 90, VERTICES = (SIDES + 1) * RINGS, FACES = SIDES * (RINGS - 1) };
+
+typedef struct Case {
+    MesoMaterial material;
+    MesoSweepColumn columns[SIDES + 1];
+    MesoSweptKind kind;
+    MesoSweepInstance sweep;
+    uint32_t ids[1];
+    MesoMeshVertex vertices[VERTICES];
+    MesoVec3 positions[VERTICES], normals[VERTICES];
+    MesoMeshFace faces[FACES];
+    MesoBody body;
+    MesoPlacedBody placed;
+    MesoScene swept, bodies;
+} Case;
+
+/* A flat ellipse that turns, on a trajectory that bends in space, larger at its end. */
+static void make_sweep(Case *c)
+{
+    *c = (Case){.material = {{0.75f, 0.25f, 0.125f}, 0.5f, 0}};
+    for (uint32_t i = 0; i <= SIDES; i++) {
+        double angle = -2 * MESO_PI * (i % SIDES) / SIDES;
+        MesoVec2 s = {0.3f * (float)cos(angle), 0.1f * (float)sin(angle)};
+        MesoVec2 n = {0.1f * (float)cos(angle), 0.3f * (float)sin(angle)};
+        c->columns[i] = (MesoSweepColumn){s, {-s.x, -s.y}, n, {-n.x, -n.y}, (float)i / SIDES, i < SIDES, 0};
+    }
+    c->kind = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES, .division_count = RINGS,
+                              .instance_count = 1, .turn = (float)(3 * MESO_PI),
+                              .middle = {{0.05f, 0}, {-0.05f, 0}}};
+    c->sweep = (MesoSweepInstance){{{-1.5f, -0.5f, 0}, {0, -0.5f, 0.5f}, {0, 0.5f, -0.5f}, {1.5f, 0.5f, 0}},
+                                   {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0};
+    for (uint32_t end = 0; end < 2; end++)
+        c->sweep.direction[end] = meso_vec3_direction(meso_vec3_sub(c->sweep.p[1 + 2 * end], c->sweep.p[2 * end]),
+                                                      (MesoVec3){0, 0, 0});
+    c->swept = (MesoScene){.channel_count = 1, .channels = {{"slot", 1, NULL}}, .material_count = 1,
+        .materials = &c->material, .id_row_count = 1, .ids = c->ids, .section_scale = 1, .thickness = 0.5f,
+        .kind_count = 1, .column_count = SIDES + 1, .sweep_count = 1, .kinds = &c->kind, .columns = c->columns,
+        .sweeps = &c->sweep};
+}
+
+static void make_body(Case *c, MesoArena *arena)
+{
+    MesoSceneParts parts;
+    CHECK(meso_scene_parts_init(&parts, arena, &c->swept, NULL) == MESO_OK);
+    CHECK(parts.vertex_begin[1] == VERTICES && parts.face_begin[1] == FACES);
+    meso_scene_vertices(&parts, 0, 1, c->vertices);
+    meso_scene_faces(&parts, 0, 1, 0, c->faces);
+    for (uint32_t i = 0; i < VERTICES; i++) {
+        c->positions[i] = c->vertices[i].position;
+        c->normals[i] = c->vertices[i].normal;
+    }
+    c->body = (MesoBody){.vertex_count = VERTICES, .face_count = FACES, .face_width = 4, .positions = c->positions,
+                         .normals = c->normals, .corners = c->faces[0].v};
+    c->placed = (MesoPlacedBody){0};
+    c->bodies = c->swept;
+    c->bodies.kind_count = c->bodies.column_count = c->bodies.sweep_count = 0;
+    c->bodies.body_count = c->bodies.placed_count = 1;
+    c->bodies.bodies = &c->body;
+    c->bodies.placed = &c->placed;
+}
+
+static MesoImage draw(MesoArena *arena, const MesoScene *scene, bool full_detail)
+{
+    MesoGlContext context;
+    MesoError error = {0};
+    MesoImage image;
+    MesoRenderOptions options = {.width = WIDTH, .height = HEIGHT, .samples = 1, .full_detail = full_detail,
+                                 .camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 15}};
+    if (meso_gl_context_init(&context, "osmesa", 0, &error) ||
+        meso_render(&image, arena, &context, scene, &options, &error))
+        fprintf(stderr, "%s\n", error.message);
+    CHECK(error.status == MESO_OK);
+    meso_gl_context_release(&context);
+    return image;
+}
+
+/* Pixels that only one picture covers, or where they differ by more than rounding. */
+static uint32_t count_different(const MesoImage *a, const MesoImage *b, float depth, float normal, uint32_t *covered)
+{
+    uint32_t different = 0;
+    *covered = 0;
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        bool in_a = a->ids[0][i], in_b = b->ids[0][i], same = in_a == in_b;
+        for (uint32_t k = 0; k < 3 && same && in_a; k++)
+            same = fabsf(a->normal[3 * i + k] - b->normal[3 * i + k]) <= normal;
+        same = same && (!in_a || fabsf(a->depth[i] - b->depth[i]) <= depth);
+        different += !same;
+        *covered += in_a;
+    }
+    return different;
+}
+
+/* The camera frames what is there, so both scenes get one box. */
+static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist)
+{
+    static Case c;
+    uint32_t covered;
+    make_sweep(&c);
+    c.swept.frame_rule = rule;
+    c.sweep.twist = twist;
+    meso_scene_measure(&c.swept);
+    make_body(&c, arena);
+    MesoImage swept = draw(arena, &c.swept, true), body = draw(arena, &c.bodies, true);
+    CHECK(count_different(&swept, &body, 1e-3f, 0.02f, &covered) <= 8 && covered > 1000);
+    MesoImage coarse = draw(arena, &c.swept, false);
+    CHECK(count_different(&coarse, &body, 0.05f, 0.5f, &covered) <= covered / 20);
+}
+
+int main(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    test_rule(&arena, MESO_FRAME_PAPER, 0);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f);
+    meso_arena_release(&arena);
+    return 0;
+}

@@ -1,0 +1,248 @@
+/*
+ * Sweeps against formulas: volumes of a straight tube, a quarter of a torus and boxes that turn, sections that keep
+ * their width, normals against differences, ends to the bit, and frames through an S that stands up.
+ */
+#include "libcore/scene/sweep.h"
+
+#include <stdlib.h>
+
+#include "libcore/base/check.h"
+
+enum { MOST_COLUMNS = 256, MOST_RINGS = 512 };
+
+typedef struct Tube {
+    MesoSweepColumn columns[MOST_COLUMNS + 1];
+    MesoSweptKind kind;
+    MesoSweepInstance sweep;
+    MesoScene scene;
+    MesoMeshVertex vertices[(MOST_COLUMNS + 1) * MOST_RINGS];
+} Tube;
+
+static Tube tube;
+
+/* Profiles of `count` points, the second shifted by `shift` of them; straight along x from 0 to 1. */
+static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, uint32_t rings)
+{
+    for (uint32_t i = 0; i <= count; i++) {
+        const MesoVec2 *a = profile, *b = profile;
+        uint32_t k = i % count, l = (i + shift) % count;
+        MesoVec2 start = meso_vec2_sub(a[(k + 1) % count], a[(k + count - 1) % count]);
+        MesoVec2 end = meso_vec2_sub(b[(l + 1) % count], b[(l + count - 1) % count]);
+        tube.columns[i] = (MesoSweepColumn){a[k], b[l], {-start.y, start.x}, {-end.y, end.x}, 0, i < count, 0};
+    }
+    tube.kind = (MesoSweptKind){.column_count = count + 1, .joint_count = count, .division_count = rings,
+                                .instance_count = 1};
+    tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1 / 3.f, 0, 0}, {2 / 3.f, 0, 0}, {1, 0, 0}},
+                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
+    tube.scene = (MesoScene){.section_scale = 1, .kind_count = 1, .column_count = count + 1, .sweep_count = 1,
+                             .kinds = &tube.kind, .columns = tube.columns, .sweeps = &tube.sweep};
+}
+
+/* Clockwise, as columns are. */
+static uint32_t make_disc(MesoVec2 *profile, uint32_t count, float radius)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double angle = -2 * MESO_PI * i / count;
+        profile[i] = (MesoVec2){radius * (float)cos(angle), radius * (float)sin(angle)};
+    }
+    return count;
+}
+
+/* The same number of points on each side of a box, which starts in a corner. */
+static uint32_t make_box(MesoVec2 *profile, uint32_t side, float width, float height)
+{
+    const MesoVec2 corners[4] = {{-width / 2, height / 2}, {width / 2, height / 2}, {width / 2, -height / 2},
+                                 {-width / 2, -height / 2}};
+    for (uint32_t i = 0; i < 4 * side; i++)
+        profile[i] = meso_vec2_lerp(corners[i / side], corners[(i / side + 1) % 4], (float)(i % side) / (float)side);
+    return 4 * side;
+}
+
+static void sweep(void)
+{
+    CHECK(tube.kind.column_count <= MOST_COLUMNS + 1 && tube.kind.division_count <= MOST_RINGS);
+    meso_sweep_vertices(&tube.scene, &tube.kind, &tube.sweep, tube.vertices);
+}
+
+static double volume6(MesoVec3 a, MesoVec3 b, MesoVec3 c)
+{
+    return (double)meso_vec3_dot(a, meso_vec3_cross(b, c));
+}
+
+/* Under all faces and a fan at each end. */
+static double volume(void)
+{
+    double sum = 0;
+    uint32_t width = tube.kind.column_count, rings = tube.kind.division_count;
+    const MesoMeshVertex *v = tube.vertices, *last = v + (rings - 1) * width;
+    MesoMeshFace *faces = calloc((size_t)width * rings, sizeof *faces);
+    CHECK(faces);
+    meso_sweep_faces(&tube.scene, &tube.kind, 0, faces);
+    for (uint32_t f = 0; f < tube.kind.joint_count * (rings - 1); f++)
+        for (uint32_t k = 2; k < 4; k++)
+            sum += volume6(v[faces[f].v[0]].position, v[faces[f].v[k - 1]].position, v[faces[f].v[k]].position);
+    for (uint32_t c = 1; c + 1 < width - 1; c++)
+        sum += volume6(v[0].position, v[c].position, v[c + 1].position) -
+               volume6(last[0].position, last[c].position, last[c + 1].position);
+    free(faces);
+    return sum / 6;
+}
+
+static bool near(double a, double b, double part)
+{
+    return fabs(a - b) <= part * fabs(b);
+}
+
+static double polygon_area(uint32_t count, double radius)
+{
+    return count * radius * radius * sin(2 * MESO_PI / count) / 2;
+}
+
+static void test_straight(void)
+{
+    MesoVec2 disc[64];
+    make_tube(disc, make_disc(disc, 64, 0.1f), 0, 5);
+    sweep();
+    CHECK(near(volume(), polygon_area(64, 0.1), 1e-5));
+}
+
+/* Guldin: the area times the way of its middle. The cubic is within 3e-4 of the circle. */
+static void test_quarter(void)
+{
+    MesoVec2 disc[64];
+    const float k = (float)(4 * (sqrt(2) - 1) / 3);
+    make_tube(disc, make_disc(disc, 64, 0.2f), 0, 128);
+    tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0};
+    for (uint32_t rule = 0; rule < 2; rule++) {
+        tube.scene.frame_rule = (MesoFrameRule)rule;
+        tube.sweep.twist = rule ? meso_sweep_twist(&tube.sweep) : 0;
+        CHECK(fabsf(tube.sweep.twist) < 1e-5f);
+        sweep();
+        CHECK(near(volume(), polygon_area(64, 0.2) * MESO_PI / 2, 1e-3));
+    }
+}
+
+/* Half a turn pairs opposite points, and once blended them straight: the middle was a point. */
+static void test_turned_box(void)
+{
+    static const double turns[] = {0.5, -0.5, 1, 2.5};
+    MesoVec2 box[64];
+    for (uint32_t i = 0; i < 4; i++) {
+        bool half = fabs(turns[i] - floor(turns[i])) > 0.1;
+        uint32_t count = make_box(box, 16, 0.3f, 0.1f);
+        make_tube(box, count, half ? count / 2 : 0, MOST_RINGS);
+        tube.kind.turn = (float)(2 * MESO_PI * turns[i]);
+        sweep();
+        CHECK(near(volume(), 0.03, 2e-3));
+        for (uint32_t c = 0; c < count; c++) {
+            MesoVec3 first = tube.vertices[c].position;
+            MesoVec3 last = tube.vertices[(MOST_RINGS - 1) * (count + 1) + c].position;
+            MesoVec2 start = tube.columns[c].start, end = tube.columns[c].end;
+            CHECK(first.x == 0 && fabsf(first.y) == fabsf(start.x) && first.z == start.y);
+            CHECK(last.x == 1 && fabsf(last.y) == fabsf(end.x) && last.z == end.y);
+        }
+    }
+    tube.kind.turn = 0;     /* as it was: nothing is left in the middle */
+    sweep();
+    CHECK(volume() < 0.02);
+}
+
+/* About its own middle, beside the trajectory; sizes scale both. */
+static void test_middle(void)
+{
+    MesoVec2 box[64];
+    uint32_t count = make_box(box, 16, 0.2f, 0.1f);
+    for (uint32_t i = 0; i < count; i++)
+        box[i].y += 0.5f;
+    make_tube(box, count, count / 2, 257);
+    tube.kind.turn = (float)MESO_PI;
+    tube.kind.middle[0] = tube.kind.middle[1] = (MesoVec2){0, 0.5f};
+    tube.sweep.size[1] = 3;
+    sweep();
+    const MesoMeshVertex *middle = tube.vertices + 128 * (count + 1);
+    for (uint32_t c = 0; c < count; c++) {      /* at v 1/2 twice as large, a quarter turned */
+        MesoVec3 p = middle[c].position;
+        CHECK(fabsf(fabsf(p.z - 1) - 2 * fabsf(box[c].x)) < 1e-5f);
+        CHECK(fabsf(fabsf(p.y) - 2 * fabsf(box[c].y - 0.5f)) < 1e-5f);
+    }
+    CHECK(tube.vertices[256 * (count + 1)].position.z == 3 * tube.columns[0].end.y);
+}
+
+static MesoVec3 point_at(float column, float v)
+{
+    uint32_t c = (uint32_t)column;
+    const MesoSweepColumn *a = &tube.columns[c], *b = &tube.columns[c + 1];
+    MesoSweepColumn between = *a;
+    between.start = meso_vec2_lerp(a->start, b->start, column - (float)c);
+    between.end = meso_vec2_lerp(a->end, b->end, column - (float)c);
+    return meso_sweep_point(&tube.scene, &tube.kind, &tube.sweep, &between, v);
+}
+
+/* In the middle of the sides of a box, on a straight trajectory: normals are those of the surface. */
+static void test_normals(void)
+{
+    MesoVec2 box[64];
+    uint32_t count = make_box(box, 8, 0.2f, 0.1f);
+    make_tube(box, count, count / 2, 9);
+    tube.kind.turn = (float)(3 * MESO_PI);
+    tube.kind.middle[0] = (MesoVec2){0.1f, 0};
+    tube.sweep.size[1] = 0.5f;
+    tube.sweep.twist = 0.7f;
+    sweep();
+    for (uint32_t ring = 1; ring < 8; ring++)
+        for (uint32_t c = 4; c < count; c += 8) {
+            float v = (float)ring / 8, h = 1e-3f;
+            MesoVec3 along = meso_vec3_sub(point_at((float)c, v + h), point_at((float)c, v - h));
+            MesoVec3 around = meso_vec3_sub(point_at((float)c + 0.5f, v), point_at((float)c - 0.5f, v));
+            MesoVec3 n = meso_vec3_unit(meso_vec3_cross(along, around), along);
+            CHECK(meso_vec3_dot(n, tube.vertices[ring * (count + 1) + c].normal) > 0.9998f);
+        }
+}
+
+/* The angle by which the section turns about the trajectory between rings, at most. */
+static float largest_step(void)
+{
+    float most = 0;
+    uint32_t width = tube.kind.column_count;
+    sweep();
+    for (uint32_t r = 0; r + 1 < tube.kind.division_count; r++) {
+        const MesoMeshVertex *a = tube.vertices + r * width, *b = a + width;
+        MesoVec3 x = meso_vec3_sub(a[0].position, a[width / 2].position);
+        MesoVec3 y = meso_vec3_sub(b[0].position, b[width / 2].position);
+        most = fmaxf(most, acosf(fminf(1, meso_vec3_dot(meso_vec3_direction(x, x), meso_vec3_direction(y, y)))));
+    }
+    return most;
+}
+
+/*
+ * An S that stands up: its tangent passes the paper's up vector, whose frame flips there. The other rule turns with
+ * the trajectory only, and ends in the end's own frame whatever that is.
+ */
+static void test_frames(void)
+{
+    MesoVec2 disc[32];
+    make_tube(disc, make_disc(disc, 32, 0.05f), 0, 129);
+    const MesoVec3 ups[2][2] = {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0.2f}}};
+    for (uint32_t i = 0; i < 2; i++) {
+        tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1.5f, 0, 0}, {-0.5f, 0.05f, 1}, {1, 0.05f, 1}},
+                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
+        tube.scene.frame_rule = MESO_FRAME_PAPER;
+        CHECK(i == 1 || largest_step() > 0.5f);
+        tube.scene.frame_rule = MESO_FRAME_MINIMAL;
+        tube.sweep.twist = meso_sweep_twist(&tube.sweep);
+        CHECK(fabsf(tube.sweep.twist) < (i ? 2.0f : 0.2f));
+        CHECK(largest_step() < 0.12f);
+    }
+}
+
+int main(void)
+{
+    test_straight();
+    test_quarter();
+    test_turned_box();
+    test_middle();
+    test_normals();
+    test_frames();
+    return 0;
+}

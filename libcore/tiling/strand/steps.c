@@ -1,0 +1,331 @@
+/*
+ * A curve cut into n equal steps of its parameter lies within |C''| / (8 n n) of its chords, where only the part of
+ * C'' across the curve counts; and a quad whose corners are D = P11 - P10 - P01 + P00 off a parallelogram, within
+ * |D| / 4 of its triangles, where only the part across the quad counts, and D is proportional to 1 / n.
+ */
+#include "libcore/tiling/strand/steps.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#include "libcore/base/parallel.h"
+#include "libcore/scene/sweep.h"
+
+enum { SWEEPS_A_RANGE = 512, LEAST_INTERVALS = 8, MOST_INTERVALS = 256, LEAST_CAP_STEPS = 3 };
+
+/* Numbers of rings are below it. */
+enum { EASED = MESO_MOST_DIVISIONS + 1 };
+
+/* Pairs of columns: the outermost, and all around where the shape changes. */
+enum { OUTER_PAIRS = 5, MORE_PAIRS = 27, MOST_PAIRS = OUTER_PAIRS + MORE_PAIRS };
+
+/* What columns are off counts in part against the tolerance of the steps, and leaves so much of it. */
+static const float OFF_PART = 0.6f, LEAST_LEFT = 0.5f;
+
+/* Differences at a few places miss the worst one. */
+static const float MARGIN = 1.1f;
+
+/* Where rings lie closer at the ends: half as far there as evenly. They do where that saves a tenth of them. */
+static const float EASE = 0.5f, EASE_GAIN = 0.9f;
+
+/* Of a shape's size: less is none. */
+static const float SMALL_CHANGE = 0.02f;
+
+/* What a radian of turn takes in intervals to be seen. */
+static const float INTERVALS_A_RADIAN = 5;
+
+/* Some neighbouring columns of a kind, two by two, as a kind of their own. */
+typedef struct Sample {
+    MesoSweepColumn columns[2 * MOST_PAIRS];
+    MesoSweptKind kind;
+    MesoScene scene;
+    float radius;       /* of a cap */
+} Sample;
+
+typedef struct Chooser {
+    const MesoScene *scene;
+    const MesoKindOrigin *origins;
+    float tolerance;
+    uint16_t *rings;    /* [sweep_count] and EASED where they lie closer at the ends */
+    atomic_bool failed; /* memory is out */
+} Chooser;
+
+/* ---- what to look at ---- */
+
+/* How far a column reaches in one of four directions, or how far it is to the next one. */
+static float worth(const MesoSweepColumn *column, uint32_t what)
+{
+    if (what == 4)
+        return fmaxf(meso_vec2_length(meso_vec2_sub(column[1].start, column[0].start)),
+                     meso_vec2_length(meso_vec2_sub(column[1].end, column[0].end)));
+    float sign = what & 1 ? -1 : 1;
+    return sign * (what & 2 ? column->start.y + column->end.y : column->start.x + column->end.x);
+}
+
+static bool changes(const MesoSweptKind *kind, const MesoSweepColumn *columns)
+{
+    float change = 0, size = 0;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        change = fmaxf(change, meso_vec2_length(meso_vec2_sub(columns[c].end, columns[c].start)));
+        size = fmaxf(size, meso_vec2_length(columns[c].start));
+    }
+    return kind->turn != 0 || change > SMALL_CHANGE * size;
+}
+
+static void add_pair(Sample *sample, const MesoSweepColumn *column)
+{
+    for (uint32_t i = 0; i < 2; i++) {
+        MesoSweepColumn *to = &sample->columns[sample->kind.column_count++];
+        *to = column[i];
+        to->absent = 0;
+    }
+}
+
+static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    Sample sample = {.kind = *kind, .scene = {.section_scale = scene->section_scale, .frame_rule = scene->frame_rule}};
+    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
+    sample.kind.column_begin = sample.kind.column_count = sample.kind.absent[0] = sample.kind.absent[1] = 0;
+    for (uint32_t what = 0; what < OUTER_PAIRS; what++) {
+        const MesoSweepColumn *best = NULL;
+        for (uint32_t c = 0; c < kind->column_count; c++)
+            if (columns[c].joins_next && (!best || worth(&columns[c], what) > worth(best, what)))
+                best = &columns[c];
+        if (best)
+            add_pair(&sample, best);
+    }
+    uint32_t stride = 1 + kind->column_count / MORE_PAIRS;
+    for (uint32_t c = 0; c < kind->column_count && changes(kind, columns); c += stride)
+        if (columns[c].joins_next)
+            add_pair(&sample, &columns[c]);
+    for (uint32_t c = 0; c < kind->column_count; c++)
+        sample.radius = fmaxf(sample.radius, meso_vec2_length(columns[c].start));
+    return sample;
+}
+
+/* ---- how many it takes ---- */
+
+static float across(MesoVec3 a, MesoVec3 along)
+{
+    float square = meso_vec3_dot(along, along);
+    return meso_vec3_length(square > 0 ? meso_vec3_mad(a, -meso_vec3_dot(a, along) / square, along) : a);
+}
+
+static MesoVec3 second_difference(const MesoMeshVertex *v, uint32_t stride)
+{
+    return meso_vec3_add(meso_vec3_mad(v[0].position, -2, v[stride].position), v[2 * stride].position);
+}
+
+/* At each of the places along a sweep: how much columns bend, by second differences, and quads are warped, by D. */
+typedef struct Wants {
+    uint32_t intervals;
+    float bend[MOST_INTERVALS + 1];
+    float warp[MOST_INTERVALS + 1];
+} Wants;
+
+/* At the ends, where there is no second difference, it goes on as it does beside them. */
+static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride)
+{
+    uint32_t n = wants->intervals;
+    MesoVec3 before = {0, 0, 0};
+    for (uint32_t i = 1; i < n; i++) {
+        const MesoMeshVertex *v = column + (i - 1) * stride;
+        MesoVec3 bend = second_difference(v, stride), along = meso_vec3_sub(v[2 * stride].position, v[0].position);
+        MesoVec3 step = meso_vec3_sub(bend, before);
+        wants->bend[i] = fmaxf(wants->bend[i], across(bend, along));
+        if (i == 2)
+            wants->bend[0] = fmaxf(wants->bend[0], across(meso_vec3_sub(before, step), along));
+        if (i + 1 == n)
+            wants->bend[n] = fmaxf(wants->bend[n], across(meso_vec3_add(bend, step), along));
+        before = bend;
+    }
+}
+
+static void add_warp(Wants *wants, const MesoMeshVertex *pair, uint32_t stride)
+{
+    for (uint32_t i = 0; i < wants->intervals; i++) {
+        const MesoMeshVertex *v = pair + i * stride, *next = v + stride;
+        MesoVec3 around = meso_vec3_sub(v[1].position, v[0].position);
+        MesoVec3 beyond = meso_vec3_sub(next[1].position, next[0].position);
+        MesoVec3 along = meso_vec3_sub(next[0].position, v[0].position);
+        MesoVec3 normal = meso_vec3_direction(meso_vec3_cross(around, along), (MesoVec3){0, 0, 0});
+        float warp = fabsf(meso_vec3_dot(meso_vec3_sub(beyond, around), normal));
+        wants->warp[i] = fmaxf(wants->warp[i], warp);
+        wants->warp[i + 1] = fmaxf(wants->warp[i + 1], warp);
+    }
+}
+
+/* How fast v goes where rings lie closer at the ends; t by Newton's method. */
+static float ease_rate(float v)
+{
+    const float round = 2 * (float)MESO_PI;
+    float t = v;
+    for (uint32_t i = 0; i < 4; i++)
+        t -= (t - EASE * sinf(round * t) / round - v) / (1 - EASE * cosf(round * t));
+    return 1 - EASE * cosf(round * t);
+}
+
+/* Steps so that the errors, of which one falls with their number and one with its square, add up to the tolerance. */
+static float steps_for(const Wants *wants, bool ease, float tolerance)
+{
+    float most = 1, m = (float)wants->intervals;
+    for (uint32_t i = 0; i <= wants->intervals; i++) {
+        float rate = ease ? ease_rate((float)i / m) : 1;
+        float e = MARGIN * wants->bend[i] * m * m * rate * rate / 8, f = MARGIN * wants->warp[i] * m * rate / 4;
+        most = fmaxf(most, (f + sqrtf(f * f + 4 * tolerance * e)) / (2 * tolerance));
+    }
+    return most;
+}
+
+static uint32_t intervals_of(const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    float wanted = INTERVALS_A_RADIAN * (fabsf(kind->turn) + fabsf(sweep->twist));
+    return wanted < LEAST_INTERVALS ? LEAST_INTERVALS : wanted > MOST_INTERVALS ? MOST_INTERVALS : (uint32_t)wanted;
+}
+
+/* Steps, and whether they are to lie closer at the ends. */
+static float tube_steps(Sample *sample, const MesoSweepInstance *sweep, MesoMeshVertex *vertices, float tolerance,
+                        bool *ease)
+{
+    uint32_t stride = sample->kind.column_count;
+    Wants wants = {.intervals = intervals_of(&sample->kind, sweep)};
+    sample->kind.division_count = wants.intervals + 1;
+    sample->scene.columns = sample->columns;
+    meso_sweep_vertices(&sample->scene, &sample->kind, sweep, vertices);
+    for (uint32_t c = 0; c < stride; c++)
+        add_bend(&wants, vertices + c, stride);
+    for (uint32_t c = 0; c < stride; c += 2)
+        add_warp(&wants, vertices + c, stride);
+    float even = steps_for(&wants, false, tolerance), eased = steps_for(&wants, true, tolerance);
+    *ease = eased < EASE_GAIN * even;
+    return *ease ? eased : even;
+}
+
+/* (1 - v^4) r over a rise of h v: the second derivative 12 r lies across the tangent by h / |(4 r, h)| at the tip. */
+static float cap_steps(const Sample *sample, const MesoSweepInstance *cap, float tolerance)
+{
+    float scale = sample->scene.section_scale * cap->size[0], r = scale * sample->radius, h = scale * MESO_CAP_RISE;
+    float tangent = sqrtf(16 * r * r + h * h), part = tangent > 0 ? h / tangent : 0;
+    return fmaxf(LEAST_CAP_STEPS, sqrtf(12 * r * part / (8 * tolerance)));
+}
+
+/* Rounded up to one of few numbers, so that there are few kinds. */
+static uint16_t rings_for(uint32_t least, float steps)
+{
+    if (!(steps < MESO_MOST_DIVISIONS - 1))
+        return MESO_MOST_DIVISIONS;
+    uint32_t whole = steps > (float)(least - 1) ? (uint32_t)ceilf(steps) : least - 1, grain = 1;
+    while (whole > 12 * grain)
+        grain *= 2;
+    whole = (whole + grain - 1) / grain * grain;
+    return (uint16_t)(whole + 1 < MESO_MOST_DIVISIONS ? whole + 1 : MESO_MOST_DIVISIONS);
+}
+
+static float tolerance_left(const Chooser *c, uint32_t kind, const MesoSweepInstance *sweep)
+{
+    float off = c->origins[kind].off * c->scene->section_scale * fmaxf(sweep->size[0], sweep->size[1]);
+    return fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - OFF_PART * off);
+}
+
+static void choose_range(void *context, uint64_t begin, uint64_t end)
+{
+    Chooser *c = context;
+    const MesoSweptKind *kinds = c->scene->kinds;
+    MesoMeshVertex *vertices = malloc(sizeof *vertices * (MOST_INTERVALS + 1) * 2 * MOST_PAIRS);
+    if (!vertices) {
+        atomic_store(&c->failed, true);
+        return;
+    }
+    uint32_t kind = meso_scene_kind(c->scene, (uint32_t)begin);
+    Sample sample = make_sample(c->scene, &kinds[kind]);
+    for (uint64_t i = begin; i < end; i++) {
+        if (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count) {
+            while (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count)
+                kind++;
+            sample = make_sample(c->scene, &kinds[kind]);
+        }
+        const MesoSweepInstance *sweep = &c->scene->sweeps[i];
+        uint32_t least = kinds[kind].absent[0] || kinds[kind].absent[1] ? 3 : 2;
+        bool ease = false;
+        float tolerance = tolerance_left(c, kind, sweep);
+        float steps = kinds[kind].cap ? cap_steps(&sample, sweep, tolerance)
+                                      : tube_steps(&sample, sweep, vertices, tolerance, &ease);
+        c->rings[i] = (uint16_t)(rings_for(least, steps) + (ease ? EASED : 0));
+    }
+    free(vertices);
+}
+
+/* ---- kinds of equal steps ---- */
+
+typedef struct Split {
+    MesoSweptKind *kinds;
+    MesoKindOrigin *origins;
+    MesoSweepInstance *sweeps;
+    uint32_t kind_count;
+} Split;
+
+/* `counts` [2 * EASED] is all 0 before and after; `split` NULL only counts the kinds. */
+static uint32_t split_kind(Split *split, const MesoScene *scene, const MesoKindOrigin *origins, uint32_t k,
+                           const uint16_t *rings, uint32_t *counts)
+{
+    const MesoSweptKind *kind = &scene->kinds[k];
+    uint32_t parts = 0, end = kind->instance_begin;
+    for (uint32_t i = 0; i < kind->instance_count; i++)
+        parts += counts[rings[kind->instance_begin + i]]++ == 0;
+    for (uint32_t r = 0; r < 2 * EASED && split; r++) {
+        if (!counts[r])
+            continue;
+        MesoSweptKind *part = &split->kinds[split->kind_count];
+        *part = *kind;
+        part->division_count = r % EASED;
+        part->ease = r < EASED ? 0 : EASE;
+        part->instance_begin = end;
+        part->instance_count = counts[r];
+        split->origins[split->kind_count++] = origins[k];
+        counts[r] = end;
+        end += part->instance_count;
+    }
+    for (uint32_t i = kind->instance_begin; i < kind->instance_begin + kind->instance_count && split; i++)
+        split->sweeps[counts[rings[i]]++] = scene->sweeps[i];
+    for (uint32_t i = 0; i < kind->instance_count; i++)
+        counts[rings[kind->instance_begin + i]] = 0;
+    return parts;
+}
+
+static MesoStatus split_kinds(MesoScene *scene, MesoKindOrigin **origins, MesoArena *arena, const uint16_t *rings,
+                              uint32_t *counts, MesoError *error)
+{
+    uint32_t kind_count = 0;
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        kind_count += split_kind(NULL, scene, *origins, k, rings, counts);
+    Split split = {MESO_NEW(arena, MesoSweptKind, kind_count, error),
+                   MESO_NEW(arena, MesoKindOrigin, kind_count, error),
+                   MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error), 0};
+    if (!split.kinds || !split.origins || !split.sweeps)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        split_kind(&split, scene, *origins, k, rings, counts);
+    scene->kinds = split.kinds;
+    scene->kind_count = kind_count;
+    scene->sweeps = split.sweeps;
+    *origins = split.origins;
+    return MESO_OK;
+}
+
+MesoStatus meso_scene_choose_steps(MesoScene *scene, MesoKindOrigin **origins, MesoArena *arena, float tolerance,
+                                   uint32_t thread_count, MesoError *error)
+{
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    Chooser chooser = {scene, *origins, tolerance, MESO_NEW(&scratch, uint16_t, scene->sweep_count, error), false};
+    uint32_t *counts = MESO_NEW(&scratch, uint32_t, 2 * EASED, error);
+    MesoStatus status = MESO_ERR_MEMORY;
+    if (chooser.rings && counts) {
+        meso_parallel_for(thread_count, scene->sweep_count, SWEEPS_A_RANGE, choose_range, &chooser);
+        status = atomic_load(&chooser.failed) ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for sweeps")
+                                              : split_kinds(scene, origins, arena, chooser.rings, counts, error);
+    }
+    meso_arena_release(&scratch);
+    return status;
+}

@@ -1,0 +1,149 @@
+/*
+ * Tolerances on the fixture's small surfaces: how far the finely divided surface lies from the polygons that a
+ * tolerance chooses, rings that neighbours share to the bit, corners that stay, and how few polygons it takes.
+ */
+#include <math.h>
+
+#include "libcore/tiling/strand/expansion_fixture.h"
+
+typedef struct Meshed {
+    MesoExpansion expansion;
+    MesoScene scene;
+    MesoSceneParts parts;
+    MesoMeshFace *faces;
+    const MesoMeshVertex *vertices;
+} Meshed;
+
+static void mesh(Meshed *m, const MesoModel *model, MesoArena *arena)
+{
+    m->scene = expand(model, &m->expansion, arena);
+    m->vertices = make_polygons(&m->scene, arena, &m->parts, &m->faces);
+}
+
+static const MesoKindOrigin *origin_of(const Meshed *m, uint32_t part)
+{
+    return &m->expansion.origins[meso_scene_kind(&m->scene, part)];
+}
+
+static float distance_to_triangle(MesoVec3 p, MesoVec3 a, MesoVec3 b, MesoVec3 c)
+{
+    MesoVec3 ab = meso_vec3_sub(b, a), ac = meso_vec3_sub(c, a), n = meso_vec3_cross(ab, ac), ap = meso_vec3_sub(p, a);
+    float nn = meso_vec3_dot(n, n), best = INFINITY;
+    if (nn > 0) {
+        float w = meso_vec3_dot(meso_vec3_cross(ab, ap), n) / nn, v = meso_vec3_dot(meso_vec3_cross(ap, ac), n) / nn;
+        if (v >= 0 && w >= 0 && v + w <= 1)
+            return fabsf(meso_vec3_dot(ap, n)) / sqrtf(nn);
+    }
+    const MesoVec3 ends[3][2] = {{a, b}, {b, c}, {c, a}};
+    for (uint32_t k = 0; k < 3; k++) {
+        MesoVec3 d = meso_vec3_sub(ends[k][1], ends[k][0]), q = meso_vec3_sub(p, ends[k][0]);
+        float l = meso_vec3_dot(d, d), t = l > 0 ? fmaxf(0, fminf(1, meso_vec3_dot(q, d) / l)) : 0;
+        best = fminf(best, meso_vec3_length(meso_vec3_mad(q, -t, d)));
+    }
+    return best;
+}
+
+static float distance_to_part(const Meshed *m, uint32_t part, MesoVec3 p)
+{
+    float best = INFINITY;
+    for (uint64_t f = m->parts.face_begin[part]; f < m->parts.face_begin[part + 1]; f++)
+        for (uint32_t k = 2; k < 4 && m->faces[f].v[k] != MESO_NO_INDEX; k++)
+            best = fminf(best, distance_to_triangle(p, m->vertices[m->faces[f].v[0]].position,
+                                                    m->vertices[m->faces[f].v[k - 1]].position,
+                                                    m->vertices[m->faces[f].v[k]].position));
+    return best;
+}
+
+/* The part of `m` that is the same strand, or cap, as one of `other`. */
+static uint32_t same_part(const Meshed *m, const Meshed *other, uint32_t part)
+{
+    const MesoKindOrigin *wanted = origin_of(other, part);
+    for (uint32_t i = 0; i < m->scene.sweep_count; i++)
+        if (m->scene.sweeps[i].ids == other->scene.sweeps[part].ids &&
+            origin_of(m, i)->sweep == wanted->sweep && origin_of(m, i)->start_side == wanted->start_side &&
+            origin_of(m, i)->start_section == wanted->start_section)
+            return i;
+    CHECK(false);
+    return 0;
+}
+
+/* A grid of 2 x 2 slots whose strands bend, turn, change their shape and go there and back. */
+static void make_case(Case *s, MesoArena *arena)
+{
+    static uint32_t tile[4];
+    static MesoTransform transform[4];
+    make_tile_set(s);
+    s->sweeps[0].turn = 0.3f;
+    s->sweeps[1].half_turn = true;
+    make_grid(s, arena, 2, tile, transform);
+    s->model.options = (MesoMapOptions){.frame = MESO_FRAME_MINIMAL, .section_scale = 1};
+}
+
+static float largest_error(const Meshed *exact, const Meshed *coarse)
+{
+    float worst = 0;
+    for (uint32_t part = 0; part < exact->scene.sweep_count; part++) {
+        uint32_t other = same_part(coarse, exact, part);
+        uint64_t begin = exact->parts.vertex_begin[part], end = exact->parts.vertex_begin[part + 1];
+        for (uint64_t v = begin; v < end; v += 61)
+            worst = fmaxf(worst, distance_to_part(coarse, other, exact->vertices[v].position));
+    }
+    return worst;
+}
+
+static void test_error(MesoArena *arena)
+{
+    static const float tolerances[] = {0.02f, 0.004f};
+    Case s = {0};
+    Meshed exact, coarse;
+    make_case(&s, arena);
+    float edge = s.model.surface.mean_edge_length;
+    s.model.options.tolerance = 1e-4f;
+    mesh(&exact, &s.model, arena);
+    uint64_t triangles = 0;
+    for (uint32_t i = 0; i < 2; i++) {
+        s.model.options.tolerance = tolerances[i];
+        mesh(&coarse, &s.model, arena);
+        float worst = largest_error(&exact, &coarse);
+        if (!(worst <= tolerances[i] * edge && worst > 0.1f * tolerances[i] * edge))
+            fprintf(stderr, "tolerance %g: %g, %llu triangles\n", (double)(tolerances[i] * edge), (double)worst,
+                    (unsigned long long)coarse.parts.triangle_count);
+        CHECK(worst <= tolerances[i] * edge);
+        CHECK(worst > 0.1f * tolerances[i] * edge);     /* no more than it takes */
+        CHECK(coarse.parts.triangle_count > triangles);
+        triangles = coarse.parts.triangle_count;
+    }
+    CHECK(triangles < exact.parts.triangle_count / 10);
+
+    s.model.options.tolerance *= edge;      /* in scene units it is the same */
+    s.model.options.tolerance_in = MESO_TOLERANCE_SCENE;
+    mesh(&coarse, &s.model, arena);
+    CHECK(coarse.parts.triangle_count == triangles);
+}
+
+/* The sharp corners of drawings are on every ring, twice, with the normals of both sides. */
+static void test_corners(MesoArena *arena)
+{
+    Case s = {0};
+    Meshed coarse;
+    make_case(&s, arena);
+    s.model.options.tolerance = 0.2f;
+    mesh(&coarse, &s.model, arena);
+    for (uint32_t k = 0; k < coarse.scene.kind_count; k++) {
+        const MesoSweptKind *kind = &coarse.scene.kinds[k];
+        if (coarse.expansion.origins[k].start_section == 1 && kind->cap)    /* the box that only a cap closes */
+            CHECK(kind->column_count >= 8 && kind->joint_count >= 4);
+        for (uint32_t c = 0; c < kind->column_count; c++)
+            CHECK(c + 1 < kind->column_count || !coarse.scene.columns[kind->column_begin + c].joins_next);
+    }
+}
+
+int main(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    test_error(&arena);
+    test_corners(&arena);
+    meso_arena_release(&arena);
+    return 0;
+}
