@@ -52,13 +52,15 @@ static void add_instance(Caps *caps, const MesoSweepInstance *sweep, bool at_end
 {
     MesoSweepInstance cap = *sweep;
     MesoVec3 outward = at_end ? sweep->direction[1] : meso_vec3_scale(sweep->direction[0], -1);
-    float rise = MESO_CAP_RISE * caps->in->section_scale;
+    float rise = MESO_CAP_RISE * caps->in->section_scale * sweep->size[at_end];
     for (int i = 0; i < 4; i++)
         cap.p[i] = meso_vec3_mad(sweep->p[at_end ? 3 : 0], rise * (float)i / 3, outward);
     for (int i = 0; i < 2; i++) {
         cap.direction[i] = outward;
+        cap.size[i] = sweep->size[at_end];
         cap.up[i] = sweep->up[at_end];
     }
+    cap.twist = 0;
     caps->out->sweeps[caps->out->sweep_count++] = cap;
 }
 
@@ -69,6 +71,7 @@ static void add_caps(Caps *caps, const MesoSweptKind *kind, bool at_end)
     cap.column_begin = caps->out->column_count;
     cap.instance_begin = caps->out->sweep_count;
     cap.cap = true;
+    cap.turn = 0;
     cap.start_material = cap.end_material = at_end ? kind->end_material : kind->start_material;
     for (uint32_t i = 0; i < kind->instance_count; i++)
         if (caps->open[kind->instance_begin + i] & bit)

@@ -73,7 +73,8 @@ static uint32_t list_ends(const Finder *f, End *ends)
             uint32_t sweep = kind->instance_begin + i;
             f->is_cap[sweep] = kind->cap;
             for (uint32_t e = 0; e < (kind->cap ? 1u : 2u); e++)
-                ends[count++] = (End){scene->sweeps[sweep].p[e ? 3 : 0], material[e], radius[e], 2 * sweep + e};
+                ends[count++] = (End){scene->sweeps[sweep].p[e ? 3 : 0], material[e],
+                                      radius[e] * scene->sweeps[sweep].size[e], 2 * sweep + e};
         }
     }
     return count;

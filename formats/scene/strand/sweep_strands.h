@@ -28,7 +28,8 @@ typedef struct MesoStrands {
  */
 MesoStatus meso_strands_find(MesoStrands *strands, MesoArena *arena, const MesoScene *scene, MesoError *error);
 
-/* The mean distance of a kind's profile from its trajectory at its start or its end, in scene units. O(columns). */
+/* The mean distance of a kind's profile from its trajectory at its start or its end, in scene units, of instances of
+ * size 1. O(columns). */
 float meso_strand_radius(const MesoScene *scene, const MesoSweptKind *kind, bool at_end);
 
 #endif

@@ -71,7 +71,7 @@ static void square_init(Square *q, uint32_t count, const uint32_t (*ends)[2])
     for (uint32_t i = 0; i < count; i++) {
         MesoVec3 a = corners[ends[i][0]], b = corners[ends[i][1]];
         q->sweeps[i] = (MesoSweepInstance){.p = {a, meso_vec3_lerp(a, b, 1 / 3.0f), meso_vec3_lerp(a, b, 2 / 3.0f), b},
-                                           .up = {{0, 0, 1}, {0, 0, 1}}, .ids = i};
+                                           .up = {{0, 0, 1}, {0, 0, 1}}, .ids = i, .size = {1, 1}};
     }
     q->scene = (MesoScene){.channel_count = 1, .channels = {{"slot", 4, NULL}}, .material_count = 1,
                            .materials = &q->material, .material_names = &q->name, .id_row_count = 4, .ids = q->ids,

@@ -184,7 +184,8 @@ static void put_widths(Writer *w, const Curve *curve)
     for (uint32_t i = curve->begin; i <= curve->end; i++) {
         MesoStrandPiece piece = w->strands.pieces[i < curve->end ? i : i - 1];
         bool at_end = piece.reversed != (i == curve->end);
-        float width = 2 * meso_strand_radius(w->parts->scene, kind_of(w, piece.sweep), at_end);
+        float width = 2 * meso_strand_radius(w->parts->scene, kind_of(w, piece.sweep), at_end) *
+                      w->parts->scene->sweeps[piece.sweep].size[at_end];
         put_floats(w, &width, 1);
     }
 }
