@@ -22,7 +22,7 @@ static MesoStatus check_scene_kind(const MesoReplicateOutput *o)
     if (o->arguments->output.to || (dot && meso_scene_kind_named(dot + 1)))
         return meso_tool_choose_scene_kind(o->tool, &o->arguments->output);
     return meso_fail(&o->tool->error, MESO_ERR_USAGE, "no kind of file is known by the name '%s': end it in .meso, "
-                     ".ply, .obj, .glb, .drc or .usda, or give --to", o->path);
+                     ".ply, .obj, .glb, .drc, .stl or .usda, or give --to", o->path);
 }
 
 MesoStatus meso_replicate_output_choose(MesoReplicateOutput *o, MesoReplicateArguments *a)

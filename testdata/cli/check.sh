@@ -59,7 +59,8 @@ done
 meso-check --fast --max-faults 99999 --max-gap 0 --max-open 0 small.meso | sed 's/, over.*//; s/:.*//' >meso.txt || echo "status $?"
 grep -e open -e gap -e fold meso.txt
 sed 1d ply.txt | grep -v fold >ply.faults
-grep -v -e sizes -e fold meso.txt | diff - ply.faults
+sed 's/strands that leak/pieces that leak/' ply.faults >ply.words      # a mesh has the strands' numbers
+grep -v -e sizes -e fold meso.txt | diff - ply.words
 
 # A model in which nothing is wrong.
 meso-solve -q "$testdata/cli/quad.tiles.json" vase.obj -o plain.slots

@@ -97,7 +97,7 @@ replicate --substeps 3 --report sub.json scales.json long-%02d.ply -o out-%02d.p
 
 echo "== what cannot be"
 try replicate scales.json long-%02d.ply -o x.ply
-try replicate scales.json long-%02d.ply -o x-%02d.stl
+try replicate scales.json long-%02d.ply -o x-%02d.xyz
 try replicate scales.json long-%02d.ply -o x-%02d.usda
 try replicate --state x.state scales.json long-%02d.ply -o x.glb
 try replicate --instances scales.json long-%02d.ply -o x-%02d.ply
