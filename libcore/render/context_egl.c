@@ -1,3 +1,5 @@
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +17,40 @@ typedef struct Native {
     EGLDisplay display;
     EGLContext context;
 } Native;
+
+/* What was tried, and what each said: the end of a message. */
+typedef struct Log {
+    char text[400];
+    size_t used;
+} Log;
+
+__attribute__((format(printf, 2, 3))) static void note(Log *log, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int written = vsnprintf(log->text + log->used, sizeof log->text - log->used, format, arguments);
+    va_end(arguments);
+    log->used += written > 0 ? (size_t)written : 0;
+    if (log->used >= sizeof log->text)
+        log->used = sizeof log->text - 1;
+}
+
+static const char *egl_words(EGLint code)
+{
+    static const char *const words[] = {"nothing wrong", "not initialized", "bad access", "bad alloc", "bad attribute",
+                                        "bad config", "bad context", "bad current surface", "bad display", "bad match",
+                                        "bad native pixmap", "bad native window", "bad parameter", "bad surface",
+                                        "context lost"};
+    EGLint number = code - EGL_SUCCESS;
+    return number >= 0 && number < (EGLint)(sizeof words / sizeof *words) ? words[number] : "an unknown error";
+}
+
+/* `call` failed. */
+static bool fail_with(Log *log, const char *call)
+{
+    note(log, "%s said %s", call, egl_words(eglGetError()));
+    return false;
+}
 
 static void *find(const char *name)
 {
@@ -41,38 +77,43 @@ static void release(MesoGlContext *context)
     free(context->native);
 }
 
-/* A current GL 4.5 core context on `display`, or false with nothing left behind. */
-static bool open_display(Native *native, EGLDisplay display)
+/* A current GL 4.5 core context on `display`, or false with nothing left behind and the reason noted. */
+static bool open_display(Native *native, EGLDisplay display, Log *log)
 {
     static const EGLint attributes[] = {
         EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
 
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, NULL, NULL))
-        return false;
+    if (display == EGL_NO_DISPLAY)
+        return fail_with(log, "eglGetPlatformDisplay");
+    if (!eglInitialize(display, NULL, NULL))
+        return fail_with(log, "eglInitialize");
     EGLContext context = EGL_NO_CONTEXT;
-    if (eglBindAPI(EGL_OPENGL_API))
-        context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    if (context != EGL_NO_CONTEXT) {
-        if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
-            *native = (Native){display, context};
-            return true;
-        }
-        eglDestroyContext(display, context);
+    if (!eglBindAPI(EGL_OPENGL_API))
+        fail_with(log, "eglBindAPI");
+    else if ((context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)) == EGL_NO_CONTEXT)
+        fail_with(log, "eglCreateContext of GL 4.5 core");
+    else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+        fail_with(log, "eglMakeCurrent without a surface");
+    else {
+        *native = (Native){display, context};
+        return true;
     }
+    if (context != EGL_NO_CONTEXT)
+        eglDestroyContext(display, context);
     eglTerminate(display);
     return false;
 }
 
-static bool draws_on_cpu(void)
+/* Its name; NULL where it has none. */
+static const char *renderer_now(void)
 {
     PFNGLGETSTRINGPROC get_string = (PFNGLGETSTRINGPROC)find("glGetString");
-    const GLubyte *name = get_string ? get_string(GL_RENDERER) : NULL;
-    return !name || meso_gl_is_software((const char *)name);
+    return get_string ? (const char *)get_string(GL_RENDERER) : NULL;
 }
 
 /* The first device whose driver is a GPU's. */
-static bool open_gpu(Native *native, PFNEGLGETPLATFORMDISPLAYEXTPROC get_display)
+static bool open_gpu(Native *native, PFNEGLGETPLATFORMDISPLAYEXTPROC get_display, Log *log)
 {
     PFNEGLQUERYDEVICESEXTPROC query_devices =
         (PFNEGLQUERYDEVICESEXTPROC)find("eglQueryDevicesEXT");
@@ -80,32 +121,46 @@ static bool open_gpu(Native *native, PFNEGLGETPLATFORMDISPLAYEXTPROC get_display
         (PFNEGLQUERYDEVICESTRINGEXTPROC)find("eglQueryDeviceStringEXT");
     EGLDeviceEXT devices[MAX_DEVICES];
     EGLint count = 0;
-    if (!query_devices || !query_string || !query_devices(MAX_DEVICES, devices, &count))
+    if (!query_devices || !query_string || !query_devices(MAX_DEVICES, devices, &count)) {
+        note(log, "; EGL lists no devices");
         return false;
+    }
 
     for (EGLint i = 0; i < count; i++) {
-        const char *extensions = query_string(devices[i], EGL_EXTENSIONS);
-        if (extensions && strstr(extensions, "EGL_MESA_device_software"))
+        const char *extensions = query_string(devices[i], EGL_EXTENSIONS), *name;
+        note(log, "; device %d of %d: ", i, count);
+        if (extensions && strstr(extensions, "EGL_MESA_device_software")) {
+            note(log, "software");
             continue;
-        if (!open_display(native, get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL)))
+        }
+        if (!open_display(native, get_display(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL), log))
             continue;
-        if (!draws_on_cpu())
+        name = renderer_now();
+        if (name && !meso_gl_is_software(name))
             return true;
+        note(log, "%s draws on the CPU", name ? name : "a driver without a name");
         close_display(native);
     }
+    if (count == 0)
+        note(log, "; there is no device");
     return false;
 }
 
 /* A GPU's context, or unless `gpu_only` that of a software driver. */
-static bool open_any(Native *native, bool gpu_only)
+static bool open_any(Native *native, bool gpu_only, Log *log)
 {
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)find("eglGetPlatformDisplayEXT");
-    if (!get_display)
+    if (!get_display) {
+        note(log, "; it has no eglGetPlatformDisplayEXT");
         return false;
-    return open_gpu(native, get_display)
-        || (!gpu_only && open_display(native, get_display(EGL_PLATFORM_SURFACELESS_MESA,
-                                                          EGL_DEFAULT_DISPLAY, NULL)));
+    }
+    if (open_gpu(native, get_display, log))
+        return true;
+    if (gpu_only)
+        return false;
+    note(log, "; surfaceless: ");
+    return open_display(native, get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL), log);
 }
 
 MesoStatus meso_gl_egl_init(MesoGlContext *context, bool gpu_only, MesoError *error)
@@ -113,10 +168,11 @@ MesoStatus meso_gl_egl_init(MesoGlContext *context, bool gpu_only, MesoError *er
     Native *native = malloc(sizeof *native);
     if (!native)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory: GL context");
-    bool opened = open_any(native, gpu_only);
+    Log log = {.used = 0};
+    bool opened = open_any(native, gpu_only, &log);
     if (!opened) {
         free(native);
-        return meso_fail(error, MESO_ERR_INTERNAL, "EGL has no GL 4.5 core context without a window");
+        return meso_fail(error, MESO_ERR_INTERNAL, "EGL has no GL 4.5 core context without a window%s", log.text);
     }
     context->native = native;
     context->release = release;

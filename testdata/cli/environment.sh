@@ -38,3 +38,7 @@ for maker in osmesa egl; do
     [ $maker = egl ] || same $maker LP_PERF=no_depth,no_tex
 done
 ls
+
+# Where EGL has no driver, what was tried is said.
+__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere/none.json meso-render --context egl --size 8x8 vase.meso -o x.exr 2>said
+echo "status $?, $(grep -o 'EGL lists no devices; surfaceless: .* said' said)"
