@@ -9,6 +9,7 @@
 #include <GL/glcorearb.h>
 
 #include "libcore/render/context_makers.h"
+#include "libcore/render/driver_library.h"
 #include "libcore/render/renderer_name.h"
 
 enum { MAX_DEVICES = 32 };
@@ -17,6 +18,28 @@ typedef struct Native {
     EGLDisplay display;
     EGLContext context;
 } Native;
+
+static struct {
+    __typeof__(eglGetProcAddress) *get_proc_address;
+    __typeof__(eglMakeCurrent) *make_current;
+    __typeof__(eglDestroyContext) *destroy_context;
+    __typeof__(eglTerminate) *terminate;
+    __typeof__(eglInitialize) *initialize;
+    __typeof__(eglBindAPI) *bind_api;
+    __typeof__(eglCreateContext) *create_context;
+    __typeof__(eglGetError) *get_error;
+} egl;
+
+static MesoStatus load(MesoError *error)
+{
+    const MesoDriverFunction functions[] = {
+        {"eglGetProcAddress", &egl.get_proc_address}, {"eglMakeCurrent", &egl.make_current},
+        {"eglDestroyContext", &egl.destroy_context}, {"eglTerminate", &egl.terminate},
+        {"eglInitialize", &egl.initialize}, {"eglBindAPI", &egl.bind_api},
+        {"eglCreateContext", &egl.create_context}, {"eglGetError", &egl.get_error},
+    };
+    return meso_driver_library("libEGL.so.1", functions, sizeof functions / sizeof *functions, error);
+}
 
 /* What was tried, and what each said: the end of a message. */
 typedef struct Log {
@@ -48,7 +71,7 @@ static const char *egl_words(EGLint code)
 /* `call` failed. */
 static bool fail_with(Log *log, const char *call)
 {
-    note(log, "%s said %s", call, egl_words(eglGetError()));
+    note(log, "%s said %s", call, egl_words(egl.get_error()));
     return false;
 }
 
@@ -57,17 +80,17 @@ static void *find(const char *name)
     union {
         void (*function)(void);
         void *pointer;
-    } result = {eglGetProcAddress(name)};
+    } result = {egl.get_proc_address(name)};
     return result.pointer;
 }
 
 static void close_display(const Native *native)
 {
-    eglMakeCurrent(native->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglDestroyContext(native->display, native->context);
+    egl.make_current(native->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl.destroy_context(native->display, native->context);
     /* The driver leaves some bytes behind; unloaded, it could not be named to the leak checker. */
 #if !defined(__SANITIZE_ADDRESS__)
-    eglTerminate(native->display);
+    egl.terminate(native->display);
 #endif
 }
 
@@ -86,22 +109,22 @@ static bool open_display(Native *native, EGLDisplay display, Log *log)
 
     if (display == EGL_NO_DISPLAY)
         return fail_with(log, "eglGetPlatformDisplay");
-    if (!eglInitialize(display, NULL, NULL))
+    if (!egl.initialize(display, NULL, NULL))
         return fail_with(log, "eglInitialize");
     EGLContext context = EGL_NO_CONTEXT;
-    if (!eglBindAPI(EGL_OPENGL_API))
+    if (!egl.bind_api(EGL_OPENGL_API))
         fail_with(log, "eglBindAPI");
-    else if ((context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)) == EGL_NO_CONTEXT)
+    else if ((context = egl.create_context(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes)) == EGL_NO_CONTEXT)
         fail_with(log, "eglCreateContext of GL 4.5 core");
-    else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+    else if (!egl.make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
         fail_with(log, "eglMakeCurrent without a surface");
     else {
         *native = (Native){display, context};
         return true;
     }
     if (context != EGL_NO_CONTEXT)
-        eglDestroyContext(display, context);
-    eglTerminate(display);
+        egl.destroy_context(display, context);
+    egl.terminate(display);
     return false;
 }
 
@@ -165,6 +188,9 @@ static bool open_any(Native *native, bool gpu_only, Log *log)
 
 MesoStatus meso_gl_egl_init(MesoGlContext *context, bool gpu_only, MesoError *error)
 {
+    MesoStatus status = load(error);
+    if (status)
+        return status;
     Native *native = malloc(sizeof *native);
     if (!native)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory: GL context");

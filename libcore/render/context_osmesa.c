@@ -3,6 +3,7 @@
 #include <GL/osmesa.h>
 
 #include "libcore/render/context_makers.h"
+#include "libcore/render/driver_library.h"
 
 /* Mesa's LLVM keeps 200 to 320 bytes a context to the end. */
 #if defined(__SANITIZE_ADDRESS__)
@@ -21,6 +22,21 @@ const char *__lsan_default_suppressions(void)
 
 enum { DUMMY_SIZE = 16 };
 
+static struct {
+    __typeof__(OSMesaCreateContextAttribs) *create;
+    __typeof__(OSMesaMakeCurrent) *make_current;
+    __typeof__(OSMesaDestroyContext) *destroy;
+    __typeof__(OSMesaGetProcAddress) *find;
+} mesa;
+
+static MesoStatus load(MesoError *error)
+{
+    const MesoDriverFunction functions[] = {
+        {"OSMesaCreateContextAttribs", &mesa.create}, {"OSMesaMakeCurrent", &mesa.make_current},
+        {"OSMesaDestroyContext", &mesa.destroy}, {"OSMesaGetProcAddress", &mesa.find}};
+    return meso_driver_library("libOSMesa.so.8", functions, sizeof functions / sizeof *functions, error);
+}
+
 /* Everything is drawn to framebuffer objects; OSMesa still wants a buffer of its own. */
 typedef struct Native {
     OSMesaContext context;
@@ -30,8 +46,8 @@ typedef struct Native {
 static void release(MesoGlContext *context)
 {
     Native *native = context->native;
-    OSMesaMakeCurrent(NULL, NULL, 0, 0, 0);
-    OSMesaDestroyContext(native->context);
+    mesa.make_current(NULL, NULL, 0, 0, 0);
+    mesa.destroy(native->context);
     free(native);
 }
 
@@ -40,7 +56,7 @@ static void *find(const char *name)
     union {
         OSMESAproc function;
         void *pointer;
-    } result = {OSMesaGetProcAddress(name)};
+    } result = {mesa.find(name)};
     return result.pointer;
 }
 
@@ -50,16 +66,19 @@ MesoStatus meso_gl_osmesa_init(MesoGlContext *context, MesoError *error)
         OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
         OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
 
+    MesoStatus status = load(error);
+    if (status)
+        return status;
     Native *native = calloc(1, sizeof *native);
     if (!native)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory: GL context");
-    native->context = OSMesaCreateContextAttribs(attributes, NULL);
+    native->context = mesa.create(attributes, NULL);
     if (!native->context) {
         free(native);
         return meso_fail(error, MESO_ERR_INTERNAL, "OSMesa has no GL 4.5 core context");
     }
-    if (!OSMesaMakeCurrent(native->context, native->dummy, GL_UNSIGNED_BYTE, DUMMY_SIZE, DUMMY_SIZE)) {
-        OSMesaDestroyContext(native->context);
+    if (!mesa.make_current(native->context, native->dummy, GL_UNSIGNED_BYTE, DUMMY_SIZE, DUMMY_SIZE)) {
+        mesa.destroy(native->context);
         free(native);
         return meso_fail(error, MESO_ERR_INTERNAL, "OSMesa cannot make its GL context current");
     }
