@@ -118,8 +118,14 @@ static bool set_up(Triangle *t, const MesoRasterTarget *target, const Outline *o
     t->edges[0] = make_edge(o->a, o->b, corner_x, corner_y);
     t->edges[1] = make_edge(o->b, o->c, corner_x, corner_y);
     t->edges[2] = make_edge(o->c, o->a, corner_x, corner_y);
-    find_slope(o, &t->along_x, &t->along_y);
-    t->nearness = o->a->nearness + t->along_x * (float)(corner_x - o->a->x) + t->along_y * (float)(corner_y - o->a->y);
+    /* A triangle that reaches far beyond the target may be much nearer there: its plane is found in double precision. */
+    double db = (double)o->b->nearness - o->a->nearness, dc = (double)o->c->nearness - o->a->nearness;
+    double bx = (double)o->b->x - o->a->x, by = (double)o->b->y - o->a->y, scale = 1 / (double)o->area;
+    double cx = (double)o->c->x - o->a->x, cy = (double)o->c->y - o->a->y;
+    double along_x = (db * cy - dc * by) * scale, along_y = (dc * bx - db * cx) * scale;
+    t->along_x = (float)along_x;
+    t->along_y = (float)along_y;
+    t->nearness = (float)(o->a->nearness + along_x * (double)(corner_x - o->a->x) + along_y * (double)(corner_y - o->a->y));
     return true;
 }
 
