@@ -186,7 +186,7 @@ static bool goes_on(MesoGrowthWork *work, double generations)
         lives = !work->tips[i].ended;
     if (!lives)
         return false;
-    if (!(work->generation < generations))
+    if (!((double)work->generation < generations))
         work->end = MESO_GROWTH_GENERATIONS;
     else if (options->progress &&
              !options->progress(options->context, (uint32_t)work->generation, work->element_count))
