@@ -81,7 +81,7 @@ static MesoStatus tell_by_fronts(MesoDartSight *sight, const Teller *teller, con
 {
     MesoGeodesicSeed seeds[3];
     const uint32_t *touched;
-    uint32_t count;
+    uint32_t count = 0;
     MesoComplex corners[3];
     meso_walk_corners(sight->ground, place->triangle, corners);
     MesoComplex at = meso_walk_point(corners, place->weight);
