@@ -20,6 +20,7 @@ typedef struct MesoRenderArguments {
     bool resume;                /* --resume */
     const char *aov;            /* --aov; NULL: none beside the usual ones */
     unsigned extras;            /* MesoImageExtra */
+    float vary;                 /* --vary */
 
     bool exr_product;           /* of -o */
     bool transparent;

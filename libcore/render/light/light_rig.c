@@ -2,13 +2,14 @@
 
 static const float PI = 3.14159265f, GOLDEN_ANGLE = 2.39996323f;
 
-/* Colours of the lights. */
-static const float KEY[3] = {2.5f, 2.35f, 2.125f}, RIM[3] = {0.51f, 0.552f, 0.6f};
-static const float SKY[3] = {0.52f, 0.58f, 0.65f}, GROUND[3] = {0.25f, 0.228f, 0.205f};
+static const MesoLightColors COLORS = {.key = {3.3f, 3, 2.58f}, .rim = {0.62f, 0.7f, 0.8f},
+                                       .sky = {0.4f, 0.47f, 0.56f}, .ground = {0.23f, 0.2f, 0.17f},
+                                       .window = {0.8f, 0.74f, 0.65f}};
 
-/* Places around one of the ground at which the sky's light is asked for, and how far out, in the scene's radii. */
+/* Places around one of the ground at which the sky's light is asked for, and the key light's: how far out, in radii of
+ * the scene. */
 enum { GROUND_TAPS = 6 };
-static const float GROUND_SPREAD = 0.035f;
+static const float GROUND_SPREAD = 0.035f, GROUND_KEY_SPREAD = 0.012f;
 
 /* Of the key light's disc, as the tangent of half its angle. */
 static const float KEY_EXTENT = 0.07f;
@@ -31,9 +32,10 @@ static void sky_at(const MesoLightRig *rig, MesoVec3 direction, float roughness,
 {
     float width = 0.25f + 0.75f * roughness, dome = smoothstep(-width, width, meso_vec3_dot(direction, rig->up));
     float window = smoothstep(0.55f - 0.5f * roughness, 0.95f, meso_vec3_dot(direction, rig->to_key));
-    float glow = 0.25f * window * (1 - 0.8f * roughness);
+    float glow = window * (1 - 0.8f * roughness);
+    const MesoLightColors *of = &rig->colors;
     for (int c = 0; c < 3; c++)
-        color[c] = GROUND[c] + (SKY[c] - GROUND[c]) * dome + KEY[c] * glow;
+        color[c] = of->ground[c] + (of->sky[c] - of->ground[c]) * dome + of->window[c] * glow;
 }
 
 static MesoVec3 in_view(const MesoView *view, float right, float up, float back)
@@ -82,7 +84,7 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
                                MesoVec3 up, const MesoLightQuality *quality, uint32_t thread_count,
                                MesoError *error)
 {
-    *rig = (MesoLightRig){.sky_count = quality->sky_count, .key_count = quality->key_count,
+    *rig = (MesoLightRig){.sky_count = quality->sky_count, .key_count = quality->key_count, .colors = COLORS,
                           .to_key = in_view(view, -0.55f, 0.8f, 0.7f), .to_rim = in_view(view, 0.75f, 0.35f, -0.55f), .up = up};
     uint32_t count = rig->sky_count + rig->key_count;
     rig->maps = MESO_NEW(arena, MesoLightMap, count, error);
@@ -112,8 +114,19 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
 
 /* ---- light on a surface ---- */
 
-/* f times the cosine. */
-static void reflect_light(const MesoLitSurface *s, MesoVec3 to_light, const float f0[3], float out[3])
+/* What the microfacets reflect of light from all sides, to the eye: Karis's fit ("Physically Based Shading on Mobile"). */
+static void reflect_all(const MesoLitSurface *s, float nv, const float f0[3], float out[3])
+{
+    float r0 = 1 - s->roughness, r1 = 0.0425f - 0.0275f * s->roughness, r2 = 1.04f - 0.572f * s->roughness;
+    float r3 = 0.022f * s->roughness - 0.04f, a = fminf(r0 * r0, exp2f(-9.28f * nv)) * r0 + r1;
+    float scale = r2 - 1.04f * a, offset = r3 + 1.04f * a;
+    for (int c = 0; c < 3; c++)
+        out[c] = f0[c] * scale + offset;
+}
+
+/* f times the cosine. The base gets what microfacets do not reflect, of all light together. */
+static void reflect_light(const MesoLitSurface *s, MesoVec3 to_light, const float f0[3], const float reflected[3],
+                          float out[3])
 {
     float nl = meso_vec3_dot(s->normal, to_light);
     out[0] = out[1] = out[2] = 0;
@@ -128,7 +141,7 @@ static void reflect_light(const MesoLitSurface *s, MesoVec3 to_light, const floa
     float grazing = 1 - vh, grazing2 = grazing * grazing, schlick = grazing2 * grazing2 * grazing;
     for (int c = 0; c < 3; c++) {
         float fresnel = f0[c] + (1 - f0[c]) * schlick;
-        float diffuse = (1 - fresnel) * (1 - s->metallic) * s->albedo[c] / PI;
+        float diffuse = (1 - reflected[c]) * (1 - s->metallic) * s->albedo[c] / PI;
         out[c] = (diffuse + ndf * smith * fresnel) * nl;
     }
 }
@@ -176,23 +189,23 @@ static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float l
 
 void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *s, float radiance[3], float *openness)
 {
-    float sky[3], glossy[3], key[3], rim[3], f0[3];
+    float sky[3], glossy[3], key[3], rim[3], f0[3], reflected[3];
     float open = sky_light(rig, s, sky);
     for (int c = 0; c < 3; c++)
         f0[c] = 0.04f + (s->albedo[c] - 0.04f) * s->metallic;
     float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f);
-    float r0 = 1 - s->roughness, r1 = 0.0425f - 0.0275f * s->roughness, r2 = 1.04f - 0.572f * s->roughness;
-    float r3 = 0.022f * s->roughness - 0.04f, a = fminf(r0 * r0, exp2f(-9.28f * nv)) * r0 + r1;
-    float scale = r2 - 1.04f * a, offset = r3 + 1.04f * a;     /* Karis's fit of the sky's reflection */
+    reflect_all(s, nv, f0, reflected);
     MesoVec3 mirrored = meso_vec3_mad(meso_vec3_scale(s->to_eye, -1), 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
+    float reach = powf(nv + open, exp2f(-16 * s->roughness - 1)) - 1 + open, glossy_open = fminf(fmaxf(reach, 0), 1);
     sky_at(rig, mirrored, s->roughness, glossy);
-    reflect_light(s, rig->to_key, f0, key);
-    reflect_light(s, rig->to_rim, f0, rim);
+    reflect_light(s, rig->to_key, f0, reflected, key);
+    reflect_light(s, rig->to_rim, f0, reflected, rim);
     float lit = key[0] + key[1] + key[2] > 0 ? key_light(rig, s) : 0;
     for (int c = 0; c < 3; c++) {
-        float base = s->albedo[c] * (1 - s->metallic), bounced = 1 / (1 - 0.9f * s->albedo[c] * (1 - open));
-        radiance[c] = sky[c] * base * bounced + glossy[c] * (f0[c] * scale + offset) * open * open +
-                      KEY[c] * key[c] * lit + RIM[c] * rim[c] * open;
+        float base = s->albedo[c] * (1 - s->metallic) * (1 - reflected[c]);
+        float bounced = 1 / (1 - 0.9f * s->albedo[c] * (1 - open));
+        radiance[c] = sky[c] * base * bounced + glossy[c] * reflected[c] * glossy_open + rig->colors.key[c] * key[c] * lit +
+                      rig->colors.rim[c] * rim[c] * open;
     }
     if (openness)
         *openness = open;
@@ -211,21 +224,22 @@ float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p)
     float far = meso_vec3_length(from) / rig->radius, fade = 1 - smoothstep(2, 4, far);
     if (fade == 0)
         return 0;
-    float sky[3] = {0}, facing = fmaxf(meso_vec3_dot(rig->up, rig->to_key), 0);
+    float sky[3] = {0}, key = 0, facing = fmaxf(meso_vec3_dot(rig->up, rig->to_key), 0);
     MesoVec3 across = fabsf(rig->up.x) < 0.9f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 0, 1};
     MesoVec3 x = meso_vec3_unit(meso_vec3_cross(across, rig->up), across), y = meso_vec3_cross(rig->up, x);
-    const MesoLitSurface ground = {.position = p, .normal = rig->up};
     /* Steps of light that a strand hides, and a plane shows, are spread over a few texels. */
     for (uint32_t i = 0; i < GROUND_TAPS; i++) {
-        float part[3], r = GROUND_SPREAD * rig->radius * sqrtf(((float)i + 0.5f) / GROUND_TAPS), a = GOLDEN_ANGLE * (float)i;
-        MesoVec3 from_p = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
-        const MesoLitSurface tap = {.position = meso_vec3_add(p, from_p), .normal = rig->up};
-        sky_light(rig, &tap, part);
+        float part[3], r = rig->radius * sqrtf(((float)i + 0.5f) / GROUND_TAPS), a = GOLDEN_ANGLE * (float)i;
+        MesoVec3 aside = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
+        const MesoLitSurface for_sky = {.position = meso_vec3_mad(p, GROUND_SPREAD, aside), .normal = rig->up};
+        const MesoLitSurface for_key = {.position = meso_vec3_mad(p, GROUND_KEY_SPREAD, aside), .normal = rig->up};
+        sky_light(rig, &for_sky, part);
+        key += key_light(rig, &for_key) / GROUND_TAPS;
         for (int c = 0; c < 3; c++)
             sky[c] += part[c] / GROUND_TAPS;
     }
 
-    float whole = luminance(KEY) / PI * facing + luminance(rig->open_sky);
-    float left = luminance(KEY) / PI * facing * key_light(rig, &ground) + luminance(sky);
+    float from_key = luminance(rig->colors.key) / PI * facing;
+    float whole = from_key + luminance(rig->open_sky), left = from_key * key + luminance(sky);
     return whole > 0 ? fade * fmaxf(1 - left / whole, 0) : 0;
 }

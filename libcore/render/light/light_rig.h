@@ -3,11 +3,13 @@
  * extent and so soft shadows; a cool sky over a warm ground, whose light comes from many directions and is held off by
  * what stands in its way; and a weak light from behind.
  *
- *     L(p, n, e) = sum over the sky's directions d of  (4 / M) max(n.d, 0) V(p, d) S(d) (albedo (1 - metallic))
- *                + S(reflected e) F V^2 + K max(n.k, 0) V(p, k) f(k) + R max(n.r, 0) f(r) V
+ *     L(p, n, e) = sum over the sky's directions d of  (4 / M) max(n.d, 0) V(p, d) S(d) albedo (1 - metallic) (1 - F)
+ *                + S(reflected e) F W + K max(n.k, 0) V(p, k) f(k) + R max(n.r, 0) f(r) V
  *
  * with V from light maps (light_map.h), f the microfacets of "Understanding the Masking-Shadowing Function" (Heitz
- * 2014) over a Lambertian base, and what the sky's light loses between surfaces given back by their albedo.
+ * 2014) over a Lambertian base, F what of the sky's light those reflect, W how open the reflected side is by "Moving
+ * Frostbite to Physically Based Rendering" (Lagarde, de Rousiers 2014), and what light loses between surfaces given back
+ * by their colour. No surface gives back more than it gets.
  */
 #ifndef MESO_LIGHT_RIG_H
 #define MESO_LIGHT_RIG_H
@@ -26,8 +28,15 @@ typedef struct MesoLightQuality {
 /* What a picture of so many samples a pixel deserves. */
 MesoLightQuality meso_light_quality(uint32_t samples);
 
+/* What a surface gets that faces the key light or the one behind; radiance of sky and ground, and of the window around the
+ * key light that shows in reflections. Linear. */
+typedef struct MesoLightColors {
+    float key[3], rim[3], sky[3], ground[3], window[3];
+} MesoLightColors;
+
 typedef struct MesoLightRig {
     MesoVec3 to_key, to_rim, up;
+    MesoLightColors colors;
     uint32_t sky_count, key_count;
     MesoLightMap *maps;         /* [sky_count + key_count] */
     float *sky_colors;          /* [3 * sky_count] */

@@ -1,6 +1,7 @@
 #include "libcore/render/picture/tile_picture.h"
 
 #include "libcore/render/light/light_rig.h"
+#include "libcore/render/light/vary.h"
 #include "libcore/render/raster/raster_tiles.h"
 
 /* How far thinned geometry may lie from its own, in pixels. */
@@ -16,6 +17,7 @@ typedef struct Picture {
     MesoView view;
     MesoRasterView raster;
     MesoLightRig rig;
+    uint32_t varied;            /* channel whose things differ in colour, or MESO_NO_INDEX */
 } Picture;
 
 /* Half of the way to the nearest thing, but a share of the way to the farthest. */
@@ -88,6 +90,9 @@ static float light_group(const Picture *p, const Group *group, float color[4], f
                         .normal = meso_vec3_unit(group->normal, group->sample.normal),
                         .albedo = {m.albedo[0], m.albedo[1], m.albedo[2]},
                         .roughness = fminf(fmaxf(m.roughness, 0.08f), 1), .metallic = m.metallic};
+    if (p->varied != MESO_NO_INDEX)
+        meso_vary(s.albedo, meso_scene_id(p->scene, meso_shape_look(&p->shapes, group->sample.shape).ids, p->varied),
+                  p->options->vary);
     s.to_eye = meso_vec3_unit(meso_vec3_sub(p->raster.eye, s.position), p->view.up);
     float radiance[3], openness, weight = (float)group->count / samples;
     meso_light_on(&p->rig, &s, radiance, &openness);
@@ -256,7 +261,7 @@ static MesoStatus make_extras(MesoImage *image, MesoArena *arena, const MesoScen
 MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
 {
-    Picture p = {.image = image, .options = options, .scene = scene};
+    Picture p = {.image = image, .options = options, .scene = scene, .varied = meso_vary_channel(scene)};
     size_t bytes, least;
     MesoStatus status = meso_render_memory(scene, options, &bytes, &least, error);
     if (!status)

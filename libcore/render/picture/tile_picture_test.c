@@ -9,6 +9,7 @@
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
 #include "libcore/render/light/light_rig.h"
+#include "libcore/render/light/vary.h"
 #include "libcore/scene/parts.h"
 
 enum { SIDES = 12, TUBES = 9, RINGS = 24, WIDTH = 120, HEIGHT = 90, BALL = 16 };
@@ -259,6 +260,105 @@ static void test_light(void)
     CHECK(meso_light_ground_shadow(&rig, (MesoVec3){-40, -0.5f, 0}) == 0);
 }
 
+/* A rig around a ball over nothing, of one colour of sky and ground, and without lights. */
+static void make_furnace(MesoLightRig *rig, Bundle *b, MesoShapes *shapes)
+{
+    MesoView view;
+    MesoRenderOptions options = look((MesoVec3){0, 0, 0}, (MesoVec3){0, 0, 5}, 16);
+    const MesoLightQuality quality = {256, 256, 16, 512};
+    make_bundle(b, (MesoVec3){0, 0, 0});
+    make_ball(b, (MesoVec3){0, 0, 0}, 0.5f);
+    b->scene.sweep_count = b->scene.kind_count = 0;
+    meso_scene_measure(&b->scene);
+    CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
+    CHECK(meso_shapes_init(shapes, &arena, &b->scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
+    CHECK(meso_light_rig_init(rig, &arena, shapes, &view, options.camera.up, &quality, 2, &error) == MESO_OK);
+    rig->colors = (MesoLightColors){.sky = {1, 1, 1}, .ground = {1, 1, 1}};
+    for (uint32_t i = 0; i < 3 * rig->sky_count; i++)
+        rig->sky_colors[i] = 1;
+}
+
+/* Radiance of a white surface that `normal` is of, far above the ball. */
+static float white(const MesoLightRig *rig, MesoVec3 normal, float cosine, float roughness, float metallic)
+{
+    MesoVec3 across = meso_vec3_unit(meso_vec3_cross(normal, (MesoVec3){0.3f, 0.5f, -0.7f}), normal);
+    MesoLitSurface s = {.position = meso_vec3_scale(normal, 0.6f), .normal = normal, .albedo = {1, 1, 1},
+                        .roughness = roughness, .metallic = metallic};
+    s.to_eye = meso_vec3_mad(meso_vec3_scale(normal, cosine), sqrtf(1 - cosine * cosine), across);
+    float radiance[3];
+    meso_light_on(rig, &s, radiance, NULL);
+    return radiance[0];
+}
+
+/*
+ * White under a sky that is 1 everywhere gives back no more than that, and most of it; and from all directions of a key
+ * light together, which is 1 over pi for each of a sphere's.
+ */
+static void test_furnace(void)
+{
+    enum { WAYS = 1000 };
+    static Bundle b;
+    MesoShapes shapes;
+    MesoLightRig rig;
+    make_furnace(&rig, &b, &shapes);
+    for (int k = 0; k < 5 * 4 * 2; k++) {
+        float cosine = 0.1f + 0.225f * (float)(k % 5), roughness = 0.25f + 0.25f * (float)(k / 5 % 4), metallic = (float)(k / 20);
+        for (uint32_t i = 0; i < 3; i++) {
+            float sky = white(&rig, (MesoVec3){i == 0, i == 1, i == 2}, fminf(cosine, 1), roughness, metallic);
+            CHECK(sky < 1.02f && sky > (metallic > 0 ? 0.44f : 0.85f));
+        }
+    }
+    rig.colors = (MesoLightColors){.key = {1, 1, 1}};
+    for (uint32_t i = 0; i < 3 * rig.sky_count; i++)
+        rig.sky_colors[i] = 0;
+    MesoVec3 normal = rig.to_key;
+    for (int k = 0; k < 3 * 3 * 2; k++) {
+        float cosine = 0.3f + 0.35f * (float)(k % 3), roughness = fminf(0.4f + 0.3f * (float)(k / 3 % 3), 1), metallic = (float)(k / 9);
+        double sum = 0;
+        for (uint32_t i = 0; i < WAYS; i++) {
+            float z = 1 - (2 * (float)i + 1) / WAYS, r = sqrtf(1 - z * z), a = 2.39996323f * (float)i;
+            rig.to_key = (MesoVec3){r * cosf(a), r * sinf(a), z};
+            sum += (double)white(&rig, normal, fminf(cosine, 1), roughness, metallic);
+        }
+        double whole = sum / WAYS * 4 * 3.14159265358979;
+        CHECK(whole < 1.02 && whole > (metallic > 0 ? 0.3 : 0.98));
+        /* Of facets that look anywhere, seen from above: the integral of x / (1 + x). */
+        CHECK(!(cosine >= 1 && roughness >= 1 && metallic > 0) || fabs(whole - (1 - log(2))) < 1e-3);
+    }
+}
+
+static void test_vary(const Bundle *b)
+{
+    float same[3] = {0.2f, 0.4f, 0.1f}, again[3];
+    uint32_t apart = 0;
+    meso_vary(same, 7, 0);
+    CHECK(same[0] == 0.2f && same[1] == 0.4f && same[2] == 0.1f && meso_vary_channel(&b->scene) == 0);
+    meso_vary(same, 7, 0.5f);
+    for (uint32_t id = 0; id < 1000; id++) {
+        float color[3] = {0.2f, 0.4f, 0.1f};
+        meso_vary(color, id, 0.5f);
+        float factor = (color[0] + color[1] + color[2]) / 0.7f;
+        CHECK(factor > 0.706f && factor < 1.415f && color[1] > color[0] && color[0] > color[2]);
+        apart += memcmp(color, same, sizeof color) != 0;
+        for (int c = 0; c < 3; c++)
+            again[c] = color[c] = 1;
+        meso_vary(again, id, 1);
+        CHECK(again[0] <= 1 && again[1] <= 1 && again[2] <= 1);
+    }
+    CHECK(apart == 999);
+
+    /* Colour alone differs, in things, and not in the variables. */
+    MesoRenderOptions options = look((MesoVec3){0, 0, 0}, (MesoVec3){1, 2, 5}, 1);
+    MesoImage plain = draw(b, &options, 2);
+    options.vary = 0.5f;
+    MesoImage varied = draw(b, &options, 1);
+    size_t n = WIDTH * HEIGHT;
+    CHECK(memcmp(plain.albedo, varied.albedo, 12 * n) == 0 && memcmp(plain.ids[0], varied.ids[0], 4 * n) == 0);
+    CHECK(memcmp(plain.color, varied.color, 16 * n) != 0);
+    for (size_t i = 0; i < n; i++)
+        CHECK(plain.color[4 * i + 3] == varied.color[4 * i + 3]);
+}
+
 int main(void)
 {
     static Bundle b;
@@ -269,9 +369,11 @@ int main(void)
     test_rays(&b, origin, (MesoVec3){0.4f, 0.5f, 0.9f});        /* inside: the near plane cuts */
     test_gl(&b, origin);
     test_threads(&b, origin);
+    test_vary(&b);
     make_bundle(&b, far);
     test_gl(&b, far);
     test_light();
+    test_furnace();
     meso_arena_release(&arena);
     return 0;
 }
