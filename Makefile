@@ -13,6 +13,7 @@
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
+#   bench-render      times of drawing by stage, and memory, beside the prototype's
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
@@ -20,6 +21,7 @@
 #   bench-replicate   details on a patch that is stretched, beside the paper's Table 1; times
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   quilts            ten pictures of quilts, to build/quilts
+#   gallery           ten pictures of ten structures, by all methods, to build/gallery
 #   details           three strips of details that replicate, to build/details
 #   fuzz-run          with config=fuzz: each reader for $(FUZZ_SECONDS) seconds
 #   install           to $(DESTDIR)$(PREFIX)
@@ -173,6 +175,8 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
+bench-render: all generators
+	@scripts/bench/render $(OUT) $(BIN) $(DATA)
 bench-decor: $(addprefix $(OUT)/test/libcore/,geodesic/geodesic_bench geodesic/geodesic_lines_bench \
              mesh/cut/mesh_cut_bench decor/decor_bench)
 	@for bench in $^; do $$bench; done
@@ -189,6 +193,8 @@ demo: all generators
 	@scripts/make-demo $(OUT) $(BIN) $(BUILD)/demo
 quilts: all generators
 	@scripts/make-quilts $(OUT) $(BIN) $(BUILD)/quilts
+gallery: all generators
+	@scripts/make-gallery $(OUT) $(BIN) $(BUILD)/gallery
 details: all generators $(OUT)/scripts/make_strip
 	@scripts/make-details $(OUT) $(BIN) $(BUILD)/details
 fuzz-run: fuzzers all generators
@@ -204,7 +210,7 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
-        check-reference check-pairs bench bench-solve bench-decor bench-quilt bench-grow bench-replicate bench-exact demo quilts \
-        details fuzz-run fuzzers benches references install clean
+        check-reference check-pairs bench bench-solve bench-render bench-decor bench-quilt bench-grow \
+        bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "cmd/common/tool.h"
+#include "cmd/info/info_compare.h"
 #include "cmd/info/info_describe.h"
 #include "cmd/info/info_grammar.h"
 #include "cmd/info/info_quilt.h"
@@ -20,11 +21,13 @@
 static const MesoToolInfo INFO_TOOL = {
     .name = "meso-info",
     .synopsis = "meso-info [options] FILE...\n"
-                "meso-info --slots csv|json SLOTS",
+                "meso-info --slots csv|json SLOTS\n"
+                "meso-info --compare PICTURE PICTURE",
     .purpose = "Check any files of the suite and print what they hold as JSON.",
     .examples = "meso-info vase.slots\n"
                 "meso-info vase.meso -o vase.json\n"
-                "meso-info --slots csv vase.slots -o vase.csv",
+                "meso-info --slots csv vase.slots -o vase.csv\n"
+                "meso-info --compare before.exr after.exr",
     .words = "1 *\n"
              "--output .json .csv\n"
              "--json .json",
@@ -36,6 +39,7 @@ static const MesoToolInfo INFO_TOOL = {
 typedef struct InfoArguments {
     MesoTool tool;
     const char *slots;          /* --slots: csv, json, or NULL */
+    const char *compared;       /* --compare: a picture, or NULL */
 } InfoArguments;
 
 static bool has_extension(const char *path, const char *extension)
@@ -239,19 +243,52 @@ static MesoStatus list_slots(InfoArguments *a, MesoError *error)
     return status;
 }
 
+/* ---- pictures ---- */
+
+static MesoStatus compare_pictures(InfoArguments *a, MesoError *error)
+{
+    MesoTool *tool = &a->tool;
+    MesoInput first, second;
+    if (tool->operand_count > 1 || a->slots)
+        return meso_fail(error, MESO_ERR_USAGE, "--compare FILE is for one other file%s",
+                         a->slots ? ", and not for --slots" : "");
+    MesoStatus status = meso_tool_open_input(tool, &first, a->compared, "picture");
+    if (status)
+        return status;
+    status = open_file(tool, &second, tool->operands[0]);
+    if (status) {
+        meso_input_close(&first);
+        return status;
+    }
+    json_t *facts = json_object();
+    status = meso_info_compare(facts, &tool->arena, &first, &second, error);
+    if (!status || status == MESO_ERR_NO) {
+        MesoStatus written = meso_json_write_file(facts, tool->output, error);
+        status = written ? written : status;
+    }
+    json_decref(facts);
+    meso_input_close(&first);
+    meso_input_close(&second);
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     static InfoArguments a;
     const MesoOption options[] = {
         MESO_CHOICE(0, "slots", "FORMAT", "list which tile each slot of an assignment holds: csv or json",
                     &a.slots, "csv|json"),
+        MESO_INPUT_FILE(0, "compare", "PICTURE", "how far FILE is from that picture, channel by channel, and where most",
+                        &a.compared),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };
     MesoTool *tool = &a.tool;
     if (!meso_tool_start(tool, &INFO_TOOL, options, argc, argv))
         return meso_tool_finish(tool);
-    if (a.slots)
+    if (a.compared)
+        tool->status = compare_pictures(&a, &tool->error);
+    else if (a.slots)
         tool->status = list_slots(&a, &tool->error);
     else
         tool->status = tool->operand_count == 1 ? inform_of_one(tool, &tool->error) : inform_of_several(tool, &tool->error);

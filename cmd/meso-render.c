@@ -162,7 +162,7 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
     if (wants_gl(a) && a->extras)
         return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
     if (wants_gl(a) && a->vary > 0)
-        return meso_fail(error, MESO_ERR_USAGE, "--vary is for --visibility tiles; GL draws things of one colour alike");
+        return meso_fail(error, MESO_ERR_USAGE, "--vary is for --visibility tiles; GL varies nothing");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
         return meso_fail(error, MESO_ERR_USAGE, "--context is for --visibility gl; tiles need none");
     return MESO_OK;
@@ -366,8 +366,8 @@ int main(int argc, char **argv)
                     "1|4|16"),
         MESO_CHOICE(0, "ground", "WHAT", "under the model: none (default), or one that shadow falls on", &a.ground,
                     "none|shadow"),
-        MESO_NUMBER(0, "vary", "AMOUNT", "how much colours differ from strand to strand or element to element, 0 (default) "
-                    "to 1", &a.vary, 0, 1),
+        MESO_NUMBER(0, "vary", "AMOUNT", "how much colours differ from strand to strand, or element to element, 0 "
+                    "(default) to 1", &a.vary, 0, 1),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
                     "--context is given", &a.visibility, "auto|tiles|gl"),
         MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",

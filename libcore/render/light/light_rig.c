@@ -114,7 +114,7 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
 
 /* ---- light on a surface ---- */
 
-/* What the microfacets reflect of light from all sides, to the eye: Karis's fit ("Physically Based Shading on Mobile"). */
+/* What the microfacets reflect to the eye of light from all sides: Karis's fit ("Physically Based Shading on Mobile"). */
 static void reflect_all(const MesoLitSurface *s, float nv, const float f0[3], float out[3])
 {
     float r0 = 1 - s->roughness, r1 = 0.0425f - 0.0275f * s->roughness, r2 = 1.04f - 0.572f * s->roughness;
@@ -195,7 +195,8 @@ void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *s, float radia
         f0[c] = 0.04f + (s->albedo[c] - 0.04f) * s->metallic;
     float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f);
     reflect_all(s, nv, f0, reflected);
-    MesoVec3 mirrored = meso_vec3_mad(meso_vec3_scale(s->to_eye, -1), 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
+    MesoVec3 away = meso_vec3_scale(s->to_eye, -1);
+    MesoVec3 mirrored = meso_vec3_mad(away, 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
     float reach = powf(nv + open, exp2f(-16 * s->roughness - 1)) - 1 + open, glossy_open = fminf(fmaxf(reach, 0), 1);
     sky_at(rig, mirrored, s->roughness, glossy);
     reflect_light(s, rig->to_key, f0, reflected, key);
@@ -204,8 +205,8 @@ void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *s, float radia
     for (int c = 0; c < 3; c++) {
         float base = s->albedo[c] * (1 - s->metallic) * (1 - reflected[c]);
         float bounced = 1 / (1 - 0.9f * s->albedo[c] * (1 - open));
-        radiance[c] = sky[c] * base * bounced + glossy[c] * reflected[c] * glossy_open + rig->colors.key[c] * key[c] * lit +
-                      rig->colors.rim[c] * rim[c] * open;
+        radiance[c] = sky[c] * base * bounced + glossy[c] * reflected[c] * glossy_open;
+        radiance[c] += rig->colors.key[c] * key[c] * lit + rig->colors.rim[c] * rim[c] * open;
     }
     if (openness)
         *openness = open;

@@ -8,8 +8,8 @@
  *
  * with V from light maps (light_map.h), f the microfacets of "Understanding the Masking-Shadowing Function" (Heitz
  * 2014) over a Lambertian base, F what of the sky's light those reflect, W how open the reflected side is by "Moving
- * Frostbite to Physically Based Rendering" (Lagarde, de Rousiers 2014), and what light loses between surfaces given back
- * by their colour. No surface gives back more than it gets.
+ * Frostbite to Physically Based Rendering" (Lagarde, de Rousiers 2014), and what light loses between surfaces given
+ * back by their colour. No surface gives back more than it gets.
  */
 #ifndef MESO_LIGHT_RIG_H
 #define MESO_LIGHT_RIG_H
@@ -28,8 +28,8 @@ typedef struct MesoLightQuality {
 /* What a picture of so many samples a pixel deserves. */
 MesoLightQuality meso_light_quality(uint32_t samples);
 
-/* What a surface gets that faces the key light or the one behind; radiance of sky and ground, and of the window around the
- * key light that shows in reflections. Linear. */
+/* What a surface gets that faces the key light or the one behind; radiance of sky and ground, and of the window around
+ * the key light that shows in reflections. Linear. */
 typedef struct MesoLightColors {
     float key[3], rim[3], sky[3], ground[3], window[3];
 } MesoLightColors;

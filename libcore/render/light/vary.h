@@ -13,8 +13,8 @@
 uint32_t meso_vary_channel(const MesoScene *scene);
 
 /*
- * Changes a colour by what thing `id` it is of: its value by a factor of up to 2^amount or as little as 2^-amount, and its
- * hue by up to `amount` / 4 of a radian either way. The same for the same id; linear, stays within [0,1]; 0 changes
+ * Changes a colour by what thing `id` it is of: its value by a factor of up to 2^amount or as little as 2^-amount, and
+ * its hue by up to `amount` / 4 of a radian either way. The same for the same id; linear, stays within [0,1]; 0 changes
  * nothing.
  */
 void meso_vary(float albedo[3], uint32_t id, float amount);

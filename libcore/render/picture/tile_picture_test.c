@@ -302,7 +302,8 @@ static void test_furnace(void)
     MesoLightRig rig;
     make_furnace(&rig, &b, &shapes);
     for (int k = 0; k < 5 * 4 * 2; k++) {
-        float cosine = 0.1f + 0.225f * (float)(k % 5), roughness = 0.25f + 0.25f * (float)(k / 5 % 4), metallic = (float)(k / 20);
+        float cosine = 0.1f + 0.225f * (float)(k % 5), roughness = 0.25f + 0.25f * (float)(k / 5 % 4);
+        float metallic = (float)(k / 20);
         for (uint32_t i = 0; i < 3; i++) {
             float sky = white(&rig, (MesoVec3){i == 0, i == 1, i == 2}, fminf(cosine, 1), roughness, metallic);
             CHECK(sky < 1.02f && sky > (metallic > 0 ? 0.44f : 0.85f));
@@ -313,7 +314,8 @@ static void test_furnace(void)
         rig.sky_colors[i] = 0;
     MesoVec3 normal = rig.to_key;
     for (int k = 0; k < 3 * 3 * 2; k++) {
-        float cosine = 0.3f + 0.35f * (float)(k % 3), roughness = fminf(0.4f + 0.3f * (float)(k / 3 % 3), 1), metallic = (float)(k / 9);
+        float cosine = 0.3f + 0.35f * (float)(k % 3), roughness = fminf(0.4f + 0.3f * (float)(k / 3 % 3), 1);
+        float metallic = (float)(k / 9);
         double sum = 0;
         for (uint32_t i = 0; i < WAYS; i++) {
             float z = 1 - (2 * (float)i + 1) / WAYS, r = sqrtf(1 - z * z), a = 2.39996323f * (float)i;

@@ -1,0 +1,35 @@
+# Pictures beside each other: what meso-info says of their differences; tiles and OSMesa see the same vase.
+model=$fixtures/vase.meso
+render() { meso-render -q --size 240x300 --samples 1 "$@" "$model"; }
+# field CHANNEL KEY
+field() { tr -d '\n' <beside.json | sed 's/{"name"/\n&/g' | sed -n "s/^{\"name\": \"$1\".*\"$2\": \([^,}]*\).*/\1/p"; }
+
+render -o tiles.exr
+render --visibility gl -o gl.exr
+render --eye 0,2,9 -o other.exr
+
+echo "== itself"
+meso-info --compare tiles.exr tiles.exr | grep -c '"differing": 0,'
+
+echo "== tiles and GL: ids differ in fewer than one pixel of a hundred, depths by less than a hundredth"
+meso-info -q --compare tiles.exr gl.exr -o beside.json || echo "status $?"
+for channel in slot tile; do
+    awk -v n="$(field $channel differing)" 'BEGIN { print n < 0.01 * 240 * 300 }'
+done
+awk -v n="$(field Z unlike)" -v r="$(field Z relative)" 'BEGIN { print n < 0.005 * 240 * 300, r < 0.01 }'
+
+echo "== from elsewhere"
+meso-info -q --compare tiles.exr other.exr -o beside.json || echo "status $?"
+awk -v n="$(field slot differing)" 'BEGIN { print n > 0.1 * 240 * 300 }'
+
+echo "== the worst pixel, what one alone has, sizes, words"
+printf 'P' >no.png
+meso-render -q --size 32x32 "$model" -o small.png
+meso-render -q --size 32x32 --background none "$model" -o clear.png
+meso-info --compare small.png clear.png | grep alone
+meso-info --compare small.png tiles.exr
+echo "status $?"
+meso-info --compare no.png small.png
+echo "status $?"
+meso-info --compare small.png small.png clear.png
+echo "status $?"
