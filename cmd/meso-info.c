@@ -278,7 +278,7 @@ int main(int argc, char **argv)
     const MesoOption options[] = {
         MESO_CHOICE(0, "slots", "FORMAT", "list which tile each slot of an assignment holds: csv or json",
                     &a.slots, "csv|json"),
-        MESO_INPUT_FILE(0, "compare", "PICTURE", "how far FILE is from that picture, channel by channel, and where most",
+        MESO_INPUT_FILE(0, "compare", "PICTURE", "how far FILE is from that picture, in each channel, and where most",
                         &a.compared),
         MESO_TOOL_OPTIONS(a.tool),
         {0},

@@ -44,8 +44,8 @@ static json_t *channel_json(const MesoPicture *a, uint32_t c, const float *other
 {
     uint64_t count = (uint64_t)a->width * a->height;
     Difference d = compare(a->values + c * count, other, count);
-    json_t *worst = d.largest > 0 ? json_pack("[I, I]", (json_int_t)(d.worst % a->width), (json_int_t)(d.worst / a->width))
-                                  : json_null();
+    json_int_t column = (json_int_t)(d.worst % a->width), row = (json_int_t)(d.worst / a->width);
+    json_t *worst = d.largest > 0 ? json_pack("[I, I]", column, row) : json_null();
     return json_pack("{s:s, s:I, s:I, s:f, s:o, s:f, s:o}", "name", a->channel_names[c], "differing",
                      (json_int_t)d.differing, "unlike", (json_int_t)d.unlike, "largest", d.largest, "worst_pixel", worst,
                      "rms", sqrt(d.squares / (double)count), "relative",
@@ -98,7 +98,7 @@ MesoStatus meso_info_compare(json_t *facts, MesoArena *arena, const MesoInput *a
     if (status)
         return status;
     if (first.width != second.width || first.height != second.height)
-        return meso_fail(error, MESO_ERR_INPUT, "'%s' has %u x %u pixels, '%s' %u x %u", a->path, first.width, first.height,
-                         b->path, second.width, second.height);
+        return meso_fail(error, MESO_ERR_INPUT, "'%s' has %u x %u pixels, '%s' %u x %u", a->path, first.width,
+                         first.height, b->path, second.width, second.height);
     return compare_pictures(facts, &first, &second, error);
 }

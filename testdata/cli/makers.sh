@@ -14,13 +14,22 @@ meso-info --compare tiles.exr tiles.exr | grep -c '"differing": 0,'
 echo "== tiles and GL: ids differ in fewer than one pixel of a hundred, depths by less than a hundredth"
 meso-info -q --compare tiles.exr gl.exr -o beside.json || echo "status $?"
 for channel in slot tile; do
-    awk -v n="$(field $channel differing)" 'BEGIN { print n < 0.01 * 240 * 300 }'
+    awk -v n="$(field $channel differing)" 'BEGIN { print (n < 0.01 * 240 * 300) }'
 done
-awk -v n="$(field Z unlike)" -v r="$(field Z relative)" 'BEGIN { print n < 0.005 * 240 * 300, r < 0.01 }'
+awk -v n="$(field Z unlike)" -v r="$(field Z relative)" 'BEGIN { print (n < 0.005 * 240 * 300), (r < 0.01) }'
+
+echo "== colour varies from strand to strand, and nothing else does"
+render --vary 0.5 -o varied.exr
+meso-info -q --compare tiles.exr varied.exr -o beside.json || echo "status $?"
+for channel in R A slot Z N.X albedo.R; do
+    awk -v n="$(field $channel differing)" 'BEGIN { print (n > 0) }'
+done
+render --vary 0.5 --visibility gl -o no.exr
+echo "status $?"
 
 echo "== from elsewhere"
 meso-info -q --compare tiles.exr other.exr -o beside.json || echo "status $?"
-awk -v n="$(field slot differing)" 'BEGIN { print n > 0.1 * 240 * 300 }'
+awk -v n="$(field slot differing)" 'BEGIN { print (n > 0.1 * 240 * 300) }'
 
 echo "== the worst pixel, what one alone has, sizes, words"
 printf 'P' >no.png

@@ -114,7 +114,7 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
 
 /* ---- light on a surface ---- */
 
-/* What the microfacets reflect to the eye of light from all sides: Karis's fit ("Physically Based Shading on Mobile"). */
+/* What the microfacets reflect to the eye of light from all sides, by Karis ("Physically Based Shading on Mobile"). */
 static void reflect_all(const MesoLitSurface *s, float nv, const float f0[3], float out[3])
 {
     float r0 = 1 - s->roughness, r1 = 0.0425f - 0.0275f * s->roughness, r2 = 1.04f - 0.572f * s->roughness;
