@@ -2,7 +2,7 @@
 model=$fixtures/vase.meso
 render() { meso-render -q --size 240x300 --samples 1 "$@" "$model"; }
 # field CHANNEL KEY
-field() { tr -d '\n' <beside.json | sed 's/{"name"/\n&/g' | sed -n "s/^{\"name\": \"$1\".*\"$2\": \([^,}]*\).*/\1/p"; }
+field() { tr -d ' \n' <beside.json | sed 's/{"name"/\n&/g' | sed -n "s/^{\"name\":\"$1\".*\"$2\":\([^,}]*\).*/\1/p"; }
 
 render -o tiles.exr
 render --visibility gl -o gl.exr
