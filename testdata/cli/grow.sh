@@ -138,3 +138,9 @@ meso-info shown.exr | grep channels
 try meso-grow --show-map pain=x.png painted.grammar column.obj -o a.meso
 try meso-grow --show-map paint painted.grammar column.obj -o a.meso
 try meso-grow --show-map paint=painted.grammar painted.grammar column.obj -o a.meso
+
+# On a fin, which has a surface on both sides, what lies too deep is raised by half of its length at most.
+"$generators/make_body" fish >fish.obj
+meso-grow -q "$testdata/grammars/scales.grammar" fish.obj -o fish.ply
+meso-info fish.ply | tr -d ' \n' | grep -o '"bounds":.*' |
+    awk -F '[][,]' '{ far = 0; for (i = 1; i <= NF; i++) if ($i + 0 > 3 || $i + 0 < -3) far = 1; print far ? "something flies off" : "all is near the fish" }'

@@ -174,7 +174,20 @@ static void want(float *raises, const uint32_t *twins, uint32_t joint, float by)
         raises[twins[joint]] = fmaxf(raises[twins[joint]], by);
 }
 
-static void raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, const uint32_t *twins)
+/* How far each joint may be raised in all: half of the longest element at it. At a fin, which has a surface on both
+ * sides of what stands on it, depths would grow with every raise. */
+static void find_room(const MesoGrown *grown, float *room, const uint32_t *twins)
+{
+    memset(room, 0, grown->joint_count * sizeof *room);
+    for (uint32_t i = 0; i < grown->element_count; i++) {
+        const MesoSpan *span = &grown->elements[i].span;
+        float half = 0.5f * length_of(grown, &grown->elements[i]);
+        want(room, twins, span->from, half);
+        want(room, twins, span->to, half);
+    }
+}
+
+static void raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, float *room, const uint32_t *twins)
 {
     float *depths = lifting->depths;
     memset(raises, 0, grown->joint_count * sizeof *raises);
@@ -187,6 +200,8 @@ static void raise_once(const Lifting *lifting, MesoGrown *grown, float *raises, 
     }
     for (uint32_t i = 0; i < grown->joint_count; i++) {
         bool turned;
+        raises[i] = fminf(raises[i], room[i]);
+        room[i] -= raises[i];
         if (raises[i] > 0)
             grown->joints[i].position = meso_vec3_mad(grown->joints[i].position, raises[i],
                                                       normal_at(lifting, i, &turned));
@@ -202,13 +217,15 @@ static MesoStatus raise_all(Lifting *lifting, MesoGrown *grown, MesoArena *scrat
                             MesoError *error)
 {
     float *raises = MESO_NEW(scratch, float, grown->joint_count, error);
+    float *room = MESO_NEW(scratch, float, grown->joint_count, error);
     uint32_t *twins = MESO_NEW(scratch, uint32_t, grown->joint_count, error);
     uint32_t *last = MESO_NEW(scratch, uint32_t, grown->branch_count, error);
-    if (!raises || !twins || !last)
+    if (!raises || !room || !twins || !last)
         return MESO_ERR_MEMORY;
     find_twins(grown, twins, last);
+    find_room(grown, room, twins);
     for (uint32_t pass = 1; pass <= PASSES && any_deep(lifting); pass++) {
-        raise_once(lifting, grown, raises, twins);
+        raise_once(lifting, grown, raises, room, twins);
         if (pass < PASSES)
             meso_parallel_for(thread_count, grown->element_count, GRAIN, measure_range, lifting);
     }
