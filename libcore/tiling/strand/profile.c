@@ -215,14 +215,27 @@ static Turn add_turns(Turn turn, const MesoSweep *sweep, bool mirrored, const Wa
 /* Which neighbours a column takes its normal from. */
 typedef enum Facing { BOTH, PREVIOUS, NEXT } Facing;
 
+/*
+ * An end is round where its own ring is, so that it meets its neighbour's, and as long as the chord that it speaks for,
+ * so that the blend keeps to the chords. One in a point goes by the other end.
+ */
+static MesoVec2 end_normal(const Walk *walk, uint32_t k, Facing facing)
+{
+    uint32_t count = walk->ring->count;
+    MesoVec2 own = walk_normal(walk, facing == NEXT ? k : k + count - 1, facing == PREVIOUS ? k : k + 1);
+    if (facing == BOTH || walk_creased(walk, k))
+        return own;
+    MesoVec2 both = walk_normal(walk, k + count - 1, k + 1);
+    float length = meso_vec2_length(both);
+    return length > 0 ? meso_vec2_scale(both, meso_vec2_length(own) / length) : own;
+}
+
 static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t k, uint32_t count,
                                    Facing facing, bool joins)
 {
-    const Walk *start_normals = start->ring ? start : end, *end_normals = end->ring ? end : start;
-    uint32_t from = facing == NEXT ? k : k + count - 1, to = facing == PREVIOUS ? k : k + 1;
     return (MesoSweepColumn){walk_point(start, k), walk_point(end, k),
-                             walk_normal(start_normals, from, to), walk_normal(end_normals, from, to),
-                             (float)k / (float)count, joins, 0};
+                             end_normal(start->ring ? start : end, k, facing),
+                             end_normal(end->ring ? end : start, k, facing), (float)k / (float)count, joins, 0};
 }
 
 static uint32_t place_of(const Builder *b, const Walk *walk, uint32_t k)

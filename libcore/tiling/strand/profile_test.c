@@ -1,0 +1,99 @@
+/* Profiles: where a ring is round is the ring's own affair, whatever it is swept to. */
+#include "libcore/base/check.h"
+#include "libcore/tiling/strand/profile.h"
+
+static const MesoMaterial GREY = {{0.5f, 0.5f, 0.5f}, 0.5f, 0};
+
+enum { ROUND, SQUARE };
+
+static MesoCsgNode csg[2] = {{MESO_CSG_DISC, 0, 0, {0.5f, 0.5f}, {0.3f, 0.3f}, 0},
+                             {MESO_CSG_BOX, 0, 0, {0.5f, 0.5f}, {0.3f, 0.2f}, 0}};
+
+/* A disc from side to side, and to a box on a third. */
+static MesoTileSet make_tile_set(MesoSection *sections, MesoInterface *interfaces, MesoSweep *sweeps, MesoTile *tile)
+{
+    sections[ROUND] = (MesoSection){"disc", ROUND, 0, GREY};
+    sections[SQUARE] = (MesoSection){"box", SQUARE, 1, GREY};
+    interfaces[ROUND] = (MesoInterface){"round", 0, 1, {0, 0, 0}, false, false};
+    interfaces[SQUARE] = (MesoInterface){"square", 1, 1, {0, 0, 0}, false, false};
+    sweeps[0] = (MesoSweep){.from_side = 0, .to_side = 2, .from_section = ROUND, .to_section = ROUND};
+    sweeps[1] = (MesoSweep){.from_side = 0, .to_side = 1, .from_section = ROUND, .to_section = SQUARE};
+    *tile = (MesoTile){.name = "t", .side_count = 4, .labels = {1, 2, -1, -2}, .sweep_count = 2};
+    return (MesoTileSet){.interface_count = 2, .section_count = 2, .csg_count = 2, .tile_count = 1, .sweep_count = 2,
+                         .interfaces = interfaces, .sections = sections, .csg = csg, .tiles = tile,
+                         .sweeps = sweeps};
+}
+
+static uint32_t find_kind(const MesoProfileSet *profiles, uint32_t sweep)
+{
+    for (uint32_t k = 0; k < profiles->kind_count; k++)
+        if (profiles->origins[k].sweep == sweep && !profiles->origins[k].mirrored)
+            return k;
+    CHECK(false);   /* there is one */
+    return MESO_NO_INDEX;
+}
+
+static bool same(MesoVec2 a, MesoVec2 b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+static bool same_direction(MesoVec2 a, MesoVec2 b)
+{
+    float lengths = meso_vec2_length(a) * meso_vec2_length(b);
+    return fabsf(meso_vec2_cross(a, b)) < 1e-6f * lengths && a.x * b.x + a.y * b.y > 0;
+}
+
+/* Every column of `kind` has the normal that `other` has at the same point of the ring that both start on. */
+static uint32_t compare_starts(const MesoProfileSet *profiles, uint32_t kind, uint32_t other)
+{
+    const MesoSweptKind *a = &profiles->kinds[kind], *b = &profiles->kinds[other];
+    uint32_t met = 0;
+    for (uint32_t i = a->column_begin; i < a->column_begin + a->column_count; i++)
+        for (uint32_t k = b->column_begin; k < b->column_begin + b->column_count; k++)
+            if (same(profiles->columns[i].start, profiles->columns[k].start)) {
+                CHECK(same_direction(profiles->columns[i].start_normal, profiles->columns[k].start_normal));
+                met++;
+            }
+    return met;
+}
+
+/* Corners of a ring have two columns each, the first one the last of all. */
+static uint32_t count_sharp_ends(const MesoProfileSet *profiles, uint32_t kind)
+{
+    const MesoSweptKind *swept = &profiles->kinds[kind];
+    uint32_t sharp = 0;
+    for (uint32_t i = swept->column_begin; i + 1 < swept->column_begin + swept->column_count; i++) {
+        const MesoSweepColumn *a = &profiles->columns[i], *b = &profiles->columns[i + 1];
+        sharp += same(a->end, b->end) && !same_direction(a->end_normal, b->end_normal);
+    }
+    return sharp;
+}
+
+static void test_round_end_of_a_sharp_sweep(void)
+{
+    MesoError error;
+    MesoArena arena;
+    meso_arena_init(&arena);
+    MesoSection sections[2];
+    MesoInterface interfaces[2];
+    MesoSweep sweeps[2];
+    MesoTile tile;
+    MesoTileSet set = make_tile_set(sections, interfaces, sweeps, &tile);
+    MesoContourSet contours;
+    MesoProfileSet profiles;
+    CHECK(meso_contour_set_build(&contours, &arena, &set, 0.05f, &error) == MESO_OK);
+    CHECK(meso_profile_set_build(&profiles, &arena, &set, &contours, 8, 0, &error) == MESO_OK);
+
+    uint32_t straight = find_kind(&profiles, 0), bent = find_kind(&profiles, 1);
+    CHECK(compare_starts(&profiles, bent, straight) >= profiles.kinds[bent].column_count);
+    CHECK(count_sharp_ends(&profiles, straight) == 0);
+    CHECK(count_sharp_ends(&profiles, bent) >= 3);
+    meso_arena_release(&arena);
+}
+
+int main(void)
+{
+    test_round_end_of_a_sharp_sweep();
+    return 0;
+}
