@@ -294,13 +294,17 @@ static MesoStatus make_cages(MesoCheckInput *input, MesoArena *arena, const Meso
     MesoShell shell;
     uint32_t count = model->surface.face_count;
     MesoVec3 *cages = MESO_NEW(arena, MesoVec3, 8 * (size_t)count, error);
-    MesoStatus status = cages ? meso_model_shell(&shell, arena, model, error) : MESO_ERR_MEMORY;
+    uint32_t *across = MESO_NEW(arena, uint32_t, 4 * (size_t)count, error);
+    MesoStatus status = cages && across ? meso_model_shell(&shell, arena, model, error) : MESO_ERR_MEMORY;
     for (uint32_t f = 0; f < count && !status; f++) {
         MesoCage cage = meso_shell_cage(&shell, f);
         for (uint32_t k = 0; k < 8; k++)
             cages[8 * (size_t)f + k] = meso_cage_corner(&cage, k);
     }
+    for (uint32_t h = 0; h < 4 * count && !status; h++)
+        across[h] = model->graph.twin[h] == MESO_NO_INDEX ? MESO_NO_INDEX : model->graph.twin[h] / 4;
     input->mesh.cages = cages;
+    input->mesh.across = across;
     input->mesh.cage_count = status ? 0 : count;
     input->edge = model->surface.mean_edge_length;
     return status;

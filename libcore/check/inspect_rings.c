@@ -26,6 +26,7 @@ typedef struct Ring {
     MesoBox box;
     double reach;                   /* square of how far another one may be */
     uint32_t facing;                /* ring, or MESO_NO_INDEX */
+    MesoInspectEnd end;
 } Ring;
 
 typedef struct Rings {
@@ -155,6 +156,29 @@ static MesoStatus describe_rings(Rings *rings, MesoError *error)
     return MESO_OK;
 }
 
+static double box_width(const MesoBox *box)
+{
+    return meso_vec3d_length(meso_vec3d_sub(meso_vec3d(box->high), meso_vec3d(box->low)));
+}
+
+/* Where they end as they are drawn. */
+static void find_ends(Rings *rings)
+{
+    static const MesoFault faults[] = {[MESO_END_BORDER] = MESO_FAULT_BORDER, [MESO_END_LID] = MESO_FAULT_LID};
+    MesoInspectWork *work = rings->work;
+    for (uint32_t r = 0; r < rings->count; r++) {
+        Ring *ring = &rings->rings[r];
+        ring->end = meso_inspect_end(work->mesh, ring->slot, ring->middle, ring->outward, box_width(&ring->box));
+        if (ring->end != MESO_END_INSIDE)
+            meso_inspect_note(work, faults[ring->end], rings->halves[ring->first] / 3, 0);
+    }
+    for (uint32_t i = 0; i < rings->half_count; i++) {
+        MesoInspectEnd end = rings->rings[rings->ring_of[i]].end;
+        if (end != MESO_END_INSIDE)
+            work->result->marks[rings->halves[i] / 3] |= 1u << faults[end];
+    }
+}
+
 static MesoStatus find_rings(Rings *rings, MesoError *error)
 {
     MesoInspectWork *work = rings->work;
@@ -167,15 +191,14 @@ static MesoStatus find_rings(Rings *rings, MesoError *error)
         if (work->mates[h] == MESO_MATE_NONE)
             rings->halves[rings->half_count++] = h;
     MesoStatus status = join_ends(rings, error);
-    return status ? status : describe_rings(rings, error);
+    if (!status)
+        status = describe_rings(rings, error);
+    if (!status)
+        find_ends(rings);
+    return status;
 }
 
 /* ---- rings that face each other ---- */
-
-static double box_width(const MesoBox *box)
-{
-    return meso_vec3d_length(meso_vec3d_sub(meso_vec3d(box->high), meso_vec3d(box->low)));
-}
 
 /* How far a slot reaches is how far the other side of a torn joint may be. */
 static MesoStatus measure_reach(Rings *rings, MesoError *error)
@@ -217,7 +240,8 @@ static double facing_distance(void *context, uint32_t item)
     const Facing *facing = context;
     const Ring *a = facing->asking, *b = &facing->rings->rings[item];
     double lengths = meso_vec3d_length(a->outward) * meso_vec3d_length(b->outward);
-    if (a->slot == b->slot || !(meso_vec3d_dot(a->outward, b->outward) < FACING_COSINE * lengths))
+    if (a->slot == b->slot || b->end != MESO_END_INSIDE ||
+        !(meso_vec3d_dot(a->outward, b->outward) < FACING_COSINE * lengths))
         return INFINITY;
     MesoVec3d way = meso_vec3d_sub(b->middle, a->middle);
     double square = meso_vec3d_dot(way, way), ahead = fabs(meso_vec3d_dot(way, a->outward));
@@ -241,6 +265,9 @@ static MesoStatus pair_rings(Rings *rings, MesoError *error)
     if (status)
         return status;
     for (uint32_t r = 0; r < rings->count; r++) {
+        nearest[r] = MESO_NO_INDEX;
+        if (rings->rings[r].end != MESO_END_INSIDE)
+            continue;
         Facing facing = {rings, &rings->rings[r]};
         double square = rings->rings[r].reach;
         nearest[r] = meso_inspect_tree_nearest(&tree, rings->rings[r].middle, MESO_NO_INDEX, &square,

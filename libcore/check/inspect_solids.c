@@ -1,4 +1,5 @@
 /* What triangles say together: normals, volumes, folded hexahedra, sizes. */
+#include "libcore/base/disjoint_sets.h"
 #include "libcore/check/inspect_work.h"
 
 /* ---- normals ---- */
@@ -10,8 +11,8 @@ static int agreement(MesoVec3d area, MesoVec3 normal)
     return (dot > 0) - (dot < 0);
 }
 
-/* A triangle whose normals all oppose it is wound the wrong way; one of which some do has wrong normals. */
-static void judge_normals(MesoInspectWork *work, uint32_t t)
+/* A triangle whose normals all oppose it is against them; one of which some do has wrong normals. */
+static void judge_normals(MesoInspectWork *work, uint32_t t, bool *against)
 {
     const MesoInspectedMesh *mesh = work->mesh;
     MesoVec3d area = meso_inspect_area(mesh, t);
@@ -24,21 +25,65 @@ static void judge_normals(MesoInspectWork *work, uint32_t t)
         lost += meso_vec3_dot(mesh->normals[number], mesh->normals[number]) == 0;
         opposed += agreement(area, mesh->normals[number]) < 0;
     }
-    if (known > 0 && opposed == known)
-        meso_inspect_note(work, MESO_FAULT_INVERTED, t, 0);
-    else if (opposed + lost > 0) {
+    *against = known > 0 && opposed == known;
+    if (!*against && opposed + lost > 0) {
         meso_inspect_note(work, MESO_FAULT_NORMAL, t, 0);
         work->result->findings[MESO_FAULT_NORMAL].count += opposed + lost - 1;
     }
 }
 
+static bool normals_agree(const MesoInspectedMesh *mesh, uint32_t corner, uint32_t other)
+{
+    uint32_t i = meso_inspect_normal_at(mesh, corner), k = meso_inspect_normal_at(mesh, other);
+    return i != MESO_NO_INDEX && k != MESO_NO_INDEX && meso_vec3_dot(mesh->normals[i], mesh->normals[k]) > 0;
+}
+
+/*
+ * What an edge says of a triangle against its normals with one that is not beyond it: 1, the surface folds back there
+ * while its normals go on; -1, normals turn where the surface goes on, or the two are wound against each other.
+ */
+static int32_t weigh_edge(const MesoInspectWork *work, uint32_t half, uint32_t mate)
+{
+    const MesoInspectedMesh *mesh = work->mesh;
+    MesoVec3d a = meso_inspect_area(mesh, half / 3), b = meso_inspect_area(mesh, mate / 3);
+    bool agree = normals_agree(mesh, half, meso_half_next(mate)) && normals_agree(mesh, meso_half_next(half), mate);
+    if (work->places[half] == work->places[mate])
+        return -1;
+    return agree == (meso_vec3d_dot(a, b) > 0) ? 0 : agree ? 1 : -1;
+}
+
+/* Of triangles against their normals that hang together: how much their outline says so. */
+static void weigh_outlines(const MesoInspectWork *work, const bool *against, uint32_t *sets, int32_t *folds)
+{
+    uint32_t half_count = 3 * work->mesh->triangle_count;
+    meso_sets_init(sets, work->mesh->triangle_count);
+    for (uint32_t h = 0; h < half_count; h++)
+        if (against[h / 3] && work->mates[h] < MESO_MATE_OUT && against[work->mates[h] / 3])
+            meso_sets_join(sets, h / 3, work->mates[h] / 3);
+    for (uint32_t h = 0; h < half_count; h++)
+        if (against[h / 3] && work->mates[h] < MESO_MATE_OUT && !against[work->mates[h] / 3])
+            folds[meso_sets_root(sets, h / 3)] += weigh_edge(work, h, work->mates[h]);
+}
+
 MesoStatus meso_inspect_normals(MesoInspectWork *work, MesoError *error)
 {
-    (void)error;
-    const uint32_t none = 1u << MESO_FAULT_FLAT | 1u << MESO_FAULT_DOUBLE;
-    for (uint32_t t = 0; work->mesh->normals && t < work->mesh->triangle_count; t++)
+    const uint32_t none = 1u << MESO_FAULT_FLAT | 1u << MESO_FAULT_DOUBLE, count = work->mesh->triangle_count;
+    if (!work->mesh->normals)
+        return MESO_OK;
+    MesoArenaMark mark = meso_arena_mark(work->scratch);
+    bool *against = MESO_NEW(work->scratch, bool, count, error);
+    uint32_t *sets = MESO_NEW(work->scratch, uint32_t, count, error);
+    int32_t *folds = MESO_NEW(work->scratch, int32_t, count, error);
+    if (!against || !sets || !folds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < count; t++)
         if (!(work->result->marks[t] & none) && meso_inspect_is_finite(work->mesh, t))
-            judge_normals(work, t);
+            judge_normals(work, t, &against[t]);
+    weigh_outlines(work, against, sets, folds);
+    for (uint32_t t = 0; t < count; t++)
+        if (against[t])
+            meso_inspect_note(work, folds[meso_sets_root(sets, t)] > 0 ? MESO_FAULT_PINCH : MESO_FAULT_INVERTED, t, 0);
+    meso_arena_rewind(work->scratch, mark);
     return MESO_OK;
 }
 

@@ -117,6 +117,13 @@ typedef struct MesoInspectCut {
  * `most` triangles of each are followed. */
 double meso_inspect_depth(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count, uint32_t most);
 
+/* Where in its slot's hexahedron a ring lies: at a border, at a lid, or elsewhere, where it has another side. */
+typedef enum MesoInspectEnd { MESO_END_INSIDE, MESO_END_BORDER, MESO_END_LID } MesoInspectEnd;
+
+/* Of a ring of this size around `middle` that ends `outward`; elsewhere, where there are no hexahedra. */
+MesoInspectEnd meso_inspect_end(const MesoInspectedMesh *mesh, uint32_t slot, MesoVec3d middle, MesoVec3d outward,
+                                double size);
+
 /* The steps, in their order; each leaves its scratch behind it. */
 MesoStatus meso_inspect_places(MesoInspectWork *work, MesoError *error);
 MesoStatus meso_inspect_edges(MesoInspectWork *work, MesoError *error);

@@ -19,6 +19,8 @@ typedef struct MesoInspectedMesh {
     const uint32_t *things;         /* the same of strands or elements; NULL: its pieces are these */
     uint32_t cage_count;
     const MesoVec3 *cages;          /* [8 * cage_count] the slots' hexahedra: around the bottom, then around the top */
+    const uint32_t *across;         /* [4 * cage_count] the slot beyond each side, from bottom corner k to the next, or
+                                     * MESO_NO_INDEX at a border */
 } MesoInspectedMesh;
 
 /*
@@ -29,10 +31,13 @@ typedef enum MesoFault {
     MESO_FAULT_GAP,             /* rings of two slots that face each other; the distance of their points */
     MESO_FAULT_ANGLE,           /* joints of two slots; between the normals at their ends, in degrees */
     MESO_FAULT_OPEN,            /* rings */
+    MESO_FAULT_BORDER,          /* of these, at a side of their hexahedron with no slot beyond it */
+    MESO_FAULT_LID,             /* and at its top or bottom */
     MESO_FAULT_LEAK,            /* things with open edges */
     MESO_FAULT_T_JOINT,         /* ends of open edges within another open edge */
     MESO_FAULT_WINDING,         /* joints whose triangles are wound against each other */
-    MESO_FAULT_INVERTED,        /* triangles wound against the normals of all their corners */
+    MESO_FAULT_INVERTED,        /* other triangles wound against the normals of all their corners */
+    MESO_FAULT_PINCH,           /* triangles that are turned over as the surface folds back: normals go on there */
     MESO_FAULT_NORMAL,          /* other corners whose normal is behind their triangle, or has no length */
     MESO_FAULT_INSIDE_OUT,      /* closed pieces with a negative volume */
     MESO_FAULT_NUMBER,          /* triangles with a position or a normal that is not finite */
@@ -94,7 +99,12 @@ typedef struct MesoInspection {
  *
  * Continuity: rings of two slots are paired where each is the other's nearest, they end in opposite directions, and lie
  * side by side no further apart than half of what their slots hold is wide, or end to end within half their own size.
- * The gap is the largest distance of a point of one from the other's line.
+ * The gap is the largest distance of a point of one from the other's line. Where there are hexahedra, rings that lie at
+ * a lid or a border have no other side: these end as they are drawn, and are counted apart. A ring lies at a face of
+ * its hexahedron that is within 60 degrees of where it ends, and within a twentieth of the ring's size.
+ * Pinches: triangles against their normals that hang together are the surface turned over, as that of a tube on the
+ * inner side of a narrow bend, where along their outline there are more edges at which triangles turn by over 90
+ * degrees and normals by less than the other way round, or with triangles that are wound against each other.
  * Crossings: triangles of which a side of one goes through the inside of the other, by more than the coordinates'
  * rounding; those that share a place only touch. The depth is how far below the surface of the one the other's
  * vertices get, followed inwards from where they cut through each other, over 32 triangles of each at most, fewer

@@ -127,6 +127,28 @@ static void open_end(Model *m)
         drop_triangle(m, sweep_triangle(0, 3, ALONG - 2, 0) + k);
 }
 
+/* The same, where nothing is beyond the side between both slots: one of the rings lies there. */
+static void end_at_border(Model *m)
+{
+    open_end(m);
+    m->across[4 * 3 + 2] = m->across[4 * 4] = MESO_NO_INDEX;
+}
+
+/* An open cup whose rim is at the lid of a slot. */
+static void end_at_lid(Model *m)
+{
+    put_tetrahedron(m, (MesoVec3){1.9f, 1.9f, 0.25f}, 0.25f, 0, 7);
+    m->triangle_count--;
+}
+
+/* A vertex on the inner side of a sweep, taken over the next one. */
+static void fold_back(Model *m)
+{
+    const MesoVec3 *next = &m->positions[sweep_vertex(0, 2, 4, AROUND / 2)];
+    MesoVec3 *p = &m->positions[sweep_vertex(0, 2, 3, AROUND / 2)];
+    *p = meso_vec3_lerp(*p, *next, 1.5f);
+}
+
 static void shift_ring(Model *m, uint32_t ring, float x, float y, float z)
 {
     for (uint32_t v = ring * SLOTS * SWEEP_VERTICES; v < (ring + 1) * SLOTS * SWEEP_VERTICES; v++)
@@ -170,6 +192,25 @@ static void turn_normal(Model *m)
 {
     MesoVec3 *normal = &m->normals[sweep_vertex(0, 2, 3, 5)];
     *normal = meso_vec3_scale(*normal, -1);
+}
+
+/* Of a whole triangle, corners of its own. */
+static void turn_normals(Model *m)
+{
+    uint32_t t = sweep_triangle(0, 2, 3, 5);
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t v = m->corners[3 * t + k];
+        m->corners[3 * t + k] = model_vertex(m, m->positions[v], meso_vec3_scale(m->normals[v], -1));
+    }
+}
+
+/* Of a whole triangle, with those of its neighbours at its corners. */
+static void turn_shared_normals(Model *m)
+{
+    for (uint32_t k = 0; k < 3; k++) {
+        MesoVec3 *normal = &m->normals[m->corners[3 * sweep_triangle(0, 2, 3, 5) + k]];
+        *normal = meso_vec3_scale(*normal, -1);
+    }
 }
 
 static void vanish_normal(Model *m)
@@ -294,6 +335,12 @@ static const struct {
     {"lost face", lose_face, {{MESO_FAULT_OPEN, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
     {"open end", open_end, {{MESO_FAULT_GAP, 2}, {MESO_FAULT_OPEN, 2}, {MESO_FAULT_LEAK, 1}},
      MESO_FAULT_GAP, 0.3, 0.05},
+    {"end at a border", end_at_border, {{MESO_FAULT_OPEN, 2}, {MESO_FAULT_BORDER, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
+    {"end at a lid", end_at_lid, {{MESO_FAULT_OPEN, 1}, {MESO_FAULT_LID, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
+    {"surface that folds back", fold_back, {{MESO_FAULT_PINCH, 2}, {MESO_FAULT_SELF_CROSSING, UINT64_MAX}}, 0, 0, 0},
+    {"turned normals of a triangle", turn_normals, {{MESO_FAULT_INVERTED, 1}}, 0, 0, 0},
+    {"turned normals of a triangle and beside it", turn_shared_normals,
+     {{MESO_FAULT_INVERTED, 1}, {MESO_FAULT_NORMAL, 15}}, 0, 0, 0},
     {"crossing", cross, {{MESO_FAULT_CROSSING, 1}}, MESO_FAULT_CROSSING, 0.2, 0.03},
     {"crossing itself", cross_itself, {{MESO_FAULT_SELF_CROSSING, UINT64_MAX}}, MESO_FAULT_SELF_CROSSING, 0.2, 0.03},
     {"floating ring", float_away, {{MESO_FAULT_FLOATING, 1}}, 0, 0, 0},

@@ -20,7 +20,7 @@ enum {
 typedef struct Model {
     uint32_t vertex_count, triangle_count, cage_count;
     MesoVec3 positions[ROOM], normals[ROOM], cages[8 * SLOTS];
-    uint32_t corners[3 * ROOM], slots[ROOM], things[ROOM];
+    uint32_t corners[3 * ROOM], slots[ROOM], things[ROOM], across[4 * SLOTS];
 } Model;
 
 static inline uint32_t model_vertex(Model *m, MesoVec3 position, MesoVec3 normal)
@@ -90,6 +90,9 @@ static inline void put_cage(Model *m, uint32_t slot)
         m->cages[8 * slot + k] = (MesoVec3){(float)(radius * cos(angle)), (float)(radius * sin(angle)),
                                             k < 4 ? -0.5f : 0.5f};
     }
+    m->across[4 * slot] = (slot + SLOTS - 1) % SLOTS;
+    m->across[4 * slot + 2] = (slot + 1) % SLOTS;
+    m->across[4 * slot + 1] = m->across[4 * slot + 3] = MESO_NO_INDEX;
 }
 
 static inline void model_make(Model *m)
@@ -123,7 +126,7 @@ static inline MesoInspectedMesh model_mesh(const Model *m)
     return (MesoInspectedMesh){.vertex_count = m->vertex_count, .normal_count = m->vertex_count,
                                .triangle_count = m->triangle_count, .positions = m->positions, .normals = m->normals,
                                .corners = m->corners, .slots = m->slots, .things = m->things,
-                               .cage_count = m->cage_count, .cages = m->cages};
+                               .cage_count = m->cage_count, .cages = m->cages, .across = m->across};
 }
 
 #endif
