@@ -28,6 +28,7 @@ static const FaultRow ROWS[MESO_FAULT_COUNT] = {
     [MESO_FAULT_NUMBER] = {"triangles with what is no number", NULL, .plain = true},
     [MESO_FAULT_FLAT] = {"triangles without area", NULL, .plain = true},
     [MESO_FAULT_DOUBLE] = {"triangles that are there before", NULL, .plain = true},
+    [MESO_FAULT_BRANCH] = {"edges where sections are shared", NULL, .plain = true, .slots = true},
     [MESO_FAULT_EDGE] = {"edges of over two triangles", NULL, .plain = true},
     [MESO_FAULT_VERTEX] = {"places where fans touch", NULL, .plain = true},
     [MESO_FAULT_FOLD] = {"folded slots", NULL, .plain = true, .cages = true},

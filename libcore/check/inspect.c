@@ -12,9 +12,10 @@ const char *const MESO_FAULT_NAMES[MESO_FAULT_COUNT] = {
     [MESO_FAULT_LID] = "lid", [MESO_FAULT_LEAK] = "leak", [MESO_FAULT_T_JOINT] = "t-joint",
     [MESO_FAULT_WINDING] = "winding", [MESO_FAULT_INVERTED] = "inverted", [MESO_FAULT_PINCH] = "pinch",
     [MESO_FAULT_NORMAL] = "normal", [MESO_FAULT_INSIDE_OUT] = "inside-out", [MESO_FAULT_NUMBER] = "number",
-    [MESO_FAULT_FLAT] = "flat", [MESO_FAULT_DOUBLE] = "double", [MESO_FAULT_EDGE] = "edge",
-    [MESO_FAULT_VERTEX] = "vertex", [MESO_FAULT_FOLD] = "fold", [MESO_FAULT_CROSSING] = "crossing",
-    [MESO_FAULT_SELF_CROSSING] = "self-crossing", [MESO_FAULT_THIN] = "thin", [MESO_FAULT_FLOATING] = "floating"};
+    [MESO_FAULT_FLAT] = "flat", [MESO_FAULT_DOUBLE] = "double", [MESO_FAULT_BRANCH] = "branch",
+    [MESO_FAULT_EDGE] = "edge", [MESO_FAULT_VERTEX] = "vertex", [MESO_FAULT_FOLD] = "fold",
+    [MESO_FAULT_CROSSING] = "crossing", [MESO_FAULT_SELF_CROSSING] = "self-crossing", [MESO_FAULT_THIN] = "thin",
+    [MESO_FAULT_FLOATING] = "floating"};
 
 static MesoStatus run(MesoInspectWork *work, MesoError *error)
 {

@@ -8,6 +8,38 @@
 
 enum { GRAIN = 1 << 14, FEW = 24 };
 
+/* ---- sets, parts ---- */
+
+/* Each element's number among the sets, in the order of their first elements; how many sets there are. */
+static uint32_t number_sets(uint32_t *sets, uint32_t count)
+{
+    uint32_t met = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sets[i] = meso_sets_root(sets, i);
+    for (uint32_t i = 0; i < count; i++)    /* roots are the first of their sets */
+        sets[i] = sets[i] == i ? met++ : sets[sets[i]];
+    return met;
+}
+
+/* By the vertices that triangles share as the mesh has them. */
+static MesoStatus find_parts(MesoInspectWork *work, MesoError *error)
+{
+    const MesoInspectedMesh *mesh = work->mesh;
+    work->parts = MESO_NEW(work->scratch, uint32_t, mesh->triangle_count, error);
+    MesoArenaMark mark = meso_arena_mark(work->scratch);
+    uint32_t *vertices = work->parts ? MESO_NEW(work->scratch, uint32_t, mesh->vertex_count, error) : NULL;
+    if (!vertices)
+        return MESO_ERR_MEMORY;
+    meso_sets_init(vertices, mesh->vertex_count);
+    for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++)
+        meso_sets_join(vertices, mesh->corners[h], mesh->corners[meso_half_next(h)]);
+    work->part_count = number_sets(vertices, mesh->vertex_count);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        work->parts[t] = vertices[mesh->corners[3 * t]];
+    meso_arena_rewind(work->scratch, mark);
+    return MESO_OK;
+}
+
 /* ---- edges ---- */
 
 /* Of one of the lower place of an edge. */
@@ -118,35 +150,52 @@ static void note_edges(MesoInspectWork *work)
     }
 }
 
-/* An edge counts once, with all of its triangles marked: entries stand edge by edge. */
+/* Whether the triangles of an edge are ends of as many parts of one slot or two: where sweeps share a cross-section. */
+static bool is_branch(const MesoInspectWork *work, const EdgeEntry *run, uint64_t count)
+{
+    const uint32_t *slots = work->mesh->slots;
+    uint32_t others = MESO_NO_INDEX;
+    for (uint64_t i = 0; slots && i < count; i++) {
+        uint32_t t = run[i].half / 3;
+        if (slots[t] != slots[run[0].half / 3] && others == MESO_NO_INDEX)
+            others = slots[t];
+        if (slots[t] != slots[run[0].half / 3] && slots[t] != others)
+            return false;
+        for (uint64_t k = 0; k < i; k++)
+            if (work->parts[t] == work->parts[run[k].half / 3])
+                return false;
+    }
+    return slots != NULL;
+}
+
+/* An edge counts once, with all of its triangles marked. */
+static void note_run(MesoInspectWork *work, const EdgeEntry *run, uint64_t count)
+{
+    MesoFault fault = is_branch(work, run, count) ? MESO_FAULT_BRANCH : MESO_FAULT_EDGE;
+    meso_inspect_note(work, fault, run[0].half / 3, 0);
+    for (uint64_t i = 1; i < count; i++) {
+        work->result->marks[run[i].half / 3] |= 1u << fault;
+        if (fault == MESO_FAULT_BRANCH)
+            meso_inspect_joint(work, run[0].half, run[i].half);
+    }
+}
+
+/* Entries stand edge by edge. */
 static void note_crowded(MesoInspectWork *work, const Edges *edges)
 {
-    uint32_t lower = MESO_NO_INDEX, higher = MESO_NO_INDEX;
-    for (uint64_t i = 0; i < edges->begin[work->place_count]; i++) {
-        uint32_t half = edges->entries[i].half, a, b;
-        if (work->mates[half] != MESO_MATE_MANY)
-            continue;
-        lower_and_higher(work, half, &a, &b);
-        if (a != lower || b != higher)
-            meso_inspect_note(work, MESO_FAULT_EDGE, half / 3, 0);
-        work->result->marks[half / 3] |= 1u << MESO_FAULT_EDGE;
-        lower = a;
-        higher = b;
+    for (uint32_t p = 0; p < work->place_count; p++) {
+        const EdgeEntry *entries = &edges->entries[edges->begin[p]];
+        uint64_t count = edges->begin[p + 1] - edges->begin[p];
+        for (uint64_t first = 0, next; first < count; first = next) {
+            for (next = first + 1; next < count && entries[next].higher == entries[first].higher;)
+                next++;
+            if (next - first > 2)
+                note_run(work, &entries[first], next - first);
+        }
     }
 }
 
 /* ---- fans and pieces: what is joined over edges ---- */
-
-/* Each element's number among the sets, in the order of their first elements; how many sets there are. */
-static uint32_t number_sets(uint32_t *sets, uint32_t count)
-{
-    uint32_t met = 0;
-    for (uint32_t i = 0; i < count; i++)
-        sets[i] = meso_sets_root(sets, i);
-    for (uint32_t i = 0; i < count; i++)    /* roots are the first of their sets */
-        sets[i] = sets[i] == i ? met++ : sets[sets[i]];
-    return met;
-}
 
 /* The half-edge's corner at `place`, one of its ends. */
 static uint32_t corner_at(const MesoInspectWork *work, uint32_t half, uint32_t place)
@@ -200,8 +249,9 @@ static MesoStatus join_all(MesoInspectWork *work, const Edges *edges, MesoError 
 MesoStatus meso_inspect_edges(MesoInspectWork *work, MesoError *error)
 {
     work->pieces = MESO_NEW(work->scratch, uint32_t, work->mesh->triangle_count, error);
-    if (!work->pieces)
-        return MESO_ERR_MEMORY;
+    MesoStatus status = work->pieces ? find_parts(work, error) : MESO_ERR_MEMORY;
+    if (status)
+        return status;
     MesoArenaMark mark = meso_arena_mark(work->scratch);
     Edges edges = {.work = work};
     edges.begin = MESO_NEW(work->scratch, uint64_t, (size_t)work->place_count + 1, error);
@@ -212,12 +262,12 @@ MesoStatus meso_inspect_edges(MesoInspectWork *work, MesoError *error)
     meso_parallel_for(work->options->thread_count, work->place_count, GRAIN, join_range, &edges);
     note_edges(work);
     note_crowded(work, &edges);
-    MesoStatus status = join_all(work, &edges, error);
+    status = join_all(work, &edges, error);
     meso_arena_rewind(work->scratch, mark);
     return status;
 }
 
-/* ---- pieces, parts, things ---- */
+/* ---- pieces, things ---- */
 
 /* Left-out triangles get the piece of a triangle that shares their first corner, so that they are no pieces. */
 static MesoStatus adopt_left_out(MesoInspectWork *work, MesoError *error)
@@ -232,25 +282,6 @@ static MesoStatus adopt_left_out(MesoInspectWork *work, MesoError *error)
     for (uint32_t h = 0; h < 3 * work->mesh->triangle_count; h++)
         if (work->mates[h] == MESO_MATE_OUT && at[work->places[h]])
             meso_sets_join(work->pieces, h / 3, at[work->places[h]] - 1);
-    meso_arena_rewind(work->scratch, mark);
-    return MESO_OK;
-}
-
-/* By the vertices that triangles share as the mesh has them. */
-static MesoStatus find_parts(MesoInspectWork *work, MesoError *error)
-{
-    const MesoInspectedMesh *mesh = work->mesh;
-    work->parts = MESO_NEW(work->scratch, uint32_t, mesh->triangle_count, error);
-    MesoArenaMark mark = meso_arena_mark(work->scratch);
-    uint32_t *vertices = work->parts ? MESO_NEW(work->scratch, uint32_t, mesh->vertex_count, error) : NULL;
-    if (!vertices)
-        return MESO_ERR_MEMORY;
-    meso_sets_init(vertices, mesh->vertex_count);
-    for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++)
-        meso_sets_join(vertices, mesh->corners[h], mesh->corners[meso_half_next(h)]);
-    work->part_count = number_sets(vertices, mesh->vertex_count);
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        work->parts[t] = vertices[mesh->corners[3 * t]];
     meso_arena_rewind(work->scratch, mark);
     return MESO_OK;
 }
@@ -310,8 +341,6 @@ MesoStatus meso_inspect_pieces(MesoInspectWork *work, MesoError *error)
         return status;
     work->piece_count = number_sets(work->pieces, work->mesh->triangle_count);
     work->result->piece_count = work->piece_count;
-    status = find_parts(work, error);
-    if (!status)
-        status = number_things(work, error);
+    status = number_things(work, error);
     return status ? status : note_leaks(work, error);
 }

@@ -62,6 +62,16 @@ static void note_angle(MesoInspectWork *work, uint32_t half, uint32_t other, dou
     }
 }
 
+void meso_inspect_joint(MesoInspectWork *work, uint32_t half, uint32_t other)
+{
+    const MesoInspectedMesh *mesh = work->mesh;
+    bool same = work->places[half] == work->places[other];
+    double begin = corner_angle(mesh, half, same ? other : meso_half_next(other));
+    double end = corner_angle(mesh, meso_half_next(half), same ? meso_half_next(other) : other);
+    work->result->slot_joints++;
+    note_angle(work, half, other, fmax(begin, end));
+}
+
 static void measure_joints(MesoInspectWork *work)
 {
     const MesoInspectedMesh *mesh = work->mesh;
@@ -69,11 +79,7 @@ static void measure_joints(MesoInspectWork *work)
         uint32_t mate = work->mates[h];
         if (mate >= MESO_MATE_OUT || h > mate || meso_inspect_slot(work, h) == meso_inspect_slot(work, mate))
             continue;
-        bool same = work->places[h] == work->places[mate];
-        double begin = corner_angle(mesh, h, same ? mate : meso_half_next(mate));
-        double end = corner_angle(mesh, meso_half_next(h), same ? meso_half_next(mate) : mate);
-        work->result->slot_joints++;
-        note_angle(work, h, mate, fmax(begin, end));
+        meso_inspect_joint(work, h, mate);
     }
 }
 

@@ -117,6 +117,9 @@ typedef struct MesoInspectCut {
  * `most` triangles of each are followed. */
 double meso_inspect_depth(const MesoInspectWork *work, const MesoInspectCut *cuts, uint32_t count, uint32_t most);
 
+/* Counts a joint of two half-edges along one edge, and notes by how much their normals differ. */
+void meso_inspect_joint(MesoInspectWork *work, uint32_t half, uint32_t other);
+
 /* Where in its slot's hexahedron a ring lies: at a border, at a lid, or elsewhere, where it has another side. */
 typedef enum MesoInspectEnd { MESO_END_INSIDE, MESO_END_BORDER, MESO_END_LID } MesoInspectEnd;
 

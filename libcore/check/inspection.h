@@ -43,7 +43,8 @@ typedef enum MesoFault {
     MESO_FAULT_NUMBER,          /* triangles with a position or a normal that is not finite */
     MESO_FAULT_FLAT,            /* triangles without area */
     MESO_FAULT_DOUBLE,          /* triangles that are there before, wound either way */
-    MESO_FAULT_EDGE,            /* edges of more than two triangles */
+    MESO_FAULT_BRANCH,          /* edges of more than two triangles where sweeps of one slot share a cross-section */
+    MESO_FAULT_EDGE,            /* other edges of more than two triangles */
     MESO_FAULT_VERTEX,          /* places where several fans of triangles meet */
     MESO_FAULT_FOLD,            /* hexahedra that are turned inside out at a corner */
     MESO_FAULT_CROSSING,        /* pairs of things that cut through each other; how deep */
@@ -102,6 +103,8 @@ typedef struct MesoInspection {
  * The gap is the largest distance of a point of one from the other's line. Where there are hexahedra, rings that lie at
  * a lid or a border have no other side: these end as they are drawn, and are counted apart. A ring lies at a face of
  * its hexahedron that is within 60 degrees of where it ends, and within a twentieth of the ring's size.
+ * Branches: the triangles of an edge are of one slot or two, and of as many parts, by the vertices that these share as
+ * the mesh has them: each ends there. Their normals are compared as those of joints.
  * Pinches: triangles against their normals that hang together are the surface turned over, as that of a tube on the
  * inner side of a narrow bend, where along their outline there are more edges at which triangles turn by over 90
  * degrees and normals by less than the other way round, or with triangles that are wound against each other.

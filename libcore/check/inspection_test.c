@@ -247,6 +247,22 @@ static void third_face(Model *m)
     model_triangle(m, v, x, w, 2, 0);
 }
 
+/* A second sweep of a slot that begins where the first does, and ends apart. */
+static void share_section(Model *m)
+{
+    uint32_t first = m->vertex_count;
+    for (uint32_t v = 0; v < 2 * AROUND; v++) {
+        uint32_t from = sweep_vertex(0, 2, v / AROUND, v % AROUND);
+        model_vertex(m, m->positions[from], m->normals[from]);
+    }
+    for (uint32_t k = 0; k < AROUND; k++) {
+        uint32_t a = first + k, b = first + (k + 1) % AROUND;
+        m->positions[a + AROUND].z += 0.05f;
+        model_triangle(m, a, a + AROUND, b + AROUND, 2, 0);
+        model_triangle(m, a, b + AROUND, b, 2, 0);
+    }
+}
+
 /* Something that stands on a vertex with its tip. */
 static void touching_fans(Model *m)
 {
@@ -351,6 +367,9 @@ static const struct {
     {"bent joint", bend_joint, {{MESO_FAULT_ANGLE, AROUND}}, MESO_FAULT_ANGLE, 5, 1e-4},
     {"folded slot", fold_slot, {{MESO_FAULT_FOLD, 1}}, 0, 0, 0},
     {"third face on an edge", third_face, {{MESO_FAULT_EDGE, 1}, {MESO_FAULT_OPEN, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
+    {"shared section", share_section,
+     {{MESO_FAULT_BRANCH, AROUND}, {MESO_FAULT_OPEN, 1}, {MESO_FAULT_LEAK, 1}, {MESO_FAULT_SELF_CROSSING, UINT64_MAX}},
+     0, 0, 0},
     {"touching fans", touching_fans, {{MESO_FAULT_VERTEX, 1}}, 0, 0, 0},
     {"inside out", turn_inside_out, {{MESO_FAULT_INSIDE_OUT, 1}}, 0, 0, 0},
     {"sweep wound back", wind_sweep_back, {{MESO_FAULT_WINDING, 2 * AROUND}, {MESO_FAULT_INVERTED, SWEEP_TRIANGLES}},
