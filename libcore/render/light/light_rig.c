@@ -16,7 +16,7 @@ static const float KEY_EXTENT = 0.07f;
 
 MesoLightQuality meso_light_quality(uint32_t samples)
 {
-    return samples == 1 ? (MesoLightQuality){20, 256, 1, 1536} : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024}
+    return samples == 1 ? (MesoLightQuality){12, 192, 1, 1024} : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024}
                                                                                : (MesoLightQuality){64, 384, 16, 1024};
 }
 
