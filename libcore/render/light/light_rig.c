@@ -17,7 +17,7 @@ static const float KEY_EXTENT = 0.07f;
 MesoLightQuality meso_light_quality(uint32_t samples)
 {
     return samples == 1 ? (MesoLightQuality){12, 192, 1, 1024} : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024}
-                                                                               : (MesoLightQuality){64, 384, 16, 1024};
+                                                                               : (MesoLightQuality){64, 288, 16, 768};
 }
 
 static float smoothstep(float low, float high, float x)
