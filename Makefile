@@ -116,9 +116,14 @@ objects = $(patsubst %,$(OUT)/obj/%.o,$(filter $(1)/%,$(LIBRARY)))
 $(OUT)/cmd.a: $(call objects,cmd)
 $(OUT)/formats.a: $(call objects,formats) $(OUT)/obj/builtin_macros.o
 $(OUT)/libcore.a: $(call objects,libcore) $(OUT)/obj/shaders.o
-$(LIBS):
+# Changes with the list of sources: make takes an archive that is newer than a new source for one that holds it.
+$(OUT)/sources: FORCE
+	@mkdir -p $(@D)
+	@echo '$(LIBRARY)' | cmp -s - $@ || echo '$(LIBRARY)' >$@
+.PHONY: FORCE
+$(LIBS): $(OUT)/sources
 	@rm -f $@
-	ar rcs $@ $^
+	ar rcs $@ $(filter %.o,$^)
 
 link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LIBS) $(LDLIBS)
 $(BIN)/%: $(OUT)/obj/cmd/%.c.o $(LIBS)
