@@ -109,17 +109,6 @@ static bool is_folded(const MesoScene *s, uint32_t part, const MesoSweptKind *ki
            meso_vec3_dot(side_of(v, face, 0, 3), side_of(v, face, 1, 2)) <= 0;
 }
 
-/* Of a section that turns: the chord from a column to the next is reversed on the way, seen in the frame that turns along.
- * Where that happens its ends' normals, which are those of longer chords too, change over before it does, or after. */
-static bool turns_inside_out(const MesoScene *s, const MesoSweptKind *kind, uint32_t column)
-{
-    const MesoSweepColumn *a = &s->columns[kind->column_begin + column], *b = a + 1;
-    MesoVec2 start = meso_vec2_sub(b->start, a->start), end = meso_vec2_sub(b->end, a->end);
-    float c = cosf(kind->turn), si = sinf(kind->turn);
-    MesoVec2 back = {c * end.x + si * end.y, c * end.y - si * end.x};
-    return kind->turn != 0 && start.x * back.x + start.y * back.y <= 0;
-}
-
 static bool agrees(const MesoMeshVertex *v, const MesoMeshFace *face)
 {
     bool quad = face->v[3] != MESO_NO_INDEX;
@@ -143,13 +132,11 @@ static void look_at_part(const MesoSceneParts *t, uint32_t part, const MesoMeshV
         counts->not_finite += !meso_vec3_finite(v[i].position) || !meso_vec3_finite(v[i].normal);
     for (uint64_t f = 0; f < face_count; f++) {
         counts->faces++;
-        const MesoSweptKind *kind = part < s->sweep_count ? &s->kinds[meso_scene_kind(s, part)] : NULL;
-        bool agreed = agrees(v, &faces[f]);
-        if (kind && (is_folded(s, part, kind, v, &faces[f]) ||
-                     (!agreed && turns_inside_out(s, kind, faces[f].v[0] % kind->column_count))))
+        if (part < s->sweep_count &&
+            is_folded(s, part, &s->kinds[meso_scene_kind(s, part)], v, &faces[f]))
             counts->folded++;
         else
-            counts->against += !agreed;
+            counts->against += !agrees(v, &faces[f]);
     }
 }
 

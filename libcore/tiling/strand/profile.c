@@ -256,10 +256,24 @@ static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoColumnPlac
     return MESO_OK;
 }
 
-static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count, MesoError *error)
+/*
+ * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns along.
+ * It turns inside out where its neighbours may not, and has normals of its own.
+ */
+static bool is_reversed(const Walk *start, const Walk *end, uint32_t k, float angle)
+{
+    if (angle == 0)
+        return false;
+    MesoVec2 a = walk_normal(start, k, k + 1), b = walk_normal(end, k, k + 1);
+    float c = cosf(angle), s = sinf(angle);
+    return a.x * (c * b.x + s * b.y) + a.y * (c * b.y - s * b.x) <= 0;
+}
+
+static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count, float angle, MesoError *error)
 {
     for (uint32_t k = 0; k <= count; k++) {
-        bool creased = walk_creased(&start, k) || walk_creased(&end, k);
+        bool creased = walk_creased(&start, k) || walk_creased(&end, k) ||
+                       is_reversed(&start, &end, k + count - 1, angle) || is_reversed(&start, &end, k, angle);
         MesoColumnPlace place = {place_of(b, &start, k), place_of(b, &end, k), creased};
         MesoStatus status = MESO_OK;
         if (creased && k > 0)
@@ -288,7 +302,7 @@ static MesoStatus push_kind(Builder *b, MesoKindOrigin origin, uint32_t division
                           .start_material = origin.start_section, .end_material = origin.end_section,
                           .cap = origin.sweep == MESO_NO_INDEX, .turn = turn.angle,
                           .middle = {turn.middle[0], turn.middle[1]}};
-    MesoStatus status = push_columns(b, start, end, count, error);
+    MesoStatus status = push_columns(b, start, end, count, turn.angle, error);
     if (status)
         return status;
     kind.column_count = out->column_count - kind.column_begin;
