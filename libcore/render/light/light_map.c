@@ -26,10 +26,10 @@ MesoStatus meso_light_map_init(MesoLightMap *map, MesoArena *arena, MesoVec3 tow
 enum { RANGE = 64, BATCH = 128 };       /* shapes, ranges */
 
 typedef struct Range {
-    MesoVec3 *points;
+    float *x, *y, *z;
     uint32_t *corners[2];       /* of triangles that have two sides, and of closed shapes */
     uint32_t point_count, corner_count[2];
-    uint64_t point_room, corner_room[2];
+    uint64_t room[3], corner_room[2];
 } Range;
 
 typedef struct Batch {
@@ -68,11 +68,16 @@ static bool add_mesh(Range *range, const MesoShapeMesh *mesh)
     bool closed = mesh->closed;
     uint64_t points = (uint64_t)range->point_count + mesh->vertex_count, first = range->corner_count[closed];
     uint64_t corners = first + 3 * (uint64_t)mesh->triangle_count;
-    if (corners > UINT32_MAX || !grow((void **)&range->points, &range->point_room, points, sizeof *range->points) ||
+    if (corners > UINT32_MAX || !grow((void **)&range->x, &range->room[0], points, sizeof *range->x) ||
+        !grow((void **)&range->y, &range->room[1], points, sizeof *range->y) ||
+        !grow((void **)&range->z, &range->room[2], points, sizeof *range->z) ||
         !grow((void **)&range->corners[closed], &range->corner_room[closed], corners, sizeof **range->corners))
         return false;
-    for (uint32_t v = 0; v < mesh->vertex_count; v++)
-        range->points[range->point_count + v] = mesh->vertices[v].position;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        range->x[range->point_count + v] = mesh->vertices[v].position.x;
+        range->y[range->point_count + v] = mesh->vertices[v].position.y;
+        range->z[range->point_count + v] = mesh->vertices[v].position.z;
+    }
     for (uint32_t c = 0; c < 3 * mesh->triangle_count; c++)
         range->corners[closed][first + c] = range->point_count + mesh->corners[c];
     range->point_count = (uint32_t)points;
@@ -111,8 +116,7 @@ static void draw_maps(void *context, uint32_t worker, uint64_t begin, uint64_t e
                 return;
             }
             MesoRasterVertex *projected = batch->projected[worker];
-            for (uint32_t v = 0; v < range->point_count; v++)
-                projected[v] = meso_raster_vertex(&map->view, meso_raster_from_eye(&map->view, range->points[v]), 0, 0);
+            meso_raster_project(&map->view, range->x, range->y, range->z, range->point_count, 0, 0, projected);
             for (int closed = 0; closed < 2; closed++)
                 meso_raster_draw(&target, projected, range->corners[closed], range->corner_count[closed] / 3, 0, closed);
         }
@@ -128,7 +132,9 @@ static void release(Batch *batch, uint32_t workers)
             free(batch->projected[w]);
     }
     for (uint32_t r = 0; r < BATCH; r++) {
-        free(batch->ranges[r].points);
+        free(batch->ranges[r].x);
+        free(batch->ranges[r].y);
+        free(batch->ranges[r].z);
         free(batch->ranges[r].corners[0]);
         free(batch->ranges[r].corners[1]);
     }

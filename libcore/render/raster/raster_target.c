@@ -236,31 +236,94 @@ static inline bool is_few(const Middles *m, int32_t wide, int32_t high)
 FILL(fill_small, int32_t)
 FILL(fill_large, int64_t)
 
+/* ---- which triangles reach a place ---- */
+
+enum { BLOCK = 64 };            /* triangles that are looked at together */
+
+typedef struct Block {
+    int32_t ax[BLOCK], ay[BLOCK], bx[BLOCK], by[BLOCK], cx[BLOCK], cy[BLOCK];
+    uint8_t kept[BLOCK];
+} Block;
+
+/* Fills the rest with triangles without area. */
+static inline void gather(Block *block, const MesoRasterVertex *vertices, const uint32_t *corners, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const MesoRasterVertex *a = &vertices[corners[3 * i]], *b = &vertices[corners[3 * i + 1]];
+        const MesoRasterVertex *c = &vertices[corners[3 * i + 2]];
+        block->ax[i] = a->x;
+        block->ay[i] = a->y;
+        block->bx[i] = b->x;
+        block->by[i] = b->y;
+        block->cx[i] = c->x;
+        block->cy[i] = c->y;
+    }
+    for (uint32_t i = count; i < BLOCK; i++)
+        block->ax[i] = block->ay[i] = block->bx[i] = block->by[i] = block->cx[i] = block->cy[i] = 0;
+}
+
+/* Those that look away or have no area are not kept, nor, with one sample a pixel, those around no pixel's middle:
+ * without a branch, so that many are looked at at once. Large ones, whose areas do not fit in 32 bits, are all kept. */
+__attribute__((always_inline)) static inline void sift(Block *block, const MesoRasterTarget *target, bool one_sided)
+{
+    int32_t wide = 4 * target->cells_x - 1, high = 4 * target->cells_y - 1;
+    bool single = target->lanes->samples == 1;
+    for (uint32_t i = 0; i < BLOCK; i++) {
+        int32_t ax = block->ax[i], ay = block->ay[i], bx = block->bx[i], by = block->by[i], cx = block->cx[i];
+        int32_t cy = block->cy[i];
+        int32_t low_x = least(ax, least(bx, cx)), high_x = most(ax, most(bx, cx));
+        int32_t low_y = least(ay, least(by, cy)), high_y = most(ay, most(by, cy));
+        int32_t first_x = most((low_x + HALF - 1) >> 8, 0), last_x = least((high_x - HALF) >> 8, wide);
+        int32_t first_y = most((low_y + HALF - 1) >> 8, 0), last_y = least((high_y - HALF) >> 8, high);
+        uint32_t area = (uint32_t)(bx - ax) * (uint32_t)(cy - ay) - (uint32_t)(by - ay) * (uint32_t)(cx - ax);
+        int32_t large = (high_x - low_x) >> 14 | (high_y - low_y) >> 14, signed_area = (int32_t)area;
+        int32_t middle = (first_x <= last_x) & (first_y <= last_y);
+        int32_t seen = (signed_area < 0) | ((signed_area > 0) & !one_sided);
+        block->kept[i] = (uint8_t)((middle | !single) & (seen | (large != 0)));
+    }
+}
+
+/* Draws one that was kept. */
+__attribute__((always_inline)) static inline void draw_one(const MesoRasterTarget *target, const MesoRasterVertex *a,
+                                                           const MesoRasterVertex *b, const MesoRasterVertex *c,
+                                                           uint32_t id, bool one_sided)
+{
+    Outline o = {.a = a, .b = b, .c = c,
+                 .low_x = least(a->x, least(b->x, c->x)), .high_x = most(a->x, most(b->x, c->x)),
+                 .low_y = least(a->y, least(b->y, c->y)), .high_y = most(a->y, most(b->y, c->y))};
+    Middles m = middles_of(target, o.low_x, o.high_x, o.low_y, o.high_y);
+    Triangle t;
+    if (!turn(&o, one_sided))
+        return;
+    if (target->lanes->samples == 1 && is_few(&m, o.high_x - o.low_x, o.high_y - o.low_y))
+        fill_few(target, &o, m.first_x, m.last_x, m.first_y, m.last_y, id);
+    else if (!set_up(&t, target, &o))
+        return;
+    else if (o.high_x - o.low_x < 1 << 14 && o.high_y - o.low_y < 1 << 14)      /* edges fit in 32 bits */
+        fill_small(target, &t, id);
+    else
+        fill_large(target, &t, id);
+}
+
 __attribute__((always_inline)) static inline void draw_all(const MesoRasterTarget *target,
                                                            const MesoRasterVertex *vertices, const uint32_t *corners,
                                                            uint32_t triangle_count, uint32_t first_id, bool one_sided)
 {
-    Triangle t;
-    bool single = target->lanes->samples == 1;
-    for (uint32_t i = 0; i < triangle_count; i++) {
-        const uint32_t *k = corners + 3 * (size_t)i;
-        const MesoRasterVertex *a = &vertices[k[0]], *b = &vertices[k[1]], *c = &vertices[k[2]];
-        int32_t low_x = least(a->x, least(b->x, c->x)), high_x = most(a->x, most(b->x, c->x));
-        int32_t low_y = least(a->y, least(b->y, c->y)), high_y = most(a->y, most(b->y, c->y));
-        Middles m = middles_of(target, low_x, high_x, low_y, high_y);
-        if (single && (m.first_x > m.last_x || m.first_y > m.last_y))
-            continue;
-        Outline o = {.a = a, .b = b, .c = c, .low_x = low_x, .high_x = high_x, .low_y = low_y, .high_y = high_y};
-        if (!turn(&o, one_sided))
-            continue;
-        if (single && is_few(&m, high_x - low_x, high_y - low_y))
-            fill_few(target, &o, m.first_x, m.last_x, m.first_y, m.last_y, first_id + i);
-        else if (!set_up(&t, target, &o))
-            continue;
-        else if (high_x - low_x < 1 << 14 && high_y - low_y < 1 << 14)      /* edges fit in 32 bits */
-            fill_small(target, &t, first_id + i);
-        else
-            fill_large(target, &t, first_id + i);
+    Block block;
+    for (uint32_t begin = 0; begin < triangle_count; begin += BLOCK) {
+        uint32_t count = triangle_count - begin < BLOCK ? triangle_count - begin : BLOCK, kept = 0;
+        const uint32_t *k = corners + 3 * (size_t)begin;
+        uint8_t which[BLOCK];
+        gather(&block, vertices, k, count);
+        sift(&block, target, one_sided);
+        for (uint32_t i = 0; i < count; i++) {
+            which[kept] = (uint8_t)i;
+            kept += block.kept[i];
+        }
+        for (uint32_t i = 0; i < kept; i++) {
+            const uint32_t *at = k + 3 * (size_t)which[i];
+            draw_one(target, &vertices[at[0]], &vertices[at[1]], &vertices[at[2]], first_id + begin + which[i], one_sided);
+        }
     }
 }
 

@@ -30,3 +30,75 @@ MesoRasterRect meso_raster_rect(const MesoRasterView *view, const MesoBox *box)
                             view->middle_x + high_x * (high_x > 0 ? near_scale : far_scale) + 1,
                             view->middle_y + high_y * (high_y > 0 ? near_scale : far_scale) + 1, nearest};
 }
+
+/* ---- many points ---- */
+
+enum { BLOCK = 64 };
+
+typedef struct Block {
+    int32_t x[BLOCK], y[BLOCK];
+    float nearness[BLOCK], depth[BLOCK];
+} Block;
+
+/* As meso_raster_from_eye() and meso_raster_vertex(), without a branch. */
+__attribute__((always_inline)) static inline void project(const MesoRasterView *view, const float *x, const float *y,
+                                                          const float *z, uint32_t count, bool parallel, Block *out)
+{
+    const MesoRasterView v = *view;
+    const float unit = MESO_RASTER_UNIT, far = 1 << 28, nearest = parallel ? -INFINITY : v.near_depth;
+    for (uint32_t i = 0; i < count; i++) {
+        float dx = x[i] - v.eye.x, dy = y[i] - v.eye.y, dz = z[i] - v.eye.z;
+        float right = dx * v.right.x + dy * v.right.y + dz * v.right.z;
+        float down = dx * v.down.x + dy * v.down.y + dz * v.down.z;
+        float depth = dx * v.forward.x + dy * v.forward.y + dz * v.forward.z;
+        out->depth[i] = depth;
+        depth = depth > nearest ? depth : nearest;
+        float inverse = parallel ? 1 : 1 / depth, scale = v.focal * inverse;
+        float px = (v.middle_x + scale * right) * unit, py = (v.middle_y + scale * down) * unit;
+        px = px > far ? far : px < -far ? -far : px;
+        py = py > far ? far : py < -far ? -far : py;
+        out->x[i] = (int32_t)rintf(px);
+        out->y[i] = (int32_t)rintf(py);
+        out->nearness[i] = parallel ? -depth : inverse;
+    }
+}
+
+__attribute__((always_inline)) static inline bool project_all(const MesoRasterView *view, const float *x, const float *y,
+                                                              const float *z, uint32_t count, float left, float top,
+                                                              MesoRasterVertex *out)
+{
+    int32_t corner_x = (int32_t)left * MESO_RASTER_UNIT, corner_y = (int32_t)top * MESO_RASTER_UNIT;
+    bool before = false;
+    Block block;
+    for (uint32_t begin = 0; begin < count; begin += BLOCK) {
+        uint32_t size = count - begin < BLOCK ? count - begin : BLOCK;
+        if (view->parallel)
+            project(view, x + begin, y + begin, z + begin, size, true, &block);
+        else
+            project(view, x + begin, y + begin, z + begin, size, false, &block);
+        for (uint32_t i = 0; i < size; i++) {
+            out[begin + i] = (MesoRasterVertex){block.x[i] - corner_x, block.y[i] - corner_y, block.nearness[i]};
+            before |= !(block.depth[i] >= view->near_depth);
+        }
+    }
+    return view->parallel || !before;
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) static bool project_avx2(const MesoRasterView *view, const float *x, const float *y,
+                                                         const float *z, uint32_t count, float left, float top,
+                                                         MesoRasterVertex *out)
+{
+    return project_all(view, x, y, z, count, left, top, out);
+}
+#endif
+
+bool meso_raster_project(const MesoRasterView *view, const float *x, const float *y, const float *z, uint32_t count,
+                         float left, float top, MesoRasterVertex *out)
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2"))
+        return project_avx2(view, x, y, z, count, left, top, out);
+#endif
+    return project_all(view, x, y, z, count, left, top, out);
+}

@@ -38,6 +38,13 @@ static inline MesoRasterVertex meso_raster_vertex(const MesoRasterView *view, Me
                               view->parallel ? -q.z : inverse};
 }
 
+/*
+ * Points by their coordinates, relative to the anchor, to vertices: the same as one by one. Points before the near plane
+ * are taken for ones on it; returns whether there were none.
+ */
+bool meso_raster_project(const MesoRasterView *view, const float *x, const float *y, const float *z, uint32_t count,
+                         float left, float top, MesoRasterVertex *out);
+
 /* Scene units of a pixel at that depth. */
 static inline float meso_raster_pixel(const MesoRasterView *view, float depth)
 {
