@@ -8,27 +8,36 @@
 #include "libcore/render/raster/raster_view.h"
 #include "libcore/render/raster/shapes.h"
 
-/* Square, around the scene's sphere. */
 typedef struct MesoLightMap {
     MesoVec3 toward;            /* the light, unit */
     MesoRasterView view;        /* parallel, against it */
-    uint32_t size;              /* texels a side, a multiple of 4 */
-    float texel;                /* scene units */
     float *nearness;            /* [size * size] by cells of 4 x 4 */
 } MesoLightMap;
 
-/* Along `toward` around a sphere; the map lives in `arena`. MESO_ERR_MEMORY alone. */
-MesoStatus meso_light_map_init(MesoLightMap *map, MesoArena *arena, MesoVec3 toward, MesoVec3 middle, float radius,
-                               uint32_t size, MesoError *error);
+/* Square ones of one size around one sphere, side by side: a place is looked up in many at once. */
+typedef struct MesoLightMaps {
+    MesoLightMap *maps;         /* [count] */
+    uint32_t count, size;       /* texels a side, a multiple of 4 */
+    float texel;                /* scene units */
+    float *rows[9];             /* [count] coordinates of `toward`, and of what is right and down in the maps */
+    float *nearness;            /* [count * size * size] */
+} MesoLightMaps;
+
+/* Along `towards` [count] around a sphere; they live in `arena`. MESO_ERR_MEMORY alone. */
+MesoStatus meso_light_maps_init(MesoLightMaps *maps, MesoArena *arena, const MesoVec3 *towards, uint32_t count,
+                                MesoVec3 middle, float radius, uint32_t size, MesoError *error);
 
 /*
- * Draws all shapes into all maps, each as fine as half a texel of the finest map. The same on any number of threads.
- * O(shapes' vertices * maps). MESO_ERR_MEMORY alone.
+ * Draws all shapes into all maps, each as fine as half a texel. The same on any number of threads. O(shapes' vertices *
+ * maps). MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_light_maps_draw(MesoLightMap *maps, uint32_t map_count, const MesoShapes *shapes, uint32_t thread_count,
-                                MesoError *error);
+MesoStatus meso_light_maps_draw(MesoLightMaps *maps, const MesoShapes *shapes, uint32_t thread_count, MesoError *error);
 
-/* Share of the light that reaches `p` past what is nearer by more than `bias`: over the four texels around. */
-float meso_light_map_lit(const MesoLightMap *map, MesoVec3 p, float bias);
+/*
+ * How much a surface at `p` with the normal `n` faces each light, not below 0, and what share of that light reaches it
+ * past what is nearer, over the four texels around; off the surface by what a texel may hide of its slope.
+ * `facing`, `lit` [count]; 0 where it faces away.
+ */
+void meso_light_maps_lit(const MesoLightMaps *maps, MesoVec3 p, MesoVec3 n, float *facing, float *lit);
 
 #endif

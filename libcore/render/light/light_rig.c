@@ -80,36 +80,46 @@ static void measure(MesoLightRig *rig, const MesoShapes *shapes)
         rig->ground = fminf(rig->ground, meso_vec3_dot(meso_box_corner(box.low, box.high, i), rig->up));
 }
 
+static MesoStatus make_sky(MesoLightRig *rig, MesoArena *arena, const MesoLightQuality *quality, MesoError *error)
+{
+    MesoVec3 towards[MESO_SKY_MOST];
+    rig->sky_colors = MESO_NEW(arena, float, 3 * (size_t)quality->sky_count, error);
+    if (!rig->sky_colors)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < quality->sky_count; i++) {
+        towards[i] = spread(rig, i, quality->sky_count);
+        float *color = &rig->sky_colors[3 * (size_t)i], facing = meso_vec3_dot(towards[i], rig->up);
+        sky_at(rig, towards[i], 0.5f, color);
+        for (int c = 0; c < 3 && facing > 0; c++)
+            rig->open_sky[c] += 4 / (float)quality->sky_count * facing * color[c];
+    }
+    return meso_light_maps_init(&rig->sky, arena, towards, quality->sky_count, rig->middle, rig->radius,
+                                quality->sky_size, error);
+}
+
+static MesoStatus make_key(MesoLightRig *rig, MesoArena *arena, const MesoView *view, const MesoLightQuality *quality,
+                           MesoError *error)
+{
+    MesoVec3 towards[MESO_KEY_MOST];
+    for (uint32_t i = 0; i < quality->key_count; i++)
+        towards[i] = on_key(rig, view, i, quality->key_count);
+    return meso_light_maps_init(&rig->key, arena, towards, quality->key_count, rig->middle, rig->radius,
+                                quality->key_size, error);
+}
+
 MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
                                MesoVec3 up, const MesoLightQuality *quality, uint32_t thread_count,
                                MesoError *error)
 {
-    *rig = (MesoLightRig){.sky_count = quality->sky_count, .key_count = quality->key_count, .colors = COLORS,
-                          .to_key = in_view(view, -0.55f, 0.8f, 0.7f), .to_rim = in_view(view, 0.75f, 0.35f, -0.55f), .up = up};
-    uint32_t count = rig->sky_count + rig->key_count;
-    rig->maps = MESO_NEW(arena, MesoLightMap, count, error);
-    rig->sky_colors = MESO_NEW(arena, float, 3 * (size_t)rig->sky_count, error);
-    MesoStatus status = rig->maps && rig->sky_colors ? MESO_OK : MESO_ERR_MEMORY;
+    *rig = (MesoLightRig){.colors = COLORS, .up = up, .to_key = in_view(view, -0.55f, 0.8f, 0.7f),
+                          .to_rim = in_view(view, 0.75f, 0.35f, -0.55f)};
+    measure(rig, shapes);
+    MesoStatus status = make_sky(rig, arena, quality, error);
     if (!status)
-        measure(rig, shapes);
-    for (uint32_t i = 0; i < count && !status; i++) {
-        bool sky = i < rig->sky_count;
-        MesoVec3 toward = sky ? spread(rig, i, rig->sky_count) : on_key(rig, view, i - rig->sky_count, rig->key_count);
-        status = meso_light_map_init(&rig->maps[i], arena, toward, rig->middle, rig->radius,
-                                     sky ? quality->sky_size : quality->key_size, error);
-        if (!sky)
-            continue;
-        float *color = &rig->sky_colors[3 * (size_t)i], facing = meso_vec3_dot(toward, rig->up);
-        sky_at(rig, toward, 0.5f, color);
-        for (int c = 0; c < 3 && facing > 0; c++)
-            rig->open_sky[c] += 4 / (float)rig->sky_count * facing * color[c];
-    }
-    /* All of a sort are drawn together, as fine as each of them wants. */
+        status = make_key(rig, arena, view, quality, error);
     if (!status)
-        status = meso_light_maps_draw(rig->maps, rig->sky_count, shapes, thread_count, error);
-    if (!status)
-        status = meso_light_maps_draw(rig->maps + rig->sky_count, rig->key_count, shapes, thread_count, error);
-    return status;
+        status = meso_light_maps_draw(&rig->sky, shapes, thread_count, error);
+    return status ? status : meso_light_maps_draw(&rig->key, shapes, thread_count, error);
 }
 
 /* ---- light on a surface ---- */
@@ -146,44 +156,30 @@ static void reflect_light(const MesoLitSurface *s, MesoVec3 to_light, const floa
     }
 }
 
-/* A point off the surface, by what a texel may hide of its slope. */
-static float lit_by(const MesoLightMap *map, const MesoLitSurface *s, float facing)
-{
-    float slope = 1 - facing;
-    MesoVec3 lifted = meso_vec3_mad(s->position, map->texel * (1 + 2 * slope), s->normal);
-    return meso_light_map_lit(map, lifted, map->texel);
-}
-
 static float key_light(const MesoLightRig *rig, const MesoLitSurface *s)
 {
-    float sum = 0;
-    for (uint32_t i = 0; i < rig->key_count; i++) {
-        const MesoLightMap *map = &rig->maps[rig->sky_count + i];
-        float facing = meso_vec3_dot(s->normal, map->toward);
-        if (facing > 0)
-            sum += lit_by(map, s, facing);
-    }
-    return sum / (float)rig->key_count;
+    float facing[MESO_KEY_MOST], lit[MESO_KEY_MOST], sum = 0;
+    meso_light_maps_lit(&rig->key, s->position, s->normal, facing, lit);
+    for (uint32_t i = 0; i < rig->key.count; i++)
+        sum += lit[i];
+    return sum / (float)rig->key.count;
 }
 
 /* Irradiance / pi from the sky, and the share of it that comes through. */
 static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float light[3])
 {
-    float whole = 0, seen = 0;
+    float facing[MESO_SKY_MOST], lit[MESO_SKY_MOST], whole = 0, seen = 0;
+    meso_light_maps_lit(&rig->sky, s->position, s->normal, facing, lit);
     light[0] = light[1] = light[2] = 0;
-    for (uint32_t i = 0; i < rig->sky_count; i++) {
-        const MesoLightMap *map = &rig->maps[i];
-        float facing = meso_vec3_dot(s->normal, map->toward);
-        if (facing <= 0)
-            continue;
-        float share = facing * lit_by(map, s, facing);
-        whole += facing;
+    for (uint32_t i = 0; i < rig->sky.count; i++) {
+        float share = facing[i] * lit[i];
+        whole += facing[i];
         seen += share;
         for (int c = 0; c < 3; c++)
             light[c] += share * rig->sky_colors[3 * (size_t)i + (size_t)c];
     }
     for (int c = 0; c < 3; c++)
-        light[c] *= 4 / (float)rig->sky_count;
+        light[c] *= 4 / (float)rig->sky.count;
     return whole > 0 ? seen / whole : 1;
 }
 

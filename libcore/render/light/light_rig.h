@@ -37,9 +37,8 @@ typedef struct MesoLightColors {
 typedef struct MesoLightRig {
     MesoVec3 to_key, to_rim, up;
     MesoLightColors colors;
-    uint32_t sky_count, key_count;
-    MesoLightMap *maps;         /* [sky_count + key_count] */
-    float *sky_colors;          /* [3 * sky_count] */
+    MesoLightMaps sky, key;
+    float *sky_colors;          /* [3 * sky.count] */
     float open_sky[3];          /* irradiance / pi of a surface that looks up and sees all of it */
     float ground;               /* height of the ground along `up`, relative to the anchor */
     MesoVec3 middle;            /* of the scene's sphere */
