@@ -274,7 +274,7 @@ static void make_furnace(MesoLightRig *rig, Bundle *b, MesoShapes *shapes)
     CHECK(meso_shapes_init(shapes, &arena, &b->scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
     CHECK(meso_light_rig_init(rig, &arena, shapes, &view, options.camera.up, &quality, 2, &error) == MESO_OK);
     rig->colors = (MesoLightColors){.sky = {1, 1, 1}, .ground = {1, 1, 1}};
-    for (uint32_t i = 0; i < 3 * rig->sky_count; i++)
+    for (uint32_t i = 0; i < 3 * rig->sky.count; i++)
         rig->sky_colors[i] = 1;
 }
 
@@ -310,7 +310,7 @@ static void test_furnace(void)
         }
     }
     rig.colors = (MesoLightColors){.key = {1, 1, 1}};
-    for (uint32_t i = 0; i < 3 * rig.sky_count; i++)
+    for (uint32_t i = 0; i < 3 * rig.sky.count; i++)
         rig.sky_colors[i] = 0;
     MesoVec3 normal = rig.to_key;
     for (int k = 0; k < 3 * 3 * 2; k++) {

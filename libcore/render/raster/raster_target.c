@@ -140,6 +140,17 @@ static inline int32_t side_of(const MesoRasterVertex *a, const MesoRasterVertex 
     return dx * (y - a->y) - dy * (x - a->x) - !(dy < 0 || (dy == 0 && dx > 0));
 }
 
+static inline void put(const MesoRasterTarget *target, int32_t px, int32_t py, float nearness, uint32_t id)
+{
+    size_t place = (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) +
+                   (size_t)((py & 3) * 4 + (px & 3));
+    if (!(nearness > target->nearness[place]))
+        return;
+    target->nearness[place] = nearness;
+    if (target->ids)
+        target->ids[place] = id;
+}
+
 /* Middles from (first_x, first_y) to (last_x, last_y), in pixels. */
 static inline void fill_few(const MesoRasterTarget *target, const Outline *o, int32_t first_x, int32_t last_x,
                             int32_t first_y, int32_t last_y, uint32_t id)
@@ -154,14 +165,7 @@ static inline void fill_few(const MesoRasterTarget *target, const Outline *o, in
             if (!sloped)
                 find_slope(o, &along_x, &along_y);
             sloped = true;
-            float nearness = o->a->nearness + along_x * (float)(x - o->a->x) + along_y * (float)(y - o->a->y);
-            size_t place = (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) +
-                           (size_t)((py & 3) * 4 + (px & 3));
-            if (!(nearness > target->nearness[place]))
-                continue;
-            target->nearness[place] = nearness;
-            if (target->ids)
-                target->ids[place] = id;
+            put(target, px, py, o->a->nearness + along_x * (float)(x - o->a->x) + along_y * (float)(y - o->a->y), id);
         }
 }
 
@@ -262,8 +266,20 @@ static inline void gather(Block *block, const MesoRasterVertex *vertices, const 
         block->ax[i] = block->ay[i] = block->bx[i] = block->by[i] = block->cx[i] = block->cy[i] = 0;
 }
 
-/* Those that look away or have no area are not kept, nor, with one sample a pixel, those around no pixel's middle:
- * without a branch, so that many are looked at at once. Large ones, whose areas do not fit in 32 bits, are all kept. */
+/* What becomes of a triangle: it is left out, drawn, or drawn at the one place that it has. */
+enum { LEFT_OUT, DRAWN, ONE_PLACE };
+
+/* At least 0 inside of the edge that runs along (dx, dy), (x, y) from its beginning; anything for a large triangle. */
+static inline int32_t inside_of(int32_t dx, int32_t dy, int32_t x, int32_t y)
+{
+    uint32_t owns = (uint32_t)((dy < 0) | ((dy == 0) & (dx > 0)));
+    return (int32_t)((uint32_t)dx * (uint32_t)y - (uint32_t)dy * (uint32_t)x + owns - 1);
+}
+
+/*
+ * Those that look away or have no area are left out, and, with one sample a pixel, those around no pixel's middle:
+ * without a branch, so that many are looked at at once. Large ones, whose areas do not fit in 32 bits, are all drawn.
+ */
 __attribute__((always_inline)) static inline void sift(Block *block, const MesoRasterTarget *target, bool one_sided)
 {
     int32_t wide = 4 * target->cells_x - 1, high = 4 * target->cells_y - 1;
@@ -276,11 +292,31 @@ __attribute__((always_inline)) static inline void sift(Block *block, const MesoR
         int32_t first_x = most((low_x + HALF - 1) >> 8, 0), last_x = least((high_x - HALF) >> 8, wide);
         int32_t first_y = most((low_y + HALF - 1) >> 8, 0), last_y = least((high_y - HALF) >> 8, high);
         uint32_t area = (uint32_t)(bx - ax) * (uint32_t)(cy - ay) - (uint32_t)(by - ay) * (uint32_t)(cx - ax);
-        int32_t large = (high_x - low_x) >> 14 | (high_y - low_y) >> 14, signed_area = (int32_t)area;
+        int32_t large = ((high_x - low_x) >> 14 | (high_y - low_y) >> 14) != 0, turn = (int32_t)area > 0 ? 1 : -1;
+        int32_t seen = large | ((int32_t)area < 0) | (((int32_t)area > 0) & !one_sided);
         int32_t middle = (first_x <= last_x) & (first_y <= last_y);
-        int32_t seen = (signed_area < 0) | ((signed_area > 0) & !one_sided);
-        block->kept[i] = (uint8_t)((middle | !single) & (seen | (large != 0)));
+        int32_t one = (first_x == last_x) & (first_y == last_y) & (large ^ 1);
+        int32_t x = first_x * MESO_RASTER_UNIT + HALF, y = first_y * MESO_RASTER_UNIT + HALF;
+        int32_t outside = inside_of(turn * (bx - ax), turn * (by - ay), x - ax, y - ay) |
+                          inside_of(turn * (cx - bx), turn * (cy - by), x - bx, y - by) |
+                          inside_of(turn * (ax - cx), turn * (ay - cy), x - cx, y - cy);
+        int32_t drawn = single ? seen & middle & ((one ^ 1) | (outside >= 0)) : seen;
+        block->kept[i] = (uint8_t)(single ? drawn << one : drawn);
     }
+}
+
+/* Draws a small one that holds the middle of the first pixel in its box, and no other. */
+__attribute__((always_inline)) static inline void draw_place(const MesoRasterTarget *target, const MesoRasterVertex *a,
+                                                             const MesoRasterVertex *b, const MesoRasterVertex *c,
+                                                             uint32_t id)
+{
+    int32_t px = most((least(a->x, least(b->x, c->x)) + HALF - 1) >> 8, 0);
+    int32_t py = most((least(a->y, least(b->y, c->y)) + HALF - 1) >> 8, 0);
+    Outline o = {.a = a, .b = b, .c = c, .area = (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x)};
+    float along_x, along_y;
+    find_slope(&o, &along_x, &along_y);
+    float x = (float)(px * MESO_RASTER_UNIT + HALF - a->x), y = (float)(py * MESO_RASTER_UNIT + HALF - a->y);
+    put(target, px, py, a->nearness + along_x * x + along_y * y, id);
 }
 
 /* Draws one that was kept. */
@@ -318,11 +354,15 @@ __attribute__((always_inline)) static inline void draw_all(const MesoRasterTarge
         sift(&block, target, one_sided);
         for (uint32_t i = 0; i < count; i++) {
             which[kept] = (uint8_t)i;
-            kept += block.kept[i];
+            kept += block.kept[i] != LEFT_OUT;
         }
         for (uint32_t i = 0; i < kept; i++) {
             const uint32_t *at = k + 3 * (size_t)which[i];
-            draw_one(target, &vertices[at[0]], &vertices[at[1]], &vertices[at[2]], first_id + begin + which[i], one_sided);
+            const MesoRasterVertex *a = &vertices[at[0]], *b = &vertices[at[1]], *c = &vertices[at[2]];
+            if (block.kept[which[i]] == ONE_PLACE)
+                draw_place(target, a, b, c, first_id + begin + which[i]);
+            else
+                draw_one(target, a, b, c, first_id + begin + which[i], one_sided);
         }
     }
 }
