@@ -63,9 +63,9 @@ __attribute__((always_inline)) static inline void project(const MesoRasterView *
     }
 }
 
-__attribute__((always_inline)) static inline bool project_all(const MesoRasterView *view, const float *x, const float *y,
-                                                              const float *z, uint32_t count, float left, float top,
-                                                              MesoRasterVertex *out)
+__attribute__((always_inline)) static inline bool project_all(const MesoRasterView *view, const float *x,
+                                                              const float *y, const float *z, uint32_t count,
+                                                              float left, float top, MesoRasterVertex *out)
 {
     int32_t corner_x = (int32_t)left * MESO_RASTER_UNIT, corner_y = (int32_t)top * MESO_RASTER_UNIT;
     bool before = false;

@@ -39,8 +39,8 @@ static inline MesoRasterVertex meso_raster_vertex(const MesoRasterView *view, Me
 }
 
 /*
- * Points by their coordinates, relative to the anchor, to vertices: the same as one by one. Points before the near plane
- * are taken for ones on it; returns whether there were none.
+ * Points by their coordinates, relative to the anchor, to vertices: the same as one by one. Points before the near
+ * plane are taken for ones on it; returns whether there were none.
  */
 bool meso_raster_project(const MesoRasterView *view, const float *x, const float *y, const float *z, uint32_t count,
                          float left, float top, MesoRasterVertex *out);
