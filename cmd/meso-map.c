@@ -70,7 +70,7 @@ static const struct {
     size_t offset, size, given;
 } MAPPING[] = {MAPPING_ROW(thickness), MAPPING_ROW(offset), MAPPING_ROW(section_scale), MAPPING_ROW(tangent_scale),
                MAPPING_ROW(divisions), MAPPING_ROW(section_step), SWEEP_ROW(frame, frame),
-               SWEEP_ROW(section_size, section_size), SWEEP_ROW(tolerance, tolerance),
+               SWEEP_ROW(deform, deform), SWEEP_ROW(section_size, section_size), SWEEP_ROW(tolerance, tolerance),
                SWEEP_ROW(tolerance_in, tolerance), SHELL_ROW(normals), SHELL_ROW(side), SHELL_ROW(limit_folds)};
 enum { MAPPING_COUNT = sizeof MAPPING / sizeof *MAPPING };
 
@@ -118,6 +118,7 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
     a->shell.given.normals &= a->options.normals != DEFAULTS.normals;
     a->shell.given.side &= a->options.side != DEFAULTS.side;
     a->sweep.given.frame &= a->options.frame != DEFAULTS.frame;
+    a->sweep.given.deform &= a->options.deform != DEFAULTS.deform;
     a->sweep.given.section_size &= a->options.section_size != DEFAULTS.section_size;
     a->tool.provenance.command_line = meso_tool_command(&a->tool, NULL, &a->tool.arena, error);
     return a->tool.provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;

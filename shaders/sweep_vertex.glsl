@@ -1,5 +1,6 @@
 // A vertex of the pattern, bent along the trajectory of its instance: the
-// formulas of libcore/scene/scene.h. CAP: closes a cross-section.
+// formulas of libcore/scene/scene.h. CAP: closes a cross-section. BENT: in a
+// cell, with its section bent into a cage (libcore/scene/cell.h).
 layout(location = 0) in vec4 profile;           // start.xy, end.xy
 layout(location = 1) in vec4 profile_normal;
 layout(location = 2) in float along;
@@ -13,6 +14,13 @@ layout(location = 9) in vec3 direction0;
 layout(location = 10) in vec3 direction1;
 layout(location = 11) in uint ids;
 layout(location = 12) in vec3 size_twist;       // size at both ends, twist
+
+#ifdef BENT
+layout(location = 13) in uint cage;
+layout(std430, binding = 0) readonly buffer Cages {
+    vec4 corners[];                             // of each 8, around the bottom, then around the top
+};
+#endif
 
 layout(location = 0) uniform mat4 clip_from_world;
 layout(location = 1) uniform vec4 depth_axis;
@@ -86,6 +94,22 @@ vec3 least_turned(float v)
 }
 #endif
 
+#ifdef BENT
+void bend(inout vec3 p, inout vec3 n)
+{
+    vec3 low[4], rise[4], c[4];
+    for (uint i = 0; i < 4; i++) {
+        low[i] = corners[8 * cage + i].xyz;
+        rise[i] = 2.0 * (corners[8 * cage + 4 + i].xyz - low[i]);       // over a height of 1/2
+        c[i] = low[i] + p.z * rise[i];
+    }
+    vec3 dx = mix(c[0] - c[3], c[1] - c[2], p.y), dy = mix(c[2] - c[3], c[1] - c[0], p.x);
+    vec3 dz = mix(mix(rise[3], rise[0], p.x), mix(rise[2], rise[1], p.x), p.y);
+    n = n.x * cross(dy, dz) + n.y * cross(dz, dx) + n.z * cross(dx, dy);
+    p = mix(mix(c[3], c[0], p.x), mix(c[2], c[1], p.x), p.y);
+}
+#endif
+
 void main()
 {
     float v = along;
@@ -130,7 +154,11 @@ void main()
 #endif
     vec3 y = cross(tangent, x);
     vec3 position = origin + section_scale * (s.x * x + s.y * y);
-    world_normal = unit(n.x * x + n.y * y + lean * tangent, x);
+    vec3 normal = n.x * x + n.y * y + lean * tangent;
+#ifdef BENT
+    bend(position, normal);
+#endif
+    world_normal = unit(normal, x);
     gl_Position = clip_from_world * vec4(position, 1.0);
     view_depth = dot(depth_axis, vec4(position, 1.0));
     id_row = ids;

@@ -1,4 +1,4 @@
-/* Options of meso-map about sweeps: their frames, the size of their sections, a tolerance. */
+/* Options of meso-map about sweeps: their frames, the size and shape of their sections, a tolerance. */
 #ifndef MESO_MAP_SWEEP_H
 #define MESO_MAP_SWEEP_H
 
@@ -6,10 +6,10 @@
 #include "libcore/tiling/strand/model.h"
 
 typedef struct MesoMapSweep {
-    const char *frame, *section_size;   /* names of MesoFrameRule and MesoSectionSize; NULL: not given */
+    const char *frame, *section_size, *deform;  /* names of MesoFrameRule, MesoSectionSize and MesoSweepDeform; NULL: not given */
     const char *tolerance;              /* a number, and perhaps a unit */
     struct {
-        bool frame, section_size, tolerance;
+        bool frame, section_size, deform, tolerance;
     } given;
 } MesoMapSweep;
 
@@ -19,6 +19,8 @@ typedef struct MesoMapSweep {
     MESO_CHOICE(0, "section-size", "OF", "what --section-scale is for: the scene, or a slot of mean size "    \
                 "(default scene)", &(sweep).section_size, "scene|slot", .given = &(sweep).given.section_size, \
                 .more = MESO_OPTION_OVERRIDES),                                                               \
+    MESO_CHOICE(0, "deform", "WHAT", "what follows the slots: trajectories alone, or sections, too (default curves)", \
+                &(sweep).deform, "curves|shape", .given = &(sweep).given.deform, .more = MESO_OPTION_OVERRIDES), \
     MESO_TEXT(0, "tolerance", "X", "steps along and around so that the polygons stay so near to the surface, " \
               "in edge lengths, or with 'u' behind in scene units", &(sweep).tolerance,                       \
               .given = &(sweep).given.tolerance, .more = MESO_OPTION_OVERRIDES)

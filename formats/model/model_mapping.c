@@ -27,6 +27,7 @@ typedef struct MappingRow {
 
 static const MappingRow ROWS[] = {
     WORD_ROW(frame, meso_frame_rule_names),
+    WORD_ROW(deform, meso_sweep_deform_names),
     WORD_ROW(normals, meso_shell_normals_names),
     WORD_ROW(side, meso_shell_side_names),
     {"limit_folds", offsetof(MesoMapOptions, limit_folds), WHOLE, NULL, 0, 1},

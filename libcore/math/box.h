@@ -34,6 +34,12 @@ static inline MesoBox meso_box_of(const MesoVec3 *points, uint32_t count)
     return box;
 }
 
+/* Corner 0..7 of a box. */
+static inline MesoVec3 meso_box_corner(MesoVec3 low, MesoVec3 high, uint32_t i)
+{
+    return (MesoVec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+}
+
 /* Adds the cube of side 2 `radius` around `p`. */
 static inline void meso_box_add_around(MesoBox *box, MesoVec3 p, float radius)
 {

@@ -9,6 +9,7 @@
 
 #include <float.h>
 
+#include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
 
 /* Share of the picture that stays empty at each side. */
@@ -111,7 +112,13 @@ static MesoVec3 curve_point(const MesoVec3 p[4], float t)
 static void add_kind(Frame *frame, const MesoScene *scene, const MesoSweptKind *kind)
 {
     float radius = meso_scene_kind_radius(scene, kind);
-    for (uint32_t i = 0; i < kind->instance_count; i++) {
+    for (uint32_t i = 0; i < kind->instance_count && scene->deform == MESO_SWEEP_SHAPE; i++) {
+        const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
+        float most = radius * meso_cell_stretch(&scene->cages[sweep->cage]).most;
+        for (uint32_t k = 0; k <= 4; k++)
+            add_ball(frame, meso_sweep_middle(scene, sweep, (float)k / 4), most);
+    }
+    for (uint32_t i = 0; i < kind->instance_count && scene->deform == MESO_SWEEP_CURVES; i++) {
         const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
         if (kind->cap)
             add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * sweep->size[0] * scene->section_scale));

@@ -2,6 +2,7 @@
 
 #include <stddef.h>
 
+#include "libcore/scene/cell.h"
 #include "libcore/scene/detail.h"
 #include "libcore/scene/parts.h"
 
@@ -44,7 +45,7 @@ static GLuint upload(const MesoGl *gl, const void *data, size_t size)
     return buffer;
 }
 
-/* How far the surface of a kind may lie from the control points of its instances. */
+/* How far the surface of a kind may lie from the control points of its instances, where these are. */
 static float kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
 {
     float rise = MESO_CAP_RISE * scene->section_scale * meso_scene_kind_size(scene, kind);
@@ -55,13 +56,13 @@ static float kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
 static float finest_pixel(const MesoScene *scene, const MesoSweptKind *kind,
                           const MesoView *view, uint32_t height)
 {
-    float nearest = INFINITY;
-    for (uint32_t i = 0; i < kind->instance_count; i++)
-        for (uint32_t k = 0; k < 4; k++) {
-            const MesoVec3 *p = &scene->sweeps[kind->instance_begin + i].p[k];
-            nearest = fminf(nearest, meso_vec3_dot(meso_vec3_sub(*p, view->eye), view->forward));
-        }
-    nearest -= kind_reach(scene, kind);
+    float nearest = INFINITY, reach = kind_reach(scene, kind);
+    for (uint32_t i = 0; i < kind->instance_count; i++) {
+        MesoSweepHull hull = meso_sweep_hull(scene, &scene->sweeps[kind->instance_begin + i], reach);
+        for (uint32_t k = 0; k < hull.count; k++)
+            nearest = fminf(nearest, meso_vec3_dot(meso_vec3_sub(hull.points[k], view->eye), view->forward) -
+                                     hull.reach);
+    }
     return nearest > 0 && isfinite(nearest) ? nearest * 2 * view->tan_half_fov / (float)height : 0;
 }
 
@@ -90,7 +91,7 @@ static MesoStatus make_plan(Plan *plan, MesoArena *arena, const MesoScene *scene
         const MesoSweptKind *kind = &scene->kinds[k];
         float tolerance = tolerance_pixels > 0
             ? tolerance_pixels * finest_pixel(scene, kind, view, height) : 0;
-        float scale = scene->section_scale * meso_scene_kind_size(scene, kind);
+        float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * meso_kind_stretch(scene, kind).most;
         plan->kept[k] = MESO_NEW(arena, uint32_t, kind->column_count, error);
         if (!plan->kept[k])
             return MESO_ERR_MEMORY;
@@ -147,7 +148,7 @@ static void describe_sweeps(MesoDrawLists *lists)
     gl->VertexArrayVertexBuffer(array, 1, lists->instances, 0, sizeof(MesoSweepInstance));
     gl->VertexArrayBindingDivisor(array, 1, 1);
     gl->VertexArrayElementBuffer(array, lists->pattern_indices);
-    for (GLuint i = 0; i < 13; i++) {
+    for (GLuint i = 0; i < 14; i++) {
         gl->EnableVertexArrayAttrib(array, i);
         gl->VertexArrayAttribBinding(array, i, i < 3 ? 0 : 1);
         if (i < 3)
@@ -156,11 +157,27 @@ static void describe_sweeps(MesoDrawLists *lists)
         else if (i < 11)    /* p[4], up[2], direction[2] follow each other */
             gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE,
                                         (i - 3) * (GLuint)sizeof(MesoVec3));
-        else if (i == 11)
-            gl->VertexArrayAttribIFormat(array, i, 1, GL_UNSIGNED_INT, offsetof(MesoSweepInstance, ids));
+        else if (i == 11 || i == 13)
+            gl->VertexArrayAttribIFormat(array, i, 1, GL_UNSIGNED_INT, i == 11 ? offsetof(MesoSweepInstance, ids)
+                                                                               : offsetof(MesoSweepInstance, cage));
         else                /* size[2] and twist */
             gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE, offsetof(MesoSweepInstance, size));
     }
+}
+
+static MesoStatus upload_cages(MesoDrawLists *lists, MesoArena *arena, MesoError *error)
+{
+    float *corners = MESO_NEW(arena, float, 32 * (size_t)lists->near.cage_count, error), *out = corners;
+    for (uint32_t i = 0; corners && i < 8 * lists->near.cage_count; i++) {
+        MesoVec3 p = meso_cage_corner(&lists->near.cages[i / 8], i % 8);
+        *out++ = p.x;
+        *out++ = p.y;
+        *out++ = p.z;
+        *out++ = 0;
+    }
+    if (corners)
+        lists->cages = upload(lists->gl, corners, 32 * (size_t)lists->near.cage_count * sizeof *corners);
+    return corners ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Plan *plan, MesoError *error)
@@ -192,6 +209,8 @@ static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Pl
     lists->pattern_vertices = upload(lists->gl, vertices, vertex * sizeof *vertices);
     lists->pattern_indices = upload(lists->gl, indices, index * sizeof *indices);
     lists->gl->CreateBuffers(1, &lists->instances);
+    if (scene->deform == MESO_SWEEP_SHAPE && upload_cages(lists, arena, error))
+        return MESO_ERR_MEMORY;
     describe_sweeps(lists);
     meso_draw_lists_select(lists, NULL);
     return meso_gl_check(lists->gl, "upload of the sweeps", error);
@@ -305,19 +324,24 @@ static bool is_zero(MesoVec3 v)
     return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-/* The sweeps relative to `anchor`; NULL where memory is out. */
-static const MesoSweepInstance *place_sweeps(const MesoScene *scene, MesoVec3 anchor, MesoArena *arena,
-                                             MesoError *error)
+/* The sweeps, or their cages, relative to `anchor`. */
+static MesoStatus bring_near(MesoScene *near, const MesoScene *scene, MesoVec3 anchor, MesoArena *arena,
+                             MesoError *error)
 {
+    *near = *scene;
     if (is_zero(anchor) || scene->sweep_count == 0)
-        return scene->sweeps;
-    MesoSweepInstance *placed = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
-    for (uint32_t i = 0; placed && i < scene->sweep_count; i++) {
-        placed[i] = scene->sweeps[i];
-        for (uint32_t k = 0; k < 4; k++)
-            placed[i].p[k] = meso_vec3_sub(placed[i].p[k], anchor);
+        return MESO_OK;
+    if (scene->deform == MESO_SWEEP_SHAPE) {
+        near->cages = meso_cages_from(scene, anchor, arena, error);
+        return near->cages ? MESO_OK : MESO_ERR_MEMORY;
     }
-    return placed;
+    near->sweeps = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
+    for (uint32_t i = 0; near->sweeps && i < scene->sweep_count; i++) {
+        near->sweeps[i] = scene->sweeps[i];
+        for (uint32_t k = 0; k < 4; k++)
+            near->sweeps[i].p[k] = meso_vec3_sub(near->sweeps[i].p[k], anchor);
+    }
+    return near->sweeps ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const MesoGl *gl,
@@ -325,11 +349,12 @@ MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const Me
                                 float tolerance_pixels, MesoError *error)
 {
     *lists = (MesoDrawLists){.gl = gl, .scene = scene};
-    lists->placed = place_sweeps(scene, view->anchor, arena, error);
+    if (bring_near(&lists->near, scene, view->anchor, arena, error))
+        return MESO_ERR_MEMORY;
     lists->sweeps = MESO_NEW(arena, MesoDrawSweep, scene->kind_count, error);
     lists->bodies = MESO_NEW(arena, MesoDrawBodies, scene->placed_count, error);
     lists->selected = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
-    if ((scene->sweep_count && !lists->placed) || !lists->sweeps || !lists->bodies || !lists->selected)
+    if (!lists->sweeps || !lists->bodies || !lists->selected)
         return MESO_ERR_MEMORY;
 
     MesoArenaMark mark = meso_arena_mark(arena);
@@ -349,7 +374,7 @@ void meso_draw_lists_release(MesoDrawLists *lists)
 {
     if (!lists->gl)
         return;
-    const GLuint buffers[] = {lists->pattern_vertices, lists->pattern_indices, lists->instances,
+    const GLuint buffers[] = {lists->pattern_vertices, lists->pattern_indices, lists->instances, lists->cages,
                               lists->body_vertices, lists->body_indices};
     const GLuint arrays[] = {lists->sweep_array, lists->body_array};
     lists->gl->DeleteVertexArrays(sizeof arrays / sizeof *arrays, arrays);
@@ -358,24 +383,29 @@ void meso_draw_lists_release(MesoDrawLists *lists)
 }
 
 MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, MesoDrawPurpose purpose,
-                                   bool colored, MesoError *error)
+                                   const MesoScene *scene, MesoError *error)
 {
-    static const char *const defines[][4] = {
-        [MESO_DRAW_SURFACE] = {"", "#define CAP\n", "", "#define COLORED\n"},
-        [MESO_DRAW_PACKED] = {"#define PACKED\n", "#define CAP\n#define PACKED\n", "#define PACKED\n",
-                              "#define PACKED\n#define COLORED\n"},
-        [MESO_DRAW_DEPTH] = {"", "#define CAP\n", "", ""},
+#define BENT "#define BENT\n"
+#define CAP "#define CAP\n"
+#define PACKED "#define PACKED\n"
+#define COLORED "#define COLORED\n"
+    /* Sweeps and caps, those that are bent, bodies without and with colours. */
+    static const char *const defines[][6] = {
+        [MESO_DRAW_SURFACE] = {"", CAP, BENT, BENT CAP, "", COLORED},
+        [MESO_DRAW_PACKED] = {PACKED, CAP PACKED, BENT PACKED, BENT CAP PACKED, PACKED, PACKED COLORED},
+        [MESO_DRAW_DEPTH] = {"", CAP, BENT, BENT CAP, "", ""},
     };
+    uint32_t bent = scene->deform == MESO_SWEEP_SHAPE ? 2 : 0, colored = meso_scene_is_colored(scene);
     const char *const *text = defines[purpose];
     const char *sweep = meso_shader_sweep_vertex, *body = meso_shader_body_vertex;
     const char *fragment = purpose == MESO_DRAW_DEPTH ? meso_shader_depth_fragment
                                                       : meso_shader_surface_fragment;
     *programs = (MesoDrawPrograms){0};
-    MesoStatus status = meso_gl_program(&programs->sweep, gl, text[0], sweep, fragment, error);
+    MesoStatus status = meso_gl_program(&programs->sweep, gl, text[bent], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->cap, gl, text[1], sweep, fragment, error);
+        status = meso_gl_program(&programs->cap, gl, text[bent + 1], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->body, gl, text[colored ? 3 : 2], body, fragment, error);
+        status = meso_gl_program(&programs->body, gl, text[4 + colored], body, fragment, error);
     if (status)
         meso_draw_programs_release(programs, gl);
     return status;
@@ -413,14 +443,13 @@ static void frustum_planes(Plane planes[5], const MesoMatrix *clip)
     }
 }
 
-/* The curve lies within the hull of its control points. */
-static bool may_show(const Plane planes[5], const MesoSweepInstance *instance, float reach)
+static bool may_show(const Plane planes[5], const MesoSweepHull *hull)
 {
     for (uint32_t i = 0; i < 5; i++) {
         float furthest = -INFINITY;
-        for (uint32_t k = 0; k < 4; k++)
-            furthest = fmaxf(furthest, meso_vec3_dot(planes[i].normal, instance->p[k]));
-        if (furthest + planes[i].distance < -reach)
+        for (uint32_t k = 0; k < hull->count; k++)
+            furthest = fmaxf(furthest, meso_vec3_dot(planes[i].normal, hull->points[k]));
+        if (furthest + planes[i].distance < -hull->reach)
             return false;
     }
     return true;
@@ -447,8 +476,9 @@ static uint32_t select_shown(MesoDrawLists *lists, const MesoMatrix *clip_from_w
         const MesoSweptKind *kind = &scene->kinds[draw->kind];
         draw->instance_begin = count;
         for (uint32_t i = 0; i < kind->instance_count; i++) {
-            const MesoSweepInstance *instance = &lists->placed[kind->instance_begin + i];
-            if (may_show(planes, instance, draw->reach))
+            const MesoSweepInstance *instance = &lists->near.sweeps[kind->instance_begin + i];
+            MesoSweepHull hull = meso_sweep_hull(&lists->near, instance, draw->reach);
+            if (may_show(planes, &hull))
                 lists->selected[count++] = *instance;
         }
         draw->instance_count = count - draw->instance_begin;
@@ -458,7 +488,7 @@ static uint32_t select_shown(MesoDrawLists *lists, const MesoMatrix *clip_from_w
 
 void meso_draw_lists_select(MesoDrawLists *lists, const MesoMatrix *clip_from_world)
 {
-    const MesoSweepInstance *shown = lists->placed;
+    const MesoSweepInstance *shown = lists->near.sweeps;
     uint32_t count = lists->scene->sweep_count;
     if (lists->sweep_count == 0)
         return;
@@ -543,6 +573,8 @@ void meso_draw_lists_draw(const MesoDrawLists *lists, const MesoDrawPrograms *pr
     }
 
     gl->BindVertexArray(lists->sweep_array);
+    if (lists->cages)
+        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, lists->cages);
     for (uint32_t i = 0; i < lists->sweep_count; i++) {
         bool cap = lists->scene->kinds[lists->sweeps[i].kind].cap;
         draw_sweep(lists, &lists->sweeps[i], cap ? programs->cap : programs->sweep, view);

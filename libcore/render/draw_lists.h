@@ -11,7 +11,7 @@ typedef struct MesoDrawSweep {
     uint32_t kind;
     uint32_t base_vertex, index_begin, index_count;
     uint32_t instance_begin, instance_count;    /* of those selected */
-    float reach;            /* how far the kind's surface lies from its control points, scene units */
+    float reach;            /* how far the kind's surface lies from its control points, as of meso_sweep_hull() */
 } MesoDrawSweep;
 
 /* Consecutive placed bodies of one material. */
@@ -26,8 +26,8 @@ typedef struct MesoDrawLists {
     uint32_t sweep_count, bodies_count;
     MesoDrawSweep *sweeps;
     MesoDrawBodies *bodies;
-    const MesoSweepInstance *placed;    /* [sweep_count of the scene] relative to the view's anchor, as all in GL */
-    GLuint pattern_vertices, pattern_indices, instances, sweep_array;
+    MesoScene near;                     /* the scene, with sweeps or cages relative to the view's anchor, as all in GL */
+    GLuint pattern_vertices, pattern_indices, instances, cages, sweep_array;
     MesoSweepInstance *selected;        /* [sweep_count of the scene] scratch of meso_draw_lists_select() */
     GLuint body_vertices, body_indices, body_array;
 } MesoDrawLists;
@@ -53,9 +53,9 @@ typedef enum MesoDrawPurpose {
     MESO_DRAW_DEPTH         /* depth alone */
 } MesoDrawPurpose;
 
-/* `colored`: bodies have colours of their own. */
+/* For what `scene` has: bodies with colours of their own, sections that deform. */
 MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, MesoDrawPurpose purpose,
-                                   bool colored, MesoError *error);
+                                   const MesoScene *scene, MesoError *error);
 void meso_draw_programs_release(MesoDrawPrograms *programs, const MesoGl *gl);
 
 /*

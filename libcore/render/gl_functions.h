@@ -11,6 +11,7 @@
 
 #define MESO_GL_FUNCTIONS(X)                                                        \
     X(ATTACHSHADER, AttachShader)                                                   \
+    X(BINDBUFFERBASE, BindBufferBase)                                               \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                             \
     X(BINDTEXTUREUNIT, BindTextureUnit)                                             \
     X(BINDVERTEXARRAY, BindVertexArray)                                             \

@@ -8,7 +8,7 @@
 #define MESO_PROJECTION_H
 
 #include "libcore/base/error.h"
-#include "libcore/math/vec.h"
+#include "libcore/math/box.h"
 
 typedef struct MesoCamera {
     MesoVec3 eye, target, up;
@@ -60,11 +60,5 @@ MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uin
  * view, which is square, in scene units.
  */
 MesoMatrix meso_light_clip_from_world(MesoVec3 direction, MesoVec3 low, MesoVec3 high, float *extent);
-
-/* Corner 0..7 of a box. */
-static inline MesoVec3 meso_box_corner(MesoVec3 low, MesoVec3 high, uint32_t i)
-{
-    return (MesoVec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
-}
 
 #endif

@@ -90,13 +90,12 @@ void meso_image_place(MesoImage *image, void *memory, const MesoScene *scene, co
 static MesoStatus make_programs(Renderer *r, MesoError *error)
 {
     const char *screen = meso_shader_screen_vertex;
-    bool colored = meso_scene_is_colored(r->scene);
     const char *samples = r->options->samples == 4 ? "#define SAMPLES 4\n" : "#define SAMPLES 1\n";
-    MesoStatus status = meso_draw_programs_init(&r->surface, &r->gl, MESO_DRAW_SURFACE, colored, error);
+    MesoStatus status = meso_draw_programs_init(&r->surface, &r->gl, MESO_DRAW_SURFACE, r->scene, error);
     if (!status && r->options->samples > 1)
-        status = meso_draw_programs_init(&r->packed, &r->gl, MESO_DRAW_PACKED, colored, error);
+        status = meso_draw_programs_init(&r->packed, &r->gl, MESO_DRAW_PACKED, r->scene, error);
     if (!status)
-        status = meso_draw_programs_init(&r->depth, &r->gl, MESO_DRAW_DEPTH, colored, error);
+        status = meso_draw_programs_init(&r->depth, &r->gl, MESO_DRAW_DEPTH, r->scene, error);
     if (!status)
         status = meso_gl_program(&r->occlusion, &r->gl, "", screen, meso_shader_occlusion_fragment, error);
     if (!status)

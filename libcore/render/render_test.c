@@ -45,7 +45,7 @@ static void make_bar(Bar *bar)
         .division_count = 9, .instance_begin = 1, .instance_count = 1, .cap = true};
     bar->instances[0] = (MesoSweepInstance){
         {{-1, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
+        {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0};
     bar->instances[1] = (MesoSweepInstance){
         {{-1, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
         {{-1, 0, 0}, {-1, 0, 0}}, 1, {1, 1}, 0};

@@ -116,19 +116,23 @@ static float size_change(const MesoSweepInstance *instance)
     return most > 0 ? 6 * fabsf(instance->size[1] - instance->size[0]) / most : 0;
 }
 
-static float bend_of(const MesoSweepInstance *instance)
+/* Where sections deform, the trajectory's own bend grows, and its straight parts bend too. */
+static float bend_of(const MesoSweepInstance *instance, const MesoKindDetail *detail)
 {
     const MesoVec3 *p = instance->p;
     MesoVec3 d0 = meso_vec3_add(meso_vec3_mad(p[0], -2, p[1]), p[2]);
     MesoVec3 d1 = meso_vec3_add(meso_vec3_mad(p[1], -2, p[2]), p[3]);
-    return 6 * fmaxf(meso_vec3_length(d0), meso_vec3_length(d1));
+    float bend = 6 * fmaxf(meso_vec3_length(d0), meso_vec3_length(d1)), speed = 0;
+    for (uint32_t i = 0; i < 3 && detail->stretch.bend > 0; i++)
+        speed = fmaxf(speed, 3 * meso_vec3_length(meso_vec3_sub(p[i + 1], p[i])));
+    return detail->stretch.most * bend + detail->stretch.bend * speed * speed;
 }
 
 MesoKindDetail meso_kind_detail(const MesoScene *scene, const MesoSweptKind *kind)
 {
-    MesoKindDetail detail;
+    MesoKindDetail detail = {.stretch = meso_kind_stretch(scene, kind)};
     float change;
-    float scale = scene->section_scale * meso_scene_kind_size(scene, kind);
+    float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * detail.stretch.most;
     detail.radius = scale * largest_radius(kind, &scene->columns[kind->column_begin], &change);
     detail.change = scale * change;
     return detail;
@@ -150,7 +154,7 @@ static float steps_of(const MesoSweptKind *kind, const MesoKindDetail *detail, c
         return fmaxf(sqrtf(12 * detail->radius / (8 * tolerance)), shaded ? 3 : 1);
     float spread = fabsf(kind->turn) + fabsf(instance->twist);
     float turn = turn_of(instance) + 1.5f * spread;
-    float second = bend_of(instance) + 6 * detail->change +
+    float second = bend_of(instance, detail) + 6 * detail->change +
                    detail->radius * (size_change(instance) + turn * turn + 6 * spread);
     return fmaxf(fmaxf(sqrtf(second / (8 * tolerance)), shaded ? turn / RING_TURN : 0), 1);
 }

@@ -5,7 +5,7 @@
 #ifndef MESO_DETAIL_H
 #define MESO_DETAIL_H
 
-#include "libcore/scene/scene.h"
+#include "libcore/scene/cell.h"
 
 /*
  * Thins the columns of a kind.
@@ -35,6 +35,7 @@ uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, fl
 /* What the rings of a kind's instances hang on, in scene units. */
 typedef struct MesoKindDetail {
     float radius, change;       /* of the profiles from the trajectory, and from end to end */
+    MesoCellStretch stretch;    /* of the instances' cages */
 } MesoKindDetail;
 MesoKindDetail meso_kind_detail(const MesoScene *scene, const MesoSweptKind *kind);
 

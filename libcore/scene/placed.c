@@ -1,5 +1,7 @@
 #include "libcore/scene/placed.h"
 
+#include "libcore/scene/cell.h"
+
 MesoVec3 meso_frame_point(const MesoFrame *frame, MesoVec3 p)
 {
     const float *m = frame->m;
@@ -14,8 +16,10 @@ MesoVec3 meso_placed_point(const MesoScene *scene, const MesoPlacedBody *placed,
     MesoVec3 q = meso_frame_point(&scene->frames[placed->frame], p);
     if (placed->place == MESO_PLACED_IN_FRAME)
         return q;
+    const MesoCage *cage = &scene->cages[placed->cage];
     MesoVec2 at = meso_transform_point(placed->turn, (MesoVec2){q.x, q.y});
-    return meso_cage_point(&scene->cages[placed->cage], at.x, at.y, 2 * q.z);
+    return scene->deform == MESO_SWEEP_SHAPE ? meso_cell_body_point(cage, (MesoVec3){at.x, at.y, q.z})
+                                              : meso_cage_point(cage, at.x, at.y, 2 * q.z);
 }
 
 static MesoVec3 frame_axis(const MesoFrame *frame, uint32_t axis)

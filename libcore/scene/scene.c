@@ -1,6 +1,7 @@
 #include "libcore/scene/scene.h"
 
 const char *const meso_frame_rule_names[] = {"paper", "minimal", NULL};
+const char *const meso_sweep_deform_names[] = {"curves", "shape", NULL};
 
 uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep)
 {

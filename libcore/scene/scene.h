@@ -34,6 +34,9 @@
  *
  * with the normal MESO_CAP_RISE size[0] (n.x X + n.y Y) + 4 v^3 dot(s, n) T made unit.
  * (The prototype's dome, radius 1 - t^2 and rise sqrt(t) / 8, with t = v^2.)
+ *
+ * Under MESO_SWEEP_SHAPE all of this happens in a cell, [0,1] x [0,1] x [0,1/2], in units of its edge, and what comes
+ * out of it is bent into the sweep's cage (cell.h).
  */
 #ifndef MESO_SCENE_H
 #define MESO_SCENE_H
@@ -101,6 +104,7 @@ typedef struct MesoSweepInstance {
     uint32_t ids;               /* row of the scene's ids */
     float size[2];              /* factor on the profiles at both ends */
     float twist;                /* of the frame along the sweep, in radians; see the rules of frames */
+    uint32_t cage;              /* that its cell is bent into, where sections deform */
 } MesoSweepInstance;
 
 /* How the frame of a sweep turns along it. */
@@ -110,6 +114,14 @@ typedef enum MesoFrameRule {
 } MesoFrameRule;
 
 extern const char *const meso_frame_rule_names[];   /* ended by NULL */
+
+/* What becomes of cross-sections where a slot is not a cell. */
+typedef enum MesoSweepDeform {
+    MESO_SWEEP_CURVES,     /* they keep their shape: trajectories alone follow the slot (MesoGen, section 3.5) */
+    MESO_SWEEP_SHAPE       /* they deform with it, as bodies in cages do */
+} MesoSweepDeform;
+
+extern const char *const meso_sweep_deform_names[];       /* ended by NULL */
 
 /* ---- bodies ---- */
 
@@ -170,7 +182,8 @@ typedef struct MesoScene {
     uint32_t *ids;                  /* [id_row_count * channel_count], row by row */
 
     float section_scale;            /* scene units of one unit of the profiles */
-    MesoFrameRule frame_rule;       /* of all sweeps */
+    MesoFrameRule frame_rule;       /* of all sweeps, */
+    MesoSweepDeform deform;              /* and of bodies in cages, too */
     float thickness;                /* of the layer that the scene makes, for ambient occlusion; 0: it is none */
     uint32_t kind_count, column_count, sweep_count;
     MesoSweptKind *kinds;           /* [kind_count] */
@@ -192,7 +205,10 @@ void meso_scene_measure(MesoScene *scene);
 /* Kind of a sweep. O(log kinds). */
 uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep);
 
-/* The largest distance of a kind's profile from its trajectory, in scene units. O(columns + instances). */
+/*
+ * The largest distance of a kind's profile from its trajectory, in scene units, or in units of the cell where sections
+ * deform. O(columns + instances).
+ */
 float meso_scene_kind_radius(const MesoScene *scene, const MesoSweptKind *kind);
 
 /* The largest size of a kind's instances. */

@@ -1,13 +1,16 @@
 /* The box around a scene. */
+#include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
 
 /* A cap's own control points reach as high as it rises. */
 static void add_kind(MesoBox *box, const MesoScene *scene, const MesoSweptKind *kind)
 {
     float radius = meso_scene_kind_radius(scene, kind);
-    for (uint32_t i = 0; i < kind->instance_count; i++)
-        for (uint32_t k = 0; k < 4; k++)
-            meso_box_add_around(box, scene->sweeps[kind->instance_begin + i].p[k], radius);
+    for (uint32_t i = 0; i < kind->instance_count; i++) {
+        MesoSweepHull hull = meso_sweep_hull(scene, &scene->sweeps[kind->instance_begin + i], radius);
+        for (uint32_t k = 0; k < hull.count; k++)
+            meso_box_add_around(box, hull.points[k], hull.reach);
+    }
 }
 
 static void add_placed(MesoBox *box, const MesoScene *scene, const MesoPlacedBody *placed)

@@ -1,6 +1,7 @@
 #include "libcore/scene/sweep.h"
 
 #include "libcore/math/bezier.h"
+#include "libcore/scene/cell.h"
 
 /* The plane of one ring, with lengths scaled from edge lengths to the scene. */
 typedef struct Plane {
@@ -156,6 +157,7 @@ typedef struct Ring {
     Plane plane;
     float v, w, tilt_scale;
     bool turns;
+    bool on_side;           /* of a cell, where points lie on the grain */
     Angle turn, twist;
 } Ring;
 
@@ -165,6 +167,7 @@ static Ring ring_at(const MesoScene *scene, const Track *track, float v)
     float speed = ring.plane.speed;
     ring.tilt_scale = speed > 0 ? scene->section_scale * 6 * v * (1 - v) / speed : 0;
     ring.turns = (track->kind->turn != 0 || track->sweep->twist != 0) && v > 0 && v < 1;
+    ring.on_side = scene->deform == MESO_SWEEP_SHAPE && (v == 0 || v == 1);
     if (ring.turns) {
         ring.turn = make_angle(track->kind->turn * ring.w);
         ring.twist = make_angle(track->sweep->twist * ring.w);
@@ -206,6 +209,11 @@ static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ri
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
 }
 
+static MesoVec2 on_grain(MesoVec2 p)
+{
+    return (MesoVec2){meso_cell_round(p.x), meso_cell_round(p.y)};
+}
+
 static MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, const Ring *ring,
                                   const MesoSweepColumn *column)
 {
@@ -213,9 +221,11 @@ static MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, co
     MesoVec2 start = meso_vec2_scale(column->start, size[0]), end = meso_vec2_scale(column->end, size[1]);
     MesoVec2 start_normal = meso_vec2_scale(column->start_normal, size[0]);
     MesoVec2 end_normal = meso_vec2_scale(column->end_normal, size[1]);
-    return place_vertex(scene, ring, column, ring->turns
-        ? meet_turned(track, ring, start, end, start_normal, end_normal)
-        : meet(ring, start, end, start_normal, end_normal));
+    Meeting m = ring->turns ? meet_turned(track, ring, start, end, start_normal, end_normal)
+                            : meet(ring, start, end, start_normal, end_normal);
+    if (ring->on_side)
+        m.at = on_grain(m.at);
+    return place_vertex(scene, ring, column, m);
 }
 
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
@@ -223,7 +233,7 @@ static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
-    bool plain = !ring->turns && track->sweep->size[0] == 1 && track->sweep->size[1] == 1;
+    bool plain = !ring->turns && !ring->on_side && track->sweep->size[0] == 1 && track->sweep->size[1] == 1;
     if (plain && !absent && !grid->columns) {
         for (uint32_t c = 0; c < grid->column_count; c++)   /* most are so: nothing to decide in the loop */
             *out++ = place_vertex(scene, ring, &columns[c],
@@ -256,18 +266,19 @@ static uint32_t absent_on(const MesoSweptKind *kind, const MesoSweepGrid *grid, 
          : ring + 1 == grid->ring_count && kind->absent[1] ? MESO_ABSENT_END : 0;
 }
 
-static void tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
-                          const MesoSweepGrid *grid, MesoMeshVertex *out)
+static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                                     const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     Track track = make_track(scene, kind, sweep);
     for (uint32_t r = 0; r < grid->ring_count; r++) {
         Ring ring = ring_at(scene, &track, ring_place(kind, grid, r));
         out = ring_vertices(scene, &track, &ring, grid, absent_on(kind, grid, r), out);
     }
+    return out;
 }
 
-static void cap_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *cap,
-                         const MesoSweepGrid *grid, MesoMeshVertex *out)
+static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *cap,
+                                    const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     float scale = scene->section_scale, rise = MESO_CAP_RISE * cap->size[0];
@@ -279,11 +290,14 @@ static void cap_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
         for (uint32_t c = 0; c < grid->column_count; c++) {
             const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
             MesoVec2 at = meso_vec2_scale(column->start, cap->size[0]), n = column->start_normal;
+            if (ring == 0 && scene->deform == MESO_SWEEP_SHAPE)
+                at = on_grain(at);
             float lean = 4 * v * v * v * (at.x * n.x + at.y * n.y);
             MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(&plane, n), rise), lean, plane.tangent);
             *out++ = sweep_vertex(&plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scale, column->u, v);
         }
     }
+    return out;
 }
 
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
@@ -291,13 +305,16 @@ MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, con
 {
     Track track = make_track(scene, kind, sweep);
     Ring ring = ring_at(scene, &track, v);
-    return tube_vertex(scene, &track, &ring, column).position;
+    MesoVec3 point = tube_vertex(scene, &track, &ring, column).position;
+    return scene->deform == MESO_SWEEP_SHAPE ? meso_cell_point(&scene->cages[sweep->cage], point) : point;
 }
 
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                      const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
-    (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
+    MesoMeshVertex *end = (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
+    if (scene->deform == MESO_SWEEP_SHAPE)
+        meso_cell_bend(&scene->cages[sweep->cage], out, (uint64_t)(end - out));
 }
 
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,

@@ -33,7 +33,7 @@ static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, u
     tube.kind = (MesoSweptKind){.column_count = count + 1, .joint_count = count, .division_count = rings,
                                 .instance_count = 1};
     tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1 / 3.f, 0, 0}, {2 / 3.f, 0, 0}, {1, 0, 0}},
-                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
+                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0};
     tube.scene = (MesoScene){.section_scale = 1, .kind_count = 1, .column_count = count + 1, .sweep_count = 1,
                              .kinds = &tube.kind, .columns = tube.columns, .sweeps = &tube.sweep};
 }
@@ -113,7 +113,7 @@ static void test_quarter(void)
     const float k = (float)(4 * (sqrt(2) - 1) / 3);
     make_tube(disc, make_disc(disc, 64, 0.2f), 0, 128);
     tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0};
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0};
     for (uint32_t rule = 0; rule < 2; rule++) {
         tube.scene.frame_rule = (MesoFrameRule)rule;
         tube.sweep.twist = rule ? meso_sweep_twist(&tube.sweep) : 0;
@@ -226,7 +226,7 @@ static void test_frames(void)
     const MesoVec3 ups[2][2] = {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0.2f}}};
     for (uint32_t i = 0; i < 2; i++) {
         tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1.5f, 0, 0}, {-0.5f, 0.05f, 1}, {1, 0.05f, 1}},
-                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0};
+                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0};
         tube.scene.frame_rule = MESO_FRAME_PAPER;
         CHECK(i == 1 || largest_step() > 0.5f);
         tube.scene.frame_rule = MESO_FRAME_MINIMAL;

@@ -9,6 +9,18 @@ MesoShell meso_shell_make(const MesoQuadMesh *mesh, const MesoSlotGraph *graph,
                        .bottom = offset, .top = offset + 0.5f * thickness};
 }
 
+void meso_shell_cell_init(MesoShellCell *cell)
+{
+    *cell = (MesoShellCell){.corners = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, .up = {0, 0, 1},
+                            .vertices = {0, 1, 2, 3},
+                            .twins = {MESO_NO_INDEX, MESO_NO_INDEX, MESO_NO_INDEX, MESO_NO_INDEX}};
+    cell->mesh = (MesoQuadMesh){.vertex_count = 4, .normal_count = 1, .face_count = 1, .positions = cell->corners,
+                                .normals = &cell->up, .face_vertices = cell->vertices, .face_normals = cell->normals,
+                                .mean_edge_length = 1};
+    cell->graph = (MesoSlotGraph){.slot_count = 1, .edge_count = 4, .border_count = 4, .twin = cell->twins};
+    cell->shell = meso_shell_make(&cell->mesh, &cell->graph, 0, 1);
+}
+
 static uint32_t corner_vertex(const MesoShell *shell, uint32_t slot, uint32_t corner)
 {
     return shell->mesh->face_vertices[4 * (size_t)slot + (corner & 3)];

@@ -60,6 +60,17 @@ MesoStatus meso_shell_lid_port(const MesoShell *shell, uint32_t slot, bool botto
                                MesoTransform transform, MesoVec2 center, bool flipped,
                                MesoPort *port, MesoError *error);
 
+/* A shell of one slot, [0,1] x [0,1] x [0,1/2], whose corners are those of the unit square. */
+typedef struct MesoShellCell {
+    MesoVec3 corners[4], up;
+    uint32_t vertices[4], normals[4], twins[4];
+    MesoQuadMesh mesh;
+    MesoSlotGraph graph;
+    MesoShell shell;        /* points into all of these */
+} MesoShellCell;
+
+void meso_shell_cell_init(MesoShellCell *cell);
+
 /* Where a corner of the surface is lifted to, the bottom or the top. */
 MesoVec3 meso_shell_corner(const MesoShell *shell, uint32_t slot, uint32_t corner, bool top);
 

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "libcore/base/disjoint_sets.h"
+
 const char *const meso_shell_normals_names[] = {"file", "smooth", "flat", NULL};
 const char *const meso_shell_side_names[] = {"outside", "both", "inside", NULL};
 
@@ -47,6 +49,49 @@ static MesoStatus make_normals(MesoShell *shell, MesoArena *arena, bool flat, Me
         normals[n] = meso_vec3_unit(normals[n], (MesoVec3){0, 0, 1});
     shell->normals = normals;
     shell->face_normals = face_normals;
+    return MESO_OK;
+}
+
+/* Corners of faces that meet in a vertex, across edges along which both run in opposite directions, are one. */
+static void join_corners(const MesoShell *shell, uint32_t *parent)
+{
+    const uint32_t *corners = shell->mesh->face_vertices;
+    uint32_t count = 4 * shell->mesh->face_count;
+    meso_sets_init(parent, count);
+    for (uint32_t half = 0; half < count; half++) {
+        uint32_t twin = shell->graph->twin[half], next = half % 4 == 3 ? half - 3 : half + 1;
+        if (twin == MESO_NO_INDEX || corners[twin] != corners[next])
+            continue;
+        meso_sets_join(parent, half, twin % 4 == 3 ? twin - 3 : twin + 1);
+        meso_sets_join(parent, next, twin);
+    }
+}
+
+/* One normal for all of them, the very same where they had one. */
+static MesoStatus share_normals(MesoShell *shell, MesoArena *arena, MesoError *error)
+{
+    size_t count = 4 * (size_t)shell->mesh->face_count;
+    uint32_t *parent = MESO_NEW(arena, uint32_t, count, error);
+    MesoVec3 *normals = MESO_NEW(arena, MesoVec3, count, error);
+    bool *differ = MESO_NEW(arena, bool, count, error);
+    if (!parent || !normals || !differ)
+        return MESO_ERR_MEMORY;
+    join_corners(shell, parent);
+    for (uint32_t c = 0; c < count; c++) {
+        uint32_t root = meso_sets_root(parent, c);
+        MesoVec3 own = shell->normals[shell->face_normals[c]], first = shell->normals[shell->face_normals[root]];
+        normals[root] = meso_vec3_add(normals[root], own);
+        differ[root] |= own.x != first.x || own.y != first.y || own.z != first.z;
+    }
+    for (uint32_t c = 0; c < count; c++) {
+        MesoVec3 own = shell->normals[shell->face_normals[c]];
+        if (parent[c] == c)
+            normals[c] = differ[c] ? meso_vec3_unit(normals[c], own) : own;
+    }
+    for (uint32_t c = 0; c < count; c++)
+        parent[c] = meso_sets_root(parent, c);
+    shell->normals = normals;
+    shell->face_normals = parent;
     return MESO_OK;
 }
 
@@ -222,6 +267,8 @@ MesoStatus meso_shell_build(MesoShell *shell, MesoArena *arena, const MesoQuadMe
     MesoStatus status = MESO_OK;
     if (form->normals != MESO_NORMALS_FILE)
         status = make_normals(shell, arena, form->normals == MESO_NORMALS_FLAT, error);
+    if (!status && form->shared)
+        status = share_normals(shell, arena, error);
     if (!status && (form->factors || form->lifts || form->limit_folds))
         status = make_levels(shell, &levels, arena, form, error);
     if (status || !form->limit_folds)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcore/math/bezier.h"
+#include "libcore/scene/cell.h"
 
 /* Chords of a trajectory; its length is short by a few parts in ten thousand where it bends most. */
 enum { CHORDS = 32 };
@@ -72,8 +72,10 @@ static uint32_t list_ends(const Finder *f, End *ends)
         for (uint32_t i = 0; i < kind->instance_count; i++) {
             uint32_t sweep = kind->instance_begin + i;
             f->is_cap[sweep] = kind->cap;
+            MesoVec3 p[4];
+            meso_sweep_trajectory(scene, &scene->sweeps[sweep], p);
             for (uint32_t e = 0; e < (kind->cap ? 1u : 2u); e++)
-                ends[count++] = (End){scene->sweeps[sweep].p[e ? 3 : 0], material[e],
+                ends[count++] = (End){p[e ? 3 : 0], material[e],
                                       radius[e] * scene->sweeps[sweep].size[e], 2 * sweep + e};
         }
     }
@@ -161,11 +163,11 @@ static uint32_t first_end(const Finder *f, uint32_t sweep, bool *closed)
 
 static float length_of(const Finder *f, uint32_t sweep)
 {
-    const MesoVec3 *p = f->scene->sweeps[sweep].p;
-    MesoVec3 before = p[0];
+    const MesoSweepInstance *instance = &f->scene->sweeps[sweep];
+    MesoVec3 before = meso_sweep_middle(f->scene, instance, 0);
     double length = 0;
     for (uint32_t i = 1; i <= CHORDS && !f->is_cap[sweep]; i++) {
-        MesoVec3 at = meso_bezier_point(p, (float)i / CHORDS);
+        MesoVec3 at = meso_sweep_middle(f->scene, instance, (float)i / CHORDS);
         length += (double)meso_vec3_length(meso_vec3_sub(at, before));
         before = at;
     }

@@ -12,6 +12,7 @@
 #include "formats/file/float_text.h"
 #include "formats/scene/mesh_window.h"
 #include "formats/scene/strand/sweep_strands.h"
+#include "libcore/scene/cell.h"
 
 enum { BUFFER = 1 << 16, ITEM = 1 << 10 };
 
@@ -172,7 +173,8 @@ static void put_points(Writer *w, const Curve *curve)
 {
     for (uint32_t i = curve->begin; i < curve->end; i++) {
         MesoStrandPiece piece = w->strands.pieces[i];
-        const MesoVec3 *p = w->parts->scene->sweeps[piece.sweep].p;
+        MesoVec3 p[4];
+        meso_sweep_trajectory(w->parts->scene, &w->parts->scene->sweeps[piece.sweep], p);
         for (int k = i == curve->begin ? 0 : 1; k < 4; k++)
             put_vector(w, p[piece.reversed ? 3 - k : k]);
     }
@@ -185,7 +187,8 @@ static void put_widths(Writer *w, const Curve *curve)
         MesoStrandPiece piece = w->strands.pieces[i < curve->end ? i : i - 1];
         bool at_end = piece.reversed != (i == curve->end);
         float width = 2 * meso_strand_radius(w->parts->scene, kind_of(w, piece.sweep), at_end) *
-                      w->parts->scene->sweeps[piece.sweep].size[at_end];
+                      w->parts->scene->sweeps[piece.sweep].size[at_end] *
+                      meso_sweep_growth(w->parts->scene, &w->parts->scene->sweeps[piece.sweep], at_end);
         put_floats(w, &width, 1);
     }
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/parallel.h"
+#include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
 #include "libcore/scene/sweep.h"
 
@@ -21,7 +22,7 @@ static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, uint32_t level, b
     if (!kept)
         return MESO_ERR_MEMORY;
     uint32_t *joints = kept + kind->column_count;
-    float scale = scene->section_scale * meso_scene_kind_size(scene, kind);
+    float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * shapes->details[k].stretch.most;
     tolerance = scale > 0 ? tolerance / scale : 0;
     out->count = (seen ? meso_detail_columns : meso_detail_silhouette)(columns, kind->column_count, tolerance, kept);
     out->kept = kept;
@@ -189,15 +190,17 @@ static MesoBox run_box(const MesoShapes *shapes, const MesoShapeRun *run)
     return box;
 }
 
-/* Within the hull of the control points, widened by what the kind's profiles reach. */
+/* Within the hull of the sweep, as wide as what the kind's profiles reach. */
 static MesoBox sweep_box(const MesoShapes *shapes, uint32_t sweep)
 {
     const MesoScene *scene = shapes->scene;
     MesoBox box = meso_box_empty();
+    const MesoKindDetail *detail = &shapes->details[shapes->kind_of[sweep]];
     float rise = MESO_CAP_RISE * scene->section_scale * scene->sweeps[sweep].size[0];
-    float reach = fmaxf(shapes->details[shapes->kind_of[sweep]].radius, rise);
-    for (uint32_t k = 0; k < 4; k++)
-        meso_box_add_around(&box, meso_vec3_sub(scene->sweeps[sweep].p[k], shapes->anchor), reach);
+    MesoSweepHull hull = meso_sweep_hull(scene, &scene->sweeps[sweep],
+                                         fmaxf(detail->radius / detail->stretch.most, rise));
+    for (uint32_t k = 0; k < hull.count; k++)
+        meso_box_add_around(&box, meso_vec3_sub(hull.points[k], shapes->anchor), hull.reach);
     return box;
 }
 
@@ -213,8 +216,12 @@ MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScen
                             uint32_t thread_count, MesoError *error)
 {
     float size = meso_vec3_length(meso_vec3_sub(scene->box.high, scene->box.low));
-    *shapes = (MesoShapes){.scene = scene, .anchor = anchor, .finest = 1e-6f * size};
+    *shapes = (MesoShapes){.scene = scene, .near = *scene, .anchor = anchor, .finest = 1e-6f * size};
     MesoStatus status = make_runs(shapes, arena, error);
+    if (!status && scene->deform == MESO_SWEEP_SHAPE) {
+        shapes->near.cages = meso_cages_from(scene, anchor, arena, error);
+        status = shapes->near.cages ? MESO_OK : MESO_ERR_MEMORY;
+    }
     if (!status)
         status = place_bodies(shapes, arena, thread_count, error);
     if (!status)
@@ -273,13 +280,13 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
 
 static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance, bool seen, MesoShapeMesh *mesh)
 {
-    const MesoScene *scene = shapes->scene;
+    const MesoScene *scene = &shapes->near;
     uint32_t k = shapes->kind_of[sweep];
     const MesoSweptKind *kind = &scene->kinds[k];
     const MesoShapeColumns *columns = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS +
                                                              level_for(shapes, tolerance)];
     MesoSweepInstance instance = scene->sweeps[sweep];
-    for (uint32_t i = 0; i < 4; i++)
+    for (uint32_t i = 0; i < 4 && scene->deform == MESO_SWEEP_CURVES; i++)
         instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
     uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance, seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings};

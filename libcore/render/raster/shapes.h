@@ -30,6 +30,7 @@ typedef struct MesoShapeColumns {
 typedef struct MesoShapes {
     const MesoScene *scene;
     MesoVec3 anchor;            /* in the world; what is drawn is relative to it */
+    MesoScene near;             /* the scene, with cages relative to it where sections deform */
     uint32_t count;             /* sweeps first, by their numbers in the scene, then runs */
     MesoShapeRun *runs;         /* [count - sweep_count] */
     const MesoVec3 **positions, **normals;      /* [placed_count] in the world */

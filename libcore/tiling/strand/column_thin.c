@@ -15,7 +15,7 @@ typedef struct Thinning {
     bool *kept;                 /* [points of all rings] */
     bool *extra;                /* [column_count] between the ends alone */
     uint32_t *first;            /* [kind_count] column where the kind begins anew */
-    float tolerance;
+    MesoColumnLimits limits;
 } Thinning;
 
 /* A row of points, of which some are looked at as a curve: a ring, or the columns of a kind at some blend. */
@@ -56,7 +56,7 @@ static float distance_to_chord(MesoVec2 p, MesoVec2 a, MesoVec2 b)
  * Chords that the curve takes between the points a and b: an arc's height falls with the square of their number. One
  * chord is so far `off`, if that is more than before.
  */
-static uint32_t pieces_of(const Curve *curve, uint32_t a, uint32_t b, float tolerance, float *off)
+static uint32_t pieces_of(const Curve *curve, uint32_t a, uint32_t b, const MesoColumnLimits *limits, float *off)
 {
     float turn = 0, height = 0;
     MesoVec2 from = curve_point(curve, a), to = curve_point(curve, b), here = from, before = {0, 0};
@@ -69,7 +69,9 @@ static uint32_t pieces_of(const Curve *curve, uint32_t a, uint32_t b, float tole
         here = next;
     }
     float pieces = turn > TELLING_TURN ? ceilf(turn / PART_TURN)
-        : fmaxf(ceilf(sqrtf(height / tolerance)), turn > MOST_TURN ? 2 : 1);
+        : fmaxf(ceilf(sqrtf(height / limits->off)), turn > MOST_TURN ? 2 : 1);
+    if (limits->longest > 0)
+        pieces = fmaxf(pieces, ceilf(meso_vec2_length(meso_vec2_sub(to, from)) / limits->longest));
     uint32_t count = pieces < (float)(b - a) ? (uint32_t)pieces : b - a;
     if (count <= 1)
         *off = fmaxf(*off, height);
@@ -79,7 +81,7 @@ static uint32_t pieces_of(const Curve *curve, uint32_t a, uint32_t b, float tole
 /* ---- rings ---- */
 
 /* Between its corners; without any, from its last point all around. */
-static void divide_ring(const MesoRing *ring, bool *kept, float tolerance)
+static void divide_ring(const MesoRing *ring, bool *kept, const MesoColumnLimits *limits)
 {
     const Curve curve = {.ring = ring};
     float off = 0;
@@ -94,7 +96,7 @@ static void divide_ring(const MesoRing *ring, bool *kept, float tolerance)
             uint32_t b = a + 1;
             while (!kept[b % ring->count])
                 b++;
-            uint32_t pieces = pieces_of(&curve, a, b, tolerance, &off);
+            uint32_t pieces = pieces_of(&curve, a, b, limits, &off);
             for (uint32_t k = 1; k < pieces; k++)
                 kept[(a + (uint32_t)((uint64_t)(b - a) * k / pieces)) % ring->count] = more = true;
             a = b;
@@ -147,7 +149,7 @@ static bool divide_kind(Thinning *t, const MesoSweptKind *kind, uint32_t first, 
             b++;
         for (uint32_t i = 0; i < (kind->cap ? 1 : BLENDS) && joined; i++) {
             curve.blend = (float)i / (BLENDS - 1);
-            uint32_t own = pieces_of(&curve, a, b, t->tolerance, off);
+            uint32_t own = pieces_of(&curve, a, b, &t->limits, off);
             pieces = pieces > own ? pieces : own;
         }
         for (uint32_t k = 1; k < pieces; k++)
@@ -208,7 +210,7 @@ static void count_kind(MesoSweptKind *kind, const MesoSweepColumn *columns)
 }
 
 MesoStatus meso_columns_thin(MesoProfileSet *profiles, const MesoColumnPlace *places, const MesoRing *rings,
-                             uint32_t ring_count, MesoArena *scratch, float tolerance, MesoError *error)
+                             uint32_t ring_count, MesoArena *scratch, MesoColumnLimits limits, MesoError *error)
 {
     const MesoProfileSet fine = *profiles;
     size_t point_count = 0;
@@ -216,14 +218,14 @@ MesoStatus meso_columns_thin(MesoProfileSet *profiles, const MesoColumnPlace *pl
         point_count += rings[r].count;
     Thinning t = {&fine, places, MESO_NEW(scratch, bool, point_count, error),
                   MESO_NEW(scratch, bool, fine.column_count, error),
-                  MESO_NEW(scratch, uint32_t, fine.kind_count, error), tolerance};
+                  MESO_NEW(scratch, uint32_t, fine.kind_count, error), limits};
     profiles->columns = MESO_NEW(scratch, MesoSweepColumn, (size_t)fine.column_count + fine.kind_count, error);
     if (!t.kept || !t.extra || !t.first || !profiles->columns)
         return MESO_ERR_MEMORY;
 
     bool *kept = t.kept;
     for (uint32_t r = 0; r < ring_count; kept += rings[r++].count)
-        divide_ring(&rings[r], kept, tolerance);
+        divide_ring(&rings[r], kept, &limits);
     for (uint32_t k = 0; k < fine.kind_count; k++)
         t.first[k] = find_first(&t, &fine.kinds[k]);
     profiles->column_count = 0;

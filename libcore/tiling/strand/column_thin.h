@@ -12,9 +12,8 @@ typedef struct MesoColumnPlace {
 } MesoColumnPlace;
 
 /*
- * Drops columns of finely sampled kinds, so that what is dropped stays within `tolerance` (in units of the profiles)
- * of what is left, at both ends and wherever they are blended between, and no chord stands for a turn of over 60
- * degrees; sharp corners stay.
+ * Drops columns of finely sampled kinds, so that what is dropped stays within the limits of what is left, at both ends
+ * and wherever they are blended between, and no chord stands for a turn of over 60 degrees; sharp corners stay.
  *
  * Which points a ring keeps depends on its drawing, and on where columns begin: every sweep that ends there, from
  * either side of a wall, has the same. What a sweep needs between its ends, for the corners of the other end or for its
@@ -26,6 +25,6 @@ typedef struct MesoColumnPlace {
  * a ring).
  */
 MesoStatus meso_columns_thin(MesoProfileSet *profiles, const MesoColumnPlace *places, const MesoRing *rings,
-                             uint32_t ring_count, MesoArena *scratch, float tolerance, MesoError *error);
+                             uint32_t ring_count, MesoArena *scratch, MesoColumnLimits limits, MesoError *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "libcore/base/parallel.h"
+#include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
 #include "libcore/scene/sweep.h"
 #include "libcore/shell/hexahedra.h"
@@ -16,6 +17,9 @@ enum { INSTANCES_A_RANGE = 1024 };
 /* Of the tolerance for what columns are off; the steps along get most of what is left. */
 static const float AROUND_SHARE = 0.7f;
 
+/* Of the tolerance for chords of sections that a slot bends. */
+static const float BEND_SHARE = 0.2f;
+
 typedef struct Builder {
     const MesoModel *model;
     MesoScene *scene;
@@ -23,11 +27,17 @@ typedef struct Builder {
     MesoKindOrigin *origins;    /* of the scene's kinds */
     const MesoContourSet *contours;
     MesoShell shell;
+    MesoShellCell cell;         /* in whose ports sweeps begin and end where sections deform */
     uint32_t *bucket_slots;     /* [slot_count] slots by tile and mirroring, ascending within */
     uint32_t *bucket_begin;     /* [2 * tile_count + 1] */
     float *slot_sizes;          /* [slot_count] mean length of the slot's edges, where sections follow it; or NULL */
     atomic_uint_fast64_t failed;    /* smallest instance that has no port */
 } Builder;
+
+static bool deforms(const Builder *b)
+{
+    return b->options.deform == MESO_SWEEP_SHAPE;
+}
 
 /* ---- slots by tile and mirroring ---- */
 
@@ -95,6 +105,19 @@ static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, Me
 
 /* ---- instances ---- */
 
+/* Where sections deform, those of all slots, by number. */
+static MesoStatus make_cages(Builder *b, MesoArena *arena, MesoError *error)
+{
+    uint32_t count = b->model->surface.face_count;
+    if (!deforms(b))
+        return MESO_OK;
+    b->scene->cage_count = count;
+    b->scene->cages = MESO_NEW(arena, MesoCage, count, error);
+    for (uint32_t slot = 0; slot < count && b->scene->cages; slot++)
+        b->scene->cages[slot] = meso_shell_cage(&b->shell, slot);
+    return b->scene->cages ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 static float slot_size(const MesoQuadMesh *mesh, uint32_t slot)
 {
     const uint32_t *corners = mesh->face_vertices + 4 * (size_t)slot;
@@ -104,20 +127,56 @@ static float slot_size(const MesoQuadMesh *mesh, uint32_t slot)
     return sum / 4;
 }
 
+/* What one edge length in the drawings is in a cell, whose edges have the mean length. */
+static float cell_scale(const MesoMapOptions *options, const MesoModel *model)
+{
+    float mean = model->surface.mean_edge_length;
+    return options->section_scale / (mean > 0 ? mean : 1);
+}
+
+/* Of all slots, where sections deform and a tolerance asks for it. */
+static MesoStatus measure_stretch(MesoCellStretch *stretch, const MesoMapOptions *options, const MesoModel *model,
+                                  MesoError *error)
+{
+    MesoArena scratch;
+    MesoShell shell;
+    *stretch = (MesoCellStretch){0, 0};
+    if (options->deform == MESO_SWEEP_CURVES || options->tolerance == 0)
+        return MESO_OK;
+    meso_arena_init(&scratch);
+    MesoStatus status = meso_model_shell(&shell, &scratch, model, error);
+    for (uint32_t slot = 0; slot < model->surface.face_count && !status; slot++) {
+        MesoCage cage = meso_shell_cage(&shell, slot);
+        MesoCellStretch own = meso_cell_stretch(&cage);
+        *stretch = (MesoCellStretch){fmaxf(stretch->most, own.most), fmaxf(stretch->bend, own.bend)};
+    }
+    meso_arena_release(&scratch);
+    return status;
+}
+
 /* The tolerance in units of the profiles, where they are largest; 0 is none. */
-static float profile_tolerance(const MesoMapOptions *options, const MesoModel *model)
+static float profile_tolerance(const MesoMapOptions *options, const MesoModel *model, MesoCellStretch stretch)
 {
     const MesoQuadMesh *surface = &model->surface;
     float largest = 0, mean = surface->mean_edge_length;
+    if (stretch.most > 0)
+        return meso_map_options_tolerance(options, mean) / (stretch.most * cell_scale(options, model));
     for (uint32_t slot = 0; slot < surface->face_count && options->section_size == MESO_SECTION_SLOT; slot++)
         largest = fmaxf(largest, slot_size(surface, slot));
     float size = largest > 0 && mean > 0 ? largest / mean : 1;
     return meso_map_options_tolerance(options, mean) / (options->section_scale * size);
 }
 
+static MesoColumnLimits column_limits(const MesoMapOptions *options, const MesoModel *model, MesoCellStretch stretch)
+{
+    float bend = BEND_SHARE * meso_map_options_tolerance(options, model->surface.mean_edge_length);
+    return (MesoColumnLimits){AROUND_SHARE * profile_tolerance(options, model, stretch),
+                              stretch.bend > 0 ? sqrtf(8 * bend / stretch.bend) / cell_scale(options, model) : 0};
+}
+
 static MesoStatus measure_slots(Builder *b, MesoArena *scratch, MesoError *error)
 {
-    if (b->options.section_size == MESO_SECTION_SCENE)
+    if (b->options.section_size == MESO_SECTION_SCENE || deforms(b))
         return MESO_OK;
     uint32_t count = b->model->surface.face_count;
     b->slot_sizes = MESO_NEW(scratch, float, count, error);
@@ -126,23 +185,36 @@ static MesoStatus measure_slots(Builder *b, MesoArena *scratch, MesoError *error
     return b->slot_sizes ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side, uint32_t section,
-                            MesoPort *port, MesoError *error)
+/* Of a tile in some slot, at the face of another one of some shell. */
+static MesoStatus port_of(const Builder *b, const MesoShell *shell, uint32_t at, uint32_t slot, uint32_t tile_side,
+                          MesoVec2 center, MesoPort *port, MesoError *error)
 {
     const MesoAssignment *a = &b->model->assignment;
     MesoTransform transform = a->transform[slot];
     int32_t label = b->model->tile_set.tiles[a->tile[slot]].labels[tile_side];
-    MesoVec2 center = b->contours->center[section];
     if (tile_side >= MESO_SIDE_TOP)
-        return meso_shell_lid_port(&b->shell, slot, tile_side == MESO_SIDE_BOTTOM, transform, center, label < 0, port,
-                                   error);
-    return meso_shell_wall_port(&b->shell, slot, meso_transform_side(transform, tile_side), center,
+        return meso_shell_lid_port(shell, at, tile_side == MESO_SIDE_BOTTOM, transform, center, label < 0, port, error);
+    return meso_shell_wall_port(shell, at, meso_transform_side(transform, tile_side), center,
                                 (label < 0) != meso_transform_flips(transform), port, error);
+}
+
+/* Where sections deform, that of the cell; but none where the slot has none. */
+static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side, uint32_t section,
+                            MesoPort *port, MesoError *error)
+{
+    MesoVec2 center = b->contours->center[section];
+    MesoStatus status = port_of(b, &b->shell, slot, slot, tile_side, center, port, error);
+    if (status || !deforms(b))
+        return status;
+    center = (MesoVec2){meso_cell_round(center.x), meso_cell_round(center.y)};
+    return port_of(b, &b->cell.shell, 0, slot, tile_side, center, port, error);
 }
 
 /* Of the sections there: both slots of an edge say the same, so that their rings are equal. */
 static float port_size(const Builder *b, uint32_t slot, uint32_t tile_side)
 {
+    if (deforms(b))
+        return cell_scale(&b->options, b->model);
     if (b->options.section_size == MESO_SECTION_SCENE)
         return 1;
     float mean = b->model->surface.mean_edge_length, own = b->slot_sizes[slot];
@@ -172,9 +244,9 @@ static MesoStatus make_cap(const Builder *b, const MesoKindOrigin *origin, uint3
     MesoStatus status = find_port(b, slot, origin->start_side, origin->start_section, &port, error);
     if (status)
         return status;
-    float size = port_size(b, slot, origin->start_side), rise = MESO_CAP_RISE * b->options.section_scale * size;
+    float size = port_size(b, slot, origin->start_side), rise = MESO_CAP_RISE * b->scene->section_scale * size;
     *out = (MesoSweepInstance){.up = {port.up, port.up}, .direction = {port.inward, port.inward}, .ids = slot,
-                               .size = {size, size}};
+                               .size = {size, size}, .cage = slot};
     for (int i = 0; i < 4; i++)
         out->p[i] = meso_vec3_mad(port.point, rise * (float)i / 3, port.inward);
     return MESO_OK;
@@ -192,7 +264,8 @@ static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, uin
     *out = (MesoSweepInstance){.up = {start.up, end.up},
                                .direction = {start.inward, meso_vec3_scale(end.inward, -1)},
                                .ids = slot,
-                               .size = {port_size(b, slot, origin->start_side), port_size(b, slot, origin->end_side)}};
+                               .size = {port_size(b, slot, origin->start_side), port_size(b, slot, origin->end_side)},
+                               .cage = slot};
     meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(b, origin), out->p);
     if (b->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
@@ -323,8 +396,10 @@ static MesoStatus count_placed(Builder *b, MesoArena *arena, MesoError *error)
     if (placed_count > UINT32_MAX / 2)
         return meso_fail(error, MESO_ERR_LIMIT, "over 2^31 inner meshes; split the surface");
     out->placed_count = (uint32_t)placed_count;
-    out->cage_count = (uint32_t)cage_count;
     out->placed = MESO_NEW(arena, MesoPlacedBody, placed_count, error);
+    if (deforms(b))
+        return out->placed ? MESO_OK : MESO_ERR_MEMORY;
+    out->cage_count = (uint32_t)cage_count;
     out->cages = MESO_NEW(arena, MesoCage, cage_count, error);
     return out->placed && out->cages ? MESO_OK : MESO_ERR_MEMORY;
 }
@@ -340,12 +415,13 @@ static MesoStatus place_inners(Builder *b, MesoArena *arena, MesoError *error)
         const MesoTile *tile = &set->tiles[t];
         const uint32_t *slots = b->bucket_slots + b->bucket_begin[2 * t];
         uint32_t slot_count = placed_of_tile(b, tile) ? slots_of_tile(b, t) : 0;
-        for (uint32_t i = 0; i < slot_count; i++)
+        for (uint32_t i = 0; i < slot_count && !deforms(b); i++)
             b->scene->cages[cage_begin + i] = meso_shell_cage(&b->shell, slots[i]);
         for (uint32_t inner = tile->inner_begin; inner < tile->inner_begin + tile->inner_count; inner++)
             for (uint32_t i = 0; i < slot_count && is_placed(b, inner); i++)
                 *placed++ = (MesoPlacedBody){.body = inner, .material = set->section_count + inner,
-                                             .ids = slots[i], .frame = inner, .cage = cage_begin + i,
+                                             .ids = slots[i], .frame = inner,
+                                             .cage = deforms(b) ? slots[i] : cage_begin + i,
                                              .place = MESO_PLACED_IN_CAGE,
                                              .turn = b->model->assignment.transform[slots[i]]};
         cage_begin += slot_count;
@@ -411,11 +487,14 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
                          MesoError *error)
 {
     MesoProfileSet profiles;
+    MesoCellStretch stretch;
     float tolerance = meso_map_options_tolerance(&b->options, b->model->surface.mean_edge_length);
     MesoStatus status = measure_slots(b, scratch, error);
     if (!status)
+        status = measure_stretch(&stretch, &b->options, b->model, error);
+    if (!status)
         status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours, b->options.divisions,
-                                        AROUND_SHARE * profile_tolerance(&b->options, b->model), error);
+                                        column_limits(&b->options, b->model, stretch), error);
     if (!status)
         status = fill_buckets(b, scratch, error);
     if (!status)
@@ -426,6 +505,8 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
     status = meso_model_shell(&b->shell, scratch, b->model, error);
     if (!status)
         status = keep_used_kinds(b, &profiles, arena, error);
+    if (!status)
+        status = make_cages(b, arena, error);
     if (!status)
         status = make_instances(b, thread_count, error);
     if (!status && tolerance > 0)
@@ -447,9 +528,9 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
  * Of contours that columns are chosen from: what they are off the drawing, and their alignment to whole points, are
  * small parts of the tolerance.
  */
-static float contour_step(const MesoMapOptions *options, const MesoModel *model)
+static float contour_step(const MesoMapOptions *options, const MesoModel *model, MesoCellStretch stretch)
 {
-    float tolerance = profile_tolerance(options, model);
+    float tolerance = profile_tolerance(options, model, stretch);
     return tolerance > 0 ? fminf(fmaxf(tolerance / 2, 2e-4f), 0.02f) : options->section_step;
 }
 
@@ -461,8 +542,9 @@ MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, Me
     meso_arena_init(&scratch);
     MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
     Builder builder = {.model = model, .scene = scene, .options = options, .contours = contours};
-    *scene = (MesoScene){.section_scale = options.section_scale, .thickness = options.thickness,
-                         .frame_rule = (MesoFrameRule)options.frame};
+    *scene = (MesoScene){.section_scale = deforms(&builder) ? 1 : options.section_scale, .thickness = options.thickness,
+                         .frame_rule = (MesoFrameRule)options.frame, .deform = (MesoSweepDeform)options.deform};
+    meso_shell_cell_init(&builder.cell);
     MesoStatus status = expand(&builder, arena, &scratch, thread_count, error);
     meso_arena_release(&scratch);
     if (expansion)
@@ -477,8 +559,11 @@ MesoStatus meso_model_expand(MesoScene *scene, MesoExpansion *expansion, MesoAre
     MesoContourSet contours;
     meso_arena_init(&scratch);
     MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
-    float step = contour_step(&options, model);
-    MesoStatus status = meso_contour_set_build(&contours, &scratch, &model->tile_set, step, error);
+    MesoCellStretch stretch;
+    MesoStatus status = measure_stretch(&stretch, &options, model, error);
+    if (!status)
+        status = meso_contour_set_build(&contours, &scratch, &model->tile_set, contour_step(&options, model, stretch),
+                                        error);
     if (!status)
         status = meso_model_expand_over(scene, expansion, arena, model, &contours, thread_count, error);
     meso_arena_release(&scratch);

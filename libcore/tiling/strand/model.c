@@ -34,6 +34,8 @@ const char *meso_map_options_problem(const MesoMapOptions *options)
         return "form of the shell";
     if (options->section_size > MESO_SECTION_SLOT)
         return "section size";
+    if (options->deform > MESO_SWEEP_SHAPE)
+        return "deformation";
     if (!within(options->tolerance, 0, longest) || options->tolerance_in > MESO_TOLERANCE_SCENE)
         return "tolerance";
     return NULL;
@@ -67,6 +69,7 @@ MesoStatus meso_model_shell(MesoShell *shell, MesoArena *arena, const MesoModel 
 {
     MesoMapOptions o = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
     const MesoShellForm form = {.offset = o.offset, .thickness = o.thickness, .normals = o.normals, .side = o.side,
-                                .factors = model->factors, .lifts = model->lifts, .limit_folds = o.limit_folds};
+                                .factors = model->factors, .lifts = model->lifts, .limit_folds = o.limit_folds,
+                                .shared = o.deform == MESO_SWEEP_SHAPE};
     return meso_shell_build(shell, arena, &model->surface, &model->graph, &form, error);
 }

@@ -49,6 +49,7 @@ typedef struct MesoMapOptions {
     uint32_t section_size;  /* a MesoSectionSize */
     float tolerance;        /* of steps along and around, instead of divisions and section step; 0 is none */
     uint32_t tolerance_in;  /* a MesoToleranceUnit */
+    uint32_t deform;        /* a MesoSweepDeform (scene.h) */
 } MesoMapOptions;
 
 /* Bounds of the factors and the lifts of a shell's vertices. */

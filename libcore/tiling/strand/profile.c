@@ -434,20 +434,20 @@ static MesoStatus keep(MesoProfileSet *out, MesoArena *arena, MesoError *error)
 }
 
 MesoStatus meso_profile_set_build(MesoProfileSet *profiles, MesoArena *arena, const MesoTileSet *set,
-                                  const MesoContourSet *contours, uint32_t divisions, float tolerance,
+                                  const MesoContourSet *contours, uint32_t divisions, MesoColumnLimits limits,
                                   MesoError *error)
 {
     MesoArena scratch;
     meso_arena_init(&scratch);
     *profiles = (MesoProfileSet){0};
     Builder builder = {.set = set, .contours = contours, .arena = arena, .scratch = &scratch,
-                       .out = profiles, .divisions = divisions, .spread = tolerance > 0};
+                       .out = profiles, .divisions = divisions, .spread = limits.off > 0};
     MesoStatus status = make_rings(&builder, error);
     if (!status)
         status = push_all(&builder, error);
-    if (!status && tolerance > 0)
+    if (!status && limits.off > 0)
         status = meso_columns_thin(profiles, builder.places, builder.rings, contours->contour_count, &scratch,
-                                   tolerance, error);
+                                   limits, error);
     if (!status)
         status = keep(profiles, arena, error);
     meso_arena_release(&scratch);

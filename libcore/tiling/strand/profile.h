@@ -26,12 +26,12 @@
  * `turns` more; each outline about its own middle, a hole with the only outline there is.
  *
  * divisions   vertices along a sweep; caps get a quarter, at least 4
- * tolerance   in units of the profiles: columns are dropped within it (column_thin.h); 0 keeps all
+ * limits      columns are dropped within them (column_thin.h)
  *
  * O(points of all kinds).
  */
 MesoStatus meso_profile_set_build(MesoProfileSet *profiles, MesoArena *arena, const MesoTileSet *set,
-                                  const MesoContourSet *contours, uint32_t divisions, float tolerance,
+                                  const MesoContourSet *contours, uint32_t divisions, MesoColumnLimits limits,
                                   MesoError *error);
 
 #endif

@@ -13,6 +13,12 @@ typedef struct MesoKindOrigin {
     float off;                          /* what columns that were dropped are off those that stay, at most */
 } MesoKindOrigin;
 
+/* How coarse columns may be, in units of the profiles. */
+typedef struct MesoColumnLimits {
+    float off;          /* what is dropped is off what is left, at most; 0 keeps all */
+    float longest;      /* of the chords, as what bends sections bends chords; 0: of any length */
+} MesoColumnLimits;
+
 typedef struct MesoProfileSet {
     uint32_t kind_count, column_count;
     MesoSweptKind *kinds;       /* [kind_count] by tile, mirrored, then sweeps before caps; no instances yet */

@@ -83,7 +83,7 @@ static void test_round_end_of_a_sharp_sweep(void)
     MesoContourSet contours;
     MesoProfileSet profiles;
     CHECK(meso_contour_set_build(&contours, &arena, &set, 0.05f, &error) == MESO_OK);
-    CHECK(meso_profile_set_build(&profiles, &arena, &set, &contours, 8, 0, &error) == MESO_OK);
+    CHECK(meso_profile_set_build(&profiles, &arena, &set, &contours, 8, (MesoColumnLimits){0}, &error) == MESO_OK);
 
     uint32_t straight = find_kind(&profiles, 0), bent = find_kind(&profiles, 1);
     CHECK(compare_starts(&profiles, bent, straight) >= profiles.kinds[bent].column_count);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "libcore/base/parallel.h"
+#include "libcore/scene/cell.h"
 #include "libcore/scene/sweep.h"
 
 enum { SWEEPS_A_RANGE = 512, LEAST_INTERVALS = 8, MOST_INTERVALS = 256, LEAST_CAP_STEPS = 3 };
@@ -84,7 +85,8 @@ static void add_pair(Sample *sample, const MesoSweepColumn *column)
 
 static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
 {
-    Sample sample = {.kind = *kind, .scene = {.section_scale = scene->section_scale, .frame_rule = scene->frame_rule}};
+    Sample sample = {.kind = *kind, .scene = {.section_scale = scene->section_scale, .frame_rule = scene->frame_rule,
+                                                 .deform = scene->deform, .cages = scene->cages}};
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     sample.kind.column_begin = sample.kind.column_count = sample.kind.absent[0] = sample.kind.absent[1] = 0;
     for (uint32_t what = 0; what < OUTER_PAIRS; what++) {
@@ -96,7 +98,8 @@ static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
             add_pair(&sample, best);
     }
     uint32_t stride = 1 + kind->column_count / MORE_PAIRS;
-    for (uint32_t c = 0; c < kind->column_count && changes(kind, columns); c += stride)
+    bool more = scene->deform == MESO_SWEEP_SHAPE || changes(kind, columns);
+    for (uint32_t c = 0; c < kind->column_count && more; c += stride)
         if (columns[c].joins_next)
             add_pair(&sample, &columns[c]);
     for (uint32_t c = 0; c < kind->column_count; c++)
@@ -202,10 +205,17 @@ static float tube_steps(Sample *sample, const MesoSweepInstance *sweep, MesoMesh
     return *ease ? eased : even;
 }
 
+/* Scene units of one unit of the profiles, at most. */
+static float scale_of(const MesoScene *scene, const MesoSweepInstance *sweep)
+{
+    float scale = scene->section_scale * fmaxf(sweep->size[0], sweep->size[1]);
+    return scene->deform == MESO_SWEEP_CURVES ? scale : scale * meso_cell_stretch(&scene->cages[sweep->cage]).most;
+}
+
 /* (1 - v^4) r over a rise of h v: the second derivative 12 r lies across the tangent by h / |(4 r, h)| at the tip. */
 static float cap_steps(const Sample *sample, const MesoSweepInstance *cap, float tolerance)
 {
-    float scale = sample->scene.section_scale * cap->size[0], r = scale * sample->radius, h = scale * MESO_CAP_RISE;
+    float scale = scale_of(&sample->scene, cap), r = scale * sample->radius, h = scale * MESO_CAP_RISE;
     float tangent = sqrtf(16 * r * r + h * h), part = tangent > 0 ? h / tangent : 0;
     return fmaxf(LEAST_CAP_STEPS, sqrtf(12 * r * part / (8 * tolerance)));
 }
@@ -224,7 +234,7 @@ static uint16_t rings_for(uint32_t least, float steps)
 
 static float tolerance_left(const Chooser *c, uint32_t kind, const MesoSweepInstance *sweep)
 {
-    float off = c->origins[kind].off * c->scene->section_scale * fmaxf(sweep->size[0], sweep->size[1]);
+    float off = c->origins[kind].off * scale_of(c->scene, sweep);
     return fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - OFF_PART * off);
 }
 
