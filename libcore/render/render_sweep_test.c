@@ -14,6 +14,7 @@ typedef struct Case {
     MesoSweepColumn columns[SIDES + 1];
     MesoSweptKind kind;
     MesoSweepInstance sweep;
+    MesoCage cage;
     uint32_t ids[1];
     MesoMeshVertex vertices[VERTICES];
     MesoVec3 positions[VERTICES], normals[VERTICES];
@@ -99,12 +100,32 @@ static uint32_t count_different(const MesoImage *a, const MesoImage *b, float de
     return different;
 }
 
+/* The same in a cell, whose cage is twisted and tapered. */
+static void put_in_cell(Case *c)
+{
+    static const MesoVec3 base[4] = {{2, -1, 0}, {1.5f, 0.6f, 0.3f}, {-1.5f, 1, 0}, {-2, -0.8f, 0.5f}};
+    for (uint32_t k = 0; k < 4; k++) {
+        MesoVec3 *p = &c->sweep.p[k];
+        *p = (MesoVec3){p->x / 3 + 0.5f, p->y / 3 + 0.5f, p->z / 3 + 0.25f};
+        c->cage.base[k] = base[k];
+        c->cage.rise[k] = (MesoVec3){k < 2 ? 0.5f : 0, 0, k % 2 ? 2 : 1.5f};
+    }
+    c->cage.high = 1;
+    for (uint32_t end = 0; end < 2; end++)
+        c->sweep.size[end] /= 3;
+    c->swept.deform = MESO_SWEEP_SHAPE;
+    c->swept.cages = &c->cage;
+    c->swept.cage_count = 1;
+}
+
 /* The camera frames what is there, so both scenes get one box. */
-static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist)
+static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist, bool in_cell)
 {
     static Case c;
     uint32_t covered;
     make_sweep(&c);
+    if (in_cell)
+        put_in_cell(&c);
     c.swept.frame_rule = rule;
     c.sweep.twist = twist;
     meso_scene_measure(&c.swept);
@@ -119,8 +140,9 @@ int main(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    test_rule(&arena, MESO_FRAME_PAPER, 0);
-    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f);
+    test_rule(&arena, MESO_FRAME_PAPER, 0, false);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, false);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, true);
     meso_arena_release(&arena);
     return 0;
 }

@@ -47,16 +47,15 @@ static bool contains(const MesoMeshVertex *vertices, uint32_t count, MesoVec3 v)
  * of the other. Identity everywhere: side 0 (label a) meets side 2 (a'), side 1 (b)
  * meets side 3 (b'); sweeps 0 and 1 go on, the last loops on side 3 and caps stand opposite.
  */
-static void test_same_floats(MesoArena *arena, uint32_t frame, uint32_t section_size, float tolerance)
+static void test_same_floats(MesoArena *arena, MesoMapOptions options)
 {
     Case s = {0};
     uint32_t tile[9] = {0};
     MesoTransform transform[9] = {0};
     make_tile_set(&s);
     make_grid(&s, arena, 3, tile, transform);
-    s.model.options.frame = frame;
-    s.model.options.section_size = section_size;
-    s.model.options.tolerance = tolerance;
+    options.divisions = s.model.options.divisions;
+    s.model.options = options;
     MesoExpansion expansion;
     MesoScene scene = expand(&s.model, &expansion, arena);
     MesoSceneParts t;
@@ -362,9 +361,15 @@ int main(void)
     MesoArena arena;
     meso_arena_init(&arena);
     test_trajectory();
-    test_same_floats(&arena, MESO_FRAME_PAPER, MESO_SECTION_SCENE, 0);
-    test_same_floats(&arena, MESO_FRAME_MINIMAL, MESO_SECTION_SLOT, 0);
-    test_same_floats(&arena, MESO_FRAME_MINIMAL, MESO_SECTION_SLOT, 0.01f);
+    test_same_floats(&arena, (MesoMapOptions){0});
+    test_same_floats(&arena, (MesoMapOptions){.frame = MESO_FRAME_MINIMAL, .section_size = MESO_SECTION_SLOT});
+    test_same_floats(&arena, (MesoMapOptions){.frame = MESO_FRAME_MINIMAL, .section_size = MESO_SECTION_SLOT,
+                                              .tolerance = 0.01f});
+    test_same_floats(&arena, (MesoMapOptions){.deform = MESO_SWEEP_SHAPE});
+    test_same_floats(&arena, (MesoMapOptions){.deform = MESO_SWEEP_SHAPE, .normals = MESO_NORMALS_FLAT,
+                                              .side = MESO_SHELL_BOTH, .section_scale = 0.71f});
+    test_same_floats(&arena, (MesoMapOptions){.deform = MESO_SWEEP_SHAPE, .frame = MESO_FRAME_MINIMAL,
+                                              .tolerance = 0.01f});
     test_mirror(&arena);
     test_winding(&arena);
     test_volumes(&arena);

@@ -91,12 +91,13 @@ static float largest_error(const Meshed *exact, const Meshed *coarse)
     return worst;
 }
 
-static void test_error(MesoArena *arena)
+static void test_error(MesoArena *arena, uint32_t deform)
 {
     static const float tolerances[] = {0.02f, 0.004f};
     Case s = {0};
     Meshed exact, coarse;
     make_case(&s, arena);
+    s.model.options.deform = deform;
     float edge = s.model.surface.mean_edge_length;
     s.model.options.tolerance = 1e-4f;
     mesh(&exact, &s.model, arena);
@@ -106,7 +107,7 @@ static void test_error(MesoArena *arena)
         mesh(&coarse, &s.model, arena);
         float worst = largest_error(&exact, &coarse);
         if (!(worst <= tolerances[i] * edge && worst > 0.1f * tolerances[i] * edge))
-            fprintf(stderr, "tolerance %g: %g, %llu triangles\n", (double)(tolerances[i] * edge), (double)worst,
+            fprintf(stderr, "deform %u, tolerance %g: %g, %llu triangles\n", deform, (double)(tolerances[i] * edge), (double)worst,
                     (unsigned long long)coarse.parts.triangle_count);
         CHECK(worst <= tolerances[i] * edge);
         CHECK(worst > 0.1f * tolerances[i] * edge);     /* no more than it takes */
@@ -142,7 +143,8 @@ int main(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    test_error(&arena);
+    test_error(&arena, MESO_SWEEP_CURVES);
+    test_error(&arena, MESO_SWEEP_SHAPE);
     test_corners(&arena);
     meso_arena_release(&arena);
     return 0;
