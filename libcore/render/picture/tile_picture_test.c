@@ -10,6 +10,7 @@
 #include "libcore/base/random.h"
 #include "libcore/render/light/light_rig.h"
 #include "libcore/render/light/vary.h"
+#include "libcore/scene/cell.h"
 #include "libcore/scene/parts.h"
 
 enum { SIDES = 12, TUBES = 9, RINGS = 24, WIDTH = 120, HEIGHT = 90, BALL = 16 };
@@ -19,6 +20,7 @@ typedef struct Bundle {
     MesoSweepColumn columns[SIDES + 1];
     MesoSweptKind kinds[1];
     MesoSweepInstance instances[TUBES];
+    MesoCage cage;
     uint32_t ids[TUBES + 1];
     MesoVec3 positions[(BALL + 1) * (BALL + 1)], normals[(BALL + 1) * (BALL + 1)];
     uint32_t corners[4 * BALL * BALL];
@@ -84,6 +86,22 @@ static void make_bundle(Bundle *b, MesoVec3 at)
         .materials = b->materials, .id_row_count = TUBES + 1, .ids = b->ids, .section_scale = 1, .thickness = 0.5f,
         .kind_count = 1, .column_count = SIDES + 1, .sweep_count = TUBES, .kinds = b->kinds, .columns = b->columns,
         .sweeps = b->instances, .body_count = 1, .bodies = b->bodies, .placed_count = 1, .placed = b->placed};
+    meso_scene_measure(&b->scene);
+}
+
+/* Takes the sweeps of a bundle at the origin for ones in a cell, and bends it a little, to somewhere else. */
+static void bend_bundle(Bundle *b, MesoVec3 at)
+{
+    static const MesoVec3 base[4] = {{1, 0.1f, 0}, {1.1f, 1, 0.1f}, {0, 1.1f, 0}, {0, 0, 0}};
+    for (uint32_t i = 0; i < 4; i++) {
+        b->cage.base[i] = meso_vec3_add(base[i], at);
+        b->cage.rise[i] = (MesoVec3){i == 2 ? 0.1f : 0, 0, i == 3 ? 0.9f : 1};
+    }
+    b->cage.high = MESO_CELL_HEIGHT;
+    b->scene.deform = MESO_SWEEP_SHAPE;
+    b->scene.cage_count = 1;
+    b->scene.cages = &b->cage;
+    b->scene.placed_count = 0;
     meso_scene_measure(&b->scene);
 }
 
@@ -374,6 +392,10 @@ int main(void)
     test_vary(&b);
     make_bundle(&b, far);
     test_gl(&b, far);
+    make_bundle(&b, origin);
+    bend_bundle(&b, (MesoVec3){200, 0, 0});
+    test_rays(&b, (MesoVec3){200, 0, 0}, (MesoVec3){1, 2, 5});
+    test_gl(&b, (MesoVec3){200, 0, 0});
     test_light();
     test_furnace();
     meso_arena_release(&arena);
