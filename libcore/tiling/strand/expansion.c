@@ -9,6 +9,7 @@
 #include "libcore/scene/placed.h"
 #include "libcore/scene/sweep.h"
 #include "libcore/shell/hexahedra.h"
+#include "libcore/tiling/strand/slot_winding.h"
 #include "libcore/tiling/strand/steps.h"
 #include "libcore/tiling/strand/trajectory.h"
 
@@ -539,13 +540,16 @@ MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, Me
                                   uint32_t thread_count, MesoError *error)
 {
     MesoArena scratch;
+    MesoModel wound;
     meso_arena_init(&scratch);
     MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
-    Builder builder = {.model = model, .scene = scene, .options = options, .contours = contours};
+    Builder builder = {.model = &wound, .scene = scene, .options = options, .contours = contours};
     *scene = (MesoScene){.section_scale = deforms(&builder) ? 1 : options.section_scale, .thickness = options.thickness,
                          .frame_rule = (MesoFrameRule)options.frame, .deform = (MesoSweepDeform)options.deform};
     meso_shell_cell_init(&builder.cell);
-    MesoStatus status = expand(&builder, arena, &scratch, thread_count, error);
+    MesoStatus status = meso_model_wind(&wound, model, &scratch, error);
+    if (!status)
+        status = expand(&builder, arena, &scratch, thread_count, error);
     meso_arena_release(&scratch);
     if (expansion)
         *expansion = (MesoExpansion){options, builder.origins};

@@ -188,6 +188,45 @@ static void test_winding(MesoArena *arena)
     }
 }
 
+/*
+ * A surface that is wound against its normals: it and all on it are the mirror image of one that is not, faces of which
+ * the one looks up and the other down, and look outward all the same.
+ */
+static void test_against_normals(MesoArena *arena, uint32_t deform)
+{
+    Case a = {0}, b = {0};
+    uint32_t tile[9] = {0};
+    MesoTransform transform[9] = {0};
+    make_tile_set(&a);
+    make_tile_set(&b);
+    make_grid(&a, arena, 3, tile, transform);
+    make_grid(&b, arena, 3, tile, transform);
+    a.model.options.deform = b.model.options.deform = deform;
+    for (uint32_t i = 0; i < b.model.surface.vertex_count; i++)
+        b.model.surface.positions[i].z *= -1;
+    for (uint32_t i = 0; i < b.model.surface.normal_count; i++)
+        b.model.surface.normals[i].z *= -1;
+
+    MesoExpansion ea, eb;
+    MesoScene sa = expand(&a.model, &ea, arena), sb = expand(&b.model, &eb, arena);
+    MesoSceneParts ta, tb;
+    MesoMeshFace *fa, *fb;
+    MesoMeshVertex *va = make_polygons(&sa, arena, &ta, &fa), *vb = make_polygons(&sb, arena, &tb, &fb);
+    CHECK(ta.part_count == tb.part_count);
+    for (uint32_t part = 0; part < ta.part_count; part += 5) {
+        uint64_t begin = ta.vertex_begin[part], count = ta.vertex_begin[part + 1] - begin;
+        for (uint64_t i = 0; i < count; i += 3) {
+            MesoVec3 p = va[begin + i].position;
+            p.z *= -1;
+            CHECK(distance_to_nearest(vb + tb.vertex_begin[part], count, p) < 4e-6);
+        }
+    }
+    for (uint64_t f = 0; f < tb.face_begin[tb.part_count]; f++)
+        CHECK(meso_vec3_dot(face_normal(vb, &fb[f], 1, 2), vb[fb[f].v[0]].normal) >= 0 ||
+              meso_vec3_dot(face_normal(va, &fa[f], 1, 2), va[fa[f].v[0]].normal) < 0);
+    CHECK(eb.origins[0].mirrored && !ea.origins[0].mirrored);
+}
+
 /* Six times the signed volume under the faces [begin, end) of closed pieces. */
 static double volume6(const MesoMeshVertex *v, const MesoMeshFace *faces, uint64_t begin, uint64_t end)
 {
@@ -372,6 +411,8 @@ int main(void)
                                               .tolerance = 0.01f});
     test_mirror(&arena);
     test_winding(&arena);
+    test_against_normals(&arena, MESO_SWEEP_CURVES);
+    test_against_normals(&arena, MESO_SWEEP_SHAPE);
     test_volumes(&arena);
     test_far_inner(&arena);
     test_ranges(&arena);
