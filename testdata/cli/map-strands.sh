@@ -15,6 +15,23 @@ for how in '' --cap-borders --weld '--weld --cap-borders'; do
     done
 done
 
+# Rings at ends without the points that only the other end needs: a disc and a box, by a tolerance.
+cat >mixed.tiles.json <<END
+{"format": "meso-tiles", "version": 1,
+ "interfaces": [{"name": "a", "sections": [{"name": "1", "shape": {"disc": {"center": [0.5, 0.5], "size": [0.3, 0.3]}}}]},
+  {"name": "b", "sections": [{"name": "1", "shape": {"box": {"center": [0.5, 0.5], "size": [0.2, 0.3]}}}]}],
+ "tiles": [{"name": "t", "sides": ["a", "b", "a'", "b'"],
+   "sweeps": [{"from": "0/1", "to": "1/1"}, {"from": "2/1", "to": "3/1"}]}]}
+END
+meso-solve -q mixed.tiles.json grid.obj -o mixed.slots
+for how in --weld --cap-borders '--weld --cap-borders'; do
+    # shellcheck disable=SC2086
+    meso-map -q --tolerance 0.01 $how mixed.tiles.json grid.obj mixed.slots -o mixed.ply
+    meso-mesh -q weld info mixed.ply -o mixed.obj | grep -oE '"(components|border_loops|closed|inside_out)": [a-z0-9]*' |
+        tr '\n' ' '
+    echo "$how"
+done
+
 # The same number in each kind of file, with its length; and read back.
 meso-map -q grid.meso -o grid.ply
 grep -a '^comment strand_length 0' grid.ply

@@ -27,20 +27,29 @@ static void find_open(Caps *caps, const MesoStrands *strands)
     }
 }
 
-/* Seen from outside, the profile of a start is its mirror image, and its columns run the other way round. */
+/*
+ * Seen from outside, the profile of a start is its mirror image, and its columns run the other way round. What is absent
+ * on that ring is absent in the cap: the columns beside it join each other.
+ */
 static void add_columns(Caps *caps, const MesoSweptKind *kind, bool at_end)
 {
     const MesoSweepColumn *from = caps->in->columns + kind->column_begin;
+    uint32_t absent = at_end ? MESO_ABSENT_END : MESO_ABSENT_START, begin = caps->out->column_count;
     for (uint32_t c = 0; c < kind->column_count; c++) {
         uint32_t source = at_end ? c : kind->column_count - 1 - c;
         MesoSweepColumn column = from[source];
+        if (column.absent & absent)
+            continue;
+        column.absent = 0;
         if (at_end) {
             column.start = column.end;
             column.start_normal = column.end_normal;
         } else {
             column.start.x = -column.start.x;
             column.start_normal.x = -column.start_normal.x;
-            column.joins_next = source > 0 ? from[source - 1].joins_next : 0;
+            column.joins_next = 0;
+            if (caps->out->column_count > begin)
+                caps->out->columns[caps->out->column_count - 1].joins_next = from[source].joins_next;
         }
         column.end = column.start;
         column.end_normal = column.start_normal;
@@ -80,6 +89,10 @@ static void add_caps(Caps *caps, const MesoSweptKind *kind, bool at_end)
     if (cap.instance_count == 0)
         return;
     add_columns(caps, kind, at_end);
+    cap.column_count = caps->out->column_count - cap.column_begin;
+    cap.joint_count = cap.absent[0] = cap.absent[1] = cap.fans[0] = cap.fans[1] = 0;
+    for (uint32_t c = 0; c < cap.column_count; c++)
+        cap.joint_count += caps->out->columns[cap.column_begin + c].joins_next;
     caps->out->kinds[caps->out->kind_count++] = cap;
 }
 
