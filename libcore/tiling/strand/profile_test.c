@@ -1,4 +1,7 @@
-/* Profiles: where a ring is round is the ring's own affair, whatever it is swept to. */
+/*
+ * Profiles: where a ring is round is the ring's own affair, whatever it is swept to; and where a section that turns is
+ * turned inside out on the way, its normals are, too.
+ */
 #include "libcore/base/check.h"
 #include "libcore/tiling/strand/profile.h"
 
@@ -92,8 +95,98 @@ static void test_round_end_of_a_sharp_sweep(void)
     meso_arena_release(&arena);
 }
 
+/* ---- inside out ---- */
+
+static MesoVec2 turned_back(MesoVec2 p, float angle)
+{
+    float c = cosf(angle), s = sinf(angle);
+    return (MesoVec2){c * p.x + s * p.y, c * p.y - s * p.x};
+}
+
+/* At a blend between the ends: a column's normal, in the frame that turns along. */
+static MesoVec2 normal_at(const MesoSweptKind *kind, const MesoSweepColumn *column, float w)
+{
+    MesoVec2 n = meso_vec2_lerp(column->start_normal, turned_back(column->end_normal, kind->turn), w);
+    float length = meso_vec2_length(n);
+    return meso_vec2_scale(n, length > 0 ? 1 / length : 0);
+}
+
+static MesoVec2 place_at(const MesoSweptKind *kind, const MesoSweepColumn *column, float w)
+{
+    MesoVec2 end = turned_back(meso_vec2_sub(column->end, kind->middle[1]), kind->turn);
+    return meso_vec2_lerp(meso_vec2_sub(column->start, kind->middle[0]), end, w);
+}
+
+static float along(MesoVec2 a, MesoVec2 b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
+/* Joints against which the sum of both columns' normals is, somewhere on the way; and those that are reversed then. */
+static uint32_t count_inverted(const MesoProfileSet *profiles, uint32_t kind, uint32_t *reversed)
+{
+    const MesoSweptKind *swept = &profiles->kinds[kind];
+    uint32_t inverted = 0;
+    *reversed = 0;
+    for (uint32_t i = swept->column_begin; i + 1 < swept->column_begin + swept->column_count; i++) {
+        const MesoSweepColumn *a = &profiles->columns[i], *b = a + 1;
+        MesoVec2 first = meso_vec2_sub(place_at(swept, b, 0), place_at(swept, a, 0));
+        MesoVec2 last = meso_vec2_sub(place_at(swept, b, 1), place_at(swept, a, 1));
+        bool against = false;
+        for (uint32_t step = 0; step <= 32 && a->joins_next; step++) {
+            float w = (float)step / 32;
+            MesoVec2 chord = meso_vec2_lerp(first, last, w), n = {-chord.y, chord.x};
+            against |= along(n, normal_at(swept, a, w)) + along(n, normal_at(swept, b, w)) < -1e-6f * along(n, n);
+        }
+        inverted += against;
+        *reversed += a->joins_next && along(first, last) < 0;
+    }
+    return inverted;
+}
+
+/* A bar with a notch that becomes a shorter one with its notch elsewhere, while it turns by half a turn or so. */
+static void test_notched_bars(void)
+{
+    static const struct {
+        MesoVec2 notch, notch_size, size, other_notch, other_notch_size;
+        float turn, step;
+    } bars[] = {{{0.77f, 0.6f}, {0.295f, 0.15f}, {0.38f, 0.16f}, {0.38f, 0.48f}, {0.19f, 0.135f}, 0.55f, 0.032f},
+                {{0.74f, 0.6f}, {0.19f, 0.105f}, {0.59f, 0.19f}, {0.26f, 0.54f}, {0.28f, 0.105f}, 0.4f, 0.04f},
+                {{0.68f, 0.6f}, {0.28f, 0.17f}, {0.62f, 0.155f}, {0.53f, 0.43f}, {0.26f, 0.15f}, 0.5f, 0.052f}};
+    for (uint32_t i = 0; i < 3; i++) {
+        MesoError error;
+        MesoArena arena;
+        meso_arena_init(&arena);
+        MesoCsgNode nodes[6] = {{MESO_CSG_BOX, 0, 0, {0.5f, 0.5f}, {0.8f, 0.1f}, 0},
+                                {MESO_CSG_DISC, 0, 0, bars[i].notch, bars[i].notch_size, 0},
+                                {MESO_CSG_DIFFERENCE, 0, 1, {0, 0}, {0, 0}, 0},
+                                {MESO_CSG_BOX, 0, 0, {0.5f, 0.5f}, bars[i].size, 0},
+                                {MESO_CSG_DISC, 0, 0, bars[i].other_notch, bars[i].other_notch_size, 0},
+                                {MESO_CSG_DIFFERENCE, 3, 4, {0, 0}, {0, 0}, 0}};
+        MesoSection sections[2];
+        MesoInterface interfaces[2];
+        MesoSweep sweeps[2];
+        MesoTile tile;
+        MesoTileSet set = make_tile_set(sections, interfaces, sweeps, &tile);
+        MesoContourSet contours;
+        MesoProfileSet profiles;
+        set.csg = nodes;
+        set.csg_count = 6;
+        sections[ROUND].csg_root = 2;
+        sections[SQUARE].csg_root = 5;
+        sweeps[1].turn = bars[i].turn;
+        CHECK(meso_contour_set_build(&contours, &arena, &set, bars[i].step, &error) == MESO_OK);
+        CHECK(meso_profile_set_build(&profiles, &arena, &set, &contours, 8, (MesoColumnLimits){0}, &error) == MESO_OK);
+        uint32_t reversed, kind = find_kind(&profiles, 1);
+        CHECK(profiles.kinds[kind].turn != 0);
+        CHECK(count_inverted(&profiles, kind, &reversed) == 0 && reversed > 5);
+        meso_arena_release(&arena);
+    }
+}
+
 int main(void)
 {
     test_round_end_of_a_sharp_sweep();
+    test_notched_bars();
     return 0;
 }
