@@ -23,6 +23,7 @@ typedef struct Ring {
     uint32_t slot, first, count;    /* first of the open half-edges */
     MesoVec3d middle;               /* of the corners; a sum at first */
     MesoVec3d outward;              /* where the surface ends */
+    MesoVec3d plane;                /* twice the area vector of the ring itself */
     MesoBox box;
     double reach;                   /* square of how far another one may be */
     uint32_t facing;                /* ring, or MESO_NO_INDEX */
@@ -154,6 +155,8 @@ static MesoStatus describe_rings(Rings *rings, MesoError *error)
         ring->middle = meso_vec3d_add(ring->middle, at(rings, half));
         meso_box_add(&ring->box, meso_inspect_corner(rings->work->mesh, half));
         meso_box_add(&ring->box, meso_inspect_corner(rings->work->mesh, meso_half_next(half)));
+        MesoVec3d start = at(rings, rings->halves[ring->first]);
+        ring->plane = meso_vec3d_add(ring->plane, meso_vec3d_cross(meso_vec3d_sub(at(rings, half), start), along));
         if (length > 0)
             ring->outward = meso_vec3d_mad(ring->outward, 1 / length, meso_vec3d_cross(along, normal));
     }
@@ -167,6 +170,13 @@ static double box_width(const MesoBox *box)
     return meso_vec3d_length(meso_vec3d_sub(meso_vec3d(box->high), meso_vec3d(box->low)));
 }
 
+/* Across the ring, to the side where the surface ends: that of a tube which folds back there looks anywhere. */
+static MesoVec3d across_ring(const Ring *ring)
+{
+    double side = meso_vec3d_dot(ring->plane, ring->outward);
+    return side == 0 ? ring->outward : meso_vec3d_scale(ring->plane, side < 0 ? -1 : 1);
+}
+
 /* Where they end as they are drawn. */
 static void find_ends(Rings *rings)
 {
@@ -174,7 +184,8 @@ static void find_ends(Rings *rings)
     MesoInspectWork *work = rings->work;
     for (uint32_t r = 0; r < rings->count; r++) {
         Ring *ring = &rings->rings[r];
-        ring->end = meso_inspect_end(work->mesh, ring->slot, ring->middle, ring->outward, box_width(&ring->box));
+        ring->end = meso_inspect_end(work->mesh, ring->slot, ring->middle, across_ring(ring),
+                                     box_width(&ring->box));
         if (ring->end != MESO_END_INSIDE)
             meso_inspect_note(work, faults[ring->end], rings->halves[ring->first] / 3, 0);
     }

@@ -134,6 +134,18 @@ static void end_at_border(Model *m)
     m->across[4 * 3 + 2] = m->across[4 * 4] = MESO_NO_INDEX;
 }
 
+/* The same where the tube folds back on one side in its last row: there it comes to the rim from beyond, and from within. */
+static void fold_back_at_border(Model *m)
+{
+    end_at_border(m);
+    MesoVec3 across = meso_vec3_sub(m->positions[sweep_vertex(0, 4, 0, 0)],
+                                    m->positions[sweep_vertex(0, 4, 0, AROUND / 2)]);
+    for (uint32_t k = 3; k <= 9; k++) {
+        MesoVec3 rim = m->positions[sweep_vertex(0, 4, 0, k)], *p = &m->positions[sweep_vertex(0, 4, 1, k)];
+        *p = meso_vec3_mad(meso_vec3_lerp(*p, rim, 1.4f), 0.4f, across);
+    }
+}
+
 /* An open cup whose rim is at the lid of a slot. */
 static void end_at_lid(Model *m)
 {
@@ -324,7 +336,7 @@ typedef struct Expected {
 static const struct {
     const char *name;
     void (*plant)(Model *m);
-    Expected found[6];
+    Expected found[7];
     MesoFault sized;            /* of which the size is known */
     double size, by;
 } CASES[] = {
@@ -352,6 +364,9 @@ static const struct {
     {"open end", open_end, {{MESO_FAULT_GAP, 2}, {MESO_FAULT_OPEN, 2}, {MESO_FAULT_LEAK, 1}},
      MESO_FAULT_GAP, 0.3, 0.05},
     {"end at a border", end_at_border, {{MESO_FAULT_OPEN, 2}, {MESO_FAULT_BORDER, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
+    {"end at a border that folds back", fold_back_at_border,
+     {{MESO_FAULT_OPEN, 2}, {MESO_FAULT_BORDER, 1}, {MESO_FAULT_LEAK, 1}, {MESO_FAULT_PINCH, UINT64_MAX},
+      {MESO_FAULT_SELF_CROSSING, UINT64_MAX}, {MESO_FAULT_THIN, UINT64_MAX}}, 0, 0, 0},
     {"end at a lid", end_at_lid, {{MESO_FAULT_OPEN, 1}, {MESO_FAULT_LID, 1}, {MESO_FAULT_LEAK, 1}}, 0, 0, 0},
     {"surface that folds back", fold_back, {{MESO_FAULT_PINCH, 2}, {MESO_FAULT_SELF_CROSSING, UINT64_MAX}}, 0, 0, 0},
     {"turned normals of a triangle", turn_normals, {{MESO_FAULT_INVERTED, 1}}, 0, 0, 0},
