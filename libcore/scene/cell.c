@@ -131,8 +131,9 @@ float meso_sweep_growth(const MesoScene *scene, const MesoSweepInstance *sweep, 
         return 1;
     MesoVec3 d[3], y = meso_vec3_direction(sweep->up[at_end], (MesoVec3){0, 0, 1});
     derive(&scene->cages[sweep->cage], sweep->p[at_end ? 3 : 0], d);
-    MesoVec3 x = meso_vec3_cross(y, sweep->direction[at_end]);
-    return sqrtf(meso_vec3_length(meso_vec3_cross(along(d, x), along(d, y))));
+    MesoVec3 x = meso_vec3_cross(y, sweep->direction[at_end]), a = along(d, x), b = along(d, y);
+    MesoVec3 none = {0, 0, 0}, sine = meso_vec3_cross(meso_vec3_direction(a, none), meso_vec3_direction(b, none));
+    return sqrtf(meso_vec3_length(a)) * sqrtf(meso_vec3_length(b)) * sqrtf(meso_vec3_length(sine));
 }
 
 MesoVec3 meso_sweep_middle(const MesoScene *scene, const MesoSweepInstance *sweep, float v)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "libcore/math/bezier.h"
+#include "libcore/scene/cell.h"
 #include "libcore/tiling/strand/expansion_fixture.h"
 #include "libcore/tiling/strand/trajectory.h"
 
@@ -284,7 +285,7 @@ static void test_volumes(MesoArena *arena)
 }
 
 /* Inner meshes reach as far as the product of three of their coordinates is a float, on the largest surface. */
-static void test_far_inner(MesoArena *arena)
+static void test_far_inner(MesoArena *arena, uint32_t deform)
 {
     Case s = {0};
     uint32_t tile[1] = {0};
@@ -298,6 +299,7 @@ static void test_far_inner(MesoArena *arena)
     make_grid(&s, arena, 1, tile, transform);
     CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 1, &up, 1, corners, normals, &error) == MESO_OK);
     CHECK(meso_slot_graph_build(&s.model.graph, arena, &s.model.surface, NULL) == MESO_OK);
+    s.model.options.deform = deform;
     s.inners[0] = (MesoInnerMesh){"x", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0}, GREY};
     s.inner_positions[1] = (MesoVec3){MESO_INNER_LIMIT, MESO_INNER_LIMIT, MESO_INNER_LIMIT};
     scene = expand(&s.model, NULL, arena);
@@ -371,7 +373,7 @@ static void test_lids(MesoArena *arena)
 }
 
 /* Surfaces of any size that is let in give finite geometry with unit normals. */
-static void test_scales(MesoArena *arena)
+static void test_scales(MesoArena *arena, uint32_t deform)
 {
     const float scales[] = {1e-16f, 1e16f};
     for (int k = 0; k < 2; k++) {
@@ -384,10 +386,13 @@ static void test_scales(MesoArena *arena)
         make_grid(&s, arena, 1, tile, transform);
         CHECK(meso_quad_mesh_build(&s.model.surface, arena, 4, flat, 0, NULL, 1, corners, NULL, NULL) == MESO_OK);
         CHECK(meso_slot_graph_build(&s.model.graph, arena, &s.model.surface, NULL) == MESO_OK);
+        s.model.options.deform = deform;
         MesoScene scene = expand(&s.model, NULL, arena);
         MesoSceneParts t;
         MesoMeshFace *faces;
         MesoMeshVertex *v = make_polygons(&scene, arena, &t, &faces);
+        for (uint32_t i = 0; i < scene.sweep_count; i++)
+            CHECK(isfinite(meso_sweep_growth(&scene, &scene.sweeps[i], false)));
         for (uint64_t i = 0; i < t.vertex_begin[t.part_count]; i++) {
             CHECK(meso_vec3_finite(v[i].position));
             CHECK(fabsf(meso_vec3_length(v[i].normal) - 1) < 1e-4f);
@@ -414,10 +419,12 @@ int main(void)
     test_against_normals(&arena, MESO_SWEEP_CURVES);
     test_against_normals(&arena, MESO_SWEEP_SHAPE);
     test_volumes(&arena);
-    test_far_inner(&arena);
+    test_far_inner(&arena, MESO_SWEEP_CURVES);
+    test_far_inner(&arena, MESO_SWEEP_SHAPE);
     test_ranges(&arena);
     test_lids(&arena);
-    test_scales(&arena);
+    test_scales(&arena, MESO_SWEEP_CURVES);
+    test_scales(&arena, MESO_SWEEP_SHAPE);
     meso_arena_release(&arena);
     return 0;
 }
