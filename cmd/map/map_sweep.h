@@ -6,7 +6,7 @@
 #include "libcore/tiling/strand/model.h"
 
 typedef struct MesoMapSweep {
-    const char *frame, *section_size, *deform;  /* names of MesoFrameRule, MesoSectionSize and MesoSweepDeform; NULL: not given */
+    const char *frame, *section_size, *deform;  /* names of MesoFrameRule and the like; NULL: not given */
     const char *tolerance;              /* a number, and perhaps a unit */
     struct {
         bool frame, section_size, deform, tolerance;

@@ -134,7 +134,7 @@ static void end_at_border(Model *m)
     m->across[4 * 3 + 2] = m->across[4 * 4] = MESO_NO_INDEX;
 }
 
-/* The same where the tube folds back on one side in its last row: there it comes to the rim from beyond, and from within. */
+/* The same where the tube folds back on one side in its last row: there it comes to the rim from beyond. */
 static void fold_back_at_border(Model *m)
 {
     end_at_border(m);

@@ -26,7 +26,7 @@ typedef struct MesoDrawLists {
     uint32_t sweep_count, bodies_count;
     MesoDrawSweep *sweeps;
     MesoDrawBodies *bodies;
-    MesoScene near;                     /* the scene, with sweeps or cages relative to the view's anchor, as all in GL */
+    MesoScene near;             /* the scene, with sweeps or cages relative to the view's anchor, as all in GL */
     GLuint pattern_vertices, pattern_indices, instances, cages, sweep_array;
     MesoSweepInstance *selected;        /* [sweep_count of the scene] scratch of meso_draw_lists_select() */
     GLuint body_vertices, body_indices, body_array;

@@ -45,8 +45,8 @@ MesoCellStretch meso_kind_stretch(const MesoScene *scene, const MesoSweptKind *k
 /* ---- sweeps of either deformation, in scene units ---- */
 
 /*
- * Control points of the trajectory: p, or where sections deform the cubic with the ends and the derivatives there of what
- * becomes of it. Its ends are the very same points for both slots.
+ * Control points of the trajectory: p, or where sections deform the cubic with the ends and the derivatives there of
+ * what becomes of it. Its ends are the very same points for both slots.
  */
 void meso_sweep_trajectory(const MesoScene *scene, const MesoSweepInstance *sweep, MesoVec3 p[4]);
 

@@ -27,7 +27,7 @@ typedef struct MesoShellForm {
     uint32_t normals, side;         /* MesoShellNormals, MesoShellSide */
     const float *factors, *lifts;   /* [vertex_count] of the thickness, and added to the offset; NULL: 1, 0 */
     bool limit_folds;               /* lower it where it would fold */
-    bool shared;                    /* neighbours have the same corners: normals that differ around one are their mean */
+    bool shared;                    /* neighbours have the same corners: of normals that differ there, the mean */
 } MesoShellForm;
 
 /*

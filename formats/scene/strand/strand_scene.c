@@ -28,8 +28,8 @@ static void find_open(Caps *caps, const MesoStrands *strands)
 }
 
 /*
- * Seen from outside, the profile of a start is its mirror image, and its columns run the other way round. What is absent
- * on that ring is absent in the cap: the columns beside it join each other.
+ * Seen from outside, the profile of a start is its mirror image, and its columns run the other way round. What is
+ * absent on that ring is absent in the cap: the columns beside it join each other.
  */
 static void add_columns(Caps *caps, const MesoSweptKind *kind, bool at_end)
 {

@@ -67,7 +67,7 @@ static void test_volumes(MesoArena *arena)
         {{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, 0.5f, 1},
         {{{2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 0}}, 1, 4},                     /* a box: an ellipse of 0.2 by 0.4 */
         {{{2, 0, 0}, {2.7f, 1, 0}, {0.7f, 1, 0}, {0, 0, 0}}, 1, 4},               /* sheared */
-        {{{2, -0.25f, 0}, {2, 0.25f, 0}, {0, 0.5f, 0}, {0, -0.5f, 0}}, 0.5f, 2 * 0.75},     /* half as wide at the end */
+        {{{2, -0.25f, 0}, {2, 0.25f, 0}, {0, 0.5f, 0}, {0, -0.5f, 0}}, 0.5f, 2 * 0.75},     /* tapered by half */
     };
     for (uint32_t i = 0; i < sizeof slots / sizeof *slots; i++) {
         Case s = {0};

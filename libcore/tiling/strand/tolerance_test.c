@@ -107,8 +107,8 @@ static void test_error(MesoArena *arena, uint32_t deform)
         mesh(&coarse, &s.model, arena);
         float worst = largest_error(&exact, &coarse);
         if (!(worst <= tolerances[i] * edge && worst > 0.1f * tolerances[i] * edge))
-            fprintf(stderr, "deform %u, tolerance %g: %g, %llu triangles\n", deform, (double)(tolerances[i] * edge), (double)worst,
-                    (unsigned long long)coarse.parts.triangle_count);
+            fprintf(stderr, "deform %u, tolerance %g: %g, %llu triangles\n", deform,
+                    (double)(tolerances[i] * edge), (double)worst, (unsigned long long)coarse.parts.triangle_count);
         CHECK(worst <= tolerances[i] * edge);
         CHECK(worst > 0.1f * tolerances[i] * edge);     /* no more than it takes */
         CHECK(coarse.parts.triangle_count > triangles);
