@@ -18,12 +18,13 @@ static void test_text(void)
 {
     MesoMapOptions options = {.frame = MESO_FRAME_MINIMAL, .normals = MESO_NORMALS_FLAT, .side = MESO_SHELL_BOTH,
                               .limit_folds = 1, .section_size = MESO_SECTION_SLOT,
-                              .tolerance = 0.001f, .tolerance_in = MESO_TOLERANCE_SCENE, .divisions = 7};
+                              .tolerance = 0.001f, .tolerance_in = MESO_TOLERANCE_SCENE, .deform = MESO_SWEEP_SHAPE,
+                              .divisions = 7};
     MesoMapOptions back = {.divisions = 7};
     MesoError error;
     char *text;
     CHECK(meso_mapping_text(&text, &options, &error) == MESO_OK);
-    CHECK_TEXT(text, "{\"frame\":\"minimal\",\"normals\":\"flat\",\"side\":\"both\",\"limit_folds\":1,"
+    CHECK_TEXT(text, "{\"frame\":\"minimal\",\"deform\":\"shape\",\"normals\":\"flat\",\"side\":\"both\",\"limit_folds\":1,"
                      "\"section_size\":\"slot\",\"tolerance\":0.001,\"tolerance_in\":\"scene\"}");
     CHECK(read_text(&back, text, &error) == MESO_OK);
     CHECK(memcmp(&back, &options, sizeof options) == 0);
@@ -34,7 +35,8 @@ static void test_text(void)
     CHECK(meso_mapping_text(&text, &back, &error) == MESO_OK && !text);
 }
 
-#define KEYS "\"frame\", \"normals\", \"side\", \"limit_folds\", \"section_size\", \"tolerance\", \"tolerance_in\""
+#define KEYS "\"frame\", \"deform\", \"normals\", \"side\", \"limit_folds\", \"section_size\", \"tolerance\", " \
+             "\"tolerance_in\""
 
 static void test_wrong_text(void)
 {
@@ -43,6 +45,7 @@ static void test_wrong_text(void)
         {"[]", "chunk 'mapping': an object is needed here, not an array"},
         {"{\"frames\": 1}", "chunk 'mapping': unknown key \"frames\"; there are " KEYS},
         {"{\"frame\": 1}", "chunk 'mapping': frame: a frame is needed here, one of \"paper\", \"minimal\""},
+        {"{\"deform\": \"shapes\"}", "chunk 'mapping': deform: no deform 'shapes'; did you mean 'shape'?"},
         {"{\"frame\": \"minimum\"}", "chunk 'mapping': frame: no frame 'minimum'; did you mean 'minimal'?"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
