@@ -12,6 +12,9 @@ extern const char meso_shader_surface_fragment[], meso_shader_depth_fragment[];
 /* GL counts indices and base vertices in signed ints. */
 static const uint64_t MAX_ELEMENTS = INT32_MAX;
 
+/* Every GL 4.5 has room for so many cages in one block. */
+static const uint32_t MAX_CAGES = 1 << 20;
+
 /* Uniforms by the locations that the shaders give them. */
 enum {
     CLIP_FROM_WORLD, DEPTH_AXIS, SECTION_SCALE, CAP_RISE, START_COLOR, END_COLOR,
@@ -167,6 +170,9 @@ static void describe_sweeps(MesoDrawLists *lists)
 
 static MesoStatus upload_cages(MesoDrawLists *lists, MesoArena *arena, MesoError *error)
 {
+    if (lists->near.cage_count > MAX_CAGES)
+        return meso_fail(error, MESO_ERR_LIMIT, "sections deform in too many slots to draw by GL (%u)",
+                         lists->near.cage_count);
     float *corners = MESO_NEW(arena, float, 32 * (size_t)lists->near.cage_count, error), *out = corners;
     for (uint32_t i = 0; corners && i < 8 * lists->near.cage_count; i++) {
         MesoVec3 p = meso_cage_corner(&lists->near.cages[i / 8], i % 8);
@@ -209,8 +215,9 @@ static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Pl
     lists->pattern_vertices = upload(lists->gl, vertices, vertex * sizeof *vertices);
     lists->pattern_indices = upload(lists->gl, indices, index * sizeof *indices);
     lists->gl->CreateBuffers(1, &lists->instances);
-    if (scene->deform == MESO_SWEEP_SHAPE && upload_cages(lists, arena, error))
-        return MESO_ERR_MEMORY;
+    MesoStatus status = scene->deform == MESO_SWEEP_SHAPE ? upload_cages(lists, arena, error) : MESO_OK;
+    if (status)
+        return status;
     describe_sweeps(lists);
     meso_draw_lists_select(lists, NULL);
     return meso_gl_check(lists->gl, "upload of the sweeps", error);
