@@ -228,13 +228,23 @@ static MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, co
     return place_vertex(scene, ring, column, m);
 }
 
+static inline MesoVec3 tube_point(const MesoScene *scene, const Track *track, const Ring *ring,
+                                  const MesoSweepColumn *column)
+{
+    const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]), none = {0, 0};
+    const MesoVec2 end = meso_vec2_scale(column->end, track->sweep->size[1]);
+    Meeting m = ring->turns ? meet_turned(track, ring, start, end, none, none) : meet(ring, start, end, none, none);
+    MesoVec2 at = ring->on_side ? on_grain(m.at) : m.at;
+    return meso_vec3_mad(ring->plane.origin, scene->section_scale, in_plane(&ring->plane, at));
+}
+
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
 static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
     bool plain = !ring->turns && !ring->on_side && track->sweep->size[0] == 1 && track->sweep->size[1] == 1;
-    if (plain && !absent && !grid->columns) {
+    if (plain && !absent && !grid->columns && !grid->bare) {
         for (uint32_t c = 0; c < grid->column_count; c++)   /* most are so: nothing to decide in the loop */
             *out++ = place_vertex(scene, ring, &columns[c],
                                   meet(ring, columns[c].start, columns[c].end, columns[c].start_normal,
@@ -243,7 +253,11 @@ static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track,
     }
     for (uint32_t c = 0; c < grid->column_count; c++) {
         const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
-        if (!(column->absent & absent))
+        if (column->absent & absent)
+            continue;
+        if (grid->bare)
+            out++->position = tube_point(scene, track, ring, column);
+        else
             *out++ = tube_vertex(scene, track, ring, column);
     }
     return out;
@@ -313,8 +327,13 @@ void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const Me
                      const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     MesoMeshVertex *end = (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
-    if (scene->deform == MESO_SWEEP_SHAPE)
-        meso_cell_bend(&scene->cages[sweep->cage], out, (uint64_t)(end - out));
+    if (scene->deform == MESO_SWEEP_CURVES)
+        return;
+    const MesoCage *cage = &scene->cages[sweep->cage];
+    if (!grid->bare)
+        meso_cell_bend(cage, out, (uint64_t)(end - out));
+    for (; grid->bare && out < end; out++)
+        out->position = meso_cell_point(cage, out->position);
 }
 
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,

@@ -16,6 +16,7 @@ typedef struct MesoSweepGrid {
     const uint32_t *columns;    /* [column_count] ascending columns of the kind; NULL: all of them */
     uint32_t column_count, ring_count;
     bool own;                   /* rings as the kind has them, eased and without what is absent; else even and whole */
+    bool bare;                  /* positions alone: the rest of the vertices is left as it was */
 } MesoSweepGrid;
 
 /* Vertices of an instance of `kind` on these, to `out` [column_count * ring_count less what is absent], by rings. */

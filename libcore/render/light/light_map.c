@@ -113,7 +113,7 @@ static void make_ranges(void *context, uint32_t worker, uint64_t begin, uint64_t
         uint64_t first = batch->first + r * RANGE, last = first + RANGE;
         range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
         for (uint64_t i = first; i < last && i < batch->shapes->count; i++)
-            if (!meso_shape_make(batch->shapes, (uint32_t)i, batch->tolerance, false, &batch->meshes[worker]) ||
+            if (!meso_shape_make(batch->shapes, (uint32_t)i, batch->tolerance, MESO_SHAPE_SHADOW, &batch->meshes[worker]) ||
                 !add_mesh(range, &batch->meshes[worker])) {
                 fail(batch);
                 return;

@@ -212,7 +212,7 @@ static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
 static bool draw_shape(MesoRasterTile *tile, uint32_t shape, uint32_t first_id)
 {
     const MesoRasterJob *job = tile->bins->job;
-    if (!meso_shape_make(job->shapes, shape, tolerance_of(job, shape), true, &tile->mesh))
+    if (!meso_shape_make(job->shapes, shape, tolerance_of(job, shape), MESO_SHAPE_SEEN, &tile->mesh))
         return false;
     if (tile->mesh.vertex_count > tile->vertex_room) {
         uint64_t room = 2 * (uint64_t)tile->mesh.vertex_count;
@@ -289,7 +289,7 @@ static bool keep_shape(MesoRasterTile *tile, uint32_t i)
     const MesoRasterJob *job = tile->bins->job;
     MesoShapeMesh *mesh = &tile->mesh;
     SeenShape *seen = &tile->seen[i];
-    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance_of(job, tile->shapes[i]), true, mesh))
+    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance_of(job, tile->shapes[i]), MESO_SHAPE_WHOLE, mesh))
         return false;
     uint64_t vertices = tile->vertices_used + mesh->vertex_count;
     uint64_t corners = tile->corners_used + 3 * (uint64_t)mesh->triangle_count;

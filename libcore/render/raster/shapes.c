@@ -278,8 +278,10 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
     *mesh = (MesoShapeMesh){0};
 }
 
-static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance, bool seen, MesoShapeMesh *mesh)
+static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance, MesoShapeUse use,
+                       MesoShapeMesh *mesh)
 {
+    bool seen = use != MESO_SHAPE_SHADOW;
     const MesoScene *scene = &shapes->near;
     uint32_t k = shapes->kind_of[sweep];
     const MesoSweptKind *kind = &scene->kinds[k];
@@ -289,7 +291,8 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance
     for (uint32_t i = 0; i < 4 && scene->deform == MESO_SWEEP_CURVES; i++)
         instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
     uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance, seen);
-    const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings};
+    const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings,
+                                .bare = use != MESO_SHAPE_WHOLE};
     if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->joint_count * (rings - 1)))
         return false;
     mesh->closed = shapes->closed[k];
@@ -335,10 +338,10 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
     return true;
 }
 
-bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, bool seen, MesoShapeMesh *mesh)
+bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh)
 {
     uint32_t sweeps = shapes->scene->sweep_count;
-    return shape < sweeps ? make_sweep(shapes, shape, tolerance, seen, mesh)
+    return shape < sweeps ? make_sweep(shapes, shape, tolerance, use, mesh)
                           : make_run(shapes, &shapes->runs[shape - sweeps], mesh);
 }
 

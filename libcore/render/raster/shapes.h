@@ -61,12 +61,17 @@ typedef struct MesoShapeMesh {
     MesoMeshColor *color_room;
 } MesoShapeMesh;
 
+/* What a shape is made for: to throw a shadow, with normals that may be far from its own; to be seen; and to be looked
+ * at. Its vertices have more than positions for the last alone. */
+typedef enum MesoShapeUse {
+    MESO_SHAPE_SHADOW, MESO_SHAPE_SEEN, MESO_SHAPE_WHOLE
+} MesoShapeUse;
+
 /*
- * Makes a shape within `tolerance` of its own surface (0: all of it); where it is not to be `seen`, but to throw a
- * shadow, with normals that may be far from it. The mesh begins zeroed, and is used again for the
- * next; its arrays grow by realloc(). False where memory is out.
+ * Makes a shape within `tolerance` of its own surface (0: all of it): the same triangles to be seen and to be looked at.
+ * The mesh begins zeroed, and is used again for the next; its arrays grow by realloc(). False where memory is out.
  */
-bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, bool seen, MesoShapeMesh *mesh);
+bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
 void meso_shape_mesh_release(MesoShapeMesh *mesh);
 
 /* Row of the scene's ids, and material of a shape: blended from the first to the second along a sweep. */
