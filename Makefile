@@ -14,6 +14,7 @@
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
 #   bench-render      times of drawing by stage, and memory, beside the prototype's
+#   bench-cycles      the vase beside Blender's Cycles: seconds and noise; ten minutes
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
@@ -182,6 +183,8 @@ bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
 bench-render: all generators
 	@scripts/bench/render $(OUT) $(BIN) $(DATA)
+bench-cycles: all generators
+	@scripts/bench/cycles $(OUT) $(BIN)
 bench-decor: $(addprefix $(OUT)/test/libcore/,geodesic/geodesic_bench geodesic/geodesic_lines_bench \
              mesh/cut/mesh_cut_bench decor/decor_bench)
 	@for bench in $^; do $$bench; done
@@ -215,7 +218,7 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
-        check-reference check-pairs bench bench-solve bench-render bench-decor bench-quilt bench-grow \
+        check-reference check-pairs bench bench-solve bench-render bench-cycles bench-decor bench-quilt bench-grow \
         bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
