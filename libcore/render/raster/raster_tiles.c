@@ -37,7 +37,8 @@ static void find_ranges(void *context, uint64_t begin, uint64_t end)
     for (uint64_t i = begin; i < end; i++) {
         MesoRasterRect r = meso_raster_rect(&bins->job->view, &bins->job->shapes->bounds[i]);
         bins->ranges[i] = (TileRange){1, 0, 0, 0};
-        if (!(r.right > 0 && r.bottom > 0 && r.left < width && r.top < height))
+        if (!(r.right > 0 && r.bottom > 0 && r.left < width && r.top < height) ||
+            (bins->job->samples == 1 && !meso_raster_rect_has_middle(&r)))
             continue;
         bins->ranges[i] = (TileRange){tile_at(r.left, bins->tile_pixels, bins->tiles_x),
                                       tile_at(r.top, bins->tile_pixels, bins->tiles_y),

@@ -60,4 +60,12 @@ typedef struct MesoRasterRect {
 /* Holds what is in the box; everything where the box reaches behind the near plane. */
 MesoRasterRect meso_raster_rect(const MesoRasterView *view, const MesoBox *box);
 
+/* Whether the middle of some pixel may be covered by what is in the box of such a rectangle, which is a pixel wider. */
+static inline bool meso_raster_rect_has_middle(const MesoRasterRect *rect)
+{
+    const float slack = 2.f / MESO_RASTER_UNIT;
+    return ceilf(rect->left + 0.5f - slack) <= floorf(rect->right - 1.5f + slack) &&
+           ceilf(rect->top + 0.5f - slack) <= floorf(rect->bottom - 1.5f + slack);
+}
+
 #endif

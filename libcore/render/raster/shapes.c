@@ -10,7 +10,8 @@
 
 /* ---- levels of detail ---- */
 
-static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, uint32_t level, bool seen, MesoArena *arena,
+/* `scale`: scene units of one unit of the profiles, where they are largest. */
+static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, float scale, uint32_t level, bool seen, MesoArena *arena,
                                MesoError *error)
 {
     const MesoScene *scene = shapes->scene;
@@ -22,7 +23,6 @@ static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, uint32_t level, b
     if (!kept)
         return MESO_ERR_MEMORY;
     uint32_t *joints = kept + kind->column_count;
-    float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * shapes->details[k].stretch.most;
     tolerance = scale > 0 ? tolerance / scale : 0;
     out->count = (seen ? meso_detail_columns : meso_detail_silhouette)(columns, kind->column_count, tolerance, kept);
     out->kept = kept;
@@ -69,8 +69,10 @@ static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *e
     for (uint32_t k = 0; k < scene->kind_count && !status; k++) {
         shapes->details[k] = meso_kind_detail(scene, &scene->kinds[k]);
         shapes->closed[k] = is_closed(scene, &scene->kinds[k]);
+        float scale = scene->section_scale * meso_scene_kind_size(scene, &scene->kinds[k]) *
+                      shapes->details[k].stretch.most;
         for (uint32_t i = 0; i < 2 * MESO_SHAPE_LEVELS && !status; i++)
-            status = make_columns(shapes, k, i / 2, i & 1, arena, error);
+            status = make_columns(shapes, k, scale, i / 2, i & 1, arena, error);
     }
     return status;
 }
