@@ -236,6 +236,35 @@ static void test_frames(void)
     }
 }
 
+/* Bare vertices have the places of whole ones: turned, of two sizes, bent into a cage or not. */
+static void test_bare(void)
+{
+    static MesoMeshVertex bare[MOST_COLUMNS * MOST_RINGS];
+    MesoCage cage = {{{1, 0, 0}, {1.2f, 1, 0.1f}, {0, 1.5f, 0}, {0, 0, 0.2f}},
+                     {{0, 0, 1}, {0, 0.1f, 1}, {0, 0, 1}, {0, 0, 1}}, 0, 1};
+    uint32_t kept[64];
+    MesoVec2 box[64];
+    uint32_t count = make_box(box, 16, 0.2f, 0.1f);
+    make_tube(box, count, count / 2, 33);
+    tube.scene.cages = &cage;
+    tube.scene.cage_count = 1;
+    tube.sweep.size[1] = 1.5f;
+    for (uint32_t c = 0; c < count; c++)
+        kept[c] = c;
+    for (uint32_t i = 0; i < 4; i++) {
+        tube.kind.turn = i & 1 ? (float)MESO_PI : 0;
+        tube.scene.deform = i & 2 ? MESO_SWEEP_SHAPE : MESO_SWEEP_CURVES;
+        MesoSweepGrid grid = {.columns = kept, .column_count = count, .ring_count = 9};
+        meso_sweep_grid(&tube.scene, &tube.kind, &tube.sweep, &grid, tube.vertices);
+        grid.bare = true;
+        meso_sweep_grid(&tube.scene, &tube.kind, &tube.sweep, &grid, bare);
+        for (uint32_t v = 0; v < count * 9; v++) {
+            MesoVec3 a = bare[v].position, b = tube.vertices[v].position;
+            CHECK(a.x == b.x && a.y == b.y && a.z == b.z);
+        }
+    }
+}
+
 int main(void)
 {
     test_straight();
@@ -244,5 +273,6 @@ int main(void)
     test_middle();
     test_normals();
     test_frames();
+    test_bare();
     return 0;
 }

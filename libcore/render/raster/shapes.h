@@ -68,8 +68,8 @@ typedef enum MesoShapeUse {
 } MesoShapeUse;
 
 /*
- * Makes a shape within `tolerance` of its own surface (0: all of it): the same triangles to be seen and to be looked at.
- * The mesh begins zeroed, and is used again for the next; its arrays grow by realloc(). False where memory is out.
+ * Makes a shape within `tolerance` of its own surface (0: all of it): the same triangles to be seen and to be looked
+ * at. The mesh begins zeroed, and is used again for the next; its arrays grow by realloc(). False where memory is out.
  */
 bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
 void meso_shape_mesh_release(MesoShapeMesh *mesh);
