@@ -126,7 +126,8 @@ static void report_image(MesoTool *tool, const MesoImage *image, const MesoScene
     json_object_set_new(report, "camera",
                         json_pack("{s:o, s:o, s:o, s:f}", "eye", point_json(camera->eye), "target",
                                   point_json(camera->target), "up", point_json(camera->up),
-                                  "fov_degrees", (double)camera->fov_degrees));
+                                  camera->height > 0 ? "ortho_height" : "fov_degrees",
+                                  (double)(camera->height > 0 ? camera->height : camera->fov_degrees)));
     if (covered == 0)
         meso_tool_say(tool, "warning: nothing of the model is on the image");
 }

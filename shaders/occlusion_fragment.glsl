@@ -13,6 +13,8 @@ layout(location = 5) uniform float radius_pixels;   // most
 layout(location = 6) uniform ivec2 origin;          // of the target in the image
 layout(location = 7) uniform int sample_count;      // a uniform, so that the loop is not unrolled
 
+layout(location = 14) uniform vec4 ray_axis;        // of a parallel view, whose rays begin at depth 0, and 1; or 0
+
 layout(location = 0) out float openness;
 
 const float GOLDEN_ANGLE = 2.39996323;
@@ -21,7 +23,8 @@ const float EMPTY = 1e30;
 
 vec3 position_at(ivec2 pixel, float depth)
 {
-    return depth * (ray_origin + (float(pixel.x) + 0.5) * ray_right + (float(pixel.y) + 0.5) * ray_down);
+    vec3 ray = ray_origin + (float(pixel.x) + 0.5) * ray_right + (float(pixel.y) + 0.5) * ray_down;
+    return ray_axis.w > 0.0 ? ray + depth * ray_axis.xyz : depth * ray;
 }
 
 void main()
@@ -35,13 +38,14 @@ void main()
 
     vec3 center = position_at(pixel, depth);
     vec3 normal = texelFetch(normal_map, pixel, 0).xyz;
-    float reach = min(radius * pixels_at_one / depth, radius_pixels);
+    float pixel_depth = ray_axis.w > 0.0 ? 1.0 : depth;
+    float reach = min(radius * pixels_at_one / pixel_depth, radius_pixels);
     if (reach < 1.0)
         return;
     // Each pixel of a 4 x 4 block turns the spiral by another sixteenth; the blur takes the block's mean.
     ivec2 place = (pixel + origin) & 3;
     float turn = float((place.x * 5 + place.y * 11) & 15) * (6.2831853 / 16.0);
-    float bias = 1.5 * depth / pixels_at_one;
+    float bias = 1.5 * pixel_depth / pixels_at_one;
 
     float sum = 0.0;
     for (int i = 0; i < sample_count; i++) {

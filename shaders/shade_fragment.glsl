@@ -23,11 +23,12 @@ layout(location = 7) uniform vec3 to_key;
 layout(location = 8) uniform vec3 to_rim;
 layout(location = 9) uniform vec3 sky_up;
 layout(location = 10) uniform float shadow_texel;   // scene units
-layout(location = 11) uniform float near_depth;
+layout(location = 11) uniform float end_depth;      // near, or far of a parallel view
 // Loops end at uniforms: unrolled, they would take a driver that compiles for
 // the CPU longer to compile than to run.
 layout(location = 12) uniform int sample_count;
 layout(location = 13) uniform int shadow_side;      // taps a side
+layout(location = 14) uniform vec4 ray_axis;        // of a parallel view, whose rays begin at depth 0, and 1; or 0
 
 layout(location = 0) out vec4 out_color;
 
@@ -119,7 +120,7 @@ vec3 ambient(Surface s, vec3 to_eye, vec3 f0, float openness)
 
 vec3 shade(Surface s, float openness)
 {
-    vec3 to_eye = -normalize(s.position);
+    vec3 to_eye = ray_axis.w > 0.0 ? -ray_axis.xyz : -normalize(s.position);
     vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
     vec3 light = ambient(s, to_eye, f0, openness);
     vec3 key = direct(s, to_eye, to_key, f0);
@@ -143,11 +144,11 @@ ivec2 place_of(ivec2 pixel, int i)
     return 2 * pixel + ivec2(i & 1, i >> 1);
 }
 
-// Depth is reversed and infinite: z = near / depth.
+// Depth is reversed and infinite: z = near / depth. Of a parallel view z = 1 - depth / far.
 float depth_of(ivec2 pixel, int i)
 {
     float z = texelFetch(z_samples, place_of(pixel, i), 0).r;
-    return z > 0.0 ? near_depth / z : 2.0 * EMPTY;
+    return z <= 0.0 ? 2.0 * EMPTY : ray_axis.w > 0.0 ? (1.0 - z) * end_depth : end_depth / z;
 }
 
 void fetch(ivec2 pixel, int i, inout Surface s)
@@ -191,7 +192,7 @@ void main()
             continue;
         }
         fetch(pixel, i, s);
-        s.position = s.depth * ray;
+        s.position = ray_axis.w > 0.0 ? ray + s.depth * ray_axis.xyz : s.depth * ray;
         s.roughness = clamp(s.roughness, 0.08, 1.0);
 
         int like = -1;

@@ -8,10 +8,12 @@
 typedef struct MesoCameraOptions {
     uint32_t size[2];           /* width, height */
     MesoCamera camera;
-    bool eye_given, target_given;
+    float focal, sensor;        /* mm; the sensor is as wide as the picture */
+    float ortho;                /* scene units; 0: what the object takes */
+    bool eye_given, target_given, fov_given, ortho_given, focal_given, sensor_given;
 } MesoCameraOptions;
 
-#define MESO_CAMERA_DEFAULTS {{1280, 720}, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30}, false, false}
+#define MESO_CAMERA_DEFAULTS {.size = {1280, 720}, .camera = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30, 0}, .sensor = 36, .ortho = -1}
 
 #define MESO_CAMERA_OPTIONS(c)                                                                \
     MESO_GROUP("Camera"), \
@@ -22,13 +24,23 @@ typedef struct MesoCameraOptions {
                &(c).camera.target, .given = &(c).target_given, .more = MESO_OPTION_OVERRIDES), \
     MESO_POINT(0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", &(c).camera.up), \
     MESO_NUMBER(0, "fov", "DEGREES", "vertical field of view (default 30)", &(c).camera.fov_degrees, 0.1, \
-                170)
+                170, .given = &(c).fov_given), \
+    MESO_NUMBER(0, "focal", "MM", "focal length of the lens, in place of --fov", &(c).focal, 0.01, 1e5, \
+                .given = &(c).focal_given), \
+    MESO_NUMBER(0, "sensor", "MM", "width of the sensor behind it (default 36)", &(c).sensor, 0.01, 1e5, \
+                .given = &(c).sensor_given), \
+    MESO_NUMBER(0, "ortho", "HEIGHT", "orthographic, the image so many units high (0: as the object fits)", \
+                &(c).ortho, 0, 1e18, .given = &(c).ortho_given)
+
+/* Whether the options fit each other; turns a lens into a field of view. MESO_ERR_USAGE alone. */
+MesoStatus meso_camera_options_check(MesoCameraOptions *options, MesoError *error);
 
 /*
  * The camera that the options ask for. What is not given frames `scene`:
  * without an eye and a target all of it; with an eye alone the target is the
  * middle of the box; with a target alone the eye looks at it as it would at
- * the whole.
+ * the whole. An orthographic view without a height is as high as the whole
+ * takes.
  */
 MesoCamera meso_camera_options_resolve(const MesoCameraOptions *options, const MesoScene *scene);
 

@@ -12,7 +12,8 @@ static MesoStatus read_keys(MesoRenderFrames *frames, MesoRenderArguments *a, Me
     MesoStatus status = meso_tool_open_input(&a->tool, &input, a->keys, "cameras");
     if (status)
         return status;
-    status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, error);
+    float aspect = (float)a->camera.size[0] / (float)a->camera.size[1];
+    status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, aspect, error);
     meso_input_close(&input);
     return status;
 }
@@ -58,7 +59,11 @@ MesoStatus meso_render_frames_init(MesoRenderFrames *frames, MesoRenderArguments
     if (a->frames && !a->turntable && !a->keys && !frames->many_models)
         return meso_fail(error, MESO_ERR_USAGE, "--frames is for --turntable, --keys or a MODEL with a frame's number in its "
                          "name, as in model-%%04d.meso: here all frames are the same");
-    MesoStatus status = check_names(frames, error);
+    if (a->keys && a->camera.ortho_given && a->camera.ortho == 0)
+        return meso_fail(error, MESO_ERR_USAGE, "--ortho 0 fits the object, and --keys says where the camera is");
+    MesoStatus status = meso_camera_options_check(&a->camera, error);
+    if (!status)
+        status = check_names(frames, error);
     if (!status && a->keys)
         status = read_keys(frames, a, error);
     return status || !frames->numbered ? status : list_frames(frames, error);

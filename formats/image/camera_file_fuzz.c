@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const MesoCamera usual = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30};
+    const MesoCamera usual = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30, 0};
     MesoCameraKey *keys = NULL;
     MesoArena arena;
     MesoInput input;
@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint32_t count = 0;
     meso_arena_init(&arena);
     meso_input_wrap(&input, "fuzz", data, size);
-    if (meso_camera_read(&keys, &count, &arena, &input, &usual, &error) == MESO_OK) {
+    if (meso_camera_read(&keys, &count, &arena, &input, &usual, 1.5f, &error) == MESO_OK) {
         if (count == 0)
             abort();
         for (uint32_t i = 0; i < count; i++)

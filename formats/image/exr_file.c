@@ -198,7 +198,7 @@ static exr_result_t set_camera(Writer *writer)
     exr_result_t result = set_matrix(writer->context, "worldToCamera", &camera);
     if (!result)
         result = set_matrix(writer->context, "worldToNDC", &ndc);
-    return result ? result : exr_set_screen_window_width(writer->context, 0, 2 * view.tan_half_fov *
+    return result ? result : exr_set_screen_window_width(writer->context, 0, 2 * view.half_height *
                                                          (float)m->width / (float)m->height);
 }
 

@@ -51,7 +51,7 @@ static void make_picture(void)
         picture.slot[i] = meso_random_below(&random, UINT32_MAX);
         picture.tile[i] = meso_random_below(&random, 100);
     }
-    picture.image = (MesoImage){.width = WIDTH, .height = HEIGHT, .camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30},
+    picture.image = (MesoImage){.width = WIDTH, .height = HEIGHT, .camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30, 0},
                                 .color = picture.color, .depth = picture.depth, .normal = picture.normal,
                                 .albedo = picture.albedo, .channel_count = 2,
                                 .channels = {{"slot", UINT32_MAX, NULL}, {"tile", 2, tile_names}},
@@ -146,6 +146,27 @@ static void check_ndc(exr_const_context_t file)
     check_at(&ndc, right, -top, 1, 1);
     CHECK(exr_get_screen_window_width(file, 0, &width) == EXR_ERR_SUCCESS);
     CHECK(fabsf(width - 2 * right / 5) < 1e-6f);
+}
+
+/* Seen orthographically, 4 high: the same in any depth. */
+static void test_parallel(const char *path)
+{
+    exr_context_t file;
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_attr_m44f_t ndc;
+    MesoError error;
+    float width, right = 2.f * WIDTH / HEIGHT;
+    picture.image.camera.height = 4;
+    CHECK(write_exr(path, 0, &error) == MESO_OK);
+    picture.image.camera.height = 0;
+    CHECK(exr_start_read(&file, path, &setup) == EXR_ERR_SUCCESS);
+    CHECK(exr_attr_get_m44f(file, 0, "worldToNDC", &ndc) == EXR_ERR_SUCCESS);
+    check_at(&ndc, 0, 0, 0.5, 0.5);
+    check_at(&ndc, -right, 2, 0, 0);
+    check_at(&ndc, right, -2, 1, 1);
+    CHECK(ndc.m[8] == 0 && ndc.m[9] == 0 && ndc.m[11] == 0 && ndc.m[15] == 1);
+    CHECK(exr_get_screen_window_width(file, 0, &width) == EXR_ERR_SUCCESS && fabsf(width - 2 * right) < 1e-6f);
+    exr_finish(&file);
 }
 
 static void test_exr_values(const char *path)
@@ -252,6 +273,7 @@ int main(void)
     snprintf(other, sizeof other, "%s/b.exr", folder);
     make_picture();
     test_exr_values(path);
+    test_parallel(path);
     test_same_bytes(path, other);
     test_full_disk(path, other);
     test_png(path);

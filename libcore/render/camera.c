@@ -2,7 +2,7 @@
  * Framing. Seen along a fixed direction, the eye (x, y, z) in the axes of the
  * view must satisfy |p.x - x| <= t (z - p.z) for every point p of the object,
  * and the same for y: with A = max(p.x + t p.z) and B = max(t p.z - p.x), the
- * nearest such eye has z = (A + B) / (2 t) and x = (A - B) / 2.
+ * nearest such eye has z = (A + B) / (2 t) and x = (A - B) / 2. Seen orthographically t is 0, and A + B the width.
  */
 #include "libcore/render/camera.h"
 #include "libcore/render/projection.h"
@@ -41,14 +41,14 @@ static MesoVec3 towards_eye(MesoVec3 up)
 /* `low` and `high`: the box that the object lies in, to be precise where it is far away. */
 static Frame begin_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
 {
-    MesoCamera camera = {towards_eye(up), {0, 0, 0}, up, fov_degrees};
+    MesoCamera camera = {towards_eye(up), {0, 0, 0}, up, fov_degrees, 0};
     MesoView view;
     if (meso_view_build(&view, &camera, NULL)) {
         camera.up = (MesoVec3){0, 1, 0};
         camera.fov_degrees = 30;
         meso_view_build(&view, &camera, NULL);
     }
-    float t = view.tan_half_fov * (1 - 2 * MARGIN);
+    float t = view.half_height * (1 - 2 * MARGIN);
     float none = -INFINITY;
     return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t, up,
                    meso_box_anchor(low, high), none, none, none, none, INFINITY, none};
@@ -91,7 +91,7 @@ static MesoCamera end_frame(const Frame *frame, float fov_degrees)
     MesoVec3 axis = meso_vec3_mad(meso_vec3_scale(frame->right, x), y, frame->up);
     MesoVec3 eye = meso_vec3_mad(axis, z, frame->back), target = meso_vec3_mad(axis, middle, frame->back);
     return (MesoCamera){meso_vec3_add(frame->anchor, eye), meso_vec3_add(frame->anchor, target),
-                        frame->world_up, fov_degrees};
+                        frame->world_up, fov_degrees, 0};
 }
 
 MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
@@ -138,12 +138,41 @@ static void add_placed(Frame *frame, const MesoScene *scene, const MesoPlacedBod
         add_ball(frame, meso_placed_point(scene, placed, body->positions[v]), 0);
 }
 
+static void add_scene(Frame *frame, const MesoScene *scene)
+{
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        add_kind(frame, scene, &scene->kinds[k]);
+    for (uint32_t i = 0; i < scene->placed_count; i++)
+        add_placed(frame, scene, &scene->placed[i]);
+}
+
 MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fov_degrees, float aspect)
 {
     Frame frame = begin_frame(scene->box.low, scene->box.high, up, fov_degrees, aspect);
-    for (uint32_t k = 0; k < scene->kind_count; k++)
-        add_kind(&frame, scene, &scene->kinds[k]);
-    for (uint32_t i = 0; i < scene->placed_count; i++)
-        add_placed(&frame, scene, &scene->placed[i]);
+    add_scene(&frame, scene);
     return end_frame(&frame, fov_degrees);
+}
+
+MesoCamera meso_camera_frame_scene_parallel(const MesoScene *scene, MesoVec3 up, float aspect)
+{
+    const float usual_fov = 30;
+    Frame frame = begin_frame(scene->box.low, scene->box.high, up, usual_fov, aspect);
+    frame.tan_x = frame.tan_y = 0;
+    add_scene(&frame, scene);
+    if (!(frame.nearest >= frame.deepest))      /* nothing there */
+        add_ball(&frame, frame.anchor, 1);
+    float width = frame.right_most + frame.left_most, height = frame.high_most + frame.low_most;
+    float size = fmaxf(fmaxf(width, height), frame.nearest - frame.deepest);
+    size = size > 0 ? size : 1;
+    MesoVec3 middle = meso_vec3_mad(meso_vec3_scale(frame.right, 0.5f * (frame.right_most - frame.left_most)),
+                                    0.5f * (frame.high_most - frame.low_most), frame.up);
+    middle = meso_vec3_mad(middle, 0.5f * (frame.nearest + frame.deepest), frame.back);
+    MesoVec3 target = meso_vec3_add(frame.anchor, middle);
+    return (MesoCamera){meso_vec3_mad(target, 2 * size, frame.back), target, up, usual_fov,
+                        fmaxf(fmaxf(height, width / aspect), 1e-6f * size) / (1 - 2 * MARGIN)};
+}
+
+float meso_camera_fov(float focal, float sensor, float aspect)
+{
+    return 2 * atanf(0.5f * sensor / (aspect * focal)) * (float)(180 / 3.14159265358979323846);
 }

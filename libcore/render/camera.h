@@ -15,4 +15,10 @@ MesoCamera meso_camera_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov
 /* The same, around the sweeps, cages and bodies themselves. O(sweeps + vertices). */
 MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fov_degrees, float aspect);
 
+/* The same, orthographic and as high as it takes. */
+MesoCamera meso_camera_frame_scene_parallel(const MesoScene *scene, MesoVec3 up, float aspect);
+
+/* The vertical field of view, in degrees, of a lens before a sensor as wide as the picture, both in mm. */
+float meso_camera_fov(float focal, float sensor, float aspect);
+
 #endif

@@ -1,18 +1,18 @@
 #include "libcore/render/camera_path.h"
 
-enum { NUMBERS = 10 };
+enum { NUMBERS = 11 };
 
 static void unpack(const MesoCamera *c, float out[NUMBERS])
 {
     const float all[NUMBERS] = {c->eye.x, c->eye.y, c->eye.z, c->target.x, c->target.y, c->target.z,
-                                c->up.x, c->up.y, c->up.z, c->fov_degrees};
+                                c->up.x, c->up.y, c->up.z, c->fov_degrees, c->height};
     for (int i = 0; i < NUMBERS; i++)
         out[i] = all[i];
 }
 
 static MesoCamera pack(const float n[NUMBERS])
 {
-    return (MesoCamera){{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}, n[9]};
+    return (MesoCamera){{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}, n[9], n[10]};
 }
 
 /* Change a frame at key i; none at the ends of a path of two. */
@@ -50,6 +50,8 @@ MesoCamera meso_camera_at(const MesoCameraKey *keys, uint32_t count, int32_t fra
     for (int k = 0; k < NUMBERS; k++)       /* Hermite's form */
         out[k] = (2 * t3 - 3 * t2 + 1) * from[k] + (t3 - 2 * t2 + t) * length * from_slope[k] +
                  (3 * t2 - 2 * t3) * to[k] + (t3 - t2) * length * to_slope[k];
+    /* a height that a curve takes to nothing would be another sort of view */
+    out[NUMBERS - 1] = fmaxf(out[NUMBERS - 1], 0.5f * fminf(from[NUMBERS - 1], to[NUMBERS - 1]));
     return pack(out);
 }
 

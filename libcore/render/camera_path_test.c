@@ -14,7 +14,7 @@ static void test_keys(void)
 {
     MesoCameraKey keys[4];
     for (int i = 0; i < 4; i++)
-        keys[i] = (MesoCameraKey){10 * i, {{(float)i, 2 * (float)i, 5}, {0, (float)i, 0}, {0, 1, 0}, 30 + (float)i}};
+        keys[i] = (MesoCameraKey){10 * i, {{(float)i, 2 * (float)i, 5}, {0, (float)i, 0}, {0, 1, 0}, 30 + (float)i, 0}};
     for (int32_t frame = -5; frame <= 40; frame++) {     /* even keys on a line: even steps on it */
         MesoCamera c = meso_camera_at(keys, 4, frame);
         float at = frame < 0 ? 0 : frame > 30 ? 3 : (float)frame / 10;
@@ -35,7 +35,7 @@ static void test_keys(void)
 
 static void test_turns(void)
 {
-    const MesoCamera camera = {{3, 1, 1}, {1, 0, 1}, {0, 2, 0}, 30};
+    const MesoCamera camera = {{3, 1, 1}, {1, 0, 1}, {0, 2, 0}, 30, 0};
     const MesoVec3 eyes[4] = {{3, 1, 1}, {1, 1, -1}, {-1, 1, 1}, {1, 1, 3}};
     for (int i = -4; i < 8; i++) {
         MesoCamera turned = meso_camera_turn(&camera, (float)i / 4);

@@ -4,6 +4,7 @@
 #include "libcore/base/check.h"
 #include "libcore/render/camera.h"
 #include "libcore/render/projection.h"
+#include "libcore/scene/placed.h"
 
 /* Position on the picture, -1 to 1 on both axes, y down. */
 static MesoVec2 project(const MesoMatrix *m, MesoVec3 p)
@@ -63,7 +64,7 @@ static void test_far(MesoVec3 place)
         MesoVec3 corner = meso_box_corner(far_low, far_high, i);
         MesoVec3 to_corner = meso_vec3_sub(corner, far.eye);
         MesoVec2 p = project(&m, meso_vec3_sub(corner, anchor));
-        float depth = meso_vec3_dot(to_corner, view.forward) * view.tan_half_fov;
+        float depth = meso_vec3_dot(to_corner, view.forward) * view.half_height;
         CHECK(fabsf(p.x - meso_vec3_dot(to_corner, view.right) / (1.5f * depth)) < 1e-5f);
         CHECK(fabsf(p.y + meso_vec3_dot(to_corner, view.up) / depth) < 1e-5f);
         CHECK(fabsf(p.x) < 0.95f && fabsf(p.y) < 0.95f);
@@ -95,25 +96,62 @@ static void test_degenerate(void)
     camera = meso_camera_frame(none, nothing, (MesoVec3){0, 0, 0}, 30, 1);
     CHECK(meso_vec3_finite(camera.eye) && meso_view_build(&view, &camera, NULL) == MESO_OK);
 
-    camera = (MesoCamera){{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 30};     /* up along the view */
+    camera = (MesoCamera){{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 30, 0};     /* up along the view */
     CHECK(meso_view_build(&view, &camera, NULL) == MESO_OK);
     CHECK(fabsf(meso_vec3_length(view.right) - 1) < 1e-6f && fabsf(meso_vec3_length(view.up) - 1) < 1e-6f);
     camera.fov_degrees = 180;
     CHECK(meso_view_build(&view, &camera, NULL) == MESO_ERR_USAGE);
-    camera = (MesoCamera){{0, 5, 0}, {0, 5, 0}, {0, 1, 0}, 30};
+    camera = (MesoCamera){{0, 5, 0}, {0, 5, 0}, {0, 1, 0}, 30, 0};
     CHECK(meso_view_build(&view, &camera, NULL) == MESO_ERR_USAGE);
 }
 
 /* The pixel of a point is the same through every window. */
 static void test_windows(void)
 {
-    MesoCamera camera = {{1, 2, 8}, {0, 0.2f, 0}, {0, 1, 0}, 40};
+    MesoCamera camera = {{1, 2, 8}, {0, 0.2f, 0}, {0, 1, 0}, 40, 0};
     MesoVec3 p = {0.7f, -0.4f, 0.3f};
     MesoMatrix whole = matrix_of(&camera, 640, 360, (MesoWindow){0, 0, 640, 360});
     MesoMatrix part = matrix_of(&camera, 640, 360, (MesoWindow){200, 100, 300, 200});
     MesoVec2 a = project(&whole, p), b = project(&part, p);
     CHECK(fabsf((a.x + 1) * 320 - (200 + (b.x + 1) * 150)) < 1e-3f);
     CHECK(fabsf((a.y + 1) * 180 - (100 + (b.y + 1) * 100)) < 1e-3f);
+}
+
+/* As perspective, and the box fills 0.9 of the height or the width, with all of it before the eye. */
+static void test_parallel(MesoVec3 low, MesoVec3 high, MesoVec3 up, uint32_t width, uint32_t height)
+{
+    MesoScene scene = {.box = {low, high}};
+    MesoBody body = {.vertex_count = 8};
+    MesoVec3 corners[8];
+    for (uint32_t i = 0; i < 8; i++)
+        corners[i] = meso_box_corner(low, high, i);
+    const MesoPlacedBody placed = {.place = MESO_PLACED_HERE};
+    body.positions = corners;
+    scene.bodies = &body;
+    scene.placed = (MesoPlacedBody *)&placed;
+    scene.body_count = scene.placed_count = 1;
+    MesoCamera camera = meso_camera_frame_scene_parallel(&scene, up, (float)width / (float)height);
+    MesoView view;
+    CHECK(camera.height > 0 && meso_view_build(&view, &camera, NULL) == MESO_OK && view.parallel);
+    float far = 4 * meso_vec3_length(meso_vec3_sub(high, low)), most = 0;
+    view.anchor = meso_box_anchor(low, high);
+    MesoMatrix m = meso_view_clip_from_world(&view, far, width, height, (MesoWindow){0, 0, width, height});
+    for (uint32_t i = 0; i < 8; i++) {
+        MesoVec3 corner = meso_vec3_sub(corners[i], view.anchor), from = meso_vec3_sub(corners[i], view.eye);
+        MesoVec2 p = project(&m, corner);
+        float z = m.m[2] * corner.x + m.m[6] * corner.y + m.m[10] * corner.z + m.m[14];
+        CHECK(fabsf(p.y + meso_vec3_dot(from, view.up) / (0.5f * camera.height)) < 1e-3f);
+        CHECK(fabsf(p.x - meso_vec3_dot(from, view.right) / (0.5f * camera.height * (float)width / (float)height)) < 1e-3f);
+        CHECK(fabsf(z - 1 + meso_vec3_dot(from, view.forward) / far) < 1e-3f && z > 0 && z < 1);
+        most = fmaxf(most, fmaxf(fabsf(p.x), fabsf(p.y)));
+    }
+    CHECK(fabsf(most - 0.9f) < 1e-2f);
+}
+
+static void test_lenses(void)
+{
+    CHECK(fabsf(meso_camera_fov(50, 36, 1.5f) - 26.991f) < 1e-2f);     /* 35 mm film: 24 mm high */
+    CHECK(fabsf(meso_camera_fov(12, 24, 1) - 90) < 1e-4f);
 }
 
 static void test_light(void)
@@ -143,6 +181,10 @@ int main(void)
     test_anchor();
     test_degenerate();
     test_windows();
+    test_parallel((MesoVec3){-1, -1, -1}, (MesoVec3){1, 1, 1}, y, 1280, 720);
+    test_parallel((MesoVec3){10, 0, 5}, (MesoVec3){12, 9, 6}, y, 720, 1280);
+    test_parallel((MesoVec3){1e5f, -2e5f, 0}, (MesoVec3){1e5f + 4, -2e5f + 3, 2}, z, 500, 500);
+    test_lenses();
     test_light();
     return 0;
 }

@@ -66,7 +66,9 @@ static float finest_pixel(const MesoScene *scene, const MesoSweptKind *kind,
             nearest = fminf(nearest, meso_vec3_dot(meso_vec3_sub(hull.points[k], view->eye), view->forward) -
                                      hull.reach);
     }
-    return nearest > 0 && isfinite(nearest) ? nearest * 2 * view->tan_half_fov / (float)height : 0;
+    if (view->parallel)
+        return 2 * view->half_height / (float)height;
+    return nearest > 0 && isfinite(nearest) ? nearest * 2 * view->half_height / (float)height : 0;
 }
 
 static void count_pattern(Plan *plan, const MesoScene *scene, uint32_t k)

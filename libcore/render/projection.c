@@ -27,12 +27,16 @@ MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *
     if (!(camera->fov_degrees > 0 && camera->fov_degrees < 180))
         return meso_fail(error, MESO_ERR_USAGE, "field of view of %g degrees is not between 0 and 180",
                          (double)camera->fov_degrees);
+    if (!(camera->height >= 0 && isfinite(camera->height)))
+        return meso_fail(error, MESO_ERR_USAGE, "an orthographic view cannot be %g high", (double)camera->height);
 
     view->eye = camera->eye;
     view->anchor = (MesoVec3){0, 0, 0};
     view->forward = meso_vec3_scale(forward, 1 / distance);
     build_basis(view->forward, camera->up, &view->right, &view->up);
-    view->tan_half_fov = tanf(camera->fov_degrees * (float)(3.14159265358979323846 / 360));
+    view->parallel = camera->height > 0;
+    view->half_height = view->parallel ? 0.5f * camera->height
+                                       : tanf(camera->fov_degrees * (float)(3.14159265358979323846 / 360));
     return MESO_OK;
 }
 
@@ -62,24 +66,31 @@ static void set_row(MesoMatrix *matrix, uint32_t row, MesoVec3 axis, float offse
 }
 
 /* Rows x and y, on NDC of the whole image, become those of the window, by X' = s X + o w. */
-MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uint32_t width,
+MesoMatrix meso_view_clip_from_world(const MesoView *view, float end_depth, uint32_t width,
                                      uint32_t height, MesoWindow window)
 {
     float full_x = (float)width, full_y = (float)height;
     float part_x = (float)window.width, part_y = (float)window.height;
     float scale_x = full_x / part_x, offset_x = (full_x - 2 * (float)window.x) / part_x - 1;
     float scale_y = -full_y / part_y, offset_y = (full_y - 2 * (float)window.y) / part_y - 1;
-    float focal_y = 1 / view->tan_half_fov, focal_x = focal_y * full_y / full_x;
+    float focal_y = 1 / view->half_height, focal_x = focal_y * full_y / full_x;
 
-    MesoVec3 x = meso_vec3_add(meso_vec3_scale(view->right, focal_x * scale_x),
-                               meso_vec3_scale(view->forward, offset_x));
-    MesoVec3 y = meso_vec3_add(meso_vec3_scale(view->up, focal_y * scale_y),
-                               meso_vec3_scale(view->forward, offset_y));
+    MesoVec3 x = meso_vec3_scale(view->right, focal_x * scale_x), y = meso_vec3_scale(view->up, focal_y * scale_y);
     MesoVec3 eye = meso_vec3_sub(view->eye, view->anchor);
     MesoMatrix matrix;
+    if (view->parallel) {
+        MesoVec3 z = meso_vec3_scale(view->forward, -1 / end_depth);
+        set_row(&matrix, 0, x, offset_x - meso_vec3_dot(x, eye));
+        set_row(&matrix, 1, y, offset_y - meso_vec3_dot(y, eye));
+        set_row(&matrix, 2, z, 1 - meso_vec3_dot(z, eye));
+        set_row(&matrix, 3, (MesoVec3){0, 0, 0}, 1);
+        return matrix;
+    }
+    x = meso_vec3_add(x, meso_vec3_scale(view->forward, offset_x));
+    y = meso_vec3_add(y, meso_vec3_scale(view->forward, offset_y));
     set_row(&matrix, 0, x, -meso_vec3_dot(x, eye));
     set_row(&matrix, 1, y, -meso_vec3_dot(y, eye));
-    set_row(&matrix, 2, (MesoVec3){0, 0, 0}, near_depth);
+    set_row(&matrix, 2, (MesoVec3){0, 0, 0}, end_depth);
     set_row(&matrix, 3, view->forward, -meso_vec3_dot(view->forward, eye));
     return matrix;
 }

@@ -7,12 +7,15 @@
 #ifndef MESO_PROJECTION_H
 #define MESO_PROJECTION_H
 
+#include <stdbool.h>
+
 #include "libcore/base/error.h"
 #include "libcore/math/box.h"
 
 typedef struct MesoCamera {
     MesoVec3 eye, target, up;
     float fov_degrees;      /* vertical */
+    float height;           /* of an orthographic view, in scene units; 0: perspective */
 } MesoCamera;
 
 /* Column-major, as GL takes it. */
@@ -27,7 +30,8 @@ typedef struct MesoMatrix {
 typedef struct MesoView {
     MesoVec3 eye, right, up, forward;
     MesoVec3 anchor;        /* in the world, as the eye; 0 unless set */
-    float tan_half_fov;     /* of the vertical field of view */
+    bool parallel;          /* orthographic: shows what is before the eye's plane */
+    float half_height;      /* of the picture: at depth 1, or anywhere where it is parallel */
 } MesoView;
 
 /* A rectangle of the image's pixels, rows from the top. */
@@ -38,7 +42,7 @@ typedef struct MesoWindow {
 /*
  * `up` is turned perpendicular to the view; where it is parallel to it,
  * another axis takes its place. MESO_ERR_USAGE for numbers that are not
- * finite, an eye at its target, or a field of view outside (0, 180).
+ * finite, an eye at its target, a field of view outside (0, 180), or a height below 0.
  */
 MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *error);
 
@@ -50,8 +54,11 @@ MesoStatus meso_view_build(MesoView *view, const MesoCamera *camera, MesoError *
  */
 MesoVec3 meso_box_anchor(MesoVec3 low, MesoVec3 high);
 
-/* Relative to the anchor, to clip space of `window` in an image of `width` x `height`; row 0 of GL is the top. */
-MesoMatrix meso_view_clip_from_world(const MesoView *view, float near_depth, uint32_t width,
+/*
+ * Relative to the anchor, to clip space of `window` in an image of `width` x `height`; row 0 of GL is the top.
+ * `end_depth` is that of the near plane; of a parallel view that of the far one, where z is 0, and 1 at the eye.
+ */
+MesoMatrix meso_view_clip_from_world(const MesoView *view, float end_depth, uint32_t width,
                                      uint32_t height, MesoWindow window);
 
 /*

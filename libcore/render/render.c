@@ -17,9 +17,9 @@ enum { MAX_SIZE = 16384, WINDOW_SIZE = 2560, MIN_SHADOW = 1024, MAX_SHADOW = 409
 
 /* Uniforms by the locations that the shaders give them. */
 enum {
-    RAY_ORIGIN, RAY_RIGHT, RAY_DOWN,
+    RAY_ORIGIN, RAY_RIGHT, RAY_DOWN, RAY_AXIS = 14,
     OCCLUSION_RADIUS = 3, PIXELS_AT_ONE, RADIUS_PIXELS, TARGET_ORIGIN, OCCLUSION_COUNT,
-    LIGHT_FROM_EYE = 3, TO_KEY = 7, TO_RIM, SKY_UP, SHADOW_TEXEL, NEAR_DEPTH, SAMPLE_COUNT, SHADOW_SIDE
+    LIGHT_FROM_EYE = 3, TO_KEY = 7, TO_RIM, SKY_UP, SHADOW_TEXEL, END_DEPTH, SAMPLE_COUNT, SHADOW_SIDE
 };
 
 /* How far thinned geometry may lie from the kind's own, in pixels. */
@@ -44,7 +44,7 @@ typedef struct Renderer {
     MesoTargets targets;
     MesoMatrix light;
     MesoVec3 to_key, to_rim;
-    float near_depth, shadow_texel, occlusion_radius;
+    float end_depth, shadow_texel, occlusion_radius;
     uint32_t margin;            /* pixels around a window that its occlusion looks at */
 } Renderer;
 
@@ -123,9 +123,9 @@ static void measure(Renderer *r)
         nearest = fminf(nearest, depth);
         farthest = fmaxf(farthest, depth);
     }
-    r->near_depth = fmaxf(0.5f * nearest, 1e-5f * farthest);
-    if (!(r->near_depth > 0 && isfinite(r->near_depth)))
-        r->near_depth = 1e-3f;
+    r->end_depth = r->view.parallel ? 1.001f * farthest : fmaxf(0.5f * nearest, 1e-5f * farthest);
+    if (!(r->end_depth > 0 && isfinite(r->end_depth)))
+        r->end_depth = 1e-3f;
 
     r->to_key = in_view(&r->view, -0.55f, 0.8f, 0.7f);
     r->to_rim = in_view(&r->view, 0.75f, 0.35f, -0.55f);
@@ -183,15 +183,18 @@ static void draw_shadow(Renderer *r)
 static void set_rays(const Renderer *r, GLuint program, MesoWindow window)
 {
     const MesoView *view = &r->view;
-    float pixel = 2 * view->tan_half_fov / (float)r->options->height;
+    float pixel = 2 * view->half_height / (float)r->options->height;
     MesoVec3 right = meso_vec3_scale(view->right, pixel);
     MesoVec3 down = meso_vec3_scale(view->up, -pixel);
-    MesoVec3 origin = meso_vec3_mad(view->forward, (float)window.x - 0.5f * (float)r->options->width,
+    MesoVec3 middle = view->parallel ? (MesoVec3){0, 0, 0} : view->forward;
+    MesoVec3 axis = view->parallel ? view->forward : (MesoVec3){0, 0, 0};
+    MesoVec3 origin = meso_vec3_mad(middle, (float)window.x - 0.5f * (float)r->options->width,
                                     right);
     origin = meso_vec3_mad(origin, (float)window.y - 0.5f * (float)r->options->height, down);
     r->gl.ProgramUniform3f(program, RAY_ORIGIN, origin.x, origin.y, origin.z);
     r->gl.ProgramUniform3f(program, RAY_RIGHT, right.x, right.y, right.z);
     r->gl.ProgramUniform3f(program, RAY_DOWN, down.x, down.y, down.z);
+    r->gl.ProgramUniform4f(program, RAY_AXIS, axis.x, axis.y, axis.z, view->parallel ? 1 : 0);
 }
 
 static void draw_screen(const Renderer *r, GLuint frame, GLuint program)
@@ -209,7 +212,7 @@ static void draw_occlusion(const Renderer *r, MesoWindow window)
     set_rays(r, r->occlusion, window);
     gl->ProgramUniform1f(r->occlusion, OCCLUSION_RADIUS, r->occlusion_radius);
     gl->ProgramUniform1f(r->occlusion, PIXELS_AT_ONE,
-                         (float)r->options->height / (2 * r->view.tan_half_fov));
+                         (float)r->options->height / (2 * r->view.half_height));
     gl->ProgramUniform1f(r->occlusion, RADIUS_PIXELS, (float)(r->margin - 2));
     gl->ProgramUniform2i(r->occlusion, TARGET_ORIGIN, (GLint)window.x, (GLint)window.y);
     gl->ProgramUniform1i(r->occlusion, OCCLUSION_COUNT, OCCLUSION_SAMPLES);
@@ -237,7 +240,7 @@ static void draw_light(const Renderer *r, MesoWindow window)
     gl->ProgramUniform3f(r->shade, TO_RIM, r->to_rim.x, r->to_rim.y, r->to_rim.z);
     gl->ProgramUniform3f(r->shade, SKY_UP, r->view.up.x, r->view.up.y, r->view.up.z);
     gl->ProgramUniform1f(r->shade, SHADOW_TEXEL, r->shadow_texel);
-    gl->ProgramUniform1f(r->shade, NEAR_DEPTH, r->near_depth);
+    gl->ProgramUniform1f(r->shade, END_DEPTH, r->end_depth);
     gl->ProgramUniform1i(r->shade, SAMPLE_COUNT, (GLint)r->options->samples);
     gl->ProgramUniform1i(r->shade, SHADOW_SIDE, SHADOW_TAPS);
     if (targets->sample_side > 1) {
@@ -304,7 +307,7 @@ static MesoWindow surround(const Renderer *r, MesoWindow inner)
 static void draw_window(Renderer *r, MesoImage *image, MesoWindow inner)
 {
     MesoWindow outer = surround(r, inner);
-    MesoMatrix clip = meso_view_clip_from_world(&r->view, r->near_depth, r->options->width,
+    MesoMatrix clip = meso_view_clip_from_world(&r->view, r->end_depth, r->options->width,
                                                 r->options->height, outer);
     meso_draw_lists_select(&r->lists, &clip);
     meso_targets_begin_center(&r->targets);

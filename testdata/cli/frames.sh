@@ -57,7 +57,10 @@ refuse --keys vase.camera.json --eye 1,2,3 vase.meso -o x-%d.png
 refuse --turntable 4 --frames 1-x vase.meso -o x-%d.png
 refuse none-%04d.meso -o x-%d.png
 for keys in '[]' '[{"frame": 1}]' '[{"frame": 2, "eye": [0, 0, 1], "target": [0, 0, 0]}, {"frame": 2}]' \
-    '[{"frame": 1, "eye": [0, 0, 1], "target": [0, 0, 1]}]' '[{"frame": 1, "eye": [0, 0], "target": [0, 0, 1]}]'; do
+    '[{"frame": 1, "eye": [0, 0, 1], "target": [0, 0, 1]}]' '[{"frame": 1, "eye": [0, 0], "target": [0, 0, 1]}]' \
+    '[{"frame": 1, "eye": [0, 0, 1], "target": [0, 0, 0], "fov": 30, "ortho": 3}]' \
+    '[{"frame": 1, "eye": [0, 0, 1], "target": [0, 0, 0], "sensor": 24}]' \
+    '[{"frame": 1, "eye": [0, 0, 1], "target": [0, 0, 0], "ortho": 3}, {"frame": 2, "fov": 30}]'; do
     echo "{\"format\": \"meso-camera\", \"version\": 1, \"keys\": $keys}" >wrong.json
     refuse --keys wrong.json vase.meso -o x-%d.png
 done

@@ -20,10 +20,12 @@ typedef struct Picture {
     uint32_t varied;            /* channel whose things differ in colour, or MESO_NO_INDEX */
 } Picture;
 
-/* Half of the way to the nearest thing, but a share of the way to the farthest. */
+/* Half of the way to the nearest thing, but a share of the way to the farthest; the eye's plane of a parallel view. */
 static float near_depth_of(const MesoView *view, const MesoBox *box)
 {
     float nearest = INFINITY, farthest = 0;
+    if (view->parallel)
+        return 0;
     for (uint32_t i = 0; i < 8; i++) {
         MesoVec3 corner = meso_box_corner(box->low, box->high, i);
         float depth = meso_vec3_dot(meso_vec3_sub(corner, view->eye), view->forward);
@@ -62,16 +64,17 @@ static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sampl
     return m;
 }
 
-static bool belongs(const Group *group, const MesoSurfaceSample *sample)
+static bool belongs(const MesoView *view, const Group *group, const MesoSurfaceSample *sample)
 {
+    float depth = view->parallel ? view->half_height : sample->depth;
     return group->sample.shape == sample->shape && meso_vec3_dot(group->sample.normal, sample->normal) > 0.9f &&
-           fabsf(group->sample.depth - sample->depth) < 0.01f * sample->depth;
+           fabsf(group->sample.depth - sample->depth) < 0.01f * depth;
 }
 
-static void add_sample(Group *groups, uint32_t *count, const MesoSurfaceSample *sample)
+static void add_sample(const MesoView *view, Group *groups, uint32_t *count, const MesoSurfaceSample *sample)
 {
     uint32_t g = 0;
-    while (g < *count && !belongs(&groups[g], sample))
+    while (g < *count && !belongs(view, &groups[g], sample))
         g++;
     if (g == *count) {
         groups[g] = (Group){.sample = *sample};
@@ -93,7 +96,8 @@ static float light_group(const Picture *p, const Group *group, float color[4], f
     if (p->varied != MESO_NO_INDEX)
         meso_vary(s.albedo, meso_scene_id(p->scene, meso_shape_look(&p->shapes, group->sample.shape).ids, p->varied),
                   p->options->vary);
-    s.to_eye = meso_vec3_unit(meso_vec3_sub(p->raster.eye, s.position), p->view.up);
+    s.to_eye = p->view.parallel ? meso_vec3_scale(p->view.forward, -1)
+                                : meso_vec3_unit(meso_vec3_sub(p->raster.eye, s.position), p->view.up);
     float radiance[3], openness, weight = (float)group->count / samples;
     meso_light_on(&p->rig, &s, radiance, &openness);
     for (int c = 0; c < 3; c++)
@@ -106,12 +110,14 @@ static float light_group(const Picture *p, const Group *group, float color[4], f
 static void shade_ground(const Picture *p, float x, float y, float share, float color[4])
 {
     const MesoRasterView *v = &p->raster;
-    MesoVec3 ray = meso_vec3_mad(meso_vec3_mad(v->forward, (x - v->middle_x) / v->focal, v->right),
-                                 (y - v->middle_y) / v->focal, v->down);
-    float height = meso_vec3_dot(v->eye, p->rig.up) - p->rig.ground, fall = meso_vec3_dot(ray, p->rig.up);
+    MesoRasterRay ray = meso_raster_ray(v, x, y);
+    if (!v->parallel)       /* rounded so that pictures stay as they were */
+        ray.direction = meso_vec3_mad(meso_vec3_mad(v->forward, (x - v->middle_x) / v->focal, v->right),
+                                      (y - v->middle_y) / v->focal, v->down);
+    float height = meso_vec3_dot(ray.origin, p->rig.up) - p->rig.ground, fall = meso_vec3_dot(ray.direction, p->rig.up);
     if (!(height > 0 && fall < 0))
         return;
-    color[3] += share * meso_light_ground_shadow(&p->rig, meso_vec3_mad(v->eye, -height / fall, ray));
+    color[3] += share * meso_light_ground_shadow(&p->rig, meso_vec3_mad(ray.origin, -height / fall, ray.direction));
 }
 
 /* The variables of the pixel's middle. */
@@ -188,7 +194,7 @@ static void take_pixel(const Picture *p, MesoRasterTile *tile, MesoWindow window
             note_things(p, there ? &sample : NULL, i, things);
         if (!there)
             continue;
-        add_sample(groups, &count, &sample);
+        add_sample(&p->view, groups, &count, &sample);
         seen++;
     }
     for (uint32_t g = 0; g < count; g++) {

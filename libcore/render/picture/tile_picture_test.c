@@ -108,7 +108,7 @@ static void bend_bundle(Bundle *b, MesoVec3 at)
 static MesoRenderOptions look(MesoVec3 at, MesoVec3 eye, uint32_t samples)
 {
     return (MesoRenderOptions){.width = WIDTH, .height = HEIGHT, .samples = samples, .full_detail = true,
-                               .camera = {meso_vec3_add(at, eye), at, {0, 1, 0}, 40}};
+                               .camera = {meso_vec3_add(at, eye), at, {0, 1, 0}, 40, 0}};
 }
 
 static MesoImage draw(const Bundle *b, const MesoRenderOptions *options, uint32_t threads)
@@ -159,9 +159,11 @@ static Hit cast(const MesoSceneParts *parts, const MesoMeshVertex *v, const Meso
     return hit;
 }
 
-static void test_rays(const Bundle *b, MesoVec3 at, MesoVec3 eye)
+/* `height`: of an orthographic view, or 0. */
+static void test_rays(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height)
 {
     MesoRenderOptions options = look(at, eye, 1);
+    options.camera.height = height;
     MesoImage image = draw(b, &options, 2);
     MesoSceneParts parts;
     MesoView view;
@@ -171,13 +173,14 @@ static void test_rays(const Bundle *b, MesoVec3 at, MesoVec3 eye)
     MesoMeshFace *f = MESO_NEW(&arena, MesoMeshFace, parts.face_begin[parts.part_count], &error);
     meso_scene_vertices(&parts, 0, parts.part_count, v);
     meso_scene_faces(&parts, 0, parts.part_count, 0, f);
-    float pixel = 2 * view.tan_half_fov / HEIGHT;
+    float pixel = 2 * view.half_height / HEIGHT;
     uint32_t wrong = 0, covered = 0, deep = 0;
     for (uint32_t y = 0; y < HEIGHT; y++)
         for (uint32_t x = y % 5; x < WIDTH; x += 5) {
-            MesoVec3 d = meso_vec3_mad(view.forward, ((float)x + 0.5f - WIDTH / 2) * pixel, view.right);
-            d = meso_vec3_mad(d, (HEIGHT / 2 - (float)y - 0.5f) * pixel, view.up);
-            Hit hit = cast(&parts, v, f, view.eye, d);
+            MesoVec3 aside = meso_vec3_scale(view.right, ((float)x + 0.5f - WIDTH / 2) * pixel);
+            aside = meso_vec3_mad(aside, (HEIGHT / 2 - (float)y - 0.5f) * pixel, view.up);
+            Hit hit = height > 0 ? cast(&parts, v, f, meso_vec3_add(view.eye, aside), view.forward)
+                                 : cast(&parts, v, f, view.eye, meso_vec3_add(view.forward, aside));
             size_t i = (size_t)y * WIDTH + x;
             uint32_t id = hit.part == 0 ? 0 : b->ids[meso_scene_part(&parts, hit.part - 1).ids] + 1;
             wrong += image.ids[0][i] != id;
@@ -193,21 +196,24 @@ static void test_rays(const Bundle *b, MesoVec3 at, MesoVec3 eye)
 
 /* ---- beside GL ---- */
 
-static void test_gl(const Bundle *b, MesoVec3 at)
+static void test_gl(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, uint32_t samples)
 {
-    MesoRenderOptions options = look(at, (MesoVec3){1, 2, 5}, 1);
+    MesoRenderOptions options = look(at, eye, samples);
+    options.camera.height = height;
     MesoImage ours = draw(b, &options, 2), gl;
     MesoGlContext context;
     CHECK(meso_gl_context_init(&context, "osmesa", 2, &error) == MESO_OK);
     CHECK(meso_render(&gl, &arena, &context, &b->scene, &options, &error) == MESO_OK);
     meso_gl_context_release(&context);
     uint32_t covered = 0, wrong = 0;
-    double normals = 0, colors = 0;
+    double normals = 0, colors = 0, depths = 0, alpha = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
         wrong += ours.ids[0][i] != gl.ids[0][i];
+        alpha += fabs((double)(ours.color[4 * i + 3] - gl.color[4 * i + 3]));
         if (ours.ids[0][i] == 0 || ours.ids[0][i] != gl.ids[0][i])
             continue;
         covered++;
+        depths += fabs((double)(ours.depth[i] - gl.depth[i]));
         for (size_t c = 0; c < 3; c++) {
             normals += pow((double)(ours.normal[3 * i + c] - gl.normal[3 * i + c]), 2);
             colors += pow((double)(ours.albedo[3 * i + c] - gl.albedo[3 * i + c]), 2);
@@ -215,6 +221,7 @@ static void test_gl(const Bundle *b, MesoVec3 at)
     }
     CHECK(covered > WIDTH * HEIGHT / 10 && wrong <= covered / 100);
     CHECK(sqrt(normals / covered) < 0.05 && sqrt(colors / covered) < 0.01);
+    CHECK(depths / covered < 0.01 && alpha / covered < 0.02);
 }
 
 static bool same_pixels(const MesoImage *a, const MesoImage *b)
@@ -385,17 +392,24 @@ int main(void)
     const MesoVec3 origin = {0, 0, 0}, far = {1e5f, -2e5f, 3e4f};
     meso_arena_init(&arena);
     make_bundle(&b, origin);
-    test_rays(&b, origin, (MesoVec3){1, 2, 5});
-    test_rays(&b, origin, (MesoVec3){0.4f, 0.5f, 0.9f});        /* inside: the near plane cuts */
-    test_gl(&b, origin);
+    const MesoVec3 outside = {1, 2, 5}, inside = {0.4f, 0.5f, 0.9f};
+    test_rays(&b, origin, outside, 0);
+    test_rays(&b, origin, inside, 0);       /* the near plane cuts */
+    test_rays(&b, origin, outside, 2.5f);
+    test_rays(&b, origin, (MesoVec3){0.04f, 0.05f, 0.09f}, 2.5f);       /* the eye's plane cuts */
+    test_gl(&b, origin, outside, 0, 1);
+    test_gl(&b, origin, outside, 2.5f, 1);
+    test_gl(&b, origin, outside, 2.5f, 4);
+    test_gl(&b, origin, (MesoVec3){0.04f, 0.05f, 0.09f}, 2.5f, 1);
     test_threads(&b, origin);
     test_vary(&b);
     make_bundle(&b, far);
-    test_gl(&b, far);
+    test_gl(&b, far, outside, 0, 1);
+    test_gl(&b, far, outside, 3, 1);
     make_bundle(&b, origin);
     bend_bundle(&b, (MesoVec3){200, 0, 0});
-    test_rays(&b, (MesoVec3){200, 0, 0}, (MesoVec3){1, 2, 5});
-    test_gl(&b, (MesoVec3){200, 0, 0});
+    test_rays(&b, (MesoVec3){200, 0, 0}, (MesoVec3){1, 2, 5}, 0);
+    test_gl(&b, (MesoVec3){200, 0, 0}, outside, 0, 1);
     test_light();
     test_furnace();
     meso_arena_release(&arena);

@@ -182,7 +182,7 @@ static bool project(MesoRasterTile *tile)
     for (uint32_t v = 0; v < tile->mesh.vertex_count; v++) {
         MesoVec3 q = meso_raster_from_eye(view, tile->mesh.vertices[v].position);
         tile->from_eye[v] = q;
-        if (view->parallel || q.z >= view->near_depth)
+        if (q.z >= view->near_depth)
             tile->projected[v] = meso_raster_vertex(view, q, left, top);
         else
             before = false;
@@ -315,22 +315,8 @@ static bool keep_shape(MesoRasterTile *tile, uint32_t i)
     return true;
 }
 
-/* The ray through a place of the picture, in units of depth; of a parallel view that which meets it there. */
-typedef struct Ray {
-    MesoVec3 origin, direction;
-} Ray;
-
-static Ray ray_at(const MesoRasterView *view, float x, float y)
-{
-    float right = (x - view->middle_x) / view->focal, down = (y - view->middle_y) / view->focal;
-    MesoVec3 across = meso_vec3_add(meso_vec3_scale(view->right, right), meso_vec3_scale(view->down, down));
-    if (view->parallel)
-        return (Ray){meso_vec3_add(view->eye, across), view->forward};
-    return (Ray){view->eye, meso_vec3_add(across, view->forward)};
-}
-
 /* Shares of the corners where the ray meets their plane: by the volumes that it spans with each side. */
-static void find_shares(const MesoVec3 p[3], const Ray *ray, float shares[3], bool *behind)
+static void find_shares(const MesoVec3 p[3], const MesoRasterRay *ray, float shares[3], bool *behind)
 {
     MesoVec3 q[3];
     double volume[3], sum = 0;
@@ -367,7 +353,7 @@ static void look_at(const MesoRasterTile *tile, uint32_t i, float x, float y, Me
     const MesoVec3 corners[3] = {v[0]->position, v[1]->position, v[2]->position};
     float shares[3];
     bool behind;
-    Ray ray = ray_at(view, x, y);
+    MesoRasterRay ray = meso_raster_ray(view, x, y);
     find_shares(corners, &ray, shares, &behind);
     out->position = blend(corners[0], corners[1], corners[2], shares);
     out->normal = meso_vec3_unit(blend(v[0]->normal, v[1]->normal, v[2]->normal, shares), (MesoVec3){0, 0, 1});

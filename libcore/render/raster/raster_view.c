@@ -4,8 +4,8 @@ MesoRasterView meso_raster_view(const MesoView *view, uint32_t width, uint32_t h
 {
     return (MesoRasterView){
         .eye = meso_vec3_sub(view->eye, view->anchor), .right = view->right, .down = meso_vec3_scale(view->up, -1),
-        .forward = view->forward, .focal = (float)height / (2 * view->tan_half_fov), .middle_x = 0.5f * (float)width,
-        .middle_y = 0.5f * (float)height, .near_depth = near_depth};
+        .forward = view->forward, .parallel = view->parallel, .focal = (float)height / (2 * view->half_height),
+        .middle_x = 0.5f * (float)width, .middle_y = 0.5f * (float)height, .near_depth = near_depth};
 }
 
 /* Corners of the box from the eye, as a middle and half extents along the view's axes. */
@@ -18,6 +18,8 @@ MesoRasterRect meso_raster_rect(const MesoRasterView *view, const MesoBox *box)
     for (int a = 0; a < 3; a++)
         reach[a] = fabsf(axes[a]->x) * half.x + fabsf(axes[a]->y) * half.y + fabsf(axes[a]->z) * half.z;
     float nearest = q.z - reach[2], farthest = q.z + reach[2];
+    if (view->parallel && !(farthest >= view->near_depth))
+        return (MesoRasterRect){INFINITY, INFINITY, -INFINITY, -INFINITY, view->near_depth};
     if (!view->parallel && !(nearest >= view->near_depth))
         return (MesoRasterRect){-INFINITY, -INFINITY, farthest >= view->near_depth ? INFINITY : -INFINITY, INFINITY,
                                 view->near_depth};

@@ -12,7 +12,7 @@ typedef struct MesoRasterView {
     bool parallel;
     float focal;                /* pixels of one unit at depth 1, or anywhere where it is parallel */
     float middle_x, middle_y;   /* pixels */
-    float near_depth;           /* what is nearer is cut off; of a perspective one */
+    float near_depth;           /* what is nearer is cut off */
 } MesoRasterView;
 
 MesoRasterView meso_raster_view(const MesoView *view, uint32_t width, uint32_t height, float near_depth);
@@ -44,6 +44,20 @@ static inline MesoRasterVertex meso_raster_vertex(const MesoRasterView *view, Me
  */
 bool meso_raster_project(const MesoRasterView *view, const float *x, const float *y, const float *z, uint32_t count,
                          float left, float top, MesoRasterVertex *out);
+
+/* The ray through a place of the picture, in units of depth, from depth 0. */
+typedef struct MesoRasterRay {
+    MesoVec3 origin, direction;
+} MesoRasterRay;
+
+static inline MesoRasterRay meso_raster_ray(const MesoRasterView *view, float x, float y)
+{
+    float right = (x - view->middle_x) / view->focal, down = (y - view->middle_y) / view->focal;
+    MesoVec3 across = meso_vec3_add(meso_vec3_scale(view->right, right), meso_vec3_scale(view->down, down));
+    if (view->parallel)
+        return (MesoRasterRay){meso_vec3_add(view->eye, across), view->forward};
+    return (MesoRasterRay){view->eye, meso_vec3_add(across, view->forward)};
+}
 
 /* Scene units of a pixel at that depth. */
 static inline float meso_raster_pixel(const MesoRasterView *view, float depth)
