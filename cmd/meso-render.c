@@ -6,7 +6,9 @@
 
 #include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
+#include "cmd/render/render_backdrop.h"
 #include "cmd/render/render_frames.h"
+#include "cmd/render/render_light.h"
 #include "formats/file/claim.h"
 #include "formats/image/image_file.h"
 #include "formats/json/json_text.h"
@@ -26,33 +28,11 @@ static const MesoToolInfo RENDER_TOOL = {
              "--json .json\n"
              "--keys .json\n"
              "--png .png\n"
-             "--background none",
+             "--background none light .png .exr .hdr\n"
+             "--light camera studio sky .exr .hdr",
     .operands_low = 1,
     .operands_high = 1,
 };
-
-/* A light grey that leaves room for highlights. */
-static const float DEFAULT_BACKGROUND[3] = {0.84f, 0.85f, 0.87f};
-
-static MesoStatus parse_background(MesoRenderArguments *a, MesoError *error)
-{
-    const char *text = a->background_text;
-    memcpy(a->background, DEFAULT_BACKGROUND, sizeof a->background);
-    if (!text)
-        return MESO_OK;
-    a->transparent = strcmp(text, "none") == 0;
-    for (int c = 0; c < 3 && !a->transparent; c++) {
-        char *end;
-        float value = strtof(text, &end);
-        if (end == text || !(value >= 0 && value <= 1) || *end != (c < 2 ? ',' : 0))
-            return meso_fail(error, MESO_ERR_USAGE,
-                             "--background '%s' is neither R,G,B between 0 and 1 nor none",
-                             a->background_text);
-        a->background[c] = value;
-        text = end + 1;
-    }
-    return MESO_OK;
-}
 
 /* Words with commas between. */
 static MesoStatus parse_extras(MesoRenderArguments *a, MesoError *error)
@@ -91,15 +71,14 @@ static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
                      output);
 }
 
-static MesoStatus write_image(const MesoRenderArguments *a, const char *path, bool exr,
+static MesoStatus write_image(const MesoRenderArguments *a, const MesoRenderBackdrop *backdrop, const char *path, bool exr,
                               const MesoImage *image, MesoError *error)
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path, error);
     if (!status)
         status = exr ? meso_exr_write(image, &a->tool.provenance, a->tool.threads, output, error)
-                     : meso_png_write(image, a->transparent ? NULL : a->background, &a->tool.provenance,
-                                      output, error);
+                     : meso_render_backdrop_write(backdrop, image, &a->tool.provenance, output, error);
     return meso_output_finish(output, status, error);
 }
 
@@ -162,6 +141,8 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE, "--ground is for --visibility tiles; GL draws none");
     if (wants_gl(a) && a->extras)
         return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
+    if (wants_gl(a) && strcmp(a->light, "camera") != 0)
+        return meso_fail(error, MESO_ERR_USAGE, "--light is for --visibility tiles; GL's light comes with the camera");
     if (wants_gl(a) && a->vary > 0)
         return meso_fail(error, MESO_ERR_USAGE, "--vary is for --visibility tiles; GL varies nothing");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
@@ -170,7 +151,7 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
 }
 
 static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, const MesoScene *scene,
-                       const MesoCamera *camera, MesoError *error)
+                       const MesoEnvironment *environment, const MesoCamera *camera, MesoError *error)
 {
     MesoTool *tool = &a->tool;
     const MesoRenderOptions options = {
@@ -181,6 +162,7 @@ static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, c
         .ground = strcmp(a->ground, "shadow") == 0,
         .extras = a->extras,
         .vary = a->vary,
+        .environment = environment,
     };
     *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
     if (!wants_gl(a))
@@ -193,12 +175,12 @@ static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, c
     return MESO_OK;
 }
 
-static MesoStatus write_images(const MesoRenderArguments *a, const MesoRenderFrame *frame, const MesoImage *image,
-                               MesoError *error)
+static MesoStatus write_images(const MesoRenderArguments *a, const MesoRenderBackdrop *backdrop,
+                               const MesoRenderFrame *frame, const MesoImage *image, MesoError *error)
 {
-    MesoStatus status = write_image(a, frame->output, a->exr_product, image, error);
+    MesoStatus status = write_image(a, backdrop, frame->output, a->exr_product, image, error);
     if (!status && frame->png)
-        status = write_image(a, frame->png, false, image, error);
+        status = write_image(a, backdrop, frame->png, false, image, error);
     return status;
 }
 
@@ -208,6 +190,8 @@ typedef struct Work {
     MesoRenderFrames frames;
     MesoInput input;
     MesoScene scene;
+    const MesoEnvironment *environment;     /* NULL: light that comes with the camera */
+    MesoRenderBackdrop backdrop;
     bool open;                  /* the input is */
     uint32_t input_count;       /* of the provenance, without the model */
     uint32_t drawn, skipped;    /* frames */
@@ -239,12 +223,12 @@ static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double st
     double at[5] = {start, meso_seconds()};
     MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->scene);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawn, &scratch, &work->scene, &camera, error);
+    MesoStatus status = draw(a, &drawn, &scratch, &work->scene, work->environment, &camera, error);
     const MesoImage *image = drawn.apart ? &drawn.apart->image : &drawn.own;
     at[2] = drawn.begun;
     at[3] = meso_seconds();
     if (!status)
-        status = write_images(a, frame, image, error);
+        status = write_images(a, &work->backdrop, frame, image, error);
     at[4] = meso_seconds();
     if (!status) {
         report_image(&a->tool, image, &work->scene, drawn.renderer);
@@ -337,7 +321,9 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     if (!status)
         status = check_maker(a, error);
     if (!status)
-        status = parse_background(a, error);
+        status = meso_render_light_init(&work.environment, a, error);
+    if (!status)
+        status = meso_render_backdrop_init(&work.backdrop, a, work.environment, error);
     if (!status)
         status = meso_render_frames_init(&work.frames, a, error);
     work.input_count = a->tool.provenance.input_count;
@@ -350,7 +336,7 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
 int main(int argc, char **argv)
 {
     MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
-                         .ground = "none"};
+                         .ground = "none", .light = "camera", .light_strength = 1, .tone = "shoulder"};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
@@ -367,15 +353,22 @@ int main(int argc, char **argv)
                     "1|4|16"),
         MESO_CHOICE(0, "ground", "WHAT", "under the model: none (default), or one that shadow falls on", &a.ground,
                     "none|shadow"),
+        MESO_TEXT(0, "light", "WHAT", "camera (default: it comes with it), studio, sky, or a lat-long FILE (.exr, .hdr)",
+                  &a.light),
+        MESO_NUMBER(0, "light-turn", "DEGREES", "turn that light about the direction that is up", &a.light_turn, -36000,
+                    36000, .given = &a.light_turn_given),
+        MESO_NUMBER(0, "light-strength", "X", "times as much of it (default 1)", &a.light_strength, 0, 1e6,
+                    .given = &a.light_strength_given),
         MESO_NUMBER(0, "vary", "AMOUNT", "how much colours differ from strand to strand, or element to element, 0 "
                     "(default) to 1", &a.vary, 0, 1),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
                     "--context is given", &a.visibility, "auto|tiles|gl"),
         MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",
                   &a.aov),
-        MESO_TEXT(0, "background", "R,G,B",
-                  "of the PNG, linear, 0 to 1; none for a transparent one (default: light grey)",
-                  &a.background_text),
+        MESO_TEXT(0, "background", "WHAT", "of the PNG: R,G,B, linear, 0 to 1 (default: light grey), none, the light, or a "
+                  "picture FILE that is to cover it", &a.background_text),
+        MESO_CHOICE(0, "tone", "CURVE", "of the PNG's highlights: shoulder (default), none, neutral, agx or filmic", &a.tone,
+                    "shoulder|none|neutral|agx|filmic"),
         MESO_CHOICE(0, "context", "MAKER",
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
                     &a.context, "auto|osmesa|egl", .given = &a.context_given),

@@ -21,10 +21,11 @@ typedef struct MesoRenderArguments {
     const char *aov;            /* --aov; NULL: none beside the usual ones */
     unsigned extras;            /* MesoImageExtra */
     float vary;                 /* --vary */
+    const char *light, *tone;   /* --light, --tone */
+    float light_turn, light_strength;
+    bool light_turn_given, light_strength_given;
 
     bool exr_product;           /* of -o */
-    bool transparent;
-    float background[3];
 } MesoRenderArguments;
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "formats/file/output.h"
 #include "formats/product/provenance.h"
+#include "libcore/render/picture/tone.h"
 #include "libcore/render/render.h"
 
 /*
@@ -23,12 +24,20 @@
 MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
                           MesoOutput *output, MesoError *error);
 
-/*
- * 8 bits, sRGB, highlights rolled off, over `background` (linear RGB) or,
- * where that is NULL, with alpha. Provenance as text.
- */
-MesoStatus meso_png_write(const MesoImage *image, const float *background,
-                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+/* Puts a row of what is behind a picture, 3 numbers a pixel, linear, 0 to 1. */
+typedef void MesoBackdropRow(void *context, uint32_t y, float *row);
+
+typedef struct MesoPngLook {
+    MesoTone tone;              /* of the picture, not of what is behind it */
+    bool transparent;           /* with alpha, and nothing behind */
+    float background[3];        /* linear */
+    MesoBackdropRow *backdrop;  /* in place of that; NULL: none */
+    void *context;
+} MesoPngLook;
+
+/* 8 bits, sRGB. Provenance as text. */
+MesoStatus meso_png_write(const MesoImage *image, const MesoPngLook *look, const MesoProvenance *provenance,
+                          MesoOutput *output, MesoError *error);
 
 /* Numbers, or NaN where there are none. */
 typedef struct MesoImageValues {

@@ -74,7 +74,10 @@ static MesoStatus write_png(const char *path, const float *background, MesoError
 {
     MesoOutput *output;
     CHECK(meso_output_open(&output, path, error) == MESO_OK);
-    MesoStatus status = meso_png_write(&picture.image, background, &provenance, output, error);
+    MesoPngLook look = {.transparent = background == NULL};
+    if (background)
+        memcpy(look.background, background, sizeof look.background);
+    MesoStatus status = meso_png_write(&picture.image, &look, &provenance, output, error);
     if (status) {
         meso_output_discard(output);
         return status;

@@ -5,6 +5,7 @@
 #include "formats/image/picture.h"
 
 MesoStatus meso_exr_read(MesoPicture *out, MesoArena *arena, const MesoInput *input, MesoError *error);
+MesoStatus meso_hdr_read(MesoPicture *out, MesoArena *arena, const MesoInput *input, MesoError *error);
 MesoStatus meso_png_read(MesoPicture *out, MesoArena *arena, const MesoInput *input, MesoError *error);
 
 #endif

@@ -439,9 +439,9 @@ static void test_words(void)
     MesoPicture p;
     meso_arena_init(&arena);
     CHECK(read_bytes(&p, &arena, "some words", 10) == MESO_ERR_INPUT);
-    CHECK_TEXT(error.message, "some.file: not a picture; PNG and OpenEXR are read");
+    CHECK_TEXT(error.message, "some.file: not a picture; PNG, OpenEXR and Radiance are read");
     CHECK(read_bytes(&p, &arena, mesh, sizeof mesh - 1) == MESO_ERR_INPUT);
-    CHECK_TEXT(error.message, "some.file: an OBJ mesh, not a picture; PNG and OpenEXR are read");
+    CHECK_TEXT(error.message, "some.file: an OBJ mesh, not a picture; PNG, OpenEXR and Radiance are read");
     meso_arena_release(&arena);
 }
 

@@ -1,5 +1,7 @@
 #include "formats/image/picture.h"
 
+#include <string.h>
+
 MesoStatus meso_picture_alloc(MesoPicture *out, MesoArena *arena, const MesoInput *input, uint64_t width,
                               uint64_t height, uint32_t channel_count, MesoError *error)
 {
@@ -15,4 +17,23 @@ MesoStatus meso_picture_alloc(MesoPicture *out, MesoArena *arena, const MesoInpu
     out->channel_names = MESO_NEW(arena, const char *, channel_count, error);
     out->values = MESO_NEW(arena, float, width * height * channel_count, error);
     return out->channel_names && out->values ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static const float *find_channel(const MesoPicture *picture, const char *name)
+{
+    for (uint32_t c = 0; c < picture->channel_count; c++)
+        if (strcmp(picture->channel_names[c], name) == 0)
+            return picture->values + (size_t)c * picture->width * picture->height;
+    return NULL;
+}
+
+bool meso_picture_colors(const MesoPicture *picture, const float *channels[3])
+{
+    static const char *const names[3] = {"R", "G", "B"};
+    const float *grey = find_channel(picture, "Y");
+    for (int c = 0; c < 3; c++) {
+        channels[c] = find_channel(picture, names[c]);
+        channels[c] = channels[c] ? channels[c] : grey;
+    }
+    return channels[0] && channels[1] && channels[2];
 }

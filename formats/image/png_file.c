@@ -7,21 +7,11 @@
 
 #include "formats/image/image_file.h"
 
-/* Highlights above this share of white roll off instead of clipping. */
-static const float SHOULDER = 0.75f;
-
 typedef struct Stream {
     MesoOutput *output;
     MesoStatus status;
     MesoError *error;
 } Stream;
-
-/* The line up to SHOULDER, then a hyperbola of the same slope that ends in white. */
-static float roll_off(float x)
-{
-    float room = 1 - SHOULDER;
-    return x <= SHOULDER ? fmaxf(x, 0) : 1 - room * room / (x - SHOULDER + room);
-}
 
 static uint8_t to_byte(float x)
 {
@@ -34,21 +24,31 @@ static uint8_t encode_srgb(float linear)
     return to_byte(x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f);
 }
 
-/* The colour is rolled off before the background is put behind it, which stays as given. */
-static void over_background(const float *color, const float *background, uint8_t *out)
+/* Without its alpha, as the screen shows it; black where there is nothing. */
+static void show(MesoTone tone, const float *color, float alpha, float out[3])
 {
-    float alpha = fminf(fmaxf(color[3], 0), 1);
+    for (int c = 0; c < 3; c++)
+        out[c] = alpha > 0 ? color[c] / alpha : 0;
+    meso_tone(tone, out, out);
+}
+
+/* What is behind stays as given. */
+static void over_background(MesoTone tone, const float *color, const float *background, uint8_t *out)
+{
+    float alpha = fminf(fmaxf(color[3], 0), 1), shown[3];
+    show(tone, color, alpha, shown);
     for (int c = 0; c < 3; c++) {
-        float own = alpha > 0 ? alpha * roll_off(color[c] / alpha) : 0;
+        float own = alpha > 0 ? alpha * shown[c] : 0;
         out[c] = encode_srgb(own + (1 - alpha) * background[c]);
     }
 }
 
-static void with_alpha(const float *color, uint8_t *out)
+static void with_alpha(MesoTone tone, const float *color, uint8_t *out)
 {
-    float alpha = fminf(fmaxf(color[3], 0), 1);
+    float alpha = fminf(fmaxf(color[3], 0), 1), shown[3];
+    show(tone, color, alpha, shown);
     for (int c = 0; c < 3; c++)
-        out[c] = alpha > 0 ? encode_srgb(roll_off(color[c] / alpha)) : 0;
+        out[c] = alpha > 0 ? encode_srgb(shown[c]) : 0;
     out[3] = to_byte(alpha);
 }
 
@@ -102,20 +102,24 @@ typedef struct Rows {
     bool is_srgb;
     void (*fill)(const struct Rows *rows, size_t y, uint8_t *row);
     const MesoImage *image;
-    const float *background;
+    const MesoPngLook *look;
+    float *behind;              /* [3 * width] scratch, where there is a backdrop */
     const float *values;        /* [width * height] numbers as they are, from `low` to `high` */
     float low, high;
 } Rows;
 
 static void fill_picture(const Rows *rows, size_t y, uint8_t *row)
 {
-    size_t bytes = rows->background ? 3 : 4;
+    const MesoPngLook *look = rows->look;
     const float *color = rows->image->color + 4 * y * rows->width;
+    if (look->backdrop && !look->transparent)
+        look->backdrop(look->context, (uint32_t)y, rows->behind);
     for (size_t x = 0; x < rows->width; x++)
-        if (rows->background)
-            over_background(color + 4 * x, rows->background, row + bytes * x);
+        if (look->transparent)
+            with_alpha(look->tone, color + 4 * x, row + 4 * x);
         else
-            with_alpha(color + 4 * x, row + bytes * x);
+            over_background(look->tone, color + 4 * x, look->backdrop ? rows->behind + 3 * x : look->background,
+                            row + 3 * x);
 }
 
 /* Grey and alpha, of 16 bits, the high byte first. */
@@ -175,7 +179,7 @@ static MesoStatus write_png(Stream *stream, const Rows *rows, char *provenance, 
     return status;
 }
 
-static MesoStatus write_with(const Rows *rows, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+static MesoStatus write_with(Rows *rows, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
     meso_arena_init(&arena);
@@ -184,19 +188,20 @@ static MesoStatus write_with(const Rows *rows, const MesoProvenance *provenance,
     const char *text = meso_provenance_text(provenance, &arena, error);
     char *copy = text ? meso_arena_copy_text(&arena, text, error) : NULL;
     uint8_t *row = copy ? MESO_NEW(&arena, uint8_t, 4 * (size_t)rows->width, error) : NULL;
-    if (row)
+    if (row && rows->look && rows->look->backdrop)
+        rows->behind = MESO_NEW(&arena, float, 3 * (size_t)rows->width, error);
+    if (row && (rows->behind || !rows->look || !rows->look->backdrop))
         status = write_png(&stream, rows, copy, row);
     meso_arena_release(&arena);
     return status;
 }
 
-MesoStatus meso_png_write(const MesoImage *image, const float *background,
-                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+MesoStatus meso_png_write(const MesoImage *image, const MesoPngLook *look, const MesoProvenance *provenance,
+                          MesoOutput *output, MesoError *error)
 {
-    const Rows rows = {
+    Rows rows = {
         .width = image->width, .height = image->height, .depth = 8, .is_srgb = true, .fill = fill_picture,
-        .color_type = background ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, .image = image,
-        .background = background,
+        .color_type = look->transparent ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, .image = image, .look = look,
     };
     return write_with(&rows, provenance, output, error);
 }
@@ -204,7 +209,7 @@ MesoStatus meso_png_write(const MesoImage *image, const float *background,
 MesoStatus meso_png_write_values(const MesoImageValues *values, const MesoProvenance *provenance, MesoOutput *output,
                                  MesoError *error)
 {
-    const Rows rows = {
+    Rows rows = {
         .width = values->width, .height = values->height, .depth = 16, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA,
         .fill = fill_values, .values = values->values, .low = values->low, .high = values->high,
     };

@@ -149,6 +149,8 @@ static MesoFileKind kind_of_text(const MesoInput *input)
         return MESO_FILE_PLY;
     if (at < input->size && (input->data[at] == '{' || input->data[at] == '['))
         return kind_of_json(input, at);
+    if (begins_at(input, 0, "#?RADIANCE") || begins_at(input, 0, "#?RGBE"))
+        return MESO_FILE_HDR;
     if (begins_at(input, mark, "slot,tile"))
         return MESO_FILE_CSV;
     at = skip_comments(input, at);
@@ -206,6 +208,7 @@ const char *meso_file_kind_phrase(MesoFileKind kind)
     case MESO_FILE_DRC: return "a Draco mesh";
     case MESO_FILE_EXR: return "an EXR image";
     case MESO_FILE_PNG: return "a PNG image";
+    case MESO_FILE_HDR: return "a Radiance picture";
     case MESO_FILE_LISTING: return "a listing of slots";
     case MESO_FILE_PATTERN: return "a pattern";
     case MESO_FILE_MACROS: return "a file of macros";

@@ -33,7 +33,8 @@ typedef enum MesoFileKind {
     MESO_FILE_DETAILS = 1 << 23,
     MESO_FILE_DEFORM = 1 << 24,
     MESO_FILE_STATE = 1 << 25,          /* of details that replicate */
-    MESO_FILE_PLAN = 1 << 26            /* likewise */
+    MESO_FILE_PLAN = 1 << 26,           /* likewise */
+    MESO_FILE_HDR = 1 << 27
 } MesoFileKind;
 
 /* All that begin as JSON text. */

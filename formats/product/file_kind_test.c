@@ -68,6 +68,7 @@ static void test_text(void)
 static void test_bytes(void)
 {
     CHECK(kind_of("\x76\x2f\x31\x01", 4) == MESO_FILE_EXR);
+    CHECK(kind_of("#?RADIANCE\n", 11) == MESO_FILE_HDR && kind_of("#?RGBE\nFORMAT=", 14) == MESO_FILE_HDR);
     CHECK(kind_of("\x89PNG\r\n\x1a\n", 8) == MESO_FILE_PNG);
     CHECK(kind_of("glTF\2\0\0\0", 8) == MESO_FILE_GLB);
     CHECK(kind_of("DRACO\2\2", 7) == MESO_FILE_DRC);

@@ -38,6 +38,8 @@ typedef struct MesoRenderOptions {
     uint32_t samples;           /* for antialiasing of color; 1 or 4, or 16 without GL */
     bool ground;                /* shadow where nothing is, on the ground under the scene; without GL */
     unsigned extras;            /* MesoImageExtra, or-ed */
+    const struct MesoEnvironment *environment;      /* the light (environment.h); NULL: one that comes with the camera;
+                                                     * without GL */
     float vary;                 /* how much colours differ from thing to thing (light/vary.h); without GL */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;

@@ -11,7 +11,7 @@ static const MesoLightColors COLORS = {.key = {3.3f, 3, 2.58f}, .rim = {0.62f, 0
 enum { GROUND_TAPS = 6 };
 static const float GROUND_SPREAD = 0.035f, GROUND_KEY_SPREAD = 0.012f;
 
-/* Of the key light's disc, as the tangent of half its angle. */
+/* Of the key light's disc, as the tangent of half its angle. A wider one has as many more places. */
 static const float KEY_EXTENT = 0.07f;
 
 MesoLightQuality meso_light_quality(uint32_t samples)
@@ -57,8 +57,8 @@ static MesoVec3 spread(const MesoLightRig *rig, uint32_t i, uint32_t count)
 /* Place i of `count` on the key light's disc. */
 static MesoVec3 on_key(const MesoLightRig *rig, const MesoView *view, uint32_t i, uint32_t count)
 {
-    float r = count == 1 ? 0 : KEY_EXTENT * sqrtf(((float)i + 0.5f) / (float)count), a = GOLDEN_ANGLE * (float)i;
-    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(view->forward, rig->to_key), view->right);
+    float r = count == 1 ? 0 : rig->key_extent * sqrtf(((float)i + 0.5f) / (float)count), a = GOLDEN_ANGLE * (float)i;
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(rig->environment ? rig->up : view->forward, rig->to_key), view->right);
     MesoVec3 y = meso_vec3_cross(rig->to_key, x);
     MesoVec3 d = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
     return meso_vec3_unit(meso_vec3_add(rig->to_key, d), rig->to_key);
@@ -80,46 +80,114 @@ static void measure(MesoLightRig *rig, const MesoShapes *shapes)
         rig->ground = fminf(rig->ground, meso_vec3_dot(meso_box_corner(box.low, box.high, i), rig->up));
 }
 
+/* ---- an environment ---- */
+
+static MesoVec3 to_map(const MesoLightRig *rig, MesoVec3 d)
+{
+    return (MesoVec3){meso_vec3_dot(d, rig->axes[0]), meso_vec3_dot(d, rig->axes[1]), meso_vec3_dot(d, rig->axes[2])};
+}
+
+static MesoVec3 from_map(const MesoLightRig *rig, MesoVec3 d)
+{
+    MesoVec3 v = meso_vec3_mad(meso_vec3_scale(rig->axes[0], d.x), d.y, rig->axes[1]);
+    return meso_vec3_unit(meso_vec3_mad(v, d.z, rig->axes[2]), rig->up);
+}
+
+static void take_environment(MesoLightRig *rig, const MesoEnvironment *environment)
+{
+    rig->environment = environment;
+    meso_environment_axes(environment, rig->up, rig->axes);
+    rig->to_key = from_map(rig, environment->to_key);
+    rig->key_extent = environment->key_extent;
+    rig->colors = (MesoLightColors){.key = {environment->key[0], environment->key[1], environment->key[2]}};
+}
+
+/* Places on the key light: more on a wider one, none where there is none. */
+static uint32_t key_places(const MesoLightRig *rig, uint32_t usual)
+{
+    if (rig->key_extent == 0 || usual <= 1)
+        return rig->key_extent == 0 ? 0 : usual;
+    return (uint32_t)fminf((float)usual * fmaxf(rig->key_extent / KEY_EXTENT, 1), MESO_KEY_MOST);
+}
+
+/* Each texel of the map goes to the sky's direction that is nearest. */
+static void color_sky(MesoLightRig *rig, const MesoVec3 *towards, uint32_t count)
+{
+    const MesoLatLong *map = &rig->environment->glossy[MESO_LIGHT_REST][0];
+    double sums[MESO_SKY_MOST][4] = {{0}};
+    MesoVec3 toward[MESO_SKY_MOST];
+    for (uint32_t i = 0; i < count; i++)
+        toward[i] = to_map(rig, towards[i]);
+    for (uint32_t y = 0; y < map->height; y++)
+        for (uint32_t x = 0; x < map->width; x++) {
+            MesoVec3 d = meso_lat_long_direction(map, x, y);
+            double solid_angle = (double)meso_lat_long_solid_angle(map, y);
+            uint32_t best = 0;
+            float nearest = -2;
+            for (uint32_t i = 0; i < count; i++) {
+                float along = meso_vec3_dot(d, toward[i]);
+                best = along > nearest ? i : best;
+                nearest = fmaxf(nearest, along);
+            }
+            for (size_t c = 0; c < 3; c++)
+                sums[best][c] += solid_angle * (double)map->rgb[3 * ((size_t)y * map->width + x) + c];
+            sums[best][3] += solid_angle;
+        }
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 3; c++)
+            rig->sky_colors[3 * i + c] = (float)(sums[i][c] / fmax(sums[i][3], 1e-30));
+}
+
+/* ---- maps ---- */
+
 static MesoStatus make_sky(MesoLightRig *rig, MesoArena *arena, const MesoLightQuality *quality, MesoError *error)
 {
     MesoVec3 towards[MESO_SKY_MOST];
-    rig->sky_colors = MESO_NEW(arena, float, 3 * (size_t)quality->sky_count, error);
+    uint32_t count = quality->sky_count;
+    rig->sky_colors = MESO_NEW(arena, float, 3 * (size_t)count, error);
     if (!rig->sky_colors)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < quality->sky_count; i++) {
-        towards[i] = spread(rig, i, quality->sky_count);
-        float *color = &rig->sky_colors[3 * (size_t)i], facing = meso_vec3_dot(towards[i], rig->up);
-        sky_at(rig, towards[i], 0.5f, color);
-        for (int c = 0; c < 3 && facing > 0; c++)
-            rig->open_sky[c] += 4 / (float)quality->sky_count * facing * color[c];
+    for (uint32_t i = 0; i < count; i++) {
+        towards[i] = spread(rig, i, count);
+        sky_at(rig, towards[i], 0.5f, &rig->sky_colors[3 * (size_t)i]);
     }
-    return meso_light_maps_init(&rig->sky, arena, towards, quality->sky_count, rig->middle, rig->radius,
-                                quality->sky_size, error);
+    if (rig->environment)
+        color_sky(rig, towards, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const float *color = &rig->sky_colors[3 * (size_t)i];
+        float facing = meso_vec3_dot(towards[i], rig->up);
+        for (int c = 0; c < 3 && facing > 0; c++)
+            rig->open_sky[c] += 4 / (float)count * facing * color[c];
+    }
+    return meso_light_maps_init(&rig->sky, arena, towards, count, rig->middle, rig->radius, quality->sky_size, error);
 }
 
 static MesoStatus make_key(MesoLightRig *rig, MesoArena *arena, const MesoView *view, const MesoLightQuality *quality,
                            MesoError *error)
 {
     MesoVec3 towards[MESO_KEY_MOST];
-    for (uint32_t i = 0; i < quality->key_count; i++)
-        towards[i] = on_key(rig, view, i, quality->key_count);
-    return meso_light_maps_init(&rig->key, arena, towards, quality->key_count, rig->middle, rig->radius,
-                                quality->key_size, error);
+    uint32_t count = key_places(rig, quality->key_count);
+    for (uint32_t i = 0; i < count; i++)
+        towards[i] = on_key(rig, view, i, count);
+    return count == 0 ? MESO_OK : meso_light_maps_init(&rig->key, arena, towards, count, rig->middle, rig->radius,
+                                                       quality->key_size, error);
 }
 
 MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
-                               MesoVec3 up, const MesoLightQuality *quality, uint32_t thread_count,
-                               MesoError *error)
+                               MesoVec3 up, const MesoEnvironment *environment, const MesoLightQuality *quality,
+                               uint32_t thread_count, MesoError *error)
 {
     *rig = (MesoLightRig){.colors = COLORS, .up = up, .to_key = in_view(view, -0.55f, 0.8f, 0.7f),
-                          .to_rim = in_view(view, 0.75f, 0.35f, -0.55f)};
+                          .to_rim = in_view(view, 0.75f, 0.35f, -0.55f), .key_extent = KEY_EXTENT};
+    if (environment)
+        take_environment(rig, environment);
     measure(rig, shapes);
     MesoStatus status = make_sky(rig, arena, quality, error);
     if (!status)
         status = make_key(rig, arena, view, quality, error);
     if (!status)
         status = meso_light_maps_draw(&rig->sky, shapes, thread_count, error);
-    return status ? status : meso_light_maps_draw(&rig->key, shapes, thread_count, error);
+    return status || rig->key.count == 0 ? status : meso_light_maps_draw(&rig->key, shapes, thread_count, error);
 }
 
 /* ---- light on a surface ---- */
@@ -158,6 +226,8 @@ static void reflect_light(const MesoLitSurface *s, MesoVec3 to_light, const floa
 
 static float key_light(const MesoLightRig *rig, const MesoLitSurface *s)
 {
+    if (rig->key.count == 0)
+        return 0;
     float facing[MESO_KEY_MOST], lit[MESO_KEY_MOST], sum = 0;
     meso_light_maps_lit(&rig->key, s->position, s->normal, facing, lit);
     for (uint32_t i = 0; i < rig->key.count; i++)
@@ -165,35 +235,81 @@ static float key_light(const MesoLightRig *rig, const MesoLitSurface *s)
     return sum / (float)rig->key.count;
 }
 
-/* Irradiance / pi from the sky, and the share of it that comes through. */
-static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float light[3])
+/* Irradiance / pi from the sky, and the share of it that comes through. `open`, which may be NULL, gets what there would
+ * be without anything in the way. */
+static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float light[3], float open[3])
 {
     float facing[MESO_SKY_MOST], lit[MESO_SKY_MOST], whole = 0, seen = 0;
     meso_light_maps_lit(&rig->sky, s->position, s->normal, facing, lit);
     light[0] = light[1] = light[2] = 0;
+    for (int c = 0; c < 3 && open; c++)
+        open[c] = 0;
     for (uint32_t i = 0; i < rig->sky.count; i++) {
         float share = facing[i] * lit[i];
         whole += facing[i];
         seen += share;
         for (int c = 0; c < 3; c++)
             light[c] += share * rig->sky_colors[3 * (size_t)i + (size_t)c];
+        for (int c = 0; c < 3 && open; c++)
+            open[c] += facing[i] * rig->sky_colors[3 * (size_t)i + (size_t)c];
     }
     for (int c = 0; c < 3; c++)
         light[c] *= 4 / (float)rig->sky.count;
+    for (int c = 0; c < 3 && open; c++)
+        open[c] *= 4 / (float)rig->sky.count;
     return whole > 0 ? seen / whole : 1;
+}
+
+/* The side that a mirror would show is open to this share, where so much of the sky is. */
+static float open_side(float nv, float open, float roughness)
+{
+    float reach = powf(nv + open, exp2f(-16 * roughness - 1)) - 1 + open;
+    return fminf(fmaxf(reach, 0), 1);
+}
+
+/* All light comes from the map. */
+static float light_from_map(const MesoLightRig *rig, const MesoLitSurface *s, float radiance[3])
+{
+    const MesoEnvironment *e = rig->environment;
+    float light[3], whole[3], diffuse[3], glossy[3], shine[3], f0[3], reflected[3];
+    float open = sky_light(rig, s, light, whole), facing = meso_vec3_dot(s->normal, rig->to_key), lit = key_light(rig, s);
+    for (int c = 0; c < 3; c++)
+        f0[c] = 0.04f + (s->albedo[c] - 0.04f) * s->metallic;
+    float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f), glossy_open = open_side(nv, open, s->roughness);
+    reflect_all(s, nv, f0, reflected);
+    MesoVec3 mirrored = meso_vec3_mad(meso_vec3_scale(s->to_eye, -1), 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
+    MesoVec3 toward = to_map(rig, meso_vec3_unit(mirrored, s->normal));
+    meso_environment_diffuse(e, to_map(rig, s->normal), diffuse);
+    meso_environment_glossy(e, MESO_LIGHT_REST, toward, s->roughness, glossy);
+    shine[0] = shine[1] = shine[2] = 0;
+    if (lit > 0)
+        meso_environment_glossy(e, MESO_LIGHT_KEY, toward, s->roughness, shine);
+    for (int c = 0; c < 3; c++) {
+        float base = s->albedo[c] * (1 - s->metallic) * (1 - reflected[c]);
+        float bounced = 1 / (1 - 0.9f * s->albedo[c] * (1 - open)), share = whole[c] > 0 ? light[c] / whole[c] : open;
+        radiance[c] = diffuse[c] * share * base * bounced + glossy[c] * reflected[c] * glossy_open;
+        radiance[c] += (rig->colors.key[c] * fmaxf(facing, 0) / PI * base + shine[c] * reflected[c]) * lit;
+    }
+    return open;
 }
 
 void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *s, float radiance[3], float *openness)
 {
+    if (rig->environment) {
+        float open_map = light_from_map(rig, s, radiance);
+        if (openness)
+            *openness = open_map;
+        return;
+    }
     float sky[3], glossy[3], key[3], rim[3], f0[3], reflected[3];
-    float open = sky_light(rig, s, sky);
+    float open = sky_light(rig, s, sky, NULL);
     for (int c = 0; c < 3; c++)
         f0[c] = 0.04f + (s->albedo[c] - 0.04f) * s->metallic;
     float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f);
     reflect_all(s, nv, f0, reflected);
     MesoVec3 away = meso_vec3_scale(s->to_eye, -1);
     MesoVec3 mirrored = meso_vec3_mad(away, 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
-    float reach = powf(nv + open, exp2f(-16 * s->roughness - 1)) - 1 + open, glossy_open = fminf(fmaxf(reach, 0), 1);
+    float glossy_open = open_side(nv, open, s->roughness);
     sky_at(rig, mirrored, s->roughness, glossy);
     reflect_light(s, rig->to_key, f0, reflected, key);
     reflect_light(s, rig->to_rim, f0, reflected, rim);
@@ -230,7 +346,7 @@ float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p)
         MesoVec3 aside = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
         const MesoLitSurface for_sky = {.position = meso_vec3_mad(p, GROUND_SPREAD, aside), .normal = rig->up};
         const MesoLitSurface for_key = {.position = meso_vec3_mad(p, GROUND_KEY_SPREAD, aside), .normal = rig->up};
-        sky_light(rig, &for_sky, part);
+        sky_light(rig, &for_sky, part, NULL);
         key += key_light(rig, &for_key) / GROUND_TAPS;
         for (int c = 0; c < 3; c++)
             sky[c] += part[c] / GROUND_TAPS;

@@ -10,10 +10,18 @@
  * 2014) over a Lambertian base, F what of the sky's light those reflect, W how open the reflected side is by "Moving
  * Frostbite to Physically Based Rendering" (Lagarde, de Rousiers 2014), and what light loses between surfaces given
  * back by their colour. No surface gives back more than it gets.
+ *
+ * Or the light of an environment (environment.h), which stands in the world. Its irradiance is that of the harmonics,
+ * times the share that comes through where the sky's directions have the map's colours; its key light has maps all over
+ * its extent; and each part is reflected as the map has it, the key light's as far as it is seen:
+ *
+ *     L(p, n, e) = H(n) sum(max(n.d, 0) V(p, d) S(d)) / sum(max(n.d, 0) S(d)) albedo (1 - metallic) (1 - F)
+ *                + G(reflected e) F W + K V(p, k) (max(n.k, 0) albedo (1 - metallic) (1 - F) / pi + Gk(reflected e) F / K)
  */
 #ifndef MESO_LIGHT_RIG_H
 #define MESO_LIGHT_RIG_H
 
+#include "libcore/render/environment/environment.h"
 #include "libcore/render/light/light_map.h"
 #include "libcore/scene/material.h"
 
@@ -35,6 +43,9 @@ typedef struct MesoLightColors {
 } MesoLightColors;
 
 typedef struct MesoLightRig {
+    const MesoEnvironment *environment;     /* NULL: the lights that come with the camera */
+    MesoVec3 axes[3];           /* of the environment's map, in the world */
+    float key_extent;           /* tangent of half the angle of the key light's disc */
     MesoVec3 to_key, to_rim, up;
     MesoLightColors colors;
     MesoLightMaps sky, key;
@@ -46,11 +57,12 @@ typedef struct MesoLightRig {
 } MesoLightRig;
 
 /*
- * Draws the maps of all lights; they live in `arena`. `view` is the camera's, `up` what is up in the world, unit.
- * MESO_ERR_MEMORY alone.
+ * Draws the maps of all lights; they live in `arena`. `view` is the camera's, `up` what is up in the world, unit;
+ * `environment`, which may be NULL, has to last. MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
-                               MesoVec3 up, const MesoLightQuality *quality, uint32_t thread_count, MesoError *error);
+                               MesoVec3 up, const MesoEnvironment *environment, const MesoLightQuality *quality,
+                               uint32_t thread_count, MesoError *error);
 
 /* What is lit. */
 typedef struct MesoLitSurface {

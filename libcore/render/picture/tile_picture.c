@@ -286,7 +286,7 @@ MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene
     MesoLightQuality quality = meso_light_quality(options->samples);
     if (!status)
         status = meso_light_rig_init(&p.rig, arena, &p.shapes, &p.view, meso_vec3_unit(options->camera.up, p.view.up),
-                                     &quality, thread_count, error);
+                                     options->environment, &quality, thread_count, error);
     p.raster = meso_raster_view(&p.view, options->width, options->height, near_depth_of(&p.view, &scene->box));
     const MesoRasterJob job = {
         .shapes = &p.shapes, .view = p.raster, .width = options->width, .height = options->height,

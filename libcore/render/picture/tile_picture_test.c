@@ -265,7 +265,7 @@ static void test_light(void)
     CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
     CHECK(meso_shapes_init(&shapes, &arena, &b.scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
     const MesoLightQuality quality = {256, 256, 16, 512};
-    CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, options.camera.up, &quality, 2,
+    CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, options.camera.up, NULL, &quality, 2,
                               &error) == MESO_OK);
     const MesoVec3 ways[3] = {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}};
     for (int i = 0; i < 3; i++) {
@@ -297,7 +297,7 @@ static void make_furnace(MesoLightRig *rig, Bundle *b, MesoShapes *shapes)
     meso_scene_measure(&b->scene);
     CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
     CHECK(meso_shapes_init(shapes, &arena, &b->scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
-    CHECK(meso_light_rig_init(rig, &arena, shapes, &view, options.camera.up, &quality, 2, &error) == MESO_OK);
+    CHECK(meso_light_rig_init(rig, &arena, shapes, &view, options.camera.up, NULL, &quality, 2, &error) == MESO_OK);
     rig->colors = (MesoLightColors){.sky = {1, 1, 1}, .ground = {1, 1, 1}};
     for (uint32_t i = 0; i < 3 * rig->sky.count; i++)
         rig->sky_colors[i] = 1;

@@ -1,0 +1,32 @@
+/* What is behind the model in a PNG. */
+#ifndef MESO_RENDER_BACKDROP_H
+#define MESO_RENDER_BACKDROP_H
+
+#include "cmd/render/render_arguments.h"
+#include "formats/image/image_file.h"
+#include "libcore/render/environment/environment.h"
+
+typedef enum MesoBackdropKind { MESO_BACKDROP_COLOR, MESO_BACKDROP_NONE, MESO_BACKDROP_PICTURE, MESO_BACKDROP_LIGHT }
+    MesoBackdropKind;
+
+typedef struct MesoRenderBackdrop {
+    MesoBackdropKind kind;
+    MesoTone tone;
+    float color[3];
+    uint32_t width, height;     /* of the picture */
+    const float *channels[3];   /* of it, linear, as shown */
+    const MesoEnvironment *environment;
+} MesoRenderBackdrop;
+
+/*
+ * What --background and --tone ask for; a picture is read to the tool's arena. `environment`: that of the light, or NULL.
+ * MESO_ERR_USAGE where they do not fit; what readers say of the file.
+ */
+MesoStatus meso_render_backdrop_init(MesoRenderBackdrop *backdrop, MesoRenderArguments *a,
+                                     const MesoEnvironment *environment, MesoError *error);
+
+/* Writes the PNG of an image before it. */
+MesoStatus meso_render_backdrop_write(const MesoRenderBackdrop *backdrop, const MesoImage *image,
+                                      const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+
+#endif
