@@ -26,7 +26,8 @@ static const MesoToolInfo RENDER_TOOL = {
     .words = "1 .meso\n"
              "--output .exr .png\n"
              "--json .json\n"
-             "--keys .json\n"
+             "--keys .json .bin\n"
+             "--camera .glb .gltf .bin\n"
              "--png .png\n"
              "--background none light .png .exr .hdr\n"
              "--light camera studio sky .exr .hdr",
@@ -345,7 +346,7 @@ int main(int argc, char **argv)
         MESO_GROUP("Frames; the names of files, and of MODEL, have their number in %04d"),
         MESO_TEXT(0, "frames", "LIST", "which: 1-100, 1-99x2, 3,10-20 (default: all that there are)", &a.frames),
         MESO_COUNT(0, "turntable", "N", "N frames, 1 to N, for a full turn around the model", &a.turntable, 1, 1000000),
-        MESO_INPUT_FILE(0, "keys", "FILE", "the camera goes through key frames of a .camera.json", &a.keys),
+        MESO_INPUT_FILE(0, "keys", "FILE", "the camera goes through key frames of a .camera.json, or view matrices (.bin)", &a.keys),
         MESO_FLAG(0, "resume", "leave frames that are done, and those that another process works on", &a.resume,
                   .more = MESO_OPTION_SILENT),
         MESO_GROUP("Picture"),

@@ -2,7 +2,7 @@
 #ifndef MESO_CAMERA_OPTIONS_H
 #define MESO_CAMERA_OPTIONS_H
 
-#include "cmd/common/options.h"
+#include "cmd/common/tool.h"
 #include "libcore/render/render.h"
 
 typedef struct MesoCameraOptions {
@@ -10,7 +10,8 @@ typedef struct MesoCameraOptions {
     MesoCamera camera;
     float focal, sensor;        /* mm; the sensor is as wide as the picture */
     float ortho;                /* scene units; 0: what the object takes */
-    bool eye_given, target_given, fov_given, ortho_given, focal_given, sensor_given;
+    const char *file;           /* a camera of another program; NULL: none */
+    bool eye_given, target_given, up_given, fov_given, ortho_given, focal_given, sensor_given;
 } MesoCameraOptions;
 
 #define MESO_CAMERA_DEFAULTS {.size = {1280, 720}, .camera = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30, 0}, .sensor = 36, .ortho = -1}
@@ -22,7 +23,10 @@ typedef struct MesoCameraOptions {
                .given = &(c).eye_given, .more = MESO_OPTION_OVERRIDES), \
     MESO_POINT(0, "target", "X,Y,Z", "the point in the middle of the image (default: of the object)", \
                &(c).camera.target, .given = &(c).target_given, .more = MESO_OPTION_OVERRIDES), \
-    MESO_POINT(0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", &(c).camera.up), \
+    MESO_POINT(0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", &(c).camera.up, \
+               .given = &(c).up_given), \
+    MESO_TEXT(0, "camera", "FILE[:NAME]", "one of a glTF scene, by its name, or of view matrices, by the frame", \
+              &(c).file), \
     MESO_NUMBER(0, "fov", "DEGREES", "vertical field of view (default 30)", &(c).camera.fov_degrees, 0.1, \
                 170, .given = &(c).fov_given), \
     MESO_NUMBER(0, "focal", "MM", "focal length of the lens, in place of --fov", &(c).focal, 0.01, 1e5, \
@@ -32,8 +36,11 @@ typedef struct MesoCameraOptions {
     MESO_NUMBER(0, "ortho", "HEIGHT", "orthographic, the image so many units high (0: as the object fits)", \
                 &(c).ortho, 0, 1e18, .given = &(c).ortho_given)
 
-/* Whether the options fit each other; turns a lens into a field of view. MESO_ERR_USAGE alone. */
-MesoStatus meso_camera_options_check(MesoCameraOptions *options, MesoError *error);
+/*
+ * Turns a lens into a field of view, and reads a camera from a file: the first of a .glb or .gltf, or of view matrices, or
+ * the one whose name, or frame, follows a colon. MESO_ERR_USAGE where options do not fit each other.
+ */
+MesoStatus meso_camera_options_read(MesoCameraOptions *options, MesoTool *tool, MesoError *error);
 
 /*
  * The camera that the options ask for. What is not given frames `scene`:

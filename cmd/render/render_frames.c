@@ -3,8 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "formats/camera/camera_file.h"
+#include "formats/camera/view_matrices.h"
 #include "formats/clip/frame_folder.h"
-#include "formats/image/camera_file.h"
+#include "formats/product/file_kind.h"
 
 static MesoStatus read_keys(MesoRenderFrames *frames, MesoRenderArguments *a, MesoError *error)
 {
@@ -13,7 +15,10 @@ static MesoStatus read_keys(MesoRenderFrames *frames, MesoRenderArguments *a, Me
     if (status)
         return status;
     float aspect = (float)a->camera.size[0] / (float)a->camera.size[1];
-    status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, aspect, error);
+    if (meso_file_kind(&input) == MESO_FILE_UNKNOWN && input.size % 64 == 0)
+        status = meso_view_matrices_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, error);
+    else
+        status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, aspect, error);
     meso_input_close(&input);
     return status;
 }
@@ -54,14 +59,14 @@ MesoStatus meso_render_frames_init(MesoRenderFrames *frames, MesoRenderArguments
     frames->list = (MesoFrameList){1, &none};
     if (a->turntable && a->keys)
         return meso_fail(error, MESO_ERR_USAGE, "--turntable and --keys both move the camera: give one of them");
-    if (a->keys && (a->camera.eye_given || a->camera.target_given))
-        return meso_fail(error, MESO_ERR_USAGE, "--keys says where the camera is, and --eye and --target, too");
+    if (a->keys && (a->camera.eye_given || a->camera.target_given || a->camera.file))
+        return meso_fail(error, MESO_ERR_USAGE, "--keys says where the camera is, and --eye, --target and --camera, too");
     if (a->frames && !a->turntable && !a->keys && !frames->many_models)
         return meso_fail(error, MESO_ERR_USAGE, "--frames is for --turntable, --keys or a MODEL with a frame's number in its "
                          "name, as in model-%%04d.meso: here all frames are the same");
     if (a->keys && a->camera.ortho_given && a->camera.ortho == 0)
         return meso_fail(error, MESO_ERR_USAGE, "--ortho 0 fits the object, and --keys says where the camera is");
-    MesoStatus status = meso_camera_options_check(&a->camera, error);
+    MesoStatus status = meso_camera_options_read(&a->camera, &a->tool, error);
     if (!status)
         status = check_names(frames, error);
     if (!status && a->keys)

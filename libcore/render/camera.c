@@ -153,6 +153,23 @@ MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fo
     return end_frame(&frame, fov_degrees);
 }
 
+float meso_camera_fit_height(const MesoScene *scene, const MesoCamera *camera, float aspect)
+{
+    MesoView view;
+    if (meso_view_build(&view, camera, NULL))
+        return 1;
+    float none = -INFINITY;
+    Frame frame = {.right = view.right, .up = view.up, .back = meso_vec3_scale(view.forward, -1),
+                   .anchor = meso_box_anchor(scene->box.low, scene->box.high), .left_most = none, .right_most = none,
+                   .low_most = none, .high_most = none, .deepest = INFINITY, .nearest = none};
+    add_scene(&frame, scene);
+    MesoVec3 middle = meso_vec3_sub(camera->target, frame.anchor);
+    float x = meso_vec3_dot(middle, frame.right), y = meso_vec3_dot(middle, frame.up);
+    float across = fmaxf(frame.right_most - x, frame.left_most + x), upward = fmaxf(frame.high_most - y, frame.low_most + y);
+    float half = fmaxf(upward, across / aspect) / (1 - 2 * MARGIN);
+    return half > 0 && isfinite(half) ? 2 * half : 1;
+}
+
 MesoCamera meso_camera_frame_scene_parallel(const MesoScene *scene, MesoVec3 up, float aspect)
 {
     const float usual_fov = 30;
@@ -162,14 +179,14 @@ MesoCamera meso_camera_frame_scene_parallel(const MesoScene *scene, MesoVec3 up,
     if (!(frame.nearest >= frame.deepest))      /* nothing there */
         add_ball(&frame, frame.anchor, 1);
     float width = frame.right_most + frame.left_most, height = frame.high_most + frame.low_most;
-    float size = fmaxf(fmaxf(width, height), frame.nearest - frame.deepest);
-    size = size > 0 ? size : 1;
+    float size = fmaxf(fmaxf(width, height), fmaxf(frame.nearest - frame.deepest, 1e-3f));
     MesoVec3 middle = meso_vec3_mad(meso_vec3_scale(frame.right, 0.5f * (frame.right_most - frame.left_most)),
                                     0.5f * (frame.high_most - frame.low_most), frame.up);
     middle = meso_vec3_mad(middle, 0.5f * (frame.nearest + frame.deepest), frame.back);
     MesoVec3 target = meso_vec3_add(frame.anchor, middle);
-    return (MesoCamera){meso_vec3_mad(target, 2 * size, frame.back), target, up, usual_fov,
-                        fmaxf(fmaxf(height, width / aspect), 1e-6f * size) / (1 - 2 * MARGIN)};
+    MesoCamera camera = {meso_vec3_mad(target, 2 * size, frame.back), target, up, usual_fov, 0};
+    camera.height = meso_camera_fit_height(scene, &camera, aspect);
+    return camera;
 }
 
 float meso_camera_fov(float focal, float sensor, float aspect)

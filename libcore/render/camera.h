@@ -18,6 +18,9 @@ MesoCamera meso_camera_frame_scene(const MesoScene *scene, MesoVec3 up, float fo
 /* The same, orthographic and as high as it takes. */
 MesoCamera meso_camera_frame_scene_parallel(const MesoScene *scene, MesoVec3 up, float aspect);
 
+/* How high an orthographic picture around the camera's target is that shows the whole scene, with the margin. */
+float meso_camera_fit_height(const MesoScene *scene, const MesoCamera *camera, float aspect);
+
 /* The vertical field of view, in degrees, of a lens before a sensor as wide as the picture, both in mm. */
 float meso_camera_fov(float focal, float sensor, float aspect);
 

@@ -146,6 +146,9 @@ static void test_parallel(MesoVec3 low, MesoVec3 high, MesoVec3 up, uint32_t wid
         most = fmaxf(most, fmaxf(fabsf(p.x), fabsf(p.y)));
     }
     CHECK(fabsf(most - 0.9f) < 1e-2f);
+    camera.target = meso_vec3_mad(camera.target, 0.5f * camera.height, view.up);      /* off the middle it takes more */
+    camera.eye = meso_vec3_mad(camera.eye, 0.5f * camera.height, view.up);
+    CHECK(meso_camera_fit_height(&scene, &camera, (float)width / (float)height) > 1.2f * camera.height);
 }
 
 static void test_lenses(void)

@@ -30,6 +30,33 @@ for name in fit gl; do
     grep -E 'ortho|fov|command.*render' $name.json
 done
 
+# Of other programs: the same camera in each.
+cat >scene.gltf <<END
+{"asset": {"version": "2.0"}, "cameras": [{"name": "wide", "type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}},
+  {"name": "flat", "type": "orthographic", "orthographic": {"xmag": 3, "ymag": 1.5, "znear": 0.1, "zfar": 100}}],
+ "nodes": [{"name": "near", "translation": [0, 1, 4], "camera": 0}, {"name": "front", "translation": [0, 1, 4], "camera": 1}]}
+END
+zero='\0\0\0\0' one='\0\0\200\077'
+printf "$one$zero$zero$zero$zero$one$zero$zero$zero$zero$one$zero$zero"'\0\0\200\277\0\0\200\300'"$one" >view.bin
+cat view.bin view.bin >views.bin
+at='--eye 0,1,4 --target 0,1,0 --provenance none'
+meso-render $small --camera scene.gltf --provenance none --json=file.json vase.meso -o file.png
+meso-render $small $at --fov 57.29577951308232 vase.meso -o given.png
+cmp file.png given.png
+meso-render $small --camera scene.gltf:front --provenance none vase.meso -o file.png
+meso-render $small $at --ortho 3 vase.meso -o given.png
+cmp file.png given.png
+meso-render $small $at --fov 40 vase.meso -o given.png
+for camera in scene.gltf:flat views.bin:2 view.bin; do
+    meso-render $small --camera $camera --fov 40 --provenance none vase.meso -o file.png
+    cmp file.png given.png
+done
+meso-render -q $small --keys views.bin --fov 40 --provenance none vase.meso -o view-%d.png
+cmp view-1.png given.png
+cmp view-2.png given.png
+grep -A5 '"camera": {' file.json
+meso-render -q $small --camera scene.gltf:near --json vase.meso -o file.png | grep -A1 -E '"(role": "camera|command": "meso-render)'
+
 refuse() {
     status=0
     meso-render $small "$@" vase.meso -o x.png || status=$?
@@ -40,6 +67,13 @@ refuse --ortho 3 --fov 20
 refuse --focal 50 --fov 20
 refuse --focal 100000 --sensor 0.01
 refuse --ortho -1
+refuse --camera scene.gltf:side
+refuse --camera scene.gltf --eye 1,2,3
+refuse --camera views.bin:3
+refuse --camera vase.meso
+refuse --camera scene.gltf --keys ortho.camera.json
+head -c 100 views.bin >cut.bin
+refuse --camera cut.bin
 meso-render $small --ortho 0 --keys ortho.camera.json vase.meso -o x-%d.png || echo "status $?"
 ls x* 2>/dev/null
 true

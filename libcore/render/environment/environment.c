@@ -1,7 +1,5 @@
 #include "libcore/render/environment/environment.h"
 
-#include "libcore/render/environment/glossy_levels.h"
-
 static const float PI = 3.14159265f;
 
 /* What is brighter than so many times the mean is key light, as far as it lies within so much of its middle; where that

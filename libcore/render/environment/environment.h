@@ -8,9 +8,7 @@
 #ifndef MESO_ENVIRONMENT_H
 #define MESO_ENVIRONMENT_H
 
-#include "libcore/render/environment/lat_long.h"
-
-enum { MESO_GLOSSY_LEVELS = 8 };
+#include "libcore/render/environment/glossy_levels.h"
 
 /* What is lit by the key light, and by the rest. */
 typedef enum MesoEnvironmentPart { MESO_LIGHT_REST, MESO_LIGHT_KEY, MESO_LIGHT_PARTS } MesoEnvironmentPart;

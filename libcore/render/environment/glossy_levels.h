@@ -2,7 +2,9 @@
 #ifndef MESO_GLOSSY_LEVELS_H
 #define MESO_GLOSSY_LEVELS_H
 
-#include "libcore/render/environment/environment.h"
+#include "libcore/render/environment/lat_long.h"
+
+enum { MESO_GLOSSY_LEVELS = 8 };      /* of roughness, 0 to 1 evenly */
 
 /* Of the sizes that are fine enough for each. MESO_ERR_MEMORY alone. */
 MesoStatus meso_glossy_levels_alloc(MesoLatLong levels[MESO_GLOSSY_LEVELS], MesoArena *arena, MesoError *error);

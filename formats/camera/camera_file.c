@@ -1,4 +1,4 @@
-#include "formats/image/camera_file.h"
+#include "formats/camera/camera_file.h"
 
 #include "formats/json/json_text.h"
 #include "formats/json/json_value.h"
