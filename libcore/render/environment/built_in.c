@@ -25,7 +25,7 @@ static const float SUN_RIGHT = -38, SUN_ABOVE = 42;                 /* degrees *
 static const float SUN_RADIUS = 1.6f;                               /* of thin haze: soft shadows */
 static const float SUN[3] = {3.3f, 2.95f, 2.4f};                    /* irradiance */
 static const float SKY_LUMINANCE = 0.052f;                          /* of one kcd / m2 */
-static const float GROUND[3] = {0.30f, 0.285f, 0.26f};              /* albedo */
+static const float GROUND[3] = {0.315f, 0.287f, 0.232f};              /* albedo */
 
 /* One of luminance and chromaticities: the five numbers of Perez's formula, and the value at the zenith. */
 typedef struct Perez {
@@ -128,14 +128,14 @@ typedef struct Lamp {
 } Lamp;
 
 static const Lamp LAMPS[] = {
-    {-32, 46, 17, 13, 0.35f, {14.5f, 13.6f, 12.2f}},        /* key */
-    {82, 14, 24, 30, 0.7f, {0.85f, 0.93f, 1.05f}},          /* fill */
-    {27, 86, 26, 20, 0.5f, {1.5f, 1.5f, 1.5f}},             /* above */
-    {168, 22, 6, 34, 0.4f, {5.2f, 5.6f, 6.2f}},             /* behind, seen from the default camera at its right */
-    {-118, 18, 5, 32, 0.4f, {3.4f, 3.4f, 3.5f}},            /* and at its left */
+    {-34, 48, 12.5f, 10, 0.3f, {27, 25.2f, 22.4f}},         /* key */
+    {78, 8, 20, 30, 0.7f, {0.7f, 0.78f, 0.92f}},            /* fill */
+    {27, 84, 28, 16, 0.4f, {2.2f, 2.2f, 2.2f}},             /* above */
+    {124, 16, 7, 40, 0.3f, {6.2f, 6.8f, 7.6f}},             /* a rim at the right of what the default camera sees */
+    {-104, 18, 6, 38, 0.3f, {4.4f, 4.3f, 4.1f}},            /* and at its left */
 };
 
-static const float ROOM[3] = {0.13f, 0.135f, 0.145f}, CEILING[3] = {0.30f, 0.31f, 0.33f}, FLOOR[3] = {0.34f, 0.33f, 0.31f};
+static const float ROOM[3] = {0.1f, 0.103f, 0.11f}, CEILING[3] = {0.2f, 0.205f, 0.215f}, FLOOR[3] = {0.26f, 0.25f, 0.235f};
 
 static void add_lamp(const Lamp *lamp, MesoVec3 d, float out[3])
 {

@@ -11,6 +11,9 @@ static const MesoLightColors COLORS = {.key = {3.3f, 3, 2.58f}, .rim = {0.62f, 0
 enum { GROUND_TAPS = 6 };
 static const float GROUND_SPREAD = 0.035f, GROUND_KEY_SPREAD = 0.012f;
 
+/* How fast light of a map fades to directions around it: the one next to it gets a fifth. */
+static const float SKY_SHARPNESS = 3;
+
 /* Of the key light's disc, as the tangent of half its angle. A wider one has as many more places. */
 static const float KEY_EXTENT = 0.07f;
 
@@ -110,32 +113,36 @@ static uint32_t key_places(const MesoLightRig *rig, uint32_t usual)
     return (uint32_t)fminf((float)usual * fmaxf(rig->key_extent / KEY_EXTENT, 1), MESO_KEY_MOST);
 }
 
-/* Each texel of the map goes to the sky's direction that is nearest. */
+/*
+ * Light of the map goes to the sky's directions around it, to each the more the nearer it is: what falls between two
+ * comes from both, and what is small and bright casts more than one hard shadow.
+ */
 static void color_sky(MesoLightRig *rig, const MesoVec3 *towards, uint32_t count)
 {
-    const MesoLatLong *map = &rig->environment->glossy[MESO_LIGHT_REST][0];
+    enum { WIDTH = 64, HEIGHT = 32 };
+    float texels[3 * WIDTH * HEIGHT], shares[MESO_SKY_MOST];
     double sums[MESO_SKY_MOST][4] = {{0}};
     MesoVec3 toward[MESO_SKY_MOST];
+    MesoLatLong map = {WIDTH, HEIGHT, texels};
+    float sharpness = SKY_SHARPNESS * (float)count / (4 * PI);      /* by the square of their distance */
+    meso_lat_long_resample(&rig->environment->glossy[MESO_LIGHT_REST][0], &map);
     for (uint32_t i = 0; i < count; i++)
         toward[i] = to_map(rig, towards[i]);
-    for (uint32_t y = 0; y < map->height; y++)
-        for (uint32_t x = 0; x < map->width; x++) {
-            MesoVec3 d = meso_lat_long_direction(map, x, y);
-            double solid_angle = (double)meso_lat_long_solid_angle(map, y);
-            uint32_t best = 0;
-            float nearest = -2;
-            for (uint32_t i = 0; i < count; i++) {
-                float along = meso_vec3_dot(d, toward[i]);
-                best = along > nearest ? i : best;
-                nearest = fmaxf(nearest, along);
-            }
-            for (size_t c = 0; c < 3; c++)
-                sums[best][c] += solid_angle * (double)map->rgb[3 * ((size_t)y * map->width + x) + c];
-            sums[best][3] += solid_angle;
+    for (uint32_t k = 0; k < WIDTH * HEIGHT; k++) {
+        MesoVec3 d = meso_lat_long_direction(&map, k % WIDTH, k / WIDTH);
+        float whole = 0, solid_angle = meso_lat_long_solid_angle(&map, k / WIDTH);
+        for (uint32_t i = 0; i < count; i++)
+            whole += shares[i] = expf(sharpness * (meso_vec3_dot(d, toward[i]) - 1));
+        for (uint32_t i = 0; i < count; i++) {
+            double weight = (double)(solid_angle * shares[i] / whole);
+            for (uint32_t c = 0; c < 3; c++)
+                sums[i][c] += weight * (double)texels[3 * k + c];
+            sums[i][3] += weight;
         }
+    }
     for (size_t i = 0; i < count; i++)
         for (size_t c = 0; c < 3; c++)
-            rig->sky_colors[3 * i + c] = (float)(sums[i][c] / fmax(sums[i][3], 1e-30));
+            rig->sky_colors[3 * i + c] = (float)(sums[i][c] / sums[i][3]);
 }
 
 /* ---- maps ---- */
