@@ -34,6 +34,7 @@ report meso-tile list vase.tiles.json -o x.txt
 report meso-map vase.tiles.json vase.obj vase.slots -o x.meso
 report meso-map vase.meso -o x.drc
 report meso-render --size 40x30 vase.meso -o x.png
+report meso-render --size 40x30 --ortho 0 vase.meso -o x.png
 report meso-info vase.slots -o x.json
 report meso-mesh info vase.obj
 report meso-decor eleven-steps.pattern.json vase.obj -o x.ply
@@ -55,7 +56,13 @@ meso-decor -q --tree grown-tree.json procedural.pattern.json vase.obj -o x.ply
 printf '{"format": "meso-pattern", "version": 1, "steps": [{"displace": 0.1}]}' >idle.json
 meso-decor -q --tree whole-tree.json idle.json vase.obj -o x.ply
 
+cat >x.camera.json <<END
+{"format": "meso-camera", "version": 1, "comment": "one of each", "keys": [
+  {"frame": 1, "eye": [0, 1, 4], "target": [0, 0.5, 0], "focal": 50, "sensor": 24}, {"frame": 9, "fov": 30, "up": [0, 0, 1]}]}
+END
+
 # Broken ones, each in one place.
+sed 's/"fov": 30/"fov": 30, "ortho": 2/' x.camera.json >broken-9.json
 sed 's/"solved"/"perhaps"/' solved.json >broken-1.json
 sed 's/"initial": true/"initial": 1/' gap.json >broken-2.json
 sed 's/"status": "ok"/"status": "no"/' report-1.json >broken-3.json
@@ -85,12 +92,14 @@ if [ -d "$npm/node_modules/ajv" ]; then
     validate regions tree.json grown-tree.json whole-tree.json
     validate details "$testdata"/details/*.details.json
     validate deform "$testdata"/details/*.deform.json
+    validate camera x.camera.json
     validate report broken-[1238].json
     validate seeds broken.jsonl
     validate constraints broken-4.json
     validate pattern broken-5.json
     validate macros broken-6.json
     validate regions broken-7.json
+    validate camera broken-9.json
 elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it
     echo "ajv is not installed" >&2
 else
