@@ -17,9 +17,9 @@ map 2 >above.hdr
 
 for light in camera studio sky grey.hdr above.hdr; do
     meso-render $small --light $light --threads 1 vase.meso -o one.exr --png $light.png
-    meso-render $small --light $light --threads 3 vase.meso -o three.exr
-    cmp one.exr three.exr
 done
+meso-render $small --light above.hdr --threads 3 vase.meso -o three.exr
+cmp one.exr three.exr
 meso-render $small vase.meso -o plain.png
 cmp plain.png camera.png
 meso-render $small --light grey.hdr --light-turn 77 vase.meso -o turned.png
@@ -33,9 +33,9 @@ meso-render -q --size 48x32 --samples 1 --light above.hdr --light-turn 10 --json
     grep -A1 -E '"(role": "light|command": "meso-render)'
 
 # Tones: none but the PNG's.
-meso-render $small --light studio vase.meso -o usual.exr
+meso-render $small vase.meso -o usual.exr
 for tone in shoulder none neutral agx filmic; do
-    meso-render $small --light studio --tone $tone vase.meso -o tone.exr --png tone-$tone.png
+    meso-render $small --tone $tone --background 0,0,0 vase.meso -o tone.exr --png tone-$tone.png
     cmp usual.exr tone.exr
     [ $tone = shoulder ] || ! cmp -s tone-shoulder.png tone-$tone.png || echo "$tone does nothing"
 done
@@ -45,8 +45,8 @@ meso-render $small --eye 0,9,9 --target 0,18,18 --background 1,0,0 --size 7x31 v
 meso-render $small --background red.png vase.meso -o behind.png
 meso-render $small --background 1,0,0 vase.meso -o given.png
 cmp behind.png given.png
-meso-render $small --background red.png --tone agx --light sky vase.meso -o behind.png
-meso-render $small --background 1,0,0 --tone agx --light sky vase.meso -o given.png
+meso-render $small --background red.png --tone agx vase.meso -o behind.png
+meso-render $small --background 1,0,0 --tone agx vase.meso -o given.png
 cmp behind.png given.png
 meso-render $small --light grey.hdr --background light --tone none vase.meso -o behind.png
 meso-render $small --light grey.hdr --background grey.hdr --tone none vase.meso -o given.png

@@ -9,7 +9,7 @@
 #include "libcore/base/parallel.h"
 
 /* Heights, half of the widths; and those of what is read for them. */
-static const uint32_t HEIGHTS[MESO_GLOSSY_LEVELS] = {128, 128, 64, 32, 32, 32, 32, 32};
+static const uint32_t HEIGHTS[MESO_GLOSSY_LEVELS] = {128, 64, 64, 32, 32, 32, 32, 32};
 static const uint32_t READ[MESO_GLOSSY_LEVELS] = {128, 128, 64, 64, 32, 32, 32, 32};
 
 /* Of the greatest weight, below which one is left out. */
