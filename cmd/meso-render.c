@@ -72,8 +72,8 @@ static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
                      output);
 }
 
-static MesoStatus write_image(const MesoRenderArguments *a, const MesoRenderBackdrop *backdrop, const char *path, bool exr,
-                              const MesoImage *image, MesoError *error)
+static MesoStatus write_image(const MesoRenderArguments *a, const MesoRenderBackdrop *backdrop, const char *path,
+                              bool exr, const MesoImage *image, MesoError *error)
 {
     MesoOutput *output;
     MesoStatus status = meso_output_open(&output, path, error);
@@ -346,7 +346,8 @@ int main(int argc, char **argv)
         MESO_GROUP("Frames; the names of files, and of MODEL, have their number in %04d"),
         MESO_TEXT(0, "frames", "LIST", "which: 1-100, 1-99x2, 3,10-20 (default: all that there are)", &a.frames),
         MESO_COUNT(0, "turntable", "N", "N frames, 1 to N, for a full turn around the model", &a.turntable, 1, 1000000),
-        MESO_INPUT_FILE(0, "keys", "FILE", "the camera goes through key frames of a .camera.json, or view matrices (.bin)", &a.keys),
+        MESO_INPUT_FILE(0, "keys", "FILE", "the camera goes through key frames of a .camera.json, or view matrices "
+                        "(.bin)", &a.keys),
         MESO_FLAG(0, "resume", "leave frames that are done, and those that another process works on", &a.resume,
                   .more = MESO_OPTION_SILENT),
         MESO_GROUP("Picture"),
@@ -354,8 +355,8 @@ int main(int argc, char **argv)
                     "1|4|16"),
         MESO_CHOICE(0, "ground", "WHAT", "under the model: none (default), or one that shadow falls on", &a.ground,
                     "none|shadow"),
-        MESO_TEXT(0, "light", "WHAT", "camera (default: it comes with it), studio, sky, or a lat-long FILE (.exr, .hdr)",
-                  &a.light),
+        MESO_TEXT(0, "light", "WHAT", "camera (default: it comes with it), studio, sky, or a lat-long FILE (.exr, "
+                  ".hdr)", &a.light),
         MESO_NUMBER(0, "light-turn", "DEGREES", "turn that light about the direction that is up", &a.light_turn, -36000,
                     36000, .given = &a.light_turn_given),
         MESO_NUMBER(0, "light-strength", "X", "times as much of it (default 1)", &a.light_strength, 0, 1e6,
@@ -366,9 +367,10 @@ int main(int argc, char **argv)
                     "--context is given", &a.visibility, "auto|tiles|gl"),
         MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",
                   &a.aov),
-        MESO_TEXT(0, "background", "WHAT", "of the PNG: R,G,B, linear, 0 to 1 (default: light grey), none, the light, or a "
-                  "picture FILE that is to cover it", &a.background_text),
-        MESO_CHOICE(0, "tone", "CURVE", "of the PNG's highlights: shoulder (default), none, neutral, agx or filmic", &a.tone,
+        MESO_TEXT(0, "background", "WHAT", "of the PNG: R,G,B, linear, 0 to 1 (default: light grey), none, the light, "
+                  "or a picture FILE that is to cover it", &a.background_text),
+        MESO_CHOICE(0, "tone", "CURVE", "of the PNG's highlights: shoulder (default), none, neutral, agx or filmic",
+                    &a.tone,
                     "shoulder|none|neutral|agx|filmic"),
         MESO_CHOICE(0, "context", "MAKER",
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",

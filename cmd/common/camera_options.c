@@ -13,7 +13,8 @@ static MesoStatus check(const MesoCameraOptions *options, MesoError *error)
     if (options->sensor_given && !options->focal_given)
         return meso_fail(error, MESO_ERR_USAGE, "--sensor is for --focal, which is not given");
     if (options->fov_given + options->focal_given + options->ortho_given > 1)
-        return meso_fail(error, MESO_ERR_USAGE, "--fov, --focal and --ortho each say how much the image shows: give one");
+        return meso_fail(error, MESO_ERR_USAGE, "--fov, --focal and --ortho each say how much the image shows: give "
+                                                "one");
     if (options->file && (options->eye_given || options->target_given || options->up_given))
         return meso_fail(error, MESO_ERR_USAGE, "--camera says where the camera is, and --eye, --target and --up, too");
     return MESO_OK;
@@ -45,7 +46,8 @@ static MesoStatus read_matrix(MesoCamera *camera, MesoArena *arena, const MesoIn
         return status;
     unsigned long frame = name ? strtoul(name, &end, 10) : 1;
     if ((name && (*end || end == name)) || frame < 1 || frame > count)
-        return meso_fail(error, MESO_ERR_USAGE, "--camera: %s has frames 1 to %u, and no '%s'", input->path, count, name);
+        return meso_fail(error, MESO_ERR_USAGE, "--camera: %s has frames 1 to %u, and no '%s'", input->path, count,
+                         name);
     *camera = keys[frame - 1].camera;
     return MESO_OK;
 }
@@ -65,7 +67,8 @@ static MesoStatus read_file(MesoCameraOptions *options, MesoTool *tool, MesoErro
     bool matrices = length > 4 && strcasecmp(path + length - 4, ".bin") == 0;
     MesoFileKind kind = matrices ? MESO_FILE_UNKNOWN : meso_file_kind(&input);
     if (!matrices && kind != MESO_FILE_GLB && !(kind & MESO_FILES_OF_JSON))
-        status = meso_fail(error, MESO_ERR_INPUT, "%s: %s, not a camera; glTF scenes and view matrices (.bin) are read", path,
+        status = meso_fail(error, MESO_ERR_INPUT, "%s: %s, not a camera; glTF scenes and view matrices (.bin) are "
+                                                  "read", path,
                            meso_file_kind_phrase(kind));
     else
         status = matrices ? read_matrix(&camera, &tool->arena, &input, name, error)

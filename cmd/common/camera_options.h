@@ -14,7 +14,8 @@ typedef struct MesoCameraOptions {
     bool eye_given, target_given, up_given, fov_given, ortho_given, focal_given, sensor_given;
 } MesoCameraOptions;
 
-#define MESO_CAMERA_DEFAULTS {.size = {1280, 720}, .camera = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30, 0}, .sensor = 36, .ortho = -1}
+#define MESO_CAMERA_DEFAULTS                                                                  \
+    {.size = {1280, 720}, .camera = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 30, 0}, .sensor = 36, .ortho = -1}
 
 #define MESO_CAMERA_OPTIONS(c)                                                                \
     MESO_GROUP("Camera"), \
@@ -37,8 +38,8 @@ typedef struct MesoCameraOptions {
                 &(c).ortho, 0, 1e18, .given = &(c).ortho_given)
 
 /*
- * Turns a lens into a field of view, and reads a camera from a file: the first of a .glb or .gltf, or of view matrices, or
- * the one whose name, or frame, follows a colon. MESO_ERR_USAGE where options do not fit each other.
+ * Turns a lens into a field of view, and reads a camera from a file: the first of a .glb or .gltf, or of view matrices,
+ * or the one whose name, or frame, follows a colon. MESO_ERR_USAGE where options do not fit each other.
  */
 MesoStatus meso_camera_options_read(MesoCameraOptions *options, MesoTool *tool, MesoError *error);
 

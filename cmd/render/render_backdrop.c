@@ -127,7 +127,8 @@ static float mean_over(const MesoRenderBackdrop *b, int channel, double left, do
         for (int64_t x = (int64_t)floor(left); (double)x < right; x++) {
             double across = fmin((double)x + 1, right) - fmax((double)x, left);
             double down = fmin((double)y + 1, bottom) - fmax((double)y, top), weight = across * down;
-            int64_t at_x = x < 0 ? 0 : x < b->width ? x : b->width - 1, at_y = y < 0 ? 0 : y < b->height ? y : b->height - 1;
+            int64_t at_x = x < 0 ? 0 : x < b->width ? x : b->width - 1;
+            int64_t at_y = y < 0 ? 0 : y < b->height ? y : b->height - 1;
             sum += weight * (double)b->channels[channel][at_y * b->width + at_x];
             whole += weight;
         }
@@ -143,7 +144,8 @@ static void put_picture(const Rows *rows, uint32_t y, float *row)
     for (uint32_t x = 0; x < rows->width; x++) {
         double across = 0.5 * b->width + ((double)x + 0.5 - 0.5 * rows->width) * scale;
         for (int c = 0; c < 3; c++)
-            row[3 * (size_t)x + (size_t)c] = mean_over(b, c, across - reach, down - reach, across + reach, down + reach);
+            row[3 * (size_t)x + (size_t)c] =
+                mean_over(b, c, across - reach, down - reach, across + reach, down + reach);
     }
 }
 
@@ -153,7 +155,8 @@ static void put_light(const Rows *rows, uint32_t y, float *row)
     for (uint32_t x = 0; x < rows->width; x++) {
         MesoVec3 d = meso_raster_ray(&rows->raster, (float)x + 0.5f, (float)y + 0.5f).direction;
         d = meso_vec3_unit(d, rows->view.forward);
-        MesoVec3 toward = {meso_vec3_dot(d, rows->axes[0]), meso_vec3_dot(d, rows->axes[1]), meso_vec3_dot(d, rows->axes[2])};
+        MesoVec3 toward = {meso_vec3_dot(d, rows->axes[0]), meso_vec3_dot(d, rows->axes[1]),
+                           meso_vec3_dot(d, rows->axes[2])};
         float *out = row + 3 * (size_t)x;
         meso_lat_long_at(&e->map, toward, out);
         meso_tone(rows->backdrop->tone, out, out);
@@ -169,8 +172,8 @@ static void put_row(void *context, uint32_t y, float *row)
         put_light(rows, y, row);
 }
 
-MesoStatus meso_render_backdrop_write(const MesoRenderBackdrop *b, const MesoImage *image, const MesoProvenance *provenance,
-                                      MesoOutput *output, MesoError *error)
+MesoStatus meso_render_backdrop_write(const MesoRenderBackdrop *b, const MesoImage *image,
+                                      const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
 {
     Rows rows = {.backdrop = b, .width = image->width, .height = image->height};
     MesoPngLook look = {.tone = b->tone, .transparent = b->kind == MESO_BACKDROP_NONE,

@@ -19,8 +19,8 @@ typedef struct MesoRenderBackdrop {
 } MesoRenderBackdrop;
 
 /*
- * What --background and --tone ask for; a picture is read to the tool's arena. `environment`: that of the light, or NULL.
- * MESO_ERR_USAGE where they do not fit; what readers say of the file.
+ * What --background and --tone ask for; a picture is read to the tool's arena. `environment`: that of the light, or
+ * NULL. MESO_ERR_USAGE where they do not fit; what readers say of the file.
  */
 MesoStatus meso_render_backdrop_init(MesoRenderBackdrop *backdrop, MesoRenderArguments *a,
                                      const MesoEnvironment *environment, MesoError *error);

@@ -16,9 +16,11 @@ static MesoStatus read_keys(MesoRenderFrames *frames, MesoRenderArguments *a, Me
         return status;
     float aspect = (float)a->camera.size[0] / (float)a->camera.size[1];
     if (meso_file_kind(&input) == MESO_FILE_UNKNOWN && input.size % 64 == 0)
-        status = meso_view_matrices_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, error);
+        status = meso_view_matrices_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera,
+                                         error);
     else
-        status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, aspect, error);
+        status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, aspect,
+                                  error);
     meso_input_close(&input);
     return status;
 }
@@ -60,7 +62,8 @@ MesoStatus meso_render_frames_init(MesoRenderFrames *frames, MesoRenderArguments
     if (a->turntable && a->keys)
         return meso_fail(error, MESO_ERR_USAGE, "--turntable and --keys both move the camera: give one of them");
     if (a->keys && (a->camera.eye_given || a->camera.target_given || a->camera.file))
-        return meso_fail(error, MESO_ERR_USAGE, "--keys says where the camera is, and --eye, --target and --camera, too");
+        return meso_fail(error, MESO_ERR_USAGE, "--keys says where the camera is, and --eye, --target and --camera, "
+                                                "too");
     if (a->frames && !a->turntable && !a->keys && !frames->many_models)
         return meso_fail(error, MESO_ERR_USAGE, "--frames is for --turntable, --keys or a MODEL with a frame's number in its "
                          "name, as in model-%%04d.meso: here all frames are the same");

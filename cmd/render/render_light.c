@@ -28,7 +28,8 @@ MesoStatus meso_render_light_init(const MesoEnvironment **environment, MesoRende
     *environment = NULL;
     if (strcmp(a->light, "camera") == 0)
         return a->light_turn_given || a->light_strength_given
-                   ? meso_fail(error, MESO_ERR_USAGE, "--light-turn and --light-strength are for --light studio, sky or FILE")
+                   ? meso_fail(error, MESO_ERR_USAGE, "--light-turn and --light-strength are for --light studio, sky "
+                                                      "or FILE")
                    : MESO_OK;
     MesoStatus status = read_map(&map, a, error);
     MesoEnvironment *made = status ? NULL : MESO_NEW(&a->tool.arena, MesoEnvironment, 1, error);

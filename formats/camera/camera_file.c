@@ -29,7 +29,8 @@ static void read_lens(const MesoJsonField *item, MesoCamera *camera, Lens *lens,
 {
     MesoJsonField fov = meso_json_key(item, "fov"), focal = meso_json_key(item, "focal");
     MesoJsonField sensor = meso_json_key(item, "sensor"), ortho = meso_json_key(item, "ortho");
-    const MesoJsonField *extra = focal.value && fov.value ? &focal : ortho.value && (fov.value || focal.value) ? &ortho : NULL;
+    const MesoJsonField *extra = focal.value && fov.value ? &focal
+                               : ortho.value && (fov.value || focal.value) ? &ortho : NULL;
     if (extra)
         meso_json_wrong(extra, "one of fov, focal and ortho says how much is shown");
     camera->fov_degrees = meso_json_float_in(&fov, 0.1f, 170, false, camera->fov_degrees);
@@ -42,8 +43,8 @@ static void read_lens(const MesoJsonField *item, MesoCamera *camera, Lens *lens,
         camera->fov_degrees = meso_camera_fov(lens->focal, lens->sensor, aspect);
 }
 
-static void read_key(const MesoJsonField *item, MesoCameraKey *key, const MesoCameraKey *before, const MesoCamera *usual,
-                     Lens *lens, float aspect)
+static void read_key(const MesoJsonField *item, MesoCameraKey *key, const MesoCameraKey *before,
+                     const MesoCamera *usual, Lens *lens, float aspect)
 {
     static const char *const keys[] = {"frame", "eye", "target", "up", "fov", "focal", "sensor", "ortho", NULL};
     if (!meso_json_object(item, keys))
@@ -57,8 +58,8 @@ static void read_key(const MesoJsonField *item, MesoCameraKey *key, const MesoCa
         meso_json_require(&target);
     }
     key->frame = (int32_t)meso_json_whole(&frame, 0, INT32_MAX, 0);
-    key->camera = (MesoCamera){read_point(&eye, then->eye), read_point(&target, then->target), read_point(&up, then->up),
-                               then->fov_degrees, then->height};
+    key->camera = (MesoCamera){read_point(&eye, then->eye), read_point(&target, then->target),
+                               read_point(&up, then->up), then->fov_degrees, then->height};
     read_lens(item, &key->camera, lens, aspect);
     if (meso_json_good(item) && before && key->frame <= before->frame)
         meso_json_wrong(&frame, "%d does not come after %d", key->frame, before->frame);

@@ -38,10 +38,13 @@ static MesoVec3 forward(const MesoCamera *c)
 
 /* A quarter turn about y, under a move and a size of 2; and one of a matrix that looks down. */
 static const char SCENE[] =
-    "{\"asset\": {\"version\": \"2.0\"}, \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.5, \"znear\": 1}},"
-    " {\"name\": \"flat\", \"type\": \"orthographic\", \"orthographic\": {\"xmag\": 3, \"ymag\": 2, \"znear\": 0, \"zfar\": 9}}],"
+    "{\"asset\": {\"version\": \"2.0\"}, \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.5, "
+    "\"znear\": 1}},"
+    " {\"name\": \"flat\", \"type\": \"orthographic\", \"orthographic\": {\"xmag\": 3, \"ymag\": 2, \"znear\": 0, "
+    "\"zfar\": 9}}],"
     " \"nodes\": [{\"name\": \"mesh\"}, {\"name\": \"side\", \"camera\": 0, \"translation\": [1, 0, 2]},"
-    " {\"rotation\": [0, 0.70710678, 0, 0.70710678], \"scale\": [2, 2, 2], \"translation\": [10, 0, 0], \"children\": [1]},"
+    " {\"rotation\": [0, 0.70710678, 0, 0.70710678], \"scale\": [2, 2, 2], \"translation\": [10, 0, 0], \"children\": "
+    "[1]},"
     " {\"name\": \"top\", \"camera\": 1, \"matrix\": [1,0,0,0, 0,0,-1,0, 0,1,0,0, 5,6,7,1]}]}";
 
 static void check_scene(const void *data, size_t size)
@@ -81,8 +84,10 @@ static void test_wrong_scenes(void)
         {"{\"nodes\": [{\"camera\": 0}]}", "camera"},
         {"{\"nodes\": [{\"camera\": 0}], \"cameras\": [{\"type\": \"fisheye\"}]}", "fisheye"},
         {"{\"nodes\": [{\"camera\": 0}], \"cameras\": [{\"type\": \"perspective\"}]}", "yfov"},
-        {"{\"nodes\": [{\"camera\": 0}], \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 4}}]}", "yfov"},
-        {"{\"nodes\": [{\"camera\": 0, \"children\": [1]}, {\"children\": [0]}], \"cameras\": [{\"type\": \"perspective\", "
+        {"{\"nodes\": [{\"camera\": 0}], \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 4}}]}",
+         "yfov"},
+        {"{\"nodes\": [{\"camera\": 0, \"children\": [1]}, {\"children\": [0]}], \"cameras\": [{\"type\": "
+         "\"perspective\", "
          "\"perspective\": {\"yfov\": 1}}]}", "in a circle"},
         {"{\"nodes\": [{\"camera\": 0, \"children\": [7]}], \"cameras\": [{\"type\": \"perspective\", "
          "\"perspective\": {\"yfov\": 1}}]}", "children"},
@@ -114,7 +119,8 @@ static void put_matrix(float out[16], const MesoCamera *camera)
 static void test_matrices(void)
 {
     const MesoCamera usual = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 35, 0};
-    const MesoCamera cameras[2] = {{{1, 2, 3}, {0, 0.5f, 0}, {0, 1, 0}, 30, 0}, {{-4, 5, 1}, {2, 0, 0}, {0, 0, 1}, 30, 0}};
+    const MesoCamera cameras[2] = {{{1, 2, 3}, {0, 0.5f, 0}, {0, 1, 0}, 30, 0},
+                                   {{-4, 5, 1}, {2, 0, 0}, {0, 0, 1}, 30, 0}};
     float matrices[32];
     MesoCameraKey *keys;
     MesoInput input;

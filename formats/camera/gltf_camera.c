@@ -170,7 +170,8 @@ static void look_along(const Frame *frame, MesoCamera *out)
     out->up = meso_vec3_unit(frame->axes[1], (MesoVec3){0, 1, 0});
 }
 
-static void read_camera(MesoCamera *out, const MesoJsonField *root, MesoArena *arena, const char *name, MesoError *error)
+static void read_camera(MesoCamera *out, const MesoJsonField *root, MesoArena *arena, const char *name,
+                        MesoError *error)
 {
     MesoJsonField nodes = meso_json_key(root, "nodes"), cameras = meso_json_key(root, "cameras");
     uint32_t node_count = nodes.value ? meso_json_count(&nodes, 0, MOST_NODES) : 0;

@@ -38,8 +38,8 @@ MesoStatus meso_view_matrices_read(MesoCameraKey **keys, uint32_t *count, MesoAr
 {
     size_t frames = input->size / MATRIX_BYTES;
     if (frames == 0 || frames > MOST_FRAMES || input->size % MATRIX_BYTES)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: %zu bytes are not 1 to %d view matrices of 64", input->path, input->size,
-                         MOST_FRAMES);
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %zu bytes are not 1 to %d view matrices of 64", input->path,
+                         input->size, MOST_FRAMES);
     *count = (uint32_t)frames;
     *keys = MESO_NEW(arena, MesoCameraKey, frames, error);
     if (!*keys)
@@ -47,8 +47,8 @@ MesoStatus meso_view_matrices_read(MesoCameraKey **keys, uint32_t *count, MesoAr
     for (uint32_t i = 0; i < *count; i++) {
         (*keys)[i] = (MesoCameraKey){(int32_t)i + 1, *usual};
         if (!read_matrix(&(*keys)[i].camera, input->data + (size_t)i * MATRIX_BYTES))
-            return meso_fail(error, MESO_ERR_INPUT, "%s: frame %u is not a view matrix: its axes are not orthonormal, or its "
-                             "last row is not 0, 0, 0, 1", input->path, i + 1);
+            return meso_fail(error, MESO_ERR_INPUT, "%s: frame %u is not a view matrix: its axes are not orthonormal, "
+                             "or its last row is not 0, 0, 0, 1", input->path, i + 1);
     }
     return MESO_OK;
 }

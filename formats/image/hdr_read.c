@@ -10,7 +10,8 @@
 
 #include "formats/image/image_kinds.h"
 
-/* The least that bytes can be of a picture: runs of each byte hold 127. Older ones may be longer, and are not so long. */
+/* The least that bytes can be of a picture: runs of each byte hold 127. Older ones may be longer, and are not so
+ * long. */
 enum { MOST_PIXELS_A_BYTE = 1024, LEAST_RUNS = 8, MOST_RUNS = 32767 };
 
 typedef struct Reader {
@@ -49,7 +50,8 @@ static bool read_line(Reader *r, char *line, size_t room)
 static MesoStatus read_variable(Reader *r, const char *line)
 {
     if (strncmp(line, "FORMAT=", 7) == 0 && strcmp(line + 7, "32-bit_rle_rgbe") != 0)
-        return meso_fail(r->error, MESO_ERR_INPUT, "%s: a Radiance picture of the format '%.40s'; 32-bit_rle_rgbe is read",
+        return meso_fail(r->error, MESO_ERR_INPUT, "%s: a Radiance picture of the format '%.40s'; 32-bit_rle_rgbe is "
+                                                   "read",
                          r->input->path, line + 7);
     if (strncmp(line, "EXPOSURE=", 9) != 0)
         return MESO_OK;

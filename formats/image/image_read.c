@@ -14,7 +14,8 @@ MesoStatus meso_image_read(MesoPicture *out, MesoArena *arena, const MesoInput *
     if (kind == MESO_FILE_HDR)
         return meso_hdr_read(out, arena, input, error);
     if (kind != MESO_FILE_UNKNOWN)
-        return meso_fail(error, MESO_ERR_INPUT, "%s: %s, not a picture; PNG, OpenEXR and Radiance are read", input->path,
+        return meso_fail(error, MESO_ERR_INPUT, "%s: %s, not a picture; PNG, OpenEXR and Radiance are read",
+                         input->path,
                          meso_file_kind_phrase(kind));
     return meso_fail(error, MESO_ERR_INPUT, "%s: not a picture; PNG, OpenEXR and Radiance are read", input->path);
 }

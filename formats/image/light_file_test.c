@@ -1,6 +1,6 @@
 /*
- * Radiance's pictures, plain and with runs of both sorts, in each order of rows and columns, with an exposure, cut at every
- * length, and wrong in each way; light from them and from EXR, and words about what is no light.
+ * Radiance's pictures, plain and with runs of both sorts, in each order of rows and columns, with an exposure, cut at
+ * every length, and wrong in each way; light from them and from EXR, and words about what is no light.
  */
 #include "formats/image/light_file.h"
 

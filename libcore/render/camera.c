@@ -165,7 +165,8 @@ float meso_camera_fit_height(const MesoScene *scene, const MesoCamera *camera, f
     add_scene(&frame, scene);
     MesoVec3 middle = meso_vec3_sub(camera->target, frame.anchor);
     float x = meso_vec3_dot(middle, frame.right), y = meso_vec3_dot(middle, frame.up);
-    float across = fmaxf(frame.right_most - x, frame.left_most + x), upward = fmaxf(frame.high_most - y, frame.low_most + y);
+    float across = fmaxf(frame.right_most - x, frame.left_most + x);
+    float upward = fmaxf(frame.high_most - y, frame.low_most + y);
     float half = fmaxf(upward, across / aspect) / (1 - 2 * MARGIN);
     return half > 0 && isfinite(half) ? 2 * half : 1;
 }

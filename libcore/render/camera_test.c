@@ -141,7 +141,8 @@ static void test_parallel(MesoVec3 low, MesoVec3 high, MesoVec3 up, uint32_t wid
         MesoVec2 p = project(&m, corner);
         float z = m.m[2] * corner.x + m.m[6] * corner.y + m.m[10] * corner.z + m.m[14];
         CHECK(fabsf(p.y + meso_vec3_dot(from, view.up) / (0.5f * camera.height)) < 1e-3f);
-        CHECK(fabsf(p.x - meso_vec3_dot(from, view.right) / (0.5f * camera.height * (float)width / (float)height)) < 1e-3f);
+        float half_width = 0.5f * camera.height * (float)width / (float)height;
+        CHECK(fabsf(p.x - meso_vec3_dot(from, view.right) / half_width) < 1e-3f);
         CHECK(fabsf(z - 1 + meso_vec3_dot(from, view.forward) / far) < 1e-3f && z > 0 && z < 1);
         most = fmaxf(most, fmaxf(fabsf(p.x), fabsf(p.y)));
     }

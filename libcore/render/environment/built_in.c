@@ -135,7 +135,8 @@ static const Lamp LAMPS[] = {
     {-104, 18, 6, 38, 0.3f, {4.4f, 4.3f, 4.1f}},            /* and at its left */
 };
 
-static const float ROOM[3] = {0.1f, 0.103f, 0.11f}, CEILING[3] = {0.2f, 0.205f, 0.215f}, FLOOR[3] = {0.26f, 0.25f, 0.235f};
+static const float ROOM[3] = {0.1f, 0.103f, 0.11f}, CEILING[3] = {0.2f, 0.205f, 0.215f};
+static const float FLOOR[3] = {0.26f, 0.25f, 0.235f};
 
 static void add_lamp(const Lamp *lamp, MesoVec3 d, float out[3])
 {

@@ -204,8 +204,8 @@ MesoStatus meso_environment_init(MesoEnvironment *e, MesoArena *arena, const Mes
 void meso_environment_glossy(const MesoEnvironment *e, MesoEnvironmentPart part, MesoVec3 direction, float roughness,
                              float out[3])
 {
-    float level = fminf(fmaxf(roughness, 0), 1) * (MESO_GLOSSY_LEVELS - 1), low = fminf(floorf(level), MESO_GLOSSY_LEVELS - 2);
-    float share = level - low, rough[3];
+    float level = fminf(fmaxf(roughness, 0), 1) * (MESO_GLOSSY_LEVELS - 1);
+    float low = fminf(floorf(level), MESO_GLOSSY_LEVELS - 2), share = level - low, rough[3];
     meso_lat_long_at(&e->glossy[part][(size_t)low], direction, out);
     meso_lat_long_at(&e->glossy[part][(size_t)low + 1], direction, rough);
     for (int c = 0; c < 3; c++)

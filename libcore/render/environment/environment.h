@@ -17,7 +17,7 @@ typedef enum MesoEnvironmentPart { MESO_LIGHT_REST, MESO_LIGHT_KEY, MESO_LIGHT_P
 typedef struct MesoEnvironment {
     MesoLatLong map;            /* as it was given, times the strength */
     float turn;                 /* of it about y, counter-clockwise seen from above, radians */
-    MesoLatLong glossy[MESO_LIGHT_PARTS][MESO_GLOSSY_LEVELS];   /* by roughness, 0 to 1 evenly; the first is the part itself */
+    MesoLatLong glossy[MESO_LIGHT_PARTS][MESO_GLOSSY_LEVELS];   /* by roughness; the first is the part itself */
     float harmonics[9][3];      /* of the rest: irradiance / pi */
     MesoVec3 to_key;            /* unit */
     float key[3];               /* irradiance of what faces it; 0: there is none */
@@ -30,8 +30,8 @@ typedef struct MesoEnvironmentOptions {
 } MesoEnvironmentOptions;
 
 /*
- * Takes over the numbers of `map`, of which those that are no radiance are mended: below 0 or not a number to 0, infinite
- * ones to 65504. What is made of it lives in `arena`. The same for any number of threads (0: all). Some 0.1 s.
+ * Takes over the numbers of `map`, of which those that are no radiance are mended: below 0 or not a number to 0,
+ * infinite ones to 65504. What is made of it lives in `arena`. The same for any number of threads (0: all). Some 0.1 s.
  * MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_environment_init(MesoEnvironment *environment, MesoArena *arena, const MesoLatLong *map,
@@ -44,7 +44,7 @@ void meso_environment_diffuse(const MesoEnvironment *environment, MesoVec3 norma
 void meso_environment_glossy(const MesoEnvironment *environment, MesoEnvironmentPart part, MesoVec3 direction,
                              float roughness, float out[3]);
 
-/* Axes of the turned map in a world with that `up`, unit: x, y and z, where the front is +Z, or -Y where up is along Z. */
+/* Axes of the turned map in a world with that `up`, unit: x, y and z; the front is +Z, or -Y where up is along Z. */
 void meso_environment_axes(const MesoEnvironment *environment, MesoVec3 up, MesoVec3 axes[3]);
 
 #endif

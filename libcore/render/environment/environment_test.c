@@ -1,7 +1,7 @@
 /*
- * Maps: places and directions, light kept by resampling; a constant map is itself at any roughness and has no key light;
- * one with a disc has its light there and no other; what is lit by a cosine is as a sum over the map says; turns; the
- * built-in ones; the same for any number of threads.
+ * Maps: places and directions, light kept by resampling; a constant map is itself at any roughness and has no key
+ * light; one with a disc has its light there and no other; what is lit by a cosine is as a sum over the map says;
+ * turns; the built-in ones; the same for any number of threads.
  */
 #include "libcore/render/environment/environment.h"
 

@@ -119,8 +119,8 @@ static MesoStatus make_source(Source *source, MesoLatLong *const sets[2], uint32
     return source->directions ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-MesoStatus meso_glossy_levels_fill(MesoLatLong a[MESO_GLOSSY_LEVELS], MesoLatLong b[MESO_GLOSSY_LEVELS], MesoArena *arena,
-                                   uint32_t thread_count, MesoError *error)
+MesoStatus meso_glossy_levels_fill(MesoLatLong a[MESO_GLOSSY_LEVELS], MesoLatLong b[MESO_GLOSSY_LEVELS],
+                                   MesoArena *arena, uint32_t thread_count, MesoError *error)
 {
     MesoLatLong *const sets[2] = {a, b};
     Source source = {0};

@@ -13,7 +13,7 @@ MesoStatus meso_glossy_levels_alloc(MesoLatLong levels[MESO_GLOSSY_LEVELS], Meso
  * Fills all levels but the first of two sets from their first, weighing directions as facets of that roughness
  * reflect them to an eye that looks straight on. Scratch on `arena`. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_glossy_levels_fill(MesoLatLong a[MESO_GLOSSY_LEVELS], MesoLatLong b[MESO_GLOSSY_LEVELS], MesoArena *arena,
-                                   uint32_t thread_count, MesoError *error);
+MesoStatus meso_glossy_levels_fill(MesoLatLong a[MESO_GLOSSY_LEVELS], MesoLatLong b[MESO_GLOSSY_LEVELS],
+                                   MesoArena *arena, uint32_t thread_count, MesoError *error);
 
 #endif

@@ -242,8 +242,8 @@ static float key_light(const MesoLightRig *rig, const MesoLitSurface *s)
     return sum / (float)rig->key.count;
 }
 
-/* Irradiance / pi from the sky, and the share of it that comes through. `open`, which may be NULL, gets what there would
- * be without anything in the way. */
+/* Irradiance / pi from the sky, and the share of it that comes through. `open`, which may be NULL, gets what there
+ * would be without anything in the way. */
 static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float light[3], float open[3])
 {
     float facing[MESO_SKY_MOST], lit[MESO_SKY_MOST], whole = 0, seen = 0;
@@ -279,12 +279,14 @@ static float light_from_map(const MesoLightRig *rig, const MesoLitSurface *s, fl
 {
     const MesoEnvironment *e = rig->environment;
     float light[3], whole[3], diffuse[3], glossy[3], shine[3], f0[3], reflected[3];
-    float open = sky_light(rig, s, light, whole), facing = meso_vec3_dot(s->normal, rig->to_key), lit = key_light(rig, s);
+    float open = sky_light(rig, s, light, whole), lit = key_light(rig, s);
+    float facing = meso_vec3_dot(s->normal, rig->to_key);
     for (int c = 0; c < 3; c++)
         f0[c] = 0.04f + (s->albedo[c] - 0.04f) * s->metallic;
     float nv = fmaxf(meso_vec3_dot(s->normal, s->to_eye), 1e-3f), glossy_open = open_side(nv, open, s->roughness);
     reflect_all(s, nv, f0, reflected);
-    MesoVec3 mirrored = meso_vec3_mad(meso_vec3_scale(s->to_eye, -1), 2 * meso_vec3_dot(s->normal, s->to_eye), s->normal);
+    MesoVec3 mirrored = meso_vec3_mad(meso_vec3_scale(s->to_eye, -1), 2 * meso_vec3_dot(s->normal, s->to_eye),
+                                      s->normal);
     MesoVec3 toward = to_map(rig, meso_vec3_unit(mirrored, s->normal));
     meso_environment_diffuse(e, to_map(rig, s->normal), diffuse);
     meso_environment_glossy(e, MESO_LIGHT_REST, toward, s->roughness, glossy);

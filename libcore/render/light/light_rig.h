@@ -16,7 +16,8 @@
  * its extent; and each part is reflected as the map has it, the key light's as far as it is seen:
  *
  *     L(p, n, e) = H(n) sum(max(n.d, 0) V(p, d) S(d)) / sum(max(n.d, 0) S(d)) albedo (1 - metallic) (1 - F)
- *                + G(reflected e) F W + K V(p, k) (max(n.k, 0) albedo (1 - metallic) (1 - F) / pi + Gk(reflected e) F / K)
+ *                + G(reflected e) F W
+ *                + K V(p, k) (max(n.k, 0) albedo (1 - metallic) (1 - F) / pi + Gk(reflected e) F / K)
  */
 #ifndef MESO_LIGHT_RIG_H
 #define MESO_LIGHT_RIG_H

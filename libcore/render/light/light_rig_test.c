@@ -1,6 +1,7 @@
 /*
- * Environments on a ball: in one that is white everywhere a white surface gives back what it gets; one bright place lights
- * what faces it as the formula says, casts its shadow, and turns with the map; the sky's directions have the map's colours.
+ * Environments on a ball: in one that is white everywhere a white surface gives back what it gets; one bright place
+ * lights what faces it as the formula says, casts its shadow, and turns with the map; the sky's directions have the
+ * map's colours.
  */
 #include "libcore/render/light/light_rig.h"
 
@@ -45,7 +46,8 @@ static void make_ball(Ball *b)
     b->placed = (MesoPlacedBody){.place = MESO_PLACED_HERE};
     b->scene = (MesoScene){.channel_count = 1, .channels = {{"slot", 1, NULL}}, .material_count = 1,
                            .materials = &b->material, .id_row_count = 1, .ids = &b->ids, .section_scale = 1,
-                           .thickness = 0.5f, .body_count = 1, .bodies = &b->body, .placed_count = 1, .placed = &b->placed};
+                           .thickness = 0.5f, .body_count = 1, .bodies = &b->body, .placed_count = 1,
+                           .placed = &b->placed};
     meso_scene_measure(&b->scene);
     CHECK(meso_shapes_init(&b->shapes, &arena, &b->scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
 }
@@ -77,7 +79,8 @@ static MesoLightRig make_rig(const Ball *b, const MesoEnvironment *e, MesoVec3 e
     return rig;
 }
 
-static float lit(const MesoLightRig *rig, MesoVec3 normal, MesoVec3 to_eye, float albedo, float roughness, float metallic)
+static float lit(const MesoLightRig *rig, MesoVec3 normal, MesoVec3 to_eye, float albedo, float roughness,
+                 float metallic)
 {
     MesoLitSurface s = {.position = meso_vec3_scale(normal, 0.51f), .normal = normal, .to_eye = to_eye,
                         .albedo = {albedo, albedo, albedo}, .roughness = roughness, .metallic = metallic};
@@ -87,8 +90,8 @@ static float lit(const MesoLightRig *rig, MesoVec3 normal, MesoVec3 to_eye, floa
     return radiance[0];
 }
 
-/* What the base does not get, the facets reflect: white gives back all of it, to the eye at any angle. Metal has no base,
- * and loses what goes from facet to facet. */
+/* What the base does not get, the facets reflect: white gives back all of it, to the eye at any angle. Metal has no
+ * base, and loses what goes from facet to facet. */
 static void test_furnace(const Ball *b)
 {
     MesoEnvironment e = make_environment((MesoVec3){0, 1, 0}, 2, 0, 1, 0);
@@ -97,7 +100,8 @@ static void test_furnace(const Ball *b)
     for (int k = 0; k < 5 * 4 * 3; k++) {
         float cosine = 0.1f + 0.225f * (float)(k % 5), roughness = 0.25f + 0.25f * (float)(k / 5 % 4);
         MesoVec3 n = {k / 20 == 0, k / 20 == 1, k / 20 == 2}, side = {n.y, n.z, n.x};
-        MesoVec3 to_eye = meso_vec3_mad(meso_vec3_scale(n, fminf(cosine, 1)), sqrtf(fmaxf(1 - cosine * cosine, 0)), side);
+        MesoVec3 to_eye = meso_vec3_mad(meso_vec3_scale(n, fminf(cosine, 1)), sqrtf(fmaxf(1 - cosine * cosine, 0)),
+                                        side);
         float white = lit(&rig, n, to_eye, 1, roughness, 0), metal = lit(&rig, n, to_eye, 1, roughness, 1);
         CHECK(fabsf(white - 1) < 0.02f);
         CHECK(metal > 0.44f && metal < 1.02f);

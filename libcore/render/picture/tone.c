@@ -14,7 +14,7 @@ static float roll_off(float x)
     return x <= shoulder ? fmaxf(x, 0) : 1 - room * room / (x - shoulder + room);
 }
 
-/* Takes off what dielectrics reflect, rolls the greatest channel off with the others in proportion, and fades to white. */
+/* Takes off what dielectrics reflect, rolls the greatest channel off and the others in proportion, fades to white. */
 static void tone_neutral(float c[3])
 {
     const float start = 0.8f - 0.04f, desaturation = 0.15f, room = 1 - start;
