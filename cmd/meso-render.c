@@ -164,6 +164,7 @@ static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, c
         .extras = a->extras,
         .vary = a->vary,
         .environment = environment,
+        .up = a->camera.world_up,
     };
     *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
     if (!wants_gl(a))
@@ -327,6 +328,7 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
         status = meso_render_backdrop_init(&work.backdrop, a, work.environment, error);
     if (!status)
         status = meso_render_frames_init(&work.frames, a, error);
+    work.backdrop.up = a->camera.world_up;
     work.input_count = a->tool.provenance.input_count;
     if (!status)
         status = render(&work, error);

@@ -15,8 +15,8 @@ static MesoStatus check(const MesoCameraOptions *options, MesoError *error)
     if (options->fov_given + options->focal_given + options->ortho_given > 1)
         return meso_fail(error, MESO_ERR_USAGE, "--fov, --focal and --ortho each say how much the image shows: give "
                                                 "one");
-    if (options->file && (options->eye_given || options->target_given || options->up_given))
-        return meso_fail(error, MESO_ERR_USAGE, "--camera says where the camera is, and --eye, --target and --up, too");
+    if (options->file && (options->eye_given || options->target_given))
+        return meso_fail(error, MESO_ERR_USAGE, "--camera says where the camera is, and --eye and --target, too");
     return MESO_OK;
 }
 
@@ -59,6 +59,7 @@ static MesoStatus read_file(MesoCameraOptions *options, MesoTool *tool, MesoErro
     const char *path = meso_arena_print(&tool->arena, error, "%.*s", (int)length, options->file);
     MesoCamera camera = options->camera;
     MesoInput input;
+    options->world_up = options->camera.up;
     if (!path)
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_tool_open_input(tool, &input, path, "camera");

@@ -11,7 +11,8 @@ typedef struct MesoCameraOptions {
     float focal, sensor;        /* mm; the sensor is as wide as the picture */
     float ortho;                /* scene units; 0: what the object takes */
     const char *file;           /* a camera of another program; NULL: none */
-    bool eye_given, target_given, up_given, fov_given, ortho_given, focal_given, sensor_given;
+    MesoVec3 world_up;          /* 0: as the camera's */
+    bool eye_given, target_given, fov_given, ortho_given, focal_given, sensor_given;
 } MesoCameraOptions;
 
 #define MESO_CAMERA_DEFAULTS                                                                  \
@@ -24,8 +25,7 @@ typedef struct MesoCameraOptions {
                .given = &(c).eye_given, .more = MESO_OPTION_OVERRIDES), \
     MESO_POINT(0, "target", "X,Y,Z", "the point in the middle of the image (default: of the object)", \
                &(c).camera.target, .given = &(c).target_given, .more = MESO_OPTION_OVERRIDES), \
-    MESO_POINT(0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", &(c).camera.up, \
-               .given = &(c).up_given), \
+    MESO_POINT(0, "up", "X,Y,Z", "the direction that is up in the image (default 0,1,0)", &(c).camera.up), \
     MESO_TEXT(0, "camera", "FILE[:NAME]", "one of a glTF scene, by its name, or of view matrices, by the frame", \
               &(c).file), \
     MESO_NUMBER(0, "fov", "DEGREES", "vertical field of view (default 30)", &(c).camera.fov_degrees, 0.1, \
@@ -39,7 +39,8 @@ typedef struct MesoCameraOptions {
 
 /*
  * Turns a lens into a field of view, and reads a camera from a file: the first of a .glb or .gltf, or of view matrices,
- * or the one whose name, or frame, follows a colon. MESO_ERR_USAGE where options do not fit each other.
+ * or the one whose name, or frame, follows a colon. What is up in the world is then what the
+ * options say. MESO_ERR_USAGE where options do not fit each other.
  */
 MesoStatus meso_camera_options_read(MesoCameraOptions *options, MesoTool *tool, MesoError *error);
 

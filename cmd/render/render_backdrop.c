@@ -183,7 +183,8 @@ MesoStatus meso_render_backdrop_write(const MesoRenderBackdrop *b, const MesoIma
         return status;
     rows.raster = meso_raster_view(&rows.view, image->width, image->height, 0);
     if (b->kind == MESO_BACKDROP_LIGHT)
-        meso_environment_axes(b->environment, meso_vec3_unit(image->camera.up, rows.view.up), rows.axes);
+        meso_environment_axes(b->environment, meso_vec3_unit(b->up, meso_vec3_unit(image->camera.up, rows.view.up)),
+                              rows.axes);
     if (b->kind == MESO_BACKDROP_PICTURE || b->kind == MESO_BACKDROP_LIGHT)
         look.backdrop = put_row;
     return meso_png_write(image, &look, provenance, output, error);

@@ -16,6 +16,7 @@ typedef struct MesoRenderBackdrop {
     uint32_t width, height;     /* of the picture */
     const float *channels[3];   /* of it, linear, as shown */
     const MesoEnvironment *environment;
+    MesoVec3 up;                /* in the world; 0: as the camera's */
 } MesoRenderBackdrop;
 
 /*

@@ -15,12 +15,14 @@ static MesoStatus read_keys(MesoRenderFrames *frames, MesoRenderArguments *a, Me
     if (status)
         return status;
     float aspect = (float)a->camera.size[0] / (float)a->camera.size[1];
-    if (meso_file_kind(&input) == MESO_FILE_UNKNOWN && input.size % 64 == 0)
+    if (meso_file_kind(&input) == MESO_FILE_UNKNOWN && input.size % 64 == 0) {
+        a->camera.world_up = a->camera.camera.up;
         status = meso_view_matrices_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera,
                                          error);
-    else
+    } else {
         status = meso_camera_read(&frames->keys, &frames->key_count, &a->tool.arena, &input, &a->camera.camera, aspect,
                                   error);
+    }
     meso_input_close(&input);
     return status;
 }
@@ -113,6 +115,8 @@ MesoCamera meso_render_frame_camera(const MesoRenderFrames *frames, const MesoRe
         return meso_camera_at(frames->keys, frames->key_count, frame->number);
     MesoCamera camera = meso_camera_options_resolve(&frames->a->camera, scene);
     uint32_t turn = frames->a->turntable;
+    if (turn && frames->a->camera.file)
+        camera.up = frames->a->camera.world_up;     /* which is gone about, and not what a tilted camera has above it */
     return turn ? meso_camera_turn(&camera, (float)(frame->number - 1) / (float)turn) : camera;
 }
 

@@ -36,6 +36,7 @@ typedef struct MesoRenderOptions {
     uint32_t width, height;     /* up to 16384 each */
     MesoCamera camera;
     uint32_t samples;           /* for antialiasing of color; 1 or 4, or 16 without GL */
+    MesoVec3 up;                /* in the world, of the ground and an environment; 0: the camera's; without GL */
     bool ground;                /* shadow where nothing is, on the ground under the scene; without GL */
     unsigned extras;            /* MesoImageExtra, or-ed */
     const struct MesoEnvironment *environment;      /* the light (environment.h); NULL: one that comes with the camera;

@@ -54,6 +54,12 @@ done
 meso-render -q $small --keys views.bin --fov 40 --provenance none vase.meso -o view-%d.png
 cmp view-1.png given.png
 cmp view-2.png given.png
+# What is up in the world is not what is up for the camera.
+meso-render $small --camera scene.gltf --ground shadow --provenance none vase.meso -o file.png
+meso-render $small $at --fov 57.29577951308232 --ground shadow vase.meso -o given.png
+cmp file.png given.png
+meso-render $small --camera scene.gltf --ground shadow --up 0,1,-0.5 --provenance none vase.meso -o file.png
+cmp -s file.png given.png && echo "the ground stays level"
 grep -A5 '"camera": {' file.json
 meso-render -q $small --camera scene.gltf:near --json vase.meso -o file.png | grep -A1 -E '"(role": "camera|command": "meso-render)'
 

@@ -285,7 +285,7 @@ MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene
     status = meso_shapes_init(&p.shapes, arena, scene, p.view.anchor, thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
     if (!status)
-        status = meso_light_rig_init(&p.rig, arena, &p.shapes, &p.view, meso_vec3_unit(options->camera.up, p.view.up),
+        status = meso_light_rig_init(&p.rig, arena, &p.shapes, &p.view, meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p.view.up)),
                                      options->environment, &quality, thread_count, error);
     p.raster = meso_raster_view(&p.view, options->width, options->height, near_depth_of(&p.view, &scene->box));
     const MesoRasterJob job = {

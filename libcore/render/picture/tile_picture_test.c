@@ -247,6 +247,29 @@ static void test_threads(const Bundle *b, MesoVec3 at)
     }
 }
 
+/* Of an image's ground: where nothing stands before it. */
+static double ground_difference(const MesoImage *a, const MesoImage *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        if (a->ids[0][i] == 0 && b->ids[0][i] == 0)
+            sum += fabs((double)(a->color[4 * i + 3] - b->color[4 * i + 3]));
+    return sum / (WIDTH * HEIGHT);
+}
+
+/* A camera that is told another up sees the same, and the ground where the world has it. */
+static void test_up(const Bundle *b)
+{
+    MesoRenderOptions options = look((MesoVec3){0, 0, 0}, (MesoVec3){0, 4, 4}, 1);
+    options.ground = true;
+    MesoImage level = draw(b, &options, 2);
+    options.camera.up = (MesoVec3){0, 1, -1};
+    MesoImage tilted = draw(b, &options, 2);
+    options.up = (MesoVec3){0, 2, 0};
+    MesoImage told = draw(b, &options, 2);
+    CHECK(ground_difference(&level, &told) < 1e-3 && ground_difference(&level, &tilted) > 1e-2);
+}
+
 /* ---- light ---- */
 
 /* A ball over nothing: all of the sky is seen from its top, half of it from its side. Below it lies its shadow. */
@@ -402,6 +425,7 @@ int main(void)
     test_gl(&b, origin, (MesoVec3){0.04f, 0.05f, 0.09f}, 2.5f, 1);
     test_threads(&b, origin);
     test_vary(&b);
+    test_up(&b);
     make_bundle(&b, far);
     test_gl(&b, far, outside, 0, 1);
     make_bundle(&b, origin);
