@@ -173,11 +173,13 @@ static MesoStatus make_key(MesoLightRig *rig, MesoArena *arena, const MesoView *
                            MesoError *error)
 {
     MesoVec3 towards[MESO_KEY_MOST];
-    uint32_t count = key_places(rig, quality->key_count);
+    uint32_t count = key_places(rig, quality->key_count), size = quality->key_size;
+    if (count > quality->key_count)     /* as many texels in all: a wide light's shadows have no fine edges */
+        size = 4 * (uint32_t)(0.25f * (float)size * sqrtf((float)quality->key_count / (float)count));
     for (uint32_t i = 0; i < count; i++)
         towards[i] = on_key(rig, view, i, count);
     return count == 0 ? MESO_OK : meso_light_maps_init(&rig->key, arena, towards, count, rig->middle, rig->radius,
-                                                       quality->key_size, error);
+                                                       size, error);
 }
 
 MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
