@@ -1,20 +1,11 @@
 #include "libcore/geodesic/transport/straight_walk.h"
 
+#include "libcore/geodesic/transport/walk_lanes.h"
+
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 
 /* As many as keep memory busy. */
 enum { LANE_COUNT = 16 };
-
-/* A walk under way. */
-typedef struct Lane {
-    MesoComplex left;       /* end of the side it has come in by; the walk goes along x from 0 to `length` */
-    MesoComplex side;       /* from there to its right end */
-    double length;
-    double share;           /* of the side, where the walk crosses it; for pieces */
-    uint32_t half_edge;     /* that side, in the triangle where the walk is */
-    uint32_t crossings, walk;
-    bool begun, turned;     /* turned: the triangle is wound against the first */
-} Lane;
 
 /* What lies ahead in the triangle that a lane is in. */
 typedef struct Passage {
@@ -49,7 +40,7 @@ static uint32_t entry_side(const MesoComplex corners[3])
     return corners[nearest].im >= 0 ? meso_previous_side(nearest) : nearest;
 }
 
-static void begin(const MesoWalkGround *ground, Lane *lane, const MesoWalk *walk)
+static void begin(const MesoWalkGround *ground, MesoWalkLane *lane, const MesoWalk *walk)
 {
     const MesoTip *tip = &walk->tip;
     MesoComplex back = meso_complex_conjugate(tip->heading), corners[3], seen[3];
@@ -61,7 +52,7 @@ static void begin(const MesoWalkGround *ground, Lane *lane, const MesoWalk *walk
     }
     uint32_t k = entry_side(seen), next = meso_next_side(k);
     MesoComplex side = {corners[next].re - corners[k].re, corners[next].im - corners[k].im};
-    *lane = (Lane){.left = seen[k], .side = meso_complex_times(side, back), .length = walk->length,
+    *lane = (MesoWalkLane){.left = seen[k], .side = meso_complex_times(side, back), .length = walk->length,
                    .half_edge = 3 * tip->triangle + k, .walk = lane->walk, .begun = true};
 }
 
@@ -73,19 +64,19 @@ static double clamp(double x, double low, double high)
 }
 
 /* The corner that a side's left end is, for a walk that comes in by it; right for one that leaves. */
-static uint32_t begin_corner(const Lane *lane, uint32_t side)
+static uint32_t begin_corner(const MesoWalkLane *lane, uint32_t side)
 {
     return lane->turned ? meso_next_side(side) : side;
 }
 
 /* The other one. */
-static uint32_t end_corner(const Lane *lane, uint32_t side)
+static uint32_t end_corner(const MesoWalkLane *lane, uint32_t side)
 {
     return lane->turned ? side : meso_next_side(side);
 }
 
 /* Of the walk's last point, where that is inside. */
-static void weigh_inside(const Lane *lane, const Passage *passage, double weight[3])
+static void weigh_inside(const MesoWalkLane *lane, const Passage *passage, double weight[3])
 {
     MesoComplex side = lane->side, to = {lane->length - lane->left.re, -lane->left.im};
     double square = side.re * side.re + side.im * side.im;
@@ -108,7 +99,7 @@ static void weigh_between(uint32_t from, uint32_t to, double share, double weigh
 }
 
 /* The heading in the frame of the triangle, from that over the side. */
-static MesoComplex heading_in(const MesoWalkGround *ground, const Lane *lane)
+static MesoComplex heading_in(const MesoWalkGround *ground, const MesoWalkLane *lane)
 {
     MesoComplex unit = meso_complex_unit(lane->side);
     MesoComplex over = {lane->turned ? -unit.re : unit.re, -unit.im};
@@ -116,7 +107,7 @@ static MesoComplex heading_in(const MesoWalkGround *ground, const Lane *lane)
     return meso_complex_unit(meso_complex_times(over, along));
 }
 
-static void finish(const MesoWalkGround *ground, const Lane *lane, MesoWalk *walk, const double weight[3],
+static void finish(const MesoWalkGround *ground, const MesoWalkLane *lane, MesoWalk *walk, const double weight[3],
                    MesoWalkStop stop, double rest)
 {
     walk->tip = (MesoTip){lane->half_edge / 3, walk->tip.turned != lane->turned, {weight[0], weight[1], weight[2]},
@@ -128,7 +119,7 @@ static void finish(const MesoWalkGround *ground, const Lane *lane, MesoWalk *wal
 
 /* ---- walking ---- */
 
-static void tell_piece(const MesoWalkGround *ground, const MesoWalkOptions *options, const Lane *lane,
+static void tell_piece(const MesoWalkGround *ground, const MesoWalkOptions *options, const MesoWalkLane *lane,
                        const MesoWalk *walk, uint32_t leaves, const double weight[3])
 {
     uint32_t triangle = lane->half_edge / 3, side = lane->half_edge % 3;
@@ -144,7 +135,7 @@ static void tell_piece(const MesoWalkGround *ground, const MesoWalkOptions *opti
     options->piece(options->context, &piece);
 }
 
-ALWAYS_INLINE Passage look_ahead(const MesoWalkFace *face, const Lane *lane)
+ALWAYS_INLINE Passage look_ahead(const MesoWalkFace *face, const MesoWalkLane *lane)
 {
     Passage passage = {.entry = lane->half_edge % 3};
     passage.apex = face->apexes[passage.entry];
@@ -161,7 +152,7 @@ ALWAYS_INLINE Passage look_ahead(const MesoWalkFace *face, const Lane *lane)
     return passage;
 }
 
-static void end_inside(const MesoWalkGround *ground, const Lane *lane, const Passage *passage, MesoWalk *walk,
+static void end_inside(const MesoWalkGround *ground, const MesoWalkLane *lane, const Passage *passage, MesoWalk *walk,
                        const MesoWalkOptions *options)
 {
     double weight[3];
@@ -172,7 +163,7 @@ static void end_inside(const MesoWalkGround *ground, const Lane *lane, const Pas
 }
 
 /* Where the walk meets the exit, as a share of it; along a side, where rounding tells nothing, as early as can be. */
-static double share_at_exit(const Lane *lane, const Passage *passage)
+static double share_at_exit(const MesoWalkLane *lane, const Passage *passage)
 {
     double share = -passage->left.im / passage->side.im, x = passage->left.re + share * passage->side.re;
     if (fabs(passage->side.im) < fabs(passage->side.re) && !(x >= 0 && x <= lane->length))
@@ -181,7 +172,7 @@ static double share_at_exit(const Lane *lane, const Passage *passage)
 }
 
 /* Tells the piece up to the exit, and says where on it that ends. */
-static double reach_exit(const MesoWalkGround *ground, const Lane *lane, const Passage *passage, const MesoWalk *walk,
+static double reach_exit(const MesoWalkGround *ground, const MesoWalkLane *lane, const Passage *passage, const MesoWalk *walk,
                          const MesoWalkOptions *options, double weight[3])
 {
     double share = share_at_exit(lane, passage);
@@ -191,7 +182,7 @@ static double reach_exit(const MesoWalkGround *ground, const Lane *lane, const P
     return share;
 }
 
-static void end_on_side(const MesoWalkGround *ground, const Lane *lane, const Passage *passage, MesoWalk *walk,
+static void end_on_side(const MesoWalkGround *ground, const MesoWalkLane *lane, const Passage *passage, MesoWalk *walk,
                         const MesoWalkOptions *options)
 {
     double weight[3];
@@ -202,7 +193,7 @@ static void end_on_side(const MesoWalkGround *ground, const Lane *lane, const Pa
 }
 
 /* Through one triangle; false where the walk ends in it. */
-ALWAYS_INLINE bool step(const MesoWalkGround *ground, Lane *lane, MesoWalk *walks, const MesoWalkOptions *options)
+ALWAYS_INLINE bool step(const MesoWalkGround *ground, MesoWalkLane *lane, MesoWalk *walks, const MesoWalkOptions *options)
 {
     const MesoWalkFace *face = &ground->faces[lane->half_edge / 3];
     Passage passage = look_ahead(face, lane);
@@ -229,30 +220,27 @@ ALWAYS_INLINE bool step(const MesoWalkGround *ground, Lane *lane, MesoWalk *walk
 }
 
 /* Gives a lane the next walk, which begins at the lane's next turn, when memory has come. */
-static void take(const MesoWalkGround *ground, Lane *lane, const MesoWalk *walks, uint32_t walk)
+static void take(const MesoWalkGround *ground, MesoWalkLane *lane, const MesoWalk *walks, uint32_t walk)
 {
     uint32_t triangle = walks[walk].tip.triangle;
-    *lane = (Lane){.walk = walk};
+    *lane = (MesoWalkLane){.walk = walk};
     __builtin_prefetch(&ground->faces[triangle]);
     __builtin_prefetch(&ground->lengths[triangle]);
 }
 
-void meso_walks(const MesoWalkGround *ground, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options)
+/* Walks those in the first `live` lanes to their ends, and then those from `taken` on. */
+static void walk_all(const MesoWalkGround *ground, MesoWalk *walks, MesoWalkLane lanes[LANE_COUNT], uint32_t live,
+                     uint32_t taken, uint32_t count, const MesoWalkOptions *options)
 {
-    MesoWalkOptions all = options ? *options : (MesoWalkOptions){0};
-    Lane lanes[LANE_COUNT];
-    uint32_t taken = 0, live = 0;
-    if (!all.crossing_limit)
-        all.crossing_limit = MESO_WALK_CROSSINGS;
     while (live < LANE_COUNT && taken < count)
         take(ground, &lanes[live++], walks, taken++);
     while (live)
         for (uint32_t i = 0; i < live;) {
-            Lane *lane = &lanes[i];
+            MesoWalkLane *lane = &lanes[i];
             if (!lane->begun) {
                 begin(ground, lane, &walks[lane->walk]);
                 i++;
-            } else if (step(ground, lane, walks, &all)) {
+            } else if (step(ground, lane, walks, options)) {
                 i++;
             } else if (taken < count) {
                 take(ground, lane, walks, taken++);
@@ -261,6 +249,49 @@ void meso_walks(const MesoWalkGround *ground, MesoWalk *walks, uint32_t count, c
                 *lane = lanes[--live];
             }
         }
+}
+
+/* Memory that walks begin in. */
+static void fetch(const MesoWalkGround *ground, const MesoWalk *walks, uint32_t begin_at, uint32_t end)
+{
+    for (uint32_t i = begin_at; i < end; i++) {
+        __builtin_prefetch(&ground->faces[walks[i].tip.triangle]);
+        __builtin_prefetch(&ground->lengths[walks[i].tip.triangle]);
+    }
+}
+
+/* Most steps are short, and pieces are what takes time: walks begin in groups. */
+static void walk_in_groups(const MesoWalkGround *ground, MesoWalk *walks, uint32_t count,
+                           const MesoWalkOptions *options)
+{
+    MesoWalkLane lanes[LANE_COUNT];
+    uint32_t taken = 0, fetched = 0, live = 0;
+    for (; count - taken >= MESO_WALK_GROUP; taken += MESO_WALK_GROUP) {
+        MesoWalkLane group[MESO_WALK_GROUP];
+        uint32_t ahead = count - taken < LANE_COUNT ? count : taken + LANE_COUNT;
+        fetch(ground, walks, fetched, ahead);
+        fetched = ahead;
+        uint32_t left = meso_walk_group(ground, walks, taken, options, group);
+        for (; left; left &= left - 1)
+            lanes[live++] = group[__builtin_ctz(left)];
+        if (live > LANE_COUNT - MESO_WALK_GROUP) {
+            walk_all(ground, walks, lanes, live, count, count, options);
+            live = 0;
+        }
+    }
+    walk_all(ground, walks, lanes, live, taken, count, options);
+}
+
+void meso_walks(const MesoWalkGround *ground, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options)
+{
+    MesoWalkOptions all = options ? *options : (MesoWalkOptions){0};
+    MesoWalkLane lanes[LANE_COUNT];
+    if (!all.crossing_limit)
+        all.crossing_limit = MESO_WALK_CROSSINGS;
+    if (all.piece)
+        walk_in_groups(ground, walks, count, &all);
+    else
+        walk_all(ground, walks, lanes, 0, 0, count, &all);
 }
 
 /* ---- in space ---- */
