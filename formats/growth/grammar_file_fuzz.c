@@ -49,7 +49,7 @@ enum { MOST_RUNS = 64, MOST_COMMANDS = 4096 };
 /* Runs as many rules as it may, one way through the branches. */
 static void run_all(const MesoGrammar *grammar, MesoGrowthRun run, double *registers, const MesoGrowthHost *host)
 {
-    MesoGrowthCommand command;
+    MesoGrowthCommand command = {0};
     bool done = true;
     for (uint32_t i = 0, runs = 0; i < MOST_COMMANDS; i++) {
         meso_growth_resume(&command, grammar, &run, registers, host, done);

@@ -68,7 +68,8 @@ void meso_walks(const MesoWalkGround *ground, MesoWalk *walks, uint32_t count, c
 /* Turns left by an angle in radians; left as it was where the tip's branch began. */
 static inline void meso_tip_turn(MesoTip *tip, double angle)
 {
-    MesoComplex turn = {cos(angle), sin(tip->turned ? -angle : angle)};
+    double sine = sin(angle), cosine = cos(angle);
+    MesoComplex turn = {cosine, tip->turned ? -sine : sine};
     tip->heading = meso_complex_unit(meso_complex_times(tip->heading, turn));
 }
 

@@ -37,7 +37,7 @@ static bool add_tip(MesoGrowthWork *work, const MesoGrowthTip *tip, const double
     work->tips[work->tip_count] = *tip;
     double *own = work->registers + (size_t)work->tip_count * width;
     if (registers)
-        memcpy(own, registers, width * sizeof *own);
+        meso_copy_registers(own, registers, width);
     else
         memset(own, 0, width * sizeof *own);
     work->shoots[work->shoot_count++] = work->tip_count++;
@@ -243,7 +243,7 @@ static void begin_rule(MesoGrowthWork *work, uint32_t number, const MesoGrowthCo
     MesoGrowthTip *tip = &work->tips[number];
     double *registers = work->registers + (size_t)number * work->grammar->local_count;
     uint32_t count = work->grammar->rules[command->rule].argument_count;
-    memcpy(registers, command->values, count * sizeof *registers);
+    meso_copy_registers(registers, command->values, count);
     tip->run = meso_growth_begin(work->grammar->rules[command->rule].entry, command->key);
     if (tip->rule != MESO_NO_INDEX)
         tip->state[MESO_STATE_GENERATION]++;

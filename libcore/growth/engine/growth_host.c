@@ -84,9 +84,12 @@ static bool is_true(const MesoGrammar *grammar, uint16_t operand)
 
 bool meso_growth_steps_clear(const MesoGrammar *grammar)
 {
-    for (uint32_t i = 0; i < grammar->code_count; i++)
-        if (grammar->code[i].operation == MESO_OP_VALUE && grammar->code[i].to == MESO_GROWTH_CLEAR)
+    for (uint32_t i = 0; i < grammar->code_count; i++) {
+        const MesoGrammarInstruction *code = &grammar->code[i];
+        bool gives = code->operation == MESO_OP_VALUE || code->operation == MESO_OP_VALUE_PRODUCT;
+        if (gives && code->to == MESO_GROWTH_CLEAR)
             return true;
+    }
     return false;
 }
 

@@ -163,7 +163,7 @@ static bool wake(MesoGrowthWork *work)
             continue;
         if (i != count) {
             work->tips[count] = work->tips[i];
-            memcpy(work->registers + count * width, work->registers + i * width, width * sizeof(double));
+            meso_copy_registers(work->registers + count * width, work->registers + i * width, (uint32_t)width);
         }
         work->tips[count].rests = false;
         work->rules[work->tips[count++].rule].runs++;

@@ -35,7 +35,7 @@ static void shoot(const MesoGrowthWork *work, MesoGrowthBatch *batch, const Meso
         return;
     }
     batch->shoots[batch->shoot_count] = (MesoGrowthShoot){turn->command.entry, turn->command.key, tip->at};
-    memcpy(batch->registers + (size_t)batch->shoot_count * width, registers, width * sizeof *registers);
+    meso_copy_registers(batch->registers + (size_t)batch->shoot_count * width, registers, width);
     batch->shoot_count++;
     turn->shoot_count++;
 }
@@ -47,9 +47,8 @@ static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGro
     double registers[MESO_GRAMMAR_REGISTERS];
     MesoGrowthAsking asking = {work, batch, tip, turn, &tip->at};
     const MesoGrowthHost host = {&asking, tip->state, meso_growth_look};
-    size_t size = work->grammar->local_count * sizeof *registers;
     MesoGrowthCommand *command = &turn->command;
-    memcpy(registers, stored, size);
+    meso_copy_registers(registers, stored, work->grammar->local_count);
     turn->outcome = MESO_GROWTH_NOTHING;
     turn->looked = turn->at_border = false;
     turn->ball[3] = -1;
@@ -71,7 +70,7 @@ static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGro
         if (goes_on)
             tell(work, tip, command);
     }
-    memcpy(stored, registers, size);
+    meso_copy_registers(stored, registers, work->grammar->local_count);
 }
 
 static bool walks(const MesoGrowthTurn *turn)

@@ -29,7 +29,7 @@ static void time_rules(const char *name, const char *text)
         for (uint32_t seed = 0; rules < RULES; seed++) {
             MesoGrowthRun run = meso_growth_begin(grammar.seeds[0].entry,
                                                   meso_growth_seed_key(1, grammar.seeds[0].site, seed));
-            MesoGrowthCommand command;
+            MesoGrowthCommand command = {0};
             do {
                 meso_growth_resume(&command, &grammar, &run, registers, &host, true);
                 commands++;

@@ -80,21 +80,15 @@ static uint16_t compile_junction(Compiler *c, const MesoExpression *e)
     return to;
 }
 
-static void emit_draw(Compiler *c, uint16_t operation, uint16_t to, const MesoExpression *e)
-{
-    emit(c, (MesoGrammarInstruction){.operation = operation, .to = to, .a = (uint16_t)e->salt, .target = e->index});
-}
-
 /* Draws as operations on a plain one, in register `u`. */
 static void compile_draw(Compiler *c, const MesoExpression *e, uint16_t to, uint16_t u, const uint16_t x[3])
 {
     if (e->operation == MESO_OP_NORMAL) {
-        emit_draw(c, MESO_OP_NORMAL, u, e);
-        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MULTIPLY, .to = u, .a = u, .b = x[1]});
-        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_ADD, .to = to, .a = x[0], .b = u});
+        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_NORMAL, .to = to, .a = x[0], .b = x[1],
+                                         .target = e->index, .more = e->salt});
         return;
     }
-    emit_draw(c, MESO_OP_DRAW, u, e);
+    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_DRAW, .to = u, .a = (uint16_t)e->salt, .target = e->index});
     if (e->operation == MESO_OP_CHANCE)
         emit(c, (MesoGrammarInstruction){.operation = MESO_OP_LESS, .to = to, .a = u, .b = x[0]});
     else
@@ -149,7 +143,12 @@ static void emit_value(Compiler *c, uint32_t value, uint16_t a)
 static void compile_value(Compiler *c, uint32_t value, const MesoExpression *e)
 {
     uint32_t mark = c->top;
-    emit_value(c, value, value_of(c, e));
+    if (e->kind == MESO_EXPRESSION_CALL && e->operation == MESO_OP_MULTIPLY) {
+        uint16_t a = value_of(c, e->arguments[0]), b = value_of(c, e->arguments[1]);
+        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_VALUE_PRODUCT, .to = (uint16_t)value, .a = a, .b = b});
+    } else {
+        emit_value(c, value, value_of(c, e));
+    }
     c->top = mark;
 }
 
@@ -292,13 +291,15 @@ static void compile_choice(Compiler *c, const MesoStatement *s)
     bool constant = are_constant(s->arms);
     uint32_t begin = c->top, out = MESO_NO_INDEX;
     uint16_t share = push(c), sum = push(c), zero = constant_operand(c, 0);
-    uint16_t all = constant ? constant_operand(c, constant_sum(s->arms, NULL)) : sum;
+    double whole = constant ? constant_sum(s->arms, NULL) : 0;
+    uint16_t all = constant ? constant_operand(c, whole) : sum;
     if (!constant)
         emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = sum, .a = zero});
     for (const MesoArm *arm = s->arms; arm && !constant; arm = arm->next)
         add_weight(c, arm, sum);
     emit(c, (MesoGrammarInstruction){.operation = MESO_OP_DRAW, .to = share, .a = (uint16_t)s->salt, .target = s->site});
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MULTIPLY, .to = share, .a = share, .b = all});
+    if (whole != 1)
+        emit(c, (MesoGrammarInstruction){.operation = MESO_OP_MULTIPLY, .to = share, .a = share, .b = all});
     if (!constant)
         emit(c, (MesoGrammarInstruction){.operation = MESO_OP_COPY, .to = sum, .a = zero});
     for (const MesoArm *arm = s->arms; arm->next; arm = arm->next) {

@@ -159,7 +159,7 @@ static inline void fixture_run(const MesoGrammar *grammar, FixtureHost *host, Fi
 {
     const MesoGrowthHost look = {host, host->state, fixture_look};
     FixtureTip tip = queue->tips[index];
-    MesoGrowthCommand command;
+    MesoGrowthCommand command = {0};
     bool done = true;
     do {
         meso_growth_resume(&command, grammar, &tip.run, tip.registers, &look, done);

@@ -21,7 +21,7 @@ typedef enum MesoGrammarOperation {
     MESO_OP_AND, MESO_OP_OR,            /* of the tree only: they become jumps */
     MESO_OP_RANDOM, MESO_OP_CHANCE,     /* of the tree only: they become MESO_OP_DRAW */
     MESO_OP_DRAW,           /* in [0, 1), at sites[target], in the turn of a loop that register `a` counts */
-    MESO_OP_NORMAL,         /* likewise, of mean 0 and deviation 1 */
+    MESO_OP_NORMAL,         /* likewise, of mean a and deviation b; `more` counts */
     MESO_OP_JUMP,           /* to `target` */
     MESO_OP_JUMP_UNLESS,    /* where not a */
     MESO_OP_JUMP_UNLESS_LESS,   /* where not a < b */
@@ -30,6 +30,7 @@ typedef enum MesoGrammarOperation {
     MESO_OP_SALT,           /* that with which the turns of a loop begin, within one with the salt a */
     MESO_OP_RESULT,         /* a is the value of this code */
     MESO_OP_VALUE,          /* a is value `to` of the next command */
+    MESO_OP_VALUE_PRODUCT,  /* so is a times b */
     MESO_OP_WHILE,          /* the code at `target` is the next command's condition */
     MESO_OP_STEP,           /* on to `target` where it was refused; `a`: what to do before that */
     MESO_OP_MOVE, MESO_OP_TURN,

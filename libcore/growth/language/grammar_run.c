@@ -12,9 +12,8 @@ uint64_t meso_growth_seed_key(uint64_t job, uint64_t site, uint64_t number)
 
 static void clear_command(MesoGrowthCommand *command)
 {
-    command->given = 0;
-    for (uint32_t i = 0; i < MESO_GROWTH_VALUES; i++)
-        command->values[i] = 0;
+    for (; command->given; command->given &= command->given - 1)
+        command->values[__builtin_ctz(command->given)] = 0;
     command->shape = command->field = command->rule = command->entry = command->condition = MESO_NO_INDEX;
     command->join = false;
     command->key = 0;
@@ -78,7 +77,8 @@ static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, Meso
             r[i->to] = meso_draw_share(meso_draw_key(run->key, grammar->sites[i->target], turn_of(r, i->a)));
             continue;
         case MESO_OP_NORMAL:
-            r[i->to] = meso_draw_normal(meso_draw_key(run->key, grammar->sites[i->target], turn_of(r, i->a)));
+            r[i->to] = A + meso_draw_normal(meso_draw_key(run->key, grammar->sites[i->target],
+                                                          turn_of(r, (uint16_t)i->more))) * B;
             continue;
         case MESO_OP_JUMP: i = code + i->target - 1; continue;
         case MESO_OP_JUMP_UNLESS:
@@ -110,12 +110,15 @@ static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, Meso
             end_with(command, MESO_GROWTH_END, NULL);
             break;
         case MESO_OP_VALUE:
-            command->values[i->to] = A;
+        case MESO_OP_VALUE_PRODUCT: {
+            double value = i->operation == MESO_OP_VALUE ? A : A * B;
+            command->values[i->to] = value;
             command->given |= 1u << i->to;
-            if (isfinite(A))
+            if (isfinite(value))
                 continue;
             end_with(command, MESO_GROWTH_FAULT, "a value is not finite");
             break;
+        }
         case MESO_OP_WHILE: command->condition = i->target; continue;
         case MESO_OP_STEP:
             command->order = MESO_GROWTH_STEP;

@@ -7,6 +7,8 @@
 #ifndef MESO_GRAMMAR_RUN_H
 #define MESO_GRAMMAR_RUN_H
 
+#include <string.h>
+
 #include "libcore/growth/language/grammar.h"
 
 /* Of a branch; lengths in units of the surface. */
@@ -79,6 +81,15 @@ typedef struct MesoGrowthRun {
     bool stepped;               /* the last command was a step */
 } MesoGrowthRun;
 
+/* Registers of a branch, which are few as a rule. */
+static inline void meso_copy_registers(double *to, const double *from, uint32_t count)
+{
+    if (count == 1)
+        *to = *from;
+    else if (count)
+        memcpy(to, from, count * sizeof *to);
+}
+
 /* Most turns of a rule's loops, for all of them together. */
 enum { MESO_GROWTH_TURNS = 1 << 17 };
 
@@ -87,7 +98,10 @@ static inline MesoGrowthRun meso_growth_begin(uint32_t entry, uint64_t key)
     return (MesoGrowthRun){.key = key, .at = entry, .refused = MESO_NO_INDEX};
 }
 
-/* Runs to the next command. `done`: whether the last one could be done; it matters after steps alone. */
+/*
+ * Runs to the next command. `done`: whether the last one could be done; it matters after steps alone. `command` is the
+ * last one, of whichever branch; before the first it is all 0.
+ */
 void meso_growth_resume(MesoGrowthCommand *command, const MesoGrammar *grammar, MesoGrowthRun *run, double *registers,
                         const MesoGrowthHost *host, bool done);
 

@@ -43,7 +43,7 @@ static double value(const char *expression, const char *unit)
     FixtureHost host = {.log = &log, .map = 0.25, .state = {3, 2, 0.5, 0.1, 1, 2, 3}};
     const MesoGrowthHost look = {&host, host.state, fixture_look};
     double registers[MESO_GRAMMAR_REGISTERS];
-    MesoGrowthCommand command;
+    MesoGrowthCommand command = {0};
     snprintf(text, sizeof text, HEAD "unit m map m1 = attribute(\"a\") seed A(2) on vertices\n"
              "rule A(two) -> turn((%s) * 1 %s)", expression, unit);
     read(text);
@@ -189,7 +189,7 @@ static void draws(const char *text, double *turns, uint32_t count)
     double registers[MESO_GRAMMAR_REGISTERS];
     read(text);
     for (uint32_t i = 0; i < count; i++) {
-        MesoGrowthCommand command;
+        MesoGrowthCommand command = {0};
         MesoGrowthRun run = meso_growth_begin(grammar.rules[0].entry, meso_growth_seed_key(5, grammar.seeds[0].site, i));
         do
             meso_growth_resume(&command, &grammar, &run, registers, &look, true);
@@ -256,7 +256,7 @@ static void test_streams(void)
     for (uint32_t round = 0; round < 2; round++) {
         double registers[MESO_GRAMMAR_REGISTERS], seen[4];
         MesoGrowthRun run = meso_growth_begin(grammar.rules[0].entry, meso_growth_seed_key(5, grammar.seeds[0].site, 0));
-        MesoGrowthCommand command;
+        MesoGrowthCommand command = {0};
         for (uint32_t i = 0; i < 4; i++) {
             meso_growth_resume(&command, &grammar, &run, registers, &look, true);
             seen[i] = command.values[0];
