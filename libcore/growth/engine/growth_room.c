@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 
 /* Large pages, from this many bytes on: fewer faults. From REMAPPED on, realloc() moves pages and copies nothing. */
-enum { LARGE_PAGE = 1 << 21, LARGE = 2 * LARGE_PAGE, REMAPPED = 16 * LARGE_PAGE };
+enum { LARGE_PAGE = 1 << 21, LARGE = LARGE_PAGE, REMAPPED = 16 * LARGE_PAGE };
 
 static void ask_for_large_pages(void *array, size_t bytes)
 {

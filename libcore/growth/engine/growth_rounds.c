@@ -85,7 +85,7 @@ void meso_growth_release(MesoGrowthWork *work)
 {
     void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->turns, work->befores,
                             work->register_befores, work->balls, work->joints, work->points, work->elements,
-                            work->branches, work->rules};
+                            work->branches, work->rules, work->goes_on};
     for (uint32_t i = 0; work->batches && i <= work->batch_count; i++)
         release_batch(&work->batches[i]);
     free(work->batches);
@@ -103,18 +103,38 @@ static void try_batches(void *context, uint64_t begin_at, uint64_t end)
     meso_growth_try(work, &work->batches[begin_at / MESO_GROWTH_BATCH], (uint32_t)begin_at, (uint32_t)end);
 }
 
+static void accept_batches(void *context, uint64_t begin_at, uint64_t end)
+{
+    meso_growth_accept(context, (uint32_t)begin_at, (uint32_t)end);
+}
+
 static bool run_window(MesoGrowthWork *work, uint32_t begin_at, uint32_t count)
 {
     MesoGrowthBatch *again = &work->batches[work->batch_count];
+    uint32_t admitted = 0;
     work->window_begin = begin_at;
     work->since = work->space.kin_count;
+    work->first_branch = work->branch_count;
+    work->first_tip = work->tip_count;
+    work->first_shoot = work->shoot_count;
     work->ball_count = 0;
     again->piece_count = again->shoot_count = again->middle_count = 0;
     meso_team_for(work->team, count, MESO_GROWTH_BATCH, try_batches, work);
-    for (uint32_t i = 0; i < count; i++)
-        if (!meso_growth_accept(work, i))
-            return false;
-    return true;
+    while (admitted < count && meso_growth_admit(work, admitted))
+        admitted++;
+    if (work->status || !meso_growth_make_rooms(work))
+        return false;
+    meso_team_for(work->team, admitted, MESO_GROWTH_BATCH, accept_batches, work);
+    return admitted == count;
+}
+
+static bool make_active(MesoGrowthWork *work, uint64_t count)
+{
+    if (meso_make_room((void **)&work->active, &work->active_room, count, sizeof *work->active) &&
+        meso_make_room((void **)&work->goes_on, &work->goes_on_room, count, sizeof *work->goes_on))
+        return true;
+    work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %u branches", work->tip_count);
+    return false;
 }
 
 /* Those whose rule goes on, in their order, and then those that have begun. */
@@ -122,15 +142,11 @@ static bool gather_active(MesoGrowthWork *work)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < work->active_count; i++) {
-        const MesoGrowthTip *tip = &work->tips[work->active[i]];
-        if (!tip->rests && !tip->ended)
-            work->active[count++] = work->active[i];
+        work->active[count] = work->active[i];
+        count += work->goes_on[i];
     }
-    if (!meso_make_room((void **)&work->active, &work->active_room, (uint64_t)count + work->shoot_count + 1,
-                        sizeof *work->active)) {
-        work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %u branches", work->tip_count);
+    if (!make_active(work, (uint64_t)count + work->shoot_count + 1))
         return false;
-    }
     if (work->shoot_count)
         memcpy(work->active + count, work->shoots, work->shoot_count * sizeof *work->active);
     work->active_count = count + work->shoot_count;
@@ -169,10 +185,8 @@ static bool wake(MesoGrowthWork *work)
         work->rules[work->tips[count++].rule].runs++;
     }
     work->tip_count = work->active_count = count;
-    if (!meso_make_room((void **)&work->active, &work->active_room, count, sizeof *work->active)) {
-        work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %u branches", count);
+    if (!make_active(work, count))
         return false;
-    }
     for (uint32_t i = 0; i < count; i++)
         work->active[i] = i;
     return true;

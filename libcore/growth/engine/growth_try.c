@@ -49,6 +49,7 @@ static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGro
     const MesoGrowthHost host = {&asking, tip->state, meso_growth_look};
     MesoGrowthCommand *command = &turn->command;
     meso_copy_registers(registers, stored, work->grammar->local_count);
+    turn->rule = tip->rule;
     turn->outcome = MESO_GROWTH_NOTHING;
     turn->looked = turn->at_border = false;
     turn->ball[3] = -1;

@@ -1,8 +1,9 @@
 /*
  * Growth under way. Branches take turns in their order; a turn goes on to the next walk, of a step, a move or a placed
  * shape, and to the end of the rule. What grows is what one turn after the other would give. To have it sooner, the
- * turns of a window of branches are tried together, against what had grown before (growth_try.c); then each is
- * accepted, or done again where what the window has grown by then may have changed it (growth_accept.c).
+ * turns of a window of branches are tried together, against what had grown before (growth_try.c); then each in turn is
+ * admitted, or done again where what the window has grown by then may have changed it (growth_admit.c). That gives
+ * numbers to what they have grown, which is written down together, too (growth_accept.c).
  */
 #ifndef MESO_GROWTH_WORK_H
 #define MESO_GROWTH_WORK_H
@@ -61,27 +62,38 @@ struct MesoGrowthBatch;
 
 /* What comes of a turn. */
 typedef struct MesoGrowthTurn {
-    MesoGrowthCommand command;
+    /* all that is asked when it is admitted, as a rule */
+    struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
+    double length;              /* of the way */
+    uint32_t rule;              /* that it ran; MESO_NO_INDEX: a seed's */
     MesoGrowthOutcome outcome;
-    MesoTip end;
-    double length, rest;        /* of the way, and what of it lies beyond a border */
-    uint32_t try;               /* that was taken: 0, the first */
+    uint32_t shoot_begin, shoot_count;
+    uint32_t middle_begin, middle_count;    /* joints between, of a step that is several elements */
+    float raise;                /* over the lift at the end */
+    float depth;                /* below the surface, as a share of its length, that is left */
+    bool shares;                /* `from` is the joint that the branch had */
     bool at_border;
     bool looked;                /* the rule asked for what has grown, within the ball */
+    MesoGrowthCommand command;
+    /* numbers of what it has grown: the first of new joints, elements and branches, and its own node */
+    uint32_t joint_begin, element_begin, branch_begin, node;
+    MesoTip end;
+    double rest;                /* what of the way lies beyond a border */
+    uint32_t try;               /* that was taken: 0, the first */
     float ball[4];              /* center and radius of all that the turn depends on */
-    struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
-    uint32_t piece_begin, piece_count, shoot_begin, shoot_count;
+    uint32_t piece_begin, piece_count;
     MesoGrowthFooting foot;     /* of `end` */
     MesoFour arrive;
     MesoGrowthSeat from, to;
     float had;                  /* width of the joint that the branch had, where `from` is another in its place */
     float lift, roll;           /* at the end */
-    float raise;                /* over them */
-    float depth;                /* below the surface, as a share of its length, that is left */
-    uint32_t middle_begin, middle_count;    /* joints between, of a step that is several elements */
     MesoGrowthBow bow;
-    bool shares;                /* `from` is the joint that the branch had */
 } MesoGrowthTurn;
+
+static inline bool meso_growth_is_step(const MesoGrowthTurn *turn)
+{
+    return turn->outcome == MESO_GROWTH_STEPS || turn->outcome == MESO_GROWTH_JOINS;
+}
 
 typedef struct MesoGrowthMiddle {
     MesoGrowthSeat joint;
@@ -128,12 +140,14 @@ typedef struct MesoGrowthWork {
     double *registers;          /* [tip_count * local_count] */
     uint32_t tip_count, tip_room, register_room;
     uint32_t *active;           /* tips whose rule goes on */
+    uint8_t *goes_on;           /* [active_room] whether it does after this turn */
     uint32_t *shoots;           /* those that have begun since these took their turns */
-    uint32_t active_count, active_room, shoot_count, shoot_room;
+    uint32_t active_count, active_room, goes_on_room, shoot_count, shoot_room;
 
     /* the window */
     uint32_t window, window_begin, batch_count;
     uint32_t since;             /* the first element that it has grown */
+    uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
     MesoGrowthTurn *turns;      /* [window] */
     MesoGrowthTip *befores;     /* [window] where rules look; before their turns */
     double *register_befores;
@@ -249,10 +263,18 @@ MesoGrowthSeat meso_growth_joint_on(const MesoGrowthGround *ground, const MesoTi
 void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowthTurn *turn, bool divides,
                          float lift, float roll);
 
+/* ---- growth_admit.c ---- */
+
+/* Brings turn number `turn` of the window up to date, and gives it numbers; false where growth stops before it. */
+bool meso_growth_admit(MesoGrowthWork *work, uint32_t turn);
+
+/* Makes room for all that has numbers. */
+bool meso_growth_make_rooms(MesoGrowthWork *work);
+
 /* ---- growth_accept.c ---- */
 
-/* Accepts turn number `turn` of the window; false where growth stops. */
-bool meso_growth_accept(MesoGrowthWork *work, uint32_t turn);
+/* Writes down what turns [begin, end) of the window, which are admitted, have grown. Apart for each turn. */
+void meso_growth_accept(MesoGrowthWork *work, uint32_t begin, uint32_t end);
 
 /* A branch at a place of its own. False where memory is out. */
 bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint32_t number);

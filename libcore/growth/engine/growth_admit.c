@@ -1,0 +1,155 @@
+#include "libcore/growth/engine/growth_work.h"
+
+static bool fail_memory(MesoGrowthWork *work)
+{
+    work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %u elements and %u branches have grown",
+                             work->element_count, work->branch_count);
+    return false;
+}
+
+static bool stop_at(MesoGrowthWork *work, MesoGrowthEnd end)
+{
+    work->stops = true;
+    work->end = end;
+    return false;
+}
+
+/* ---- turns that others may have changed ---- */
+
+/* Whether what the window has grown lies where a turn looked. */
+static bool is_near_new(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
+{
+    const float *b = turn->ball;
+    bool near = false;
+    for (uint32_t i = 0; i < work->ball_count; i++) {
+        const float *a = work->balls + 4 * (size_t)i;
+        float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = a[3] + b[3];
+        near |= x * x + y * y + z * z <= reach * reach;
+    }
+    return near && b[3] >= 0;
+}
+
+/* Does again what the window's earlier branches have changed. */
+static void bring_up_to_date(MesoGrowthWork *work, uint32_t number)
+{
+    MesoGrowthTurn *turn = &work->turns[number];
+    MesoGrowthBatch *batch = &work->batches[work->batch_count];
+    uint32_t active = work->active[work->window_begin + number];
+    MesoGrowthTip *tip = &work->tips[active];
+    bool steps = meso_growth_is_step(turn);
+    if (turn->looked) {
+        if (is_near_new(work, turn))
+            meso_growth_try_again(work, batch, number);
+    } else if (steps || (turn->outcome == MESO_GROWTH_REFUSED && turn->command.join)) {
+        bool may_be_near = !(turn->command.values[MESO_GROWTH_CLEAR] > 0) || is_near_new(work, turn);
+        if (!may_be_near || (steps && !meso_growth_collides(work, batch, tip, turn, work->since)))
+            return;
+        meso_growth_judge_again(work, batch, tip, work->registers + (size_t)active * work->grammar->local_count, turn,
+                                turn->try + 1);
+        if (meso_growth_is_step(turn))
+            meso_growth_join(work, tip, turn);
+    }
+}
+
+/* Whether there is room for one more element below the limits. */
+static bool fits(MesoGrowthWork *work, const MesoGrowthTurn *turn)
+{
+    bool steps = meso_growth_is_step(turn), grows = steps || turn->outcome == MESO_GROWTH_PLACES;
+    if (grows && !(work->element_count + turn->middle_count < work->element_limit))
+        return stop_at(work, MESO_GROWTH_ELEMENTS);
+    if (steps && work->length + turn->length > work->length_limit)
+        return stop_at(work, MESO_GROWTH_LENGTH);
+    return true;
+}
+
+/* ---- what has grown, by number ---- */
+
+/* The ball around all of a way: it stays within its length of where it begins. */
+static bool add_ball(MesoGrowthWork *work, MesoFour center, double radius)
+{
+    float ball[4] = {center[0], center[1], center[2], (float)(radius * 1.0001)};
+    if (!work->looks && !work->clears)
+        return true;
+    if (!meso_make_room((void **)&work->balls, &work->ball_room, (uint64_t)work->ball_count + 1, sizeof ball))
+        return false;
+    for (uint32_t i = 0; i < 4; i++)
+        work->balls[4 * (size_t)work->ball_count + i] = ball[i];
+    work->ball_count++;
+    return true;
+}
+
+/* Turns that come later see it. */
+static bool occupy(MesoGrowthWork *work, uint32_t number, const MesoGrowthTurn *turn)
+{
+    const MesoGrowthTip *tip = &work->tips[work->active[work->window_begin + number]];
+    bool placed = turn->outcome == MESO_GROWTH_PLACES;
+    float begin = (float)tip->state[MESO_STATE_LENGTH];
+    MesoGrowthKin kin = {tip->node, tip->moved, placed, begin, placed ? begin : begin + (float)turn->length};
+    return meso_growth_space_add(&work->space, kin, turn->batch->pieces + turn->piece_begin, turn->piece_count) &&
+           add_ball(work, tip->foot.position, turn->length);
+}
+
+/* Joints that are new: a step that does not go on from the joint that it has begins at one of its own. */
+static uint32_t count_joints(const MesoGrowthTurn *turn)
+{
+    return meso_growth_is_step(turn) ? !turn->shares + turn->middle_count + 1 : 2;
+}
+
+static bool number_elements(MesoGrowthWork *work, uint32_t number, MesoGrowthTurn *turn, MesoGrowthRuleCount *counts)
+{
+    bool steps = meso_growth_is_step(turn);
+    turn->joint_begin = work->joint_count;
+    turn->element_begin = work->element_count;
+    work->joint_count += count_joints(turn);
+    work->element_count += steps ? turn->middle_count + 1 : 1;
+    work->length += steps ? turn->length : 0;
+    work->depth = turn->depth > work->depth ? turn->depth : work->depth;
+    work->divided += turn->middle_count > 0;
+    work->raised += turn->raise > 0;
+    counts->steps += steps;
+    counts->placed += !steps;
+    if (work->uses_space && !occupy(work, number, turn))
+        return fail_memory(work);
+    turn->node = work->space.kin_count - 1;
+    return true;
+}
+
+bool meso_growth_admit(MesoGrowthWork *work, uint32_t number)
+{
+    static MesoGrowthRuleCount none;
+    MesoGrowthTurn *turn = &work->turns[number];
+    if (work->uses_space && work->space.kin_count > work->since)
+        bring_up_to_date(work, number);
+    if (turn->batch->failed || turn->batch->seen.failed)
+        return fail_memory(work);
+    if (turn->command.order == MESO_GROWTH_FAULT) {
+        work->status = meso_fail(work->error, MESO_ERR_INPUT, "line %u: %s", turn->command.line, turn->command.fault);
+        return false;
+    }
+    if (!fits(work, turn))
+        return false;
+    MesoGrowthRuleCount *counts = turn->rule == MESO_NO_INDEX ? &none : &work->rules[turn->rule];
+    turn->branch_begin = work->branch_count;
+    work->branch_count += turn->shoot_count;
+    counts->branches += turn->shoot_count;
+    counts->at_borders += turn->at_border;
+    counts->refused += turn->outcome == MESO_GROWTH_REFUSED;
+    return !(meso_growth_is_step(turn) || turn->outcome == MESO_GROWTH_PLACES) ||
+           number_elements(work, number, turn, counts);
+}
+
+#define ROOM(array, room, count) meso_make_room((void **)&work->array, &work->room, count, sizeof *work->array)
+
+bool meso_growth_make_rooms(MesoGrowthWork *work)
+{
+    uint64_t shoots = work->branch_count - work->first_branch, tips = work->tip_count + shoots;
+    bool has = ROOM(joints, joint_room, work->joint_count) && ROOM(points, point_room, work->joint_count) &&
+               ROOM(elements, element_room, work->element_count) && ROOM(branches, branch_room, work->branch_count) &&
+               ROOM(tips, tip_room, tips) && ROOM(registers, register_room, tips * work->grammar->local_count + 1) &&
+               ROOM(shoots, shoot_room, work->shoot_count + shoots);
+    if (!has)
+        return fail_memory(work);
+    work->tip_count = (uint32_t)tips;
+    work->shoot_count += (uint32_t)shoots;
+    return true;
+}
