@@ -68,6 +68,16 @@ static MesoBox box_of(const MesoBendGroup *group)
     return box;
 }
 
+/* Joints of the spans before `end` that come next: they may lie anywhere. */
+static void fetch_joints(const MesoBending *bending, uint64_t first, uint64_t end)
+{
+    for (uint64_t i = first; i < first + MESO_LANES && i < end; i++) {
+        const char *joint = (const char *)&bending->joints[bending->spans[i].to];
+        __builtin_prefetch(joint);
+        __builtin_prefetch(joint + sizeof(MesoJoint) - 1);
+    }
+}
+
 /* Where less than eight are left, the last is computed several times, and written to the same place. */
 static void bend_range(void *context, uint64_t begin, uint64_t end)
 {
@@ -86,6 +96,7 @@ static void bend_range(void *context, uint64_t begin, uint64_t end)
             group.positions[lane] = bending->positions + offset;
             group.normals[lane] = bending->normals + offset;
         }
+        fetch_joints(bending, first + 2 * MESO_LANES, end);
         bend(bending->shape, &group);
         for (uint32_t lane = 0; lane < MESO_LANES && bending->folds; lane++)
             bending->folds[spans[lane]] = group.folds[lane] != 0;
