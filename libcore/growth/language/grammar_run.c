@@ -44,11 +44,12 @@ static uint64_t turn_of(const double *r, uint16_t salt)
 #define THIRD OPERAND(i->target)
 
 /* Runs until a command is complete. `r` are the registers. */
-static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, MesoGrowthRun *run, double *r,
-                    const MesoGrowthHost *host)
+static inline __attribute__((always_inline)) void execute(MesoGrowthCommand *command, const MesoGrammar *grammar,
+                                                          MesoGrowthRun *run, double *r, const MesoGrowthHost *host)
 {
     const MesoGrammarInstruction *code = grammar->code, *i = code + run->at;
     const double *const banks[2] = {r, grammar->constants};
+    uint32_t given = 0;
     for (;; i++) {
         switch ((MesoGrammarOperation)i->operation) {
         case MESO_OP_CONSTANT: r[i->to] = grammar->constants[i->target]; continue;
@@ -113,7 +114,7 @@ static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, Meso
         case MESO_OP_VALUE_PRODUCT: {
             double value = i->operation == MESO_OP_VALUE ? A : A * B;
             command->values[i->to] = value;
-            command->given |= 1u << i->to;
+            given |= 1u << i->to;
             if (isfinite(value))
                 continue;
             end_with(command, MESO_GROWTH_FAULT, "a value is not finite");
@@ -151,6 +152,7 @@ static void execute(MesoGrowthCommand *command, const MesoGrammar *grammar, Meso
         }
         break;
     }
+    command->given = given;
     command->line = grammar->lines[i - code];
     run->at = command->order == MESO_GROWTH_BRANCH ? i->target : (uint32_t)(i - code) + 1;
 }
@@ -163,10 +165,11 @@ void meso_growth_resume(MesoGrowthCommand *command, const MesoGrammar *grammar, 
     run->stepped = false;
     run->refused = MESO_NO_INDEX;
     clear_command(command);
-    command->order = MESO_GROWTH_END;
-    command->line = run->at ? grammar->lines[run->at - 1] : 0;
-    if (stepped && !done && refused == MESO_NO_INDEX)
+    if (stepped && !done && refused == MESO_NO_INDEX) {
+        command->order = MESO_GROWTH_END;
+        command->line = run->at ? grammar->lines[run->at - 1] : 0;
         return;
+    }
     if (stepped && !done)
         run->at = refused;
     execute(command, grammar, run, registers, host);
