@@ -18,7 +18,8 @@
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
 #   bench-exact       a table of the engines' times, memory and errors against exact distances: four minutes
 #   bench-quilt       the paper's Table 1 again, with swatches and surfaces of ours, and how good each quilt is
-#   bench-grow        walks over surfaces and marches through textures: rates and errors; growth with its geometry
+#   bench-grow        walks over surfaces and marches through textures: rates and errors; growth with its geometry;
+#                     with MILLIONS=10 so many million terminals, too: minutes, and gigabytes
 #   bench-replicate   details on a patch that is stretched, beside the paper's Table 1; times
 #   demo              pictures and meshes of a woven vase and a teapot, to build/demo
 #   quilts            ten pictures of quilts, to build/quilts
@@ -192,7 +193,8 @@ bench-quilt: $(OUT)/test/libcore/quilt/check/quilt_bench
 	@$< --check
 bench-grow: $(addprefix $(OUT)/test/libcore/,geodesic/transport/straight_walk_bench growth/march/texture_march_bench \
             growth/scene/growth_scene_bench)
-	@for bench in $^; do $$bench; done
+	@for bench in $(filter-out %growth_scene_bench,$^); do $$bench; done
+	@$(filter %growth_scene_bench,$^) $(MILLIONS)
 bench-replicate: $(OUT)/test/libcore/replicate/plan/replicate_bench
 	@$<
 bench-exact: $(OUT)/test/libcore/geodesic/geodesic_bench

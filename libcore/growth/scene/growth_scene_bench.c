@@ -3,9 +3,12 @@
  * seeds, 250 thousand terminals of 24 triangles, on tori; looked at for what is below the surface, too. Best of some
  * rounds, by the time of the process and by the clock.
  *
- *   growth_scene_bench [MILLIONS]    and so many million terminals without geometry, with the most memory used
+ *   growth_scene_bench [MILLIONS]    and so many million terminals without geometry, with the most memory used; half as
+ *                                    many first, and on two threads
  */
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "libcore/base/clock.h"
 #include "libcore/growth/engine/growth_fixture.h"
@@ -112,21 +115,36 @@ static void measure_on(MesoTriangulation mesh, const MesoTerminalShape *shape)
     meso_scenery_release(&scenery);
 }
 
+/* In a process of its own, whose most memory is that of this alone. */
+static void measure_apart(MesoGrowthScenery *scenery, const MesoTerminalShape *shape, uint32_t elements,
+                          uint32_t thread_count)
+{
+    const Case many = {"many, do not cross", "", " else retry(3, 70 deg)", elements, 0.9 / sqrt(elements), false};
+    struct rusage before, after;
+    fflush(stdout);
+    pid_t child = fork();
+    CHECK(child >= 0);
+    if (child > 0) {
+        int status;
+        CHECK(waitpid(child, &status, 0) == child && status == 0);
+        return;
+    }
+    getrusage(RUSAGE_SELF, &before);
+    measure(scenery, shape, &many, thread_count, 1);
+    getrusage(RUSAGE_SELF, &after);
+    printf("     at most %.0f bytes a terminal\n", 1024.0 * (double)(after.ru_maxrss - before.ru_maxrss) / elements);
+    exit(0);
+}
+
 /* Linear: as many again take twice the time, and memory. */
 static void measure_many(const MesoTerminalShape *shape, double millions)
 {
     MesoGrowthScenery scenery = {0};
+    uint32_t elements = (uint32_t)(1e6 * millions);
     meso_scenery_init(&scenery, meso_fixture_torus(1280, 512, 0.4f));
-    for (int half = 1; half >= 0; half--) {
-        struct rusage before, after;
-        uint32_t elements = (uint32_t)(1e6 * millions / (1 + half));
-        const Case many = {"many, do not cross", "", " else retry(3, 70 deg)", elements, 0.9 / sqrt(elements), false};
-        getrusage(RUSAGE_SELF, &before);
-        measure(&scenery, shape, &many, 1, 1);
-        getrusage(RUSAGE_SELF, &after);
-        double bytes = 1024.0 * (double)(after.ru_maxrss - before.ru_maxrss);
-        printf("     at most %.0f bytes a terminal\n", bytes / elements);
-    }
+    measure_apart(&scenery, shape, elements / 2, 1);
+    measure_apart(&scenery, shape, elements, 1);
+    measure_apart(&scenery, shape, elements, 2);
     meso_scenery_release(&scenery);
 }
 
