@@ -253,7 +253,7 @@ static bool piece_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *ask
         if (block->element[block->count - 1] < asker->since)
             break;
         if (block->next != MESO_NO_INDEX)
-            __builtin_prefetch(&space->blocks[block->next]);
+            meso_growth_fetch_block(&space->blocks[block->next]);
         meets |= meets_in_block(&probe, block, first);
         if (meets && !first)
             return true;

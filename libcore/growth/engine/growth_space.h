@@ -35,6 +35,15 @@ typedef struct MesoGrowthBlock {
     uint32_t next;              /* older ones of the same triangle */
 } MesoGrowthBlock;
 
+/* All lines of memory of a block. */
+static inline void meso_growth_fetch_block(const MesoGrowthBlock *block)
+{
+    __builtin_prefetch(block->x0);
+    __builtin_prefetch(block->x1);
+    __builtin_prefetch(block->element);
+    __builtin_prefetch(&block->next);
+}
+
 /* An element's place in its tree. */
 typedef struct MesoGrowthKin {
     uint32_t node;              /* at which it begins, or from which its branch has moved to where it begins */
