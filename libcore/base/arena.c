@@ -17,8 +17,11 @@ enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
  */
 enum { MAPPED_SIZE = 1 << 21 };
 
-/* Pages of large blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. */
-enum { LARGE_PAGE = 1 << 21 };
+/*
+ * Pages of large blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. Of so many
+ * pages on a block is whole ones: then Linux lays it along them, and none at its ends are small.
+ */
+enum { LARGE_PAGE = 1 << 21, WHOLE_PAGES = 16 };
 
 struct MesoArenaBlock {
     MesoArenaBlock *previous;
@@ -54,6 +57,8 @@ static MesoArenaBlock *take_room(size_t size)
 {
     if (size < MAPPED_SIZE)
         return calloc(1, size);
+    if (size >= (size_t)WHOLE_PAGES * LARGE_PAGE && size <= SIZE_MAX - LARGE_PAGE)
+        size = (size + LARGE_PAGE - 1) & ~(size_t)(LARGE_PAGE - 1);
     MesoArenaBlock *block = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (block == MAP_FAILED)
         return NULL;
