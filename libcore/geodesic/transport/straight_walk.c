@@ -172,8 +172,8 @@ static double share_at_exit(const MesoWalkLane *lane, const Passage *passage)
 }
 
 /* Tells the piece up to the exit, and says where on it that ends. */
-static double reach_exit(const MesoWalkGround *ground, const MesoWalkLane *lane, const Passage *passage, const MesoWalk *walk,
-                         const MesoWalkOptions *options, double weight[3])
+static double reach_exit(const MesoWalkGround *ground, const MesoWalkLane *lane, const Passage *passage,
+                         const MesoWalk *walk, const MesoWalkOptions *options, double weight[3])
 {
     double share = share_at_exit(lane, passage);
     weigh_between(end_corner(lane, passage->exit), begin_corner(lane, passage->exit), share, weight);
@@ -193,7 +193,8 @@ static void end_on_side(const MesoWalkGround *ground, const MesoWalkLane *lane, 
 }
 
 /* Through one triangle; false where the walk ends in it. */
-ALWAYS_INLINE bool step(const MesoWalkGround *ground, MesoWalkLane *lane, MesoWalk *walks, const MesoWalkOptions *options)
+ALWAYS_INLINE bool step(const MesoWalkGround *ground, MesoWalkLane *lane, MesoWalk *walks,
+                        const MesoWalkOptions *options)
 {
     const MesoWalkFace *face = &ground->faces[lane->half_edge / 3];
     Passage passage = look_ahead(face, lane);

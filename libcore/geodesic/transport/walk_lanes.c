@@ -1,7 +1,7 @@
 /*
- * What straight_walk.c does in a walk's first triangles, by the same operations in the same order, in lanes. Corners are
- * counted from the side that the frame's x axis lies along: sums over corners are the same then, since the corner at
- * the origin adds zeros. What is rare is left to straight_walk.c.
+ * What straight_walk.c does in a walk's first triangles, by the same operations in the same order, in lanes. Corners
+ * are counted from the side that the frame's x axis lies along: sums over corners are the same then, since the corner
+ * at the origin adds zeros. What is rare is left to straight_walk.c.
  */
 #include "libcore/geodesic/transport/walk_lanes.h"
 

@@ -2,7 +2,7 @@
 #ifndef MESO_WALK_LANES_H
 #define MESO_WALK_LANES_H
 
-#include "libcore/geodesic/transport/straight_walk.h"
+#include "libcore/geodesic/transport/walk.h"
 
 /* A walk under way. */
 typedef struct MesoWalkLane {

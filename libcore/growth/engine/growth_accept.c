@@ -89,7 +89,7 @@ static void go_to(MesoGrowthTip *tip, const MesoGrowthTurn *turn)
     tip->state[MESO_STATE_Z] = turn->foot.position[2];
 }
 
-/* Elements from joint to joint of a step, from the joint `from` to that behind the new ones before `joint`; the last. */
+/* Elements of a step, from the joint `from` to new joints, which begin with `joint`; the last of them. */
 static uint32_t set_spans(MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t from,
                           uint32_t joint)
 {

@@ -147,8 +147,32 @@ static void test_faults(void)
 {
     CHECK_TEXT(grow(HEAD "seed A(0) on vertices rule A(n) -> { turn(1 rad) turn(1 rad / n) }", 0, 1, 10),
                "rule A 0=0\nturn 0=1\nfault 0=inf: a value is not finite\n");
+    CHECK(strstr(grow(HEAD "seed A(1e200) on vertices rule A(n) -> turn(n * n * 1 rad)", 0, 1, 10),
+                 "fault 0=inf: a value is not finite\n"));
     CHECK(strstr(grow(HEAD "seed A(0) on vertices rule A(n) -> repeat 1e9 { let k = 1 }", 0, 1, 10),
                  "fault: too many repetitions"));
+}
+
+/* What one command was told the next one does not know. */
+static void test_forgetting(void)
+{
+    FixtureLog log = {0};
+    FixtureHost host = {.log = &log};
+    const MesoGrowthHost look = {&host, host.state, fixture_look};
+    double registers[MESO_GRAMMAR_REGISTERS];
+    MesoGrowthCommand command = {0};
+    read(HEAD "seed A(2) on vertices rule A(n) -> { step(n * 1 cm, width: n * 2 cm, cross: true) turn(3 rad) A(n) }");
+    MesoGrowthRun run = meso_growth_begin(grammar.rules[0].entry, 7);
+    registers[0] = 2;
+    meso_growth_resume(&command, &grammar, &run, registers, &look, true);
+    CHECK(command.order == MESO_GROWTH_STEP && command.values[MESO_GROWTH_WIDTH] > 0);
+    CHECK(command.values[MESO_GROWTH_CROSS] == 1);
+    for (uint32_t i = 0; i < 2; i++) {
+        meso_growth_resume(&command, &grammar, &run, registers, &look, true);
+        CHECK(command.order == (i ? MESO_GROWTH_RULE : MESO_GROWTH_TURN) && command.values[0] == (i ? 2 : 3));
+        for (uint32_t k = 1; k < MESO_GROWTH_VALUES; k++)
+            CHECK(command.values[k] == 0);
+    }
 }
 
 static void test_examples(void)
@@ -288,6 +312,7 @@ int main(void)
     test_refused_steps();
     test_branches();
     test_faults();
+    test_forgetting();
     test_examples();
     test_seed_code();
     test_statistics();
