@@ -1,14 +1,13 @@
 /* meso-render: draws a model to an OpenEXR image with its arbitrary output variables, or to a PNG. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
+#include "cmd/render/picture_files.h"
 #include "cmd/render/render_frames.h"
 #include "formats/file/claim.h"
-#include "formats/image/image_file.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
@@ -91,33 +90,18 @@ static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
                      output);
 }
 
-static MesoStatus write_image(const MesoRenderArguments *a, const char *path, bool exr,
-                              const MesoImage *image, MesoError *error)
-{
-    MesoOutput *output;
-    MesoStatus status = meso_output_open(&output, path, error);
-    if (!status)
-        status = exr ? meso_exr_write(image, &a->tool.provenance, a->tool.threads, output, error)
-                     : meso_png_write(image, a->transparent ? NULL : a->background, &a->tool.provenance,
-                                      output, error);
-    return meso_output_finish(output, status, error);
-}
-
 static json_t *point_json(MesoVec3 p)
 {
     return json_pack("[f, f, f]", (double)p.x, (double)p.y, (double)p.z);
 }
 
-static void report_image(MesoTool *tool, const MesoImage *image, const MesoScene *scene,
-                         const char *renderer)
+static void report_image(MesoTool *tool, const MesoRenderOptions *options, const MesoScene *scene,
+                         const char *renderer, uint64_t covered)
 {
-    uint64_t covered = 0, count = (uint64_t)image->width * image->height;
-    for (uint64_t i = 0; i < count; i++)
-        covered += isfinite(image->depth[i]) != 0;
-    const MesoCamera *camera = &image->camera;
+    const MesoCamera *camera = &options->camera;
     json_t *report = tool->report;
-    json_object_set_new(report, "width", json_integer(image->width));
-    json_object_set_new(report, "height", json_integer(image->height));
+    json_object_set_new(report, "width", json_integer(options->width));
+    json_object_set_new(report, "height", json_integer(options->height));
     json_object_set_new(report, "renderer", meso_json_string(renderer));
     meso_scene_report_ids(report, scene);
     json_object_set_new(report, "sweeps", json_integer(scene->sweep_count));
@@ -131,21 +115,28 @@ static void report_image(MesoTool *tool, const MesoImage *image, const MesoScene
         meso_tool_say(tool, "warning: nothing of the model is on the image");
 }
 
-static void say_times(const MesoTool *tool, const double *at)
+/* How a picture comes about: times in seconds. */
+typedef struct Drawing {
+    MesoRenderOptions options;
+    MesoPictureFiles files;
+    const char *renderer;
+    double context, drawing, writing;
+} Drawing;
+
+static void say_times(const MesoTool *tool, const Drawing *d, double model)
 {
     if (tool->verbose)
-        meso_tool_say(tool, "model %.0f ms, context %.0f ms, drawing %.0f ms, writing %.0f ms",
-                      1e3 * (at[1] - at[0]), 1e3 * (at[2] - at[1]), 1e3 * (at[3] - at[2]),
-                      1e3 * (at[4] - at[3]));
+        meso_tool_say(tool, "model %.0f ms, context %.0f ms, drawing %.0f ms, writing %.0f ms", 1e3 * model,
+                      1e3 * d->context, 1e3 * d->drawing, 1e3 * d->writing);
 }
 
-/* Drawn by GL in a process apart, or by this one. */
-typedef struct Drawn {
-    MesoPicture *apart;         /* NULL: by this one */
-    MesoImage own;
-    const char *renderer;
-    double begun;
-} Drawn;
+/* Seconds since `*at`, which becomes now. */
+static double lap(double *at)
+{
+    double now = meso_seconds(), passed = now - *at;
+    *at = now;
+    return passed;
+}
 
 /* Tiles, unless GL is asked for, or a context of it. */
 static bool wants_gl(const MesoRenderArguments *a)
@@ -168,11 +159,58 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, const MesoScene *scene,
-                       const MesoCamera *camera, MesoError *error)
+/* By GL, in a process apart, whole. */
+static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
+                             const MesoRenderFrame *frame, MesoError *error)
 {
-    MesoTool *tool = &a->tool;
-    const MesoRenderOptions options = {
+    MesoPicture *picture;
+    double at = meso_seconds();
+    MesoStatus status = meso_picture_init(&picture, arena, a->context, a->tool.threads, scene, &d->options, error);
+    if (status)
+        return status;
+    d->renderer = meso_arena_copy_text(&a->tool.arena, picture->renderer, error);
+    d->drawing = meso_seconds() - picture->context_made;
+    d->context = lap(&at) - d->drawing;
+    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, &picture->image, d->options.height, error)
+                         : MESO_ERR_MEMORY;
+    if (!status)
+        status = meso_picture_files_band(&d->files, error);
+    status = meso_picture_files_end(&d->files, status, error);
+    d->writing = lap(&at);
+    meso_picture_release(picture);
+    return status;
+}
+
+/* By tiles: each band is painted and written. */
+static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
+                             const MesoRenderFrame *frame, MesoError *error)
+{
+    MesoTilePainter *painter;
+    MesoImage band;
+    double at = meso_seconds();
+    d->renderer = "tiles";
+    MesoStatus status = meso_tile_painter_init(&painter, &band, arena, scene, &d->options, a->tool.threads, error);
+    d->drawing = lap(&at);
+    if (status)
+        return status;
+    for (uint32_t row = 0; row < d->options.height && !status; row += band.height) {
+        status = meso_tile_paint(painter, &band, row, error);
+        d->drawing += lap(&at);
+        if (!status && row == 0)
+            status = meso_picture_files_begin(&d->files, a, frame, &band, d->options.height, error);
+        if (!status)
+            status = meso_picture_files_band(&d->files, error);
+        d->writing += lap(&at);
+    }
+    status = meso_picture_files_end(&d->files, status, error);
+    d->writing += lap(&at);
+    return status;
+}
+
+static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
+                       const MesoCamera *camera, const MesoRenderFrame *frame, MesoError *error)
+{
+    *d = (Drawing){.options = {
         .width = a->camera.size[0],
         .height = a->camera.size[1],
         .camera = *camera,
@@ -180,25 +218,9 @@ static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, c
         .ground = strcmp(a->ground, "shadow") == 0,
         .extras = a->extras,
         .vary = a->vary,
-    };
-    *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
-    if (!wants_gl(a))
-        return meso_tile_picture(&drawn->own, arena, scene, &options, tool->threads, error);
-    MesoStatus status = meso_picture_init(&drawn->apart, arena, a->context, tool->threads, scene, &options, error);
-    if (status)
-        return status;
-    drawn->renderer = drawn->apart->renderer;
-    drawn->begun = drawn->apart->context_made;
-    return MESO_OK;
-}
-
-static MesoStatus write_images(const MesoRenderArguments *a, const MesoRenderFrame *frame, const MesoImage *image,
-                               MesoError *error)
-{
-    MesoStatus status = write_image(a, frame->output, a->exr_product, image, error);
-    if (!status && frame->png)
-        status = write_image(a, frame->png, false, image, error);
-    return status;
+        .band_rows = a->band_rows,
+    }};
+    return wants_gl(a) ? draw_apart(a, d, arena, scene, frame, error) : draw_bands(a, d, arena, scene, frame, error);
 }
 
 /* What frames share: a model is read once, but where each has its own. */
@@ -234,23 +256,16 @@ static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double st
 {
     MesoRenderArguments *a = work->a;
     MesoArena scratch;
-    Drawn drawn;
-    double at[5] = {start, meso_seconds()};
+    Drawing drawing;
+    double model = lap(&start);
     MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->scene);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawn, &scratch, &work->scene, &camera, error);
-    const MesoImage *image = drawn.apart ? &drawn.apart->image : &drawn.own;
-    at[2] = drawn.begun;
-    at[3] = meso_seconds();
-    if (!status)
-        status = write_images(a, frame, image, error);
-    at[4] = meso_seconds();
+    MesoStatus status = draw(a, &drawing, &scratch, &work->scene, &camera, frame, error);
     if (!status) {
-        report_image(&a->tool, image, &work->scene, drawn.renderer);
-        say_times(&a->tool, at);
+        report_image(&a->tool, &drawing.options, &work->scene, drawing.renderer, drawing.files.covered);
+        say_times(&a->tool, &drawing, model);
         work->drawn++;
     }
-    meso_picture_release(drawn.apart);
     meso_arena_release(&scratch);
     return status;
 }
@@ -378,6 +393,7 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "context", "MAKER",
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
                     &a.context, "auto|osmesa|egl", .given = &a.context_given),
+        MESO_COUNT(0, "band-rows", "N", 0, &a.band_rows, 0, 16384, .more = MESO_OPTION_SILENT),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -21,6 +21,7 @@ typedef struct MesoRenderArguments {
     const char *aov;            /* --aov; NULL: none beside the usual ones */
     unsigned extras;            /* MesoImageExtra */
     float vary;                 /* --vary */
+    uint32_t band_rows;         /* --band-rows: for tests, and hidden */
 
     bool exr_product;           /* of -o */
     bool transparent;

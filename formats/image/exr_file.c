@@ -15,7 +15,8 @@
 #include "libcore/render/projection.h"
 
 enum { PICTURE_CHANNELS = 11, EXTRA_CHANNELS = 8, MATTES = MESO_ID_CHANNELS + 1, MATTE_CHANNELS = 2 * MESO_MATTE_RANKS,
-       CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS + EXTRA_CHANNELS + MATTES * MATTE_CHANNELS, BATCH = 16 };
+       CHANNELS = PICTURE_CHANNELS + MESO_ID_CHANNELS + EXTRA_CHANNELS + MATTES * MATTE_CHANNELS, BATCH = 16,
+       BATCH_BYTES = 20 << 20 };
 
 /* The library removes this file after a failure, so it is one that cannot exist. */
 static const char *const NO_FILE = "/dev/null/none.exr";
@@ -35,9 +36,15 @@ typedef struct Stream {
     MesoError error;
 } Stream;
 
-typedef struct Writer {
-    const MesoImage *image;     /* NULL: numbers alone, without a camera */
-    uint32_t width, height;
+typedef struct MesoExrWriter Writer;
+
+struct MesoExrWriter {
+    const MesoImage *image;     /* a band, whose arrays are those of all bands; NULL: numbers alone, without a camera */
+    uint32_t width, height;     /* of the whole picture */
+    uint32_t next_row, batch;   /* rows that are written; chunks at once */
+    uint32_t thread_count;
+    MesoArena arena;
+    Stream stream;
     exr_context_t context;
     uint32_t channel_count;
     Channel channels[CHANNELS];
@@ -48,7 +55,7 @@ typedef struct Writer {
     bool ready[BATCH];                  /* pipeline is initialised */
     exr_chunk_info_t chunks[BATCH];
     exr_result_t results[BATCH];
-} Writer;
+};
 
 static void add_channel(Writer *writer, const char *name, exr_pixel_type_t stored, uint32_t stride, const float *values)
 {
@@ -190,8 +197,8 @@ static exr_result_t set_camera(Writer *writer)
     camera.m[15] = 1;
 
     /* OpenEXR's NDC: (0, 0) is the upper left corner of the picture, (1, 1) the lower right one. */
-    MesoMatrix ndc = meso_view_clip_from_world(&view, 1, m->width, m->height,
-                                               (MesoWindow){0, 0, m->width, m->height});
+    MesoMatrix ndc = meso_view_clip_from_world(&view, 1, writer->width, writer->height,
+                                               (MesoWindow){0, 0, writer->width, writer->height});
     for (uint32_t column = 0; column < 4; column++)
         for (uint32_t row = 0; row < 2; row++)
             ndc.m[4 * column + row] = 0.5f * (ndc.m[4 * column + row] + ndc.m[4 * column + 3]);
@@ -199,7 +206,7 @@ static exr_result_t set_camera(Writer *writer)
     if (!result)
         result = set_matrix(writer->context, "worldToNDC", &ndc);
     return result ? result : exr_set_screen_window_width(writer->context, 0, 2 * view.tan_half_fov *
-                                                         (float)m->width / (float)m->height);
+                                                         (float)writer->width / (float)writer->height);
 }
 
 /* The names of a channel, one a line. */
@@ -267,6 +274,7 @@ static const Channel *find_channel(const Writer *writer, const char *name)
     return NULL;
 }
 
+/* `row` of the band. */
 static exr_result_t connect(const Writer *writer, exr_encode_pipeline_t *pipeline, uint32_t row)
 {
     size_t first = (size_t)row * writer->width;
@@ -301,7 +309,7 @@ static exr_result_t encode_chunk(Writer *writer, uint32_t slot)
     if (result)
         return result;
     writer->ready[slot] = true;
-    result = connect(writer, pipeline, (uint32_t)chunk->start_y);
+    result = connect(writer, pipeline, (uint32_t)chunk->start_y - writer->next_row);
     if (!result)
         result = exr_encoding_choose_default_routines(writer->context, 0, pipeline);
     pipeline->compress_fn = meso_exr_deflate;
@@ -317,60 +325,60 @@ static void encode_range(void *user, uint64_t begin, uint64_t end)
         writer->results[i] = encode_chunk(writer, (uint32_t)i);
 }
 
-static exr_result_t write_pixels(Writer *writer, uint32_t thread_count)
+/* Chunks at once: what they are packed and compressed in is to stay small beside a band. */
+static exr_result_t plan_batch(Writer *writer)
+{
+    uint64_t bytes;
+    exr_result_t result = exr_get_chunk_unpacked_size(writer->context, 0, &bytes);
+    uint64_t count = result || bytes == 0 ? 1 : BATCH_BYTES / bytes;
+    writer->batch = count < 1 ? 1 : count > BATCH ? BATCH : (uint32_t)count;
+    return result;
+}
+
+static exr_result_t write_rows(Writer *writer, uint32_t rows)
 {
     int32_t chunk_rows;
     exr_result_t result = exr_get_scanlines_per_chunk(writer->context, 0, &chunk_rows);
-    uint32_t height = writer->height;
-    for (uint32_t row = 0; row < height && !result;) {
+    uint32_t end = writer->next_row + rows;
+    for (uint32_t row = writer->next_row; row < end && !result;) {
         uint32_t count = 0;
-        for (; count < BATCH && row < height && !result; row += (uint32_t)chunk_rows)
+        for (; count < writer->batch && row < end && !result; row += (uint32_t)chunk_rows)
             result = exr_write_scanline_chunk_info(writer->context, 0, (int)row,
                                                    &writer->chunks[count++]);
         if (result)
             break;
-        meso_parallel_for(thread_count, count, 1, encode_range, writer);
+        meso_parallel_for(writer->thread_count, count, 1, encode_range, writer);
         for (uint32_t i = 0; i < count && !result; i++)
             result = writer->results[i] ? writer->results[i]
                 : exr_write_scanline_chunk(writer->context, 0, writer->chunks[i].start_y,
                                            writer->pipelines[i].compressed_buffer,
                                            writer->pipelines[i].compressed_bytes);
     }
+    writer->next_row = end;
     return result;
 }
 
-static exr_result_t write_file(Writer *writer, Stream *stream, const char *provenance, uint32_t thread_count)
+static exr_result_t begin_file(Writer *writer, const char *provenance)
 {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ignore_message;
-    setup.user_data = stream;
+    setup.user_data = &writer->stream;
     setup.write_fn = write_stream;
     exr_result_t result = exr_start_write(&writer->context, NO_FILE, EXR_WRITE_FILE_DIRECTLY, &setup);
     if (result)
         return result;
     exr_set_longname_support(writer->context, 1);
     result = describe(writer, provenance);
-    if (!result)
-        result = write_pixels(writer, thread_count);
-    for (uint32_t i = 0; i < BATCH; i++)
-        if (writer->ready[i])
-            exr_encoding_destroy(writer->context, &writer->pipelines[i]);
-    exr_result_t finished = exr_finish(&writer->context);
-    return result ? result : finished;
+    return result ? result : plan_batch(writer);
 }
 
-static MesoStatus write_all(Writer *writer, const MesoProvenance *provenance, uint32_t thread_count, MesoOutput *output,
-                            MesoArena *arena, MesoError *error)
+static MesoStatus status_of(const Writer *writer, exr_result_t result, MesoError *error)
 {
-    Stream stream = {.output = output};
-    const char *text = meso_provenance_text(provenance, arena, error);
-    if (!text)
-        return MESO_ERR_MEMORY;
-    exr_result_t result = write_file(writer, &stream, text, thread_count);
-    if (stream.status) {
+    const Stream *stream = &writer->stream;
+    if (stream->status) {
         if (error)
-            *error = stream.error;
-        return stream.status;
+            *error = stream->error;
+        return stream->status;
     }
     if (result == EXR_ERR_OUT_OF_MEMORY)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory: EXR");
@@ -380,24 +388,63 @@ static MesoStatus write_all(Writer *writer, const MesoProvenance *provenance, ui
     return MESO_OK;
 }
 
-MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
-                          MesoOutput *output, MesoError *error)
+static Writer *make_writer(uint32_t width, uint32_t height, uint32_t thread_count, MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
     meso_arena_init(&arena);
     Writer *writer = MESO_NEW(&arena, Writer, 1, error);
-    MesoStatus status = MESO_ERR_MEMORY;
-    if (writer) {
-        writer->image = image;
-        writer->width = image->width;
-        writer->height = image->height;
-        list_channels(writer);
-        status = list_names(writer, &arena, error);
-    }
+    if (writer)
+        *writer = (Writer){.width = width, .height = height, .thread_count = thread_count, .arena = arena,
+                           .stream = {.output = output}};
+    return writer;
+}
+
+static MesoStatus begin(Writer *writer, const MesoProvenance *provenance, MesoError *error)
+{
+    const char *text = meso_provenance_text(provenance, &writer->arena, error);
+    return text ? status_of(writer, begin_file(writer, text), error) : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_exr_begin(MesoExrWriter **out, const MesoImage *band, uint32_t height, const MesoProvenance *provenance,
+                          uint32_t thread_count, MesoOutput *output, MesoError *error)
+{
+    Writer *writer = *out = make_writer(band->width, height, thread_count, output, error);
+    if (!writer)
+        return MESO_ERR_MEMORY;
+    writer->image = band;
+    list_channels(writer);
+    MesoStatus status = list_names(writer, &writer->arena, error);
+    return status ? status : begin(writer, provenance, error);
+}
+
+MesoStatus meso_exr_band(MesoExrWriter *writer, uint32_t rows, MesoError *error)
+{
+    return status_of(writer, write_rows(writer, rows), error);
+}
+
+MesoStatus meso_exr_end(MesoExrWriter *writer, MesoStatus status, MesoError *error)
+{
+    if (!writer)
+        return status;
+    for (uint32_t i = 0; i < BATCH; i++)
+        if (writer->ready[i])
+            exr_encoding_destroy(writer->context, &writer->pipelines[i]);
+    exr_result_t finished = writer->context ? exr_finish(&writer->context) : EXR_ERR_SUCCESS;
     if (!status)
-        status = write_all(writer, provenance, thread_count, output, &arena, error);
+        status = status_of(writer, finished, error);
+    MesoArena arena = writer->arena;
     meso_arena_release(&arena);
     return status;
+}
+
+MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
+                          MesoOutput *output, MesoError *error)
+{
+    MesoExrWriter *writer;
+    MesoStatus status = meso_exr_begin(&writer, image, image->height, provenance, thread_count, output, error);
+    if (!status)
+        status = meso_exr_band(writer, image->height, error);
+    return meso_exr_end(writer, status, error);
 }
 
 /* NaN as 0, and whether a number is there. */
@@ -419,16 +466,12 @@ static bool list_values(Writer *writer, const MesoImageValues *picture, MesoAren
 MesoStatus meso_exr_write_values(const MesoImageValues *values, const MesoProvenance *provenance,
                                  uint32_t thread_count, MesoOutput *output, MesoError *error)
 {
-    MesoArena arena;
-    meso_arena_init(&arena);
-    Writer *writer = MESO_NEW(&arena, Writer, 1, error);
-    MesoStatus status = MESO_ERR_MEMORY;
-    if (writer) {
-        writer->width = values->width;
-        writer->height = values->height;
-        if (list_values(writer, values, &arena, error))
-            status = write_all(writer, provenance, thread_count, output, &arena, error);
-    }
-    meso_arena_release(&arena);
-    return status;
+    Writer *writer = make_writer(values->width, values->height, thread_count, output, error);
+    if (!writer)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = list_values(writer, values, &writer->arena, error) ? begin(writer, provenance, error)
+                                                                           : MESO_ERR_MEMORY;
+    if (!status)
+        status = status_of(writer, write_rows(writer, values->height), error);
+    return meso_exr_end(writer, status, error);
 }

@@ -24,11 +24,29 @@ MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenan
                           MesoOutput *output, MesoError *error);
 
 /*
+ * The same in bands of rows from the top, a multiple of 16 in each but the last: `band` has the arrays that each is put
+ * into, and all that is the same for all of them, what mattes have seen among it; `height` is the whole picture's. The end frees the writer, which may be
+ * NULL, and gives back `status`, or its own failure.
+ */
+typedef struct MesoExrWriter MesoExrWriter;
+MesoStatus meso_exr_begin(MesoExrWriter **writer, const MesoImage *band, uint32_t height, const MesoProvenance *provenance,
+                          uint32_t thread_count, MesoOutput *output, MesoError *error);
+MesoStatus meso_exr_band(MesoExrWriter *writer, uint32_t rows, MesoError *error);
+MesoStatus meso_exr_end(MesoExrWriter *writer, MesoStatus status, MesoError *error);
+
+/*
  * 8 bits, sRGB, highlights rolled off, over `background` (linear RGB) or,
  * where that is NULL, with alpha. Provenance as text.
  */
 MesoStatus meso_png_write(const MesoImage *image, const float *background,
                           const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+
+/* The same in bands, of any number of rows, as meso_exr_begin(). */
+typedef struct MesoPngWriter MesoPngWriter;
+MesoStatus meso_png_begin(MesoPngWriter **writer, const MesoImage *band, uint32_t height, const float *background,
+                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+MesoStatus meso_png_band(MesoPngWriter *writer, uint32_t rows, MesoError *error);
+MesoStatus meso_png_end(MesoPngWriter *writer, MesoStatus status, MesoError *error);
 
 /* Numbers, or NaN where there are none. */
 typedef struct MesoImageValues {

@@ -1,0 +1,44 @@
+#include "cmd/render/picture_files.h"
+
+#include <math.h>
+
+MesoStatus meso_picture_files_begin(MesoPictureFiles *files, const MesoRenderArguments *a, const MesoRenderFrame *frame,
+                                    const MesoImage *band, uint32_t height, MesoError *error)
+{
+    const char *const paths[2] = {frame->output, frame->png};
+    const MesoProvenance *provenance = &a->tool.provenance;
+    MesoStatus status = MESO_OK;
+    *files = (MesoPictureFiles){.band = band};
+    for (int i = 0; i < 2 && !status; i++) {
+        if (!paths[i])
+            continue;
+        status = meso_output_open(&files->outputs[i], paths[i], error);
+        if (!status)
+            status = i == 0 && a->exr_product
+                         ? meso_exr_begin(&files->exr, band, height, provenance, a->tool.threads, files->outputs[i], error)
+                         : meso_png_begin(&files->pngs[i], band, height, a->transparent ? NULL : a->background, provenance,
+                                          files->outputs[i], error);
+    }
+    return status;
+}
+
+MesoStatus meso_picture_files_band(MesoPictureFiles *files, MesoError *error)
+{
+    const MesoImage *band = files->band;
+    uint64_t count = (uint64_t)band->width * band->height;
+    for (uint64_t i = 0; i < count; i++)
+        files->covered += isfinite(band->depth[i]) != 0;
+    MesoStatus status = files->exr ? meso_exr_band(files->exr, band->height, error) : MESO_OK;
+    for (int i = 0; i < 2 && !status; i++)
+        if (files->pngs[i])
+            status = meso_png_band(files->pngs[i], band->height, error);
+    return status;
+}
+
+MesoStatus meso_picture_files_end(MesoPictureFiles *files, MesoStatus status, MesoError *error)
+{
+    status = meso_exr_end(files->exr, status, error);
+    for (int i = 0; i < 2; i++)
+        status = meso_png_end(files->pngs[i], status, error);
+    return meso_output_finish_all(files->outputs, 2, status, error);
+}
