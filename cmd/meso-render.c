@@ -3,10 +3,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
 #include "cmd/render/picture_files.h"
 #include "cmd/render/render_frames.h"
+#include "cmd/render/render_source.h"
 #include "formats/file/claim.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
@@ -15,7 +15,8 @@
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
-    .synopsis = "meso-render [options] MODEL -o OUT.exr|.png",
+    .synopsis = "meso-render [options] MODEL -o OUT.exr|.png\n"
+                "meso-render [options] --tiles TILES -o OUT.exr|.png",
     .purpose = "Draw a model or a mesh to an image: colour, depth, normals, albedo, ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
                 "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png\n"
@@ -23,11 +24,12 @@ static const MesoToolInfo RENDER_TOOL = {
     .words = "1 .meso\n"
              "--output .exr .png\n"
              "--json .json\n"
+             "--tiles .json\n"
              "--keys .json\n"
              "--png .png\n"
              "--background none",
-    .operands_low = 1,
-    .operands_high = 1,
+    .operands_low = 0,
+    .operands_high = 3,
 };
 
 /* A light grey that leaves room for highlights. */
@@ -227,28 +229,24 @@ static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, con
 typedef struct Work {
     MesoRenderArguments *a;
     MesoRenderFrames frames;
-    MesoInput input;
-    MesoScene scene;
-    bool open;                  /* the input is */
+    MesoRenderSource source;
+    bool read;                  /* the source is */
     uint32_t input_count;       /* of the provenance, without the model */
     uint32_t drawn, skipped;    /* frames */
 } Work;
 
 static void close_model(Work *work)
 {
-    if (work->open)
-        meso_input_close(&work->input);
-    work->open = false;
+    meso_render_source_close(&work->source);
+    work->read = false;
 }
 
-static MesoStatus read_model(Work *work, const char *path)
+static MesoStatus read_model(Work *work, const char *path, MesoError *error)
 {
-    MesoTool *tool = &work->a->tool;
-    MesoSceneReading reading = {.thread_count = tool->threads};
     close_model(work);
-    tool->provenance.input_count = work->input_count;
-    MesoStatus status = meso_tool_read_scene(tool, &work->scene, &work->input, path, &reading);
-    work->open = status == MESO_OK;
+    work->a->tool.provenance.input_count = work->input_count;
+    MesoStatus status = meso_render_source_read(&work->source, work->a, path, error);
+    work->read = status == MESO_OK;
     return status;
 }
 
@@ -258,11 +256,11 @@ static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double st
     MesoArena scratch;
     Drawing drawing;
     double model = lap(&start);
-    MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->scene);
+    MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->source.scene);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawing, &scratch, &work->scene, &camera, frame, error);
+    MesoStatus status = draw(a, &drawing, &scratch, &work->source.scene, &camera, frame, error);
     if (!status) {
-        report_image(&a->tool, &drawing.options, &work->scene, drawing.renderer, drawing.files.covered);
+        report_image(&a->tool, &drawing.options, &work->source.scene, drawing.renderer, drawing.files.covered);
         say_times(&a->tool, &drawing, model);
         work->drawn++;
     }
@@ -297,8 +295,8 @@ static MesoStatus render_frame(Work *work, uint32_t i, MesoError *error)
     MesoRenderFrame frame;
     double start = meso_seconds();
     MesoStatus status = meso_render_frame(&frame, &work->frames, i, &tool->arena, error);
-    if (!status && (work->frames.many_models || !work->open))
-        status = read_model(work, frame.model);
+    if (!status && (work->frames.many_models || !work->read))
+        status = read_model(work, frame.model, error);
     if (status)
         return status;
     if (work->frames.numbered) {
@@ -347,6 +345,8 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     Work work = {.a = a};
     MesoStatus status = choose_product(a, error);
     if (!status)
+        status = meso_render_source_check(a, error);
+    if (!status)
         status = parse_extras(a, error);
     if (!status)
         status = check_maker(a, error);
@@ -369,6 +369,9 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
         MESO_OUTPUT_FILE(0, "png", "FILE", "write the colour as PNG there too", &a.png),
+        MESO_INPUT_FILE(0, "tiles", "TILES", "draw a sheet of a tile set: each tile in a cell, with its name", &a.tiles),
+        MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES", &a.mesh_path,
+                    .more = MESO_OPTION_OUTWARD),
         MESO_CAMERA_OPTIONS(a.camera),
         MESO_GROUP("Frames; the names of files, and of MODEL, have their number in %04d"),
         MESO_TEXT(0, "frames", "LIST", "which: 1-100, 1-99x2, 3,10-20 (default: all that there are)", &a.frames),

@@ -23,6 +23,10 @@ typedef struct MesoRenderArguments {
     float vary;                 /* --vary */
     uint32_t band_rows;         /* --band-rows: for tests, and hidden */
 
+    const char *tiles;          /* --tiles: a sheet of them */
+    const char *mesh_path;      /* --mesh-path */
+
+    const char *model;          /* the operand, which may be a pattern; NULL: none */
     bool exr_product;           /* of -o */
     bool transparent;
     float background[3];
