@@ -16,12 +16,17 @@
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
     .synopsis = "meso-render [options] MODEL -o OUT.exr|.png\n"
+                "meso-render [options] --show WHAT SURFACE|MODEL [SLOTS...] -o OUT.exr|.png\n"
                 "meso-render [options] --tiles TILES -o OUT.exr|.png",
     .purpose = "Draw a model or a mesh to an image: colour, depth, normals, albedo, ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
                 "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png\n"
                 "meso-render --turntable 48 --resume vase.meso -o turn-%04d.png",
-    .words = "1 .meso\n"
+    .words = "1 .meso .obj .ply .off\n"
+             "2 .slots\n"
+             "3 .slots\n"
+             "--show macro failures tiles difference strands id:\n"
+             "--report .json\n"
              "--output .exr .png\n"
              "--json .json\n"
              "--tiles .json\n"
@@ -154,6 +159,8 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE, "--ground is for --visibility tiles; GL draws none");
     if (wants_gl(a) && a->extras)
         return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
+    if (wants_gl(a) && a->show && (strcmp(a->show, "strands") == 0 || strncmp(a->show, "id:", 3) == 0))
+        return meso_fail(error, MESO_ERR_USAGE, "--show %s is for --visibility tiles; GL draws models as they are", a->show);
     if (wants_gl(a) && a->vary > 0)
         return meso_fail(error, MESO_ERR_USAGE, "--vary is for --visibility tiles; GL varies nothing");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
@@ -209,9 +216,11 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     return status;
 }
 
-static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
+static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoRenderSource *source,
                        const MesoCamera *camera, const MesoRenderFrame *frame, MesoError *error)
 {
+    const MesoScene *scene = &source->scene;
+    uint32_t channel = source->color_channel;
     *d = (Drawing){.options = {
         .width = a->camera.size[0],
         .height = a->camera.size[1],
@@ -220,6 +229,7 @@ static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, con
         .ground = strcmp(a->ground, "shadow") == 0,
         .extras = a->extras,
         .vary = a->vary,
+        .color_ids = channel == MESO_NO_INDEX ? 0 : channel + 1,
         .band_rows = a->band_rows,
     }};
     return wants_gl(a) ? draw_apart(a, d, arena, scene, frame, error) : draw_bands(a, d, arena, scene, frame, error);
@@ -258,7 +268,7 @@ static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double st
     double model = lap(&start);
     MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->source.scene);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawing, &scratch, &work->source.scene, &camera, frame, error);
+    MesoStatus status = draw(a, &drawing, &scratch, &work->source, &camera, frame, error);
     if (!status) {
         report_image(&a->tool, &drawing.options, &work->source.scene, drawing.renderer, drawing.files.covered);
         say_times(&a->tool, &drawing, model);
@@ -369,6 +379,9 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
         MESO_OUTPUT_FILE(0, "png", "FILE", "write the colour as PNG there too", &a.png),
+        MESO_TEXT(0, "show", "WHAT", "draw macro, failures, tiles or difference of a surface, or strands or id:NAME of a "
+                  "model", &a.show),
+        MESO_INPUT_FILE(0, "report", "FILE", "of meso-solve, for --show failures", &a.report),
         MESO_INPUT_FILE(0, "tiles", "TILES", "draw a sheet of a tile set: each tile in a cell, with its name", &a.tiles),
         MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES", &a.mesh_path,
                     .more = MESO_OPTION_OUTWARD),

@@ -24,6 +24,7 @@ typedef struct MesoRenderArguments {
     uint32_t band_rows;         /* --band-rows: for tests, and hidden */
 
     const char *tiles;          /* --tiles: a sheet of them */
+    const char *show, *report;  /* --show, --report */
     const char *mesh_path;      /* --mesh-path */
 
     const char *model;          /* the operand, which may be a pattern; NULL: none */

@@ -4,6 +4,7 @@
 
 #include "cmd/common/input_kind.h"
 #include "cmd/common/scene_input.h"
+#include "cmd/render/render_show.h"
 #include "cmd/common/mesh_path.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/base/index.h"
@@ -23,9 +24,15 @@ MesoStatus meso_render_source_check(MesoRenderArguments *a, MesoError *error)
 {
     if (a->mesh_path && !a->tiles)
         return meso_fail(error, MESO_ERR_USAGE, "--mesh-path is for --tiles; a model holds its meshes");
+    if (a->tiles && a->show)
+        return meso_fail(error, MESO_ERR_USAGE, "--tiles and --show both say what is drawn: give one of them");
     if (a->tiles)
         return need_operands(a, 0, ": --tiles is what is drawn", error);
-    a->model = a->tool.operands[0];
+    a->model = a->tool.operand_count ? a->tool.operands[0] : NULL;
+    if (a->show)
+        return meso_render_show_check(a, error);
+    if (a->report)
+        return meso_fail(error, MESO_ERR_USAGE, "--report is for --show failures");
     return need_operands(a, 1, "", error);
 }
 
@@ -56,6 +63,8 @@ MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments
     *source = (MesoRenderSource){.color_channel = MESO_NO_INDEX};
     if (a->tiles)
         return read_sheet(source, a, error);
+    if (a->show)
+        return meso_render_show_read(source, a, model, error);
     MesoStatus status = meso_tool_read_scene(&a->tool, &source->scene, &source->input, model, &reading);
     source->open = status == MESO_OK;
     return status;

@@ -3,20 +3,11 @@
 #define MESO_RENDER_SOURCE_H
 
 #include "cmd/render/render_arguments.h"
-#include "formats/file/input.h"
-#include "libcore/scene/scene.h"
+#include "cmd/render/rendered_scene.h"
 
 /* MESO_ERR_USAGE where the operands are not those of what is to be shown. `model` in `a` gets the one that may be a
  * pattern; NULL where there is none. */
 MesoStatus meso_render_source_check(MesoRenderArguments *a, MesoError *error);
-
-typedef struct MesoRenderSource {
-    MesoScene scene;
-    MesoInput input;            /* of a model, which the scene points into */
-    bool open;
-    uint32_t color_channel;     /* whose ids give the colours, or MESO_NO_INDEX */
-    uint32_t color_count;       /* of its ids: those below it */
-} MesoRenderSource;
 
 /* Reads it to the tool's arena. `model` is the operand of this frame. Errors as those of the readers. */
 MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model, MesoError *error);

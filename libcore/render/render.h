@@ -39,6 +39,7 @@ typedef struct MesoRenderOptions {
     bool ground;                /* shadow where nothing is, on the ground under the scene; without GL */
     unsigned extras;            /* MesoImageExtra, or-ed */
     float vary;                 /* how much colours differ from thing to thing (light/vary.h); without GL */
+    uint32_t color_ids;         /* channel + 1 whose ids give the colours (id_color.h); 0: materials do; without GL */
     uint32_t band_rows;         /* of a picture that is painted in bands (picture/tile_picture.h); 0: by their memory */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;

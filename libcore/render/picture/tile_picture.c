@@ -3,6 +3,7 @@
 #include "libcore/render/light/light_rig.h"
 #include "libcore/render/light/vary.h"
 #include "libcore/render/raster/raster_tiles.h"
+#include "libcore/scene/id_color.h"
 
 /* How far thinned geometry may lie from its own, in pixels. */
 static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.125f;
@@ -65,6 +66,10 @@ static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sampl
         m.albedo[c] = (a->albedo[c] + (b->albedo[c] - a->albedo[c]) * share) * sample->color[c];
     m.roughness = a->roughness + (b->roughness - a->roughness) * share;
     m.metallic = a->metallic + (b->metallic - a->metallic) * share;
+    if (p->options->color_ids) {
+        meso_id_color(m.albedo, meso_scene_id(p->scene, look.ids, p->options->color_ids - 1));
+        m.metallic = 0;
+    }
     return m;
 }
 
