@@ -11,6 +11,7 @@
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/apart.h"
+#include "libcore/render/picture/covered.h"
 #include "libcore/render/picture/tile_picture.h"
 
 static const MesoToolInfo RENDER_TOOL = {
@@ -81,6 +82,24 @@ static MesoStatus parse_extras(MesoRenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
+/* N or N/D. */
+static MesoStatus parse_fps(MesoRenderArguments *a, MesoError *error)
+{
+    const char *text = a->fps_text;
+    a->rate[1] = 1;
+    for (int i = 0; text && i < 2; i++) {
+        char *end;
+        unsigned long value = *text >= '0' && *text <= '9' ? strtoul(text, &end, 10) : 0;
+        bool last = value && *end == 0;
+        if (value == 0 || value > 1000000 || !(last || (i == 0 && *end == '/')))
+            return meso_fail(error, MESO_ERR_USAGE, "--fps '%s' is neither a number nor a fraction, such as 24 or 30000/1001",
+                             a->fps_text);
+        a->rate[i] = (uint32_t)value;
+        text = last ? NULL : end + 1;
+    }
+    return MESO_OK;
+}
+
 static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
 {
     const char *output = a->tool.output, *kind = a->to;
@@ -125,6 +144,7 @@ static void report_image(MesoTool *tool, const MesoRenderOptions *options, const
 /* How a picture comes about: times in seconds. */
 typedef struct Drawing {
     MesoRenderOptions options;
+    bool numbered;              /* it is a frame */
     MesoPictureFiles files;
     const char *renderer;
     double context, drawing, writing;
@@ -168,6 +188,11 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
+static bool tight(const MesoRenderArguments *a)
+{
+    return strcmp(a->data_window, "tight") == 0;
+}
+
 /* By GL, in a process apart, whole. */
 static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderFrame *frame, MesoError *error)
@@ -177,10 +202,12 @@ static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     MesoStatus status = meso_picture_init(&picture, arena, a->context, a->tool.threads, scene, &d->options, error);
     if (status)
         return status;
+    if (tight(a))
+        meso_covered_add(&picture->image.covered, &picture->image, 0);
     d->renderer = meso_arena_copy_text(&a->tool.arena, picture->renderer, error);
     d->drawing = meso_seconds() - picture->context_made;
     d->context = lap(&at) - d->drawing;
-    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, &picture->image, d->options.height, error)
+    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, d->numbered, &picture->image, d->options.height, error)
                          : MESO_ERR_MEMORY;
     if (!status)
         status = meso_picture_files_band(&d->files, error);
@@ -206,7 +233,7 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
         status = meso_tile_paint(painter, &band, row, error);
         d->drawing += lap(&at);
         if (!status && row == 0)
-            status = meso_picture_files_begin(&d->files, a, frame, &band, d->options.height, error);
+            status = meso_picture_files_begin(&d->files, a, frame, d->numbered, &band, d->options.height, error);
         if (!status)
             status = meso_picture_files_band(&d->files, error);
         d->writing += lap(&at);
@@ -217,7 +244,7 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
 }
 
 static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoRenderSource *source,
-                       const MesoCamera *camera, const MesoRenderFrame *frame, MesoError *error)
+                       const MesoCamera *camera, const MesoRenderFrame *frame, bool numbered, MesoError *error)
 {
     const MesoScene *scene = &source->scene;
     uint32_t channel = source->color_channel;
@@ -231,7 +258,8 @@ static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, con
         .vary = a->vary,
         .color_ids = channel == MESO_NO_INDEX ? 0 : channel + 1,
         .band_rows = a->band_rows,
-    }};
+        .find_covered = tight(a),
+    }, .numbered = numbered};
     return wants_gl(a) ? draw_apart(a, d, arena, scene, frame, error) : draw_bands(a, d, arena, scene, frame, error);
 }
 
@@ -268,7 +296,7 @@ static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double st
     double model = lap(&start);
     MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->source.scene);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawing, &scratch, &work->source, &camera, frame, error);
+    MesoStatus status = draw(a, &drawing, &scratch, &work->source, &camera, frame, work->frames.numbered, error);
     if (!status) {
         report_image(&a->tool, &drawing.options, &work->source.scene, drawing.renderer, drawing.files.covered);
         say_times(&a->tool, &drawing, model);
@@ -359,6 +387,8 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     if (!status)
         status = parse_extras(a, error);
     if (!status)
+        status = parse_fps(a, error);
+    if (!status)
         status = check_maker(a, error);
     if (!status)
         status = parse_background(a, error);
@@ -374,7 +404,7 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
 int main(int argc, char **argv)
 {
     MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
-                         .ground = "none"};
+                         .ground = "none", .data_window = "full", .rate = {24, 1}};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
@@ -403,6 +433,10 @@ int main(int argc, char **argv)
                     "--context is given", &a.visibility, "auto|tiles|gl"),
         MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",
                   &a.aov),
+        MESO_FLAG(0, "multipart", "an EXR of a part for each layer", &a.multipart),
+        MESO_CHOICE(0, "data-window", "HOW", "of the EXR: full (default), or tight around what is there", &a.data_window,
+                    "full|tight"),
+        MESO_TEXT(0, "fps", "RATE", "frames a second, as the EXRs of frames say: 24 (default), 30000/1001", &a.fps_text),
         MESO_TEXT(0, "background", "R,G,B",
                   "of the PNG, linear, 0 to 1; none for a transparent one (default: light grey)",
                   &a.background_text),

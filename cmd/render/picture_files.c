@@ -1,13 +1,26 @@
 #include "cmd/render/picture_files.h"
 
 #include <math.h>
+#include <string.h>
+
+/* Where nothing is, one pixel is the data: a window may not be empty. */
+static MesoExrOptions options_of(const MesoRenderArguments *a, const MesoRenderFrame *frame, bool numbered,
+                                 const MesoImage *band)
+{
+    MesoExrOptions options = {.multipart = a->multipart, .numbered = numbered, .frame = frame->number,
+                              .rate = {a->rate[0], a->rate[1]}};
+    if (strcmp(a->data_window, "tight") == 0)
+        options.window = band->covered.width ? band->covered : (MesoWindow){0, 0, 1, 1};
+    return options;
+}
 
 MesoStatus meso_picture_files_begin(MesoPictureFiles *files, const MesoRenderArguments *a, const MesoRenderFrame *frame,
-                                    const MesoImage *band, uint32_t height, MesoError *error)
+                                    bool numbered, const MesoImage *band, uint32_t height, MesoError *error)
 {
     const char *const paths[2] = {frame->output, frame->png};
     const MesoProvenance *provenance = &a->tool.provenance;
     MesoStatus status = MESO_OK;
+    const MesoExrOptions options = options_of(a, frame, numbered, band);
     *files = (MesoPictureFiles){.band = band};
     for (int i = 0; i < 2 && !status; i++) {
         if (!paths[i])
@@ -15,7 +28,7 @@ MesoStatus meso_picture_files_begin(MesoPictureFiles *files, const MesoRenderArg
         status = meso_output_open(&files->outputs[i], paths[i], error);
         if (!status)
             status = i == 0 && a->exr_product
-                         ? meso_exr_begin(&files->exr, band, height, provenance, a->tool.threads, files->outputs[i], error)
+                         ? meso_exr_begin(&files->exr, band, height, &options, provenance, a->tool.threads, files->outputs[i], error)
                          : meso_png_begin(&files->pngs[i], band, height, a->transparent ? NULL : a->background, provenance,
                                           files->outputs[i], error);
     }

@@ -14,9 +14,9 @@ typedef struct MesoPictureFiles {
     uint64_t covered;           /* pixels that something is on */
 } MesoPictureFiles;
 
-/* Opens the frame's files. `band` is what all bands are put into, `height` the picture's. */
+/* Opens the frame's files; `numbered` is whether the frame's number counts. `band` is what all bands are put into, `height` the picture's. */
 MesoStatus meso_picture_files_begin(MesoPictureFiles *files, const MesoRenderArguments *a, const MesoRenderFrame *frame,
-                                    const MesoImage *band, uint32_t height, MesoError *error);
+                                    bool numbered, const MesoImage *band, uint32_t height, MesoError *error);
 
 /* Writes the rows that the band has now. */
 MesoStatus meso_picture_files_band(MesoPictureFiles *files, MesoError *error);

@@ -21,6 +21,10 @@ typedef struct MesoRenderArguments {
     const char *aov;            /* --aov; NULL: none beside the usual ones */
     unsigned extras;            /* MesoImageExtra */
     float vary;                 /* --vary */
+    bool multipart;             /* --multipart */
+    const char *data_window;    /* --data-window */
+    const char *fps_text;       /* --fps */
+    uint32_t rate[2];           /* frames in so many seconds */
     uint32_t band_rows;         /* --band-rows: for tests, and hidden */
 
     const char *tiles;          /* --tiles: a sheet of them */

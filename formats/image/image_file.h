@@ -23,14 +23,25 @@
 MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
                           MesoOutput *output, MesoError *error);
 
+/* What an EXR may be beside that; NULL or zeroed: nothing of it. */
+typedef struct MesoExrOptions {
+    bool multipart;             /* a part for each layer: rgba, depth, N, albedo, id, P, uv, material, AO, forward and
+                                   crypto_NAME; channels keep their names */
+    MesoWindow window;          /* of the picture that has data, its top moved up to a multiple of 16 rows; the display
+                                   window is the whole. Empty: all of it */
+    bool numbered;              /* "imageCounter" is `frame`, "framesPerSecond" `rate`, a fraction */
+    int32_t frame;
+    uint32_t rate[2];
+} MesoExrOptions;
+
 /*
  * The same in bands of rows from the top, a multiple of 16 in each but the last: `band` has the arrays that each is put
  * into, and all that is the same for all of them, what mattes have seen among it; `height` is the whole picture's. The end frees the writer, which may be
  * NULL, and gives back `status`, or its own failure.
  */
 typedef struct MesoExrWriter MesoExrWriter;
-MesoStatus meso_exr_begin(MesoExrWriter **writer, const MesoImage *band, uint32_t height, const MesoProvenance *provenance,
-                          uint32_t thread_count, MesoOutput *output, MesoError *error);
+MesoStatus meso_exr_begin(MesoExrWriter **writer, const MesoImage *band, uint32_t height, const MesoExrOptions *options,
+                          const MesoProvenance *provenance, uint32_t thread_count, MesoOutput *output, MesoError *error);
 MesoStatus meso_exr_band(MesoExrWriter *writer, uint32_t rows, MesoError *error);
 MesoStatus meso_exr_end(MesoExrWriter *writer, MesoStatus status, MesoError *error);
 

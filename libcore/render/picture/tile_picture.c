@@ -2,6 +2,7 @@
 
 #include "libcore/render/light/light_rig.h"
 #include "libcore/render/light/vary.h"
+#include "libcore/render/picture/covered.h"
 #include "libcore/render/raster/raster_tiles.h"
 #include "libcore/scene/id_color.h"
 
@@ -15,7 +16,7 @@ typedef struct MesoTilePainter Picture;
 struct MesoTilePainter {
     MesoImage *image;           /* the band */
     uint32_t first_row;         /* of it in the picture */
-    bool things_only;           /* nothing but the mattes */
+    bool things_only;           /* nothing but mattes and alpha */
     uint32_t thread_count;
     const MesoRenderOptions *options;
     const MesoScene *scene;
@@ -193,15 +194,6 @@ static void put_mattes(const Picture *p, size_t pixel, uint32_t (*things)[MOST_S
         meso_matte_put(&p->image->mattes[m], pixel, things[m], p->options->samples);
 }
 
-static void take_things(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
-{
-    MesoSurfaceSample sample;
-    uint32_t things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
-    for (uint32_t i = 0; i < p->options->samples; i++)
-        note_things(p, meso_raster_tile_sample(tile, x, y, i, &sample) ? &sample : NULL, i, things);
-    put_mattes(p, pixel, things);
-}
-
 /* `pixel` is its number in the band. */
 static void take_pixel(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
 {
@@ -235,6 +227,24 @@ static void take_pixel(const Picture *p, MesoRasterTile *tile, uint32_t x, uint3
     if (p->options->ground && seen < samples)
         shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f,
                      (float)(samples - seen) / (float)samples, color);
+}
+
+/* What is there, without light. */
+static void take_things(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
+{
+    MesoSurfaceSample sample;
+    MesoWindow window = meso_raster_tile_window(tile);
+    uint32_t samples = p->options->samples, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
+    float *color = p->image->color + 4 * pixel;
+    for (uint32_t i = 0; i < samples; i++) {
+        bool there = meso_raster_tile_sample(tile, x, y, i, &sample);
+        note_things(p, there ? &sample : NULL, i, things);
+        seen += there;
+    }
+    put_mattes(p, pixel, things);
+    color[3] = (float)seen;
+    if (p->options->ground && seen == 0)
+        shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f, 1, color);
 }
 
 static void take_tile(void *context, MesoRasterTile *tile)
@@ -344,7 +354,7 @@ static MesoStatus make_band(MesoImage *band, MesoArena *arena, const MesoScene *
     return make_extras(band, arena, scene, options->extras, error);
 }
 
-MesoStatus meso_tile_paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
+static MesoStatus paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
 {
     uint32_t left = p->options->height - first_row;
     band->height = band->height < left ? band->height : left;
@@ -353,13 +363,24 @@ MesoStatus meso_tile_paint(MesoTilePainter *p, MesoImage *band, uint32_t first_r
     return meso_raster_rows(p->bins, first_row, first_row + band->height, p->thread_count, take_tile, p, error);
 }
 
-static MesoStatus note_all_things(MesoTilePainter *p, MesoImage *band, MesoError *error)
+MesoStatus meso_tile_paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
+{
+    MesoStatus status = paint(p, band, first_row, error);
+    if (!status && p->options->find_covered && band->height == p->options->height)
+        meso_covered_add(&band->covered, band, 0);
+    return status;
+}
+
+static MesoStatus look_through(MesoTilePainter *p, MesoImage *band, MesoError *error)
 {
     MesoStatus status = MESO_OK;
     uint32_t rows = band->height;
     p->things_only = true;
-    for (uint32_t row = 0; row < p->options->height && !status; row += rows)
-        status = meso_tile_paint(p, band, row, error);
+    for (uint32_t row = 0; row < p->options->height && !status; row += rows) {
+        status = paint(p, band, row, error);
+        if (!status)
+            meso_covered_add(&band->covered, band, row);
+    }
     p->things_only = false;
     band->height = rows;
     return status;
@@ -393,7 +414,8 @@ MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, Me
         .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
     status = meso_raster_bins_init(&p->bins, arena, &job, thread_count, error);
     bool in_bands = band->height < options->height;
-    return !status && in_bands && band->matte_count ? note_all_things(p, band, error) : status;
+    bool wanted = band->matte_count || options->find_covered;
+    return !status && in_bands && wanted ? look_through(p, band, error) : status;
 }
 
 MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene *scene,

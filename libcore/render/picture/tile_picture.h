@@ -24,8 +24,8 @@ uint32_t meso_tile_band_rows(const MesoScene *scene, const MesoRenderOptions *op
 
 /*
  * Gets ready, draws the lights' maps, and makes room for a band. The painter lives in `arena`, as long as the scene
- * and `options` do; `band` has all that is the same for all bands. Where mattes come in several bands, the whole
- * picture is looked through for what is on it: the names of that are told before the first band.
+ * and `options` do; `band` has all that is the same for all bands. Where mattes, or the box of what is covered, come of
+ * several bands, the whole picture is looked through for what is on it: both are told before the first band.
  */
 MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
                                   const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
