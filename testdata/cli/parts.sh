@@ -24,10 +24,8 @@ oiiotool full.exr --ch R,G,B,A,N.X tight.exr --ch R,G,B,A,N.X --fullpixels --dif
 
 # The same bytes in bands and on any number of threads.
 cp both.exr whole.exr
-for rows in 16 64; do
-    render --threads 3 --band-rows $rows --multipart --data-window tight vase.meso -o both.exr
-    cmp both.exr whole.exr
-done
+render --threads 3 --band-rows 16 --multipart --data-window tight vase.meso -o both.exr
+cmp both.exr whole.exr
 # What the ground catches is there, too; of nothing one pixel is left.
 render --data-window tight --ground shadow vase.meso -o ground.exr
 exrheader ground.exr | grep '^dataWindow'
