@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "cmd/common/scene_report.h"
 #include "cmd/render/picture_files.h"
@@ -10,8 +11,10 @@
 #include "formats/file/claim.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
+#include "libcore/base/index.h"
 #include "libcore/render/apart.h"
 #include "libcore/render/picture/covered.h"
+#include "libcore/render/picture/motion.h"
 #include "libcore/render/picture/tile_picture.h"
 
 static const MesoToolInfo RENDER_TOOL = {
@@ -68,14 +71,15 @@ static MesoStatus parse_extras(MesoRenderArguments *a, MesoError *error)
         const char *word;
         unsigned extras;
     } known[] = {{"position", MESO_EXTRA_POSITION}, {"uv", MESO_EXTRA_UV}, {"occlusion", MESO_EXTRA_OCCLUSION},
-                 {"material", MESO_EXTRA_MATERIAL}, {"cryptomatte", MESO_EXTRA_MATTES}, {"all", ~0u}};
+                 {"material", MESO_EXTRA_MATERIAL}, {"cryptomatte", MESO_EXTRA_MATTES}, {"motion", MESO_EXTRA_MOTION},
+                 {"all", ~0u & ~(unsigned)MESO_EXTRA_MOTION}};
     for (const char *word = a->aov; word && *word;) {
         size_t length = strcspn(word, ","), k = 0, count = sizeof known / sizeof *known;
         while (k < count && (strlen(known[k].word) != length || strncmp(known[k].word, word, length) != 0))
             k++;
         if (k == count)
             return meso_fail(error, MESO_ERR_USAGE, "--aov: '%.*s' is none of position, uv, occlusion, material, "
-                             "cryptomatte, all", (int)length, word);
+                             "cryptomatte, motion, all", (int)length, word);
         a->extras |= known[k].extras;
         word += length + (word[length] == ',');
     }
@@ -243,32 +247,13 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     return status;
 }
 
-static MesoStatus draw(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoRenderSource *source,
-                       const MesoCamera *camera, const MesoRenderFrame *frame, bool numbered, MesoError *error)
-{
-    const MesoScene *scene = &source->scene;
-    uint32_t channel = source->color_channel;
-    *d = (Drawing){.options = {
-        .width = a->camera.size[0],
-        .height = a->camera.size[1],
-        .camera = *camera,
-        .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
-        .ground = strcmp(a->ground, "shadow") == 0,
-        .extras = a->extras,
-        .vary = a->vary,
-        .color_ids = channel == MESO_NO_INDEX ? 0 : channel + 1,
-        .band_rows = a->band_rows,
-        .find_covered = tight(a),
-    }, .numbered = numbered};
-    return wants_gl(a) ? draw_apart(a, d, arena, scene, frame, error) : draw_bands(a, d, arena, scene, frame, error);
-}
-
 /* What frames share: a model is read once, but where each has its own. */
 typedef struct Work {
     MesoRenderArguments *a;
     MesoRenderFrames frames;
     MesoRenderSource source;
-    bool read;                  /* the source is */
+    MesoRenderSource next;      /* of the next frame, where there is one and motion is asked for */
+    bool read, next_read;       /* the sources are */
     uint32_t input_count;       /* of the provenance, without the model */
     uint32_t drawn, skipped;    /* frames */
 } Work;
@@ -276,7 +261,8 @@ typedef struct Work {
 static void close_model(Work *work)
 {
     meso_render_source_close(&work->source);
-    work->read = false;
+    meso_render_source_close(&work->next);
+    work->read = work->next_read = false;
 }
 
 static MesoStatus read_model(Work *work, const char *path, MesoError *error)
@@ -288,15 +274,64 @@ static MesoStatus read_model(Work *work, const char *path, MesoError *error)
     return status;
 }
 
+/* The model of the next number, if it is there and is alike. */
+static MesoStatus read_next(Work *work, const MesoRenderFrame *frame, MesoError *error)
+{
+    MesoRenderArguments *a = work->a;
+    if (!work->frames.many_models || !(a->extras & MESO_EXTRA_MOTION))
+        return MESO_OK;
+    const char *path = meso_frame_path(a->model, frame->number + 1, &a->tool.arena, error);
+    if (!path || access(path, F_OK) != 0)
+        return path ? MESO_OK : MESO_ERR_MEMORY;
+    MesoStatus status = meso_render_source_read(&work->next, a, path, error);
+    work->next_read = status == MESO_OK;
+    if (!status && !meso_motion_alike(&work->source.scene, &work->next.scene))
+        meso_tool_say_of(&a->tool, frame->output, "warning: '%s' has another structure than '%s': motion is the camera's "
+                         "alone", path, frame->model);
+    return status;
+}
+
+/* What motion leads to. */
+static void look_ahead(const Work *work, const MesoRenderFrame *frame, MesoRenderOptions *options)
+{
+    MesoRenderFrame next = *frame;
+    next.number++;
+    bool moves = work->next_read && meso_motion_alike(&work->source.scene, &work->next.scene);
+    options->next_scene = moves ? &work->next.scene : NULL;
+    options->next_camera = meso_render_frame_camera(&work->frames, &next,
+                                                    work->next_read ? &work->next.scene : &work->source.scene);
+}
+
+static MesoStatus draw(Work *work, Drawing *d, MesoArena *arena, const MesoRenderFrame *frame, MesoError *error)
+{
+    MesoRenderArguments *a = work->a;
+    const MesoScene *scene = &work->source.scene;
+    uint32_t channel = work->source.color_channel;
+    *d = (Drawing){.options = {
+        .width = a->camera.size[0],
+        .height = a->camera.size[1],
+        .camera = meso_render_frame_camera(&work->frames, frame, scene),
+        .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
+        .ground = strcmp(a->ground, "shadow") == 0,
+        .extras = a->extras,
+        .vary = a->vary,
+        .color_ids = channel == MESO_NO_INDEX ? 0 : channel + 1,
+        .band_rows = a->band_rows,
+        .find_covered = tight(a),
+    }, .numbered = work->frames.numbered};
+    if (a->extras & MESO_EXTRA_MOTION)
+        look_ahead(work, frame, &d->options);
+    return wants_gl(a) ? draw_apart(a, d, arena, scene, frame, error) : draw_bands(a, d, arena, scene, frame, error);
+}
+
 static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double start, MesoError *error)
 {
     MesoRenderArguments *a = work->a;
     MesoArena scratch;
     Drawing drawing;
     double model = lap(&start);
-    MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->source.scene);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawing, &scratch, &work->source, &camera, frame, work->frames.numbered, error);
+    MesoStatus status = draw(work, &drawing, &scratch, frame, error);
     if (!status) {
         report_image(&a->tool, &drawing.options, &work->source.scene, drawing.renderer, drawing.files.covered);
         say_times(&a->tool, &drawing, model);
@@ -335,6 +370,8 @@ static MesoStatus render_frame(Work *work, uint32_t i, MesoError *error)
     MesoStatus status = meso_render_frame(&frame, &work->frames, i, &tool->arena, error);
     if (!status && (work->frames.many_models || !work->read))
         status = read_model(work, frame.model, error);
+    if (!status)
+        status = read_next(work, &frame, error);
     if (status)
         return status;
     if (work->frames.numbered) {
@@ -394,6 +431,8 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
         status = parse_background(a, error);
     if (!status)
         status = meso_render_frames_init(&work.frames, a, error);
+    if (!status && a->extras & MESO_EXTRA_MOTION && !work.frames.numbered)
+        status = meso_fail(error, MESO_ERR_USAGE, "--aov motion is for frames: --turntable, --keys or a MODEL by number");
     work.input_count = a->tool.provenance.input_count;
     if (!status)
         status = render(&work, error);
@@ -431,7 +470,8 @@ int main(int argc, char **argv)
                     "(default) to 1", &a.vary, 0, 1),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
                     "--context is given", &a.visibility, "auto|tiles|gl"),
-        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",
+        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, motion, or "
+                  "all, which is without motion",
                   &a.aov),
         MESO_FLAG(0, "multipart", "an EXR of a part for each layer", &a.multipart),
         MESO_CHOICE(0, "data-window", "HOW", "of the EXR: full (default), or tight around what is there", &a.data_window,

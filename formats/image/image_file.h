@@ -16,7 +16,7 @@
  * the right, y up, and z into the picture, as in Z; "worldToNDC" has (0,0) at the
  * upper left corner of the picture and (1,1) at the lower right one;
  * "screenWindowWidth" is that of its field of view. Extras: P.X P.Y P.Z, uv.U uv.V (float), AO, roughness, metallic
- * (half), and mattes as Cryptomatte has them, crypto_NAME00 to 02 (float). Colours are by Rec. 709. Uses
+ * (half), forward.u forward.v (float), and mattes as Cryptomatte has them, crypto_NAME00 to 02 (float). Colours are by Rec. 709. Uses
  * `thread_count` threads (0: all cores); the bytes do not depend on it.
  * MESO_ERR_OUTPUT where `output` takes no more.
  */

@@ -44,6 +44,8 @@ typedef struct MesoRenderOptions {
     float vary;                 /* how much colours differ from thing to thing (light/vary.h); without GL */
     uint32_t color_ids;         /* channel + 1 whose ids give the colours (id_color.h); 0: materials do; without GL */
     uint32_t band_rows;         /* of a picture that is painted in bands (picture/tile_picture.h); 0: by their memory */
+    MesoCamera next_camera;     /* of the next frame, for motion */
+    const MesoScene *next_scene;    /* alike (picture/motion.h); NULL: the same */
     bool find_covered;          /* fill in `covered` of the image; without GL */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;

@@ -3,6 +3,7 @@
 #include "libcore/render/light/light_rig.h"
 #include "libcore/render/light/vary.h"
 #include "libcore/render/picture/covered.h"
+#include "libcore/render/picture/motion.h"
 #include "libcore/render/raster/raster_tiles.h"
 #include "libcore/scene/id_color.h"
 
@@ -25,7 +26,9 @@ struct MesoTilePainter {
     MesoRasterView raster;
     MesoLightRig rig;
     uint32_t varied;            /* channel whose things differ in colour, or MESO_NO_INDEX */
+    MesoRasterJob job;
     MesoRasterBins *bins;
+    MesoMotion motion;          /* where it is asked for */
 };
 
 /* Half of the way to the nearest thing, but a share of the way to the farthest. */
@@ -146,6 +149,8 @@ static void put_middle(const Picture *p, const MesoSurfaceSample *sample, size_t
         image->position[3 * pixel + 1] = at.y;
         image->position[3 * pixel + 2] = at.z;
     }
+    if (image->motion)
+        meso_motion_at(&p->motion, sample, image->motion + 2 * pixel);
     if (image->uv) {
         image->uv[2 * pixel] = sample->uv.x;
         image->uv[2 * pixel + 1] = sample->uv.y;
@@ -185,6 +190,8 @@ static void put_nothing(MesoImage *image, size_t pixel)
             image->uv[2 * pixel + c] = 0;
         if (image->material)
             image->material[2 * pixel + c] = 0;
+        if (image->motion)
+            image->motion[2 * pixel + c] = 0;
     }
 }
 
@@ -302,7 +309,8 @@ static MesoStatus make_extras(MesoImage *image, MesoArena *arena, const MesoScen
     bool made = make_extra(&image->position, image, asked, MESO_EXTRA_POSITION, 3, arena, error) &&
                 make_extra(&image->uv, image, asked, MESO_EXTRA_UV, 2, arena, error) &&
                 make_extra(&image->openness, image, asked, MESO_EXTRA_OCCLUSION, 1, arena, error) &&
-                make_extra(&image->material, image, asked, MESO_EXTRA_MATERIAL, 2, arena, error);
+                make_extra(&image->material, image, asked, MESO_EXTRA_MATERIAL, 2, arena, error) &&
+                make_extra(&image->motion, image, asked, MESO_EXTRA_MOTION, 2, arena, error);
     if (!made)
         return MESO_ERR_MEMORY;
     return asked & MESO_EXTRA_MATTES ? make_mattes(image, arena, scene, error) : MESO_OK;
@@ -318,7 +326,8 @@ static size_t pixel_bytes(const MesoScene *scene, const MesoRenderOptions *optio
     unsigned asked = options->extras;
     return usual + ids + (asked & MESO_EXTRA_POSITION ? 3 * sizeof(float) : 0) +
            (asked & MESO_EXTRA_UV ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_OCCLUSION ? sizeof(float) : 0) +
-           (asked & MESO_EXTRA_MATERIAL ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_MATTES ? mattes : 0);
+           (asked & MESO_EXTRA_MATERIAL ? 2 * sizeof(float) : 0) +
+           (asked & MESO_EXTRA_MOTION ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_MATTES ? mattes : 0);
 }
 
 /* A tile that more than one band has rows of is drawn for each of them. */
@@ -408,11 +417,13 @@ MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, Me
     if (status)
         return status;
     p->raster = meso_raster_view(&p->view, options->width, options->height, near_depth_of(&p->view, &scene->box));
-    const MesoRasterJob job = {
+    p->job = (MesoRasterJob){
         .shapes = &p->shapes, .view = p->raster, .width = options->width, .height = options->height,
         .samples = options->samples,
         .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
-    status = meso_raster_bins_init(&p->bins, arena, &job, thread_count, error);
+    status = meso_raster_bins_init(&p->bins, arena, &p->job, thread_count, error);
+    if (!status && options->extras & MESO_EXTRA_MOTION)
+        status = meso_motion_init(&p->motion, arena, &p->job, options, thread_count, error);
     bool in_bands = band->height < options->height;
     bool wanted = band->matte_count || options->find_covered;
     return !status && in_bands && wanted ? look_through(p, band, error) : status;

@@ -146,8 +146,7 @@ static bool make_room(MesoRasterTile *tile)
     return true;
 }
 
-/* What is wanted at the nearest point of the shape. */
-static float tolerance_of(const MesoRasterJob *job, uint32_t shape)
+float meso_raster_tolerance(const MesoRasterJob *job, uint32_t shape)
 {
     MesoRasterRect rect = meso_raster_rect(&job->view, &job->shapes->bounds[shape]);
     return job->tolerance * meso_raster_pixel(&job->view, rect.depth);
@@ -221,7 +220,7 @@ static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
 static bool draw_shape(MesoRasterTile *tile, uint32_t shape, uint32_t first_id)
 {
     const MesoRasterJob *job = &tile->bins->job;
-    if (!meso_shape_make(job->shapes, shape, tolerance_of(job, shape), MESO_SHAPE_SEEN, &tile->mesh))
+    if (!meso_shape_make(job->shapes, shape, meso_raster_tolerance(job, shape), MESO_SHAPE_SEEN, &tile->mesh))
         return false;
     if (tile->mesh.vertex_count > tile->vertex_room) {
         uint64_t room = 2 * (uint64_t)tile->mesh.vertex_count;
@@ -298,7 +297,8 @@ static bool keep_shape(MesoRasterTile *tile, uint32_t i)
     const MesoRasterJob *job = &tile->bins->job;
     MesoShapeMesh *mesh = &tile->mesh;
     SeenShape *seen = &tile->seen[i];
-    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance_of(job, tile->shapes[i]), MESO_SHAPE_WHOLE, mesh))
+    float tolerance = meso_raster_tolerance(job, tile->shapes[i]);
+    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance, MESO_SHAPE_WHOLE, mesh))
         return false;
     uint64_t vertices = tile->vertices_used + mesh->vertex_count;
     uint64_t corners = tile->corners_used + 3 * (uint64_t)mesh->triangle_count;
@@ -373,7 +373,7 @@ static void look_at(const MesoRasterTile *tile, uint32_t i, float x, float y, Me
     uint64_t begin = seen->vertex_begin - 1, at[3] = {begin + c[0], begin + c[1], begin + c[2]};
     const MesoMeshVertex *v[3] = {&tile->vertices[at[0]], &tile->vertices[at[1]], &tile->vertices[at[2]]};
     const MesoVec3 corners[3] = {v[0]->position, v[1]->position, v[2]->position};
-    float shares[3];
+    float *shares = out->shares;
     bool behind;
     Ray ray = ray_at(view, x, y);
     find_shares(corners, &ray, shares, &behind);

@@ -23,6 +23,7 @@ typedef struct MesoRasterJob {
 typedef struct MesoSurfaceSample {
     uint32_t shape, triangle;
     MesoVec3 position, normal;  /* relative to the anchor; unit, to the eye's side of the triangle */
+    float shares[3];            /* of the triangle's corners */
     float depth;                /* along the view */
     float along;                /* a sweep, 0 to 1 */
     MesoVec2 uv;
@@ -30,6 +31,9 @@ typedef struct MesoSurfaceSample {
 } MesoSurfaceSample;
 
 typedef struct MesoRasterTile MesoRasterTile;
+
+/* The tolerance that a shape is made with, in scene units: what the job wants at its nearest point. */
+float meso_raster_tolerance(const MesoRasterJob *job, uint32_t shape);
 
 /* Where the tile lies in the picture, and its pixels that are in it. */
 MesoWindow meso_raster_tile_window(const MesoRasterTile *tile);
