@@ -207,7 +207,8 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     if (!status)
         status = bind_slots(a, model, &surface, &slots, inputs, error);
     if (!status)
-        status = meso_tool_read_tile_meshes(tool, &model->inner_meshes, &model->tile_set, tool->operands[0], a->mesh_path);
+        status = meso_tool_read_tile_meshes(tool, &model->inner_meshes, &model->tile_set, tool->operands[0],
+                                            a->mesh_path);
     model->options = a->options;
     return status;
 }

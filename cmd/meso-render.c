@@ -96,8 +96,8 @@ static MesoStatus parse_fps(MesoRenderArguments *a, MesoError *error)
         unsigned long value = *text >= '0' && *text <= '9' ? strtoul(text, &end, 10) : 0;
         bool last = value && *end == 0;
         if (value == 0 || value > 1000000 || !(last || (i == 0 && *end == '/')))
-            return meso_fail(error, MESO_ERR_USAGE, "--fps '%s' is neither a number nor a fraction, such as 24 or 30000/1001",
-                             a->fps_text);
+            return meso_fail(error, MESO_ERR_USAGE,
+                             "--fps '%s' is neither a number nor a fraction, such as 24 or 30000/1001", a->fps_text);
         a->rate[i] = (uint32_t)value;
         text = last ? NULL : end + 1;
     }
@@ -184,7 +184,8 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
     if (wants_gl(a) && a->extras)
         return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
     if (wants_gl(a) && a->show && (strcmp(a->show, "strands") == 0 || strncmp(a->show, "id:", 3) == 0))
-        return meso_fail(error, MESO_ERR_USAGE, "--show %s is for --visibility tiles; GL draws models as they are", a->show);
+        return meso_fail(error, MESO_ERR_USAGE, "--show %s is for --visibility tiles; GL draws models as they are",
+                         a->show);
     if (wants_gl(a) && a->vary > 0)
         return meso_fail(error, MESO_ERR_USAGE, "--vary is for --visibility tiles; GL varies nothing");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
@@ -211,7 +212,8 @@ static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     d->renderer = meso_arena_copy_text(&a->tool.arena, picture->renderer, error);
     d->drawing = meso_seconds() - picture->context_made;
     d->context = lap(&at) - d->drawing;
-    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, d->numbered, &picture->image, d->options.height, error)
+    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, d->numbered, &picture->image,
+                                                    d->options.height, error)
                          : MESO_ERR_MEMORY;
     if (!status)
         status = meso_picture_files_band(&d->files, error);
@@ -286,8 +288,8 @@ static MesoStatus read_next(Work *work, const MesoRenderFrame *frame, MesoError 
     MesoStatus status = meso_render_source_read(&work->next, a, path, error);
     work->next_read = status == MESO_OK;
     if (!status && !meso_motion_alike(&work->source.scene, &work->next.scene))
-        meso_tool_say_of(&a->tool, frame->output, "warning: '%s' has another structure than '%s': motion is the camera's "
-                         "alone", path, frame->model);
+        meso_tool_say_of(&a->tool, frame->output, "warning: '%s' has another structure than '%s': motion is the "
+                         "camera's alone", path, frame->model);
     return status;
 }
 
@@ -432,7 +434,8 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     if (!status)
         status = meso_render_frames_init(&work.frames, a, error);
     if (!status && a->extras & MESO_EXTRA_MOTION && !work.frames.numbered)
-        status = meso_fail(error, MESO_ERR_USAGE, "--aov motion is for frames: --turntable, --keys or a MODEL by number");
+        status = meso_fail(error, MESO_ERR_USAGE,
+                           "--aov motion is for frames: --turntable, --keys or a MODEL by number");
     work.input_count = a->tool.provenance.input_count;
     if (!status)
         status = render(&work, error);
@@ -448,10 +451,11 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
         MESO_OUTPUT_FILE(0, "png", "FILE", "write the colour as PNG there too", &a.png),
-        MESO_TEXT(0, "show", "WHAT", "draw macro, failures, tiles or difference of a surface, or strands or id:NAME of a "
-                  "model", &a.show),
+        MESO_TEXT(0, "show", "WHAT", "draw macro, failures, tiles or difference of a surface, or strands or id:NAME of "
+                  "a model", &a.show),
         MESO_INPUT_FILE(0, "report", "FILE", "of meso-solve, for --show failures", &a.report),
-        MESO_INPUT_FILE(0, "tiles", "TILES", "draw a sheet of a tile set: each tile in a cell, with its name", &a.tiles),
+        MESO_INPUT_FILE(0, "tiles", "TILES", "draw a sheet of a tile set: each tile in a cell, with its name",
+                        &a.tiles),
         MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES", &a.mesh_path,
                     .more = MESO_OPTION_OUTWARD),
         MESO_CAMERA_OPTIONS(a.camera),
@@ -470,13 +474,15 @@ int main(int argc, char **argv)
                     "(default) to 1", &a.vary, 0, 1),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
                     "--context is given", &a.visibility, "auto|tiles|gl"),
-        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, motion, or "
-                  "all, which is without motion",
+        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, "
+                  "motion, or all, which is without motion",
                   &a.aov),
         MESO_FLAG(0, "multipart", "an EXR of a part for each layer", &a.multipart),
-        MESO_CHOICE(0, "data-window", "HOW", "of the EXR: full (default), or tight around what is there", &a.data_window,
+        MESO_CHOICE(0, "data-window", "HOW", "of the EXR: full (default), or tight around what is there",
+                    &a.data_window,
                     "full|tight"),
-        MESO_TEXT(0, "fps", "RATE", "frames a second, as the EXRs of frames say: 24 (default), 30000/1001", &a.fps_text),
+        MESO_TEXT(0, "fps", "RATE", "frames a second, as the EXRs of frames say: 24 (default), 30000/1001",
+                  &a.fps_text),
         MESO_TEXT(0, "background", "R,G,B",
                   "of the PNG, linear, 0 to 1; none for a transparent one (default: light grey)",
                   &a.background_text),

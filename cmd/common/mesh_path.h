@@ -27,9 +27,9 @@ MesoStatus meso_mesh_paths_move(MesoTileSet *set, const char *from, const char *
                                 MesoError *error);
 
 /*
- * Reads the meshes to the tool's arena, [inner_count] of a set that was read from the file `tiles`: beside that, or in the
- * folder `mesh_path`, which may be NULL. A file that several tiles name is read once. MESO_ERR_INPUT where one is in
- * neither; MESO_ERR_LIMIT for too many files.
+ * Reads the meshes to the tool's arena, [inner_count] of a set that was read from the file `tiles`: beside that, or in
+ * the folder `mesh_path`, which may be NULL. A file that several tiles name is read once. MESO_ERR_INPUT where one is
+ * in neither; MESO_ERR_LIMIT for too many files.
  */
 MesoStatus meso_tool_read_tile_meshes(MesoTool *tool, MesoTriangleMesh **meshes, const MesoTileSet *set,
                                       const char *tiles, const char *mesh_path);

@@ -28,9 +28,10 @@ MesoStatus meso_picture_files_begin(MesoPictureFiles *files, const MesoRenderArg
         status = meso_output_open(&files->outputs[i], paths[i], error);
         if (!status)
             status = i == 0 && a->exr_product
-                         ? meso_exr_begin(&files->exr, band, height, &options, provenance, a->tool.threads, files->outputs[i], error)
-                         : meso_png_begin(&files->pngs[i], band, height, a->transparent ? NULL : a->background, provenance,
-                                          files->outputs[i], error);
+                         ? meso_exr_begin(&files->exr, band, height, &options, provenance, a->tool.threads,
+                                          files->outputs[i], error)
+                         : meso_png_begin(&files->pngs[i], band, height, a->transparent ? NULL : a->background,
+                                          provenance, files->outputs[i], error);
     }
     return status;
 }

@@ -14,7 +14,8 @@ typedef struct MesoPictureFiles {
     uint64_t covered;           /* pixels that something is on */
 } MesoPictureFiles;
 
-/* Opens the frame's files; `numbered` is whether the frame's number counts. `band` is what all bands are put into, `height` the picture's. */
+/* Opens the frame's files; `numbered` is whether the frame's number counts. `band` is what all bands are put into,
+ * `height` the picture's. */
 MesoStatus meso_picture_files_begin(MesoPictureFiles *files, const MesoRenderArguments *a, const MesoRenderFrame *frame,
                                     bool numbered, const MesoImage *band, uint32_t height, MesoError *error);
 

@@ -45,7 +45,8 @@ static MesoStatus keep_tiling(Shown *shown, const MesoModel *tiling, MesoError *
     shown->tiling = tiling;
     shown->twin = tiling->graph.twin;
     shown->mesh = (MesoPolygonMesh){.vertex_count = quads->vertex_count, .face_count = quads->face_count,
-                                    .corner_count = 4 * quads->face_count, .side_count = 4, .positions = quads->positions,
+                                    .corner_count = 4 * quads->face_count, .side_count = 4,
+                                    .positions = quads->positions,
                                     .corners = quads->face_vertices};
     return MESO_OK;
 }
@@ -214,7 +215,8 @@ static MesoStatus show_failures(MesoRenderSource *source, MesoRenderArguments *a
         most = report.dead_ends[f] > most ? report.dead_ends[f] : most;
     for (uint32_t f = 0; f < report.slot_count; f++) {
         uint64_t met = report.dead_ends[f];
-        face_class[f] = report.in_core[f] ? CORE : met == 0 ? SOUND : 4 * met <= most ? FEW : 2 * met <= most ? SOME : MANY;
+        face_class[f] = report.in_core[f] ? CORE : met == 0 ? SOUND : 4 * met <= most ? FEW
+                      : 2 * met <= most ? SOME : MANY;
     }
     return show_classes(&shown, &source->scene, "failures", classes, CLASSES, face_class, error);
 }
@@ -251,7 +253,8 @@ static MesoStatus show_ids(MesoRenderSource *source, MesoRenderArguments *a, con
         }
         strcat(strcat(known, c ? ", " : ""), scene->channels[c].name);
     }
-    return status ? status : meso_fail(error, MESO_ERR_USAGE, "--show %s: '%s' has no such ids; it has %s", a->show, model,
+    return status ? status : meso_fail(error, MESO_ERR_USAGE, "--show %s: '%s' has no such ids; it has %s", a->show,
+                                       model,
                                        *known ? known : "none");
 }
 
@@ -282,7 +285,8 @@ MesoStatus meso_render_show_check(const MesoRenderArguments *a, MesoError *error
     const ShowRow *row = find_row(a->show);
     bool failures = strcmp(a->show, "failures") == 0;
     if (!row)
-        return meso_fail(error, MESO_ERR_USAGE, "--show '%s' is none of macro, failures, tiles, difference, strands, id:NAME",
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "--show '%s' is none of macro, failures, tiles, difference, strands, id:NAME",
                          a->show);
     if (a->tool.operand_count < row->low || a->tool.operand_count > row->high)
         return meso_fail(error, MESO_ERR_USAGE, "--show %s takes %s", a->show, row->operands);

@@ -17,7 +17,8 @@ static MesoStatus need_operands(const MesoRenderArguments *a, uint32_t count, co
     uint32_t given = a->tool.operand_count;
     if (given == count)
         return MESO_OK;
-    return meso_fail(error, MESO_ERR_USAGE, "%u operand%s given, %u needed%s", given, given == 1 ? "" : "s", count, what);
+    return meso_fail(error, MESO_ERR_USAGE, "%u operand%s given, %u needed%s", given, given == 1 ? "" : "s", count,
+                     what);
 }
 
 MesoStatus meso_render_source_check(MesoRenderArguments *a, MesoError *error)
@@ -57,7 +58,8 @@ static MesoStatus read_sheet(MesoRenderSource *source, MesoRenderArguments *a, M
 
 /* ---- all of them ---- */
 
-MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model, MesoError *error)
+MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model,
+                                   MesoError *error)
 {
     MesoSceneReading reading = {.thread_count = a->tool.threads};
     *source = (MesoRenderSource){.color_channel = MESO_NO_INDEX};

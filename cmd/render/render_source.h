@@ -10,7 +10,8 @@
 MesoStatus meso_render_source_check(MesoRenderArguments *a, MesoError *error);
 
 /* Reads it to the tool's arena. `model` is the operand of this frame. Errors as those of the readers. */
-MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model, MesoError *error);
+MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model,
+                                   MesoError *error);
 
 /* The camera that the options ask for; a sheet is looked at from its front. */
 MesoCamera meso_render_source_camera(const MesoRenderArguments *a, const MesoScene *scene);

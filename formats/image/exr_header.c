@@ -16,8 +16,8 @@ void meso_exr_add_part(MesoExrWriter *writer, const char *name)
             .name = writer->options.multipart ? name : "image", .channel_begin = writer->channel_count};
 }
 
-static void add(MesoExrWriter *writer, const char *name, exr_pixel_type_t stored, exr_pixel_type_t given, uint32_t stride,
-                const void *values)
+static void add(MesoExrWriter *writer, const char *name, exr_pixel_type_t stored, exr_pixel_type_t given,
+                uint32_t stride, const void *values)
 {
     writer->channels[writer->channel_count++] = (MesoExrChannel){name, stored, given, stride, values};
     writer->parts[writer->part_count - 1].channel_count++;
@@ -213,8 +213,8 @@ static exr_result_t begin_part(const MesoExrWriter *writer, const MesoExrPart *p
     exr_context_t context = writer->context;
     exr_result_t result = exr_add_part(context, part->name, EXR_STORAGE_SCANLINE, number);
     if (!result)
-        result = exr_initialize_required_attr(context, *number, &display, &data, 1, &center, 1, EXR_LINEORDER_INCREASING_Y,
-                                              EXR_COMPRESSION_ZIP);
+        result = exr_initialize_required_attr(context, *number, &display, &data, 1, &center, 1,
+                                              EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP);
     for (uint32_t i = 0; i < part->channel_count && !result; i++) {
         const MesoExrChannel *channel = &writer->channels[part->channel_begin + i];
         result = exr_add_channel(context, *number, channel->name, channel->stored, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);

@@ -16,8 +16,8 @@
  * the right, y up, and z into the picture, as in Z; "worldToNDC" has (0,0) at the
  * upper left corner of the picture and (1,1) at the lower right one;
  * "screenWindowWidth" is that of its field of view. Extras: P.X P.Y P.Z, uv.U uv.V (float), AO, roughness, metallic
- * (half), forward.u forward.v (float), and mattes as Cryptomatte has them, crypto_NAME00 to 02 (float). Colours are by Rec. 709. Uses
- * `thread_count` threads (0: all cores); the bytes do not depend on it.
+ * (half), forward.u forward.v (float), and mattes as Cryptomatte has them, crypto_NAME00 to 02 (float). Colours are by
+ * Rec. 709. Uses `thread_count` threads (0: all cores); the bytes do not depend on it.
  * MESO_ERR_OUTPUT where `output` takes no more.
  */
 MesoStatus meso_exr_write(const MesoImage *image, const MesoProvenance *provenance, uint32_t thread_count,
@@ -36,12 +36,13 @@ typedef struct MesoExrOptions {
 
 /*
  * The same in bands of rows from the top, a multiple of 16 in each but the last: `band` has the arrays that each is put
- * into, and all that is the same for all of them, what mattes have seen among it; `height` is the whole picture's. The end frees the writer, which may be
- * NULL, and gives back `status`, or its own failure.
+ * into, and all that is the same for all of them, what mattes have seen among it; `height` is the whole picture's. The
+ * end frees the writer, which may be NULL, and gives back `status`, or its own failure.
  */
 typedef struct MesoExrWriter MesoExrWriter;
 MesoStatus meso_exr_begin(MesoExrWriter **writer, const MesoImage *band, uint32_t height, const MesoExrOptions *options,
-                          const MesoProvenance *provenance, uint32_t thread_count, MesoOutput *output, MesoError *error);
+                          const MesoProvenance *provenance, uint32_t thread_count, MesoOutput *output,
+                          MesoError *error);
 MesoStatus meso_exr_band(MesoExrWriter *writer, uint32_t rows, MesoError *error);
 MesoStatus meso_exr_end(MesoExrWriter *writer, MesoStatus status, MesoError *error);
 

@@ -10,8 +10,8 @@
 
 /* Variables that are made where they are asked for, and not by GL. */
 typedef enum MesoImageExtra {
-    MESO_EXTRA_POSITION = 1, MESO_EXTRA_UV = 2, MESO_EXTRA_OCCLUSION = 4, MESO_EXTRA_MATERIAL = 8, MESO_EXTRA_MATTES = 16,
-    MESO_EXTRA_MOTION = 32
+    MESO_EXTRA_POSITION = 1, MESO_EXTRA_UV = 2, MESO_EXTRA_OCCLUSION = 4, MESO_EXTRA_MATERIAL = 8,
+    MESO_EXTRA_MATTES = 16, MESO_EXTRA_MOTION = 32
 } MesoImageExtra;
 
 /* Rows from top to bottom. Of the arrays none is NULL but those of extras, which are where they were asked for. */
@@ -29,7 +29,7 @@ typedef struct MesoImage {
     float *uv;          /* [2 * width * height] */
     float *openness;    /* [width * height] share of the sky that is seen; 1 where empty */
     float *material;    /* [2 * width * height] roughness and metallic */
-    float *motion;      /* [2 * width * height] pixels to where it is in the next frame, to the right and up; 0 where empty */
+    float *motion;      /* [2 * width * height] pixels to its place in the next frame, right and up; 0 where empty */
     uint32_t matte_count;
     MesoMatte mattes[MESO_ID_CHANNELS + 1];     /* of the channels, and of materials */
     MesoWindow covered; /* box of what is not clear in the whole picture, where it was asked for; empty: nothing is */

@@ -171,7 +171,8 @@ static MesoStatus lengthen(MesoScene *s, const MesoSketch *k, MesoArena *arena, 
 {
     uint32_t parts = k->part_count;
     if ((uint64_t)s->material_count + parts > MOST_MATERIALS)
-        return meso_fail(error, MESO_ERR_LIMIT, "with those of what is shown there are over %d materials", MOST_MATERIALS);
+        return meso_fail(error, MESO_ERR_LIMIT, "with those of what is shown there are over %d materials",
+                         MOST_MATERIALS);
     bool made = LONGER(s->materials, s->material_count, parts) && LONGER(s->material_names, s->material_count, parts) &&
                 LONGER(s->ids, (size_t)s->id_row_count * s->channel_count, (size_t)parts * s->channel_count) &&
                 LONGER(s->kinds, s->kind_count, parts) && LONGER(s->columns, s->column_count, SIDES + 1) &&
@@ -224,7 +225,8 @@ static MesoSweepInstance sweep_of(const MesoSketchBar *bar, float scale, uint32_
 
 static void add_bars(MesoScene *s, const MesoSketch *k, uint32_t part)
 {
-    uint32_t begin = k->parts[part].bar_begin, end = part + 1 < k->part_count ? k->parts[part + 1].bar_begin : k->bar_count;
+    bool last = part + 1 == k->part_count;
+    uint32_t begin = k->parts[part].bar_begin, end = last ? k->bar_count : k->parts[part + 1].bar_begin;
     if (begin == end)
         return;
     s->kinds[s->kind_count++] = (MesoSweptKind){

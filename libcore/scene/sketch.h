@@ -1,6 +1,6 @@
 /*
- * Sketches: bars, balls, faces and names that are put into a scene, to show what it does not draw itself. They come part
- * by part, each of one material.
+ * Sketches: bars, balls, faces and names that are put into a scene, to show what it does not draw itself. They come
+ * part by part, each of one material.
  */
 #ifndef MESO_SKETCH_H
 #define MESO_SKETCH_H
@@ -44,14 +44,15 @@ void meso_sketch_ball(MesoSketch *sketch, MesoVec3 middle, float radius);
 /* A polygon with `count` corners, as a fan of triangles, or one quad. */
 void meso_sketch_face(MesoSketch *sketch, uint32_t count, const MesoVec3 *positions, const MesoVec3 *normals);
 
-/* A line of text: its letters stand on the line from `start` along `right`, `unit` a step of their grid (stroke_font.h);
- * seen from where cross(right, up) points. Both are unit. */
+/* A line of text: its letters stand on the line from `start` along `right`, `unit` a step of their grid
+ * (stroke_font.h); seen from where cross(right, up) points. Both are unit. */
 void meso_sketch_text(MesoSketch *sketch, MesoVec3 start, MesoVec3 right, MesoVec3 up, float unit, const char *text);
 
 /*
  * Puts the parts into a scene of any kind, behind what is there; or makes one of a zeroed `scene`, whose channel is
- * "part"; so is that of a scene which has none. In each channel a part has an id of its own, by its name where ids have names. The scene's arrays come to lie
- * in `arena`; the sketch is empty then. MESO_ERR_MEMORY, or MESO_ERR_LIMIT for over 2^16 - 1 materials.
+ * "part"; so is that of a scene which has none. In each channel a part has an id of its own, by its name where ids
+ * have names. The scene's arrays come to lie in `arena`; the sketch is empty then. MESO_ERR_MEMORY, or MESO_ERR_LIMIT
+ * for over 2^16 - 1 materials.
  */
 MesoStatus meso_sketch_finish(MesoSketch *sketch, MesoScene *scene, MesoArena *arena, MesoError *error);
 

@@ -50,7 +50,8 @@ static void test_added(void)
         MesoMaterial material = {{1, 1, 1}, 1, 0};
         const char *material_names[1] = {"white"};
         MesoScene scene = {.channel_count = (uint32_t)channels, .channels = {{"slot", 7, NULL}, {"tile", 1, names}},
-                           .id_row_count = 1, .ids = ids, .section_scale = 4, .materials = &material, .material_count = 1,
+                           .id_row_count = 1, .ids = ids, .section_scale = 4, .materials = &material,
+                           .material_count = 1,
                            .material_names = material_names};
         MesoSketch sketch = draw();
         CHECK(meso_sketch_finish(&sketch, &scene, &arena, &error) == MESO_OK);

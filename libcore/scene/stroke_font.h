@@ -11,8 +11,8 @@
 #define MESO_STROKE_WIDTH 0.75f
 
 /*
- * The strokes of a letter: "x y" pairs of digits, x from 0 to 4 and y from 0 (the lowest descender) to 8, a line from each
- * to the next; a space ends a line. A box for what there is no letter for.
+ * The strokes of a letter: "x y" pairs of digits, x from 0 to 4 and y from 0 (the lowest descender) to 8, a line from
+ * each to the next; a space ends a line. A box for what there is no letter for.
  */
 const char *meso_stroke_letter(unsigned char letter);
 

@@ -134,8 +134,8 @@ static MesoStatus draw_corners(MesoSketch *sketch, MesoSurfaceMarks *marks, cons
     return counts ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-MesoStatus meso_surface_sketch(MesoScene *scene, MesoSurfaceMarks *marks, MesoArena *arena, const MesoSurfaceSketch *look,
-                               MesoError *error)
+MesoStatus meso_surface_sketch(MesoScene *scene, MesoSurfaceMarks *marks, MesoArena *arena,
+                               const MesoSurfaceSketch *look, MesoError *error)
 {
     const MesoPolygonMesh *mesh = look->mesh;
     MesoSketch sketch = {0};

@@ -31,7 +31,7 @@ typedef struct MesoSurfaceMarks {
  * "corners of 5" and "other corners". Faces are flat. `marks` may be NULL. O(corners). MESO_ERR_MEMORY, or
  * MESO_ERR_LIMIT for more than 2^16 - 8 classes.
  */
-MesoStatus meso_surface_sketch(MesoScene *scene, MesoSurfaceMarks *marks, MesoArena *arena, const MesoSurfaceSketch *look,
-                               MesoError *error);
+MesoStatus meso_surface_sketch(MesoScene *scene, MesoSurfaceMarks *marks, MesoArena *arena,
+                               const MesoSurfaceSketch *look, MesoError *error);
 
 #endif

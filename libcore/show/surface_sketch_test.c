@@ -82,7 +82,8 @@ static void test_polygons(void)
     }
     positions[SIDES] = (MesoVec3){2, 0, 0};
     corners[SIDES] = 1, corners[SIDES + 1] = 0, corners[SIDES + 2] = SIDES;
-    MesoPolygonMesh mesh = {.vertex_count = SIDES + 1, .face_count = 2, .corner_count = SIDES + 3, .positions = positions,
+    MesoPolygonMesh mesh = {.vertex_count = SIDES + 1, .face_count = 2, .corner_count = SIDES + 3,
+                            .positions = positions,
                             .corners = corners, .face_begin = face_begin};
     MesoSurfaceMarks marks;
     MesoScene scene = sketch(&mesh, NULL, &marks);

@@ -57,7 +57,8 @@ static void check_count(const MesoReportSlots *slots, const MesoJsonField *root)
     meso_json_require(&count);
     int64_t found = meso_json_whole(&count, 0, UINT32_MAX, 0);
     if (meso_json_good(root) && found != slots->slot_count)
-        meso_json_wrong(&count, "it is about %lld slots, but the surface has %u faces", (long long)found, slots->slot_count);
+        meso_json_wrong(&count, "it is about %lld slots, but the surface has %u faces", (long long)found,
+                        slots->slot_count);
 }
 
 MesoStatus meso_report_slots_read(MesoReportSlots *slots, MesoArena *arena, const MesoInput *input, uint32_t slot_count,

@@ -13,9 +13,9 @@ typedef struct MesoReportSlots {
 } MesoReportSlots;
 
 /*
- * Reads a report of meso-solve (report_file.h) about a surface of `slot_count` slots into `arena`. MESO_ERR_INPUT names the
- * file and the place of what is wrong, another number of slots and one beyond the last among it; MESO_ERR_MEMORY.
- * O(size of the file + slots).
+ * Reads a report of meso-solve (report_file.h) about a surface of `slot_count` slots into `arena`. MESO_ERR_INPUT
+ * names the file and the place of what is wrong, another number of slots and one beyond the last among it;
+ * MESO_ERR_MEMORY. O(size of the file + slots).
  */
 MesoStatus meso_report_slots_read(MesoReportSlots *slots, MesoArena *arena, const MesoInput *input, uint32_t slot_count,
                                   MesoError *error);

@@ -9,8 +9,9 @@ static bool same_bytes(const void *a, const void *b, size_t size)
 
 static bool kinds_alike(const MesoSweptKind *a, const MesoSweptKind *b)
 {
-    return a->column_begin == b->column_begin && a->column_count == b->column_count && a->joint_count == b->joint_count &&
-           a->instance_begin == b->instance_begin && a->instance_count == b->instance_count && a->cap == b->cap;
+    return a->column_begin == b->column_begin && a->column_count == b->column_count &&
+           a->joint_count == b->joint_count && a->instance_begin == b->instance_begin &&
+           a->instance_count == b->instance_count && a->cap == b->cap;
 }
 
 static bool columns_alike(const MesoSweepColumn *a, const MesoSweepColumn *b)
@@ -27,7 +28,8 @@ static bool bodies_alike(const MesoBody *a, const MesoBody *b)
 bool meso_motion_alike(const MesoScene *a, const MesoScene *b)
 {
     bool alike = a->kind_count == b->kind_count && a->column_count == b->column_count &&
-                 a->sweep_count == b->sweep_count && a->body_count == b->body_count && a->placed_count == b->placed_count;
+                 a->sweep_count == b->sweep_count && a->body_count == b->body_count &&
+                 a->placed_count == b->placed_count;
     for (uint32_t i = 0; alike && i < a->kind_count; i++)
         alike = kinds_alike(&a->kinds[i], &b->kinds[i]);
     for (uint32_t i = 0; alike && i < a->column_count; i++)
@@ -60,7 +62,8 @@ static MesoVec3 way_of(const MesoMotion *motion, const MesoSurfaceSample *sample
     const MesoShapes *now = motion->job->shapes;
     MesoShapeCorner corners[3];
     MesoVec3 way = {0, 0, 0};
-    meso_shape_corners(now, sample->shape, meso_raster_tolerance(motion->job, sample->shape), sample->triangle, corners);
+    meso_shape_corners(now, sample->shape, meso_raster_tolerance(motion->job, sample->shape), sample->triangle,
+                       corners);
     for (uint32_t k = 0; k < 3; k++) {
         MesoVec3 from = meso_shape_corner_at(now, sample->shape, &corners[k]);
         MesoVec3 to = meso_shape_corner_at(&motion->next, sample->shape, &corners[k]);

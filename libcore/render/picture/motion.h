@@ -19,8 +19,8 @@ typedef struct MesoMotion {
 bool meso_motion_alike(const MesoScene *a, const MesoScene *b);
 
 /*
- * From a job to the next frame of `options`, whose scene is alike, or NULL: it stays. `job` and `options` must outlive it.
- * MESO_ERR_MEMORY, or as meso_view_build().
+ * From a job to the next frame of `options`, whose scene is alike, or NULL: it stays. `job` and `options` must outlive
+ * it. MESO_ERR_MEMORY, or as meso_view_build().
  */
 MesoStatus meso_motion_init(MesoMotion *motion, MesoArena *arena, const MesoRasterJob *job,
                             const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);

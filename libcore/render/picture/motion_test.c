@@ -1,7 +1,7 @@
 /*
- * Motion of bent tubes with a cap, and of a body: under a camera that moves, and with a model that grows and turns about
- * the origin. What a pixel shows is known by its position, and where that goes by the formula. Nothing moves where nothing
- * does; scenes of another structure are told.
+ * Motion of bent tubes with a cap, and of a body: under a camera that moves, and with a model that grows and turns
+ * about the origin. What a pixel shows is known by its position, and where that goes by the formula. Nothing moves
+ * where nothing does; scenes of another structure are told.
  */
 #include "libcore/render/picture/motion.h"
 
@@ -69,7 +69,8 @@ static void make_sweep(Bundle *b, uint32_t number, MesoRandom *random, Turn turn
 /* Two quads that are not flat, and a triangle. */
 static void make_body(Bundle *b, Turn turn)
 {
-    static const float points[7][3] = {{-1, -1, 0}, {0, -1, 0.3f}, {0, 0.2f, 0}, {-1, 0, 0.4f}, {1, -1, 0}, {1, 0, 0.5f}, {0, 0, 0}};
+    static const float points[7][3] = {{-1, -1, 0}, {0, -1, 0.3f}, {0, 0.2f, 0}, {-1, 0, 0.4f}, {1, -1, 0},
+                                       {1, 0, 0.5f}, {0, 0, 0}};
     static const uint32_t corners[8] = {0, 1, 2, 3, 1, 4, 5, 2};
     for (uint32_t v = 0; v < 7; v++) {
         b->positions[v] = turned(turn, (MesoVec3){points[v][0], points[v][1], points[v][2]});
@@ -90,7 +91,8 @@ static void make_bundle(Bundle *b, Turn turn)
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)}, s = {0.12f * n.x, 0.12f * n.y};
         b->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, 0};
     }
-    MesoSweptKind kind = {.column_count = SIDES + 1, .joint_count = SIDES, .division_count = 16, .instance_count = TUBES};
+    MesoSweptKind kind = {.column_count = SIDES + 1, .joint_count = SIDES, .division_count = 16,
+                          .instance_count = TUBES};
     b->kinds[0] = b->kinds[1] = kind;
     b->kinds[1].cap = true;
     b->kinds[1].instance_begin = TUBES;
@@ -100,7 +102,8 @@ static void make_bundle(Bundle *b, Turn turn)
     make_body(b, turn);
     b->scene = (MesoScene){.channel_count = 1, .channels = {{"slot", 1, NULL}}, .material_count = 1,
         .materials = b->materials, .id_row_count = 1, .ids = b->ids, .section_scale = turn.size, .thickness = 0.5f,
-        .kind_count = 2, .column_count = SIDES + 1, .sweep_count = TUBES + CAPS, .kinds = b->kinds, .columns = b->columns,
+        .kind_count = 2, .column_count = SIDES + 1, .sweep_count = TUBES + CAPS, .kinds = b->kinds,
+        .columns = b->columns,
         .sweeps = b->instances, .body_count = 1, .bodies = b->bodies, .placed_count = 1, .placed = b->placed};
     meso_scene_measure(&b->scene);
 }
@@ -120,7 +123,8 @@ static void project(const MesoCamera *camera, MesoVec3 p, double place[2])
 static double check(const MesoScene *now, const MesoScene *next, Turn turn, MesoCamera next_camera)
 {
     MesoImage image;
-    MesoRenderOptions options = {.width = WIDTH, .height = HEIGHT, .samples = 1, .camera = {{1, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40},
+    MesoRenderOptions options = {.width = WIDTH, .height = HEIGHT, .samples = 1,
+                                 .camera = {{1, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40},
                                  .extras = MESO_EXTRA_MOTION | MESO_EXTRA_POSITION, .next_camera = next_camera,
                                  .next_scene = next};
     CHECK(meso_tile_picture(&image, &arena, now, &options, 2, &error) == MESO_OK);
@@ -149,7 +153,8 @@ static double check(const MesoScene *now, const MesoScene *next, Turn turn, Meso
 int main(void)
 {
     static Bundle now, then, other;
-    const MesoCamera here = {{1, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40}, there = {{1.5f, 2, 4.5f}, {0, 0.1f, 0}, {0.1f, 1, 0}, 42};
+    const MesoCamera here = {{1, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40};
+    const MesoCamera there = {{1.5f, 2, 4.5f}, {0, 0.1f, 0}, {0.1f, 1, 0}, 42};
     const Turn none = {1, 0}, grown = {1.1f, 0.2f};
     meso_arena_init(&arena);
     make_bundle(&now, none);

@@ -412,8 +412,8 @@ MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, Me
     status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
     if (!status)
-        status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view, meso_vec3_unit(options->camera.up, p->view.up),
-                                     &quality, thread_count, error);
+        status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view,
+                                     meso_vec3_unit(options->camera.up, p->view.up), &quality, thread_count, error);
     if (status)
         return status;
     p->raster = meso_raster_view(&p->view, options->width, options->height, near_depth_of(&p->view, &scene->box));

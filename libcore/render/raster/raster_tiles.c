@@ -69,8 +69,8 @@ static MesoStatus sort_shapes(MesoRasterBins *bins, MesoArena *arena, MesoError 
     return MESO_OK;
 }
 
-MesoStatus meso_raster_bins_init(MesoRasterBins **out, MesoArena *arena, const MesoRasterJob *job, uint32_t thread_count,
-                                 MesoError *error)
+MesoStatus meso_raster_bins_init(MesoRasterBins **out, MesoArena *arena, const MesoRasterJob *job,
+                                 uint32_t thread_count, MesoError *error)
 {
     MesoRasterBins *bins = *out = MESO_NEW(arena, MesoRasterBins, 1, error);
     if (!bins)

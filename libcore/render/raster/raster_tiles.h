@@ -47,20 +47,20 @@ bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint3
 bool meso_raster_tile_empty(const MesoRasterTile *tile);
 
 /*
- * Which shapes each tile may show. Lives in `arena`, as long as the job's shapes: 8 bytes a shape and 4 a shape and tile.
- * O(shapes + shapes of each tile). MESO_ERR_MEMORY alone.
+ * Which shapes each tile may show. Lives in `arena`, as long as the job's shapes: 8 bytes a shape and 4 a shape and
+ * tile. O(shapes + shapes of each tile). MESO_ERR_MEMORY alone.
  */
 typedef struct MesoRasterBins MesoRasterBins;
-MesoStatus meso_raster_bins_init(MesoRasterBins **bins, MesoArena *arena, const MesoRasterJob *job, uint32_t thread_count,
-                                 MesoError *error);
+MesoStatus meso_raster_bins_init(MesoRasterBins **bins, MesoArena *arena, const MesoRasterJob *job,
+                                 uint32_t thread_count, MesoError *error);
 
 /* Rows of the picture that a tile has. */
 uint32_t meso_raster_tile_rows(uint32_t samples);
 
 /*
- * Draws the tiles that have some of the rows [row_begin, row_end) of the picture, and hands over each, whole, once it is
- * drawn, from any thread; which does not change what it has. What a tile's visible shapes take is held for each thread.
- * O(vertices of the shapes in each tile + samples). MESO_ERR_MEMORY alone.
+ * Draws the tiles that have some of the rows [row_begin, row_end) of the picture, and hands over each, whole, once it
+ * is drawn, from any thread; which does not change what it has. What a tile's visible shapes take is held for each
+ * thread. O(vertices of the shapes in each tile + samples). MESO_ERR_MEMORY alone.
  */
 typedef void MesoTakeTile(void *context, MesoRasterTile *tile);
 MesoStatus meso_raster_rows(const MesoRasterBins *bins, uint32_t row_begin, uint32_t row_end, uint32_t thread_count,

@@ -364,11 +364,13 @@ bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, 
 static void sweep_corners(const MesoShapes *shapes, uint32_t sweep, float tolerance, uint32_t triangle,
                           MesoShapeCorner corners[3])
 {
-    static const uint32_t sides[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};     /* of ring, and of column */
+    static const uint32_t sides[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};   /* of ring and column */
     uint32_t k = shapes->kind_of[sweep], quad = triangle / 2;
-    const MesoShapeColumns *columns = &shapes->columns[true][(size_t)k * MESO_SHAPE_LEVELS + level_for(shapes, tolerance)];
+    const MesoShapeColumns *columns =
+        &shapes->columns[true][(size_t)k * MESO_SHAPE_LEVELS + level_for(shapes, tolerance)];
     MesoSweepInstance instance = anchored(shapes, sweep);
-    uint32_t rings = meso_detail_instance_rings(&shapes->scene->kinds[k], &shapes->details[k], &instance, tolerance, true);
+    uint32_t rings = meso_detail_instance_rings(&shapes->scene->kinds[k], &shapes->details[k], &instance, tolerance,
+                                                true);
     for (uint32_t i = 0; i < 3; i++) {
         const uint32_t *side = sides[3 * (triangle % 2) + i];
         corners[i] = (MesoShapeCorner){.column = columns->kept[columns->joints[quad % columns->joint_count] + side[1]],
@@ -376,7 +378,8 @@ static void sweep_corners(const MesoShapes *shapes, uint32_t sweep, float tolera
     }
 }
 
-static void run_corners(const MesoShapes *shapes, const MesoShapeRun *run, uint32_t triangle, MesoShapeCorner corners[3])
+static void run_corners(const MesoShapes *shapes, const MesoShapeRun *run, uint32_t triangle,
+                        MesoShapeCorner corners[3])
 {
     uint32_t sides, halves[6];
     const MesoBody *body = &shapes->scene->bodies[shapes->scene->placed[run->placed].body];

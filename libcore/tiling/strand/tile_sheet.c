@@ -45,8 +45,8 @@ static MesoStatus make_cells(MesoModel *model, MesoArena *arena, uint32_t column
             corners[4 * t + k] = 4 * t + k;
         }
     }
-    MesoStatus status = meso_quad_mesh_build(&model->surface, arena, 4 * count, positions, 0, NULL, count, corners, NULL,
-                                             error);
+    MesoStatus status = meso_quad_mesh_build(&model->surface, arena, 4 * count, positions, 0, NULL, count, corners,
+                                             NULL, error);
     return status ? status : meso_slot_graph_build(&model->graph, arena, &model->surface, error);
 }
 
@@ -92,8 +92,8 @@ static void draw_name(MesoSketch *sketch, const char *name, MesoVec3 cell)
     meso_sketch_text(sketch, start, (MesoVec3){1, 0, 0}, (MesoVec3){0, 1, 0}, unit, name);
 }
 
-MesoStatus meso_tile_sheet(MesoScene *scene, MesoArena *arena, MesoModel *model, uint32_t columns, uint32_t thread_count,
-                           MesoError *error)
+MesoStatus meso_tile_sheet(MesoScene *scene, MesoArena *arena, MesoModel *model, uint32_t columns,
+                           uint32_t thread_count, MesoError *error)
 {
     const MesoTileSet *set = &model->tile_set;
     if (set->tile_count == 0)
