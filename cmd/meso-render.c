@@ -20,15 +20,16 @@
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
     .synopsis = "meso-render [options] MODEL -o OUT.exr|.png\n"
-                "meso-render [options] --show WHAT SURFACE|MODEL [SLOTS...] -o OUT.exr|.png\n"
+                "meso-render --show WHAT [TILES] SURFACE|MODEL [SLOTS...] -o OUT.exr|.png\n"
                 "meso-render [options] --tiles TILES -o OUT.exr|.png",
     .purpose = "Draw a model or a mesh to an image: colour, depth, normals, albedo, ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
                 "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png\n"
                 "meso-render --turntable 48 --resume vase.meso -o turn-%04d.png",
-    .words = "1 .meso .obj .ply .off\n"
-             "2 .slots\n"
+    .words = "1 .meso .obj .ply .off .json\n"
+             "2 .slots .obj .ply .off\n"
              "3 .slots\n"
+             "4 .slots\n"
              "--show macro failures tiles difference strands id:\n"
              "--report .json\n"
              "--output .exr .png\n"
@@ -38,7 +39,7 @@ static const MesoToolInfo RENDER_TOOL = {
              "--png .png\n"
              "--background none",
     .operands_low = 0,
-    .operands_high = 3,
+    .operands_high = 4,
 };
 
 /* A light grey that leaves room for highlights. */

@@ -9,6 +9,7 @@
 #include "formats/scene/strand/strand_scene.h"
 #include "formats/tiling/result/report_slots.h"
 #include "formats/tiling/result/slots_file.h"
+#include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/base/index.h"
 #include "libcore/scene/id_color.h"
 #include "libcore/show/surface_sketch.h"
@@ -114,52 +115,98 @@ static MesoStatus show_classes(const Shown *shown, MesoScene *scene, const char 
 
 /* ---- assignments ---- */
 
-static MesoStatus read_slots(const Shown *shown, MesoSlotsFile *slots, const char *path, MesoError *error)
+/* Tiles of the slots, by number, and their names. */
+typedef struct Tiles {
+    MesoAssignment slots;
+    uint32_t count;
+    const char **names;         /* [count] */
+} Tiles;
+
+static MesoStatus take_names(Tiles *tiles, const MesoTileSet *set, MesoArena *arena, MesoError *error)
+{
+    tiles->count = set->tile_count;
+    tiles->names = MESO_NEW(arena, const char *, set->tile_count, error);
+    for (uint32_t t = 0; tiles->names && t < set->tile_count; t++)
+        tiles->names[t] = set->tiles[t].name;
+    return tiles->names ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* By the numbers of the set; where there is none, as the file has them. */
+static MesoStatus bind_slots(Tiles *tiles, MesoSlotsFile *file, const MesoTileSet *set, MesoArena *arena,
+                             MesoError *error)
+{
+    MesoStatus status = set ? meso_slots_bind(file, set, error) : MESO_OK;
+    *tiles = (Tiles){file->assignment, file->tile_count, file->tile_names};
+    return status || !set ? status : take_names(tiles, set, arena, error);
+}
+
+static MesoStatus read_slots(const Shown *shown, Tiles *tiles, const MesoTileSet *set, const char *path,
+                             MesoError *error)
 {
     MesoTool *tool = shown->tool;
     MesoInput input;
+    MesoSlotsFile file;
     MesoStatus status = meso_tool_open_place(tool, &input, path, &MESO_PLACE_SLOTS);
     if (status)
         return status;
-    status = meso_slots_read(slots, &tool->arena, &input, error);
+    status = meso_slots_read(&file, &tool->arena, &input, error);
     meso_input_close(&input);
-    if (!status && slots->assignment.slot_count != shown->mesh.face_count)
-        status = meso_fail(error, MESO_ERR_INPUT, "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another "
-                           "surface", path, slots->assignment.slot_count, shown->path, shown->mesh.face_count);
+    if (!status && file.assignment.slot_count != shown->mesh.face_count)
+        return meso_fail(error, MESO_ERR_INPUT,
+                         "'%s' assigns %u slots, but '%s' has %u faces: it belongs to another surface", path,
+                         file.assignment.slot_count, shown->path, shown->mesh.face_count);
+    if (!status && bind_slots(tiles, &file, set, &tool->arena, error))
+        status = meso_fail_prefix(error, path);
     return status;
 }
 
-/* Names and numbers of tiles, of a file or of a model. */
-static MesoStatus read_tiles(const Shown *shown, MesoSlotsFile *slots, const MesoRenderArguments *a, MesoError *error)
+/* The operand TILES, where it stands before the others; else `set` gets NULL. */
+static MesoStatus read_set(const MesoTileSet **set, MesoRenderArguments *a, bool given, MesoError *error)
 {
-    if (a->tool.operand_count == 2)
-        return read_slots(shown, slots, a->tool.operands[1], error);
+    MesoTool *tool = &a->tool;
+    MesoInput input;
+    *set = NULL;
+    MesoTileSet *read = given ? MESO_NEW(&tool->arena, MesoTileSet, 1, error) : NULL;
+    if (!read)
+        return given ? MESO_ERR_MEMORY : MESO_OK;
+    MesoStatus status = meso_tool_open_place(tool, &input, tool->operands[0], &MESO_PLACE_TILES);
+    if (status)
+        return status;
+    status = meso_tiles_read(read, &tool->arena, &input, error);
+    meso_input_close(&input);
+    *set = read;
+    return status;
+}
+
+static MesoStatus read_model_tiles(const Shown *shown, Tiles *tiles, MesoError *error)
+{
     if (!shown->tiling)
-        return meso_fail(error, MESO_ERR_USAGE, "--show tiles takes a MODEL of tiles, or SURFACE SLOTS: '%s' is a mesh",
-                         shown->path);
-    const MesoTileSet *set = &shown->tiling->tile_set;
-    *slots = (MesoSlotsFile){.assignment = shown->tiling->assignment, .tile_count = set->tile_count};
-    slots->tile_names = MESO_NEW(&shown->tool->arena, const char *, set->tile_count, error);
-    for (uint32_t t = 0; slots->tile_names && t < set->tile_count; t++)
-        slots->tile_names[t] = set->tiles[t].name;
-    return slots->tile_names ? MESO_OK : MESO_ERR_MEMORY;
+        return meso_fail(error, MESO_ERR_USAGE,
+                         "--show tiles takes a MODEL of tiles, or SURFACE SLOTS: '%s' is a mesh", shown->path);
+    tiles->slots = shown->tiling->assignment;
+    return take_names(tiles, &shown->tiling->tile_set, &shown->tool->arena, error);
 }
 
 static MesoStatus show_tiles(MesoRenderSource *source, MesoRenderArguments *a, const char *model, MesoError *error)
 {
     Shown shown;
-    MesoSlotsFile slots;
-    MesoStatus status = read_surface(&shown, source, a, model, error);
+    Tiles tiles;
+    const MesoTileSet *set;
+    uint32_t operands = a->tool.operand_count;
+    MesoStatus status = read_set(&set, a, operands == 3, error);
     if (!status)
-        status = read_tiles(&shown, &slots, a, error);
-    MesoFaceClass *classes = status ? NULL : MESO_NEW(&a->tool.arena, MesoFaceClass, slots.tile_count, error);
+        status = read_surface(&shown, source, a, model, error);
+    if (!status)
+        status = operands == 1 ? read_model_tiles(&shown, &tiles, error)
+                               : read_slots(&shown, &tiles, set, a->tool.operands[operands - 1], error);
+    MesoFaceClass *classes = status ? NULL : MESO_NEW(&a->tool.arena, MesoFaceClass, tiles.count, error);
     if (!classes)
         return status ? status : MESO_ERR_MEMORY;
-    for (uint32_t t = 0; t < slots.tile_count; t++) {
-        classes[t].name = slots.tile_names[t];
+    for (uint32_t t = 0; t < tiles.count; t++) {
+        classes[t].name = tiles.names[t];
         meso_id_color(classes[t].color, t);
     }
-    return show_classes(&shown, &source->scene, "tiles", classes, slots.tile_count, slots.assignment.tile, error);
+    return show_classes(&shown, &source->scene, "tiles", classes, tiles.count, tiles.slots.tile, error);
 }
 
 static MesoStatus show_difference(MesoRenderSource *source, MesoRenderArguments *a, const char *model, MesoError *error)
@@ -169,18 +216,20 @@ static MesoStatus show_difference(MesoRenderSource *source, MesoRenderArguments 
         [SAME] = {"same", {0.62f, 0.62f, 0.6f}}, [TURNED] = {"turned", {0.85f, 0.42f, 0.02f}},
         [OTHER] = {"other tile", {0.7f, 0.03f, 0.03f}}};
     Shown shown;
-    MesoSlotsFile slots[2];
-    MesoStatus status = read_surface(&shown, source, a, model, error);
+    Tiles tiles[2];
+    const MesoTileSet *set;
+    uint32_t operands = a->tool.operand_count;
+    MesoStatus status = read_set(&set, a, operands == 4, error);
+    if (!status)
+        status = read_surface(&shown, source, a, model, error);
     for (uint32_t i = 0; i < 2 && !status; i++)
-        status = read_slots(&shown, &slots[i], a->tool.operands[1 + i], error);
+        status = read_slots(&shown, &tiles[i], set, a->tool.operands[operands - 2 + i], error);
     uint32_t *face_class = status ? NULL : MESO_NEW(&a->tool.arena, uint32_t, shown.mesh.face_count, error);
     if (!face_class)
         return status ? status : MESO_ERR_MEMORY;
     for (uint32_t f = 0; f < shown.mesh.face_count; f++) {
-        const char *names[2];
-        for (uint32_t i = 0; i < 2; i++)
-            names[i] = slots[i].tile_names[slots[i].assignment.tile[f]];
-        bool turned = slots[0].assignment.transform[f] != slots[1].assignment.transform[f];
+        const char *names[2] = {tiles[0].names[tiles[0].slots.tile[f]], tiles[1].names[tiles[1].slots.tile[f]]};
+        bool turned = tiles[0].slots.transform[f] != tiles[1].slots.transform[f];
         face_class[f] = strcmp(names[0], names[1]) != 0 ? OTHER : turned ? TURNED : SAME;
     }
     return show_classes(&shown, &source->scene, "difference", classes, CLASSES, face_class, error);
@@ -263,8 +312,8 @@ static MesoStatus show_ids(MesoRenderSource *source, MesoRenderArguments *a, con
 static const ShowRow ROWS[] = {
     {"macro", 1, 1, "SURFACE, or a MODEL of tiles", show_macro},
     {"failures", 1, 1, "SURFACE, and --report", show_failures},
-    {"tiles", 1, 2, "a MODEL of tiles, or SURFACE SLOTS", show_tiles},
-    {"difference", 3, 3, "SURFACE SLOTS SLOTS", show_difference},
+    {"tiles", 1, 3, "a MODEL of tiles, or [TILES] SURFACE SLOTS", show_tiles},
+    {"difference", 3, 4, "[TILES] SURFACE SLOTS SLOTS", show_difference},
     {"strands", 1, 1, "MODEL", show_ids},
     {"id:NAME", 1, 1, "MODEL", show_ids},
 };
@@ -294,6 +343,12 @@ MesoStatus meso_render_show_check(const MesoRenderArguments *a, MesoError *error
         return meso_fail(error, MESO_ERR_USAGE, failures ? "--show failures takes --report, of meso-solve"
                                                          : "--report is for --show failures");
     return MESO_OK;
+}
+
+uint32_t meso_render_show_surface(const MesoRenderArguments *a)
+{
+    const ShowRow *row = find_row(a->show);
+    return row->high > 1 && a->tool.operand_count == row->high;
 }
 
 MesoStatus meso_render_show_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model, MesoError *error)

@@ -30,8 +30,12 @@ MesoStatus meso_render_source_check(MesoRenderArguments *a, MesoError *error)
     if (a->tiles)
         return need_operands(a, 0, ": --tiles is what is drawn", error);
     a->model = a->tool.operand_count ? a->tool.operands[0] : NULL;
-    if (a->show)
-        return meso_render_show_check(a, error);
+    if (a->show) {
+        MesoStatus status = meso_render_show_check(a, error);
+        if (!status)
+            a->model = a->tool.operands[meso_render_show_surface(a)];
+        return status;
+    }
     if (a->report)
         return meso_fail(error, MESO_ERR_USAGE, "--report is for --show failures");
     return need_operands(a, 1, "", error);

@@ -60,7 +60,9 @@ static void add_bar(MesoSketch *s, MesoSketchBar bar)
 
 void meso_sketch_bar(MesoSketch *s, MesoVec3 a, MesoVec3 b, float radius)
 {
-    add_bar(s, (MesoSketchBar){a, b, {radius, radius}});
+    MesoVec3 way = meso_vec3_sub(b, a), more = meso_vec3_scale(meso_vec3_unit(way, way), 0.7f * radius);
+    if (meso_vec3_length(way) > 0)
+        add_bar(s, (MesoSketchBar){meso_vec3_sub(a, more), meso_vec3_add(b, more), {radius, radius}});
 }
 
 void meso_sketch_point(MesoSketch *s, MesoVec3 a, MesoVec3 b, float radius)

@@ -35,7 +35,7 @@ typedef struct MesoSketch {
 /* What follows is of this part; the name must outlive the scene. */
 void meso_sketch_part(MesoSketch *sketch, const char *name, const float albedo[3]);
 
-/* Round, open at its ends; one without length is left out. */
+/* Round, open at its ends, and a little longer, so that bars which meet leave no gap; none where it has no length. */
 void meso_sketch_bar(MesoSketch *sketch, MesoVec3 a, MesoVec3 b, float radius);
 /* A cone from `a` to its point `b`. */
 void meso_sketch_point(MesoSketch *sketch, MesoVec3 a, MesoVec3 b, float radius);

@@ -35,6 +35,12 @@ exrheader tiles.exr | grep -c 'manifest.*"borders"'
 show --show tiles vase.meso -o tiles.png
 report tiles | cmp - of_slots
 meso-solve -q --seed 2 vase.tiles.json vase.obj -o other.slots
+show --show tiles vase.tiles.json vase.obj vase.slots -o tiles.png
+report tiles | cmp - of_slots
+show --show difference vase.tiles.json vase.obj other.slots vase.slots -o none.png
+report difference >one
+show --show difference vase.obj vase.slots other.slots -o none.png
+report difference | cmp - one
 show --show difference vase.obj vase.slots vase.slots -o none.png
 report difference
 show --show difference vase.obj vase.slots other.slots -o some.png
@@ -63,6 +69,8 @@ refuse --show id:region vase.meso
 refuse --show tiles vase.obj
 refuse --show difference vase.obj vase.slots
 refuse --show tiles cube.obj vase.slots
+refuse --show tiles no.tiles.json vase.obj vase.slots
+refuse --show tiles vase.obj vase.obj vase.slots
 refuse --show failures vase.obj
 refuse --show failures --report no.json cube.obj
 refuse --show failures --report vase.tiles.json vase.obj
