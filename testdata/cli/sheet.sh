@@ -1,5 +1,5 @@
 # A sheet of a tile set has every tile, its interfaces and names on it; what is refused.
-cp "$fixtures/vase.tiles.json" .
+cp "$fixtures/vase.tiles.json" "$fixtures/vase.obj" .
 meso-render --size 200x130 --samples 1 --aov cryptomatte --tiles vase.tiles.json -o sheet.exr --png sheet.png --json=said
 exrheader sheet.exr | grep 'manifest.*plain"' | tr ',{}' '\n' | sed -n 's/^"\(.*\)":.*/\1/p'
 grep -c '"tiles"' said
@@ -14,7 +14,7 @@ refuse() {
     echo "status $status"
 }
 refuse --tiles vase.tiles.json "$fixtures/vase.meso" -o x.png
-refuse --tiles "$fixtures/vase.obj" -o x.png
+refuse --tiles vase.obj -o x.png
 refuse --mesh-path . "$fixtures/vase.meso" -o x.png
 refuse -o x.png
 sed 's/"name": "plain"/"name": "plain", "inner": [{"mesh": "none.obj"}]/' vase.tiles.json >inner.tiles.json
