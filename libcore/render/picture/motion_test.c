@@ -124,7 +124,7 @@ static double check(const MesoScene *now, const MesoScene *next, Turn turn, Meso
 {
     MesoImage image;
     MesoRenderOptions options = {.width = WIDTH, .height = HEIGHT, .samples = 1,
-                                 .camera = {{1, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40},
+                                 .camera = {.eye = {1, 2, 5}, .up = {0, 1, 0}, .fov_degrees = 40},
                                  .extras = MESO_EXTRA_MOTION | MESO_EXTRA_POSITION, .next_camera = next_camera,
                                  .next_scene = next};
     CHECK(meso_tile_picture(&image, &arena, now, &options, 2, &error) == MESO_OK);
@@ -153,8 +153,8 @@ static double check(const MesoScene *now, const MesoScene *next, Turn turn, Meso
 int main(void)
 {
     static Bundle now, then, other;
-    const MesoCamera here = {{1, 2, 5}, {0, 0, 0}, {0, 1, 0}, 40};
-    const MesoCamera there = {{1.5f, 2, 4.5f}, {0, 0.1f, 0}, {0.1f, 1, 0}, 42};
+    const MesoCamera here = {.eye = {1, 2, 5}, .up = {0, 1, 0}, .fov_degrees = 40};
+    const MesoCamera there = {.eye = {1.5f, 2, 4.5f}, .target = {0, 0.1f, 0}, .up = {0.1f, 1, 0}, .fov_degrees = 42};
     const Turn none = {1, 0}, grown = {1.1f, 0.2f};
     meso_arena_init(&arena);
     make_bundle(&now, none);
