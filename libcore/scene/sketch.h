@@ -49,10 +49,10 @@ void meso_sketch_face(MesoSketch *sketch, uint32_t count, const MesoVec3 *positi
 void meso_sketch_text(MesoSketch *sketch, MesoVec3 start, MesoVec3 right, MesoVec3 up, float unit, const char *text);
 
 /*
- * Puts the parts into a scene of any kind, behind what is there; or makes one of a zeroed `scene`, whose channel is
- * "part"; so is that of a scene which has none. In each channel a part has an id of its own, by its name where ids
- * have names. The scene's arrays come to lie in `arena`; the sketch is empty then. MESO_ERR_MEMORY, or MESO_ERR_LIMIT
- * for over 2^16 - 1 materials.
+ * Puts the parts into a scene whose sections do not deform, behind what is there; or makes one of a zeroed `scene`,
+ * whose channel is "part"; so is that of a scene which has none. In each channel a part has an id of its own, by its
+ * name where ids have names. The scene's arrays come to lie in `arena`; the sketch is empty then. MESO_ERR_MEMORY, or
+ * MESO_ERR_LIMIT for over 2^16 - 1 materials.
  */
 MesoStatus meso_sketch_finish(MesoSketch *sketch, MesoScene *scene, MesoArena *arena, MesoError *error);
 

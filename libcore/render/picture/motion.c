@@ -27,7 +27,7 @@ static bool bodies_alike(const MesoBody *a, const MesoBody *b)
 
 bool meso_motion_alike(const MesoScene *a, const MesoScene *b)
 {
-    bool alike = a->kind_count == b->kind_count && a->column_count == b->column_count &&
+    bool alike = a->deform == b->deform && a->kind_count == b->kind_count && a->column_count == b->column_count &&
                  a->sweep_count == b->sweep_count && a->body_count == b->body_count &&
                  a->placed_count == b->placed_count;
     for (uint32_t i = 0; alike && i < a->kind_count; i++)
