@@ -124,80 +124,6 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
     return a->tool.provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-/* ---- inner meshes ---- */
-
-static const char *tile_of_inner(const MesoTileSet *set, uint32_t inner)
-{
-    for (uint32_t t = 0; t < set->tile_count; t++)
-        if (inner - set->tiles[t].inner_begin < set->tiles[t].inner_count)
-            return set->tiles[t].name;
-    return "?";
-}
-
-/* Beside the tile set first, then in --mesh-path; NULL with `error` filled where it is in neither. */
-static const char *find_inner(MapArguments *a, const MesoTileSet *set, uint32_t inner, MesoError *error)
-{
-    bool found = false;
-    MesoArena *arena = &a->tool.arena;
-    const char *file = set->inners[inner].file, *tiles = a->tool.operands[0], *elsewhere = NULL;
-    const char *beside = meso_mesh_path(tiles, meso_folder_length(tiles), file, &found, arena, error);
-    if (!beside || found)
-        return beside;
-    if (a->mesh_path) {
-        elsewhere = meso_mesh_path(a->mesh_path, (int)strlen(a->mesh_path), file, &found, arena, error);
-        if (!elsewhere || found)
-            return elsewhere;
-    }
-    meso_fail(error, MESO_ERR_INPUT,
-              "tile '%s': its mesh '%s' is not there: looked for '%s'%s%s%s; give its folder with --mesh-path",
-              tile_of_inner(set, inner), file, beside, elsewhere ? " and '" : "", elsewhere ? elsewhere : "",
-              elsewhere ? "'" : "");
-    return NULL;
-}
-
-static MesoStatus read_inner(MapArguments *a, const MesoTileSet *set, uint32_t inner,
-                             MesoTriangleMesh *mesh, MesoError *error)
-{
-    MesoTool *tool = &a->tool;
-    MesoInput input;
-    const char *path = find_inner(a, set, inner, error);
-    if (!path)
-        return error->status;
-    if (tool->provenance.input_count == MESO_PROVENANCE_INPUTS)
-        return meso_fail(error, MESO_ERR_LIMIT, "too many meshes in tiles: at most %d different files",
-                         MESO_PROVENANCE_INPUTS - 3);
-    MesoStatus status = meso_tool_open_input(tool, &input, path, "mesh");
-    if (status)
-        return status;
-    status = meso_triangle_mesh_read(mesh, &tool->arena, &input, tool->threads, error);
-    meso_input_close(&input);
-    return status;
-}
-
-/* A file that several tiles name is read once. */
-static MesoStatus read_inners(MapArguments *a, MesoModel *model, MesoError *error)
-{
-    const MesoTileSet *set = &model->tile_set;
-    model->inner_meshes = MESO_NEW(&a->tool.arena, MesoTriangleMesh, set->inner_count, error);
-    if (!model->inner_meshes)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < set->inner_count; i++) {
-        uint32_t same = 0;
-        while (strcmp(set->inners[same].file, set->inners[i].file) != 0)
-            same++;
-        if (set->inners[i].file[0] == 0)
-            continue;
-        if (same < i) {
-            model->inner_meshes[i] = model->inner_meshes[same];
-            continue;
-        }
-        MesoStatus status = read_inner(a, set, i, &model->inner_meshes[i], error);
-        if (status)
-            return status;
-    }
-    return MESO_OK;
-}
-
 /* ---- models ---- */
 
 typedef struct Inputs {
@@ -281,7 +207,8 @@ static MesoStatus read_parts(MapArguments *a, Inputs *inputs, MesoModel *model, 
     if (!status)
         status = bind_slots(a, model, &surface, &slots, inputs, error);
     if (!status)
-        status = read_inners(a, model, error);
+        status = meso_tool_read_tile_meshes(tool, &model->inner_meshes, &model->tile_set, tool->operands[0],
+                                            a->mesh_path);
     model->options = a->options;
     return status;
 }

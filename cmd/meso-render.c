@@ -1,38 +1,49 @@
 /* meso-render: draws a model to an OpenEXR image with its arbitrary output variables, or to a PNG. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
-#include "cmd/common/scene_input.h"
 #include "cmd/common/scene_report.h"
+#include "cmd/render/picture_files.h"
 #include "cmd/render/render_backdrop.h"
 #include "cmd/render/render_frames.h"
 #include "cmd/render/render_light.h"
+#include "cmd/render/render_source.h"
 #include "formats/file/claim.h"
-#include "formats/image/image_file.h"
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
+#include "libcore/base/index.h"
 #include "libcore/render/apart.h"
+#include "libcore/render/picture/covered.h"
+#include "libcore/render/picture/motion.h"
 #include "libcore/render/picture/tile_picture.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
-    .synopsis = "meso-render [options] MODEL -o OUT.exr|.png",
+    .synopsis = "meso-render [options] MODEL -o OUT.exr|.png\n"
+                "meso-render --show WHAT [TILES] SURFACE|MODEL [SLOTS...] -o OUT.exr|.png\n"
+                "meso-render [options] --tiles TILES -o OUT.exr|.png",
     .purpose = "Draw a model or a mesh to an image: colour, depth, normals, albedo, ids.",
     .examples = "meso-render vase.meso -o vase.exr --png vase.png\n"
                 "meso-render --size 640x360 --eye 0,1,4 --target 0,0,0 vase.meso -o vase.png\n"
                 "meso-render --turntable 48 --resume vase.meso -o turn-%04d.png",
-    .words = "1 .meso\n"
+    .words = "1 .meso .obj .ply .off .json\n"
+             "2 .slots .obj .ply .off\n"
+             "3 .slots\n"
+             "4 .slots\n"
+             "--show macro failures tiles difference strands id:\n"
+             "--report .json\n"
              "--output .exr .png\n"
              "--json .json\n"
+             "--tiles .json\n"
              "--keys .json .bin\n"
              "--camera .glb .gltf .bin\n"
              "--png .png\n"
              "--background none light .png .exr .hdr\n"
              "--light camera studio sky .exr .hdr",
-    .operands_low = 1,
-    .operands_high = 1,
+    .operands_low = 0,
+    .operands_high = 4,
 };
 
 /* Words with commas between. */
@@ -42,16 +53,35 @@ static MesoStatus parse_extras(MesoRenderArguments *a, MesoError *error)
         const char *word;
         unsigned extras;
     } known[] = {{"position", MESO_EXTRA_POSITION}, {"uv", MESO_EXTRA_UV}, {"occlusion", MESO_EXTRA_OCCLUSION},
-                 {"material", MESO_EXTRA_MATERIAL}, {"cryptomatte", MESO_EXTRA_MATTES}, {"all", ~0u}};
+                 {"material", MESO_EXTRA_MATERIAL}, {"cryptomatte", MESO_EXTRA_MATTES}, {"motion", MESO_EXTRA_MOTION},
+                 {"all", ~0u & ~(unsigned)MESO_EXTRA_MOTION}};
     for (const char *word = a->aov; word && *word;) {
         size_t length = strcspn(word, ","), k = 0, count = sizeof known / sizeof *known;
         while (k < count && (strlen(known[k].word) != length || strncmp(known[k].word, word, length) != 0))
             k++;
         if (k == count)
             return meso_fail(error, MESO_ERR_USAGE, "--aov: '%.*s' is none of position, uv, occlusion, material, "
-                             "cryptomatte, all", (int)length, word);
+                             "cryptomatte, motion, all", (int)length, word);
         a->extras |= known[k].extras;
         word += length + (word[length] == ',');
+    }
+    return MESO_OK;
+}
+
+/* N or N/D. */
+static MesoStatus parse_fps(MesoRenderArguments *a, MesoError *error)
+{
+    const char *text = a->fps_text;
+    a->rate[1] = 1;
+    for (int i = 0; text && i < 2; i++) {
+        char *end;
+        unsigned long value = *text >= '0' && *text <= '9' ? strtoul(text, &end, 10) : 0;
+        bool last = value && *end == 0;
+        if (value == 0 || value > 1000000 || !(last || (i == 0 && *end == '/')))
+            return meso_fail(error, MESO_ERR_USAGE,
+                             "--fps '%s' is neither a number nor a fraction, such as 24 or 30000/1001", a->fps_text);
+        a->rate[i] = (uint32_t)value;
+        text = last ? NULL : end + 1;
     }
     return MESO_OK;
 }
@@ -72,32 +102,18 @@ static MesoStatus choose_product(MesoRenderArguments *a, MesoError *error)
                      output);
 }
 
-static MesoStatus write_image(const MesoRenderArguments *a, const MesoRenderBackdrop *backdrop, const char *path,
-                              bool exr, const MesoImage *image, MesoError *error)
-{
-    MesoOutput *output;
-    MesoStatus status = meso_output_open(&output, path, error);
-    if (!status)
-        status = exr ? meso_exr_write(image, &a->tool.provenance, a->tool.threads, output, error)
-                     : meso_render_backdrop_write(backdrop, image, &a->tool.provenance, output, error);
-    return meso_output_finish(output, status, error);
-}
-
 static json_t *point_json(MesoVec3 p)
 {
     return json_pack("[f, f, f]", (double)p.x, (double)p.y, (double)p.z);
 }
 
-static void report_image(MesoTool *tool, const MesoImage *image, const MesoScene *scene,
-                         const char *renderer)
+static void report_image(MesoTool *tool, const MesoRenderOptions *options, const MesoScene *scene,
+                         const char *renderer, uint64_t covered)
 {
-    uint64_t covered = 0, count = (uint64_t)image->width * image->height;
-    for (uint64_t i = 0; i < count; i++)
-        covered += isfinite(image->depth[i]) != 0;
-    const MesoCamera *camera = &image->camera;
+    const MesoCamera *camera = &options->camera;
     json_t *report = tool->report;
-    json_object_set_new(report, "width", json_integer(image->width));
-    json_object_set_new(report, "height", json_integer(image->height));
+    json_object_set_new(report, "width", json_integer(options->width));
+    json_object_set_new(report, "height", json_integer(options->height));
     json_object_set_new(report, "renderer", meso_json_string(renderer));
     meso_scene_report_ids(report, scene);
     json_object_set_new(report, "sweeps", json_integer(scene->sweep_count));
@@ -112,21 +128,29 @@ static void report_image(MesoTool *tool, const MesoImage *image, const MesoScene
         meso_tool_say(tool, "warning: nothing of the model is on the image");
 }
 
-static void say_times(const MesoTool *tool, const double *at)
+/* How a picture comes about: times in seconds. */
+typedef struct Drawing {
+    MesoRenderOptions options;
+    bool numbered;              /* it is a frame */
+    MesoPictureFiles files;
+    const char *renderer;
+    double context, drawing, writing;
+} Drawing;
+
+static void say_times(const MesoTool *tool, const Drawing *d, double model)
 {
     if (tool->verbose)
-        meso_tool_say(tool, "model %.0f ms, context %.0f ms, drawing %.0f ms, writing %.0f ms",
-                      1e3 * (at[1] - at[0]), 1e3 * (at[2] - at[1]), 1e3 * (at[3] - at[2]),
-                      1e3 * (at[4] - at[3]));
+        meso_tool_say(tool, "model %.0f ms, context %.0f ms, drawing %.0f ms, writing %.0f ms", 1e3 * model,
+                      1e3 * d->context, 1e3 * d->drawing, 1e3 * d->writing);
 }
 
-/* Drawn by GL in a process apart, or by this one. */
-typedef struct Drawn {
-    MesoPicture *apart;         /* NULL: by this one */
-    MesoImage own;
-    const char *renderer;
-    double begun;
-} Drawn;
+/* Seconds since `*at`, which becomes now. */
+static double lap(double *at)
+{
+    double now = meso_seconds(), passed = now - *at;
+    *at = now;
+    return passed;
+}
 
 /* Tiles, unless GL is asked for, or a context of it. */
 static bool wants_gl(const MesoRenderArguments *a)
@@ -142,6 +166,9 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE, "--ground is for --visibility tiles; GL draws none");
     if (wants_gl(a) && a->extras)
         return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
+    if (wants_gl(a) && a->show && (strcmp(a->show, "strands") == 0 || strncmp(a->show, "id:", 3) == 0))
+        return meso_fail(error, MESO_ERR_USAGE, "--show %s is for --visibility tiles; GL draws models as they are",
+                         a->show);
     if (wants_gl(a) && strcmp(a->light, "camera") != 0)
         return meso_fail(error, MESO_ERR_USAGE, "--light is for --visibility tiles; GL's light comes with the camera");
     if (wants_gl(a) && a->vary > 0)
@@ -151,38 +178,60 @@ static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus draw(MesoRenderArguments *a, Drawn *drawn, MesoArena *arena, const MesoScene *scene,
-                       const MesoEnvironment *environment, const MesoCamera *camera, MesoError *error)
+static bool tight(const MesoRenderArguments *a)
 {
-    MesoTool *tool = &a->tool;
-    const MesoRenderOptions options = {
-        .width = a->camera.size[0],
-        .height = a->camera.size[1],
-        .camera = *camera,
-        .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
-        .ground = strcmp(a->ground, "shadow") == 0,
-        .extras = a->extras,
-        .vary = a->vary,
-        .environment = environment,
-        .up = a->camera.world_up,
-    };
-    *drawn = (Drawn){.renderer = "tiles", .begun = meso_seconds()};
-    if (!wants_gl(a))
-        return meso_tile_picture(&drawn->own, arena, scene, &options, tool->threads, error);
-    MesoStatus status = meso_picture_init(&drawn->apart, arena, a->context, tool->threads, scene, &options, error);
-    if (status)
-        return status;
-    drawn->renderer = drawn->apart->renderer;
-    drawn->begun = drawn->apart->context_made;
-    return MESO_OK;
+    return strcmp(a->data_window, "tight") == 0;
 }
 
-static MesoStatus write_images(const MesoRenderArguments *a, const MesoRenderBackdrop *backdrop,
-                               const MesoRenderFrame *frame, const MesoImage *image, MesoError *error)
+/* By GL, in a process apart, whole. */
+static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
+                             const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
 {
-    MesoStatus status = write_image(a, backdrop, frame->output, a->exr_product, image, error);
-    if (!status && frame->png)
-        status = write_image(a, backdrop, frame->png, false, image, error);
+    MesoPicture *picture;
+    double at = meso_seconds();
+    MesoStatus status = meso_picture_init(&picture, arena, a->context, a->tool.threads, scene, &d->options, error);
+    if (status)
+        return status;
+    if (tight(a))
+        meso_covered_add(&picture->image.covered, &picture->image, 0);
+    d->renderer = meso_arena_copy_text(&a->tool.arena, picture->renderer, error);
+    d->drawing = meso_seconds() - picture->context_made;
+    d->context = lap(&at) - d->drawing;
+    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, d->numbered, backdrop, &picture->image,
+                                                    d->options.height, error)
+                         : MESO_ERR_MEMORY;
+    if (!status)
+        status = meso_picture_files_band(&d->files, error);
+    status = meso_picture_files_end(&d->files, status, error);
+    d->writing = lap(&at);
+    meso_picture_release(picture);
+    return status;
+}
+
+/* By tiles: each band is painted and written. */
+static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
+                             const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
+{
+    MesoTilePainter *painter;
+    MesoImage band;
+    double at = meso_seconds();
+    d->renderer = "tiles";
+    MesoStatus status = meso_tile_painter_init(&painter, &band, arena, scene, &d->options, a->tool.threads, error);
+    d->drawing = lap(&at);
+    if (status)
+        return status;
+    for (uint32_t row = 0; row < d->options.height && !status; row += band.height) {
+        status = meso_tile_paint(painter, &band, row, error);
+        d->drawing += lap(&at);
+        if (!status && row == 0)
+            status = meso_picture_files_begin(&d->files, a, frame, d->numbered, backdrop, &band, d->options.height,
+                                              error);
+        if (!status)
+            status = meso_picture_files_band(&d->files, error);
+        d->writing += lap(&at);
+    }
+    status = meso_picture_files_end(&d->files, status, error);
+    d->writing += lap(&at);
     return status;
 }
 
@@ -190,54 +239,96 @@ static MesoStatus write_images(const MesoRenderArguments *a, const MesoRenderBac
 typedef struct Work {
     MesoRenderArguments *a;
     MesoRenderFrames frames;
-    MesoInput input;
-    MesoScene scene;
+    MesoRenderSource source;
+    MesoRenderSource next;      /* of the next frame, where there is one and motion is asked for */
+    bool read, next_read;       /* the sources are */
     const MesoEnvironment *environment;     /* NULL: light that comes with the camera */
     MesoRenderBackdrop backdrop;
-    bool open;                  /* the input is */
     uint32_t input_count;       /* of the provenance, without the model */
     uint32_t drawn, skipped;    /* frames */
 } Work;
 
 static void close_model(Work *work)
 {
-    if (work->open)
-        meso_input_close(&work->input);
-    work->open = false;
+    meso_render_source_close(&work->source);
+    meso_render_source_close(&work->next);
+    work->read = work->next_read = false;
 }
 
-static MesoStatus read_model(Work *work, const char *path)
+static MesoStatus read_model(Work *work, const char *path, MesoError *error)
 {
-    MesoTool *tool = &work->a->tool;
-    MesoSceneReading reading = {.thread_count = tool->threads};
     close_model(work);
-    tool->provenance.input_count = work->input_count;
-    MesoStatus status = meso_tool_read_scene(tool, &work->scene, &work->input, path, &reading);
-    work->open = status == MESO_OK;
+    work->a->tool.provenance.input_count = work->input_count;
+    MesoStatus status = meso_render_source_read(&work->source, work->a, path, error);
+    work->read = status == MESO_OK;
     return status;
+}
+
+/* The model of the next number, if it is there and is alike. */
+static MesoStatus read_next(Work *work, const MesoRenderFrame *frame, MesoError *error)
+{
+    MesoRenderArguments *a = work->a;
+    if (!work->frames.many_models || !(a->extras & MESO_EXTRA_MOTION))
+        return MESO_OK;
+    const char *path = meso_frame_path(a->model, frame->number + 1, &a->tool.arena, error);
+    if (!path || access(path, F_OK) != 0)
+        return path ? MESO_OK : MESO_ERR_MEMORY;
+    MesoStatus status = meso_render_source_read(&work->next, a, path, error);
+    work->next_read = status == MESO_OK;
+    if (!status && !meso_motion_alike(&work->source.scene, &work->next.scene))
+        meso_tool_say_of(&a->tool, frame->output, "warning: '%s' has another structure than '%s': motion is the "
+                         "camera's alone", path, frame->model);
+    return status;
+}
+
+/* What motion leads to. */
+static void look_ahead(const Work *work, const MesoRenderFrame *frame, MesoRenderOptions *options)
+{
+    MesoRenderFrame next = *frame;
+    next.number++;
+    bool moves = work->next_read && meso_motion_alike(&work->source.scene, &work->next.scene);
+    options->next_scene = moves ? &work->next.scene : NULL;
+    options->next_camera = meso_render_frame_camera(&work->frames, &next,
+                                                    work->next_read ? &work->next.scene : &work->source.scene);
+}
+
+static MesoStatus draw(Work *work, Drawing *d, MesoArena *arena, const MesoRenderFrame *frame, MesoError *error)
+{
+    MesoRenderArguments *a = work->a;
+    const MesoScene *scene = &work->source.scene;
+    uint32_t channel = work->source.color_channel;
+    *d = (Drawing){.options = {
+        .width = a->camera.size[0],
+        .height = a->camera.size[1],
+        .camera = meso_render_frame_camera(&work->frames, frame, scene),
+        .samples = (uint32_t)strtoul(a->samples_text, NULL, 10),
+        .ground = strcmp(a->ground, "shadow") == 0,
+        .extras = a->extras,
+        .vary = a->vary,
+        .environment = work->environment,
+        .up = a->camera.world_up,
+        .color_ids = channel == MESO_NO_INDEX ? 0 : channel + 1,
+        .band_rows = a->band_rows,
+        .find_covered = tight(a),
+    }, .numbered = work->frames.numbered};
+    if (a->extras & MESO_EXTRA_MOTION)
+        look_ahead(work, frame, &d->options);
+    return (wants_gl(a) ? draw_apart : draw_bands)(a, d, arena, scene, &work->backdrop, frame, error);
 }
 
 static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double start, MesoError *error)
 {
     MesoRenderArguments *a = work->a;
     MesoArena scratch;
-    Drawn drawn;
-    double at[5] = {start, meso_seconds()};
-    MesoCamera camera = meso_render_frame_camera(&work->frames, frame, &work->scene);
+    Drawing drawing;
+    double model = lap(&start);
     meso_arena_init(&scratch);
-    MesoStatus status = draw(a, &drawn, &scratch, &work->scene, work->environment, &camera, error);
-    const MesoImage *image = drawn.apart ? &drawn.apart->image : &drawn.own;
-    at[2] = drawn.begun;
-    at[3] = meso_seconds();
-    if (!status)
-        status = write_images(a, &work->backdrop, frame, image, error);
-    at[4] = meso_seconds();
+    MesoStatus status = draw(work, &drawing, &scratch, frame, error);
     if (!status) {
-        report_image(&a->tool, image, &work->scene, drawn.renderer);
-        say_times(&a->tool, at);
+        report_image(&a->tool, &drawing.options, &work->source.scene, drawing.renderer, drawing.files.covered);
+        say_times(&a->tool, &drawing, model);
         work->drawn++;
     }
-    meso_picture_release(drawn.apart);
     meso_arena_release(&scratch);
     return status;
 }
@@ -269,8 +360,10 @@ static MesoStatus render_frame(Work *work, uint32_t i, MesoError *error)
     MesoRenderFrame frame;
     double start = meso_seconds();
     MesoStatus status = meso_render_frame(&frame, &work->frames, i, &tool->arena, error);
-    if (!status && (work->frames.many_models || !work->open))
-        status = read_model(work, frame.model);
+    if (!status && (work->frames.many_models || !work->read))
+        status = read_model(work, frame.model, error);
+    if (!status)
+        status = read_next(work, &frame, error);
     if (status)
         return status;
     if (work->frames.numbered) {
@@ -319,7 +412,11 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     Work work = {.a = a};
     MesoStatus status = choose_product(a, error);
     if (!status)
+        status = meso_render_source_check(a, error);
+    if (!status)
         status = parse_extras(a, error);
+    if (!status)
+        status = parse_fps(a, error);
     if (!status)
         status = check_maker(a, error);
     if (!status)
@@ -328,6 +425,9 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
         status = meso_render_backdrop_init(&work.backdrop, a, work.environment, error);
     if (!status)
         status = meso_render_frames_init(&work.frames, a, error);
+    if (!status && a->extras & MESO_EXTRA_MOTION && !work.frames.numbered)
+        status = meso_fail(error, MESO_ERR_USAGE,
+                           "--aov motion is for frames: --turntable, --keys or a MODEL by number");
     work.backdrop.up = a->camera.world_up;
     work.input_count = a->tool.provenance.input_count;
     if (!status)
@@ -339,11 +439,19 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
 int main(int argc, char **argv)
 {
     MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
-                         .ground = "none", .light = "camera", .light_strength = 1, .tone = "shoulder"};
+                         .ground = "none", .data_window = "full", .rate = {24, 1}, .light = "camera",
+                         .light_strength = 1, .tone = "shoulder"};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
         MESO_OUTPUT_FILE(0, "png", "FILE", "write the colour as PNG there too", &a.png),
+        MESO_TEXT(0, "show", "WHAT", "draw macro, failures, tiles or difference of a surface, or strands or id:NAME of "
+                  "a model", &a.show),
+        MESO_INPUT_FILE(0, "report", "FILE", "of meso-solve, for --show failures", &a.report),
+        MESO_INPUT_FILE(0, "tiles", "TILES", "draw a sheet of a tile set: each tile in a cell, with its name",
+                        &a.tiles),
+        MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES", &a.mesh_path,
+                    .more = MESO_OPTION_OUTWARD),
         MESO_CAMERA_OPTIONS(a.camera),
         MESO_GROUP("Frames; the names of files, and of MODEL, have their number in %04d"),
         MESO_TEXT(0, "frames", "LIST", "which: 1-100, 1-99x2, 3,10-20 (default: all that there are)", &a.frames),
@@ -367,8 +475,15 @@ int main(int argc, char **argv)
                     "(default) to 1", &a.vary, 0, 1),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
                     "--context is given", &a.visibility, "auto|tiles|gl"),
-        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, or all",
+        MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, "
+                  "motion, or all, which is without motion",
                   &a.aov),
+        MESO_FLAG(0, "multipart", "an EXR of a part for each layer", &a.multipart),
+        MESO_CHOICE(0, "data-window", "HOW", "of the EXR: full (default), or tight around what is there",
+                    &a.data_window,
+                    "full|tight"),
+        MESO_TEXT(0, "fps", "RATE", "frames a second, as the EXRs of frames say: 24 (default), 30000/1001",
+                  &a.fps_text),
         MESO_TEXT(0, "background", "WHAT", "of the PNG: R,G,B, linear, 0 to 1 (default: light grey), none, the light, "
                   "or a picture FILE that is to cover it", &a.background_text),
         MESO_CHOICE(0, "tone", "CURVE", "of the PNG's highlights: shoulder (default), none, neutral, agx or filmic",
@@ -377,6 +492,7 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "context", "MAKER",
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
                     &a.context, "auto|osmesa|egl", .given = &a.context_given),
+        MESO_COUNT(0, "band-rows", "N", 0, &a.band_rows, 0, 16384, .more = MESO_OPTION_SILENT),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "formats/mesh/surface_read.h"
+
 int meso_folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -88,4 +90,86 @@ MesoStatus meso_mesh_paths_move(MesoTileSet *set, const char *from, const char *
     free(old);
     free(new);
     return status;
+}
+
+/* ---- read ---- */
+
+typedef struct Reading {
+    MesoTool *tool;
+    const MesoTileSet *set;
+    const char *tiles, *mesh_path;
+} Reading;
+
+static const char *tile_of_inner(const MesoTileSet *set, uint32_t inner)
+{
+    for (uint32_t t = 0; t < set->tile_count; t++)
+        if (inner - set->tiles[t].inner_begin < set->tiles[t].inner_count)
+            return set->tiles[t].name;
+    return "?";
+}
+
+/* Beside the tile set first, then in --mesh-path; NULL with `error` filled where it is in neither. */
+static const char *find_inner(const Reading *a, uint32_t inner)
+{
+    bool found = false;
+    MesoArena *arena = &a->tool->arena;
+    MesoError *error = &a->tool->error;
+    const MesoTileSet *set = a->set;
+    const char *file = set->inners[inner].file, *tiles = a->tiles, *elsewhere = NULL;
+    const char *beside = meso_mesh_path(tiles, meso_folder_length(tiles), file, &found, arena, error);
+    if (!beside || found)
+        return beside;
+    if (a->mesh_path) {
+        elsewhere = meso_mesh_path(a->mesh_path, (int)strlen(a->mesh_path), file, &found, arena, error);
+        if (!elsewhere || found)
+            return elsewhere;
+    }
+    meso_fail(error, MESO_ERR_INPUT,
+              "tile '%s': its mesh '%s' is not there: looked for '%s'%s%s%s; give its folder with --mesh-path",
+              tile_of_inner(set, inner), file, beside, elsewhere ? " and '" : "", elsewhere ? elsewhere : "",
+              elsewhere ? "'" : "");
+    return NULL;
+}
+
+static MesoStatus read_inner(const Reading *a, uint32_t inner, MesoTriangleMesh *mesh)
+{
+    MesoTool *tool = a->tool;
+    MesoError *error = &tool->error;
+    MesoInput input;
+    const char *path = find_inner(a, inner);
+    if (!path)
+        return error->status;
+    if (tool->provenance.input_count == MESO_PROVENANCE_INPUTS)
+        return meso_fail(error, MESO_ERR_LIMIT, "too many meshes in tiles: at most %d different files",
+                         MESO_PROVENANCE_INPUTS - 3);
+    MesoStatus status = meso_tool_open_input(tool, &input, path, "mesh");
+    if (status)
+        return status;
+    status = meso_triangle_mesh_read(mesh, &tool->arena, &input, tool->threads, error);
+    meso_input_close(&input);
+    return status;
+}
+
+MesoStatus meso_tool_read_tile_meshes(MesoTool *tool, MesoTriangleMesh **meshes, const MesoTileSet *set,
+                                      const char *tiles, const char *mesh_path)
+{
+    const Reading reading = {tool, set, tiles, mesh_path};
+    MesoTriangleMesh *read = *meshes = MESO_NEW(&tool->arena, MesoTriangleMesh, set->inner_count, &tool->error);
+    if (!read)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < set->inner_count; i++) {
+        uint32_t same = 0;
+        while (strcmp(set->inners[same].file, set->inners[i].file) != 0)
+            same++;
+        if (set->inners[i].file[0] == 0)
+            continue;
+        if (same < i) {
+            read[i] = read[same];
+            continue;
+        }
+        MesoStatus status = read_inner(&reading, i, &read[i]);
+        if (status)
+            return status;
+    }
+    return MESO_OK;
 }

@@ -21,10 +21,20 @@ typedef struct MesoRenderArguments {
     const char *aov;            /* --aov; NULL: none beside the usual ones */
     unsigned extras;            /* MesoImageExtra */
     float vary;                 /* --vary */
+    bool multipart;             /* --multipart */
+    const char *data_window;    /* --data-window */
+    const char *fps_text;       /* --fps */
+    uint32_t rate[2];           /* frames in so many seconds */
+    uint32_t band_rows;         /* --band-rows: for tests, and hidden */
     const char *light, *tone;   /* --light, --tone */
     float light_turn, light_strength;
     bool light_turn_given, light_strength_given;
 
+    const char *tiles;          /* --tiles: a sheet of them */
+    const char *show, *report;  /* --show, --report */
+    const char *mesh_path;      /* --mesh-path */
+
+    const char *model;          /* the operand, which may be a pattern; NULL: none */
     bool exr_product;           /* of -o */
 } MesoRenderArguments;
 

@@ -111,14 +111,6 @@ MesoStatus meso_render_backdrop_init(MesoRenderBackdrop *b, MesoRenderArguments 
 
 /* ---- rows of it ---- */
 
-typedef struct Rows {
-    const MesoRenderBackdrop *backdrop;
-    uint32_t width, height;
-    MesoView view;
-    MesoRasterView raster;
-    MesoVec3 axes[3];           /* of the environment */
-} Rows;
-
 /* Mean of a picture's channel over a rectangle, ends not included; at least half of a pixel wide and high. */
 static float mean_over(const MesoRenderBackdrop *b, int channel, double left, double top, double right, double bottom)
 {
@@ -136,7 +128,7 @@ static float mean_over(const MesoRenderBackdrop *b, int channel, double left, do
 }
 
 /* Covers the image, both middles together. A picture that is enlarged is smoothed over one of its pixels. */
-static void put_picture(const Rows *rows, uint32_t y, float *row)
+static void put_picture(const MesoBackdropRows *rows, uint32_t y, float *row)
 {
     const MesoRenderBackdrop *b = rows->backdrop;
     double scale = fmin((double)b->width / rows->width, (double)b->height / rows->height), reach = 0.5 * fmax(scale, 1);
@@ -149,7 +141,7 @@ static void put_picture(const Rows *rows, uint32_t y, float *row)
     }
 }
 
-static void put_light(const Rows *rows, uint32_t y, float *row)
+static void put_light(const MesoBackdropRows *rows, uint32_t y, float *row)
 {
     const MesoEnvironment *e = rows->backdrop->environment;
     for (uint32_t x = 0; x < rows->width; x++) {
@@ -165,27 +157,27 @@ static void put_light(const Rows *rows, uint32_t y, float *row)
 
 static void put_row(void *context, uint32_t y, float *row)
 {
-    const Rows *rows = context;
+    const MesoBackdropRows *rows = context;
     if (rows->backdrop->kind == MESO_BACKDROP_PICTURE)
         put_picture(rows, y, row);
     else
         put_light(rows, y, row);
 }
 
-MesoStatus meso_render_backdrop_write(const MesoRenderBackdrop *b, const MesoImage *image,
-                                      const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+MesoStatus meso_render_backdrop_look(MesoPngLook *look, MesoBackdropRows *rows, const MesoRenderBackdrop *b,
+                                     const MesoCamera *camera, uint32_t width, uint32_t height, MesoError *error)
 {
-    Rows rows = {.backdrop = b, .width = image->width, .height = image->height};
-    MesoPngLook look = {.tone = b->tone, .transparent = b->kind == MESO_BACKDROP_NONE,
-                        .background = {b->color[0], b->color[1], b->color[2]}, .context = &rows};
-    MesoStatus status = meso_view_build(&rows.view, &image->camera, error);
+    *rows = (MesoBackdropRows){.backdrop = b, .width = width, .height = height};
+    *look = (MesoPngLook){.tone = b->tone, .transparent = b->kind == MESO_BACKDROP_NONE,
+                          .background = {b->color[0], b->color[1], b->color[2]}, .context = rows};
+    MesoStatus status = meso_view_build(&rows->view, camera, error);
     if (status)
         return status;
-    rows.raster = meso_raster_view(&rows.view, image->width, image->height, 0);
+    rows->raster = meso_raster_view(&rows->view, width, height, 0);
     if (b->kind == MESO_BACKDROP_LIGHT)
-        meso_environment_axes(b->environment, meso_vec3_unit(b->up, meso_vec3_unit(image->camera.up, rows.view.up)),
-                              rows.axes);
+        meso_environment_axes(b->environment, meso_vec3_unit(b->up, meso_vec3_unit(camera->up, rows->view.up)),
+                              rows->axes);
     if (b->kind == MESO_BACKDROP_PICTURE || b->kind == MESO_BACKDROP_LIGHT)
-        look.backdrop = put_row;
-    return meso_png_write(image, &look, provenance, output, error);
+        look->backdrop = put_row;
+    return MESO_OK;
 }

@@ -5,6 +5,7 @@
 #include "cmd/render/render_arguments.h"
 #include "formats/image/image_file.h"
 #include "libcore/render/environment/environment.h"
+#include "libcore/render/raster/raster_view.h"
 
 typedef enum MesoBackdropKind { MESO_BACKDROP_COLOR, MESO_BACKDROP_NONE, MESO_BACKDROP_PICTURE, MESO_BACKDROP_LIGHT }
     MesoBackdropKind;
@@ -26,8 +27,17 @@ typedef struct MesoRenderBackdrop {
 MesoStatus meso_render_backdrop_init(MesoRenderBackdrop *backdrop, MesoRenderArguments *a,
                                      const MesoEnvironment *environment, MesoError *error);
 
-/* Writes the PNG of an image before it. */
-MesoStatus meso_render_backdrop_write(const MesoRenderBackdrop *backdrop, const MesoImage *image,
-                                      const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+/* Rows of it, behind a picture of a camera. */
+typedef struct MesoBackdropRows {
+    const MesoRenderBackdrop *backdrop;
+    uint32_t width, height;
+    MesoView view;
+    MesoRasterView raster;
+    MesoVec3 axes[3];           /* of the environment */
+} MesoBackdropRows;
+
+/* The look of a PNG before it, which points to `rows`. As meso_view_build(). */
+MesoStatus meso_render_backdrop_look(MesoPngLook *look, MesoBackdropRows *rows, const MesoRenderBackdrop *backdrop,
+                                     const MesoCamera *camera, uint32_t width, uint32_t height, MesoError *error);
 
 #endif

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cmd/render/render_source.h"
 #include "formats/camera/camera_file.h"
 #include "formats/camera/view_matrices.h"
 #include "formats/clip/frame_folder.h"
@@ -36,7 +37,7 @@ static MesoStatus list_frames(MesoRenderFrames *frames, MesoError *error)
     if (a->frames)
         return meso_frame_list_parse(&frames->list, arena, a->frames, error);
     if (frames->many_models)
-        return meso_frame_folder_list(&frames->list, arena, a->tool.operands[0], error);
+        return meso_frame_folder_list(&frames->list, arena, a->model, error);
     if (a->turntable)
         snprintf(all, sizeof all, "1-%u", a->turntable);
     else
@@ -58,7 +59,7 @@ static MesoStatus check_names(const MesoRenderFrames *frames, MesoError *error)
 MesoStatus meso_render_frames_init(MesoRenderFrames *frames, MesoRenderArguments *a, MesoError *error)
 {
     static int32_t none = 0;
-    *frames = (MesoRenderFrames){.a = a, .many_models = meso_frame_path_is_pattern(a->tool.operands[0])};
+    *frames = (MesoRenderFrames){.a = a, .many_models = a->model && meso_frame_path_is_pattern(a->model)};
     frames->numbered = a->frames || a->turntable || a->keys || frames->many_models;
     frames->list = (MesoFrameList){1, &none};
     if (a->turntable && a->keys)
@@ -101,11 +102,11 @@ MesoStatus meso_render_frame(MesoRenderFrame *frame, const MesoRenderFrames *fra
 {
     const MesoRenderArguments *a = frames->a;
     *frame = (MesoRenderFrame){.number = frames->list.frames[i]};
-    frame->model = path_of(frames, a->tool.operands[0], frame->number, arena, error);
+    frame->model = path_of(frames, a->model, frame->number, arena, error);
     frame->output = path_of(frames, a->tool.output, frame->number, arena, error);
     frame->png = path_of(frames, a->png, frame->number, arena, error);
     frame->command = command_of(frames, frame, arena, error);
-    bool made = frame->model && frame->output && frame->command && !a->png == !frame->png;
+    bool made = !a->model == !frame->model && frame->output && frame->command && !a->png == !frame->png;
     return made ? MESO_OK : MESO_ERR_MEMORY;
 }
 
@@ -113,7 +114,7 @@ MesoCamera meso_render_frame_camera(const MesoRenderFrames *frames, const MesoRe
 {
     if (frames->keys)
         return meso_camera_at(frames->keys, frames->key_count, frame->number);
-    MesoCamera camera = meso_camera_options_resolve(&frames->a->camera, scene);
+    MesoCamera camera = meso_render_source_camera(frames->a, scene);
     uint32_t turn = frames->a->turntable;
     if (turn && frames->a->camera.file)
         camera.up = frames->a->camera.world_up;     /* which is gone about, and not what a tilted camera has above it */

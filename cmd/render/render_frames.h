@@ -20,7 +20,7 @@ MesoStatus meso_render_frames_init(MesoRenderFrames *frames, MesoRenderArguments
 
 typedef struct MesoRenderFrame {
     int32_t number;
-    const char *model, *output, *png;   /* paths; no PNG: NULL */
+    const char *model, *output, *png;   /* paths; NULL: none */
     const char *command;                /* that makes this frame alone */
 } MesoRenderFrame;
 

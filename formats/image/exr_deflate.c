@@ -19,12 +19,18 @@ static void split_bytes(unsigned char *out, const unsigned char *in, size_t size
         out[half - 1] = in[size - 1];
 }
 
-/* Each byte becomes its difference from the one before it, and 128. */
-static void take_differences(unsigned char *out, const unsigned char *in, size_t size)
+/* Each byte but the first becomes its difference from the one before it, and 128: a block at a time, from the end. */
+static void take_differences(unsigned char *bytes, size_t size)
 {
-    out[0] = in[0];
-    for (size_t i = 1; i < size; i++)
-        out[i] = (unsigned char)(in[i] - in[i - 1] + 128);
+    enum { BLOCK = 4096 };
+    unsigned char before[BLOCK];
+    for (size_t end = size; end > 1;) {
+        size_t begin = end > BLOCK + 1 ? end - BLOCK : 1;
+        memcpy(before, bytes + begin - 1, end - begin);
+        for (size_t i = begin; i < end; i++)
+            bytes[i] = (unsigned char)(bytes[i] - before[i - begin] + 128);
+        end = begin;
+    }
 }
 
 /* The pipeline's buffer for what is compressed, which it frees; NULL: out of memory. */
@@ -44,12 +50,12 @@ exr_result_t meso_exr_deflate(exr_encode_pipeline_t *pipeline)
 {
     size_t size = pipeline->packed_bytes;
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);
-    unsigned char *scratch = malloc(2 * size + 1);
+    unsigned char *scratch = malloc(size + 1);
     size_t room = compressor && scratch ? libdeflate_zlib_compress_bound(compressor, size) : 0;
     unsigned char *out = room ? make_room(pipeline, room > size ? room : size) : NULL;
     if (out) {
-        split_bytes(scratch + size, pipeline->packed_buffer, size);
-        take_differences(scratch, scratch + size, size);
+        split_bytes(scratch, pipeline->packed_buffer, size);
+        take_differences(scratch, size);
         size_t packed = libdeflate_zlib_compress(compressor, scratch, size, out, room);
         if (packed == 0 || packed >= size) {
             memcpy(out, pipeline->packed_buffer, size);

@@ -10,7 +10,7 @@
 typedef struct Stream {
     MesoOutput *output;
     MesoStatus status;
-    MesoError *error;
+    MesoError error;
 } Stream;
 
 static uint8_t to_byte(float x)
@@ -55,7 +55,7 @@ static void with_alpha(MesoTone tone, const float *color, uint8_t *out)
 static void write_stream(png_structp png, png_bytep data, png_size_t size)
 {
     Stream *stream = png_get_io_ptr(png);
-    stream->status = meso_output_write(stream->output, data, size, stream->error);
+    stream->status = meso_output_write(stream->output, data, size, &stream->error);
     if (stream->status)
         png_error(png, "write");
 }
@@ -71,7 +71,7 @@ static png_voidp allocate(png_structp png, png_alloc_size_t size)
     void *memory = malloc(size);
     Stream *stream = png_get_mem_ptr(png);
     if (!memory && !stream->status)
-        stream->status = meso_fail(stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
+        stream->status = meso_fail(&stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
     return memory;
 }
 
@@ -85,7 +85,7 @@ static void on_error(png_structp png, png_const_charp message)
 {
     Stream *stream = png_get_error_ptr(png);
     if (!stream->status)
-        stream->status = meso_fail(stream->error, MESO_ERR_INTERNAL, "libpng failed: %s", message);
+        stream->status = meso_fail(&stream->error, MESO_ERR_INTERNAL, "libpng failed: %s", message);
     png_longjmp(png, 1);
 }
 
@@ -97,13 +97,14 @@ static void on_warning(png_structp png, png_const_charp message)
 
 /* What is written, row by row from the top. */
 typedef struct Rows {
-    uint32_t width, height;
+    uint32_t width, height;     /* of the whole */
     int depth, color_type;
     bool is_srgb;
     void (*fill)(const struct Rows *rows, size_t y, uint8_t *row);
     const MesoImage *image;
     const MesoPngLook *look;
     float *behind;              /* [3 * width] scratch, where there is a backdrop */
+    uint32_t first_row;         /* of the band in the whole */
     const float *values;        /* [width * height] numbers as they are, from `low` to `high` */
     float low, high;
 } Rows;
@@ -113,7 +114,7 @@ static void fill_picture(const Rows *rows, size_t y, uint8_t *row)
     const MesoPngLook *look = rows->look;
     const float *color = rows->image->color + 4 * y * rows->width;
     if (look->backdrop && !look->transparent)
-        look->backdrop(look->context, (uint32_t)y, rows->behind);
+        look->backdrop(look->context, rows->first_row + (uint32_t)y, rows->behind);
     for (size_t x = 0; x < rows->width; x++)
         if (look->transparent)
             with_alpha(look->tone, color + 4 * x, row + 4 * x);
@@ -135,81 +136,141 @@ static void fill_values(const Rows *rows, size_t y, uint8_t *row)
     }
 }
 
-static void write_rows(png_structp png, png_infop info, const Rows *rows, char *provenance, uint8_t *row)
+struct MesoPngWriter {
+    Rows rows;
+    png_structp png;
+    png_infop info;
+    uint8_t *row;
+    MesoArena arena;
+    Stream stream;
+};
+
+static void write_info(MesoPngWriter *w, char *provenance)
 {
-    png_set_IHDR(png, info, rows->width, rows->height, rows->depth, rows->color_type, PNG_INTERLACE_NONE,
+    const Rows *rows = &w->rows;
+    png_set_IHDR(w->png, w->info, rows->width, rows->height, rows->depth, rows->color_type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (rows->is_srgb)
-        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+        png_set_sRGB(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_text text = {.compression = PNG_ITXT_COMPRESSION_NONE, .key = (png_charp)"meso:provenance",
                      .text = provenance};
-    png_set_text(png, info, &text, 1);
-    png_set_compression_level(png, 6);
-    png_write_info(png, info);
-    for (size_t y = 0; y < rows->height; y++) {
-        rows->fill(rows, y, row);
-        png_write_row(png, row);
-    }
-    png_write_end(png, info);
+    png_set_text(w->png, w->info, &text, 1);
+    png_set_compression_level(w->png, 6);
+    png_write_info(w->png, w->info);
 }
 
-/* libpng leaves by a jump: what it would clobber lives in the caller. */
-static MesoStatus write_or_fail(png_structp png, png_infop info, Stream *stream, const Rows *rows, char *provenance,
-                                uint8_t *row)
+static void write_rows(MesoPngWriter *w, uint32_t count)
 {
-    if (setjmp(png_jmpbuf(png)))
-        return stream->status;
-    write_rows(png, info, rows, provenance, row);
+    for (size_t y = 0; y < count; y++) {
+        w->rows.fill(&w->rows, y, w->row);
+        png_write_row(w->png, w->row);
+    }
+    w->rows.first_row += count;
+}
+
+static MesoStatus failure_of(const MesoPngWriter *w, MesoError *error)
+{
+    if (w->stream.status && error)
+        *error = w->stream.error;
+    return w->stream.status;
+}
+
+/* libpng leaves by jumps, to whoever called it last. */
+static MesoStatus start(MesoPngWriter *w, char *provenance, MesoError *error)
+{
+    w->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &w->stream, on_error, on_warning, &w->stream, allocate,
+                                       release);
+    w->info = w->png ? png_create_info_struct(w->png) : NULL;
+    if (!w->info)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: PNG");
+    if (setjmp(png_jmpbuf(w->png)))
+        return failure_of(w, error);
+    png_set_write_fn(w->png, &w->stream, write_stream, flush_stream);
+    write_info(w, provenance);
     return MESO_OK;
 }
 
-static MesoStatus write_png(Stream *stream, const Rows *rows, char *provenance, uint8_t *row)
-{
-    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, on_error, on_warning, stream, allocate,
-                                                release);
-    png_infop info = png ? png_create_info_struct(png) : NULL;
-    MesoStatus status;
-    if (info) {
-        png_set_write_fn(png, stream, write_stream, flush_stream);
-        status = write_or_fail(png, info, stream, rows, provenance, row);
-    } else {
-        status = meso_fail(stream->error, MESO_ERR_MEMORY, "out of memory: PNG");
-    }
-    png_destroy_write_struct(&png, &info);
-    return status;
-}
-
-static MesoStatus write_with(Rows *rows, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+static MesoStatus begin(MesoPngWriter **out, const Rows *rows, const MesoProvenance *provenance, MesoOutput *output,
+                        MesoError *error)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    Stream stream = {output, MESO_OK, error};
-    MesoStatus status = MESO_ERR_MEMORY;
-    const char *text = meso_provenance_text(provenance, &arena, error);
-    char *copy = text ? meso_arena_copy_text(&arena, text, error) : NULL;
-    uint8_t *row = copy ? MESO_NEW(&arena, uint8_t, 4 * (size_t)rows->width, error) : NULL;
-    if (row && rows->look && rows->look->backdrop)
-        rows->behind = MESO_NEW(&arena, float, 3 * (size_t)rows->width, error);
-    if (row && (rows->behind || !rows->look || !rows->look->backdrop))
-        status = write_png(&stream, rows, copy, row);
+    MesoPngWriter *w = *out = MESO_NEW(&arena, MesoPngWriter, 1, error);
+    if (!w)
+        return MESO_ERR_MEMORY;
+    *w = (MesoPngWriter){.rows = *rows, .arena = arena, .stream = {.output = output}};
+    const char *text = meso_provenance_text(provenance, &w->arena, error);
+    char *copy = text ? meso_arena_copy_text(&w->arena, text, error) : NULL;
+    w->row = copy ? MESO_NEW(&w->arena, uint8_t, 4 * (size_t)rows->width, error) : NULL;
+    bool backdrop = rows->look && rows->look->backdrop;
+    if (w->row && backdrop)
+        w->rows.behind = MESO_NEW(&w->arena, float, 3 * (size_t)rows->width, error);
+    return w->row && (!backdrop || w->rows.behind) ? start(w, copy, error) : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_png_band(MesoPngWriter *w, uint32_t rows, MesoError *error)
+{
+    if (setjmp(png_jmpbuf(w->png)))
+        return failure_of(w, error);
+    write_rows(w, rows);
+    return MESO_OK;
+}
+
+static MesoStatus finish(MesoPngWriter *w, MesoError *error)
+{
+    if (setjmp(png_jmpbuf(w->png)))
+        return failure_of(w, error);
+    png_write_end(w->png, w->info);
+    return MESO_OK;
+}
+
+MesoStatus meso_png_end(MesoPngWriter *w, MesoStatus status, MesoError *error)
+{
+    if (!w)
+        return status;
+    if (!status)
+        status = finish(w, error);
+    png_destroy_write_struct(&w->png, &w->info);
+    MesoArena arena = w->arena;
     meso_arena_release(&arena);
     return status;
+}
+
+static MesoStatus write_with(const Rows *rows, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+{
+    MesoPngWriter *writer;
+    MesoStatus status = begin(&writer, rows, provenance, output, error);
+    if (!status)
+        status = meso_png_band(writer, rows->height, error);
+    return meso_png_end(writer, status, error);
+}
+
+static Rows picture_rows(const MesoImage *image, uint32_t height, const MesoPngLook *look)
+{
+    return (Rows){
+        .width = image->width, .height = height, .depth = 8, .is_srgb = true, .fill = fill_picture,
+        .color_type = look->transparent ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, .image = image, .look = look,
+    };
+}
+
+MesoStatus meso_png_begin(MesoPngWriter **writer, const MesoImage *band, uint32_t height, const MesoPngLook *look,
+                          const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+{
+    const Rows rows = picture_rows(band, height, look);
+    return begin(writer, &rows, provenance, output, error);
 }
 
 MesoStatus meso_png_write(const MesoImage *image, const MesoPngLook *look, const MesoProvenance *provenance,
                           MesoOutput *output, MesoError *error)
 {
-    Rows rows = {
-        .width = image->width, .height = image->height, .depth = 8, .is_srgb = true, .fill = fill_picture,
-        .color_type = look->transparent ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, .image = image, .look = look,
-    };
+    const Rows rows = picture_rows(image, image->height, look);
     return write_with(&rows, provenance, output, error);
 }
 
 MesoStatus meso_png_write_values(const MesoImageValues *values, const MesoProvenance *provenance, MesoOutput *output,
                                  MesoError *error)
 {
-    Rows rows = {
+    const Rows rows = {
         .width = values->width, .height = values->height, .depth = 16, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA,
         .fill = fill_values, .values = values->values, .low = values->low, .high = values->high,
     };

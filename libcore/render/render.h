@@ -10,7 +10,8 @@
 
 /* Variables that are made where they are asked for, and not by GL. */
 typedef enum MesoImageExtra {
-    MESO_EXTRA_POSITION = 1, MESO_EXTRA_UV = 2, MESO_EXTRA_OCCLUSION = 4, MESO_EXTRA_MATERIAL = 8, MESO_EXTRA_MATTES = 16
+    MESO_EXTRA_POSITION = 1, MESO_EXTRA_UV = 2, MESO_EXTRA_OCCLUSION = 4, MESO_EXTRA_MATERIAL = 8,
+    MESO_EXTRA_MATTES = 16, MESO_EXTRA_MOTION = 32
 } MesoImageExtra;
 
 /* Rows from top to bottom. Of the arrays none is NULL but those of extras, which are where they were asked for. */
@@ -28,8 +29,10 @@ typedef struct MesoImage {
     float *uv;          /* [2 * width * height] */
     float *openness;    /* [width * height] share of the sky that is seen; 1 where empty */
     float *material;    /* [2 * width * height] roughness and metallic */
+    float *motion;      /* [2 * width * height] pixels to its place in the next frame, right and up; 0 where empty */
     uint32_t matte_count;
     MesoMatte mattes[MESO_ID_CHANNELS + 1];     /* of the channels, and of materials */
+    MesoWindow covered; /* box of what is not clear in the whole picture, where it was asked for; empty: nothing is */
 } MesoImage;
 
 typedef struct MesoRenderOptions {
@@ -42,6 +45,11 @@ typedef struct MesoRenderOptions {
     const struct MesoEnvironment *environment;      /* the light (environment.h); NULL: one that comes with the camera;
                                                      * without GL */
     float vary;                 /* how much colours differ from thing to thing (light/vary.h); without GL */
+    uint32_t color_ids;         /* channel + 1 whose ids give the colours (id_color.h); 0: materials do; without GL */
+    uint32_t band_rows;         /* of a picture that is painted in bands (picture/tile_picture.h); 0: by their memory */
+    MesoCamera next_camera;     /* of the next frame, for motion */
+    const MesoScene *next_scene;    /* alike (picture/motion.h); NULL: the same */
+    bool find_covered;          /* fill in `covered` of the image; without GL */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;
 

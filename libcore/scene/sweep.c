@@ -291,35 +291,59 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
     return out;
 }
 
+/* Of the ring at v. */
+static Plane cap_plane(const MesoScene *scene, const MesoSweepInstance *cap, float v)
+{
+    Plane plane = make_plane(cap->p[0], cap->up[0], cap->direction[0], 0);
+    float rise = scene->section_scale * (MESO_CAP_RISE * cap->size[0]);
+    plane.origin = meso_vec3_mad(plane.origin, rise * v, plane.tangent);
+    return plane;
+}
+
+static MesoMeshVertex cap_vertex(const MesoScene *scene, const MesoSweepInstance *cap, const Plane *plane,
+                                 const MesoSweepColumn *column, float v)
+{
+    float rise = MESO_CAP_RISE * cap->size[0], radius = 1 - v * v * v * v;
+    MesoVec2 at = meso_vec2_scale(column->start, cap->size[0]), n = column->start_normal;
+    if (v == 0 && scene->deform == MESO_SWEEP_SHAPE)
+        at = on_grain(at);
+    float lean = 4 * v * v * v * (at.x * n.x + at.y * n.y);
+    MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(plane, n), rise), lean, plane->tangent);
+    return sweep_vertex(plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scene->section_scale, column->u, v);
+}
+
 static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *cap,
                                     const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    float scale = scene->section_scale, rise = MESO_CAP_RISE * cap->size[0];
     uint32_t last = grid->ring_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
-        float v = (float)ring / (float)last, radius = 1 - v * v * v * v;
-        Plane plane = make_plane(cap->p[0], cap->up[0], cap->direction[0], 0);
-        plane.origin = meso_vec3_mad(plane.origin, scale * rise * v, plane.tangent);
-        for (uint32_t c = 0; c < grid->column_count; c++) {
-            const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
-            MesoVec2 at = meso_vec2_scale(column->start, cap->size[0]), n = column->start_normal;
-            if (ring == 0 && scene->deform == MESO_SWEEP_SHAPE)
-                at = on_grain(at);
-            float lean = 4 * v * v * v * (at.x * n.x + at.y * n.y);
-            MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(&plane, n), rise), lean, plane.tangent);
-            *out++ = sweep_vertex(&plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scale, column->u, v);
-        }
+        float v = (float)ring / (float)last;
+        Plane plane = cap_plane(scene, cap, v);
+        for (uint32_t c = 0; c < grid->column_count; c++)
+            *out++ = cap_vertex(scene, cap, &plane, &columns[grid->columns ? grid->columns[c] : c], v);
     }
     return out;
+}
+
+static MesoVec3 cap_point(const MesoScene *scene, const MesoSweepInstance *cap, const MesoSweepColumn *column, float v)
+{
+    Plane plane = cap_plane(scene, cap, v);
+    return cap_vertex(scene, cap, &plane, column, v).position;
+}
+
+static MesoVec3 single_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                             const MesoSweepColumn *column, float v)
+{
+    Track track = make_track(scene, kind, sweep);
+    Ring ring = ring_at(scene, &track, v);
+    return tube_vertex(scene, &track, &ring, column).position;
 }
 
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepColumn *column, float v)
 {
-    Track track = make_track(scene, kind, sweep);
-    Ring ring = ring_at(scene, &track, v);
-    MesoVec3 point = tube_vertex(scene, &track, &ring, column).position;
+    MesoVec3 point = kind->cap ? cap_point(scene, sweep, column, v) : single_point(scene, kind, sweep, column, v);
     return scene->deform == MESO_SWEEP_SHAPE ? meso_cell_point(&scene->cages[sweep->cage], point) : point;
 }
 

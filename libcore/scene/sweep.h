@@ -4,7 +4,7 @@
 
 #include "libcore/scene/scene.h"
 
-/* P of an instance of a swept kind that is no cap, at one of its columns, or one like them, and v in [0,1]. */
+/* P of an instance of a swept kind, a cap too, at one of its columns, or one like them, and v in [0,1]. */
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepColumn *column, float v);
 

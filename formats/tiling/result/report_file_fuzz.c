@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "formats/tiling/result/report_file.h"
+#include "formats/tiling/result/report_slots.h"
 #include "libcore/base/bits.h"
 #include "libcore/tiling/solve/suggest.h"
 
@@ -28,6 +29,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                     abort();
         meso_suggest(&suggestion, &arena, &set, report.dead_end_count, report.dead_ends, &error);
     }
+    MesoReportSlots slots;
+    if (meso_report_slots_read(&slots, &arena, &input, 3, &error) == MESO_OK && slots.in_core[0] + slots.in_core[1] > 2)
+        abort();
     meso_arena_release(&arena);
     return 0;
 }

@@ -2,15 +2,23 @@
 
 #include "libcore/render/light/light_rig.h"
 #include "libcore/render/light/vary.h"
+#include "libcore/render/picture/covered.h"
+#include "libcore/render/picture/motion.h"
 #include "libcore/render/raster/raster_tiles.h"
+#include "libcore/scene/id_color.h"
 
 /* How far thinned geometry may lie from its own, in pixels. */
 static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.125f;
 
 enum { MOST_SAMPLES = 16 };
 
-typedef struct Picture {
-    MesoImage *image;
+typedef struct MesoTilePainter Picture;
+
+struct MesoTilePainter {
+    MesoImage *image;           /* the band */
+    uint32_t first_row;         /* of it in the picture */
+    bool things_only;           /* nothing but mattes and alpha */
+    uint32_t thread_count;
     const MesoRenderOptions *options;
     const MesoScene *scene;
     MesoShapes shapes;
@@ -18,7 +26,10 @@ typedef struct Picture {
     MesoRasterView raster;
     MesoLightRig rig;
     uint32_t varied;            /* channel whose things differ in colour, or MESO_NO_INDEX */
-} Picture;
+    MesoRasterJob job;
+    MesoRasterBins *bins;
+    MesoMotion motion;          /* where it is asked for */
+};
 
 /* Half of the way to the nearest thing, but a share of the way to the farthest; the eye's plane of a parallel view. */
 static float near_depth_of(const MesoView *view, const MesoBox *box)
@@ -61,6 +72,10 @@ static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sampl
         m.albedo[c] = (a->albedo[c] + (b->albedo[c] - a->albedo[c]) * share) * sample->color[c];
     m.roughness = a->roughness + (b->roughness - a->roughness) * share;
     m.metallic = a->metallic + (b->metallic - a->metallic) * share;
+    if (p->options->color_ids) {
+        meso_id_color(m.albedo, meso_scene_id(p->scene, look.ids, p->options->color_ids - 1));
+        m.metallic = 0;
+    }
     return m;
 }
 
@@ -140,6 +155,8 @@ static void put_middle(const Picture *p, const MesoSurfaceSample *sample, size_t
         image->position[3 * pixel + 1] = at.y;
         image->position[3 * pixel + 2] = at.z;
     }
+    if (image->motion)
+        meso_motion_at(&p->motion, sample, image->motion + 2 * pixel);
     if (image->uv) {
         image->uv[2 * pixel] = sample->uv.x;
         image->uv[2 * pixel + 1] = sample->uv.y;
@@ -172,15 +189,32 @@ static void put_nothing(MesoImage *image, size_t pixel)
         image->ids[c][pixel] = 0;
     if (image->openness)
         image->openness[pixel] = 1;
+    for (size_t c = 0; image->position && c < 3; c++)
+        image->position[3 * pixel + c] = 0;
+    for (size_t c = 0; c < 2; c++) {
+        if (image->uv)
+            image->uv[2 * pixel + c] = 0;
+        if (image->material)
+            image->material[2 * pixel + c] = 0;
+        if (image->motion)
+            image->motion[2 * pixel + c] = 0;
+    }
 }
 
-static void take_pixel(const Picture *p, MesoRasterTile *tile, MesoWindow window, uint32_t x, uint32_t y)
+static void put_mattes(const Picture *p, size_t pixel, uint32_t (*things)[MOST_SAMPLES])
+{
+    for (uint32_t m = 0; m < p->image->matte_count; m++)
+        meso_matte_put(&p->image->mattes[m], pixel, things[m], p->options->samples);
+}
+
+/* `pixel` is its number in the band. */
+static void take_pixel(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
 {
     Group groups[MOST_SAMPLES];
     MesoSurfaceSample sample;
     uint32_t samples = p->options->samples, count = 0, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
+    MesoWindow window = meso_raster_tile_window(tile);
     bool middle = false;
-    size_t pixel = (size_t)(window.y + y) * p->image->width + window.x + x;
     float *color = p->image->color + 4 * pixel;
     color[0] = color[1] = color[2] = color[3] = 0;
     for (uint32_t i = 0; i < samples; i++) {
@@ -202,20 +236,45 @@ static void take_pixel(const Picture *p, MesoRasterTile *tile, MesoWindow window
         if (p->image->openness && g == 0 && middle)
             p->image->openness[pixel] = openness;
     }
-    for (uint32_t m = 0; m < p->image->matte_count; m++)
-        meso_matte_put(&p->image->mattes[m], pixel, things[m], samples);
+    put_mattes(p, pixel, things);
     if (p->options->ground && seen < samples)
         shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f,
                      (float)(samples - seen) / (float)samples, color);
+}
+
+/* What is there, without light. */
+static void take_things(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
+{
+    MesoSurfaceSample sample;
+    MesoWindow window = meso_raster_tile_window(tile);
+    uint32_t samples = p->options->samples, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
+    float *color = p->image->color + 4 * pixel;
+    for (uint32_t i = 0; i < samples; i++) {
+        bool there = meso_raster_tile_sample(tile, x, y, i, &sample);
+        note_things(p, there ? &sample : NULL, i, things);
+        seen += there;
+    }
+    put_mattes(p, pixel, things);
+    color[3] = (float)seen;
+    if (p->options->ground && seen == 0)
+        shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f, 1, color);
 }
 
 static void take_tile(void *context, MesoRasterTile *tile)
 {
     const Picture *p = context;
     MesoWindow window = meso_raster_tile_window(tile);
-    for (uint32_t y = 0; y < window.height; y++)
-        for (uint32_t x = 0; x < window.width; x++)
-            take_pixel(p, tile, window, x, y);
+    for (uint32_t y = 0; y < window.height; y++) {
+        uint32_t row = window.y + y;
+        if (row < p->first_row || row - p->first_row >= p->image->height)
+            continue;
+        size_t pixel = (size_t)(row - p->first_row) * p->image->width + window.x;
+        for (uint32_t x = 0; x < window.width; x++, pixel++)
+            if (p->things_only)
+                take_things(p, tile, x, y, pixel);
+            else
+                take_pixel(p, tile, x, y, pixel);
+    }
 }
 
 /* ---- extras ---- */
@@ -256,41 +315,133 @@ static MesoStatus make_extras(MesoImage *image, MesoArena *arena, const MesoScen
     bool made = make_extra(&image->position, image, asked, MESO_EXTRA_POSITION, 3, arena, error) &&
                 make_extra(&image->uv, image, asked, MESO_EXTRA_UV, 2, arena, error) &&
                 make_extra(&image->openness, image, asked, MESO_EXTRA_OCCLUSION, 1, arena, error) &&
-                make_extra(&image->material, image, asked, MESO_EXTRA_MATERIAL, 2, arena, error);
+                make_extra(&image->material, image, asked, MESO_EXTRA_MATERIAL, 2, arena, error) &&
+                make_extra(&image->motion, image, asked, MESO_EXTRA_MOTION, 2, arena, error);
     if (!made)
         return MESO_ERR_MEMORY;
     return asked & MESO_EXTRA_MATTES ? make_mattes(image, arena, scene, error) : MESO_OK;
 }
 
-/* ---- all of it ---- */
+/* ---- all of it, or bands ---- */
+
+/* What a pixel takes in an image. */
+static size_t pixel_bytes(const MesoScene *scene, const MesoRenderOptions *options)
+{
+    const size_t usual = sizeof(float) * (4 + 1 + 3 + 3), ids = sizeof(uint32_t) * scene->channel_count;
+    const size_t mattes = 2 * MESO_MATTE_RANKS * sizeof(float) * (scene->channel_count + 1);
+    unsigned asked = options->extras;
+    return usual + ids + (asked & MESO_EXTRA_POSITION ? 3 * sizeof(float) : 0) +
+           (asked & MESO_EXTRA_UV ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_OCCLUSION ? sizeof(float) : 0) +
+           (asked & MESO_EXTRA_MATERIAL ? 2 * sizeof(float) : 0) +
+           (asked & MESO_EXTRA_MOTION ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_MATTES ? mattes : 0);
+}
+
+/* A tile that more than one band has rows of is drawn for each of them. */
+uint32_t meso_tile_band_rows(const MesoScene *scene, const MesoRenderOptions *options)
+{
+    enum { LEAST = 16 };
+    uint32_t tile = meso_raster_tile_rows(options->samples);
+    size_t rows = MESO_BAND_BYTES / (options->width * pixel_bytes(scene, options));
+    if (options->band_rows)
+        rows = (options->band_rows + LEAST - 1) / LEAST * LEAST;
+    else if (rows >= tile)
+        rows -= rows % tile;
+    else
+        for (size_t most = rows, half = rows = tile; half >= LEAST && rows > most; half /= 2)
+            rows = half;
+    return rows < options->height ? (uint32_t)rows : options->height;
+}
+
+static MesoStatus make_band(MesoImage *band, MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
+                            MesoError *error)
+{
+    size_t bytes, least;
+    MesoStatus status = meso_render_memory(scene, options, &bytes, &least, error);
+    if (status)
+        return status;
+    MesoRenderOptions rows = *options;
+    rows.height = meso_tile_band_rows(scene, options);
+    status = meso_render_memory(scene, &rows, &bytes, &least, error);
+    unsigned char *memory = status ? NULL : MESO_NEW(arena, unsigned char, bytes + 64, error);
+    if (!memory)
+        return status ? status : MESO_ERR_MEMORY;
+    meso_image_place(band, memory + (64 - (size_t)(uintptr_t)memory % 64) % 64, scene, &rows);
+    return make_extras(band, arena, scene, options->extras, error);
+}
+
+static MesoStatus paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
+{
+    uint32_t left = p->options->height - first_row;
+    band->height = band->height < left ? band->height : left;
+    p->image = band;
+    p->first_row = first_row;
+    return meso_raster_rows(p->bins, first_row, first_row + band->height, p->thread_count, take_tile, p, error);
+}
+
+MesoStatus meso_tile_paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
+{
+    MesoStatus status = paint(p, band, first_row, error);
+    if (!status && p->options->find_covered && band->height == p->options->height)
+        meso_covered_add(&band->covered, band, 0);
+    return status;
+}
+
+static MesoStatus look_through(MesoTilePainter *p, MesoImage *band, MesoError *error)
+{
+    MesoStatus status = MESO_OK;
+    uint32_t rows = band->height;
+    p->things_only = true;
+    for (uint32_t row = 0; row < p->options->height && !status; row += rows) {
+        status = paint(p, band, row, error);
+        if (!status)
+            meso_covered_add(&band->covered, band, row);
+    }
+    p->things_only = false;
+    band->height = rows;
+    return status;
+}
+
+MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
+                                  const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+{
+    MesoTilePainter *p = *painter = MESO_NEW(arena, MesoTilePainter, 1, error);
+    if (!p)
+        return MESO_ERR_MEMORY;
+    *p = (MesoTilePainter){.options = options, .scene = scene, .varied = meso_vary_channel(scene),
+                           .thread_count = thread_count};
+    MesoStatus status = meso_view_build(&p->view, &options->camera, error);
+    if (!status)
+        status = make_band(band, arena, scene, options, error);
+    if (status)
+        return status;
+    p->view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
+    status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, thread_count, error);
+    MesoLightQuality quality = meso_light_quality(options->samples);
+    if (!status)
+        status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view,
+                                     meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p->view.up)),
+                                     options->environment, &quality, thread_count, error);
+    if (status)
+        return status;
+    p->raster = meso_raster_view(&p->view, options->width, options->height, near_depth_of(&p->view, &scene->box));
+    p->job = (MesoRasterJob){
+        .shapes = &p->shapes, .view = p->raster, .width = options->width, .height = options->height,
+        .samples = options->samples,
+        .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
+    status = meso_raster_bins_init(&p->bins, arena, &p->job, thread_count, error);
+    if (!status && options->extras & MESO_EXTRA_MOTION)
+        status = meso_motion_init(&p->motion, arena, &p->job, options, thread_count, error);
+    bool in_bands = band->height < options->height;
+    bool wanted = band->matte_count || options->find_covered;
+    return !status && in_bands && wanted ? look_through(p, band, error) : status;
+}
 
 MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
 {
-    Picture p = {.image = image, .options = options, .scene = scene, .varied = meso_vary_channel(scene)};
-    size_t bytes, least;
-    MesoStatus status = meso_render_memory(scene, options, &bytes, &least, error);
-    if (!status)
-        status = meso_view_build(&p.view, &options->camera, error);
-    if (status)
-        return status;
-    unsigned char *memory = MESO_NEW(arena, unsigned char, bytes + 64, error);
-    if (!memory)
-        return MESO_ERR_MEMORY;
-    meso_image_place(image, memory + (64 - (size_t)(uintptr_t)memory % 64) % 64, scene, options);
-    p.view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
-    status = make_extras(image, arena, scene, options->extras, error);
-    if (status)
-        return status;
-    status = meso_shapes_init(&p.shapes, arena, scene, p.view.anchor, thread_count, error);
-    MesoLightQuality quality = meso_light_quality(options->samples);
-    if (!status)
-        status = meso_light_rig_init(&p.rig, arena, &p.shapes, &p.view, meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p.view.up)),
-                                     options->environment, &quality, thread_count, error);
-    p.raster = meso_raster_view(&p.view, options->width, options->height, near_depth_of(&p.view, &scene->box));
-    const MesoRasterJob job = {
-        .shapes = &p.shapes, .view = p.raster, .width = options->width, .height = options->height,
-        .samples = options->samples,
-        .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
-    return status ? status : meso_raster_tiles(&job, arena, thread_count, take_tile, &p, error);
+    MesoTilePainter *painter;
+    MesoRenderOptions whole = *options;
+    whole.band_rows = options->height;
+    MesoStatus status = meso_tile_painter_init(&painter, image, arena, scene, &whole, thread_count, error);
+    return status ? status : meso_tile_paint(painter, image, 0, error);
 }

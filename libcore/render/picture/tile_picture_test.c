@@ -1,6 +1,7 @@
 /*
  * Pictures of a bundle of bent tubes and a ball: what a ray through each pixel meets first, the same as GL draws, at any
- * number of threads, from inside, far from the origin; light that nothing holds off, and shadows where they must fall.
+ * number of threads, in bands, from inside, far from the origin; light that nothing holds off, and shadows where they
+ * must fall.
  */
 #include "libcore/render/picture/tile_picture.h"
 
@@ -247,6 +248,59 @@ static void test_threads(const Bundle *b, MesoVec3 at)
     }
 }
 
+/* Rows of `whole` from that row on. */
+static MesoImage rows_from(const MesoImage *whole, uint32_t row, uint32_t height)
+{
+    MesoImage part = *whole;
+    size_t first = (size_t)row * whole->width;
+    part.height = height;
+    part.color += 4 * first;
+    part.depth += first;
+    part.normal += 3 * first;
+    part.albedo += 3 * first;
+    part.ids[0] += first;
+    return part;
+}
+
+/* In bands of half a tile, and of one: every pixel as in the whole picture, what is seen, too. */
+static void test_bands(const Bundle *b, MesoVec3 at)
+{
+    for (uint32_t rows = 32; rows <= 64; rows += 32) {
+        MesoRenderOptions options = look(at, (MesoVec3){1, 2, 5}, 4);
+        options.ground = true;
+        options.extras = MESO_EXTRA_POSITION | MESO_EXTRA_MATTES;
+        options.band_rows = rows;
+        MesoImage whole = draw(b, &options, 2), band;
+        MesoTilePainter *painter;
+        CHECK(meso_tile_painter_init(&painter, &band, &arena, &b->scene, &options, 2, &error) == MESO_OK);
+        CHECK(band.height == rows && band.mattes[0].seen[0] == whole.mattes[0].seen[0] && whole.mattes[0].seen[0] != 0);
+        for (uint32_t row = 0; row < HEIGHT; row += band.height) {
+            CHECK(meso_tile_paint(painter, &band, row, &error) == MESO_OK);
+            MesoImage part = rows_from(&whole, row, band.height);
+            size_t first = (size_t)row * WIDTH, count = (size_t)band.height * WIDTH;
+            CHECK(same_pixels(&band, &part));
+            CHECK(memcmp(band.position, whole.position + 3 * first, 12 * count) == 0);
+            CHECK(memcmp(band.mattes[1].ranks, whole.mattes[1].ranks + 2 * MESO_MATTE_RANKS * first,
+                         2 * MESO_MATTE_RANKS * 4 * count) == 0);
+        }
+    }
+}
+
+/* What a band takes is bounded, and is whole tiles where those fit. */
+static void test_plan(const Bundle *b)
+{
+    for (uint32_t samples = 1; samples <= 16; samples *= 4) {
+        MesoRenderOptions options = {.width = 16384, .height = 16384, .samples = samples};
+        uint32_t rows = meso_tile_band_rows(&b->scene, &options);
+        CHECK(rows == 64 && rows % 16 == 0 && 48.0 * 16384 * rows <= MESO_BAND_BYTES);
+        options.extras = ~0u;
+        rows = meso_tile_band_rows(&b->scene, &options);
+        CHECK(rows >= 16 && rows % 16 == 0 && 176.0 * 16384 * rows <= MESO_BAND_BYTES);
+        options.width = 1280, options.height = 720, options.extras = 0;
+        CHECK(meso_tile_band_rows(&b->scene, &options) == 720);
+    }
+}
+
 /* Of an image's ground: where nothing stands before it. */
 static double ground_difference(const MesoImage *a, const MesoImage *b)
 {
@@ -424,6 +478,8 @@ int main(void)
     test_gl(&b, origin, outside, 2.5f, 4);
     test_gl(&b, origin, (MesoVec3){0.04f, 0.05f, 0.09f}, 2.5f, 1);
     test_threads(&b, origin);
+    test_bands(&b, origin);
+    test_plan(&b);
     test_vary(&b);
     test_up(&b);
     make_bundle(&b, far);

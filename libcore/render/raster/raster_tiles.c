@@ -14,15 +14,15 @@ typedef struct TileRange {
     uint16_t left, top, right, bottom;
 } TileRange;
 
-typedef struct Bins {
-    const MesoRasterJob *job;
+struct MesoRasterBins {
+    MesoRasterJob job;
     MesoRasterLanes lanes;
     float tile_pixels;
     uint32_t tiles_x, tiles_y;
     TileRange *ranges;          /* [shapes] */
     uint64_t *begin;            /* [tiles + 1] */
     uint32_t *shapes;           /* by tile, ascending */
-} Bins;
+};
 
 static uint16_t tile_at(float pixel, float tile_pixels, uint32_t tiles)
 {
@@ -32,13 +32,13 @@ static uint16_t tile_at(float pixel, float tile_pixels, uint32_t tiles)
 
 static void find_ranges(void *context, uint64_t begin, uint64_t end)
 {
-    Bins *bins = context;
-    float width = (float)bins->job->width, height = (float)bins->job->height;
+    MesoRasterBins *bins = context;
+    float width = (float)bins->job.width, height = (float)bins->job.height;
     for (uint64_t i = begin; i < end; i++) {
-        MesoRasterRect r = meso_raster_rect(&bins->job->view, &bins->job->shapes->bounds[i]);
+        MesoRasterRect r = meso_raster_rect(&bins->job.view, &bins->job.shapes->bounds[i]);
         bins->ranges[i] = (TileRange){1, 0, 0, 0};
         if (!(r.right > 0 && r.bottom > 0 && r.left < width && r.top < height) ||
-            (bins->job->samples == 1 && !meso_raster_rect_has_middle(&r)))
+            (bins->job.samples == 1 && !meso_raster_rect_has_middle(&r)))
             continue;
         bins->ranges[i] = (TileRange){tile_at(r.left, bins->tile_pixels, bins->tiles_x),
                                       tile_at(r.top, bins->tile_pixels, bins->tiles_y),
@@ -47,9 +47,9 @@ static void find_ranges(void *context, uint64_t begin, uint64_t end)
     }
 }
 
-static MesoStatus sort_shapes(Bins *bins, MesoArena *arena, MesoError *error)
+static MesoStatus sort_shapes(MesoRasterBins *bins, MesoArena *arena, MesoError *error)
 {
-    uint32_t count = bins->job->shapes->count;
+    uint32_t count = bins->job.shapes->count;
     uint64_t tiles = (uint64_t)bins->tiles_x * bins->tiles_y;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t y = bins->ranges[i].top; y <= bins->ranges[i].bottom; y++)
@@ -69,10 +69,13 @@ static MesoStatus sort_shapes(Bins *bins, MesoArena *arena, MesoError *error)
     return MESO_OK;
 }
 
-static MesoStatus make_bins(Bins *bins, const MesoRasterJob *job, MesoArena *arena, uint32_t thread_count,
-                            MesoError *error)
+MesoStatus meso_raster_bins_init(MesoRasterBins **out, MesoArena *arena, const MesoRasterJob *job,
+                                 uint32_t thread_count, MesoError *error)
 {
-    *bins = (Bins){.job = job, .lanes = meso_raster_lanes(job->samples)};
+    MesoRasterBins *bins = *out = MESO_NEW(arena, MesoRasterBins, 1, error);
+    if (!bins)
+        return MESO_ERR_MEMORY;
+    *bins = (MesoRasterBins){.job = *job, .lanes = meso_raster_lanes(job->samples)};
     uint32_t pixels = CELLS * bins->lanes.pixels;
     bins->tile_pixels = (float)pixels;
     bins->tiles_x = (job->width + pixels - 1) / pixels;
@@ -85,6 +88,11 @@ static MesoStatus make_bins(Bins *bins, const MesoRasterJob *job, MesoArena *are
     return sort_shapes(bins, arena, error);
 }
 
+uint32_t meso_raster_tile_rows(uint32_t samples)
+{
+    return CELLS * meso_raster_lanes(samples).pixels;
+}
+
 /* ---- a tile ---- */
 
 /* A shape of the tile whose triangles have been seen. */
@@ -95,7 +103,7 @@ typedef struct SeenShape {
 } SeenShape;
 
 struct MesoRasterTile {
-    const Bins *bins;
+    const MesoRasterBins *bins;
     MesoRasterTarget target;
     MesoWindow window;
     const uint32_t *shapes;     /* [shape_count] of the tile */
@@ -138,8 +146,7 @@ static bool make_room(MesoRasterTile *tile)
     return true;
 }
 
-/* What is wanted at the nearest point of the shape. */
-static float tolerance_of(const MesoRasterJob *job, uint32_t shape)
+float meso_raster_tolerance(const MesoRasterJob *job, uint32_t shape)
 {
     MesoRasterRect rect = meso_raster_rect(&job->view, &job->shapes->bounds[shape]);
     return job->tolerance * meso_raster_pixel(&job->view, rect.depth);
@@ -157,7 +164,7 @@ static MesoVec3 cut(MesoVec3 a, MesoVec3 b, float near_depth)
 static void draw_cut(MesoRasterTile *tile, const uint32_t *corners, uint32_t id)
 {
     static const uint32_t fans[6] = {0, 1, 2, 0, 2, 3};
-    const MesoRasterView *view = &tile->bins->job->view;
+    const MesoRasterView *view = &tile->bins->job.view;
     MesoRasterVertex vertices[4];
     uint32_t count = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -176,7 +183,7 @@ static void draw_cut(MesoRasterTile *tile, const uint32_t *corners, uint32_t id)
 /* Projects the mesh; false where some of it lies behind the near plane. */
 static bool project(MesoRasterTile *tile)
 {
-    const MesoRasterView *view = &tile->bins->job->view;
+    const MesoRasterView *view = &tile->bins->job.view;
     float left = (float)tile->window.x, top = (float)tile->window.y;
     bool before = true;
     for (uint32_t v = 0; v < tile->mesh.vertex_count; v++) {
@@ -193,7 +200,7 @@ static bool project(MesoRasterTile *tile)
 static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
 {
     const MesoShapeMesh *mesh = &tile->mesh;
-    float near_depth = tile->bins->job->view.near_depth;
+    float near_depth = tile->bins->job.view.near_depth;
     if (project(tile)) {
         meso_raster_draw(&tile->target, tile->projected, mesh->corners, mesh->triangle_count, first_id, false);
         return;
@@ -212,8 +219,8 @@ static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
 
 static bool draw_shape(MesoRasterTile *tile, uint32_t shape, uint32_t first_id)
 {
-    const MesoRasterJob *job = tile->bins->job;
-    if (!meso_shape_make(job->shapes, shape, tolerance_of(job, shape), MESO_SHAPE_SEEN, &tile->mesh))
+    const MesoRasterJob *job = &tile->bins->job;
+    if (!meso_shape_make(job->shapes, shape, meso_raster_tolerance(job, shape), MESO_SHAPE_SEEN, &tile->mesh))
         return false;
     if (tile->mesh.vertex_count > tile->vertex_room) {
         uint64_t room = 2 * (uint64_t)tile->mesh.vertex_count;
@@ -229,11 +236,11 @@ static bool draw_shape(MesoRasterTile *tile, uint32_t shape, uint32_t first_id)
 /* False where memory is out, or a tile has more triangles than 32 bits count. */
 static bool draw_tile(MesoRasterTile *tile, uint64_t number)
 {
-    const Bins *bins = tile->bins;
+    const MesoRasterBins *bins = tile->bins;
     uint32_t pixels = (uint32_t)bins->tile_pixels, x = (uint32_t)(number % bins->tiles_x) * pixels;
     uint32_t y = (uint32_t)(number / bins->tiles_x) * pixels;
-    tile->window = (MesoWindow){x, y, bins->job->width - x < pixels ? bins->job->width - x : pixels,
-                                bins->job->height - y < pixels ? bins->job->height - y : pixels};
+    tile->window = (MesoWindow){x, y, bins->job.width - x < pixels ? bins->job.width - x : pixels,
+                                bins->job.height - y < pixels ? bins->job.height - y : pixels};
     tile->shapes = bins->shapes + bins->begin[number];
     tile->shape_count = (uint32_t)(bins->begin[number + 1] - bins->begin[number]);
     tile->vertices_used = tile->corners_used = 0;
@@ -243,7 +250,7 @@ static bool draw_tile(MesoRasterTile *tile, uint64_t number)
         return true;
     if (!make_room(tile))
         return false;
-    meso_raster_clear(&tile->target, bins->job->view.parallel ? -INFINITY : 0);
+    meso_raster_clear(&tile->target, bins->job.view.parallel ? -INFINITY : 0);
     uint64_t id = 1;
     for (uint32_t i = 0; i < tile->shape_count; i++) {
         tile->first_ids[i] = (uint32_t)id;
@@ -287,10 +294,11 @@ static uint32_t find_shape(MesoRasterTile *tile, uint32_t id)
 /* Makes the shape again, and keeps it while the tile lasts. */
 static bool keep_shape(MesoRasterTile *tile, uint32_t i)
 {
-    const MesoRasterJob *job = tile->bins->job;
+    const MesoRasterJob *job = &tile->bins->job;
     MesoShapeMesh *mesh = &tile->mesh;
     SeenShape *seen = &tile->seen[i];
-    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance_of(job, tile->shapes[i]), MESO_SHAPE_WHOLE, mesh))
+    float tolerance = meso_raster_tolerance(job, tile->shapes[i]);
+    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance, MESO_SHAPE_WHOLE, mesh))
         return false;
     uint64_t vertices = tile->vertices_used + mesh->vertex_count;
     uint64_t corners = tile->corners_used + 3 * (uint64_t)mesh->triangle_count;
@@ -346,12 +354,12 @@ static MesoVec3 blend(MesoVec3 a, MesoVec3 b, MesoVec3 c, const float shares[3])
 static void look_at(const MesoRasterTile *tile, uint32_t i, float x, float y, MesoSurfaceSample *out)
 {
     const SeenShape *seen = &tile->seen[i];
-    const MesoRasterView *view = &tile->bins->job->view;
+    const MesoRasterView *view = &tile->bins->job.view;
     const uint32_t *c = tile->corners + seen->corner_begin + 3 * (uint64_t)out->triangle;
     uint64_t begin = seen->vertex_begin - 1, at[3] = {begin + c[0], begin + c[1], begin + c[2]};
     const MesoMeshVertex *v[3] = {&tile->vertices[at[0]], &tile->vertices[at[1]], &tile->vertices[at[2]]};
     const MesoVec3 corners[3] = {v[0]->position, v[1]->position, v[2]->position};
-    float shares[3];
+    float *shares = out->shares;
     bool behind;
     MesoRasterRay ray = meso_raster_ray(view, x, y);
     find_shares(corners, &ray, shares, &behind);
@@ -400,7 +408,7 @@ bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint3
 /* ---- all of them ---- */
 
 typedef struct Drawing {
-    const Bins *bins;
+    uint64_t first;             /* tile */
     MesoRasterTile **tiles;     /* one a worker */
     MesoTakeTile *take;
     void *context;
@@ -411,7 +419,7 @@ static void draw_tiles(void *context, uint32_t worker, uint64_t begin, uint64_t 
     const Drawing *d = context;
     MesoRasterTile *tile = d->tiles[worker];
     for (uint64_t number = begin; number < end && !tile->failed; number++) {
-        if (draw_tile(tile, number))
+        if (draw_tile(tile, d->first + number))
             d->take(d->context, tile);
         else
             tile->failed = true;
@@ -433,31 +441,34 @@ static void release(MesoRasterTile *tile)
     free(tile);
 }
 
-MesoStatus meso_raster_tiles(const MesoRasterJob *job, MesoArena *arena, uint32_t thread_count, MesoTakeTile *take,
-                             void *context, MesoError *error)
+static MesoRasterTile *make_tile(const MesoRasterBins *bins)
 {
-    Bins bins;
-    MesoStatus status = make_bins(&bins, job, arena, thread_count, error);
-    if (status)
-        return status;
-    uint64_t tiles = (uint64_t)bins.tiles_x * bins.tiles_y;
-    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
-    workers = workers < tiles ? workers : (uint32_t)tiles;
-    Drawing d = {&bins, MESO_NEW(arena, MesoRasterTile *, workers, error), take, context};
-    bool made = d.tiles != NULL;
-    for (uint32_t w = 0; made && w < workers; w++) {
-        d.tiles[w] = calloc(1, sizeof **d.tiles);
-        made = d.tiles[w] != NULL;
-        if (made) {
-            d.tiles[w]->bins = &bins;
-            d.tiles[w]->target = (MesoRasterTarget){&bins.lanes, CELLS, CELLS, d.tiles[w]->nearness, d.tiles[w]->ids};
-        }
+    MesoRasterTile *tile = calloc(1, sizeof *tile);
+    if (tile) {
+        tile->bins = bins;
+        tile->target = (MesoRasterTarget){&bins->lanes, CELLS, CELLS, tile->nearness, tile->ids};
     }
+    return tile;
+}
+
+MesoStatus meso_raster_rows(const MesoRasterBins *bins, uint32_t row_begin, uint32_t row_end, uint32_t thread_count,
+                            MesoTakeTile *take, void *context, MesoError *error)
+{
+    uint32_t pixels = (uint32_t)bins->tile_pixels;
+    uint64_t first = (uint64_t)bins->tiles_x * (row_begin / pixels);
+    uint64_t count = (uint64_t)bins->tiles_x * ((row_end + pixels - 1) / pixels) - first;
+    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
+    workers = workers < count ? workers : (uint32_t)count;
+    Drawing d = {first, calloc(workers + 1, sizeof *d.tiles), take, context};
+    bool made = d.tiles != NULL;
+    for (uint32_t w = 0; made && w < workers; w++)
+        made = (d.tiles[w] = make_tile(bins)) != NULL;
     if (made)
-        meso_parallel_team(workers, tiles, 1, draw_tiles, &d);
+        meso_parallel_team(workers, count, 1, draw_tiles, &d);
     for (uint32_t w = 0; d.tiles && w < workers; w++) {
-        made = made && !d.tiles[w]->failed;
+        made = made && d.tiles[w] && !d.tiles[w]->failed;
         release(d.tiles[w]);
     }
+    free(d.tiles);
     return made ? MESO_OK : meso_fail(error, MESO_ERR_MEMORY, "out of memory for drawing");
 }

@@ -23,6 +23,7 @@ typedef struct MesoRasterJob {
 typedef struct MesoSurfaceSample {
     uint32_t shape, triangle;
     MesoVec3 position, normal;  /* relative to the anchor; unit, to the eye's side of the triangle */
+    float shares[3];            /* of the triangle's corners */
     float depth;                /* along the view */
     float along;                /* a sweep, 0 to 1 */
     MesoVec2 uv;
@@ -30,6 +31,9 @@ typedef struct MesoSurfaceSample {
 } MesoSurfaceSample;
 
 typedef struct MesoRasterTile MesoRasterTile;
+
+/* The tolerance that a shape is made with, in scene units: what the job wants at its nearest point. */
+float meso_raster_tolerance(const MesoRasterJob *job, uint32_t shape);
 
 /* Where the tile lies in the picture, and its pixels that are in it. */
 MesoWindow meso_raster_tile_window(const MesoRasterTile *tile);
@@ -43,12 +47,23 @@ bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint3
 bool meso_raster_tile_empty(const MesoRasterTile *tile);
 
 /*
- * Draws the picture, and hands over each tile once it is drawn, from any thread; which does not change what it has.
- * Scratch on `arena`: 8 bytes a shape and 4 a shape and tile; and what a tile's visible shapes take for each thread.
- * O(shapes + their vertices in each tile + samples). MESO_ERR_MEMORY alone.
+ * Which shapes each tile may show. Lives in `arena`, as long as the job's shapes: 8 bytes a shape and 4 a shape and
+ * tile. O(shapes + shapes of each tile). MESO_ERR_MEMORY alone.
+ */
+typedef struct MesoRasterBins MesoRasterBins;
+MesoStatus meso_raster_bins_init(MesoRasterBins **bins, MesoArena *arena, const MesoRasterJob *job,
+                                 uint32_t thread_count, MesoError *error);
+
+/* Rows of the picture that a tile has. */
+uint32_t meso_raster_tile_rows(uint32_t samples);
+
+/*
+ * Draws the tiles that have some of the rows [row_begin, row_end) of the picture, and hands over each, whole, once it
+ * is drawn, from any thread; which does not change what it has. What a tile's visible shapes take is held for each
+ * thread. O(vertices of the shapes in each tile + samples). MESO_ERR_MEMORY alone.
  */
 typedef void MesoTakeTile(void *context, MesoRasterTile *tile);
-MesoStatus meso_raster_tiles(const MesoRasterJob *job, MesoArena *arena, uint32_t thread_count, MesoTakeTile *take,
-                             void *context, MesoError *error);
+MesoStatus meso_raster_rows(const MesoRasterBins *bins, uint32_t row_begin, uint32_t row_end, uint32_t thread_count,
+                            MesoTakeTile *take, void *context, MesoError *error);
 
 #endif

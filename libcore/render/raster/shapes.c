@@ -280,6 +280,14 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
     *mesh = (MesoShapeMesh){0};
 }
 
+static MesoSweepInstance anchored(const MesoShapes *shapes, uint32_t sweep)
+{
+    MesoSweepInstance instance = shapes->scene->sweeps[sweep];
+    for (uint32_t i = 0; i < 4 && shapes->scene->deform == MESO_SWEEP_CURVES; i++)
+        instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
+    return instance;
+}
+
 static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance, MesoShapeUse use,
                        MesoShapeMesh *mesh)
 {
@@ -289,9 +297,7 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance
     const MesoSweptKind *kind = &scene->kinds[k];
     const MesoShapeColumns *columns = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS +
                                                              level_for(shapes, tolerance)];
-    MesoSweepInstance instance = scene->sweeps[sweep];
-    for (uint32_t i = 0; i < 4 && scene->deform == MESO_SWEEP_CURVES; i++)
-        instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
+    MesoSweepInstance instance = anchored(shapes, sweep);
     uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance, seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings,
                                 .bare = use != MESO_SHAPE_WHOLE};
@@ -308,6 +314,15 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance
             out += 6;
         }
     return true;
+}
+
+/* Corners of both halves of a face, of which those of a triangle's second have no area. */
+static void cut_face(uint32_t corners[6], uint32_t first, uint32_t sides, bool mirrored)
+{
+    uint32_t b = mirrored ? first + 2 : first + 1, c = mirrored ? first + 1 : first + 2;
+    uint32_t last = sides == 4 ? first + 3 : first;
+    const uint32_t halves[6] = {first, b, c, first, mirrored ? last : first + 2, mirrored ? first + 2 : last};
+    memcpy(corners, halves, sizeof halves);
 }
 
 /* Each corner is a vertex of its own: faces share few where they lie in any order. */
@@ -330,10 +345,7 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
             mesh->vertices[vertex + k] = (MesoMeshVertex){meso_vec3_sub(positions[v[k]], shapes->anchor), normals[v[k]],
                                                           body->uvs ? body->uvs[v[k]] : (MesoVec2){0, 0}};
         }
-        uint32_t b = mirrored ? vertex + 2 : vertex + 1, c = mirrored ? vertex + 1 : vertex + 2;
-        uint32_t last = sides == 4 ? vertex + 3 : vertex;      /* a triangle's second half has no area */
-        const uint32_t halves[6] = {vertex, b, c, vertex, mirrored ? last : vertex + 2, mirrored ? vertex + 2 : last};
-        memcpy(corners, halves, sizeof halves);
+        cut_face(corners, vertex, sides, mirrored);
         vertex += sides;
     }
     mesh->vertex_count = vertex;
@@ -345,6 +357,59 @@ bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, 
     uint32_t sweeps = shapes->scene->sweep_count;
     return shape < sweeps ? make_sweep(shapes, shape, tolerance, use, mesh)
                           : make_run(shapes, &shapes->runs[shape - sweeps], mesh);
+}
+
+/* ---- corners ---- */
+
+static void sweep_corners(const MesoShapes *shapes, uint32_t sweep, float tolerance, uint32_t triangle,
+                          MesoShapeCorner corners[3])
+{
+    static const uint32_t sides[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};   /* of ring and column */
+    uint32_t k = shapes->kind_of[sweep], quad = triangle / 2;
+    const MesoShapeColumns *columns =
+        &shapes->columns[true][(size_t)k * MESO_SHAPE_LEVELS + level_for(shapes, tolerance)];
+    MesoSweepInstance instance = anchored(shapes, sweep);
+    uint32_t rings = meso_detail_instance_rings(&shapes->scene->kinds[k], &shapes->details[k], &instance, tolerance,
+                                                true);
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t *side = sides[3 * (triangle % 2) + i];
+        corners[i] = (MesoShapeCorner){.column = columns->kept[columns->joints[quad % columns->joint_count] + side[1]],
+                                       .ring = quad / columns->joint_count + side[0], .ring_count = rings};
+    }
+}
+
+static void run_corners(const MesoShapes *shapes, const MesoShapeRun *run, uint32_t triangle,
+                        MesoShapeCorner corners[3])
+{
+    uint32_t sides, halves[6];
+    const MesoBody *body = &shapes->scene->bodies[shapes->scene->placed[run->placed].body];
+    const uint32_t *v = face_of(body, run->face_begin + triangle / 2, &sides);
+    cut_face(halves, 0, sides, shapes->mirrored[run->placed]);
+    for (uint32_t i = 0; i < 3; i++)
+        corners[i] = (MesoShapeCorner){.vertex = v[halves[3 * (triangle % 2) + i]]};
+}
+
+void meso_shape_corners(const MesoShapes *shapes, uint32_t shape, float tolerance, uint32_t triangle,
+                        MesoShapeCorner corners[3])
+{
+    uint32_t sweeps = shapes->scene->sweep_count;
+    if (shape < sweeps)
+        sweep_corners(shapes, shape, tolerance, triangle, corners);
+    else
+        run_corners(shapes, &shapes->runs[shape - sweeps], triangle, corners);
+}
+
+MesoVec3 meso_shape_corner_at(const MesoShapes *shapes, uint32_t shape, const MesoShapeCorner *corner)
+{
+    const MesoScene *scene = &shapes->near;
+    if (shape >= scene->sweep_count) {
+        const MesoShapeRun *run = &shapes->runs[shape - scene->sweep_count];
+        return meso_vec3_sub(shapes->positions[run->placed][corner->vertex], shapes->anchor);
+    }
+    const MesoSweptKind *kind = &scene->kinds[shapes->kind_of[shape]];
+    MesoSweepInstance instance = anchored(shapes, shape);
+    float v = (float)corner->ring / (float)(corner->ring_count - 1);
+    return meso_sweep_point(scene, kind, &instance, &scene->columns[kind->column_begin + corner->column], v);
 }
 
 MesoShapeLook meso_shape_look(const MesoShapes *shapes, uint32_t shape)

@@ -74,6 +74,19 @@ typedef enum MesoShapeUse {
 bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
 void meso_shape_mesh_release(MesoShapeMesh *mesh);
 
+/* A corner of a shape's triangle: a place that a shape of another scene, of the same structure, has too. */
+typedef struct MesoShapeCorner {
+    uint32_t column, ring, ring_count;  /* of a sweep */
+    uint32_t vertex;                    /* of a body */
+} MesoShapeCorner;
+
+/* The corners of a triangle of what meso_shape_make() makes to be seen; O(1). */
+void meso_shape_corners(const MesoShapes *shapes, uint32_t shape, float tolerance, uint32_t triangle,
+                        MesoShapeCorner corners[3]);
+
+/* Where it lies, relative to the anchor. */
+MesoVec3 meso_shape_corner_at(const MesoShapes *shapes, uint32_t shape, const MesoShapeCorner *corner);
+
 /* Row of the scene's ids, and material of a shape: blended from the first to the second along a sweep. */
 typedef struct MesoShapeLook {
     uint32_t ids, start_material, end_material;
