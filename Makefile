@@ -13,6 +13,7 @@
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
+#   bench-map         times, sizes and memory of meshes by pair and format, beside the prototype's and what is to be
 #   bench-render      times of drawing by stage, and memory, beside the prototype's
 #   bench-cycles      the vase beside Blender's Cycles: seconds and noise; ten minutes
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
@@ -182,6 +183,8 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
+bench-map: all
+	@scripts/bench/map $(BIN) $(DATA)
 bench-render: all generators
 	@scripts/bench/render $(OUT) $(BIN) $(DATA)
 bench-cycles: all generators
@@ -220,7 +223,7 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
-        check-reference check-pairs bench bench-solve bench-render bench-cycles bench-decor bench-quilt bench-grow \
+        check-reference check-pairs bench bench-solve bench-map bench-render bench-cycles bench-decor bench-quilt bench-grow \
         bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
