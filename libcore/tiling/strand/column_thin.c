@@ -297,7 +297,8 @@ static MesoVec2 post_point(const Thinning *t, const Curve *curve, const Post *po
     end.blend = 1;
     MesoVec2 here = column_shift(t, curve_column(curve, post->start), false);
     MesoVec2 there = column_shift(t, curve_column(curve, post->end), true);
-    there = (MesoVec2){curve->cosine * there.x + curve->sine * there.y, curve->cosine * there.y - curve->sine * there.x};
+    there = (MesoVec2){curve->cosine * there.x + curve->sine * there.y,
+                       curve->cosine * there.y - curve->sine * there.x};
     return meso_vec2_lerp(meso_vec2_add(curve_point(&start, post->start), here),
                           meso_vec2_add(curve_point(&end, post->end), there), curve->blend);
 }
@@ -379,7 +380,8 @@ static bool is_covered(const Thinning *t, Curve *curve, const Post *post, float 
     float height = 0;
     for (uint32_t k = 0; k < BLENDS; k++) {
         curve->blend = (float)k / (BLENDS - 1);
-        MesoVec2 before = post_point(t, curve, post - 1), here = post_point(t, curve, post), next = post_point(t, curve, post + 1);
+        MesoVec2 before = post_point(t, curve, post - 1), here = post_point(t, curve, post);
+        MesoVec2 next = post_point(t, curve, post + 1);
         for (uint32_t i = low; i <= high; i++) {
             MesoVec2 p = curve_point(curve, i);
             height = fmaxf(height, fminf(distance_to_chord(p, before, here), distance_to_chord(p, here, next)));
@@ -401,7 +403,8 @@ static bool divide_kind(Thinning *t, const MesoSweptKind *kind, Curve *curve, ui
         float wanted = 1;
         for (uint32_t i = 0; i < (kind->cap ? 1 : BLENDS); i++) {
             curve->blend = (float)i / (BLENDS - 1);
-            wanted = fmaxf(wanted, pieces_of(curve, low, high, post_point(t, curve, a), post_point(t, curve, b), &t->limits, off));
+            wanted = fmaxf(wanted, pieces_of(curve, low, high, post_point(t, curve, a), post_point(t, curve, b),
+                                             &t->limits, off));
         }
         uint32_t pieces = high <= low ? 1 : wanted < (float)(high - low) ? (uint32_t)wanted : high - low;
         for (uint32_t k = 1; k < pieces; k++)

@@ -31,9 +31,9 @@ static const float OFF_PART = 0.95f, CAP_OFF_PART = 0.75f, LEAST_LEFT = 0.3f;
 static const float MARGIN = 1.1f;
 
 /*
- * How rings may lie along a sweep: evenly, closer at the ends, or in the middle. S bends most at its ends and not at all
- * in the middle, where 0.3 takes three quarters of the even steps, and any spacing two thirds at least. They do not lie
- * evenly where that saves a twentieth of them.
+ * How rings may lie along a sweep: evenly, closer at the ends, or in the middle. An S bends most at its ends and not at
+ * all in the middle; 0.3 takes three quarters of the even steps there, and any spacing two thirds at least. They do not
+ * lie evenly where that saves a twentieth of them.
  */
 static const float EASES[] = {0, 0.3f, 0.5f, 0.7f, -0.3f, -0.6f};
 static const float EASE_GAIN = 0.95f;
