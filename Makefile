@@ -72,7 +72,7 @@ CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-o
 CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
-LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -ldl \
+LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lmeshoptimizer -lpolyclipping -ldl \
             -lOpenEXRCore-3_1 -lpng -lz -ldeflate -ljansson -lxxhash -lcadical -lm
 
 SOURCES := $(sort $(shell find libcore formats cmd scripts -name '*.c' -o -name '*.cpp'))

@@ -81,6 +81,10 @@ MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     MesoStatus status = meso_mesh_check_counts(parts, options, "a GLB file", error);
     if (status)
         return status;
-    return (options->compression == MESO_GLB_DRACO ? meso_glb_write_draco : meso_glb_write_plain)(parts, options,
-                                                                                                  output, error);
+    switch (options->compression) {
+    case MESO_GLB_DRACO: return meso_glb_write_draco(parts, options, output, error);
+    case MESO_GLB_MESHOPT: return meso_glb_write_meshopt(parts, options, output, error);
+    case MESO_GLB_PLAIN: break;
+    }
+    return meso_glb_write_plain(parts, options, output, error);
 }

@@ -222,7 +222,7 @@ static MesoStatus leave_room(Writer *w, MesoError *error)
         return MESO_ERR_MEMORY;
     for (uint32_t p = 0; p < w->primitive_count; p++)
         longest[p] = (MesoGlbPrimitive){w->primitives[p].material, UINT32_MAX / 64, UINT32_MAX, long_text, long_text,
-                                        UINT32_MAX, UINT32_MAX, NULL};
+                                        UINT32_MAX, UINT32_MAX, NULL, NULL};
     const char *text = meso_glb_json(parts, w->stream.options, longest, w->primitive_count, UINT32_MAX, w->arena,
                                      error);
     if (!text)
