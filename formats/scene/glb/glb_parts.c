@@ -1,4 +1,4 @@
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 
 #include <string.h>
 

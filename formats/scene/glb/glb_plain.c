@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 #include "formats/scene/surface_frame.h"
 
 enum { FRAME_BYTES = sizeof(MesoTangent) + sizeof(MesoVec2) };

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "formats/json/json_text.h"
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 
 enum {
     TYPE_SIGNED_BYTE = 5120, TYPE_BYTE = 5121, TYPE_SIGNED_SHORT = 5122, TYPE_SHORT = 5123, TYPE_UINT = 5125, TYPE_FLOAT = 5126,

@@ -6,7 +6,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 #include "libcore/base/parallel.h"
 
 /* Half a million triangles a piece; only a larger part makes a larger piece. */

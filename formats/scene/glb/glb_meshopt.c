@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 #include "libcore/base/parallel.h"
 
 /* A quarter of a million triangles a piece, and pieces in memory at once. */
