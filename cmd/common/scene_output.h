@@ -35,7 +35,7 @@ typedef struct MesoSceneOutput {
     const char *compress, *up;  /* --compress, --up */
     float unit;                 /* --unit */
     const char *slots, *shard;  /* --slots, --shard; NULL: all of it */
-    bool lengths, tangents;     /* --lengths, --tangents */
+    bool lengths, tangents, instances;  /* --lengths, --tangents, --instances */
     bool weld, cap_borders;     /* --weld, --cap-borders */
     MesoSelectionRule rule;     /* what they say, from meso_tool_choose_scene_kind() */
     uint32_t position_bits, normal_bits, speed;
@@ -64,6 +64,8 @@ typedef struct MesoSceneOutput {
                 .given = &(o).given.unit), \
     MESO_FLAG(0, "lengths", "of .glb: lengths around and along as second texture coordinates", &(o).lengths), \
     MESO_FLAG(0, "tangents", "of .glb: tangents", &(o).tangents), \
+    MESO_FLAG(0, "instances", "of .glb: bodies that lie rigidly at several places are written once", \
+              &(o).instances), \
     MESO_COUNT(0, "position-bits", "N", "compressed: precision of positions (default 14)", &(o).position_bits, 4, 24, \
                .given = &(o).given.position_bits), \
     MESO_COUNT(0, "normal-bits", "N", "compressed: precision of normals (default 10)", &(o).normal_bits, 4, 16, \

@@ -20,6 +20,7 @@ typedef struct MesoMeshWriteOptions {
     uint32_t speed;             /* Draco, 0 best to 10 fastest */
     MesoGlbCompression compression;
     bool lengths, tangents;     /* of GLB that is plain: TEXCOORD_1 and TANGENT, as in surface_frame.h */
+    bool instances;             /* of GLB that is plain: bodies that lie rigidly at several places are there once */
     bool z_up;                  /* the scene's up is z, and not y; where the kind of file can say so */
     float unit;                 /* metres of one scene unit, likewise; 0: 1 */
     const MesoProvenance *provenance;

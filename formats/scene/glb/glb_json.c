@@ -6,12 +6,13 @@
 #include "formats/scene/glb/glb_parts.h"
 
 enum {
-    TYPE_SIGNED_BYTE = 5120, TYPE_BYTE = 5121, TYPE_SIGNED_SHORT = 5122, TYPE_SHORT = 5123, TYPE_UINT = 5125, TYPE_FLOAT = 5126,
+    TYPE_SIGNED_BYTE = 5120, TYPE_BYTE = 5121, TYPE_SIGNED_SHORT = 5122, TYPE_SHORT = 5123,
+    TYPE_UINT = 5125, TYPE_FLOAT = 5126,
     ARRAY_BUFFER = 34962, ELEMENT_BUFFER = 34963
 };
 
 static const char DRACO[] = "KHR_draco_mesh_compression", MESHOPT[] = "EXT_meshopt_compression";
-static const char QUANTIZED[] = "KHR_mesh_quantization";
+static const char QUANTIZED[] = "KHR_mesh_quantization", INSTANCED[] = "EXT_mesh_gpu_instancing";
 
 typedef struct Document {
     const MesoSceneParts *parts;
@@ -19,6 +20,7 @@ typedef struct Document {
     json_t *views, *accessors, *materials, *meshes, *nodes;     /* of `root` */
     json_t *root;
     bool colored;
+    uint32_t material;  /* the last of `materials`, by its number in the scene; those of one lie together */
     int failed;         /* of Jansson: memory is out */
 } Document;
 
@@ -120,6 +122,8 @@ static json_t *add_attributes(Document *d, const MesoGlbPrimitive *primitive, js
         offset += 4;
     }
     for (uint32_t c = 0; c < scene->channel_count; c++, offset += 4) {
+        if (primitive->instances)       /* each instance has its own */
+            continue;
         char name[MESO_CHANNEL_NAME + 1];
         attribute_name(&scene->channels[c], name);
         const char *type = scene->channels[c].names ? "SCALAR" : "VEC2";    /* the format has no whole 32 bits */
@@ -155,6 +159,30 @@ static json_t *make_compressed(Document *d, const MesoGlbPrimitive *p)
     return json_pack("{s:o, s:I, s:{s:{s:I, s:o}}}", "attributes", attributes, "indices",
                      add_accessor(d, -1, 0, "SCALAR", TYPE_UINT, 3 * p->triangle_count), "extensions", DRACO,
                      "bufferView", view, "attributes", ids);
+}
+
+/* ---- instances ---- */
+
+/* Where a node's mesh is placed, in views of their own. */
+static void place_instances(Document *d, json_t *node, const MesoGlbPrimitive *p)
+{
+    static const struct { const char *name, *type; uint32_t width; } poses[] = {
+        {"TRANSLATION", "VEC3", 3}, {"ROTATION", "VEC4", 4}, {"SCALE", "VEC3", 3}};
+    const MesoScene *scene = d->parts->scene;
+    uint64_t at = p->instances_at, count = p->instances->count;
+    json_t *attributes = json_object();
+    for (uint32_t i = 0; i < 3 + scene->channel_count; i++) {
+        char name[MESO_CHANNEL_NAME + 1];
+        uint32_t width = i < 3 ? poses[i].width : 1;
+        json_int_t view = add_view(d, at, 4 * width * count, 0, 0);
+        if (i >= 3)
+            attribute_name(&scene->channels[i - 3], name);
+        set(d, attributes, i < 3 ? poses[i].name : name,
+            json_integer(add_accessor(d, view, 0, i < 3 ? poses[i].type : "SCALAR", i < 3 ? TYPE_FLOAT : TYPE_UINT,
+                                      count)));
+        at += 4 * width * count;
+    }
+    set(d, node, "extensions", json_pack("{s:{s:o}}", INSTANCED, "attributes", attributes));
 }
 
 /* ---- of meshoptimizer ---- */
@@ -248,8 +276,12 @@ static uint32_t add_mesh(Document *d, const MesoGlbPrimitive *first, uint32_t co
     json_t *primitives = json_array();
     uint32_t used = 0;
     meso_mesh_material_name(scene, first->material, name);
-    json_int_t material = add(d, d->materials, material_of(&scene->materials[first->material], name));
-    for (; used < count && first[used].material == first->material; used++) {
+    json_int_t material = (json_int_t)json_array_size(d->materials) - 1;
+    if (first->material != d->material)
+        material = add(d, d->materials, material_of(&scene->materials[first->material], name));
+    d->material = first->material;
+    for (; used < count && first[used].material == first->material && first[used].instances == first->instances;
+         used++) {
         json_t *primitive = (first[used].draco ? make_compressed : first[used].meshopt ? make_meshopt : make_plain)(
             d, &first[used]);
         set(d, primitive, "material", json_integer(material));
@@ -257,6 +289,8 @@ static uint32_t add_mesh(Document *d, const MesoGlbPrimitive *first, uint32_t co
     }
     json_int_t mesh = add(d, d->meshes, json_pack("{s:o, s:o}", "name", node_name(name), "primitives", primitives));
     json_t *node = json_pack("{s:o, s:I}", "name", node_name(name), "mesh", mesh);
+    if (first->instances)
+        place_instances(d, node, first);
     if (first->meshopt)
         place_node(d, node, first->meshopt);
     add(d, d->nodes, node);
@@ -332,6 +366,11 @@ static MesoStatus describe(Document *d, const MesoGlbPrimitive *primitives, uint
     for (int i = 0; i < 2 && (primitives[0].draco || primitives[0].meshopt); i++)
         set(d, d->root, i ? "extensionsRequired" : "extensionsUsed",
             primitives[0].draco ? json_pack("[s]", DRACO) : json_pack("[s, s]", MESHOPT, QUANTIZED));
+    bool instanced = false;
+    for (uint32_t i = 0; i < count; i++)
+        instanced = instanced || primitives[i].instances;
+    for (int i = 0; i < 2 && instanced; i++)
+        set(d, d->root, i ? "extensionsRequired" : "extensionsUsed", json_pack("[s]", INSTANCED));
     set(d, d->root, "scene", json_integer(0));
     set(d, d->root, "scenes", json_pack("[{s:[i]}]", "nodes", 0));
     d->nodes = add_list(d, "nodes");
@@ -363,7 +402,7 @@ const char *meso_glb_json(const MesoSceneParts *parts, const MesoMeshWriteOption
                           const MesoGlbPrimitive *primitives, uint32_t count, uint64_t size, MesoArena *arena,
                           MesoError *error)
 {
-    Document d = {.parts = parts, .options = options, .root = json_object(),
+    Document d = {.parts = parts, .options = options, .root = json_object(), .material = MESO_NO_INDEX,
                   .colored = meso_scene_is_colored(parts->scene)};
     MesoStatus status = describe(&d, primitives, count, size, arena, error);
     char *text = status || d.failed ? NULL : json_dumps(d.root, JSON_COMPACT | JSON_REAL_PRECISION(9));

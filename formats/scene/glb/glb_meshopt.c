@@ -232,8 +232,7 @@ static MesoStatus measure(Writer *w, MesoError *error)
     if (options->box)
         box = *options->box;
     if (bits > MOST_BITS)
-        return meso_fail(error, MESO_ERR_LIMIT, "%u bits a position: EXT_meshopt_compression is written with at most %d",
-                         bits, MOST_BITS);
+        return meso_fail(error, MESO_ERR_LIMIT, "%u bits a position: meshopt is given at most %d", bits, MOST_BITS);
     MesoVec3 size = meso_vec3_sub(box.high, box.low);
     float most = fmaxf(fmaxf(size.x, size.y), size.z);
     w->steps = (1u << bits) - 1;
@@ -246,7 +245,7 @@ static MesoStatus measure(Writer *w, MesoError *error)
 
 static MesoStatus allocate(Writer *w, MesoError *error)
 {
-    MesoStatus status = meso_glb_runs(&w->runs, &w->piece_count, w->parts, PIECE_FACES, w->arena, error);
+    MesoStatus status = meso_glb_runs(&w->runs, &w->piece_count, w->parts, PIECE_FACES, UINT32_MAX, w->arena, error);
     if (status)
         return status;
     w->primitives = MESO_NEW(w->arena, MesoGlbPrimitive, w->piece_count, error);
@@ -318,7 +317,8 @@ static MesoStatus write_batch(Writer *w, uint32_t count, MesoOutput *output, uin
         *encoded = (Encoded){0};
     }
     if (!status && *size > UINT32_MAX)
-        return meso_fail(error, MESO_ERR_LIMIT, "too large for a GLB file: over 4 GiB%s%s", MESO_MESH_SMALLER(w->options));
+        return meso_fail(error, MESO_ERR_LIMIT, "too large for a GLB file: over 4 GiB%s%s",
+                         MESO_MESH_SMALLER(w->options));
     if (w->options->progress)
         w->options->progress(w->options->progress_context, w->batch_begin + count, w->piece_count);
     return status;

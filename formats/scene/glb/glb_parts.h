@@ -3,6 +3,7 @@
 #define MESO_GLB_PARTS_H
 
 #include "formats/scene/draco_mesh.h"
+#include "formats/scene/glb/glb_instances.h"
 #include "formats/scene/mesh_window.h"
 
 /* A range of parts of one material. */
@@ -13,11 +14,12 @@ typedef struct MesoGlbRun {
 } MesoGlbRun;
 
 /*
- * The parts that have faces, in runs of one material that go over `most_faces` only where one part does. Runs of one
- * material lie next to each other in `*runs` [*count], in the order of the parts otherwise. O(parts).
+ * The parts that have faces, in runs of one material that go over `most_faces` only where one part does; from the part
+ * `apart` on, each is a run. Runs of one material lie next to each other in `*runs` [*count], in the order of the parts
+ * otherwise. O(parts).
  */
 MesoStatus meso_glb_runs(MesoGlbRun **runs, uint32_t *count, const MesoSceneParts *parts, uint64_t most_faces,
-                         MesoArena *arena, MesoError *error);
+                         uint32_t apart, MesoArena *arena, MesoError *error);
 
 /* What meshoptimizer made of one array. */
 typedef struct MesoGlbStream {
@@ -48,6 +50,8 @@ typedef struct MesoGlbPrimitive {
     uint64_t indices_at;            /* 32 bits each; not with Draco */
     const MesoDracoResult *draco;   /* NULL: not by Draco */
     const MesoGlbMeshopt *meshopt;  /* NULL: not by meshoptimizer */
+    const MesoGlbInstanceSet *instances;    /* of the node; NULL: none */
+    uint64_t instances_at;          /* their translations, rotations, scales and channels of ids, one after the other */
 } MesoGlbPrimitive;
 
 /* Bytes of one vertex, plain: as in MesoMeshVertex, its colour where the scene has some, 4 an id, and what the options
