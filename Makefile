@@ -10,6 +10,7 @@
 #   check-growth      growth over $(CHECK_MESHES) broken meshes alone
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   check-pairs       what meso-check says of the models of all pairs in $(DATA): a table
+#   check-readers     meshes opened by Blender and assimp, where they are: counts and bounds
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
@@ -179,6 +180,8 @@ check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 check-pairs: all
 	@scripts/check-pairs $(BIN) $(DATA)
+check-readers: all generators
+	@scripts/check-readers $(OUT) $(BIN)
 bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
@@ -223,7 +226,8 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
-        check-reference check-pairs bench bench-solve bench-map bench-render bench-cycles bench-decor bench-quilt bench-grow \
-        bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches references install clean
+        check-reference check-pairs check-readers bench bench-solve bench-map bench-render bench-cycles bench-decor \
+        bench-quilt bench-grow bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches \
+        references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)
