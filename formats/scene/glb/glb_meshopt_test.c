@@ -2,6 +2,7 @@
 #include <jansson.h>
 #include <meshoptimizer.h>
 
+#include "formats/mesh/mesh_read.h"
 #include "formats/scene/mesh_file_fixture.h"
 
 static const MesoMeshWriteOptions MESHOPT = {.compression = MESO_GLB_MESHOPT};
@@ -156,6 +157,34 @@ static uint32_t check_primitive(const SceneFixture *fixture, const Whole *whole,
     return part;
 }
 
+/* Our own reader sees the scene, and refuses what is broken. */
+static void test_read(const SceneFixture *fixture, const File *file)
+{
+    MesoArena arena;
+    MesoPolygonMesh mesh;
+    MesoError error;
+    MesoBox box = meso_box_empty(), whole;
+    const MesoSceneParts *parts = &fixture->parts;
+    meso_arena_init(&arena);
+    CHECK(meso_polygon_mesh_read(&mesh, &arena, &file->input, 1, &error) == MESO_OK);
+    CHECK(mesh.face_count == parts->triangle_count && mesh.vertex_count == parts->vertex_begin[parts->part_count]);
+    for (uint32_t v = 0; v < mesh.vertex_count; v++)
+        meso_box_add(&box, mesh.positions[v]);
+    CHECK(meso_scene_parts_box(parts, 1, &whole, &error) == MESO_OK);
+    check_near(box.low, whole.low, 1e-3f);
+    check_near(box.high, whole.high, 1e-3f);
+
+    MesoInput cut = file->input;
+    uint8_t *bytes = meso_arena_alloc(&arena, cut.size, 1, NULL);
+    CHECK(bytes);
+    memcpy(bytes, cut.data, cut.size);
+    bytes[file->data - file->input.data] ^= 0xff;   /* the first stream's own sign */
+    cut.data = bytes;
+    CHECK(meso_polygon_mesh_read(&mesh, &arena, &cut, 1, &error) == MESO_ERR_INPUT);
+    CHECK(strstr(error.message, "bufferView") && strstr(error.message, "meshopt"));
+    meso_arena_release(&arena);
+}
+
 static void test_decoded(void)
 {
     SceneFixture fixture;
@@ -178,6 +207,7 @@ static void test_decoded(void)
     CHECK(indices == 3 * fixture.parts.triangle_count && primitive_count > json_array_size(meshes));
     CHECK(file.input.size < 10 * fixture.parts.triangle_count);
     check_threads_as(meso_glb_write, &fixture.parts, &MESHOPT, &file.input);
+    test_read(&fixture, &file);
     close_file(&file);
     scene_fixture_release(&fixture);
 }
