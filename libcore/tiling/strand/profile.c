@@ -257,8 +257,8 @@ static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoColumnPlac
 }
 
 /*
- * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns along.
- * It turns inside out where its neighbours may not, and has normals of its own.
+ * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns
+ * along. It turns inside out where its neighbours may not, and has normals of its own.
  */
 static bool is_reversed(const Walk *start, const Walk *end, uint32_t k, float angle)
 {
