@@ -10,9 +10,11 @@
 #   check-growth      growth over $(CHECK_MESHES) broken meshes alone
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   check-pairs       what meso-check says of the models of all pairs in $(DATA): a table
+#   check-readers     meshes opened by Blender and assimp, where they are: counts and bounds
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets
+#   bench-map         times, sizes and memory of meshes by pair and format, beside the prototype's and what is to be
 #   bench-render      times of drawing by stage, and memory, beside the prototype's
 #   bench-cycles      the vase beside Blender's Cycles: seconds and noise; ten minutes
 #   bench-decor       distances on surfaces, and their errors; lines, cells, samples, cuts; an editing sequence
@@ -71,7 +73,7 @@ CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-o
 CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
-LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lpolyclipping -ldl \
+LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lmeshoptimizer -lpolyclipping -ldl \
             -lOpenEXRCore-3_1 -lpng -lz -ldeflate -ljansson -lxxhash -lcadical -lm
 
 SOURCES := $(sort $(shell find libcore formats cmd scripts -name '*.c' -o -name '*.cpp'))
@@ -178,10 +180,14 @@ check-reference: all references
 	@scripts/check-reference $(OUT) $(BIN) $(DATA) $(REFERENCES)
 check-pairs: all
 	@scripts/check-pairs $(BIN) $(DATA)
+check-readers: all generators
+	@scripts/check-readers $(OUT) $(BIN)
 bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
+bench-map: all
+	@scripts/bench/map $(BIN) $(DATA)
 bench-render: all generators
 	@scripts/bench/render $(OUT) $(BIN) $(DATA)
 bench-cycles: all generators
@@ -220,7 +226,8 @@ clean:
 	rm -rf $(BUILD)
 
 .PHONY: all examples tests generators check check-unit check-cli check-exhaustive check-patterns check-growth \
-        check-reference check-pairs bench bench-solve bench-render bench-cycles bench-decor bench-quilt bench-grow \
-        bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches references install clean
+        check-reference check-pairs check-readers bench bench-solve bench-map bench-render bench-cycles bench-decor \
+        bench-quilt bench-grow bench-replicate bench-exact demo quilts gallery details fuzz-run fuzzers benches \
+        references install clean
 .SECONDARY:
 -include $(shell find $(OUT)/obj -name '*.d' 2>/dev/null)

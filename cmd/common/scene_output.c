@@ -34,21 +34,33 @@ static bool is_draco(const MesoSceneOutput *output)
            (output->kind->draco == MESO_SCENE_MAY_DRACO && strcmp(output->compress, "draco") == 0);
 }
 
+static bool is_meshopt(const MesoSceneOutput *output)
+{
+    return output->kind->draco == MESO_SCENE_MAY_DRACO && strcmp(output->compress, "meshopt") == 0;
+}
+
 /* An option that would change nothing was meant for something else. */
 static MesoStatus check_options(const MesoSceneOutput *output, MesoError *error)
 {
-    const char *draco = output->given.speed ? "speed" : NULL;
-    draco = output->given.normal_bits ? "normal-bits" : draco;
-    draco = output->given.position_bits ? "position-bits" : draco;
+    const char *bits = output->given.normal_bits ? "normal-bits" : NULL;
+    bits = output->given.position_bits ? "position-bits" : bits;
     const char *placed = output->given.unit ? "unit" : output->given.up ? "up" : NULL;
-    if (draco && !is_draco(output))
-        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc, and for .glb with --compress draco; the output is "
-                         ".%s", draco, output->kind->name);
+    if (bits && !is_draco(output) && !is_meshopt(output))
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .drc, and for .glb with --compress; the output is .%s",
+                         bits, output->kind->name);
+    if (output->given.speed && !is_draco(output))
+        return meso_fail(error, MESO_ERR_USAGE, "--speed is for .drc, and for .glb with --compress draco; the output "
+                         "is .%s", output->kind->name);
+    if (is_meshopt(output) && output->position_bits > 16)
+        return meso_fail(error, MESO_ERR_USAGE, "--position-bits %u: with --compress meshopt at most 16",
+                         output->position_bits);
     if (output->given.compress && output->kind->draco != MESO_SCENE_MAY_DRACO)
         return meso_fail(error, MESO_ERR_USAGE, "--compress is for .glb; the output is .%s", output->kind->name);
-    if ((output->lengths || output->tangents) && (output->kind->draco != MESO_SCENE_MAY_DRACO || is_draco(output)))
-        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb that is not compressed",
-                         output->lengths ? "lengths" : "tangents");
+    const char *plain = output->instances ? "instances" : output->tangents ? "tangents" : NULL;
+    plain = output->lengths ? "lengths" : plain;
+    if (plain && (output->kind->draco != MESO_SCENE_MAY_DRACO || is_draco(output) ||
+                                                   is_meshopt(output)))
+        return meso_fail(error, MESO_ERR_USAGE, "--%s is for .glb that is not compressed", plain);
     if ((output->weld || output->cap_borders) && !output->kind->write)
         return meso_fail(error, MESO_ERR_USAGE, "--%s is for meshes; the output is .%s",
                          output->weld ? "weld" : "cap-borders", output->kind->name);
@@ -160,9 +172,10 @@ static MesoStatus write_mesh(MesoTool *tool, const MesoSceneOutput *output, cons
         .position_bits = output->position_bits,
         .normal_bits = output->normal_bits,
         .speed = output->speed,
-        .compression = is_draco(output) ? MESO_GLB_DRACO : MESO_GLB_PLAIN,
+        .compression = is_draco(output) ? MESO_GLB_DRACO : is_meshopt(output) ? MESO_GLB_MESHOPT : MESO_GLB_PLAIN,
         .lengths = output->lengths,
         .tangents = output->tangents,
+        .instances = output->instances,
         .z_up = strcmp(output->up, "z") == 0,
         .unit = output->unit,
         .provenance = &tool->provenance,

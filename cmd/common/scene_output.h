@@ -35,7 +35,7 @@ typedef struct MesoSceneOutput {
     const char *compress, *up;  /* --compress, --up */
     float unit;                 /* --unit */
     const char *slots, *shard;  /* --slots, --shard; NULL: all of it */
-    bool lengths, tangents;     /* --lengths, --tangents */
+    bool lengths, tangents, instances;  /* --lengths, --tangents, --instances */
     bool weld, cap_borders;     /* --weld, --cap-borders */
     MesoSelectionRule rule;     /* what they say, from meso_tool_choose_scene_kind() */
     uint32_t position_bits, normal_bits, speed;
@@ -58,15 +58,17 @@ typedef struct MesoSceneOutput {
 
 #define MESO_MESH_OPTIONS(o)                                                                  \
     MESO_GROUP("Meshes (.glb, .drc, .usda)"), \
-    MESO_CHOICE(0, "compress", "HOW", "of .glb: none (default), which everything opens, or draco", &(o).compress, \
-                "none|draco", .given = &(o).given.compress), \
+    MESO_CHOICE(0, "compress", "HOW", "of .glb: none (default), which everything opens, draco or meshopt", \
+                &(o).compress, "none|draco|meshopt", .given = &(o).given.compress), \
     MESO_NUMBER(0, "unit", "M", "metres of one unit, for .glb and .usda (default 1)", &(o).unit, 1e-9, 1e9, \
                 .given = &(o).given.unit), \
     MESO_FLAG(0, "lengths", "of .glb: lengths around and along as second texture coordinates", &(o).lengths), \
     MESO_FLAG(0, "tangents", "of .glb: tangents", &(o).tangents), \
-    MESO_COUNT(0, "position-bits", "N", "Draco: precision of positions (default 14)", &(o).position_bits, 4, 24, \
+    MESO_FLAG(0, "instances", "of .glb: bodies that lie rigidly at several places are written once", \
+              &(o).instances), \
+    MESO_COUNT(0, "position-bits", "N", "compressed: precision of positions (default 14)", &(o).position_bits, 4, 24, \
                .given = &(o).given.position_bits), \
-    MESO_COUNT(0, "normal-bits", "N", "Draco: precision of normals (default 10)", &(o).normal_bits, 4, 16, \
+    MESO_COUNT(0, "normal-bits", "N", "compressed: precision of normals (default 10)", &(o).normal_bits, 4, 16, \
                .given = &(o).given.normal_bits), \
     MESO_COUNT(0, "speed", "N", "Draco: 0 smallest to 10 fastest (default 7)", &(o).speed, 0, 10, \
                .given = &(o).given.speed)

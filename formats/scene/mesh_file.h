@@ -9,16 +9,18 @@
 
 typedef enum MesoGlbCompression {
     MESO_GLB_PLAIN,
-    MESO_GLB_DRACO              /* KHR_draco_mesh_compression */
+    MESO_GLB_DRACO,             /* KHR_draco_mesh_compression */
+    MESO_GLB_MESHOPT            /* EXT_meshopt_compression, KHR_mesh_quantization */
 } MesoGlbCompression;
 
 typedef struct MesoMeshWriteOptions {
     uint32_t thread_count;      /* 0: all cores */
-    uint32_t position_bits;     /* Draco; 0: 14 */
-    uint32_t normal_bits;       /* Draco; 0: 10 */
+    uint32_t position_bits;     /* Draco; 0: 14; meshopt, at most 16 */
+    uint32_t normal_bits;       /* Draco, meshopt; 0: 10 */
     uint32_t speed;             /* Draco, 0 best to 10 fastest */
     MesoGlbCompression compression;
     bool lengths, tangents;     /* of GLB that is plain: TEXCOORD_1 and TANGENT, as in surface_frame.h */
+    bool instances;             /* of GLB that is plain: bodies that lie rigidly at several places are there once */
     bool z_up;                  /* the scene's up is z, and not y; where the kind of file can say so */
     float unit;                 /* metres of one scene unit, likewise; 0: 1 */
     const MesoProvenance *provenance;
@@ -43,7 +45,7 @@ enum { MESO_DRACO_TRIANGLES = 1 << 26 };
  * a body has colours, all vertices have; in PLY they always have, times the
  * materials' albedo. PLY and OBJ stream in windows of
  * bounded size, whatever the mesh (a body is held whole), and so do STL and GLB that is
- * not compressed; Draco holds what it encodes: up to MESO_DRACO_TRIANGLES in
+ * not compressed by Draco, which holds what it encodes: up to MESO_DRACO_TRIANGLES in
  * one .drc, a piece of one material at a time in .glb, beside the compressed
  * result. MESO_ERR_LIMIT beyond what a format can hold; MESO_ERR_INPUT for a
  * scene without geometry. Bytes do not depend on the thread count.

@@ -5,6 +5,8 @@ for kind in glb obj stl; do
     meso-map -q --divisions 6 vase.meso -o vase.$kind
 done
 meso-map -q --divisions 6 --compress draco vase.meso -o draco.glb
+meso-map -q --divisions 6 --compress meshopt vase.meso -o meshopt.glb
+meso-map -q --divisions 6 --compress meshopt --normal-bits 8 vase.meso -o narrow.glb
 meso-map -q --divisions 6 --up z --unit 0.01 vase.meso -o turned.glb
 meso-map -q --divisions 6 vase.meso -o vase.ply
 meso-render -q --size 160x120 vase.meso -o vase.exr --png vase.png
@@ -22,7 +24,7 @@ if command -v assimp >tool; then
 fi
 meso-decor -q "$fixtures/eleven-steps.pattern.json" "$fixtures/vase.obj" -o decor.glb
 if [ -d "$npm/node_modules/gltf-validator" ]; then
-    for file in vase.glb draco.glb turned.glb decor.glb; do
+    for file in vase.glb draco.glb meshopt.glb narrow.glb turned.glb decor.glb; do
         NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" $file >said || { echo "validator: $?" && cat said; }
     done
 elif [ -n "${CI:-}" ]; then     # elsewhere scripts/setup has said that it could not install it

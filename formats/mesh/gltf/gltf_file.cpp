@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/mesh/gltf/gltf_accessor.hpp"
+#include "formats/mesh/gltf/gltf_meshopt.hpp"
 #include "formats/mesh/mesh_kinds.h"
 
 namespace meso {
@@ -151,6 +152,47 @@ std::vector<unsigned char> with_hidden_indices(const MesoInput *input, bool bina
     return out;
 }
 
+/* A .glb of a JSON part and a binary one. */
+std::vector<unsigned char> binary_file(std::string json, const std::vector<unsigned char> &data)
+{
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::size_t padding = (4 - data.size() % 4) % 4, size = 28 + json.size() + data.size() + padding;
+    if (size > UINT32_MAX)
+        throw BrokenGltf("it is larger than 4 GiB when it is decoded");
+    const std::size_t words[] = {0x46546c67, 2, size, json.size(), 0x4e4f534a};
+    const std::size_t binary[] = {data.size() + padding, 0x004e4942};
+    std::vector<unsigned char> out;
+    out.reserve(size);
+    auto put = [&out](std::size_t value) {
+        for (std::size_t k = 0; k < 4; k++)
+            out.push_back(static_cast<unsigned char>(value >> 8 * k));
+    };
+    for (std::size_t value : words)
+        put(value);
+    out.insert(out.end(), json.begin(), json.end());
+    for (std::size_t value : binary)
+        put(value);
+    out.insert(out.end(), data.begin(), data.end());
+    out.resize(size, 0);
+    return out;
+}
+
+/* The file with what meshoptimizer compressed decoded; empty where there is nothing of it, or no binary part. */
+std::vector<unsigned char> with_decoded_views(const MesoInput *input, bool binary)
+{
+    static const char sign[] = "EXT_meshopt_compression";
+    Bytes text = json_of(input, binary);
+    const unsigned char *end = input->data + input->size;
+    if (!binary || std::search(text.begin, text.end, sign, sign + sizeof sign - 1) == text.end || end - text.end < 8)
+        return {};
+    auto json = nlohmann::json::parse(text.begin, text.end, nullptr, false);
+    if (!json.is_object())
+        return {};
+    const unsigned char *data = text.end + 8;
+    std::vector<unsigned char> decoded = decode_meshopt_views(&json, data, static_cast<std::size_t>(end - data));
+    return binary_file(json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), decoded);
+}
+
 /* tinygltf ends each of its lines with a line end; one line is enough. */
 std::string first_line(const std::string &text)
 {
@@ -220,7 +262,9 @@ void load(tinygltf::Model *model, Folder *folder, const MesoInput *input)
     bool binary = is_binary(input);
     if (too_deep(json_of(input, binary)))
         throw BrokenGltf("nested more than 200 deep");
-    std::vector<unsigned char> plain = with_hidden_indices(input, binary);
+    std::vector<unsigned char> plain = with_decoded_views(input, binary);
+    if (plain.empty())
+        plain = with_hidden_indices(input, binary);
     const unsigned char *bytes = plain.empty() ? input->data : plain.data();
     size = plain.empty() ? size : static_cast<unsigned int>(plain.size());
     bool read = binary

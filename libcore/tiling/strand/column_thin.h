@@ -8,12 +8,16 @@
 /* Where a column ends: points of rings, all rings numbered through, or MESO_NO_INDEX where the end is a point. */
 typedef struct MesoColumnPlace {
     uint32_t start, end;
-    bool creased;       /* a sharp corner of either ring */
+    bool creased;       /* a sharp corner of either ring: it stays */
+    float signs[2];     /* of x at the start and the end: -1 where it is against the ring's */
+    bool doubled;       /* there are two of it, with the normals of both sides; one at the seam, as at its other end */
 } MesoColumnPlace;
 
 /*
  * Drops columns of finely sampled kinds, so that what is dropped stays within the limits of what is left, at both ends
- * and wherever they are blended between, and no chord stands for a turn of over 60 degrees; sharp corners stay.
+ * and wherever they are blended between, and no chord stands for a turn of over 60 degrees; sharp corners stay. The
+ * other points of a ring that are kept move out of the bends, so that the ring lies as far outside of its chords as
+ * inside, which takes seven chords for ten.
  *
  * Which points a ring keeps depends on its drawing, and on where columns begin: every sweep that ends there, from
  * either side of a wall, has the same. What a sweep needs between its ends, for the corners of the other end or for its

@@ -16,7 +16,7 @@
 enum { INSTANCES_A_RANGE = 1024 };
 
 /* Of the tolerance for what columns are off; the steps along get most of what is left. */
-static const float AROUND_SHARE = 0.7f;
+static const float AROUND_SHARE = 0.5f;
 
 /* Of the tolerance for chords of sections that a slot bends. */
 static const float BEND_SHARE = 0.2f;

@@ -257,8 +257,8 @@ static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoColumnPlac
 }
 
 /*
- * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns along.
- * It turns inside out where its neighbours may not, and has normals of its own.
+ * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns
+ * along. It turns inside out where its neighbours may not, and has normals of its own.
  */
 static bool is_reversed(const Walk *start, const Walk *end, uint32_t k, float angle)
 {
@@ -272,14 +272,16 @@ static bool is_reversed(const Walk *start, const Walk *end, uint32_t k, float an
 static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count, float angle, MesoError *error)
 {
     for (uint32_t k = 0; k <= count; k++) {
-        bool creased = walk_creased(&start, k) || walk_creased(&end, k) ||
-                       is_reversed(&start, &end, k + count - 1, angle) || is_reversed(&start, &end, k, angle);
-        MesoColumnPlace place = {place_of(b, &start, k), place_of(b, &end, k), creased};
+        bool creased = walk_creased(&start, k) || walk_creased(&end, k);
+        bool doubled = creased || is_reversed(&start, &end, k + count - 1, angle) ||
+                       is_reversed(&start, &end, k, angle);
+        MesoColumnPlace place = {place_of(b, &start, k), place_of(b, &end, k), creased,
+                                 {start.x_sign, end.x_sign}, doubled};
         MesoStatus status = MESO_OK;
-        if (creased && k > 0)
+        if (doubled && k > 0)
             status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, false), place, error);
-        if (!status && (k < count || !creased))
-            status = push_column(b, make_column(&start, &end, k, count, creased ? NEXT : BOTH, k < count), place,
+        if (!status && (k < count || !doubled))
+            status = push_column(b, make_column(&start, &end, k, count, doubled ? NEXT : BOTH, k < count), place,
                                  error);
         if (status)
             return status;

@@ -15,20 +15,29 @@
 
 enum { SWEEPS_A_RANGE = 512, LEAST_INTERVALS = 8, MOST_INTERVALS = 256, LEAST_CAP_STEPS = 3 };
 
-/* Numbers of rings are below it. */
-enum { EASED = MESO_MOST_DIVISIONS + 1 };
+/* Numbers of rings are below it: a choice is one of them and so many times the number of the ease. */
+enum { RINGS = MESO_MOST_DIVISIONS + 1 };
 
 /* Pairs of columns: the outermost, and all around where the shape changes. */
 enum { OUTER_PAIRS = 5, MORE_PAIRS = 27, MOST_PAIRS = OUTER_PAIRS + MORE_PAIRS };
 
-/* What columns are off counts in part against the tolerance of the steps, and leaves so much of it. */
-static const float OFF_PART = 0.6f, LEAST_LEFT = 0.5f;
+/*
+ * What columns are off counts against the tolerance of the steps but for a small part, as both are seldom worst at one
+ * place, and leaves so much of it. It counts less for caps, which bend most at the tip, where the columns meet.
+ */
+static const float OFF_PART = 0.95f, CAP_OFF_PART = 0.75f, LEAST_LEFT = 0.3f;
 
 /* Differences at a few places miss the worst one. */
 static const float MARGIN = 1.1f;
 
-/* Where rings lie closer at the ends: half as far there as evenly. They do where that saves a tenth of them. */
-static const float EASE = 0.5f, EASE_GAIN = 0.9f;
+/*
+ * How rings may lie along a sweep: evenly, closer at the ends, or in the middle. An S bends most at its ends and not at
+ * all in the middle; 0.3 takes three quarters of the even steps there, and any spacing two thirds at least. They do not
+ * lie evenly where that saves a twentieth of them.
+ */
+static const float EASES[] = {0, 0.3f, 0.5f, 0.7f, -0.3f, -0.6f};
+static const float EASE_GAIN = 0.95f;
+enum { EASE_COUNT = sizeof EASES / sizeof *EASES, NEWTON_STEPS = 12 };
 
 /* Of a shape's size: less is none. */
 static const float SMALL_CHANGE = 0.02f;
@@ -48,7 +57,7 @@ typedef struct Chooser {
     const MesoScene *scene;
     const MesoKindOrigin *origins;
     float tolerance;
-    uint16_t *rings;    /* [sweep_count] and EASED where they lie closer at the ends */
+    uint16_t *rings;    /* [sweep_count] with the number of the ease */
     atomic_bool failed; /* memory is out */
 } Chooser;
 
@@ -127,7 +136,10 @@ typedef struct Wants {
     float warp[MOST_INTERVALS + 1];
 } Wants;
 
-/* At the ends, where there is no second difference, it goes on as it does beside them. */
+/*
+ * At the ends, where there is no second difference, it goes on as it does beside them, half the way: the first step's
+ * own middle is not nearer to the end but where there are many.
+ */
 static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride)
 {
     uint32_t n = wants->intervals;
@@ -138,9 +150,9 @@ static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride
         MesoVec3 step = meso_vec3_sub(bend, before);
         wants->bend[i] = fmaxf(wants->bend[i], across(bend, along));
         if (i == 2)
-            wants->bend[0] = fmaxf(wants->bend[0], across(meso_vec3_sub(before, step), along));
+            wants->bend[0] = fmaxf(wants->bend[0], across(meso_vec3_mad(before, -0.5f, step), along));
         if (i + 1 == n)
-            wants->bend[n] = fmaxf(wants->bend[n], across(meso_vec3_add(bend, step), along));
+            wants->bend[n] = fmaxf(wants->bend[n], across(meso_vec3_mad(bend, 0.5f, step), along));
         before = bend;
     }
 }
@@ -159,22 +171,38 @@ static void add_warp(Wants *wants, const MesoMeshVertex *pair, uint32_t stride)
     }
 }
 
-/* How fast v goes where rings lie closer at the ends; t by Newton's method. */
-static float ease_rate(float v)
+/* How fast v goes at each of the places, with each ease. */
+typedef struct Rates {
+    uint32_t intervals;
+    float at[EASE_COUNT][MOST_INTERVALS + 1];
+} Rates;
+
+/* t by Newton's method, from a side where it does not overshoot: the curve bends one way on each half. */
+static float ease_rate(float ease, float v)
 {
     const float round = 2 * (float)MESO_PI;
-    float t = v;
-    for (uint32_t i = 0; i < 4; i++)
-        t -= (t - EASE * sinf(round * t) / round - v) / (1 - EASE * cosf(round * t));
-    return 1 - EASE * cosf(round * t);
+    float t = ease > 0 ? 0.5f : v < 0.5f ? 0.0f : 1.0f;
+    for (uint32_t i = 0; i < NEWTON_STEPS && v > 0 && v < 1; i++)
+        t -= (t - ease * sinf(round * t) / round - v) / (1 - ease * cosf(round * t));
+    return 1 - ease * cosf(round * (v > 0 && v < 1 ? t : 0));
+}
+
+static void make_rates(Rates *rates, uint32_t intervals)
+{
+    if (rates->intervals == intervals)
+        return;
+    rates->intervals = intervals;
+    for (uint32_t ease = 0; ease < EASE_COUNT; ease++)
+        for (uint32_t i = 0; i <= intervals; i++)
+            rates->at[ease][i] = ease_rate(EASES[ease], (float)i / (float)intervals);
 }
 
 /* Steps so that the errors, of which one falls with their number and one with its square, add up to the tolerance. */
-static float steps_for(const Wants *wants, bool ease, float tolerance)
+static float steps_for(const Wants *wants, const float *rates, float tolerance)
 {
     float most = 1, m = (float)wants->intervals;
     for (uint32_t i = 0; i <= wants->intervals; i++) {
-        float rate = ease ? ease_rate((float)i / m) : 1;
+        float rate = rates[i];
         float e = MARGIN * wants->bend[i] * m * m * rate * rate / 8, f = MARGIN * wants->warp[i] * m * rate / 4;
         most = fmaxf(most, (f + sqrtf(f * f + 4 * tolerance * e)) / (2 * tolerance));
     }
@@ -187,10 +215,18 @@ static uint32_t intervals_of(const MesoSweptKind *kind, const MesoSweepInstance 
     return wanted < LEAST_INTERVALS ? LEAST_INTERVALS : wanted > MOST_INTERVALS ? MOST_INTERVALS : (uint32_t)wanted;
 }
 
-/* Steps, and whether they are to lie closer at the ends. */
-static float tube_steps(Sample *sample, const MesoSweepInstance *sweep, MesoMeshVertex *vertices, float tolerance,
-                        bool *ease)
+/* What the steps of one range of sweeps are found with. */
+typedef struct Work {
+    Sample sample;
+    Rates rates;
+    MesoMeshVertex vertices[(MOST_INTERVALS + 1) * 2 * MOST_PAIRS];
+} Work;
+
+/* Steps, and which ease takes the fewest. */
+static float tube_steps(Work *work, const MesoSweepInstance *sweep, float tolerance, uint32_t *ease)
 {
+    Sample *sample = &work->sample;
+    MesoMeshVertex *vertices = work->vertices;
     uint32_t stride = sample->kind.column_count;
     Wants wants = {.intervals = intervals_of(&sample->kind, sweep)};
     sample->kind.division_count = wants.intervals + 1;
@@ -200,9 +236,17 @@ static float tube_steps(Sample *sample, const MesoSweepInstance *sweep, MesoMesh
         add_bend(&wants, vertices + c, stride);
     for (uint32_t c = 0; c < stride; c += 2)
         add_warp(&wants, vertices + c, stride);
-    float even = steps_for(&wants, false, tolerance), eased = steps_for(&wants, true, tolerance);
-    *ease = eased < EASE_GAIN * even;
-    return *ease ? eased : even;
+    make_rates(&work->rates, wants.intervals);
+    float least = steps_for(&wants, work->rates.at[0], tolerance), enough = EASE_GAIN * least;
+    *ease = 0;
+    for (uint32_t i = 1; i < EASE_COUNT; i++) {
+        float steps = steps_for(&wants, work->rates.at[i], tolerance);
+        if (steps < enough) {
+            least = enough = steps;
+            *ease = i;
+        }
+    }
+    return least;
 }
 
 /* Scene units of one unit of the profiles, at most. */
@@ -226,7 +270,7 @@ static uint16_t rings_for(uint32_t least, float steps)
     if (!(steps < MESO_MOST_DIVISIONS - 1))
         return MESO_MOST_DIVISIONS;
     uint32_t whole = steps > (float)(least - 1) ? (uint32_t)ceilf(steps) : least - 1, grain = 1;
-    while (whole > 12 * grain)
+    while (whole > 24 * grain)
         grain *= 2;
     whole = (whole + grain - 1) / grain * grain;
     return (uint16_t)(whole + 1 < MESO_MOST_DIVISIONS ? whole + 1 : MESO_MOST_DIVISIONS);
@@ -234,36 +278,38 @@ static uint16_t rings_for(uint32_t least, float steps)
 
 static float tolerance_left(const Chooser *c, uint32_t kind, const MesoSweepInstance *sweep)
 {
+    float part = c->scene->kinds[kind].cap ? CAP_OFF_PART : OFF_PART;
     float off = c->origins[kind].off * scale_of(c->scene, sweep);
-    return fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - OFF_PART * off);
+    return fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - part * off);
 }
 
 static void choose_range(void *context, uint64_t begin, uint64_t end)
 {
     Chooser *c = context;
     const MesoSweptKind *kinds = c->scene->kinds;
-    MesoMeshVertex *vertices = malloc(sizeof *vertices * (MOST_INTERVALS + 1) * 2 * MOST_PAIRS);
-    if (!vertices) {
+    Work *work = malloc(sizeof *work);
+    if (!work) {
         atomic_store(&c->failed, true);
         return;
     }
     uint32_t kind = meso_scene_kind(c->scene, (uint32_t)begin);
-    Sample sample = make_sample(c->scene, &kinds[kind]);
+    work->rates.intervals = 0;
+    work->sample = make_sample(c->scene, &kinds[kind]);
     for (uint64_t i = begin; i < end; i++) {
         if (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count) {
             while (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count)
                 kind++;
-            sample = make_sample(c->scene, &kinds[kind]);
+            work->sample = make_sample(c->scene, &kinds[kind]);
         }
         const MesoSweepInstance *sweep = &c->scene->sweeps[i];
         uint32_t least = kinds[kind].absent[0] || kinds[kind].absent[1] ? 3 : 2;
-        bool ease = false;
+        uint32_t ease = 0;
         float tolerance = tolerance_left(c, kind, sweep);
-        float steps = kinds[kind].cap ? cap_steps(&sample, sweep, tolerance)
-                                      : tube_steps(&sample, sweep, vertices, tolerance, &ease);
-        c->rings[i] = (uint16_t)(rings_for(least, steps) + (ease ? EASED : 0));
+        float steps = kinds[kind].cap ? cap_steps(&work->sample, sweep, tolerance)
+                                      : tube_steps(work, sweep, tolerance, &ease);
+        c->rings[i] = (uint16_t)(rings_for(least, steps) + ease * RINGS);
     }
-    free(vertices);
+    free(work);
 }
 
 /* ---- kinds of equal steps ---- */
@@ -275,7 +321,7 @@ typedef struct Split {
     uint32_t kind_count;
 } Split;
 
-/* `counts` [2 * EASED] is all 0 before and after; `split` NULL only counts the kinds. */
+/* `counts` [EASE_COUNT * RINGS] is all 0 before and after; `split` NULL only counts the kinds. */
 static uint32_t split_kind(Split *split, const MesoScene *scene, const MesoKindOrigin *origins, uint32_t k,
                            const uint16_t *rings, uint32_t *counts)
 {
@@ -283,13 +329,13 @@ static uint32_t split_kind(Split *split, const MesoScene *scene, const MesoKindO
     uint32_t parts = 0, end = kind->instance_begin;
     for (uint32_t i = 0; i < kind->instance_count; i++)
         parts += counts[rings[kind->instance_begin + i]]++ == 0;
-    for (uint32_t r = 0; r < 2 * EASED && split; r++) {
+    for (uint32_t r = 0; r < EASE_COUNT * RINGS && split; r++) {
         if (!counts[r])
             continue;
         MesoSweptKind *part = &split->kinds[split->kind_count];
         *part = *kind;
-        part->division_count = r % EASED;
-        part->ease = r < EASED ? 0 : EASE;
+        part->division_count = r % RINGS;
+        part->ease = EASES[r / RINGS];
         part->instance_begin = end;
         part->instance_count = counts[r];
         split->origins[split->kind_count++] = origins[k];
@@ -329,7 +375,7 @@ MesoStatus meso_scene_choose_steps(MesoScene *scene, MesoKindOrigin **origins, M
     MesoArena scratch;
     meso_arena_init(&scratch);
     Chooser chooser = {scene, *origins, tolerance, MESO_NEW(&scratch, uint16_t, scene->sweep_count, error), false};
-    uint32_t *counts = MESO_NEW(&scratch, uint32_t, 2 * EASED, error);
+    uint32_t *counts = MESO_NEW(&scratch, uint32_t, EASE_COUNT * RINGS, error);
     MesoStatus status = MESO_ERR_MEMORY;
     if (chooser.rings && counts) {
         meso_parallel_for(thread_count, scene->sweep_count, SWEEPS_A_RANGE, choose_range, &chooser);

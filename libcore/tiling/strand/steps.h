@@ -9,10 +9,10 @@
 enum { MESO_MOST_DIVISIONS = 4096 };
 
 /*
- * Cuts the scene's kinds up so that each has instances which need about as many vertices along, and sets that number:
- * the quads lie within `tolerance` (scene units) of the surface. What columns are off already is left out of it, in
- * part: both are seldom worst at one place. It is estimated from differences of the surface at nine places along
- * some columns of each sweep, or more where it turns.
+ * Cuts the scene's kinds up so that each has instances which need about as many vertices along, and sets that number
+ * and how they lie: the quads are within `tolerance` (scene units) of the surface. What columns are off already is left
+ * out of it. It is estimated from differences of the surface at nine places along some columns of each sweep, or more
+ * where it turns.
  *
  * origins   [kind_count] of the scene's kinds; replaced like the kinds
  *

@@ -139,6 +139,25 @@ static void test_corners(MesoArena *arena)
     }
 }
 
+/* However a section turns on the way to another, what turns inside out there takes no columns of its own. */
+static void test_turned(MesoArena *arena)
+{
+    uint32_t straight = 0;
+    for (uint32_t i = 0; i < 10; i++) {
+        Case s = {0};
+        Meshed coarse;
+        uint32_t most = 0;
+        make_case(&s, arena);
+        s.sweeps[0].turn = s.sweeps[1].turn = 0.1f * (float)i;
+        s.model.options.tolerance = 0.002f;
+        mesh(&coarse, &s.model, arena);
+        for (uint32_t k = 0; k < coarse.scene.kind_count; k++)
+            most = most > coarse.scene.kinds[k].column_count ? most : coarse.scene.kinds[k].column_count;
+        straight = i == 0 ? most : straight;
+        CHECK(most <= 2 * straight);
+    }
+}
+
 int main(void)
 {
     MesoArena arena;
@@ -146,6 +165,7 @@ int main(void)
     test_error(&arena, MESO_SWEEP_CURVES);
     test_error(&arena, MESO_SWEEP_SHAPE);
     test_corners(&arena);
+    test_turned(&arena);
     meso_arena_release(&arena);
     return 0;
 }

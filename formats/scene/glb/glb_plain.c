@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 #include "formats/scene/surface_frame.h"
 
 enum { FRAME_BYTES = sizeof(MesoTangent) + sizeof(MesoVec2) };
@@ -159,6 +159,8 @@ typedef struct Writer {
     MesoGlbPrimitive *primitives;   /* [primitive_count] */
     Piece *pieces;                  /* [primitive_count] */
     MesoBox *boxes;                 /* [primitive_count] */
+    uint32_t apart;                 /* the part from which on each stands for a set of instances */
+    MesoGlbInstances instances;
     pthread_mutex_t lock;
     bool finite;
     size_t json_size;               /* room for it */
@@ -167,7 +169,8 @@ typedef struct Writer {
 
 static MesoStatus allocate(Writer *w, MesoError *error)
 {
-    MesoStatus status = meso_glb_runs(&w->runs, &w->run_count, w->stream.parts, UINT64_MAX, w->arena, error);
+    MesoStatus status = meso_glb_runs(&w->runs, &w->run_count, w->stream.parts, UINT64_MAX, w->apart, w->arena,
+                                      error);
     if (status)
         return status;
     w->ranges = MESO_NEW(w->arena, MesoPartRange, w->run_count, error);
@@ -189,12 +192,15 @@ static void make_pieces(Writer *w)
                           .lock = &w->lock, .finite = &w->finite};
     for (uint32_t i = 0; i < w->run_count; i++) {
         const MesoPartRange range = w->runs[i].range;
-        if (i == 0 || w->runs[i].material != w->runs[i - 1].material) {
+        bool instanced = range.begin >= w->apart;
+        if (i == 0 || w->runs[i].material != w->runs[i - 1].material || instanced) {
             w->run_begin[w->primitive_count] = i;
             w->boxes[w->primitive_count] = meso_box_empty();
             w->pieces[w->primitive_count] = common;
             w->pieces[w->primitive_count].box = &w->boxes[w->primitive_count];
-            w->primitives[w->primitive_count] = (MesoGlbPrimitive){.material = w->runs[i].material};
+            w->primitives[w->primitive_count] = (MesoGlbPrimitive){
+                .material = w->runs[i].material,
+                .instances = instanced ? &w->instances.sets[range.begin - w->apart] : NULL};
             w->primitive_count++;
         }
         MesoGlbPrimitive *primitive = &w->primitives[w->primitive_count - 1];
@@ -221,8 +227,10 @@ static MesoStatus leave_room(Writer *w, MesoError *error)
     if (!longest)
         return MESO_ERR_MEMORY;
     for (uint32_t p = 0; p < w->primitive_count; p++)
-        longest[p] = (MesoGlbPrimitive){w->primitives[p].material, UINT32_MAX / 64, UINT32_MAX, long_text, long_text,
-                                        UINT32_MAX, UINT32_MAX, NULL};
+        longest[p] = (MesoGlbPrimitive){
+            .material = w->primitives[p].material, .vertex_count = UINT32_MAX / 64, .triangle_count = UINT32_MAX,
+            .low = long_text, .high = long_text, .vertices_at = UINT32_MAX, .indices_at = UINT32_MAX,
+            .instances = w->primitives[p].instances, .instances_at = UINT32_MAX};
     const char *text = meso_glb_json(parts, w->stream.options, longest, w->primitive_count, UINT32_MAX, w->arena,
                                      error);
     if (!text)
@@ -233,6 +241,8 @@ static MesoStatus leave_room(Writer *w, MesoError *error)
     w->stream.offset = w->binary_at;
     uint64_t size = meso_glb_stride(parts->scene, w->stream.options) * parts->vertex_begin[parts->part_count] +
                     12 * parts->triangle_count;
+    for (uint32_t i = 0; i < w->instances.set_count; i++)
+        size += (sizeof(MesoGlbPose) + 4 * parts->scene->channel_count) * (uint64_t)w->instances.sets[i].count;
     return meso_glb_heads(head, binary_head, w->json_size, size, w->stream.options, error);
 }
 
@@ -261,6 +271,53 @@ static MesoStatus write_binary(Writer *w, MesoError *error)
             primitive->triangle_count = (w->stream.offset - begin) / 12;
         primitive->low = w->boxes[p].low;
         primitive->high = w->boxes[p].high;
+    }
+    return status;
+}
+
+/* ---- instances ---- */
+
+enum { INSTANCES_AT_ONCE = 512 };
+
+/* Words [begin, end) of an instance: those of its pose, then an id a channel. */
+static void instance_words(const MesoScene *scene, const MesoGlbInstanceSet *set, uint32_t instance, uint32_t begin,
+                           uint32_t end, uint32_t *out)
+{
+    uint32_t words[sizeof(MesoGlbPose) / 4 + MESO_ID_CHANNELS];
+    memcpy(words, &set->poses[instance], sizeof(MesoGlbPose));
+    for (uint32_t c = 0; c < scene->channel_count; c++)
+        words[sizeof(MesoGlbPose) / 4 + c] = meso_scene_id(scene, set->rows[instance], c);
+    memcpy(out, words + begin, (end - begin) * sizeof *words);
+}
+
+/* The words [begin, end) of all instances of a set. */
+static MesoStatus write_words(Writer *w, const MesoGlbInstanceSet *set, uint32_t begin, uint32_t end, MesoError *error)
+{
+    uint32_t words[INSTANCES_AT_ONCE * 4], width = end - begin;
+    MesoStatus status = MESO_OK;
+    for (uint32_t first = 0; first < set->count && !status; first += INSTANCES_AT_ONCE) {
+        uint32_t left = set->count - first, count = left < INSTANCES_AT_ONCE ? left : INSTANCES_AT_ONCE;
+        for (uint32_t i = 0; i < count; i++)
+            instance_words(w->stream.parts->scene, set, first + i, begin, end, words + (size_t)i * width);
+        status = meso_output_write_at(w->stream.output, w->stream.offset, words, (size_t)4 * width * count, error);
+        w->stream.offset += (uint64_t)4 * width * count;
+    }
+    return status;
+}
+
+static MesoStatus write_instances(Writer *w, MesoError *error)
+{
+    static const uint32_t ends[] = {0, 3, 7, 10};
+    MesoStatus status = MESO_OK;
+    for (uint32_t p = 0; p < w->primitive_count; p++) {
+        const MesoGlbInstanceSet *set = w->primitives[p].instances;
+        if (!set)
+            continue;
+        w->primitives[p].instances_at = w->stream.offset - w->binary_at;
+        for (uint32_t k = 0; k < 3 && !status; k++)
+            status = write_words(w, set, ends[k], ends[k + 1], error);
+        for (uint32_t c = 0; c < w->stream.parts->scene->channel_count && !status; c++)
+            status = write_words(w, set, ends[3] + c, ends[3] + c + 1, error);
     }
     return status;
 }
@@ -303,6 +360,8 @@ static MesoStatus write_all(Writer *w, MesoError *error)
     status = leave_room(w, error);
     if (!status)
         status = write_binary(w, error);
+    if (!status)
+        status = write_instances(w, error);
     if (!status && !w->finite)
         status = refuse_infinite(w, error);
     return status ? status : write_json(w, error);
@@ -313,9 +372,16 @@ MesoStatus meso_glb_write_plain(const MesoSceneParts *parts, const MesoMeshWrite
 {
     MesoArena arena;
     Writer w = {.stream = {.parts = parts, .options = options, .output = output}, .arena = &arena, .finite = true,
-                .lock = PTHREAD_MUTEX_INITIALIZER};
+                .apart = UINT32_MAX, .lock = PTHREAD_MUTEX_INITIALIZER};
+    MesoStatus status = MESO_OK;
     meso_arena_init(&arena);
-    MesoStatus status = write_all(&w, error);
+    if (options->instances) {
+        status = meso_glb_instances_find(&w.instances, parts->scene, &arena, error);
+        w.stream.parts = &w.instances.parts;
+        w.apart = w.instances.first;
+    }
+    if (!status)
+        status = write_all(&w, error);
     pthread_mutex_destroy(&w.lock);
     meso_arena_release(&arena);
     return status;

@@ -3,14 +3,16 @@
 #include <string.h>
 
 #include "formats/json/json_text.h"
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 
 enum {
-    TYPE_BYTE = 5121, TYPE_SHORT = 5123, TYPE_UINT = 5125, TYPE_FLOAT = 5126,
+    TYPE_SIGNED_BYTE = 5120, TYPE_BYTE = 5121, TYPE_SIGNED_SHORT = 5122, TYPE_SHORT = 5123,
+    TYPE_UINT = 5125, TYPE_FLOAT = 5126,
     ARRAY_BUFFER = 34962, ELEMENT_BUFFER = 34963
 };
 
-static const char DRACO[] = "KHR_draco_mesh_compression";
+static const char DRACO[] = "KHR_draco_mesh_compression", MESHOPT[] = "EXT_meshopt_compression";
+static const char QUANTIZED[] = "KHR_mesh_quantization", INSTANCED[] = "EXT_mesh_gpu_instancing";
 
 typedef struct Document {
     const MesoSceneParts *parts;
@@ -18,6 +20,7 @@ typedef struct Document {
     json_t *views, *accessors, *materials, *meshes, *nodes;     /* of `root` */
     json_t *root;
     bool colored;
+    uint32_t material;  /* the last of `materials`, by its number in the scene; those of one lie together */
     int failed;         /* of Jansson: memory is out */
 } Document;
 
@@ -72,6 +75,11 @@ static json_t *vector(MesoVec3 v)
     return json_pack("[f, f, f]", (double)v.x + 0.0, (double)v.y + 0.0, (double)v.z + 0.0);
 }
 
+static json_t *whole_vector(MesoVec3 v)
+{
+    return json_pack("[I, I, I]", (json_int_t)v.x, (json_int_t)v.y, (json_int_t)v.z);
+}
+
 /* "_TILE" for the channel "tile". */
 static void attribute_name(const MesoIdChannel *channel, char name[MESO_CHANNEL_NAME + 1])
 {
@@ -114,6 +122,8 @@ static json_t *add_attributes(Document *d, const MesoGlbPrimitive *primitive, js
         offset += 4;
     }
     for (uint32_t c = 0; c < scene->channel_count; c++, offset += 4) {
+        if (primitive->instances)       /* each instance has its own */
+            continue;
         char name[MESO_CHANNEL_NAME + 1];
         attribute_name(&scene->channels[c], name);
         const char *type = scene->channels[c].names ? "SCALAR" : "VEC2";    /* the format has no whole 32 bits */
@@ -151,6 +161,93 @@ static json_t *make_compressed(Document *d, const MesoGlbPrimitive *p)
                      "bufferView", view, "attributes", ids);
 }
 
+/* ---- instances ---- */
+
+/* Where a node's mesh is placed, in views of their own. */
+static void place_instances(Document *d, json_t *node, const MesoGlbPrimitive *p)
+{
+    static const struct { const char *name, *type; uint32_t width; } poses[] = {
+        {"TRANSLATION", "VEC3", 3}, {"ROTATION", "VEC4", 4}, {"SCALE", "VEC3", 3}};
+    const MesoScene *scene = d->parts->scene;
+    uint64_t at = p->instances_at, count = p->instances->count;
+    json_t *attributes = json_object();
+    for (uint32_t i = 0; i < 3 + scene->channel_count; i++) {
+        char name[MESO_CHANNEL_NAME + 1];
+        uint32_t width = i < 3 ? poses[i].width : 1;
+        json_int_t view = add_view(d, at, 4 * width * count, 0, 0);
+        if (i >= 3)
+            attribute_name(&scene->channels[i - 3], name);
+        set(d, attributes, i < 3 ? poses[i].name : name,
+            json_integer(add_accessor(d, view, 0, i < 3 ? poses[i].type : "SCALAR", i < 3 ? TYPE_FLOAT : TYPE_UINT,
+                                      count)));
+        at += 4 * width * count;
+    }
+    set(d, node, "extensions", json_pack("{s:{s:o}}", INSTANCED, "attributes", attributes));
+}
+
+/* ---- of meshoptimizer ---- */
+
+/* A view of the buffer that nobody has to fill, and how it is decoded into it. */
+static json_int_t add_stream(Document *d, const MesoGlbStream *stream, uint64_t count, const char *filter, int target)
+{
+    bool indices = target == ELEMENT_BUFFER;
+    json_t *coding = json_pack("{s:i, s:I, s:I, s:I, s:I, s:s}", "buffer", 0, "byteOffset", (json_int_t)stream->at,
+                               "byteLength", (json_int_t)stream->size, "byteStride", (json_int_t)stream->stride,
+                               "count", (json_int_t)count, "mode", indices ? "TRIANGLES" : "ATTRIBUTES");
+    if (filter)
+        set(d, coding, "filter", json_string(filter));
+    json_int_t view = add_view(d, stream->plain_at, count * stream->stride, indices ? 0 : stream->stride, target);
+    json_t *object = json_array_get(d->views, (size_t)view);
+    set(d, object, "buffer", json_integer(1));
+    set(d, object, "extensions", json_pack("{s:o}", MESHOPT, coding));
+    return view;
+}
+
+static json_t *add_streamed(Document *d, json_t *attributes, const char *name, const MesoGlbPrimitive *p,
+                            uint32_t number, const char *filter, const char *type, int component)
+{
+    json_int_t view = add_stream(d, &p->meshopt->of[number], p->vertex_count, filter, ARRAY_BUFFER);
+    json_int_t accessor = add_accessor(d, view, 0, type, component, p->vertex_count);
+    set(d, attributes, name, json_integer(accessor));
+    return json_array_get(d->accessors, (size_t)accessor);
+}
+
+static json_t *make_meshopt(Document *d, const MesoGlbPrimitive *p)
+{
+    const MesoScene *scene = d->parts->scene;
+    json_t *attributes = json_object();
+    json_t *position = add_streamed(d, attributes, "POSITION", p, MESO_GLB_POSITION, NULL, "VEC3", TYPE_SHORT);
+    set(d, position, "min", whole_vector(p->low));
+    set(d, position, "max", whole_vector(p->high));
+    bool wide = p->meshopt->of[MESO_GLB_NORMAL].stride == 8;
+    json_t *normal = add_streamed(d, attributes, "NORMAL", p, MESO_GLB_NORMAL, "OCTAHEDRAL", "VEC3",
+                                  wide ? TYPE_SIGNED_SHORT : TYPE_SIGNED_BYTE);
+    set(d, normal, "normalized", json_true());
+    add_streamed(d, attributes, "TEXCOORD_0", p, MESO_GLB_UV, NULL, "VEC2", TYPE_FLOAT);
+    if (d->colored)
+        set(d, add_streamed(d, attributes, "COLOR_0", p, MESO_GLB_COLOR, NULL, "VEC3", TYPE_BYTE), "normalized",
+            json_true());
+    for (uint32_t c = 0; c < scene->channel_count; c++) {
+        char name[MESO_CHANNEL_NAME + 1];
+        attribute_name(&scene->channels[c], name);
+        add_streamed(d, attributes, name, p, MESO_GLB_IDS + c, NULL, scene->channels[c].names ? "SCALAR" : "VEC2",
+                     TYPE_SHORT);
+    }
+    json_int_t indices = add_stream(d, &p->meshopt->of[MESO_GLB_INDICES], 3 * p->triangle_count, NULL, ELEMENT_BUFFER);
+    return json_pack("{s:o, s:I}", "attributes", attributes, "indices",
+                     add_accessor(d, indices, 0, "SCALAR", TYPE_UINT, 3 * p->triangle_count));
+}
+
+/* From whole steps to the scene. */
+static void place_node(Document *d, json_t *node, const MesoGlbMeshopt *meshopt)
+{
+    double step = (double)meshopt->step;
+    set(d, node, "translation", vector(meshopt->origin));
+    set(d, node, "scale", json_pack("[f, f, f]", step, step, step));
+}
+
+/* ---- materials and nodes ---- */
+
 /* Sweeps that end at a border are open tubes: their insides can be seen. */
 static json_t *material_of(const MesoMaterial *m, const char *name)
 {
@@ -179,14 +276,24 @@ static uint32_t add_mesh(Document *d, const MesoGlbPrimitive *first, uint32_t co
     json_t *primitives = json_array();
     uint32_t used = 0;
     meso_mesh_material_name(scene, first->material, name);
-    json_int_t material = add(d, d->materials, material_of(&scene->materials[first->material], name));
-    for (; used < count && first[used].material == first->material; used++) {
-        json_t *primitive = (first[used].draco ? make_compressed : make_plain)(d, &first[used]);
+    json_int_t material = (json_int_t)json_array_size(d->materials) - 1;
+    if (first->material != d->material)
+        material = add(d, d->materials, material_of(&scene->materials[first->material], name));
+    d->material = first->material;
+    for (; used < count && first[used].material == first->material && first[used].instances == first->instances;
+         used++) {
+        json_t *primitive = (first[used].draco ? make_compressed : first[used].meshopt ? make_meshopt : make_plain)(
+            d, &first[used]);
         set(d, primitive, "material", json_integer(material));
         add(d, primitives, primitive);
     }
     json_int_t mesh = add(d, d->meshes, json_pack("{s:o, s:o}", "name", node_name(name), "primitives", primitives));
-    add(d, d->nodes, json_pack("{s:o, s:I}", "name", node_name(name), "mesh", mesh));
+    json_t *node = json_pack("{s:o, s:I}", "name", node_name(name), "mesh", mesh);
+    if (first->instances)
+        place_instances(d, node, first);
+    if (first->meshopt)
+        place_node(d, node, first->meshopt);
+    add(d, d->nodes, node);
     return used;
 }
 
@@ -256,8 +363,14 @@ static MesoStatus describe(Document *d, const MesoGlbPrimitive *primitives, uint
     MesoStatus status = add_asset(d, arena, error);
     if (status)
         return status;
-    for (int i = 0; i < 2 && primitives[0].draco; i++)
-        set(d, d->root, i ? "extensionsRequired" : "extensionsUsed", json_pack("[s]", DRACO));
+    for (int i = 0; i < 2 && (primitives[0].draco || primitives[0].meshopt); i++)
+        set(d, d->root, i ? "extensionsRequired" : "extensionsUsed",
+            primitives[0].draco ? json_pack("[s]", DRACO) : json_pack("[s, s]", MESHOPT, QUANTIZED));
+    bool instanced = false;
+    for (uint32_t i = 0; i < count; i++)
+        instanced = instanced || primitives[i].instances;
+    for (int i = 0; i < 2 && instanced; i++)
+        set(d, d->root, i ? "extensionsRequired" : "extensionsUsed", json_pack("[s]", INSTANCED));
     set(d, d->root, "scene", json_integer(0));
     set(d, d->root, "scenes", json_pack("[{s:[i]}]", "nodes", 0));
     d->nodes = add_list(d, "nodes");
@@ -265,7 +378,12 @@ static MesoStatus describe(Document *d, const MesoGlbPrimitive *primitives, uint
     d->meshes = add_list(d, "meshes");
     d->accessors = add_list(d, "accessors");
     d->views = add_list(d, "bufferViews");
-    set(d, d->root, "buffers", json_pack("[{s:I}]", "byteLength", (json_int_t)size));
+    json_t *buffers = json_pack("[{s:I}]", "byteLength", (json_int_t)size);
+    if (primitives[0].meshopt)      /* where the views are, which only decoders fill */
+        add(d, buffers, json_pack("{s:I, s:{s:{s:b}}}", "byteLength",
+                                  (json_int_t)primitives[count - 1].meshopt->plain_end, "extensions", MESHOPT,
+                                  "fallback", 1));
+    set(d, d->root, "buffers", buffers);
     add(d, d->nodes, json_object());
     for (uint32_t i = 0; i < count;)
         i += add_mesh(d, &primitives[i], count - i);
@@ -284,7 +402,7 @@ const char *meso_glb_json(const MesoSceneParts *parts, const MesoMeshWriteOption
                           const MesoGlbPrimitive *primitives, uint32_t count, uint64_t size, MesoArena *arena,
                           MesoError *error)
 {
-    Document d = {.parts = parts, .options = options, .root = json_object(),
+    Document d = {.parts = parts, .options = options, .root = json_object(), .material = MESO_NO_INDEX,
                   .colored = meso_scene_is_colored(parts->scene)};
     MesoStatus status = describe(&d, primitives, count, size, arena, error);
     char *text = status || d.failed ? NULL : json_dumps(d.root, JSON_COMPACT | JSON_REAL_PRECISION(9));

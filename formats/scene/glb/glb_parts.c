@@ -1,11 +1,11 @@
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 
 #include <string.h>
 
 #include "formats/scene/surface_frame.h"
 
 /* Runs in the order of the parts; `runs` NULL only counts. */
-static uint32_t cut_runs(const MesoSceneParts *parts, uint64_t most_faces, MesoGlbRun *runs)
+static uint32_t cut_runs(const MesoSceneParts *parts, uint64_t most_faces, uint32_t apart, MesoGlbRun *runs)
 {
     uint32_t count = 0;
     for (uint32_t part = 0; part < parts->part_count;) {
@@ -13,7 +13,7 @@ static uint32_t cut_runs(const MesoSceneParts *parts, uint64_t most_faces, MesoG
         uint64_t first = parts->face_begin[part];
         do
             part++;
-        while (part < parts->part_count && parts->face_begin[part + 1] - first <= most_faces &&
+        while (part < parts->part_count && part < apart && parts->face_begin[part + 1] - first <= most_faces &&
                meso_scene_part(parts, part).material == run.material);
         run.range.end = part;
         run.face_count = parts->face_begin[part] - first;
@@ -39,17 +39,17 @@ static void sort_runs(const MesoGlbRun *runs, uint32_t count, uint32_t *bins, ui
 }
 
 MesoStatus meso_glb_runs(MesoGlbRun **runs, uint32_t *count, const MesoSceneParts *parts, uint64_t most_faces,
-                         MesoArena *arena, MesoError *error)
+                         uint32_t apart, MesoArena *arena, MesoError *error)
 {
     uint32_t material_count = parts->scene->material_count;
-    *count = cut_runs(parts, most_faces, NULL);
+    *count = cut_runs(parts, most_faces, apart, NULL);
     *runs = MESO_NEW(arena, MesoGlbRun, *count, error);
     MesoArenaMark mark = meso_arena_mark(arena);
     MesoGlbRun *unsorted = MESO_NEW(arena, MesoGlbRun, *count, error);
     uint32_t *bins = MESO_NEW(arena, uint32_t, (size_t)material_count + 1, error);
     if (!*runs || !unsorted || !bins)
         return MESO_ERR_MEMORY;
-    cut_runs(parts, most_faces, unsorted);
+    cut_runs(parts, most_faces, apart, unsorted);
     sort_runs(unsorted, *count, bins, material_count, *runs);
     meso_arena_rewind(arena, mark);
     return MESO_OK;
@@ -81,6 +81,10 @@ MesoStatus meso_glb_write(const MesoSceneParts *parts, const MesoMeshWriteOption
     MesoStatus status = meso_mesh_check_counts(parts, options, "a GLB file", error);
     if (status)
         return status;
-    return (options->compression == MESO_GLB_DRACO ? meso_glb_write_draco : meso_glb_write_plain)(parts, options,
-                                                                                                  output, error);
+    switch (options->compression) {
+    case MESO_GLB_DRACO: return meso_glb_write_draco(parts, options, output, error);
+    case MESO_GLB_MESHOPT: return meso_glb_write_meshopt(parts, options, output, error);
+    case MESO_GLB_PLAIN: break;
+    }
+    return meso_glb_write_plain(parts, options, output, error);
 }

@@ -6,7 +6,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "formats/scene/glb_parts.h"
+#include "formats/scene/glb/glb_parts.h"
 #include "libcore/base/parallel.h"
 
 /* Half a million triangles a piece; only a larger part makes a larger piece. */
@@ -54,7 +54,7 @@ static MesoStatus make_pieces(Encoding *encoding, MesoArena *arena, MesoError *e
 {
     MesoGlbRun *runs;
     uint32_t count;
-    MesoStatus status = meso_glb_runs(&runs, &count, encoding->parts, PIECE_FACES, arena, error);
+    MesoStatus status = meso_glb_runs(&runs, &count, encoding->parts, PIECE_FACES, UINT32_MAX, arena, error);
     if (status)
         return status;
     encoding->ranges = MESO_NEW(arena, MesoPartRange, count, error);
