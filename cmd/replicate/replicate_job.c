@@ -116,7 +116,7 @@ static MesoStatus choose_frames(Job *job)
     }
     for (uint32_t i = 0; i < job->frames.count && !status; i++)
         status = meso_replicate_clip_find(&job->clip, job->frames.frames[i], &frame);
-    bool one = job->output.product == MESO_PRODUCT_USDA || job->output.product == MESO_PRODUCT_ANIMATION;
+    bool one = meso_replicate_output_is_one(&job->output);
     for (uint32_t i = 1; i < job->frames.count && !status && one; i++)
         if (job->frames.frames[i] <= job->frames.frames[i - 1])
             status = meso_fail(&tool->error, MESO_ERR_USAGE, "--frames: those of one file go forwards");
@@ -202,6 +202,8 @@ static MesoStatus run(Job *job)
     if (!status)
         status = meso_replicate_carve_begin(&job->carve, &job->kinds, &job->files, &job->details, &job->clip.rest,
                                             a->fineness);
+    if (!status && job->carve.kinds && meso_replicate_output_is_one(&job->output))
+        status = meso_replicate_run_look_ahead(&job->run, &job->originals, &job->frames);
     if (!status)
         status = meso_replicate_output_begin(&job->output, &job->run, &job->kinds, &job->carve);
     if (!status && a->report)

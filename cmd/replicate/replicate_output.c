@@ -36,7 +36,7 @@ MesoStatus meso_replicate_output_choose(MesoReplicateOutput *o, MesoReplicateArg
         : glb && !o->numbered ? MESO_PRODUCT_ANIMATION : MESO_PRODUCT_SCENES;
     if (a->instances && !glb)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--instances is for .glb; a .usda has instances anyway");
-    bool one = o->product == MESO_PRODUCT_USDA || o->product == MESO_PRODUCT_ANIMATION;
+    bool one = meso_replicate_output_is_one(o);
     if (one && o->numbered)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "-o '%s': a .usda holds all frames; leave out the number",
                          o->path);
@@ -74,7 +74,7 @@ static MesoStatus show_surface(MesoReplicateOutput *o, const MesoReplicateRun *r
         return MESO_OK;
     if (strcmp(o->material, "own") != 0)
         status = meso_material_of_text(&o->look, name, o->material, &o->tool->error);
-    if (!status && r->way == MESO_WAY_PLAY)
+    if (!status && (r->way == MESO_WAY_PLAY || r->ahead))
         status = meso_replicate_carve_details(o->carve, r);
     take_surface(o, r);
     o->scene.surface = &o->surface;
@@ -86,14 +86,10 @@ MesoStatus meso_replicate_output_begin(MesoReplicateOutput *o, const MesoReplica
 {
     MesoTool *tool = o->tool;
     double rate = (double)o->arguments->frames_per_second;
-    bool one = o->product == MESO_PRODUCT_USDA || o->product == MESO_PRODUCT_ANIMATION;
     o->kinds = kinds;
     o->carve = carve;
     o->material = o->arguments->surface ? o->arguments->surface : carve->kinds ? "own" : NULL;
     o->scene = (MesoInstanceScene){kinds->kind_count, kinds->shapes, NULL, &tool->provenance};
-    if (one && carve->kinds && r->way != MESO_WAY_PLAY)
-        return meso_fail(&tool->error, MESO_ERR_USAGE, "bumps and holes that are born change the surface's faces: "
-                         "write a file a frame, or --mode play");
     if (carve->kinds && r->way == MESO_WAY_PAPER)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--mode paper moves its details over the surface, and bumps and "
                          "holes stay where they were born");

@@ -104,7 +104,7 @@ try replicate --instances scales.json long-%02d.ply -o x-%02d.ply
 try replicate --state x.state --mode play scales.json long-%02d.ply -o x-%02d.ply
 try replicate --plan x.plan scales.json long-%02d.ply -o x-%02d.ply
 try replicate --alpha 2 scales.json long-%02d.ply -o x-%02d.ply
-try replicate mixed.json long-%02d.ply -o x.usda
+try replicate --mode paper mixed.json long-%02d.ply -o x.usda
 try replicate scales.json -o x-%02d.ply
 try replicate scales.json plate.obj -o x-%02d.ply
 try replicate scales.json nowhere-%02d.ply -o x-%02d.ply
