@@ -70,7 +70,8 @@ int main(int argc, char **argv)
                    1000),
         MESO_FLAG(0, "instances", "a .glb has each kind once, and where it stands (EXT_mesh_gpu_instancing)",
                   &a.instances),
-        MESO_FLAG(0, "z-up", "z is up, not y: for upright kinds, and in a .usda", &a.z_up),
+        MESO_CHOICE(0, "up", "AXIS", "that is up on the surface, y (default) or z: for upright kinds, and in .glb and "
+                    ".usda", &a.output.up, "y|z"),
         MESO_GROUP("Test sequences"),
         MESO_TEXT(0, "deform", "HOW", "deform SURFACE: stretch, scale, twist, bend, inflate, or as FILE.json says",
                   &a.deform),

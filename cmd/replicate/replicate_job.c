@@ -73,9 +73,8 @@ static MesoStatus strew_details(Job *job)
 {
     MesoTool *tool = job->tool;
     MesoReplicateGround ground = {.triangles = &job->clip.triangles, .files = &job->files, .tool = tool};
-    MesoVec3 up = {0, job->arguments->z_up ? 0 : 1, job->arguments->z_up ? 1 : 0};
-    MesoStatus status = meso_growth_ground_build(&ground.ground, &tool->arena, &job->clip.rest, up, tool->threads,
-                                                 &tool->error);
+    MesoStatus status = meso_growth_ground_build(&ground.ground, &tool->arena, &job->clip.rest,
+                                                 meso_replicate_up(job->arguments), tool->threads, &tool->error);
     if (!status)
         status = meso_replicate_originals(&job->originals, &ground, &job->details);
     json_object_set_new(tool->report, "originals", json_integer((json_int_t)job->originals.count));

@@ -82,7 +82,9 @@ for kind in meso ply obj glb drc; do
 done
 replicate --frames 6 --instances --surface own scales.json long-%02d.ply -o inst-%d.glb
 replicate --surface clay scales.json long-%02d.ply -o clip.glb
-replicate --surface clay scales.json long-%02d.ply -o clip.usda && grep -c PointInstancer clip.usda
+replicate --surface clay --up z --unit 0.01 scales.json long-%02d.ply -o clip.usda && grep -c PointInstancer clip.usda
+grep 'upAxis\|metersPerUnit' clip.usda
+replicate --instances --up z scales.json long-%02d.ply -o up-%02d.glb && grep -a -c '"rotation":\[-0.7071' up-01.glb
 replicate --mode play mixed.json long-%02d.ply -o holes.glb
 if [ -d "$npm/node_modules/gltf-validator" ]; then
     for file in one.glb clip.glb holes.glb; do
@@ -101,6 +103,7 @@ try replicate scales.json long-%02d.ply -o x-%02d.xyz
 try replicate scales.json long-%02d.ply -o x-%02d.usda
 try replicate --state x.state scales.json long-%02d.ply -o x.glb
 try replicate --instances scales.json long-%02d.ply -o x-%02d.ply
+try replicate --instances --tangents scales.json long-%02d.ply -o x-%02d.glb
 try replicate --state x.state --mode play scales.json long-%02d.ply -o x-%02d.ply
 try replicate --plan x.plan scales.json long-%02d.ply -o x-%02d.ply
 try replicate --alpha 2 scales.json long-%02d.ply -o x-%02d.ply
