@@ -119,7 +119,7 @@ static MesoStatus write(const MesoReplicateTable *table, const MesoReplicateRun 
     MesoTool *tool = r->tool;
     MesoOutput *output = NULL;
     json_t *root = describe(table, r, kind_names);
-    char *text = json_dumps(root, JSON_INDENT(1));
+    char *text = json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
     MesoStatus status = text ? meso_output_open(&output, r->arguments->report, &tool->error)
                              : meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report");
     if (!status)
