@@ -194,6 +194,17 @@ static MesoStatus run_frames(Job *job)
     return status;
 }
 
+static void report_holes(const Job *job)
+{
+    uint32_t count = job->carve.mesh.uncut_count;
+    if (!job->carve.kinds)
+        return;
+    json_object_set_new(job->tool->report, "holes_left_out", json_integer((json_int_t)count));
+    if (count > 0)
+        meso_tool_say(job->tool, "%u hole%s left out, which would meet a border or another hole", count,
+                      count == 1 ? " is" : "s are");
+}
+
 static MesoStatus run(Job *job)
 {
     MesoReplicateArguments *a = job->arguments;
@@ -209,6 +220,8 @@ static MesoStatus run(Job *job)
         job->table.frames = json_array();
     if (!status)
         status = run_frames(job);
+    if (!status)
+        report_holes(job);
     status = meso_replicate_output_end(&job->output, status);
     status = meso_replicate_table_end(&job->table, &job->run, job->kinds.names, status);
     meso_replicate_carve_end(&job->carve);

@@ -45,3 +45,9 @@ cmp mixed-1.glb mixed-2.glb
 if [ -d "$npm/node_modules/gltf-validator" ]; then
     NODE_PATH=$npm/node_modules node "$scripts/validate-glb.mjs" mixed-1.glb
 fi
+
+# Holes at the border and on top of each other are left out, and counted.
+printf '{"format": "meso-details", "version": 1, "kinds": {"hole": {"hole": {}}}, "details":
+    [{"points": [[0, 0, 0], [0.02, 0, 0], [1, 0.3, 0]], "size": 0.2, "kind": "hole"}]}\n' >edge.json
+meso-replicate --json=edge.report.json --frames 1 edge.json long-%d.ply -o edge.ply
+grep -o '"holes_left_out": .' edge.report.json
