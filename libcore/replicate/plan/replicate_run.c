@@ -43,7 +43,7 @@ static int by_ticket(const void *a, const void *b)
     return x->detail < y->detail ? -1 : x->detail > y->detail;
 }
 
-/* Which give way first where the surface shrinks, chance decides: so each part of it keeps its kind of distribution. */
+/* Which give way first where the surface shrinks, chance decides: so groups stay groups. */
 static MesoStatus rank_originals(MesoReplication *r, MesoArena *arena, MesoError *error)
 {
     Ticket *tickets = MESO_NEW(arena, Ticket, r->detail_count, error);
@@ -167,9 +167,11 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
     if (status == MESO_OK)
         status = make_blocks(r, error);
     if (status == MESO_OK)
-        status = meso_find_above(r, error);
-    if (status == MESO_OK)
         status = meso_pair_target_build(&r->pairs, r, error);
+    if (status == MESO_OK && r->options.mode == MESO_REPLICATE_PLAN && !r->pairs.grouped)
+        status = meso_rank_by_crowd(r, error);
+    if (status == MESO_OK)
+        status = meso_find_above(r, error);
     r->by_pairs = r->options.births == MESO_BIRTHS_STATISTICS
                   || (r->options.births == MESO_BIRTHS_USUAL && r->pairs.grouped);
     if (status != MESO_OK || r->options.mode != MESO_REPLICATE_PAPER)
@@ -252,19 +254,12 @@ const MesoWeb *meso_replicate_web(const MesoReplication *r)
 
 /* ---- births and deaths of a step ---- */
 
-/* So that blocks do not all come to their next detail at once; in all as good as nothing. */
-static double phase_of(uint32_t block)
-{
-    double at = (block + 0.5) * 0.6180339887498949;
-    return 0.9 * (at - floor(at) - 0.5);
-}
-
 /* Details due by the stretch of the surface at each original, less those there are. Returns how many will be born. */
 static double count_due(MesoReplication *r)
 {
     double all = 0;
     for (uint32_t b = 0; b < r->block_count; b++)
-        r->due[b] = phase_of(b);
+        r->due[b] = meso_phase_of(b);
     for (uint32_t i = 0; i < r->detail_count; i++) {
         double due = meso_lives(r, i) ? -1 : 0;
         uint32_t t = r->details[i].point.triangle;

@@ -84,6 +84,13 @@ struct MesoReplication {
     double *due;                    /* [block_count] details due in a block, less those there */
 };
 
+/* So that blocks do not all come to their next detail at once: of one; in all as good as nothing. */
+static inline double meso_phase_of(uint32_t block)
+{
+    double at = (block + 0.5) * 0.6180339887498949;
+    return 0.9 * (at - floor(at) - 0.5);
+}
+
 /* What a copy that there is of an original counts, beside a misfit: all have about as many, and kinds their shares. */
 #define MESO_COPY_COST 0.1
 
@@ -118,6 +125,12 @@ bool meso_let_die(MesoReplication *r, uint32_t detail, int32_t frame);
 
 /* Details die where there are more than are due. MESO_ERR_MEMORY alone. */
 MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error);
+
+/*
+ * Ranks of originals, so that those of high rank give way first and the others lie as evenly as they can be then: from
+ * the most crowded on, in each block about as many. MESO_ERR_MEMORY alone. O(originals).
+ */
+MesoStatus meso_rank_by_crowd(MesoReplication *r, MesoError *error);
 
 static inline bool meso_lives(const MesoReplication *r, uint32_t detail)
 {
