@@ -9,8 +9,8 @@ enum { RING = 32, WIDEST = 600 };
 /* So much more or less than at rest, of area, nothing comes or goes: a bent surface has its triangles' chords. */
 static const double BEYOND_REST = 0.004;
 
-/* Of area. */
-static const double LEAST_RAMP = 0.05;
+/* Of the ramp: what is left of it, of area, where it would begin at rest. */
+static const double LEAST_RAMP = 0.9;
 
 /* Of the distance at which it was born. */
 static const double CROWDED = 0.8;
@@ -121,14 +121,14 @@ static MesoStatus find_rooms(Pairing *p, MesoError *error)
         uint32_t i = by_rank[k], block = r->blocks[i];
         bool born = i >= originals;
         double middle = (counts[block]++ + 0.5 - (born ? meso_phase_of(block) : 0)) / fmax(1, all[block]);
-        double half = r->options.ramp * middle;
+        double half = r->options.ramp * middle, least = LEAST_RAMP * r->options.ramp;     /* twice as much of area */
         double from = middle - half, to = middle + half;
         if (born && from < 1 + BEYOND_REST) {
             from = 1 + BEYOND_REST;
-            to = fmax(2 * middle - from, from + LEAST_RAMP);
+            to = fmax(2 * middle - from, from + least);
         } else if (!born && to > 1 - BEYOND_REST) {
             to = 1 - BEYOND_REST;
-            from = fmax(0, fmin(2 * middle - to, to - LEAST_RAMP));
+            from = fmax(0, fmin(2 * middle - to, to - least));
         }
         p->plan->rooms[i] = (MesoReplicaRoom){block, (float)from, (float)to};
     }
