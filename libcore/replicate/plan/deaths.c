@@ -46,7 +46,7 @@ static double crowd_of(const MesoReplication *r, uint32_t detail)
         double d = (double)meso_distance(r, r->web.positions + r->web.fixed_count, detail, heading,
                                          ring[k] - r->web.fixed_count);
         double near = rest * rest / fmax(d * d, 1e-12 * rest * rest);
-        crowd += near * near * near;    /* one that is very near is more than some that are rather near */
+        crowd += pow(near, 6);      /* one that is very near is more than some that are rather near */
     }
     return crowd * (detail < r->options.original_count ? 1 : COPY_FIRST);
 }
@@ -163,7 +163,7 @@ static void count_around(const Leaving *l, uint32_t detail, double sign)
                 || !(rest < INFINITY))
                 continue;
             double near = rest * rest / fmax(d2, 1e-6 * rest * rest);
-            l->crowds[other] += sign * near * near * near;
+            l->crowds[other] += sign * pow(near, 6);
         }
     }
 }

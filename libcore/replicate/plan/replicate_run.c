@@ -322,8 +322,6 @@ static MesoStatus bear(Bearing *b, MesoError *error)
     uint32_t triangle;
     bool done;
     while (meso_split_pop(&b->order, &triangle)) {
-        if (r->due[meso_block_of(r, triangle)] < 0.5)
-            continue;
         MesoStatus status = split(b, triangle, most, &done, error);
         if (status == MESO_OK && !done) {
             b->late = MESO_GROW(&r->scratch, b->late, b->late_count, b->late_room, 256, error);

@@ -210,6 +210,8 @@ bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle)
 {
     while (order->count > 0) {
         MesoSplitCandidate first = take_first(order);
+        if (order->r->due[meso_block_of(order->r, first.triangle)] < 0.5)   /* and none will be */
+            continue;
         float excess = excess_of(order->r, first.triangle);
         *triangle = first.triangle;
         if (excess == first.excess)
