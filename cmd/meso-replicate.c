@@ -49,7 +49,7 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "births", "HOW", "where details are born: as originals lie around each other (exemplars), by "
                     "how many there are at which distance (statistics), or as suits them (usual, default)", &a.births,
                     "usual|exemplars|statistics"),
-        MESO_NUMBER(0, "ramp", "W", "share of a distance over which a detail comes and goes (default 0.06)", &a.ramp,
+        MESO_NUMBER(0, "ramp", "W", "share of a length over which a detail comes and goes (default 0.06)", &a.ramp,
                     1e-3, 0.9),
         MESO_NUMBER(0, "alpha", "A", "of --mode paper: area, over the largest at rest, at which triangles are split "
                     "(default 1.1)", &a.alpha, 1, 100, .given = &a.given.alpha),

@@ -68,6 +68,19 @@ replicate --mode play --plan long.plan --frames 6-1 --report back.json scales.js
 cmp out-04.ply four.ply; shown back.json
 meso-info long.plan | grep '"kind"\|"originals"'
 
+echo "== two frames by two processes, from a plan that is kept, and from a state"
+for frame in 4 5; do
+    replicate --mode play --plan long.plan --frames $frame scales.json long-%02d.ply -o farm-%02d.ply &
+done
+wait; cmp farm-04.ply four.ply && replicate --mode play --plan long.plan --frames 5 scales.json long-%02d.ply -o out-%02d.ply
+cmp farm-05.ply out-05.ply
+replicate --state three.state --frames 1-3 scales.json long-%02d.ply -o out-%02d.meso
+for frame in 4 6; do
+    cp three.state farm-$frame.state
+    replicate --state farm-$frame.state --frames 4-$frame scales.json long-%02d.ply -o farm-$frame-%02d.meso &
+done
+wait; cmp farm-4-04.meso whole/out-04.meso; cmp farm-6-06.meso whole/out-06.meso
+
 echo "== the same bytes for any number of threads"
 for threads in 1 2 7; do
     replicate --threads $threads mixed.json long-%02d.ply -o out-%02d.ply && cat out-0*.ply | cksum

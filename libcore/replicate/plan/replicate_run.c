@@ -14,7 +14,7 @@
 enum { BLOCK = 48, RING = 32, PARTS = 8 };
 
 /* What a birth may cost before a better place is looked for. */
-static const double CROWDED = 1, CROWDED_OF_FEW = 0.12;
+static const double CROWDED = 1, CROWDED_OF_FEW = 0.2;
 
 /* ---- beginning ---- */
 
