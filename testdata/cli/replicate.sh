@@ -110,6 +110,21 @@ echo "== the surface at rest from a file; steps between frames"
 replicate --mesh plate.obj scales.json long-%02d.ply --frames 3 -o out-%02d.ply; echo "status $?"
 replicate --substeps 3 --report sub.json scales.json long-%02d.ply -o out-%02d.ply && shown sub.json
 
+echo "== scattered, evenly and by a map; as a scene has them"
+details '"scale": {"mesh": "scale.obj"}' '{"scatter": 80, "size": 0.1}' >strewn.json
+replicate --frames 1 --json=strewn.report.json strewn.json long-%02d.ply -o strewn.meso
+grep -o '"originals": [0-9]*' strewn.report.json
+awk 'BEGIN { print "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z"
+    print "property float dense\nelement face 2\nproperty list uchar int vertex_indices\nend_header"
+    print "-1 -1 0 0\n1 -1 0 1\n1 1 0 1\n-1 1 0 0\n3 0 1 2\n3 0 2 3" }' >dense.ply
+cp dense.ply dense-1.ply
+details '"scale": {"mesh": "scale.obj"}' '{"scatter": {"count": 300}, "density": {"attribute": "dense"}, "size": 0.01}' >mapped.json
+replicate --frames 1 mapped.json dense-%d.ply -o mapped.obj
+awk '/^v / { n++; right += $2 > 0 } END { print (right / n > 0.7 && right / n < 0.8 ? "three of four" : right / n) }' mapped.obj
+details '"scale": {"mesh": "scale.obj"}' '{"scene": {"file": "strewn.meso", "channel": "detail"}}' >taken.json
+replicate --frames 1 --json=taken.report.json taken.json long-%02d.ply -o taken.meso
+grep -o '"originals": [0-9]*' taken.report.json
+
 echo "== what cannot be"
 try replicate scales.json long-%02d.ply -o x.ply
 try replicate scales.json long-%02d.ply -o x-%02d.xyz
