@@ -38,8 +38,8 @@ typedef struct MesoPlayer MesoPlayer;
 
 /*
  * Makes ready to play: details by how many others they wait for, and by place. Arrays are in the arena; the plan is not
- * kept. MESO_ERR_INPUT where a pair or room is not as said above, by detail; MESO_ERR_LIMIT, MESO_ERR_MEMORY. O(details log +
- * pairs).
+ * kept, the surface at rest has to stay. MESO_ERR_INPUT where a pair or room is not as said above, by detail;
+ * MESO_ERR_MEMORY. O(details log + pairs).
  */
 MesoStatus meso_player_build(MesoPlayer **player, MesoArena *arena, const MesoTriangulation *rest,
                              const MesoReplicaPlan *plan, MesoError *error);

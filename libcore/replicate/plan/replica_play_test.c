@@ -19,7 +19,7 @@ static MesoVec3 place_of(const Stage *s, const MesoVec3 *positions, uint32_t k)
 }
 
 /* Details strewn freely in ranks that are not their order; pairs of those that are near in it. */
-static Stage start(void)
+static void start(Stage *out)
 {
     static MesoDetail details[COUNT];
     static uint32_t begin[COUNT + 1];
@@ -51,8 +51,8 @@ static Stage start(void)
         }
     }
     free(points);
-    CHECK(s.moved && meso_player_build(&s.player, &s.arena, &s.mesh, &s.plan, NULL) == MESO_OK);
-    return s;
+    *out = s;
+    CHECK(s.moved && meso_player_build(&out->player, &out->arena, &out->mesh, &out->plan, NULL) == MESO_OK);
 }
 
 static void stretch(Stage *s, float x, float y)
@@ -183,7 +183,8 @@ static void test_refused(Stage *s)
 
 int main(void)
 {
-    Stage s = start();
+    Stage s;
+    start(&s);
     test_formula(&s);
     test_reversible(&s);
     test_no_pop(&s);
