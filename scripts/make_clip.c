@@ -136,10 +136,13 @@ static void write_glb(int skin)
 {
     put_plate();
     skin ? put_skin() : put_morph();
-    snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[%s]}],\"nodes\":[{\"mesh\":0%s}%s],"
-            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0%s},\"indices\":1%s}]}],%s\"animations\":[{%s}],"
+    snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[%s]}],"
+            "\"nodes\":[{\"mesh\":0%s}%s],"
+            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0%s},\"indices\":1%s}]}],%s"
+            "\"animations\":[{%s}],"
             "\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]}",
-            skin ? "0,3" : "0", skin ? ",\"skin\":0" : "", skin ? ",{\"name\":\"left\"},{\"name\":\"right\"},{\"children\":[1,2]}" : "",
+            skin ? "0,3" : "0", skin ? ",\"skin\":0" : "",
+            skin ? ",{\"name\":\"left\"},{\"name\":\"right\"},{\"children\":[1,2]}" : "",
             skin ? ",\"JOINTS_0\":3,\"WEIGHTS_0\":4" : "", skin ? "" : ",\"targets\":[{\"POSITION\":3}]",
             skin ? "\"skins\":[{\"joints\":[1,2]}]," : "",
             skin ? "\"samplers\":[{\"input\":2,\"output\":5},{\"input\":2,\"output\":6}],\"channels\":[{\"sampler\":0,"

@@ -167,8 +167,8 @@ static void test_sources(void)
     bad("{\"scatter\": {}}", "d.json: details[0].scatter: \"count\" is needed");
     bad("{\"scatter\": 0}", "d.json: details[0].scatter: 0; it must be from 1 to 16777216");
     bad("{\"scene\": {}}", "d.json: details[0].scene.file: missing");
-    bad("{\"poison\": 1}", "d.json: details[0]: unknown key \"poison\"; there are \"points\", \"poisson\", \"scatter\", \"scene\", "
-        "\"density\", \"size\", \"size_map\", \"aspect\", \"heading\", \"kind\"");
+    bad("{\"poison\": 1}", "d.json: details[0]: unknown key \"poison\"; there are \"points\", \"poisson\", "
+        "\"scatter\", \"scene\", \"density\", \"size\", \"size_map\", \"aspect\", \"heading\", \"kind\"");
 }
 
 static void test_looks(void)

@@ -83,7 +83,7 @@ typedef struct MesoDetailDistribution {
     uint32_t count;                 /* of Poisson, and of what is scattered */
     const char *scene;              /* its file, as it is written */
     const char *channel;            /* of the ids that tell instances apart; NULL: its first one */
-    MesoDetailMap density;          /* share of points that stay; of Poisson and scattered ones: how densely they stand */
+    MesoDetailMap density;          /* share of points that stay; of Poisson, scattered: how densely they stand */
     float size[2], aspect[2];       /* of each detail between these, evenly; the aspect is width over size */
     bool sized;                     /* `size` was given: a scene has sizes of its own */
     MesoDetailMap size_map;         /* from size[0] to size[1]; evenly where it is not given */

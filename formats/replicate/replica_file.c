@@ -14,7 +14,8 @@ typedef struct StoredHead {
     int64_t last;
 } StoredHead;
 
-_Static_assert(sizeof(StoredHead) == 48 && sizeof(MesoReplicaPair) == 12 && sizeof(MesoReplicaRoom) == 12 && sizeof(MesoDetail) == 48 &&
+_Static_assert(sizeof(StoredHead) == 48 && sizeof(MesoReplicaPair) == 12 && sizeof(MesoReplicaRoom) == 12 &&
+               sizeof(MesoDetail) == 48 &&
                sizeof(MesoNeighbour) == 8 && sizeof(MesoReplicaLife) == 12 && sizeof(MesoReplicaSettings) == 64 &&
                sizeof(MesoReplicaMark) == 32 && sizeof(MesoDetailFate) == 8, "layout of the chunks");
 

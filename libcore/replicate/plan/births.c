@@ -155,10 +155,11 @@ static double misfit_of_all(const MesoReplication *r, Around *around, const Meso
 }
 
 /*
- * Each is moved a little, while it has no size yet, to where its distances fit better: by so much of the nearest. Returns
- * what they cost where that is most.
+ * Each is moved a little, while it has no size yet, to where its distances fit better: by so much of the nearest.
+ * Returns what they cost where that is most.
  */
-static double relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births, uint32_t count)
+static double relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births,
+                    uint32_t count)
 {
     double worst = 0;
     static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f},

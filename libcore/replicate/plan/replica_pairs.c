@@ -70,8 +70,8 @@ MesoStatus meso_find_above(MesoReplication *r, MesoError *error)
 }
 
 /*
- * Originals: one that goes where its part has shrunk to a share of its area has come nearer to the others by the root of
- * that then; where it comes nearer by far, since the surface has become longer and narrower, it gives way before.
+ * Originals: one that goes where its part has shrunk to a share of its area has come nearer to the others by the root
+ * of that then; where it comes nearer by far, since the surface has become longer and narrower, it gives way before.
  */
 static MesoStatus pair_original(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
 {
@@ -101,8 +101,8 @@ static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoEr
 }
 
 /*
- * When there is how much room: details of a part are counted by rank, and one is there while so many are due. Those born
- * begin later than at rest, and originals have gone before.
+ * When there is how much room: details of a part are counted by rank, and one is there while so many are due. Those
+ * born begin later than at rest, and originals go earlier.
  */
 static MesoStatus find_rooms(Pairing *p, MesoError *error)
 {
