@@ -5,7 +5,7 @@
 #include "libcore/shell/box_tree.h"
 #include "libcore/tiling/relax/relax_work.h"
 
-/* What is pushed apart comes to lie so much farther off, in parts of the distance, than it has to: chords are no arcs. */
+/* What is pushed apart comes to lie so much farther off than it has to, in parts of that: chords are no arcs. */
 static const float CLEARANCE = 0.03f;
 
 /* How readily directions turn, compared with places that move: turned ones bend sweeps on both sides. */
@@ -222,7 +222,8 @@ void meso_relax_contacts(void *context, uint64_t begin, uint64_t end)
         memset(link->turn, 0, sizeof link->turn);
         memset(link->push_weight, 0, sizeof link->push_weight);
         memset(link->turn_weight, 0, sizeof link->turn_weight);
-        link->room = fminf(work->room, 2 * link->room + CLEARANCE * link->bound);    /* one without room gets it slowly */
+        /* One without room gets it slowly: looking far costs most. */
+        link->room = fminf(work->room, 2 * link->room + CLEARANCE * link->bound);
         link->clear = INFINITY;
         for (uint64_t k = work->near_begin[i]; k < work->near_begin[i + 1]; k++)
             meet_link(work, link, &work->links[work->near[k]], work->near_part[k]);

@@ -193,7 +193,8 @@ static MesoStatus make_link(Builder *b, uint32_t slot, uint32_t number, uint8_t 
                             .shape = number + (mirrored ? set->sweep_count : 0),
                             .same_side = sweep->from_side == sweep->to_side,
                             .tangent_scale = work->options.tangent_scale *
-                                one_if_none(set->tiles[a->tile[slot]].tangent_scale) * one_if_none(sweep->tangent_scale),
+                                             one_if_none(set->tiles[a->tile[slot]].tangent_scale) *
+                                             one_if_none(sweep->tangent_scale),
                             .scale = {scale * meso_port_size(&b->ports, slot, sweep->from_side),
                                       scale * meso_port_size(&b->ports, slot, sweep->to_side)}};
     MesoStatus status = find_node(b, link, 0, sweep->from_side, sweep->from_section, seen, error);

@@ -50,7 +50,8 @@ static float part_of(MesoRelaxNearness drawn, bool hollow)
 }
 
 /* Seen in the direction from one middle to the other, on a wall one wide and as high as half the thickness. */
-static MesoRelaxNearness drawn_nearness(const MesoContourSet *contours, uint32_t a, uint32_t b, float scale, float thickness)
+static MesoRelaxNearness drawn_nearness(const MesoContourSet *contours, uint32_t a, uint32_t b, float scale,
+                                        float thickness)
 {
     MesoVec2 from = contours->center[a], to = contours->center[b];
     MesoVec2 offset = {to.x - from.x, (to.y - from.y) * thickness / 2};
