@@ -84,7 +84,7 @@ TESTS   := $(patsubst %.c,%,$(filter %_test.c,$(SOURCES)))
 BENCHES := $(patsubst %.c,%,$(filter %_bench.c,$(SOURCES)))
 FUZZERS := $(patsubst %.c,%,$(filter %_fuzz.c,$(SOURCES)))
 REFERENCES := $(patsubst %.c,%,$(filter %_reference.c,$(SOURCES)))
-GENERATORS := make_vase make_teapot make_torus_knot make_mask make_column make_body make_scenery
+GENERATORS := make_vase make_teapot make_torus_knot make_mask make_column make_body make_scenery make_clip
 SHADERS := $(wildcard shaders/*.glsl)
 
 # Each archive may call those behind it and none before it: the linker goes through them once.

@@ -11,6 +11,7 @@
 #include "cmd/common/surface_judge.h"
 #include "cmd/common/tool.h"
 #include "cmd/map/map_join.h"
+#include "cmd/map/map_relax.h"
 #include "cmd/map/map_shell.h"
 #include "cmd/map/map_sweep.h"
 #include "formats/mesh/mesh_read.h"
@@ -71,7 +72,8 @@ static const struct {
 } MAPPING[] = {MAPPING_ROW(thickness), MAPPING_ROW(offset), MAPPING_ROW(section_scale), MAPPING_ROW(tangent_scale),
                MAPPING_ROW(divisions), MAPPING_ROW(section_step), SWEEP_ROW(frame, frame),
                SWEEP_ROW(deform, deform), SWEEP_ROW(section_size, section_size), SWEEP_ROW(tolerance, tolerance),
-               SWEEP_ROW(tolerance_in, tolerance), SHELL_ROW(normals), SHELL_ROW(side), SHELL_ROW(limit_folds)};
+               SWEEP_ROW(tolerance_in, tolerance), SWEEP_ROW(relax, relax), SHELL_ROW(normals), SHELL_ROW(side),
+               SHELL_ROW(limit_folds)};
 enum { MAPPING_COUNT = sizeof MAPPING / sizeof *MAPPING };
 
 static const bool *is_given(const MapArguments *a, uint32_t option)
@@ -119,6 +121,7 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
     a->shell.given.side &= a->options.side != DEFAULTS.side;
     a->sweep.given.frame &= a->options.frame != DEFAULTS.frame;
     a->sweep.given.deform &= a->options.deform != DEFAULTS.deform;
+    a->sweep.given.relax &= a->options.relax != DEFAULTS.relax;
     a->sweep.given.section_size &= a->options.section_size != DEFAULTS.section_size;
     a->tool.provenance.command_line = meso_tool_command(&a->tool, NULL, &a->tool.arena, error);
     return a->tool.provenance.command_line ? MESO_OK : MESO_ERR_MEMORY;
@@ -229,6 +232,7 @@ static void merge_options(void *context, MesoMapOptions *options)
  * into them. */
 typedef struct Mapped {
     const MesoModel *tiling;
+    MesoRelaxReport relaxed;    /* all 0 where nothing was relaxed now */
     MesoScene scene;
 } Mapped;
 
@@ -257,6 +261,7 @@ static MesoStatus read_model(MapArguments *a, Inputs *inputs, Mapped *mapped, Me
                                 .embedding = a->embedding};
     MesoStatus status = meso_tool_read_scene(&a->tool, &mapped->scene, &inputs->tiles, a->tool.operands[0], &reading);
     mapped->tiling = reading.tiling;
+    mapped->relaxed = reading.relaxed;
     if (!status)
         status = check_quilt(a, &inputs->tiles, &reading, error);
     return status ? status : check_mapping(a, &inputs->tiles, reading.tiling, error);
@@ -288,7 +293,9 @@ static MesoStatus make_model(MapArguments *a, Inputs *inputs, Mapped *mapped, Me
         return status;
     model->options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
     mapped->tiling = model;
-    status = meso_model_expand(&mapped->scene, NULL, &a->tool.arena, model, a->tool.threads, error);
+    status = meso_model_relax(model, &mapped->relaxed, &a->tool.arena, a->tool.threads, error);
+    if (!status)
+        status = meso_model_expand(&mapped->scene, NULL, &a->tool.arena, model, a->tool.threads, error);
     if (status == MESO_ERR_INPUT)       /* what the shell refuses lies in the surface */
         meso_fail_prefix(error, inputs->surface.path);
     return status;
@@ -323,7 +330,7 @@ static MesoStatus write_product(MapArguments *a, const Mapped *mapped)
 
 static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
 {
-    Mapped mapped;
+    Mapped mapped = {0};
     MesoStatus status = meso_map_sweep_set(&a->sweep, a->given.divisions || a->given.section_step, &a->options, error);
     if (!status)
         status = meso_tool_choose_scene_kind(&a->tool, &a->output);
@@ -339,6 +346,8 @@ static MesoStatus map(MapArguments *a, Inputs *inputs, MesoError *error)
             a, inputs, &mapped, error);
     if (!status && mapped.tiling)
         status = meso_map_shell_judge(&a->tool, mapped.tiling);
+    if (!status && mapped.relaxed.steps)
+        status = meso_map_relax_report(&a->tool, &mapped.relaxed);
     return status ? status : write_product(a, &mapped);
 }
 
@@ -368,6 +377,7 @@ int main(int argc, char **argv)
                     .more = MESO_OPTION_OVERRIDES),
         MESO_MAP_SHELL_OPTIONS(a.shell),
         MESO_MAP_SWEEP_OPTIONS(a.sweep),
+        MESO_MAP_RELAX_OPTION(a.sweep, a.options),
         MESO_FOLDER(0, "mesh-path", "DIR", "folder of the tiles' meshes that are not beside TILES",
                     &a.mesh_path, .more = MESO_OPTION_OUTWARD),
         MESO_STRICT_OPTION(a.strict),

@@ -49,7 +49,7 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "births", "HOW", "where details are born: as originals lie around each other (exemplars), by "
                     "how many there are at which distance (statistics), or as suits them (usual, default)", &a.births,
                     "usual|exemplars|statistics"),
-        MESO_NUMBER(0, "ramp", "W", "share of a distance over which a detail comes and goes (default 0.06)", &a.ramp,
+        MESO_NUMBER(0, "ramp", "W", "share of a length over which a detail comes and goes (default 0.06)", &a.ramp,
                     1e-3, 0.9),
         MESO_NUMBER(0, "alpha", "A", "of --mode paper: area, over the largest at rest, at which triangles are split "
                     "(default 1.1)", &a.alpha, 1, 100, .given = &a.given.alpha),
@@ -70,7 +70,8 @@ int main(int argc, char **argv)
                    1000),
         MESO_FLAG(0, "instances", "a .glb has each kind once, and where it stands (EXT_mesh_gpu_instancing)",
                   &a.instances),
-        MESO_FLAG(0, "z-up", "z is up, not y: for upright kinds, and in a .usda", &a.z_up),
+        MESO_CHOICE(0, "up", "AXIS", "that is up on the surface, y (default) or z: for upright kinds, and in .glb and "
+                    ".usda", &a.output.up, "y|z"),
         MESO_GROUP("Test sequences"),
         MESO_TEXT(0, "deform", "HOW", "deform SURFACE: stretch, scale, twist, bend, inflate, or as FILE.json says",
                   &a.deform),

@@ -250,6 +250,16 @@ static int put_options(json_t *facts, const MesoMapOptions *options)
     return failed | json_object_set_new(facts, "options", object);
 }
 
+/* How many joints a relaxation has moved. */
+static int put_joints(json_t *facts, const MesoModel *model)
+{
+    static const MesoJointMove still;
+    uint64_t moved = 0;
+    for (uint32_t j = 0; j < model->joint_count; j++)
+        moved += memcmp(&model->joints[j], &still, sizeof still) != 0;
+    return model->joints ? put_count(facts, "moved_joints", moved) : 0;
+}
+
 static int put_inners(json_t *facts, const MesoModel *model)
 {
     uint64_t vertices = 0, triangles = 0;
@@ -308,6 +318,7 @@ MesoStatus meso_info_model(json_t *facts, MesoArena *arena, const MesoInput *inp
     failed |= put_count(facts, "slots", model.assignment.slot_count);
     failed |= json_object_set_new(facts, "surface", surface);
     failed |= put_inners(facts, &model);
+    failed |= put_joints(facts, &model);
     status = memory_if(failed, error);
     if (!status)
         status = put_surface(surface, arena, &model.surface, &model.graph, error);

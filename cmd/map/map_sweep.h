@@ -9,7 +9,7 @@ typedef struct MesoMapSweep {
     const char *frame, *section_size, *deform;  /* names of MesoFrameRule and the like; NULL: not given */
     const char *tolerance;              /* a number, and perhaps a unit */
     struct {
-        bool frame, section_size, deform, tolerance;
+        bool frame, section_size, deform, tolerance, relax;
     } given;
 } MesoMapSweep;
 
@@ -24,6 +24,11 @@ typedef struct MesoMapSweep {
     MESO_TEXT(0, "tolerance", "X", "steps along and around so that the polygons stay so near to the surface, " \
               "in edge lengths, or with 'u' behind in scene units", &(sweep).tolerance,                       \
               .given = &(sweep).given.tolerance, .more = MESO_OPTION_OVERRIDES)
+
+#define MESO_MAP_RELAX_OPTION(sweep, options)                                                                 \
+    MESO_COUNT(0, "relax", "N", "steps by which strands are aligned beyond their slots and kept apart "       \
+               "(default 0: none)", &(options).relax, 0, MESO_RELAX_MOST, .given = &(sweep).given.relax,      \
+               .more = MESO_OPTION_OVERRIDES)
 
 /* Puts what was given into `options`; `steps`: divisions or a section step were given, which exclude a tolerance. */
 MesoStatus meso_map_sweep_set(const MesoMapSweep *sweep, bool steps, MesoMapOptions *options, MesoError *error);

@@ -20,7 +20,6 @@ typedef struct MesoReplicateArguments {
     const char *surface;        /* --surface: a material; NULL: it is not shown where it need not */
     uint32_t fineness;          /* --fineness */
     bool instances;             /* --instances */
-    bool z_up;                  /* --z-up */
     const char *deform;         /* --deform: a kind, or a file; NULL: details replicate */
     uint32_t count;             /* --count: frames of --deform */
     float amount;               /* --amount of --deform */
@@ -28,5 +27,16 @@ typedef struct MesoReplicateArguments {
         bool alpha, beta, gamma, mu, amount;
     } given;
 } MesoReplicateArguments;
+
+/* --up */
+static inline bool meso_replicate_z_up(const MesoReplicateArguments *arguments)
+{
+    return arguments->output.up[0] == 'z';
+}
+
+static inline MesoVec3 meso_replicate_up(const MesoReplicateArguments *arguments)
+{
+    return meso_replicate_z_up(arguments) ? (MesoVec3){0, 0, 1} : (MesoVec3){0, 1, 0};
+}
 
 #endif

@@ -73,9 +73,8 @@ static MesoStatus strew_details(Job *job)
 {
     MesoTool *tool = job->tool;
     MesoReplicateGround ground = {.triangles = &job->clip.triangles, .files = &job->files, .tool = tool};
-    MesoVec3 up = {0, job->arguments->z_up ? 0 : 1, job->arguments->z_up ? 1 : 0};
-    MesoStatus status = meso_growth_ground_build(&ground.ground, &tool->arena, &job->clip.rest, up, tool->threads,
-                                                 &tool->error);
+    MesoStatus status = meso_growth_ground_build(&ground.ground, &tool->arena, &job->clip.rest,
+                                                 meso_replicate_up(job->arguments), tool->threads, &tool->error);
     if (!status)
         status = meso_replicate_originals(&job->originals, &ground, &job->details);
     json_object_set_new(tool->report, "originals", json_integer((json_int_t)job->originals.count));
@@ -116,7 +115,7 @@ static MesoStatus choose_frames(Job *job)
     }
     for (uint32_t i = 0; i < job->frames.count && !status; i++)
         status = meso_replicate_clip_find(&job->clip, job->frames.frames[i], &frame);
-    bool one = job->output.product == MESO_PRODUCT_USDA || job->output.product == MESO_PRODUCT_ANIMATION;
+    bool one = meso_replicate_output_is_one(&job->output);
     for (uint32_t i = 1; i < job->frames.count && !status && one; i++)
         if (job->frames.frames[i] <= job->frames.frames[i - 1])
             status = meso_fail(&tool->error, MESO_ERR_USAGE, "--frames: those of one file go forwards");
@@ -195,6 +194,17 @@ static MesoStatus run_frames(Job *job)
     return status;
 }
 
+static void report_holes(const Job *job)
+{
+    uint32_t count = job->carve.mesh.uncut_count;
+    if (!job->carve.kinds)
+        return;
+    json_object_set_new(job->tool->report, "holes_left_out", json_integer((json_int_t)count));
+    if (count > 0)
+        meso_tool_say(job->tool, "%u hole%s left out, which would meet a border or another hole", count,
+                      count == 1 ? " is" : "s are");
+}
+
 static MesoStatus run(Job *job)
 {
     MesoReplicateArguments *a = job->arguments;
@@ -202,12 +212,16 @@ static MesoStatus run(Job *job)
     if (!status)
         status = meso_replicate_carve_begin(&job->carve, &job->kinds, &job->files, &job->details, &job->clip.rest,
                                             a->fineness);
+    if (!status && job->carve.kinds && meso_replicate_output_is_one(&job->output))
+        status = meso_replicate_run_look_ahead(&job->run, &job->originals, &job->frames);
     if (!status)
         status = meso_replicate_output_begin(&job->output, &job->run, &job->kinds, &job->carve);
     if (!status && a->report)
         job->table.frames = json_array();
     if (!status)
         status = run_frames(job);
+    if (!status)
+        report_holes(job);
     status = meso_replicate_output_end(&job->output, status);
     status = meso_replicate_table_end(&job->table, &job->run, job->kinds.names, status);
     meso_replicate_carve_end(&job->carve);

@@ -12,6 +12,8 @@
 static MesoStatus follow(MesoReplicateRun *r, const MesoDetail *details, uint32_t count)
 {
     MesoTool *tool = r->tool;
+    if (r->ahead)       /* all of them are known */
+        return MESO_OK;
     r->details = details;
     if (count > r->room) {
         uint32_t room = count + count / 2;
@@ -103,6 +105,14 @@ static void note_lives(MesoReplicateRun *r)
     }
 }
 
+static void take_grown(MesoReplicateRun *r)
+{
+    uint32_t count;
+    meso_replicate_details(r->replication, &count);
+    memcpy(r->grown, meso_replicate_grown(r->replication), count * sizeof *r->grown);
+    memset(r->grown + count, 0, (r->count - count) * sizeof *r->grown);
+}
+
 MesoStatus meso_replicate_run_frame(MesoReplicateRun *r, uint32_t frame)
 {
     MesoStatus status = meso_replicate_clip_load(r->clip, frame);
@@ -115,7 +125,7 @@ MesoStatus meso_replicate_run_frame(MesoReplicateRun *r, uint32_t frame)
     if (r->way == MESO_WAY_PLAY)
         meso_player_play(r->player, r->grown, r->clip->positions, r->tool->threads);
     else
-        memcpy(r->grown, meso_replicate_grown(r->replication), r->count * sizeof *r->grown);
+        take_grown(r);
     note_lives(r);
     return MESO_OK;
 }
@@ -301,6 +311,33 @@ MesoStatus meso_replicate_run_begin(MesoReplicateRun *r, MesoReplicateArguments 
     if (status)
         return status;
     return r->way == MESO_WAY_PLAY ? prepare_play(r) : read_state(r);
+}
+
+MesoStatus meso_replicate_run_look_ahead(MesoReplicateRun *r, const MesoOriginals *originals,
+                                         const MesoFrameList *frames)
+{
+    MesoStatus status = MESO_OK;
+    uint32_t frame;
+    if (r->way != MESO_WAY_PLAN)
+        return MESO_OK;
+    meso_tool_progress_begin(r->tool, "looking ahead", "frames");
+    for (uint32_t i = 0; i < frames->count && !status; i++) {
+        status = meso_replicate_clip_find(r->clip, frames->frames[i], &frame);
+        if (!status)
+            status = meso_replicate_clip_load(r->clip, frame);
+        if (!status)
+            status = step(r);
+        meso_tool_progress(r->tool, i + 1, frames->count);
+    }
+    MesoDetail *details = status ? NULL : MESO_NEW(&r->tool->arena, MesoDetail, r->count, &r->tool->error);
+    if (!details)
+        return status ? status : MESO_ERR_MEMORY;
+    r->details = memcpy(details, r->details, r->count * sizeof *details);
+    r->ahead = true;
+    meso_replicate_release(r->replication);
+    r->replication = NULL;
+    meso_replicate_clip_rewind(r->clip);
+    return begin_replication(r, originals);
 }
 
 void meso_replicate_run_end(MesoReplicateRun *r)

@@ -4,6 +4,7 @@
 
 #include "cmd/replicate/replicate_clip.h"
 #include "cmd/replicate/replicate_originals.h"
+#include "formats/clip/frame_list.h"
 #include "formats/replicate/replica_file.h"
 #include "libcore/replicate/plan/replicate_state.h"
 
@@ -21,7 +22,8 @@ typedef struct MesoReplicateRun {
     MesoPlayer *player;
     MesoArena playing;              /* of the plan and its player */
     uint32_t count, room;
-    const MesoDetail *details;      /* [count] there are so far */
+    const MesoDetail *details;      /* [count] there are so far; of what is played or looked ahead at, ever */
+    bool ahead;                     /* it was looked ahead: there are no more details than `count` */
     float *grown;                   /* [count] shares of their sizes */
     MesoReplicaLife *lives;         /* [count] */
     int32_t *history;               /* [history_count] numbers of the frames that were gone through */
@@ -35,6 +37,13 @@ typedef struct MesoReplicateRun {
 MesoStatus meso_replicate_run_begin(MesoReplicateRun *run, MesoReplicateArguments *arguments, MesoReplicateClip *clip,
                                     const MesoOriginals *originals);
 void meso_replicate_run_end(MesoReplicateRun *run);
+
+/*
+ * Goes through frames, by number, and begins again: so what will be born is known from the first frame on, of size 0
+ * until then. For products whose faces cannot change; nothing is done but in MESO_WAY_PLAN.
+ */
+MesoStatus meso_replicate_run_look_ahead(MesoReplicateRun *run, const MesoOriginals *originals,
+                                         const MesoFrameList *frames);
 
 /* Goes to a frame of the clip, from 0: to the next one, but where it plays. */
 MesoStatus meso_replicate_run_frame(MesoReplicateRun *run, uint32_t frame);

@@ -79,7 +79,8 @@ static bool draw(Drawing *d, const MesoDetailPlace *place, MesoDetail *out)
     out->size = own ? place->said.size : between(said->size, size);
     out->width = out->size * (isfinite(place->said.aspect) ? place->said.aspect : between(said->aspect, aspect));
     out->kind = place->said.kind != MESO_NO_INDEX ? place->said.kind : kind_at(d, kind);
-    return said->source == MESO_DETAILS_POISSON || stays < map_at(d, &d->density, &place->point);
+    bool dense = said->source == MESO_DETAILS_POISSON || said->source == MESO_DETAILS_SCATTERED;
+    return dense || stays < map_at(d, &d->density, &place->point);
 }
 
 static MesoStatus add_distribution(MesoOriginals *out, const MesoReplicateGround *g, const MesoDetailsFile *file,

@@ -16,6 +16,16 @@ static bool is_kind(const MesoReplicateArguments *a, const char *path, const cha
     return a->output.to ? strcmp(a->output.to, kind) == 0 : dot && strcasecmp(dot + 1, kind) == 0;
 }
 
+/* Of the options of meshes, what files of instances and clips have not. */
+static MesoStatus check_plain(const MesoReplicateOutput *o)
+{
+    const MesoSceneOutput *given = &o->arguments->output;
+    const char *other = given->given.compress ? "compress" : given->given.position_bits ? "position-bits"
+        : given->given.normal_bits ? "normal-bits" : given->given.speed ? "speed" : given->lengths ? "lengths"
+        : given->tangents ? "tangents" : NULL;
+    return other ? meso_fail(&o->tool->error, MESO_ERR_USAGE, "--%s is for a mesh a frame", other) : MESO_OK;
+}
+
 static MesoStatus check_scene_kind(const MesoReplicateOutput *o)
 {
     const char *dot = strrchr(o->path, '.');
@@ -36,13 +46,13 @@ MesoStatus meso_replicate_output_choose(MesoReplicateOutput *o, MesoReplicateArg
         : glb && !o->numbered ? MESO_PRODUCT_ANIMATION : MESO_PRODUCT_SCENES;
     if (a->instances && !glb)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--instances is for .glb; a .usda has instances anyway");
-    bool one = o->product == MESO_PRODUCT_USDA || o->product == MESO_PRODUCT_ANIMATION;
+    bool one = meso_replicate_output_is_one(o);
     if (one && o->numbered)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "-o '%s': a .usda holds all frames; leave out the number",
                          o->path);
     if (one && a->state)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--state goes with a file a frame: -o OUT-%%04d.glb");
-    return o->product == MESO_PRODUCT_SCENES ? check_scene_kind(o) : MESO_OK;
+    return o->product == MESO_PRODUCT_SCENES ? check_scene_kind(o) : check_plain(o);
 }
 
 /* ---- what is one for all ---- */
@@ -74,7 +84,7 @@ static MesoStatus show_surface(MesoReplicateOutput *o, const MesoReplicateRun *r
         return MESO_OK;
     if (strcmp(o->material, "own") != 0)
         status = meso_material_of_text(&o->look, name, o->material, &o->tool->error);
-    if (!status && r->way == MESO_WAY_PLAY)
+    if (!status && (r->way == MESO_WAY_PLAY || r->ahead))
         status = meso_replicate_carve_details(o->carve, r);
     take_surface(o, r);
     o->scene.surface = &o->surface;
@@ -86,21 +96,17 @@ MesoStatus meso_replicate_output_begin(MesoReplicateOutput *o, const MesoReplica
 {
     MesoTool *tool = o->tool;
     double rate = (double)o->arguments->frames_per_second;
-    bool one = o->product == MESO_PRODUCT_USDA || o->product == MESO_PRODUCT_ANIMATION;
     o->kinds = kinds;
     o->carve = carve;
     o->material = o->arguments->surface ? o->arguments->surface : carve->kinds ? "own" : NULL;
-    o->scene = (MesoInstanceScene){kinds->kind_count, kinds->shapes, NULL, &tool->provenance};
-    if (one && carve->kinds && r->way != MESO_WAY_PLAY)
-        return meso_fail(&tool->error, MESO_ERR_USAGE, "bumps and holes that are born change the surface's faces: "
-                         "write a file a frame, or --mode play");
+    o->scene = (MesoInstanceScene){kinds->kind_count, kinds->shapes, NULL, &tool->provenance,
+                                   meso_replicate_z_up(o->arguments), o->arguments->output.unit};
     if (carve->kinds && r->way == MESO_WAY_PAPER)
         return meso_fail(&tool->error, MESO_ERR_USAGE, "--mode paper moves its details over the surface, and bumps and "
                          "holes stay where they were born");
     MesoStatus status = show_surface(o, r);
     if (!status && o->product == MESO_PRODUCT_USDA)
-        status = meso_usda_begin(&o->usda, &o->scene, &(MesoUsdaOptions){rate, o->arguments->z_up}, o->path,
-                                 &tool->error);
+        status = meso_usda_begin(&o->usda, &o->scene, rate, o->path, &tool->error);
     if (!status && o->product == MESO_PRODUCT_ANIMATION)
         status = meso_animation_begin(&o->animation, &o->scene, rate, &tool->error);
     return status;
@@ -149,7 +155,7 @@ static MesoStatus place(MesoReplicateOutput *o, const MesoReplicateRun *r)
                        o->tool->threads);
     for (uint32_t i = 0; i < r->count; i++)
         if (o->kinds->kinds[r->details[i].kind].upright)
-            set_upright(&o->placed[i], o->arguments->z_up ? (MesoVec3){0, 0, 1} : (MesoVec3){0, 1, 0});
+            set_upright(&o->placed[i], meso_replicate_up(o->arguments));
     return MESO_OK;
 }
 

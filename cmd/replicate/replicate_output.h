@@ -32,12 +32,18 @@ typedef struct MesoReplicateOutput {
     uint32_t placed_room;
 } MesoReplicateOutput;
 
+/* Whether one file has all frames. */
+static inline bool meso_replicate_output_is_one(const MesoReplicateOutput *output)
+{
+    return output->product == MESO_PRODUCT_USDA || output->product == MESO_PRODUCT_ANIMATION;
+}
+
 /* Goes by -o, --to and --instances. MESO_ERR_USAGE where they do not fit together. */
 MesoStatus meso_replicate_output_choose(MesoReplicateOutput *output, MesoReplicateArguments *arguments);
 
 /*
- * Begins what is one for all. MESO_ERR_USAGE where that is to have bumps or holes that are born on the way. All that is
- * given must outlive it.
+ * Begins what is one for all, of a run that has looked ahead where there are bumps or holes. MESO_ERR_USAGE where these
+ * would move over the surface. All that is given must outlive it.
  */
 MesoStatus meso_replicate_output_begin(MesoReplicateOutput *output, const MesoReplicateRun *run,
                                        const MesoReplicateKinds *kinds, MesoReplicateCarve *carve);

@@ -5,6 +5,7 @@
 #include "cmd/common/scene_input.h"
 #include "libcore/base/index.h"
 #include "libcore/base/parallel.h"
+#include "libcore/base/random.h"
 #include "libcore/growth/ground/growth_seeds.h"
 #include "libcore/growth/language/grammar_read.h"
 #include "libcore/mesh/cut/triangle_area.h"
@@ -119,6 +120,54 @@ static MesoStatus places_of_poisson(MesoDetailPlaces *out, const MesoReplicateGr
         out->places[i] = (MesoDetailPlace){{tip->triangle, {fmaxf(1 - v - w, 0), v, w}}, nothing};
     }
     return status;
+}
+
+/* ---- scattered ---- */
+
+/* Draws for each that is wanted, where the density lets only a few stay. */
+enum { DRAWS_EACH = 1000 };
+
+static double share_of(MesoRandom *random)
+{
+    return (double)(meso_random_next(random) >> 11) * 0x1p-53;
+}
+
+/* Of the surface's area; `sums` [triangle_count + 1]. */
+static MesoMeshPoint point_in(const MesoTriangulation *mesh, const double *sums, MesoRandom *random)
+{
+    double at = share_of(random) * sums[mesh->triangle_count], v = share_of(random), w = share_of(random);
+    uint32_t low = 0, high = mesh->triangle_count;
+    while (high - low > 1) {
+        uint32_t middle = (low + high) / 2;
+        *(sums[middle] <= at ? &low : &high) = middle;
+    }
+    if (v + w > 1) {
+        v = 1 - v;
+        w = 1 - w;
+    }
+    return (MesoMeshPoint){low, {(float)(1 - v - w), (float)v, (float)w}};
+}
+
+static MesoStatus places_scattered(MesoDetailPlaces *out, const MesoReplicateGround *g,
+                                   const MesoDetailDistribution *d, const MesoGrowthMap *density, uint64_t seed)
+{
+    const MesoTriangulation *mesh = g->ground.mesh;
+    double *sums = MESO_NEW(&g->tool->arena, double, (size_t)mesh->triangle_count + 1, &g->tool->error);
+    MesoStatus status = sums ? make_room(out, g, d->count) : MESO_ERR_MEMORY;
+    MesoRandom random;
+    if (status)
+        return status;
+    meso_random_init(&random, seed, 0);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        sums[t + 1] = sums[t] + meso_triangle_area(mesh, t);
+    out->count = 0;
+    for (uint64_t n = 0; out->count < d->count && n < DRAWS_EACH * (uint64_t)d->count; n++) {
+        MesoMeshPoint point = point_in(mesh, sums, &random);
+        const double weight[3] = {(double)point.weight[0], (double)point.weight[1], (double)point.weight[2]};
+        if (share_of(&random) < meso_map_value(&g->ground, density, point.triangle, weight))
+            out->places[out->count++] = (MesoDetailPlace){point, nothing};
+    }
+    return MESO_OK;
 }
 
 /* ---- scenes ---- */
@@ -238,6 +287,7 @@ MesoStatus meso_replicate_places(MesoDetailPlaces *out, const MesoReplicateGroun
     *out = (MesoDetailPlaces){0};
     switch (d->source) {
     case MESO_DETAILS_POISSON: return places_of_poisson(out, g, d, density, seed);
+    case MESO_DETAILS_SCATTERED: return places_scattered(out, g, d, density, seed);
     case MESO_DETAILS_OF_SCENE: return places_of_scene(out, g, d);
     default: return places_of_points(out, g, d);
     }

@@ -14,8 +14,10 @@ typedef struct MesoDetailPlaces {
     MesoDetailPlace *places;    /* [count] */
 } MesoDetailPlaces;
 
-/* Of a list, at the nearest points of the surface; those of a Poisson distribution, as dense as `density` is; and the
- * instances of a scene. Errors as of meso_replicate_originals(). */
+/*
+ * Of a list, at the nearest points of the surface; those of a Poisson distribution, and scattered ones, as dense as
+ * `density` is; and the instances of a scene. Errors as of meso_replicate_originals().
+ */
 MesoStatus meso_replicate_places(MesoDetailPlaces *places, const MesoReplicateGround *ground,
                                  const MesoDetailDistribution *distribution, const MesoGrowthMap *density,
                                  uint64_t seed);

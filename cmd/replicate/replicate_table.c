@@ -10,11 +10,15 @@ static const double REACH = 4;
 
 /* ---- frames ---- */
 
+/* Those that have a size; but frame by frame those that live: the newborn, too, and none that shrinks. */
 static uint32_t count_points(MesoReplicateTable *table, const MesoReplicateRun *r)
 {
-    uint32_t shown = 0;
-    for (uint32_t i = 0; i < r->count; i++)
-        if (r->grown[i] > 0)
+    uint32_t shown = 0, count = r->count;
+    const MesoDetailFate *fates = r->way == MESO_WAY_PLAY ? NULL : meso_replicate_fates(r->replication);
+    if (fates)
+        meso_replicate_details(r->replication, &count);
+    for (uint32_t i = 0; i < count; i++)
+        if (fates ? fates[i].died == MESO_DETAIL_LIVES : r->grown[i] > 0)
             table->points[shown++] = r->details[i].point;
     return shown;
 }
@@ -38,10 +42,15 @@ static MesoStatus correlate(MesoReplicateTable *table, const MesoReplicateRun *r
 
 static void count_changes(const MesoReplicateRun *r, uint32_t *born, uint32_t *died)
 {
+    uint32_t count = r->count;
+    const MesoDetailFate *fates = r->way == MESO_WAY_PLAY ? NULL : meso_replicate_fates(r->replication);
     *born = *died = 0;
-    for (uint32_t i = 0; i < r->count; i++) {
-        *born += r->details[i].born != MESO_DETAIL_ORIGINAL && r->lives[i].first == r->clip->number;
-        *died += r->lives[i].died == r->clip->number;
+    if (fates)
+        meso_replicate_details(r->replication, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        *born += r->details[i].born != MESO_DETAIL_ORIGINAL
+                 && (fates ? r->details[i].born : r->lives[i].first) == r->clip->number;
+        *died += (fates ? fates[i].died : r->lives[i].died) == r->clip->number;
     }
 }
 
@@ -110,7 +119,7 @@ static MesoStatus write(const MesoReplicateTable *table, const MesoReplicateRun 
     MesoTool *tool = r->tool;
     MesoOutput *output = NULL;
     json_t *root = describe(table, r, kind_names);
-    char *text = json_dumps(root, JSON_INDENT(1));
+    char *text = json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
     MesoStatus status = text ? meso_output_open(&output, r->arguments->report, &tool->error)
                              : meso_fail(&tool->error, MESO_ERR_MEMORY, "out of memory for the report");
     if (!status)

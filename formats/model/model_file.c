@@ -8,10 +8,11 @@
 #include "formats/model/model_mapping.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/mesh/slot_graph.h"
+#include "libcore/tiling/problem/strand_joints.h"
 #include "libcore/tiling/tile/tile_set_check.h"
 
-/* 1 is of models of bodies (model_body.h); 2 has the chunk 'mapping'. */
-enum { MINOR = 0, MINOR_MAPPING = 2 };
+/* 1 is of models of bodies (model_body.h); 2 has the chunk 'mapping', 3 'joint'. */
+enum { MINOR = 0, MINOR_MAPPING = 2, MINOR_JOINT = 3 };
 
 /* How options lie in the file. */
 typedef struct StoredOptions {
@@ -65,6 +66,11 @@ static MesoStatus join_inners(InnerArrays *all, const MesoModel *model, MesoAren
     return MESO_OK;
 }
 
+static uint16_t minor_of(const MesoModel *model, const char *mapping)
+{
+    return model->joints ? MINOR_JOINT : mapping || model->factors || model->lifts ? MINOR_MAPPING : MINOR;
+}
+
 /* `mapping` is NULL where no option asks for it. */
 static MesoStatus write_chunks(const MesoModel *model, const char *provenance, const char *tiles, const char *mapping,
                                MesoOutput *output, MesoArena *arena, MesoError *error)
@@ -77,8 +83,7 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
     const uint64_t faces = surface->face_count, vector = sizeof(MesoVec3), index = sizeof(uint32_t);
     StoredOptions options = store_options(model);
 
-    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, 
-                          .minor = mapping || model->factors || model->lifts ? MINOR_MAPPING : MINOR};
+    MesoContainer file = {.kind = "model", .major = MESO_MODEL_MAJOR, .minor = minor_of(model, mapping)};
     meso_container_add(&file, "prov", provenance, strlen(provenance));
     meso_container_add(&file, "tiles", tiles, strlen(tiles));
     meso_container_add(&file, "options", &options, sizeof options);
@@ -88,6 +93,8 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
         meso_container_add(&file, "factor", model->factors, surface->vertex_count * sizeof(float));
     if (model->lifts)
         meso_container_add(&file, "lift", model->lifts, surface->vertex_count * sizeof(float));
+    if (model->joints)
+        meso_container_add(&file, "joint", model->joints, model->joint_count * sizeof *model->joints);
     meso_container_add(&file, "position", surface->positions, surface->vertex_count * vector);
     meso_container_add(&file, "normal", surface->normals, surface->normal_count * vector);
     meso_container_add(&file, "face", surface->face_vertices, 4 * faces * index);
@@ -284,6 +291,28 @@ static MesoStatus read_assignment(const Reading *in, MesoError *error)
     return status;
 }
 
+/* What joints of a relaxed model are moved by: any numbers will do. */
+static MesoStatus read_joints(const Reading *in, MesoError *error)
+{
+    MesoStrandJoints joints;
+    MesoModel *model = in->model;
+    if (model->options.relax == 0)
+        return MESO_OK;
+    MesoStatus status = meso_strand_joints_number(&joints, in->arena, &model->assignment, &model->tile_set,
+                                                  &model->graph, error);
+    if (status)
+        return status;
+    const void *moves = meso_container_require(in->file, in->path, "joint", joints.count, sizeof *model->joints, error);
+    if (!moves)
+        return MESO_ERR_INPUT;
+    model->joints = MESO_NEW(in->arena, MesoJointMove, joints.count, error);
+    if (!model->joints)
+        return MESO_ERR_MEMORY;
+    memcpy(model->joints, moves, joints.count * sizeof *model->joints);
+    model->joint_count = joints.count;
+    return MESO_OK;
+}
+
 /* Chunks of the inner meshes, checked against the sums of `counts`. */
 static MesoStatus find_inners(const Reading *in, const uint32_t *counts, InnerArrays *all,
                               MesoError *error)
@@ -388,6 +417,8 @@ MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContain
         status = read_heights(&in, error);
     if (!status)
         status = read_assignment(&in, error);
+    if (!status)
+        status = read_joints(&in, error);
     if (!status)
         status = read_inners(&in, error);
     return status;

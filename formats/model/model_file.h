@@ -1,11 +1,13 @@
 /*
- * Models of tiles in model files (.meso), version 1.0, or 1.2 with 'mapping': all that a renderer needs. Chunks:
+ * Models of tiles in model files (.meso), version 1.0, 1.2 with 'mapping' or 1.3 with 'joint': all that a renderer
+ * needs. Chunks:
  *
  *     prov      provenance, JSON text
  *     tiles     tile set, JSON text as in .tiles.json
  *     options   MesoMapOptions, resolved: f32 thickness, offset, section_scale, tangent_scale,
  *               section_step, u32 divisions
  *     mapping   the other MesoMapOptions, JSON text (model_mapping.h); only where one is not at its default
+ *     joint     i16[4 * joint_count]: MesoJointMove by the numbers of strand_joints.h; where 'mapping' has "relax" only
  *     position  f32[3 * vertex_count]       normal   f32[3 * normal_count]
  *     face      u32[4 * face_count]         facenorm u32[4 * face_count]
  *               corners in the slots' order: not the surface file's where slots were oriented

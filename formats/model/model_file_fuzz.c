@@ -2,6 +2,7 @@
 #include "formats/file/container_memory.h"
 #include "formats/model/model_fixture.h"
 #include "libcore/scene/parts.h"
+#include "libcore/tiling/relax/relax.h"
 #include "libcore/tiling/strand/expansion.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -11,6 +12,8 @@ static MesoArena fixed;
 static MesoStatus write_example(MesoOutput *output, MesoError *error)
 {
     MesoModel model = model_fixture(&fixed);
+    model.options.relax = 2;
+    CHECK(meso_model_relax(&model, NULL, &fixed, 1, error) == MESO_OK);
     MesoProvenance provenance = model_fixture_provenance();
     return meso_model_write(&model, &provenance, output, error);
 }

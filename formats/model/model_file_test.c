@@ -3,6 +3,7 @@
 
 #include "formats/file/container_fixture.h"
 #include "formats/model/model_fixture.h"
+#include "libcore/tiling/relax/relax.h"
 
 static MesoArena arena;
 static TestFolder folder;
@@ -121,6 +122,27 @@ static void test_options(void)
     expect("options", &cases[0].stored, 20, "file: chunk 'options' has 20 bytes, not 1 times 24");
 }
 
+/* A relaxed model: it needs its joints, all of them, and gives them back. */
+static void test_joints(void)
+{
+    const int16_t short_of[4] = {1, 2, 3, 4};
+    MesoModel model = model_fixture(&arena), back;
+    MesoInput input;
+    MesoError error;
+    model.options.relax = 3;
+    CHECK(meso_model_relax(&model, NULL, &arena, 1, &error) == MESO_OK && model.joint_count == 7);
+    model.joints[2] = (MesoJointMove){-7, 32767, -32768, 1};
+    write_file(&model, test_path(&folder, "joints.meso"));
+    CHECK(meso_input_open(&input, test_path(&folder, "joints.meso"), &error) == MESO_OK);
+    CHECK(meso_model_read(&back, NULL, &arena, &input, &error) == MESO_OK);
+    CHECK(back.options.relax == 3 && back.joint_count == 7);
+    CHECK(memcmp(back.joints, model.joints, 7 * sizeof *model.joints) == 0);
+    meso_input_close(&input);
+    const ContainerFixture relaxed = {&folder, "joints.meso", "model", 1, read_quietly};
+    container_fixture_expect(&relaxed, "joint", NULL, UINT64_MAX, "file: chunk 'joint' is missing");
+    container_fixture_expect(&relaxed, "joint", short_of, 8, "file: chunk 'joint' has 8 bytes, not 7 times 8");
+}
+
 /* Numbers of the six vertices. */
 static void test_heights(void)
 {
@@ -176,6 +198,7 @@ int main(void)
     test_missing_chunks();
     test_options();
     test_heights();
+    test_joints();
     test_surface();
     test_tiles_and_inner();
     container_fixture_damage(&fixture);

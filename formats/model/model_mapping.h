@@ -6,6 +6,7 @@
  *     "section_size"    "slot"
  *     "tolerance"       a number, in mean edge lengths, or with
  *     "tolerance_in"    "scene" in scene units
+ *     "relax"           steps of relaxation; then there is a chunk 'joint' too
  *
  * One more option is a field of MesoMapOptions whose 0 is the default, and a row of the table in model_mapping.c.
  */

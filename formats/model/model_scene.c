@@ -25,9 +25,14 @@ static MesoStatus expand_tiles(MesoScene *scene, const Opened *opened, MesoError
     MesoStatus status = meso_model_take(model, opened->arena, opened->file, opened->input->path, error);
     if (status)
         return status;
+    const MesoMapOptions stored = model->options;
     if (reading->remap)
         reading->remap(reading->context, &model->options);
     model->options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
+    if (!meso_map_options_same_form(&model->options, &stored))
+        status = meso_model_relax(model, &reading->relaxed, opened->arena, reading->thread_count, error);
+    if (status)
+        return status == MESO_ERR_INPUT ? meso_fail_prefix(error, opened->input->path) : status;
     reading->tiling = model;
     status = meso_model_expand(scene, NULL, opened->arena, model, reading->thread_count, error);
     if (status == MESO_ERR_INPUT)

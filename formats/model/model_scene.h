@@ -7,17 +7,19 @@
 
 #include "formats/file/input.h"
 #include "libcore/scene/scene.h"
-#include "libcore/tiling/strand/model.h"
+#include "libcore/tiling/relax/relax.h"
 
 typedef struct MesoSceneReading {
     uint32_t thread_count;
-    /* May change the mapping options that a tiling was stored with; NULL: they stay. */
+    /* May change the mapping options that a tiling was stored with; NULL: they stay. One whose trajectories or sections
+     * change is relaxed anew, if it is. */
     void (*remap)(void *context, MesoMapOptions *options);
     void *context;
     /* Where a quilt's surface has moved to (quilt_move.h), and the file that it was read from; or NULL. */
     const MesoPolygonMesh *surface;
     const MesoInput *surface_input;
     const char *embedding;      /* how it lies over it, of MESO_QUILT_EMBEDDING_NAMES; NULL: as the quilt says */
+    MesoRelaxReport relaxed;    /* gets what the relaxation did, where that was done anew; else all 0 */
     const MesoModel *tiling;    /* gets the model, in the arena, where it is one of tiles; else NULL */
     bool quilt;                 /* gets whether it is one */
     const char *provenance;     /* gets the provenance, in the arena */

@@ -277,7 +277,7 @@ MesoStatus meso_animation_write(MesoAnimation *a, MesoOutput *output, MesoError 
     if (!meshes || !differences)
         return MESO_ERR_MEMORY;
     describe(a, &glb, meshes, differences);
-    MesoStatus status = meso_glb_finish(&glb, a->scene->provenance, output, error);
+    MesoStatus status = meso_glb_finish(&glb, a->scene, output, error);
     if (!status)
         status = write_pieces(a, meshes, differences, output, error);
     meso_glb_release(&glb);

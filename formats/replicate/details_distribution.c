@@ -25,6 +25,22 @@ static void read_poisson(const MesoJsonField *field, MesoDetailDistribution *out
     out->count = (uint32_t)meso_json_whole(&count, 1, MESO_DETAILS_POINTS, 0);
 }
 
+/* A number is how many. */
+static void read_scatter(const MesoJsonField *field, MesoDetailDistribution *out)
+{
+    static const char *const keys[] = {"count", NULL};
+    MesoJsonField count = *field;
+    out->source = MESO_DETAILS_SCATTERED;
+    if (json_is_object(field->value)) {
+        if (!meso_json_object(field, keys))
+            return;
+        count = meso_json_key(field, "count");
+        if (!count.value)
+            meso_json_wrong(field, "\"count\" is needed");
+    }
+    out->count = (uint32_t)meso_json_whole(&count, 1, MESO_DETAILS_POINTS, 1);
+}
+
 /* A text is the file. */
 static void read_scene(const MesoJsonField *field, MesoDetailDistribution *out)
 {
@@ -44,13 +60,15 @@ static void read_scene(const MesoJsonField *field, MesoDetailDistribution *out)
 static void read_source(MesoDetailsParser *parser, const MesoJsonField *field, MesoDetailDistribution *out)
 {
     MesoJsonField points = meso_json_key(field, "points"), poisson = meso_json_key(field, "poisson");
-    MesoJsonField scene = meso_json_key(field, "scene");
-    if (!!points.value + !!poisson.value + !!scene.value != 1)
-        meso_json_wrong(field, "one of \"points\", \"poisson\" and \"scene\" is needed");
+    MesoJsonField scene = meso_json_key(field, "scene"), scatter = meso_json_key(field, "scatter");
+    if (!!points.value + !!poisson.value + !!scene.value + !!scatter.value != 1)
+        meso_json_wrong(field, "one of \"points\", \"poisson\", \"scatter\" and \"scene\" is needed");
     else if (points.value)
         meso_details_points(parser, &points, out);
     else if (poisson.value)
         read_poisson(&poisson, out);
+    else if (scatter.value)
+        read_scatter(&scatter, out);
     else
         read_scene(&scene, out);
 }
@@ -194,7 +212,7 @@ static void read_kinds(MesoDetailsParser *parser, const MesoJsonField *field, Me
 
 void meso_details_distribution(MesoDetailsParser *parser, const MesoJsonField *field, MesoDetailDistribution *out)
 {
-    static const char *const keys[] = {"points", "poisson", "scene", "density", "size", "size_map", "aspect",
+    static const char *const keys[] = {"points", "poisson", "scatter", "scene", "density", "size", "size_map", "aspect",
                                        "heading", "kind", NULL};
     if (!meso_json_object(field, keys))
         return;

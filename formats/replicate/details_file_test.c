@@ -152,19 +152,23 @@ static void test_sources(void)
     CHECK(d->heading.source == MESO_HEADING_RANDOM && d->shares[0] == 1 && d->shares[1] == 0);
     CHECK(distribution("{\"poisson\": 0.25}")->radius == 0.25f);
     CHECK(distribution("{\"poisson\": {\"radius\": 0.5}}")->radius == 0.5f);
+    d = distribution("{\"scatter\": {\"count\": 30}}");
+    CHECK(d->source == MESO_DETAILS_SCATTERED && d->count == 30 && distribution("{\"scatter\": 7}")->count == 7);
     d = distribution("{\"scene\": \"vase.meso\"}");
     CHECK(d->source == MESO_DETAILS_OF_SCENE && !d->channel && d->heading.source == MESO_HEADING_SCENE);
     CHECK_TEXT(d->scene, "vase.meso");
     CHECK_TEXT(distribution("{\"scene\": {\"file\": \"vase.meso\", \"channel\": \"terminal\"}}")->channel, "terminal");
 
-    bad("{}", "d.json: details[0]: one of \"points\", \"poisson\" and \"scene\" is needed");
+    bad("{}", "d.json: details[0]: one of \"points\", \"poisson\", \"scatter\" and \"scene\" is needed");
     bad("{\"poisson\": 1, \"scene\": \"a\"}",
-        "d.json: details[0]: one of \"points\", \"poisson\" and \"scene\" is needed");
+        "d.json: details[0]: one of \"points\", \"poisson\", \"scatter\" and \"scene\" is needed");
     bad("{\"poisson\": {}}", "d.json: details[0].poisson: either \"radius\" or \"count\" is needed");
     bad("{\"poisson\": 0}", "d.json: details[0].poisson: 0; it must be between 0 and 1e+18");
+    bad("{\"scatter\": {}}", "d.json: details[0].scatter: \"count\" is needed");
+    bad("{\"scatter\": 0}", "d.json: details[0].scatter: 0; it must be from 1 to 16777216");
     bad("{\"scene\": {}}", "d.json: details[0].scene.file: missing");
-    bad("{\"poison\": 1}", "d.json: details[0]: unknown key \"poison\"; there are \"points\", \"poisson\", \"scene\", "
-        "\"density\", \"size\", \"size_map\", \"aspect\", \"heading\", \"kind\"");
+    bad("{\"poison\": 1}", "d.json: details[0]: unknown key \"poison\"; there are \"points\", \"poisson\", "
+        "\"scatter\", \"scene\", \"density\", \"size\", \"size_map\", \"aspect\", \"heading\", \"kind\"");
 }
 
 static void test_looks(void)

@@ -40,7 +40,7 @@ typedef struct MesoDetailKind {
 } MesoDetailKind;
 
 typedef enum MesoDetailSource {
-    MESO_DETAILS_AT_POINTS, MESO_DETAILS_POISSON, MESO_DETAILS_OF_SCENE
+    MESO_DETAILS_AT_POINTS, MESO_DETAILS_POISSON, MESO_DETAILS_SCATTERED, MESO_DETAILS_OF_SCENE
 } MesoDetailSource;
 
 /* A number of the surface, or of a picture over its texture coordinates, brought to [0,1]. */
@@ -80,10 +80,10 @@ typedef struct MesoDetailDistribution {
     uint32_t point_count;
     const MesoDetailPoint *points;  /* [point_count] of points */
     float radius;                   /* of Poisson; 0: by count */
-    uint32_t count;
+    uint32_t count;                 /* of Poisson, and of what is scattered */
     const char *scene;              /* its file, as it is written */
     const char *channel;            /* of the ids that tell instances apart; NULL: its first one */
-    MesoDetailMap density;          /* share of points that stay; of Poisson: how densely they stand */
+    MesoDetailMap density;          /* share of points that stay; of Poisson, scattered: how densely they stand */
     float size[2], aspect[2];       /* of each detail between these, evenly; the aspect is width over size */
     bool sized;                     /* `size` was given: a scene has sizes of its own */
     MesoDetailMap size_map;         /* from size[0] to size[1]; evenly where it is not given */

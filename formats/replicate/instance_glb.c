@@ -112,7 +112,7 @@ MesoStatus meso_instance_glb_write(const MesoInstanceScene *scene, const MesoIns
 {
     Glb glb = {.scene = scene, .frame = frame};
     describe(&glb);
-    MesoStatus status = meso_glb_finish(&glb.parts, scene->provenance, output, error);
+    MesoStatus status = meso_glb_finish(&glb.parts, scene, output, error);
     if (!status)
         status = write_pieces(&glb, output, error);
     meso_glb_release(&glb.parts);

@@ -82,9 +82,25 @@ static void add_asset(MesoGlbParts *glb, const MesoProvenance *provenance, MesoA
     else if (*text)
         glb->failed |= json_object_set_new(asset, "extras", json_pack("{s:o}", "provenance", meso_json_string(text)));
     glb->failed |= json_object_set_new(glb->root, "asset", asset);
+}
+
+/* All nodes, below one that turns and enlarges them where the format's axes and unit are others. */
+static void add_scene(MesoGlbParts *glb, const MesoInstanceScene *scene)
+{
+    const double unit = (double)meso_instance_unit(scene), half = 0.70710678118654752;
     json_t *nodes = json_array();
-    for (size_t i = 0; i < json_array_size(glb->nodes); i++)
-        glb->failed |= json_array_append_new(nodes, json_integer((json_int_t)i));
+    json_int_t count = (json_int_t)json_array_size(glb->nodes);
+    for (json_int_t i = 0; i < count; i++)
+        glb->failed |= json_array_append_new(nodes, json_integer(i));
+    if (count > 0 && (scene->z_up || unit < 1 || unit > 1)) {
+        json_t *above = json_pack("{s:s, s:o}", "name", "meso", "children", nodes);
+        if (scene->z_up)
+            glb->failed |= json_object_set_new(above, "rotation", json_pack("[f, f, f, f]", -half, 0.0, 0.0, half));
+        if (unit < 1 || unit > 1)
+            glb->failed |= json_object_set_new(above, "scale", json_pack("[f, f, f]", unit, unit, unit));
+        glb->failed |= json_array_append_new(glb->nodes, above);
+        nodes = json_pack("[I]", count);
+    }
     glb->failed |= json_object_set_new(glb->root, "scene", json_integer(0));
     glb->failed |= json_object_set_new(glb->root, "scenes", json_pack("[{s:o}]", "nodes", nodes));
 }
@@ -141,12 +157,13 @@ static MesoStatus write_head(const MesoGlbParts *glb, const char *text, MesoOutp
     return status;
 }
 
-MesoStatus meso_glb_finish(MesoGlbParts *glb, const MesoProvenance *provenance, MesoOutput *output, MesoError *error)
+MesoStatus meso_glb_finish(MesoGlbParts *glb, const MesoInstanceScene *scene, MesoOutput *output, MesoError *error)
 {
     MesoArena arena;
     MesoStatus status = MESO_ERR_MEMORY;
     meso_arena_init(&arena);
-    add_asset(glb, provenance, &arena, error);
+    add_asset(glb, scene->provenance, &arena, error);
+    add_scene(glb, scene);
     glb->failed |= json_object_set_new(glb->root, "buffers",
                                        json_pack("[{s:I}]", "byteLength", (json_int_t)glb->size));
     char *text = glb->failed ? NULL : json_dumps(glb->root, JSON_COMPACT | JSON_REAL_PRECISION(9));

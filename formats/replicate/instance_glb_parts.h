@@ -35,7 +35,7 @@ json_t *meso_glb_mesh(MesoGlbParts *glb, const MesoInstanceShape *shape, const M
                       const MesoVec3 *normals);
 
 /* Writes all up to the pieces. MESO_ERR_LIMIT beyond 4 GiB, MESO_ERR_INPUT without a node. */
-MesoStatus meso_glb_finish(MesoGlbParts *glb, const MesoProvenance *provenance, MesoOutput *output, MesoError *error);
+MesoStatus meso_glb_finish(MesoGlbParts *glb, const MesoInstanceScene *scene, MesoOutput *output, MesoError *error);
 
 /* The pieces of a mesh. */
 MesoStatus meso_glb_write_mesh(const MesoInstanceShape *shape, const MesoVec3 *positions, const MesoVec3 *normals,

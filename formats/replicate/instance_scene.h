@@ -20,7 +20,14 @@ typedef struct MesoInstanceScene {
     const MesoInstanceShape *shapes;    /* [shape_count] by the details' kind; those without triangles are not shown */
     const MesoInstanceShape *surface;   /* its positions and normals are those of each frame; NULL: not shown */
     const MesoProvenance *provenance;   /* may be NULL */
+    bool z_up;                          /* z is up, and not y */
+    float unit;                         /* in metres; 0: 1 */
 } MesoInstanceScene;
+
+static inline float meso_instance_unit(const MesoInstanceScene *scene)
+{
+    return scene->unit > 0 ? scene->unit : 1;
+}
 
 typedef struct MesoInstanceFrame {
     uint32_t count;                     /* the first so many details: their numbers are the ids of the whole clip */

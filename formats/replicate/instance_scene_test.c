@@ -172,14 +172,16 @@ static void expect_text(const MesoInput *input, const char *text)
 
 static void test_usda(const TestFolder *folder)
 {
-    const MesoUsdaOptions options = {.frames_per_second = 24, .z_up = true};
+    MesoInstanceScene turned = scene;
+    turned.z_up = true;
+    turned.unit = 0.5f;
     const char *path = test_path(folder, "clip.usda");
     MesoInstanceFrame none = frame;
     MesoUsda *usda;
     MesoOutput *output;
     MesoError error;
     none.count = 0;
-    CHECK(meso_usda_begin(&usda, &scene, &options, path, &error) == MESO_OK);
+    CHECK(meso_usda_begin(&usda, &turned, 24, path, &error) == MESO_OK);
     CHECK(meso_usda_frame(usda, 3, &none, &error) == MESO_OK);
     CHECK(meso_usda_frame(usda, 5, &frame, &error) == MESO_OK);
     CHECK(test_folder_count(folder) == 1);      /* what waits has no name */
@@ -193,7 +195,7 @@ static void test_usda(const TestFolder *folder)
     CHECK(meso_input_open(&input, path, &error) == MESO_OK);
     expect_text(&input, "#usda 1.0\n");
     expect_text(&input, "    startTimeCode = 3\n    endTimeCode = 5\n    timeCodesPerSecond = 24\n");
-    expect_text(&input, "    upAxis = \"Z\"\n");
+    expect_text(&input, "    metersPerUnit = 0.5\n    upAxis = \"Z\"\n");
     expect_text(&input, "rel prototypes = [</World/Details/Prototypes/scale_1_0>, </World/Details/Prototypes/hole_1>, "
                         "</World/Details/Prototypes/_2nd__scale__2>]\n");
     expect_text(&input, "        int[] protoIndices.timeSamples = {\n            3: [],\n            5: [0, 2, 0],\n");

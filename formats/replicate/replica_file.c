@@ -14,12 +14,8 @@ typedef struct StoredHead {
     int64_t last;
 } StoredHead;
 
-typedef struct StoredPair {
-    uint32_t other, always;
-    float from, to;
-} StoredPair;
-
-_Static_assert(sizeof(StoredHead) == 48 && sizeof(StoredPair) == 16 && sizeof(MesoDetail) == 48 &&
+_Static_assert(sizeof(StoredHead) == 48 && sizeof(MesoReplicaPair) == 12 && sizeof(MesoReplicaRoom) == 12 &&
+               sizeof(MesoDetail) == 48 &&
                sizeof(MesoNeighbour) == 8 && sizeof(MesoReplicaLife) == 12 && sizeof(MesoReplicaSettings) == 64 &&
                sizeof(MesoReplicaMark) == 32 && sizeof(MesoDetailFate) == 8, "layout of the chunks");
 
@@ -116,17 +112,13 @@ MesoStatus meso_replica_plan_write(const MesoReplicaPlanFile *f, const MesoProve
     MesoArena arena;
     meso_arena_init(&arena);
     const char *text = meso_provenance_text(provenance, &arena, error);
-    StoredPair *pairs = text ? MESO_NEW(&arena, StoredPair, count, error) : NULL;
     memcpy(c.kind, PLAN, sizeof PLAN);
-    MesoStatus status = pairs ? MESO_OK : MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < count && !status; i++) {
-        const MesoReplicaPair *pair = &plan->pairs[i];
-        pairs[i] = (StoredPair){pair->other, pair->always, pair->from, pair->to};
-    }
+    MesoStatus status = text ? MESO_OK : MESO_ERR_MEMORY;
     if (!status) {
         add_shared(&c, text, &f->mark, &f->settings, plan->details, n);
         meso_container_add(&c, "pairbeg", plan->pair_begin, ((uint64_t)n + 1) * sizeof *plan->pair_begin);
-        meso_container_add(&c, "pair", pairs, count * sizeof *pairs);
+        meso_container_add(&c, "pair", plan->pairs, count * sizeof *plan->pairs);
+        meso_container_add(&c, "room", plan->rooms, n * sizeof *plan->rooms);
         status = meso_container_write(&c, output, error);
     }
     meso_arena_release(&arena);
@@ -290,21 +282,16 @@ MesoStatus meso_replica_plan_read(MesoReplicaPlanFile *f, MesoArena *arena, cons
         return status;
     if (!(plan->pair_begin = take(&in, "pairbeg", (uint64_t)plan->detail_count + 1, sizeof *plan->pair_begin)))
         return error->status;
-    const StoredPair *stored = meso_container_require(&in.container, in.path, "pair", 0, 0, error);
-    if (!stored)
+    if (!meso_container_require(&in.container, in.path, "pair", 0, 0, error))
         return error->status;
     meso_container_find(&in.container, "pair", &size);
-    uint64_t count = size / sizeof *stored;
-    if (size % sizeof *stored != 0)
+    uint64_t count = size / sizeof *plan->pairs;
+    if (size % sizeof *plan->pairs != 0)
         return fail(&in, "pair");
-    if ((status = check_ranges(&in, "pairbeg", plan->pair_begin, plan->detail_count, count)))
-        return status;
-    plan->pairs = MESO_NEW(arena, MesoReplicaPair, count, error);
-    if (!plan->pairs)
-        return MESO_ERR_MEMORY;
-    for (uint64_t i = 0; i < count; i++)
-        plan->pairs[i] = (MesoReplicaPair){stored[i].other, stored[i].always != 0, stored[i].from, stored[i].to};
-    return MESO_OK;
+    if (!(plan->pairs = take(&in, "pair", count, sizeof *plan->pairs)) ||
+        !(plan->rooms = take(&in, "room", plan->detail_count, sizeof *plan->rooms)))
+        return error->status;
+    return check_ranges(&in, "pairbeg", plan->pair_begin, plan->detail_count, count);
 }
 
 static bool is_kind(const MesoInput *input, const char *kind, size_t size)

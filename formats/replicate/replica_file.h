@@ -23,7 +23,8 @@
  * and a plan with
  *
  *     pairbeg   u32 a detail, and the end
- *     pair      {u32 other, always; f32 from, to} a pair
+ *     pair      {u32 other; f32 from, to} a pair
+ *     room      {u32 block; f32 from, to} a detail
  */
 #ifndef MESO_REPLICA_FILE_H
 #define MESO_REPLICA_FILE_H

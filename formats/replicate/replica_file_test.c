@@ -78,8 +78,9 @@ static void test_plan(void)
     CHECK(memcmp(back.plan.pair_begin, file.plan.pair_begin, (n + 1) * sizeof *back.plan.pair_begin) == 0);
     for (uint32_t i = 0; i < pairs; i++) {
         const MesoReplicaPair *a = &back.plan.pairs[i], *b = &file.plan.pairs[i];
-        CHECK(a->other == b->other && a->always == b->always && a->from == b->from && a->to == b->to);
+        CHECK(a->other == b->other && a->from == b->from && a->to == b->to);
     }
+    CHECK(memcmp(back.plan.rooms, file.plan.rooms, n * sizeof *back.plan.rooms) == 0);
     replica_fixture_end(&f);
 }
 
@@ -111,7 +112,7 @@ static void test_missing_chunks(void)
     static const char *const names[] = {"prov", "mark", "setting", "detail", "head", "block", "nearbeg", "near",
                                         "node", "corner", "twin", "grown", "fate", "merging",
                                         "life", "frames", "places"};
-    static const char *const plans[] = {"prov", "mark", "setting", "detail", "pairbeg", "pair"};
+    static const char *const plans[] = {"prov", "mark", "setting", "detail", "pairbeg", "pair", "room"};
     char message[64];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         snprintf(message, sizeof message, "file: chunk '%s' is missing", names[i]);

@@ -33,7 +33,7 @@ typedef struct Spill {
 
 struct MesoUsda {
     const MesoInstanceScene *scene;
-    MesoUsdaOptions options;
+    double frames_per_second;
     Spill spills[ATTRIBUTES];
     int32_t first, last;
     uint32_t frame_count;
@@ -323,11 +323,13 @@ static void print_instancer(Text *text, MesoUsda *usda)
 
 static void print_head(Text *text, const MesoUsda *usda)
 {
-    char rate[MESO_FLOAT_TEXT + 1];
-    *meso_float_text((float)usda->options.frames_per_second, rate) = '\0';
+    char rate[MESO_FLOAT_TEXT + 1], unit[MESO_FLOAT_TEXT + 1];
+    *meso_float_text((float)usda->frames_per_second, rate) = '\0';
+    *meso_float_text(meso_instance_unit(usda->scene), unit) = '\0';
     print(text, "    defaultPrim = \"World\"\n    startTimeCode = %d\n    endTimeCode = %d\n", usda->first, usda->last);
     print(text, "    timeCodesPerSecond = %s\n    framesPerSecond = %s\n", rate, rate);
-    print(text, "    upAxis = \"%s\"\n)\n\ndef Xform \"World\"\n{\n", usda->options.z_up ? "Z" : "Y");
+    print(text, "    metersPerUnit = %s\n    upAxis = \"%s\"\n)\n\ndef Xform \"World\"\n{\n", unit,
+          usda->scene->z_up ? "Z" : "Y");
 }
 
 /* Comment lines stand behind the first one, which says what the file is. */
@@ -360,7 +362,7 @@ MesoStatus meso_usda_write(MesoUsda *usda, MesoOutput *output, MesoError *error)
     return text.status;
 }
 
-MesoStatus meso_usda_begin(MesoUsda **usda, const MesoInstanceScene *scene, const MesoUsdaOptions *options,
+MesoStatus meso_usda_begin(MesoUsda **usda, const MesoInstanceScene *scene, double frames_per_second,
                            const char *near, MesoError *error)
 {
     MesoStatus status = MESO_OK;
@@ -368,7 +370,7 @@ MesoStatus meso_usda_begin(MesoUsda **usda, const MesoInstanceScene *scene, cons
     if (!*usda)
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     (*usda)->scene = scene;
-    (*usda)->options = *options;
+    (*usda)->frames_per_second = frames_per_second;
     for (int a = 0; a < ATTRIBUTES; a++)
         (*usda)->spills[a].file = -1;
     for (int a = 0; a < ATTRIBUTES && !status; a++)

@@ -13,17 +13,12 @@
 
 typedef struct MesoUsda MesoUsda;
 
-typedef struct MesoUsdaOptions {
-    double frames_per_second;
-    bool z_up;              /* else y */
-} MesoUsdaOptions;
-
 /*
  * Begins a clip. `scene` and what it holds must outlive it.
  *
  * near       path of the product, in whose folder the attributes wait; they have no names there
  */
-MesoStatus meso_usda_begin(MesoUsda **usda, const MesoInstanceScene *scene, const MesoUsdaOptions *options,
+MesoStatus meso_usda_begin(MesoUsda **usda, const MesoInstanceScene *scene, double frames_per_second,
                            const char *near, MesoError *error);
 
 /* Adds a frame; numbers ascend. O(details + vertices); memory does not grow. */

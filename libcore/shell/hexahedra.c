@@ -85,27 +85,60 @@ static Edge find_edge(const MesoShell *shell, uint32_t slot, uint32_t side)
     return e;
 }
 
-MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side,
-                                MesoVec2 center, bool flipped, MesoPort *port, MesoError *error)
+MesoWall meso_shell_wall(const MesoShell *shell, uint32_t slot, uint32_t side)
 {
     assert(side < 4);
     Edge e = find_edge(shell, slot, side);
-    MesoVec3 a0 = meso_vec3_mad(e.a, level_of(shell, e.va, false), e.na);
-    MesoVec3 b0 = meso_vec3_mad(e.b, level_of(shell, e.vb, false), e.nb);
-    MesoVec3 a1 = meso_vec3_mad(e.a, level_of(shell, e.va, true), e.na);
-    MesoVec3 b1 = meso_vec3_mad(e.b, level_of(shell, e.vb, true), e.nb);
+    MesoWall wall = {.up = meso_vec3_add(e.na, e.nb), .reversed = e.reversed};
+    wall.low[0] = meso_vec3_mad(e.a, level_of(shell, e.va, false), e.na);
+    wall.low[1] = meso_vec3_mad(e.b, level_of(shell, e.vb, false), e.nb);
+    wall.high[0] = meso_vec3_mad(e.a, level_of(shell, e.va, true), e.na);
+    wall.high[1] = meso_vec3_mad(e.b, level_of(shell, e.vb, true), e.nb);
+    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(wall.high[0], wall.low[1]),
+                                      meso_vec3_sub(wall.high[1], wall.low[0]));
+    wall.normal = meso_vec3_direction(normal, (MesoVec3){0, 0, 0});
+    return wall;
+}
 
-    /* Seen along the edge that speaks, the other side's drawing is mirrored, and so is its flip. */
-    float x = flipped != e.reversed ? 1 - center.x : center.x;
-    port->point = meso_vec3_lerp(meso_vec3_lerp(a0, b0, x), meso_vec3_lerp(a1, b1, x), center.y);
-    port->up = meso_vec3_add(e.na, e.nb);
+MesoVec3 meso_wall_point(const MesoWall *wall, float x, float y)
+{
+    return meso_vec3_lerp(meso_vec3_lerp(wall->low[0], wall->low[1], x),
+                          meso_vec3_lerp(wall->high[0], wall->high[1], x), y);
+}
 
-    MesoVec3 normal = meso_vec3_cross(meso_vec3_sub(a1, b0), meso_vec3_sub(b1, a0));
-    MesoVec3 none = {0, 0, 0};
-    port->inward = meso_vec3_direction(normal, none);
-    if (e.reversed)
+void meso_wall_axes(const MesoWall *wall, MesoVec3 axes[2])
+{
+    MesoVec3 along = meso_vec3_add(meso_vec3_sub(wall->low[1], wall->low[0]),
+                                   meso_vec3_sub(wall->high[1], wall->high[0]));
+    along = meso_vec3_mad(along, -meso_vec3_dot(along, wall->normal), wall->normal);
+    axes[1] = meso_vec3_direction(meso_vec3_cross(along, wall->normal), (MesoVec3){0, 0, 0});
+    if (meso_vec3_dot(axes[1], wall->up) < 0)
+        axes[1] = meso_vec3_scale(axes[1], -1);
+    axes[0] = meso_vec3_direction(along, (MesoVec3){0, 0, 0});
+}
+
+static MesoVec3 leant(const MesoWall *wall, const MesoWallMove *move)
+{
+    MesoVec3 axes[2];
+    if (!move || (move->lean_along == 0 && move->lean_rise == 0))
+        return wall->normal;
+    meso_wall_axes(wall, axes);
+    MesoVec3 lean = meso_vec3_mad(meso_vec3_scale(axes[0], move->lean_along), move->lean_rise, axes[1]);
+    return meso_vec3_unit(meso_vec3_add(wall->normal, lean), wall->normal);
+}
+
+MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
+                                const MesoWallMove *move, MesoPort *port, MesoError *error)
+{
+    MesoWall wall = meso_shell_wall(shell, slot, side);
+    MesoVec2 at = meso_wall_place(&wall, center, flipped);
+    port->point = move ? meso_wall_point(&wall, at.x + move->along, at.y + move->rise)
+                       : meso_wall_point(&wall, at.x, at.y);
+    port->up = wall.up;
+    port->inward = leant(&wall, move);
+    if (wall.reversed)
         port->inward = meso_vec3_scale(port->inward, -1);
-    if (meso_vec3_dot(port->inward, port->inward) == 0 || meso_vec3_dot(port->up, port->up) == 0)
+    if (meso_vec3_dot(wall.normal, wall.normal) == 0 || meso_vec3_dot(port->up, port->up) == 0)
         return meso_fail(error, MESO_ERR_INPUT,
                          "slot %u: the shell has no wall on side %u (coinciding corners or opposite normals)",
                          slot, side);
@@ -118,7 +151,7 @@ static bool has_walls(const MesoShell *shell, uint32_t slot)
     MesoPort port;
     bool all = true;
     for (uint32_t side = 0; side < 4 && all; side++)
-        all = meso_shell_wall_port(shell, slot, side, (MesoVec2){0, 0}, false, &port, NULL) == MESO_OK;
+        all = meso_shell_wall_port(shell, slot, side, (MesoVec2){0, 0}, false, NULL, &port, NULL) == MESO_OK;
     return all;
 }
 

@@ -31,18 +31,47 @@ typedef struct MesoPort {
     MesoVec3 inward;        /* unit normal of the hexahedron's face, into the slot */
 } MesoPort;
 
+/* A wall of a slot's hexahedron, as the half-edge that speaks for its edge runs. */
+typedef struct MesoWall {
+    MesoVec3 low[2], high[2];   /* corners at the bottom and the top: where the edge starts and where it ends */
+    MesoVec3 up;                /* not of unit length */
+    MesoVec3 normal;            /* of unit length, into the slot of that half-edge; 0 without a direction */
+    bool reversed;              /* the asking side runs the other way */
+} MesoWall;
+
+/* How a section is moved within its wall, and its trajectory leant over there. */
+typedef struct MesoWallMove {
+    float along, rise;          /* in widths and heights of the wall, as it runs */
+    float lean_along, lean_rise;    /* tangents of the angles from its normal */
+} MesoWallMove;
+
+MesoWall meso_shell_wall(const MesoShell *shell, uint32_t slot, uint32_t side);
+
+/* The wall's point at (x, y) of its unit square. */
+MesoVec3 meso_wall_point(const MesoWall *wall, float x, float y);
+
+/* Unit vectors in the wall, along it and across that, up. */
+void meso_wall_axes(const MesoWall *wall, MesoVec3 axes[2]);
+
+/* Where `center` of an interface's unit square lies on it, seen by the asking side. */
+static inline MesoVec2 meso_wall_place(const MesoWall *wall, MesoVec2 center, bool flipped)
+{
+    /* Seen along the edge that speaks, the other side's drawing is mirrored, and so is its flip. */
+    return (MesoVec2){flipped != wall->reversed ? 1 - center.x : center.x, center.y};
+}
+
 /*
  * Port on a wall, side 0..3 of `slot`: the point lies at `center` of the
  * interface's unit square, mirrored in x where `flipped`. The normal of the wall
- * is the cross product of its diagonals.
+ * is the cross product of its diagonals. `move`, which may be NULL, moves the point and leans the normal over.
  *
  * Two slots that meet at an edge, run along it in opposite directions and show
  * opposite labels there get the same floats for `point` and `up`, and exactly
  * opposite `inward`: all is computed from the edge, with the mean of the two
  * faces' corner normals. O(1). MESO_ERR_INPUT for a wall without a direction.
  */
-MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side,
-                                MesoVec2 center, bool flipped, MesoPort *port, MesoError *error);
+MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
+                                const MesoWallMove *move, MesoPort *port, MesoError *error);
 
 /*
  * Counts the slots with a side where meso_shell_wall_port() fails whatever is

@@ -96,8 +96,8 @@ static void test_heights(void)
             CHECK(fabs(height(&shell, slot, k, true) - (0.25 + v / 1000. + 1 + v / 100.)) < 1e-5);
         }
     MesoPort one, two;      /* neighbours along x meet on the same floats */
-    CHECK(meso_shell_wall_port(&shell, 0, 1, (MesoVec2){0.25f, 0.75f}, false, &one, &error) == MESO_OK);
-    CHECK(meso_shell_wall_port(&shell, 1, 3, (MesoVec2){0.25f, 0.75f}, true, &two, &error) == MESO_OK);
+    CHECK(meso_shell_wall_port(&shell, 0, 1, (MesoVec2){0.25f, 0.75f}, false, NULL, &one, &error) == MESO_OK);
+    CHECK(meso_shell_wall_port(&shell, 1, 3, (MesoVec2){0.25f, 0.75f}, true, NULL, &two, &error) == MESO_OK);
     CHECK(one.point.x == two.point.x && one.point.y == two.point.y && one.point.z == two.point.z);
     MesoCage cage = meso_shell_cage(&shell, 5);
     for (uint32_t k = 0; k < 8; k++) {

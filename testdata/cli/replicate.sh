@@ -68,6 +68,19 @@ replicate --mode play --plan long.plan --frames 6-1 --report back.json scales.js
 cmp out-04.ply four.ply; shown back.json
 meso-info long.plan | grep '"kind"\|"originals"'
 
+echo "== two frames by two processes, from a plan that is kept, and from a state"
+for frame in 4 5; do
+    replicate --mode play --plan long.plan --frames $frame scales.json long-%02d.ply -o farm-%02d.ply &
+done
+wait; cmp farm-04.ply four.ply && replicate --mode play --plan long.plan --frames 5 scales.json long-%02d.ply -o out-%02d.ply
+cmp farm-05.ply out-05.ply
+replicate --state three.state --frames 1-3 scales.json long-%02d.ply -o out-%02d.meso
+for frame in 4 6; do
+    cp three.state farm-$frame.state
+    replicate --state farm-$frame.state --frames 4-$frame scales.json long-%02d.ply -o farm-$frame-%02d.meso &
+done
+wait; cmp farm-4-04.meso whole/out-04.meso; cmp farm-6-06.meso whole/out-06.meso
+
 echo "== the same bytes for any number of threads"
 for threads in 1 2 7; do
     replicate --threads $threads mixed.json long-%02d.ply -o out-%02d.ply && cat out-0*.ply | cksum
@@ -82,7 +95,9 @@ for kind in meso ply obj glb drc; do
 done
 replicate --frames 6 --instances --surface own scales.json long-%02d.ply -o inst-%d.glb
 replicate --surface clay scales.json long-%02d.ply -o clip.glb
-replicate --surface clay scales.json long-%02d.ply -o clip.usda && grep -c PointInstancer clip.usda
+replicate --surface clay --up z --unit 0.01 scales.json long-%02d.ply -o clip.usda && grep -c PointInstancer clip.usda
+grep 'upAxis\|metersPerUnit' clip.usda
+replicate --instances --up z scales.json long-%02d.ply -o up-%02d.glb && grep -a -c '"rotation":\[-0.7071' up-01.glb
 replicate --mode play mixed.json long-%02d.ply -o holes.glb
 if [ -d "$npm/node_modules/gltf-validator" ]; then
     for file in one.glb clip.glb holes.glb; do
@@ -95,16 +110,32 @@ echo "== the surface at rest from a file; steps between frames"
 replicate --mesh plate.obj scales.json long-%02d.ply --frames 3 -o out-%02d.ply; echo "status $?"
 replicate --substeps 3 --report sub.json scales.json long-%02d.ply -o out-%02d.ply && shown sub.json
 
+echo "== scattered, evenly and by a map; as a scene has them"
+details '"scale": {"mesh": "scale.obj"}' '{"scatter": 80, "size": 0.1}' >strewn.json
+replicate --frames 1 --json=strewn.report.json strewn.json long-%02d.ply -o strewn.meso
+grep -o '"originals": [0-9]*' strewn.report.json
+awk 'BEGIN { print "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z"
+    print "property float dense\nelement face 2\nproperty list uchar int vertex_indices\nend_header"
+    print "-1 -1 0 0\n1 -1 0 1\n1 1 0 1\n-1 1 0 0\n3 0 1 2\n3 0 2 3" }' >dense.ply
+cp dense.ply dense-1.ply
+details '"scale": {"mesh": "scale.obj"}' '{"scatter": {"count": 300}, "density": {"attribute": "dense"}, "size": 0.01}' >mapped.json
+replicate --frames 1 mapped.json dense-%d.ply -o mapped.obj
+awk '/^v / { n++; right += $2 > 0 } END { print (right / n > 0.7 && right / n < 0.8 ? "three of four" : right / n) }' mapped.obj
+details '"scale": {"mesh": "scale.obj"}' '{"scene": {"file": "strewn.meso", "channel": "detail"}}' >taken.json
+replicate --frames 1 --json=taken.report.json taken.json long-%02d.ply -o taken.meso
+grep -o '"originals": [0-9]*' taken.report.json
+
 echo "== what cannot be"
 try replicate scales.json long-%02d.ply -o x.ply
 try replicate scales.json long-%02d.ply -o x-%02d.xyz
 try replicate scales.json long-%02d.ply -o x-%02d.usda
 try replicate --state x.state scales.json long-%02d.ply -o x.glb
 try replicate --instances scales.json long-%02d.ply -o x-%02d.ply
+try replicate --instances --tangents scales.json long-%02d.ply -o x-%02d.glb
 try replicate --state x.state --mode play scales.json long-%02d.ply -o x-%02d.ply
 try replicate --plan x.plan scales.json long-%02d.ply -o x-%02d.ply
 try replicate --alpha 2 scales.json long-%02d.ply -o x-%02d.ply
-try replicate mixed.json long-%02d.ply -o x.usda
+try replicate --mode paper mixed.json long-%02d.ply -o x.usda
 try replicate scales.json -o x-%02d.ply
 try replicate scales.json plate.obj -o x-%02d.ply
 try replicate scales.json nowhere-%02d.ply -o x-%02d.ply

@@ -4,7 +4,7 @@
 #include "libcore/replicate/plan/replicate_work.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { CHOICES = 12, CHOICES_OF_FEW = 64, FEW = 4096, AROUND = 48, WALK_LIMIT = 10000 };
+enum { CHOICES = 6, CHOICES_OF_FEW = 64, AROUND = 48, WALK_LIMIT = 10000 };
 
 /* What corners that are not alike count, beside distances that are not. */
 static const double UNLIKE = 0.15;
@@ -62,10 +62,10 @@ static MesoVec3 heading_around(const MesoReplication *r, uint32_t triangle)
     return meso_vec3_unit(sum, (MesoVec3){0, 0, 0});
 }
 
-/* How far the nearest distances at a place are from those that a detail has at rest. */
-static double misfit(const MesoOriginal *original, const Around *around, MesoVec3 place)
+/* How far the nearest distances at a place are from those that a detail has at rest; and how far others push it. */
+static double misfit(const MesoOriginal *original, const MesoEdgePush *edges, const Around *around, MesoVec3 place)
 {
-    float squares[AROUND + MESO_EXEMPLAR_INSIDE], near[MESO_ORIGINAL_NEAR];
+    float squares[AROUND + MESO_EXEMPLAR_INSIDE], near[MESO_ORIGINAL_NEAR], pushed = 0;
     for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
         near[k] = INFINITY;
     float aspect = original->aspect, across = 1 / aspect - aspect;
@@ -73,6 +73,8 @@ static double misfit(const MesoOriginal *original, const Around *around, MesoVec
         float x = around->x[i] - place.x, y = around->y[i] - place.y, z = around->z[i] - place.z;
         squares[i] = x * x + y * y + z * z;
     }
+    for (uint32_t i = 0; i < around->count; i++)
+        pushed += meso_push_at(edges, squares[i]);
     for (uint32_t i = 0; i < around->count && aspect != 1; i++) {
         float along = (around->x[i] - place.x) * around->heading.x + (around->y[i] - place.y) * around->heading.y
                       + (around->z[i] - place.z) * around->heading.z;
@@ -86,7 +88,7 @@ static double misfit(const MesoOriginal *original, const Around *around, MesoVec
             d2 = further;
         }
     }
-    double sum = 0;
+    double sum = (double)pushed;
     for (uint32_t k = 0; k < MESO_ORIGINAL_NEAR; k++)
         if (original->near[k] > 0 && original->near[k] < INFINITY && near[k] < INFINITY) {
             double ratio = sqrt((double)near[k]) / (double)original->near[k] - 1;
@@ -146,15 +148,20 @@ static double misfit_of_all(const MesoReplication *r, Around *around, const Meso
             if (k != i)
                 add_place(around, births[k].place);
         sum += MESO_COPY_COST * r->copies[births[i].copied]
-               + misfit(&r->exemplars.originals[births[i].copied], around, births[i].place);
+               + misfit(&r->exemplars.originals[births[i].copied], &r->tolerance.edges, around, births[i].place);
     }
     around->count = before;
     return sum / count;
 }
 
-/* Each is moved a little, while it has no size yet, to where its distances fit better: by so much of the nearest. */
-static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births, uint32_t count)
+/*
+ * Each is moved a little, while it has no size yet, to where its distances fit better: by so much of the nearest.
+ * Returns what they cost where that is most.
+ */
+static double relax(const MesoReplication *r, const uint32_t nodes[3], Around *around, MesoBirth *births,
+                    uint32_t count)
 {
+    double worst = 0;
     static const float ways[6][2] = {{1, 0}, {0.5f, 0.866f}, {-0.5f, 0.866f},
                                      {-1, 0}, {-0.5f, -0.866f}, {0.5f, -0.866f}};
     static const float reaches[3] = {0.15f, 0.08f, 0.04f};
@@ -162,28 +169,30 @@ static void relax(const MesoReplication *r, const uint32_t nodes[3], Around *aro
     MesoVec3 side = meso_vec3_sub(p[nodes[1]], p[nodes[0]]), other = meso_vec3_sub(p[nodes[2]], p[nodes[0]]);
     MesoVec3 x = meso_vec3_unit(side, (MesoVec3){1, 0, 0});
     MesoVec3 y = meso_vec3_cross(meso_vec3_unit(meso_vec3_cross(side, other), (MesoVec3){0, 0, 1}), x);
-    uint32_t before = around->count, rounds = r->detail_count < FEW ? 3 : 1;
+    uint32_t before = around->count, rounds = r->detail_count < MESO_FEW_DETAILS ? 3 : 1;
     for (uint32_t i = 0; i < count; i++) {
         const MesoOriginal *as = &r->exemplars.originals[births[i].copied];
         around->count = before;
         for (uint32_t k = 0; k < count; k++)
             if (k != i)
                 add_place(around, births[k].place);
-        double least = misfit(as, around, births[i].place);
+        double least = misfit(as, &r->tolerance.edges, around, births[i].place);
         for (uint32_t n = 0; n < rounds && as->near[0] < INFINITY; n++) {
             MesoVec3 from = births[i].place;
             for (uint32_t w = 0; w < 6; w++) {
                 MesoVec3 place = meso_vec3_mad(from, reaches[n] * as->near[0] * ways[w][0], x);
                 place = meso_vec3_mad(place, reaches[n] * as->near[0] * ways[w][1], y);
-                double cost = misfit(as, around, place);
+                double cost = misfit(as, &r->tolerance.edges, around, place);
                 if (cost < least) {
                     least = cost;
                     births[i].place = place;
                 }
             }
         }
+        worst = fmax(worst, least);
     }
     around->count = before;
+    return worst;
 }
 
 /* What the details at the corners are copies of. */
@@ -196,7 +205,7 @@ static void know_corners(const MesoReplication *r, const uint32_t nodes[3], cons
 }
 
 uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
-                            MesoBirth births[MESO_EXEMPLAR_INSIDE])
+                            MesoBirth births[MESO_EXEMPLAR_INSIDE], double *cost)
 {
     const MesoWeb *web = &r->web;
     const uint32_t *c = web->corners + 3 * (size_t)triangle;
@@ -204,7 +213,7 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
     const MesoOriginal *as[3];
     double angle = meso_smallest_angle(meso_web_length2(web, c[0], c[1]), meso_web_length2(web, c[1], c[2]),
                                        meso_web_length2(web, c[2], c[0]));
-    uint32_t room = r->detail_count < FEW ? CHOICES_OF_FEW : CHOICES, made = 0;
+    uint32_t room = r->detail_count < MESO_FEW_DETAILS ? CHOICES_OF_FEW : CHOICES, made = 0;
     uint32_t count = meso_exemplars_near(&r->exemplars, meso_web_area(web, triangle), angle, limit, similar, room);
     double least = INFINITY;
     Around around;
@@ -216,19 +225,19 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
         unlike_corners(r, as, similar[i], unlike);
         for (uint32_t turn = 0; turn < 3; turn++) {
             MesoBirth tried[MESO_EXEMPLAR_INSIDE];
-            double cost = UNLIKE * unlike[turn];
-            if (!(cost < least))
+            double sum = UNLIKE * unlike[turn];
+            if (!(sum < least))
                 continue;
             transfer(r, c, similar[i], turn, tried);
-            cost += misfit_of_all(r, &around, tried, similar[i]->inside_count, least - cost);
-            if (!(cost < least))
+            sum += misfit_of_all(r, &around, tried, similar[i]->inside_count, least - sum);
+            if (!(sum < least))
                 continue;
-            least = cost;
+            least = sum;
             made = similar[i]->inside_count;
             memcpy(births, tried, made * sizeof *births);
         }
     }
-    relax(r, c, &around, births, made);
+    *cost = relax(r, c, &around, births, made);
     return made;
 }
 

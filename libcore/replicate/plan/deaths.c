@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "libcore/replicate/plan/pair_target.h"
+#include "libcore/replicate/statistics/point_grid.h"
 
 enum { RING = 48 };
 
@@ -45,7 +46,7 @@ static double crowd_of(const MesoReplication *r, uint32_t detail)
         double d = (double)meso_distance(r, r->web.positions + r->web.fixed_count, detail, heading,
                                          ring[k] - r->web.fixed_count);
         double near = rest * rest / fmax(d * d, 1e-12 * rest * rest);
-        crowd += near * near * near;    /* one that is very near is more than some that are rather near */
+        crowd += pow(near, 6);      /* one that is very near is more than some that are rather near */
     }
     return crowd * (detail < r->options.original_count ? 1 : COPY_FIRST);
 }
@@ -129,4 +130,98 @@ MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error)
     }
     meso_arena_rewind(&r->scratch, mark);
     return there ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* ---- beforehand ---- */
+
+/* Others are counted up to so many mean spacings: when three of four have gone, the nearest ones still are. */
+static const double REACH = 2.5;
+
+/* Originals as they go one after another while a surface shrinks evenly. */
+typedef struct Leaving {
+    MesoReplication *r;
+    MesoPointGrid grid;
+    float reach;
+    double *crowds;         /* by original */
+    bool *gone;             /* by original */
+    uint32_t *begin, *members;      /* by block */
+    uint32_t left;          /* in all */
+} Leaving;
+
+/* One that leaves takes from others what it has been to them; `sign` 1: it comes. */
+static void count_around(const Leaving *l, uint32_t detail, double sign)
+{
+    const MesoVec3 *places = l->r->web.positions + l->r->web.fixed_count;
+    for (uint32_t cell = 0; cell < MESO_POINT_CELLS; cell++) {
+        MesoPointRange range = meso_point_grid_range(&l->grid, places[detail], cell);
+        for (uint32_t i = range.begin; i < range.end; i++) {
+            uint32_t other = l->grid.order[i];
+            MesoVec3 apart = meso_vec3_sub(l->grid.places[i], places[detail]);
+            double d2 = (double)meso_vec3_dot(apart, apart);
+            double rest = (double)l->r->exemplars.originals[other].near[0];
+            if (l->grid.keys[i] != range.key || other == detail || !(d2 < (double)(l->reach * l->reach))
+                || !(rest < INFINITY))
+                continue;
+            double near = rest * rest / fmax(d2, 1e-6 * rest * rest);
+            l->crowds[other] += sign * pow(near, 6);
+        }
+    }
+}
+
+static MesoStatus prepare(Leaving *l, MesoArena *arena, MesoError *error)
+{
+    const MesoReplication *r = l->r;
+    uint32_t n = r->detail_count;
+    double area = 0;
+    for (uint32_t t = 0; t < r->rest->triangle_count; t++)
+        area += (double)r->rest_areas[t];
+    l->reach = (float)(REACH * sqrt(area / n));
+    l->crowds = MESO_NEW(arena, double, n, error);
+    l->gone = MESO_NEW(arena, bool, n, error);
+    l->begin = MESO_NEW(arena, uint32_t, (size_t)r->block_count + 2, error);
+    l->members = MESO_NEW(arena, uint32_t, n, error);
+    if (!l->crowds || !l->gone || !l->begin || !l->members)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < n; i++)
+        l->begin[r->blocks[i] + 2]++;
+    for (uint32_t b = 2; b < r->block_count + 2; b++)
+        l->begin[b] += l->begin[b - 1];
+    for (uint32_t i = 0; i < n; i++)
+        l->members[l->begin[r->blocks[i] + 1]++] = i;
+    MesoStatus status = meso_point_grid_build(&l->grid, arena, r->web.positions + r->web.fixed_count, n,
+                                              l->reach > 0 ? l->reach : 1, error);
+    for (uint32_t i = 0; i < n && status == MESO_OK; i++)
+        count_around(l, i, 1);
+    l->left = n;
+    return status;
+}
+
+/* The most crowded one of a block. */
+static void let_one_leave(Leaving *l, uint32_t block)
+{
+    uint32_t best = MESO_NO_INDEX;
+    for (uint32_t k = l->begin[block]; k < l->begin[block + 1]; k++) {
+        uint32_t i = l->members[k];
+        if (!l->gone[i] && (best == MESO_NO_INDEX || l->crowds[i] > l->crowds[best]))
+            best = i;
+    }
+    l->gone[best] = true;
+    l->r->details[best].rank = --l->left;
+    count_around(l, best, -1);
+}
+
+MesoStatus meso_rank_by_crowd(MesoReplication *r, MesoError *error)
+{
+    enum { ROUNDS = 128 };
+    Leaving l = {.r = r};
+    MesoArenaMark mark = meso_arena_mark(&r->scratch);
+    MesoStatus status = r->detail_count ? prepare(&l, &r->scratch, error) : MESO_OK;
+    for (uint32_t round = 1; round <= ROUNDS && status == MESO_OK && r->detail_count; round++)
+        for (uint32_t b = 0; b < r->block_count; b++) {
+            uint32_t count = l.begin[b + 1] - l.begin[b];
+            for (uint32_t k = count * (round - 1) / ROUNDS; k < count * round / ROUNDS; k++)
+                let_one_leave(&l, b);
+        }
+    meso_arena_rewind(&r->scratch, mark);
+    return status;
 }

@@ -5,7 +5,7 @@
 #include "libcore/base/random.h"
 #include "libcore/field/triangle_frames.h"
 
-enum { NEAR = 40, RING = 24, MIDDLES = 12000, PAIRS = 40, BINS = MESO_EXEMPLAR_BINS };
+enum { NEAR = 64, RING = 24, MIDDLES = 12000, PAIRS = 40, BINS = MESO_EXEMPLAR_BINS, WIDE = 256 };
 
 /* The largest triangle of a bin, over the mean one. */
 static const double LARGEST = 12;
@@ -120,19 +120,19 @@ static void lay_out(Vicinity *v, const MesoWeb *web)
     }
 }
 
-static void gather(Vicinity *v, const MesoWeb *web, uint32_t detail)
+/* It, and so many rings around it. */
+static void gather(Vicinity *v, const MesoWeb *web, uint32_t detail, uint32_t rings)
 {
-    uint32_t ring[RING], second[RING];
-    uint32_t count = meso_web_ring(web, web->fixed_count + detail, ring, RING);
+    uint32_t ring[RING], begin = 0;
     v->count = 0;
     add_near(v, web, web->fixed_count + detail);
-    count = count < RING ? count : RING;
-    for (uint32_t i = 0; i < count; i++)
-        add_near(v, web, ring[i]);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t more = meso_web_ring(web, ring[i], second, RING);
-        for (uint32_t k = 0; k < more && k < RING && ring[i] >= web->fixed_count; k++)
-            add_near(v, web, second[k]);
+    for (uint32_t r = 0; r < rings; r++) {
+        uint32_t end = v->count;
+        for (; begin < end; begin++) {
+            uint32_t count = meso_web_ring(web, web->fixed_count + v->details[begin], ring, RING);
+            for (uint32_t i = 0; i < count && i < RING; i++)
+                add_near(v, web, ring[i]);
+        }
     }
     lay_out(v, web);
 }
@@ -147,8 +147,8 @@ static double apart2(const double *a, const double *b)
     return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
 }
 
-/* False where it has no details inside, or more than there is room for. */
-static bool make_exemplar(MesoExemplar *out, const Vicinity *v, uint32_t i, uint32_t j, uint32_t k)
+/* False where it is larger than `most`, has no details inside, or more than there is room for. */
+static bool make_exemplar(MesoExemplar *out, const Vicinity *v, uint32_t i, uint32_t j, uint32_t k, double most)
 {
     const double *a = v->places[i], *b = v->places[j], *c = v->places[k];
     double area = twice_area(a, b, c);
@@ -161,7 +161,7 @@ static bool make_exemplar(MesoExemplar *out, const Vicinity *v, uint32_t i, uint
         k = index;
         area = -area;
     }
-    if (!(area > 0))
+    if (!(area > 0 && area <= 2 * most))
         return false;
     *out = (MesoExemplar){.area = (float)(area / 2), .corners = {v->details[i], v->details[j], v->details[k]},
                           .angle = (float)meso_smallest_angle(apart2(a, b), apart2(b, c), apart2(c, a))};
@@ -186,8 +186,6 @@ static uint32_t bin_of(double x, double most)
 
 static void keep(MesoExemplars *e, uint32_t *met, const MesoExemplar *exemplar, MesoRandom *random)
 {
-    if ((double)exemplar->area > e->most)
-        return;
     uint32_t bin = bin_of((double)exemplar->area, e->most) * BINS + bin_of((double)exemplar->angle, MESO_PI / 3);
     MesoExemplar *room = &e->bins[(size_t)bin * MESO_EXEMPLAR_BIN_ROOM];
     uint32_t at = met[bin]++;
@@ -199,24 +197,28 @@ static void keep(MesoExemplars *e, uint32_t *met, const MesoExemplar *exemplar, 
         room[at] = *exemplar;
 }
 
-/* All triangles with a detail and two near it; where there are many details, so many around some of them. */
+/*
+ * All triangles with a detail and two near it, of few details as good as all that there are; where there are many, so
+ * many around some of them.
+ */
 static void meet_triangles(MesoExemplars *e, uint32_t *met, const MesoWeb *web, uint64_t seed)
 {
     MesoRandom random;
     meso_random_init(&random, seed, 3);
     uint32_t middles = e->original_count < MIDDLES ? e->original_count : MIDDLES;
     bool all = e->original_count < 1000;
+    uint32_t rings = e->original_count <= WIDE ? 3 : 2;
     for (uint32_t m = 0; m < middles; m++) {
         Vicinity v;
         MesoExemplar exemplar;
-        gather(&v, web, (uint32_t)((uint64_t)m * e->original_count / middles));
+        gather(&v, web, (uint32_t)((uint64_t)m * e->original_count / middles), rings);
         for (uint32_t i = 1; all && i < v.count; i++)
             for (uint32_t k = i + 1; k < v.count; k++)
-                if (make_exemplar(&exemplar, &v, 0, i, k))
+                if (make_exemplar(&exemplar, &v, 0, i, k, e->most))
                     keep(e, met, &exemplar, &random);
         for (uint32_t n = 0; !all && n < PAIRS && v.count > 3; n++) {
             uint32_t i = 1 + meso_random_below(&random, v.count - 1), k = 1 + meso_random_below(&random, v.count - 1);
-            if (i != k && make_exemplar(&exemplar, &v, 0, i, k))
+            if (i != k && make_exemplar(&exemplar, &v, 0, i, k, e->most))
                 keep(e, met, &exemplar, &random);
         }
     }
@@ -289,8 +291,11 @@ uint32_t meso_exemplars_near(const MesoExemplars *e, double area, double angle, 
 {
     Nearest nearest = {.out = out, .room = room < 64 ? room : 64};
     int32_t row = (int32_t)bin_of(area, e->most), column = (int32_t)bin_of(angle, MESO_PI / 3);
-    /* its own bin, where that has many to choose from, and else rings of bins around it until there are enough */
-    bool many = e->bin_counts[row * BINS + column] >= 3 * nearest.room;
+    /*
+     * its own bin, where that has many to choose from, and else rings of bins around it until there are enough; of few
+     * originals all bins, so that none is more similar
+     */
+    bool few = e->original_count <= WIDE, many = !few && e->bin_counts[row * BINS + column] >= 3 * nearest.room;
     for (int32_t ring = 0, more = many ? 0 : 1; ring < BINS && more >= 0; ring++) {
         for (int32_t r = row - ring; r <= row + ring; r++)
             for (int32_t c = column - ring; c <= column + ring; c++) {
@@ -298,7 +303,7 @@ uint32_t meso_exemplars_near(const MesoExemplars *e, double area, double angle, 
                 if (edge && r >= 0 && r < BINS && c >= 0 && c < BINS)
                     consider_bin(&nearest, e, (uint32_t)(r * BINS + c), area, angle, inside_limit);
             }
-        more -= nearest.count == nearest.room;
+        more -= !few && nearest.count == nearest.room;
     }
     return nearest.count;
 }

@@ -6,7 +6,7 @@
 #include "libcore/base/random.h"
 #include "libcore/replicate/plan/web_edit.h"
 
-enum { BINS = MESO_TARGET_BINS, SAMPLE = 4096, TRIED = 24, COPIES = 12, NEAREST = MESO_ORIGINAL_NEAR };
+enum { BINS = MESO_TARGET_BINS, SAMPLE = 4096, TRIED = 12, COPIES = 12, NEAREST = MESO_ORIGINAL_NEAR };
 
 /* Distances are counted up to so many mean spacings. */
 static const double REACH = 4;
@@ -19,50 +19,100 @@ static const double ORIGINAL_LAST = 1e9;
 
 /* ---- cells ---- */
 
-/* Details by cell of space, as wide as distances that are counted; those to come are put in, too. */
+/* A detail that lives, with all that is asked of it in one place of memory. */
+typedef struct Spot {
+    MesoVec3 place, normal;
+    uint32_t detail;
+    uint64_t cell;
+} Spot;
+
+typedef struct Slot {
+    uint32_t begin, end;        /* spots */
+    uint32_t later;             /* the first of those that came later, or MESO_NO_INDEX */
+} Slot;
+
+/* Details by cell of space, as wide as distances that are counted. Those that come later are in lists. */
 typedef struct Cells {
     float width;
     uint32_t mask;
-    uint32_t *heads;        /* [mask + 1] or MESO_NO_INDEX */
-    uint32_t *next;         /* [room] */
+    Slot *slots;            /* [mask + 2] in each there may be a few cells */
+    Spot *spots;            /* [spot_count] by slot, and those that came later, in any order */
+    uint32_t spot_count;
+    uint32_t *next;         /* [later] */
+    uint32_t first_later;   /* spot */
     const MesoVec3 *places, *normals;
 } Cells;
-
-static uint32_t slot_of(const Cells *cells, int32_t x, int32_t y, int32_t z)
-{
-    uint32_t key = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u;
-    return (key ^ key >> 15) * 0x9e3779b1u >> 7 & cells->mask;
-}
 
 static int32_t cell_at(float x, float width)
 {
     return (int32_t)fminf(fmaxf(floorf(x / width), -1e9f), 1e9f);
 }
 
-static void put(Cells *cells, uint32_t detail)
+/* The same for cells that are 2^21 apart alone. */
+static uint64_t cell_of(int32_t x, int32_t y, int32_t z)
+{
+    const uint64_t mask = 0x1fffff;
+    return ((uint64_t)(uint32_t)x & mask) << 42 | ((uint64_t)(uint32_t)y & mask) << 21 | ((uint64_t)(uint32_t)z & mask);
+}
+
+static uint32_t slot_of(const Cells *cells, uint64_t cell)
+{
+    return (uint32_t)((cell ^ cell >> 31) * 0x9e3779b97f4a7c15u >> 32) & cells->mask;
+}
+
+static Spot spot_of(const Cells *cells, uint32_t detail)
 {
     MesoVec3 p = cells->places[detail];
-    uint32_t slot = slot_of(cells, cell_at(p.x, cells->width), cell_at(p.y, cells->width), cell_at(p.z, cells->width));
-    cells->next[detail] = cells->heads[slot];
-    cells->heads[slot] = detail;
+    return (Spot){p, cells->normals[detail], detail, cell_of(cell_at(p.x, cells->width), cell_at(p.y, cells->width),
+                                                             cell_at(p.z, cells->width))};
+}
+
+/* One that has come. */
+static void put(Cells *cells, uint32_t detail)
+{
+    Spot spot = spot_of(cells, detail);
+    Slot *slot = &cells->slots[slot_of(cells, spot.cell)];
+    cells->next[cells->spot_count - cells->first_later] = slot->later;
+    slot->later = cells->spot_count;
+    cells->spots[cells->spot_count++] = spot;
+}
+
+/* One that was there from the beginning goes. */
+static void take(Cells *cells, uint32_t detail)
+{
+    Slot *slot = &cells->slots[slot_of(cells, spot_of(cells, detail).cell)];
+    uint32_t at = slot->begin;
+    while (cells->spots[at].detail != detail)
+        at++;
+    cells->spots[at] = cells->spots[--slot->end];
 }
 
 static MesoStatus make_cells(Cells *cells, MesoReplication *r, double width, uint32_t due, MesoError *error)
 {
-    size_t room = (size_t)r->detail_count + due + 1;
-    *cells = (Cells){.width = (float)width, .mask = 255};
-    while (cells->mask < room)
+    uint32_t n = r->detail_count;
+    *cells = (Cells){.width = (float)width, .mask = 255, .places = r->web.positions + r->web.fixed_count,
+                     .normals = r->web.normals + r->web.fixed_count};
+    while (cells->mask < n)
         cells->mask = 2 * cells->mask + 1;
-    cells->heads = meso_arena_alloc(&r->scratch, (size_t)cells->mask + 1, sizeof *cells->heads, error);
-    cells->next = meso_arena_alloc(&r->scratch, room, sizeof *cells->next, error);
-    if (!cells->heads || !cells->next)
+    cells->slots = MESO_NEW(&r->scratch, Slot, (size_t)cells->mask + 2, error);
+    cells->spots = MESO_NEW(&r->scratch, Spot, (size_t)n + due + 1, error);
+    cells->next = meso_arena_alloc(&r->scratch, (size_t)due + 1, sizeof *cells->next, error);
+    if (!cells->slots || !cells->spots || !cells->next)
         return MESO_ERR_MEMORY;
-    memset(cells->heads, 0xff, ((size_t)cells->mask + 1) * sizeof *cells->heads);
-    cells->places = r->web.positions + r->web.fixed_count;
-    cells->normals = r->web.normals + r->web.fixed_count;
-    for (uint32_t i = 0; i < r->detail_count; i++)
+    for (uint32_t i = 0; i < n; i++)
         if (meso_lives(r, i))
-            put(cells, i);
+            cells->slots[slot_of(cells, spot_of(cells, i).cell) + 1].begin++;
+    for (uint32_t s = 0; s <= cells->mask; s++) {
+        cells->slots[s + 1].begin += cells->slots[s].begin;
+        cells->slots[s].end = cells->slots[s].begin;
+        cells->slots[s].later = MESO_NO_INDEX;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        Spot spot = spot_of(cells, i);
+        if (meso_lives(r, i))
+            cells->spots[cells->slots[slot_of(cells, spot.cell)].end++] = spot;
+    }
+    cells->spot_count = cells->first_later = cells->slots[cells->mask + 1].begin;
     return MESO_OK;
 }
 
@@ -76,7 +126,7 @@ typedef struct Vicinity {
 
 static void see(Vicinity *v, uint32_t detail, float d2, double radius)
 {
-    double at = sqrt((double)d2) / radius * BINS;
+    float at = sqrtf(d2) * (float)(BINS / radius);
     if (at < BINS)
         v->counts.of[(uint32_t)at]++;
     if (d2 < v->near[0])
@@ -90,25 +140,29 @@ static void see(Vicinity *v, uint32_t detail, float d2, double radius)
 }
 
 /* Not of the other side of a thin sheet, whose normals point the other way. */
+static void see_spot(Vicinity *v, const Spot *spot, uint64_t cell, MesoVec3 place, MesoVec3 normal, uint32_t self,
+                     double radius)
+{
+    MesoVec3 apart = meso_vec3_sub(spot->place, place);
+    float d2 = meso_vec3_dot(apart, apart);
+    if (d2 < (float)(radius * radius) && spot->cell == cell && spot->detail != self
+        && !(meso_vec3_dot(spot->normal, normal) < 0))
+        see(v, spot->detail, d2, radius);
+}
+
 static void look_around(Vicinity *v, const Cells *cells, MesoVec3 place, MesoVec3 normal, uint32_t self, double radius)
 {
     *v = (Vicinity){.nearest = MESO_NO_INDEX};
     for (uint32_t k = 0; k < NEAREST; k++)
         v->near[k] = INFINITY;
     int32_t x = cell_at(place.x, cells->width), y = cell_at(place.y, cells->width), z = cell_at(place.z, cells->width);
-    float most = (float)(radius * radius);
     for (int32_t k = 0; k < 27; k++) {
-        int32_t cx = x + k % 3 - 1, cy = y + k / 3 % 3 - 1, cz = z + k / 9 - 1;
-        for (uint32_t i = cells->heads[slot_of(cells, cx, cy, cz)]; i != MESO_NO_INDEX; i = cells->next[i]) {
-            MesoVec3 p = cells->places[i], apart = meso_vec3_sub(p, place);
-            float d2 = meso_vec3_dot(apart, apart);
-            if (!(d2 < most) || i == self || meso_vec3_dot(cells->normals[i], normal) < 0)
-                continue;
-            /* two cells may share a slot */
-            if (cell_at(p.x, cells->width) == cx && cell_at(p.y, cells->width) == cy
-                && cell_at(p.z, cells->width) == cz)
-                see(v, i, d2, radius);
-        }
+        uint64_t cell = cell_of(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1);
+        const Slot *slot = &cells->slots[slot_of(cells, cell)];
+        for (uint32_t i = slot->begin; i < slot->end; i++)
+            see_spot(v, &cells->spots[i], cell, place, normal, self, radius);
+        for (uint32_t i = slot->later; i != MESO_NO_INDEX; i = cells->next[i - cells->first_later])
+            see_spot(v, &cells->spots[i], cell, place, normal, self, radius);
     }
 }
 
@@ -365,16 +419,6 @@ MesoStatus meso_bear_by_pairs(MesoReplication *r, uint32_t due, int32_t frame, M
 }
 
 /* ---- deaths ---- */
-
-static void take(Cells *cells, uint32_t detail)
-{
-    MesoVec3 p = cells->places[detail];
-    uint32_t *at = &cells->heads[slot_of(cells, cell_at(p.x, cells->width), cell_at(p.y, cells->width),
-                                         cell_at(p.z, cells->width))];
-    while (*at != detail)
-        at = &cells->next[*at];
-    *at = cells->next[detail];
-}
 
 /* False where none could be taken out. */
 static bool let_one_die(Bearing *b, uint32_t block, int32_t frame)

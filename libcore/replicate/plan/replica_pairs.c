@@ -1,20 +1,25 @@
 /* The plan that comes out of a replication: which details give way to which, and from how near. */
+#include <string.h>
+
 #include "libcore/base/grow.h"
 #include "libcore/replicate/plan/replicate_work.h"
-#include "libcore/replicate/statistics/point_grid.h"
 
 enum { RING = 32, WIDEST = 600 };
 
-/* A ramp begins beyond where details lie at rest. */
-static const double BEYOND_REST = 1.001;
+/* So much more or less than at rest, of area, nothing comes or goes: a bent surface has its triangles' chords. */
+static const double BEYOND_REST = 0.004;
+
+/* Of the ramp: what is left of it, of area, where it would begin at rest. */
+static const double LEAST_RAMP = 0.9;
+
+/* Of the distance at which it was born. */
+static const double CROWDED = 0.8;
 
 typedef struct Pairing {
     const MesoReplication *r;
     MesoArena *arena;
     MesoReplicaPlan *plan;
     uint32_t room;
-    MesoVec3 *places;       /* [detail_count] at rest */
-    MesoPointGrid grid;     /* of originals */
 } Pairing;
 
 static MesoStatus add(Pairing *p, uint32_t *count, MesoReplicaPair pair, MesoError *error)
@@ -65,88 +70,69 @@ MesoStatus meso_find_above(MesoReplication *r, MesoError *error)
 }
 
 /*
- * Originals: one of rank k out of n is to be gone where the surface has shrunk to k / n of its area, and so to the root
- * of that in length; also where the other one has gone.
+ * Originals: one that goes where its part has shrunk to a share of its area has come nearer to the others by the root
+ * of that then; where it comes nearer by far, since the surface has become longer and narrower, it gives way before.
  */
 static MesoStatus pair_original(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
 {
     const MesoReplication *r = p->r;
     MesoNeighbour above = r->above[detail];
-    double ramp = r->options.ramp, share = sqrt((r->details[detail].rank + 0.5) / r->options.original_count);
-    double to = fmin(share * (1 + ramp / 2), 1 / BEYOND_REST) * (double)above.distance;
+    double share = sqrt(fmin(1, (double)p->plan->rooms[detail].to));
+    double to = CROWDED * share * (double)above.distance;
     p->plan->details[detail].radius = (float)to;
     if (above.detail == MESO_NO_INDEX || !(to > 0))
         return MESO_OK;
-    return add(p, count, (MesoReplicaPair){above.detail, true, (float)((1 - ramp) * to), (float)to}, error);
-}
-
-/* The original that is nearest at rest. */
-static uint32_t nearest_original(const Pairing *p, uint32_t detail)
-{
-    uint32_t nearest = MESO_NO_INDEX;
-    float least = INFINITY;
-    for (uint32_t cell = 0; cell < MESO_POINT_CELLS; cell++) {
-        MesoPointRange range = meso_point_grid_range(&p->grid, p->places[detail], cell);
-        for (uint32_t i = range.begin; i < range.end; i++) {
-            float d = meso_vec3_length(meso_vec3_sub(p->grid.places[i], p->places[detail]));
-            if (p->grid.keys[i] == range.key && d < least) {
-                least = d;
-                nearest = p->grid.order[i];
-            }
-        }
-    }
-    return nearest;
-}
-
-/*
- * The original whose distance has grown most by its birth tells how far the surface has come: in the middle of its ramp
- * it is as far as then. At rest none is there that was born.
- */
-static MesoStatus keep_away(Pairing *p, uint32_t detail, MesoVec3 heading, uint32_t *count, MesoError *error)
-{
-    const MesoReplication *r = p->r;
-    uint32_t best = MESO_NO_INDEX;
-    double most = 0, rest = 0;
-    for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1]; i++) {
-        uint32_t other = r->near[i].detail;
-        double d = meso_distance(r, p->places, detail, heading, other);
-        double ratio = d > 0 ? (double)r->near[i].distance / d : 0;
-        if (other < r->options.original_count && ratio > most) {
-            most = ratio;
-            best = other;
-            rest = d;
-        }
-    }
-    bool grows = most > BEYOND_REST;
-    if (!grows) {
-        best = nearest_original(p, detail);
-        best = best == MESO_NO_INDEX ? 0 : best;
-        rest = meso_distance(r, p->places, detail, heading, best);
-    }
-    double from = BEYOND_REST * rest, to = INFINITY;
-    if (grows) {
-        from = fmax(from, (1 - r->options.ramp / 2) * most * rest);
-        to = from / (1 - r->options.ramp);
-    }
-    return from > 0 ? add(p, count, (MesoReplicaPair){best, true, (float)from, (float)to}, error) : MESO_OK;
+    return add(p, count, (MesoReplicaPair){above.detail, (float)((1 - r->options.ramp) * to), (float)to}, error);
 }
 
 static MesoStatus pair_born(Pairing *p, uint32_t detail, uint32_t *count, MesoError *error)
 {
     const MesoReplication *r = p->r;
-    double radius = (double)r->details[detail].radius;
-    MesoVec3 heading = meso_heading(r, r->rest->positions, detail);
-    for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1]; i++) {
-        uint32_t other = r->near[i].detail;
-        double rest = meso_distance(r, p->places, detail, heading, other);
-        double from = (1 - r->options.ramp) * radius;
-        if (!(BEYOND_REST * rest < from))
-            continue;       /* it has hardly come nearer */
-        MesoStatus status = add(p, count, (MesoReplicaPair){other, false, (float)from, (float)radius}, error);
+    double to = CROWDED * (double)r->details[detail].radius, from = (1 - r->options.ramp) * to;
+    for (uint32_t i = r->near_begin[detail]; i < r->near_begin[detail + 1] && from > 0; i++) {
+        MesoReplicaPair pair = {r->near[i].detail, (float)from, (float)to};
+        if (!(pair.from < pair.to))
+            continue;
+        MesoStatus status = add(p, count, pair, error);
         if (status != MESO_OK)
             return status;
     }
-    return keep_away(p, detail, heading, count, error);
+    return MESO_OK;
+}
+
+/*
+ * When there is how much room: details of a part are counted by rank, and one is there while so many are due. Those
+ * born begin later than at rest, and originals go earlier.
+ */
+static MesoStatus find_rooms(Pairing *p, MesoError *error)
+{
+    const MesoReplication *r = p->r;
+    uint32_t n = r->detail_count, originals = r->options.original_count;
+    double *counts = MESO_NEW(p->arena, double, r->block_count, error);
+    double *all = MESO_NEW(p->arena, double, r->block_count, error);
+    uint32_t *by_rank = MESO_NEW(p->arena, uint32_t, n, error);
+    if (!counts || !all || !by_rank)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < n; i++)
+        by_rank[r->details[i].rank] = i;
+    for (uint32_t i = 0; i < originals; i++)
+        all[r->blocks[i]]++;
+    for (uint32_t k = 0; k < n; k++) {
+        uint32_t i = by_rank[k], block = r->blocks[i];
+        bool born = i >= originals;
+        double middle = (counts[block]++ + 0.5 - (born ? meso_phase_of(block) : 0)) / fmax(1, all[block]);
+        double half = r->options.ramp * middle, least = LEAST_RAMP * r->options.ramp;     /* twice as much of area */
+        double from = middle - half, to = middle + half;
+        if (born && from < 1 + BEYOND_REST) {
+            from = 1 + BEYOND_REST;
+            to = fmax(2 * middle - from, from + least);
+        } else if (!born && to > 1 - BEYOND_REST) {
+            to = 1 - BEYOND_REST;
+            from = fmax(0, fmin(2 * middle - to, to - least));
+        }
+        p->plan->rooms[i] = (MesoReplicaRoom){block, (float)from, (float)to};
+    }
+    return MESO_OK;
 }
 
 static MesoStatus pair_all(Pairing *p, MesoError *error)
@@ -167,18 +153,13 @@ static MesoStatus pair_all(Pairing *p, MesoError *error)
 MesoStatus meso_replicate_plan(MesoReplicaPlan *plan, MesoArena *arena, const MesoReplication *r, MesoError *error)
 {
     uint32_t n = r->detail_count;
-    *plan = (MesoReplicaPlan){n, MESO_NEW(arena, MesoDetail, n, error), MESO_NEW(arena, uint32_t, (size_t)n + 1, error),
-                              NULL};
-    Pairing p = {.r = r, .arena = arena, .plan = plan, .places = MESO_NEW(arena, MesoVec3, n, error)};
-    if (!plan->details || !plan->pair_begin || !p.places)
+    *plan = (MesoReplicaPlan){.detail_count = n, .details = MESO_NEW(arena, MesoDetail, n, error),
+                              .pair_begin = MESO_NEW(arena, uint32_t, (size_t)n + 1, error),
+                              .rooms = MESO_NEW(arena, MesoReplicaRoom, n, error)};
+    Pairing p = {.r = r, .arena = arena, .plan = plan};
+    if (!plan->details || !plan->pair_begin || !plan->rooms)
         return MESO_ERR_MEMORY;
-    float reach = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        plan->details[i] = r->details[i];
-        p.places[i] = meso_detail_position(r->rest, r->rest->positions, &r->details[i].point);
-    }
-    for (uint32_t i = 0; i < r->options.original_count; i++)
-        reach = fmaxf(reach, sqrtf(r->exemplars.originals[i].area));
-    MesoStatus status = meso_point_grid_build(&p.grid, arena, p.places, r->options.original_count, 2 * reach, error);
+    memcpy(plan->details, r->details, n * sizeof *plan->details);
+    MesoStatus status = find_rooms(&p, error);
     return status == MESO_OK ? pair_all(&p, error) : status;
 }

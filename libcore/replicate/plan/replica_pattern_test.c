@@ -125,22 +125,70 @@ static void test_groups_resumed(void)
     end(&cut);
 }
 
-/* ---- longer than wide ---- */
+/* ---- discs ---- */
 
-enum { LONG = 4 };
-
-/* As far as the nearest: distances along are a fourth. */
-static double near_at(const Stage *s, const MesoVec3 *positions, const MesoDetail *details, uint32_t count, uint32_t i)
+/* As far as the nearest, where distances along are shorter by that. */
+static double nearest_at(const Stage *s, const MesoVec3 *positions, const MesoDetail *details, uint32_t count,
+                         uint32_t i, double length)
 {
     double least = INFINITY;
     MesoVec3 p = meso_detail_position(&s->mesh, positions, &details[i].point);
     for (uint32_t k = 0; k < count; k++) {
         MesoVec3 q = meso_detail_position(&s->mesh, positions, &details[k].point);
-        double x = (double)(q.x - p.x) / LONG, y = (double)(q.y - p.y);
+        double x = (double)(q.x - p.x) / length, y = (double)(q.y - p.y);
         least = k == i ? least : fmin(least, x * x + y * y);
     }
     return sqrt(least);
 }
+
+/* Longer, and sheared. */
+static MesoVec3 slant(MesoVec3 p, float time)
+{
+    return (MesoVec3){p.x * (1 + 0.5f * time) + 0.5f * time * p.y, p.y * (1 + 0.5f * time), p.z};
+}
+
+/* As many at each distance as at rest; and hardly one is born nearer to another than any was. */
+static void test_discs(void)
+{
+    enum { SEEDS = 2 };
+    const double tightness = 0.75;
+    double before[64] = {0}, after[64] = {0}, apart = 0;
+    uint32_t near = 0, births = 0, bins = 0;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        Stage s;
+        MesoArena arena;
+        meso_arena_init(&arena);
+        set_stage(&s, meso_fixture_sheet(SIDE, SIDE, 1.0f / SIDE), 700, slant);
+        MesoMeshPoint *points = meso_strew_discs(&s.mesh, &s.count, tightness, seed);
+        for (uint32_t i = 0; i < s.count; i++)
+            s.originals[i] = (MesoDetail){.point = points[i], .size = 1, .width = 1};
+        s.options.original_count = s.count;
+        CHECK(meso_replicate_begin(&s.replication, &s.options, NULL) == MESO_OK);
+        MesoPairCorrelation rest = correlate(&s, &arena, s.mesh.positions, s.originals, s.count);
+        uint32_t count = run(&s);
+        const MesoDetail *details = meso_replicate_details(s.replication, &count);
+        MesoPairCorrelation now = correlate(&s, &arena, s.moved, details, count);
+        bins = rest.bin_count;
+        for (uint32_t b = 0; b < bins; b++) {
+            before[b] += rest.g[b] / SEEDS;
+            after[b] += now.g[b] / SEEDS;
+        }
+        double least = tightness * sqrt(1.0 / s.count);
+        for (uint32_t i = s.count; i < count; i++)
+            near += nearest_at(&s, s.moved, details, count, i, 1) < 0.9 * least;
+        births += count - s.count;
+        free(points);
+        meso_arena_release(&arena);
+        end(&s);
+    }
+    for (uint32_t b = 0; b < bins; b++)
+        apart += fabs(after[b] - before[b]) / bins;
+    CHECK(apart < 0.03 && near < 0.01 * births);
+}
+
+/* ---- longer than wide ---- */
+
+enum { LONG = 4 };
 
 /* Share of those born that have another nearer than any had at rest, by a fourth. */
 static double share_too_near(bool directed)
@@ -161,13 +209,13 @@ static double share_too_near(bool directed)
     }
     s.options.original_count = s.count;
     for (uint32_t i = 0; i < s.count; i++)
-        least = fmin(least, near_at(&s, s.mesh.positions, s.originals, s.count, i));
+        least = fmin(least, nearest_at(&s, s.mesh.positions, s.originals, s.count, i, LONG));
     CHECK(meso_replicate_begin(&s.replication, &s.options, NULL) == MESO_OK);
     run(&s);
     const MesoDetail *details = meso_replicate_details(s.replication, &count);
     CHECK(fabs(count - 2.0 * s.count) < 0.03 * count);
     for (uint32_t i = s.count; i < count; i++)
-        near += near_at(&s, s.moved, details, count, i) < 0.75 * least;
+        near += nearest_at(&s, s.moved, details, count, i, LONG) < 0.75 * least;
     free(points);
     meso_triangulation_release(&tall);
     end(&s);
@@ -239,6 +287,7 @@ int main(void)
 {
     test_groups();
     test_groups_resumed();
+    test_discs();
     test_directed();
     test_one_side();
     test_crumpled();

@@ -4,15 +4,18 @@
 
 #include "libcore/base/parallel.h"
 
-enum { GRAIN = 8192 };
+enum { GRAIN = 8192, BLOCK_GRAIN = 128 };
 
-#define ALWAYS 0x80000000u
-
-/* A pair as play reads it: squares, so that what lies beyond the ramp asks for no root. */
 typedef struct Hindrance {
-    uint32_t slot;          /* and ALWAYS */
+    uint32_t slot;
     float from, to;
 } Hindrance;
+
+/* A triangle that an original is on. */
+typedef struct Plot {
+    uint32_t triangle;
+    float rest;             /* its area there */
+} Plot;
 
 typedef struct Direction {
     uint32_t triangle;
@@ -28,6 +31,11 @@ struct MesoPlayer {
     float *weights;         /* [3 * count] */
     uint32_t *begin;        /* [count + 1] */
     Hindrance *hindrances;
+    MesoReplicaRoom *rooms; /* [count] */
+    uint32_t block_count;
+    uint32_t *block_begin;  /* [block_count + 1] */
+    Plot *plots;            /* by block */
+    float *extents;         /* [block_count] how large they are now */
     MesoVec3 *places;       /* [count] now */
     const MesoTriangulation *rest;
     Direction *directions;  /* [count] of ellipses; NULL: none has one */
@@ -52,8 +60,6 @@ static int by_slot(const void *a, const void *b)
 
 static MesoStatus check(const MesoReplicaPlan *plan, const MesoTriangulation *rest, MesoError *error)
 {
-    if (plan->detail_count >= ALWAYS)
-        return meso_fail(error, MESO_ERR_LIMIT, "too many details: %u", plan->detail_count);
     if (plan->pair_begin[0] != 0)
         return meso_fail(error, MESO_ERR_INPUT, "pairs do not begin with the first");
     for (uint32_t k = 0; k < plan->detail_count; k++) {
@@ -61,6 +67,9 @@ static MesoStatus check(const MesoReplicaPlan *plan, const MesoTriangulation *re
         if (detail->point.triangle >= rest->triangle_count || detail->rank >= plan->detail_count
             || plan->pair_begin[k + 1] < plan->pair_begin[k])
             return meso_fail(error, MESO_ERR_INPUT, "detail %u has no place, rank or pairs of the plan", k);
+        if (plan->rooms[k].block >= plan->detail_count || !(plan->rooms[k].from >= 0)
+            || !(plan->rooms[k].from < plan->rooms[k].to))
+            return meso_fail(error, MESO_ERR_INPUT, "detail %u has no room of the plan", k);
         for (uint32_t i = plan->pair_begin[k]; i < plan->pair_begin[k + 1]; i++) {
             const MesoReplicaPair *pair = &plan->pairs[i];
             if (pair->other >= plan->detail_count || plan->details[pair->other].rank >= detail->rank)
@@ -89,7 +98,7 @@ static MesoStatus order_details(Slot *slots, const MesoReplicaPlan *plan, MesoAr
         uint32_t k = by_rank[r], level = 0;
         for (uint32_t i = plan->pair_begin[k]; i < plan->pair_begin[k + 1]; i++) {
             uint32_t other = slots[plan->pairs[i].other].level;
-            level = !plan->pairs[i].always && other >= level ? other + 1 : level;
+            level = other >= level ? other + 1 : level;
         }
         slots[k] = (Slot){level, plan->details[k].point.triangle, k};
     }
@@ -106,10 +115,44 @@ static MesoStatus make_room(MesoPlayer *p, MesoArena *arena, const MesoReplicaPl
     p->weights = MESO_NEW(arena, float, 3 * n, error);
     p->begin = MESO_NEW(arena, uint32_t, n + 1, error);
     p->hindrances = MESO_NEW(arena, Hindrance, plan->pair_begin[n], error);
+    p->rooms = MESO_NEW(arena, MesoReplicaRoom, n, error);
     p->places = MESO_NEW(arena, MesoVec3, n, error);
     p->shares = MESO_NEW(arena, float, n, error);
-    return p->levels && p->details && p->corners && p->weights && p->begin && p->hindrances && p->places && p->shares
-               ? MESO_OK : MESO_ERR_MEMORY;
+    return p->levels && p->details && p->corners && p->weights && p->begin && p->hindrances && p->rooms && p->places
+           && p->shares ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static float area_of(const MesoTriangulation *mesh, const MesoVec3 *positions, uint32_t triangle)
+{
+    const uint32_t *c = mesh->corners + 3 * (size_t)triangle;
+    MesoVec3 u = meso_vec3_sub(positions[c[1]], positions[c[0]]), v = meso_vec3_sub(positions[c[2]], positions[c[0]]);
+    return 0.5f * meso_vec3_length(meso_vec3_cross(u, v));
+}
+
+static MesoStatus sort_plots(MesoPlayer *p, MesoArena *arena, const MesoTriangulation *rest,
+                             const MesoReplicaPlan *plan, MesoError *error)
+{
+    uint32_t n = plan->detail_count, count = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        p->block_count = plan->rooms[k].block >= p->block_count ? plan->rooms[k].block + 1 : p->block_count;
+        count += plan->details[k].born == MESO_DETAIL_ORIGINAL;
+    }
+    p->block_begin = MESO_NEW(arena, uint32_t, (size_t)p->block_count + 2, error);
+    p->plots = MESO_NEW(arena, Plot, count, error);
+    p->extents = MESO_NEW(arena, float, p->block_count, error);
+    if (!p->block_begin || !p->plots || !p->extents)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < n; k++)
+        p->block_begin[plan->rooms[k].block + 2] += plan->details[k].born == MESO_DETAIL_ORIGINAL;
+    for (uint32_t b = 2; b < p->block_count + 2; b++)
+        p->block_begin[b] += p->block_begin[b - 1];
+    for (uint32_t k = 0; k < n; k++) {
+        uint32_t triangle = plan->details[k].point.triangle;
+        if (plan->details[k].born == MESO_DETAIL_ORIGINAL)
+            p->plots[p->block_begin[plan->rooms[k].block + 1]++] =
+                (Plot){triangle, area_of(rest, rest->positions, triangle)};
+    }
+    return MESO_OK;
 }
 
 static void fill(MesoPlayer *p, const Slot *slots, const uint32_t *slot_of, const MesoTriangulation *rest,
@@ -126,10 +169,11 @@ static void fill(MesoPlayer *p, const Slot *slots, const uint32_t *slot_of, cons
             p->corners[3 * s + c] = rest->corners[3 * (size_t)point->triangle + c];
             p->weights[3 * s + c] = point->weight[c];
         }
+        p->rooms[s] = plan->rooms[k];
         p->begin[s] = made;
         for (uint32_t i = plan->pair_begin[k]; i < plan->pair_begin[k + 1]; i++)
-            p->hindrances[made++] = (Hindrance){slot_of[plan->pairs[i].other] | (plan->pairs[i].always ? ALWAYS : 0),
-                                                plan->pairs[i].from, plan->pairs[i].to};
+            p->hindrances[made++] = (Hindrance){slot_of[plan->pairs[i].other], plan->pairs[i].from,
+                                                plan->pairs[i].to};
     }
     p->begin[p->count] = made;
     p->levels[p->level_count] = p->count;
@@ -158,6 +202,8 @@ MesoStatus meso_player_build(MesoPlayer **player, MesoArena *arena, const MesoTr
     MesoStatus status = p ? check(plan, rest, error) : MESO_ERR_MEMORY;
     if (status == MESO_OK)
         status = make_room(p, arena, plan, error);
+    if (status == MESO_OK)
+        status = sort_plots(p, arena, rest, plan, error);
     if (status != MESO_OK)
         return status;
     MesoArenaMark mark = meso_arena_mark(arena);
@@ -199,17 +245,32 @@ static void place_range(void *context, uint64_t begin, uint64_t end)
     }
 }
 
-static float smooth_step(float x)
+static void extent_range(void *context, uint64_t begin, uint64_t end)
 {
+    const Playing *playing = context;
+    const MesoPlayer *p = playing->player;
+    for (uint64_t b = begin; b < end; b++) {
+        uint32_t first = p->block_begin[b], count = p->block_begin[b + 1] - first;
+        double sum = 0;
+        for (uint32_t i = first; i < first + count; i++) {
+            const Plot *plot = &p->plots[i];
+            sum += plot->rest > 0 ? (double)(area_of(p->rest, playing->positions, plot->triangle) / plot->rest) : 1;
+        }
+        p->extents[b] = count ? (float)(sum / count) : 1;
+    }
+}
+
+/* 0 where the ramp has no end. */
+static float smooth_step(float at, float from, float to)
+{
+    float x = fminf(fmaxf((at - from) / (to - from), 0), 1);
     return x * x * (3 - 2 * x);
 }
 
+/* Squares, so that what lies beyond the ramp asks for no root. */
 static float share_beside(float share, float d2, const Hindrance *h)
 {
-    if (d2 <= h->from * h->from)
-        return 1 - share;
-    float x = (sqrtf(d2) - h->from) / (h->to - h->from);    /* 0 where the ramp has no end */
-    return 1 - share * (1 - smooth_step(fminf(fmaxf(x, 0), 1)));
+    return d2 <= h->from * h->from ? 1 - share : 1 - share * (1 - smooth_step(sqrtf(d2), h->from, h->to));
 }
 
 static void play_range(void *context, uint64_t begin, uint64_t end)
@@ -218,15 +279,15 @@ static void play_range(void *context, uint64_t begin, uint64_t end)
     const MesoPlayer *p = playing->player;
     for (uint64_t s = playing->first + begin; s < playing->first + end; s++) {
         MesoVec3 at = p->places[s];
-        float share = 1;
+        const MesoReplicaRoom *room = &p->rooms[s];
+        float share = smooth_step(p->extents[room->block], room->from, room->to);
         for (uint32_t i = p->begin[s]; i < p->begin[s + 1] && share > 0; i++) {
             const Hindrance *h = &p->hindrances[i];
-            uint32_t other = h->slot & ~ALWAYS;
-            MesoVec3 apart = meso_vec3_sub(p->places[other], at);
+            MesoVec3 apart = meso_vec3_sub(p->places[h->slot], at);
             float d2 = p->directions ? meso_detail_norm2(apart, p->directions[s].heading, p->directions[s].aspect)
                                      : meso_vec3_dot(apart, apart);
             if (d2 < h->to * h->to)
-                share = fminf(share, share_beside(h->slot & ALWAYS ? 1 : p->shares[other], d2, h));
+                share = fminf(share, share_beside(p->shares[h->slot], d2, h));
         }
         p->shares[s] = share;
         playing->grown[p->details[s]] = share;
@@ -237,6 +298,7 @@ void meso_player_play(MesoPlayer *player, float *grown, const MesoVec3 *position
 {
     Playing playing = {player, positions, grown, 0};
     meso_parallel_for(thread_count, player->count, GRAIN, place_range, &playing);
+    meso_parallel_for(thread_count, player->block_count, BLOCK_GRAIN, extent_range, &playing);
     for (uint32_t l = 0; l < player->level_count; l++) {
         playing.first = player->levels[l];
         meso_parallel_for(thread_count, player->levels[l + 1] - playing.first, GRAIN, play_range, &playing);

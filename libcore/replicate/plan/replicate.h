@@ -47,7 +47,7 @@ typedef struct MesoReplicateOptions {
     double gamma;               /* share of their distance by which each of two that merge moves a frame; 0: 0.1 */
     double mu;                  /* share of its size by which a detail grows or shrinks a frame, at most; 0: 0.1 */
     uint32_t substeps;          /* a frame is gone through in so many steps, on straight lines; 0: 1 */
-    double ramp;                /* of a distance over which a detail comes and goes; 0: 0.06 */
+    double ramp;                /* of a length, and twice of an area, over which a detail comes and goes; 0: 0.06 */
     uint64_t seed;
     uint32_t thread_count;      /* 0: all cores; the same plan for any */
 } MesoReplicateOptions;

@@ -1,6 +1,7 @@
 /*
- * Details on surfaces that deform: how their distribution keeps, beside the paper's Table 1 and goals; times, by the
- * process, one core; and memory. What has missed its goal says so.
+ * Details on surfaces that deform: how their distribution keeps, beside the paper's Table 1 and goals, and how far two
+ * draws of the same distribution are from each other; times, by the process, one core; and memory. What has missed its
+ * goal says so.
  *
  *   replicate_bench [MOST]     up to so many details; 100,000 without
  */
@@ -11,7 +12,7 @@
 #include "libcore/replicate/plan/replicate.h"
 #include "libcore/replicate/statistics/points_fixture.h"
 
-enum { FRAMES = 60, LOOKS = 4, NOISE_SEEDS = 6, TALLEST = 21 };
+enum { FRAMES = 60, LOOKS = 4, BINS = 24, TALLEST = 21 };
 
 static double cpu_seconds(void)
 {
@@ -25,7 +26,7 @@ static double percent(double now, double before)
     return 100 * (now / before - 1);
 }
 
-/* ---- ranges and goals ---- */
+/* ---- ranges ---- */
 
 typedef struct Range {
     double least, most;
@@ -39,15 +40,15 @@ static void widen(Range *range, double x)
     range->most = fmax(range->most, x);
 }
 
-static void print_range(const char *what, Range range, double least, double most)
+static void print_range(const char *what, Range range, double goal)
 {
-    printf("  %s %+.1f .. %+.1f [%g]%s", what, range.least, range.most, most,
-           range.least < least || range.most > most ? " MISSED" : "");
+    printf("  %s %+.1f .. %+.1f [%g]%s", what, range.least, range.most, goal,
+           range.least < -goal || range.most > goal ? " MISSED" : "");
 }
 
-static void print_most(const char *what, double value, double most)
+static void print_most(const char *what, double value, double floor, double most)
 {
-    printf("  %s %.3f [%.3g]%s", what, value, most, value > most ? " MISSED" : "");
+    printf("  %s %.3f (floor %.3f) [%.3g]%s", what, value, floor, most, value > most ? " MISSED" : "");
 }
 
 /* ---- clips ---- */
@@ -167,23 +168,23 @@ typedef struct Case {
     const char *name, *paper;   /* its Table 1: mean and deviation of edges, least and most in per cent of the first */
     Kind kind;
     double tightness;
-    uint32_t count;
-    double mean_goal, deviation_goal, g_goal;   /* of few, g may be as far as another draw of the same kind */
+    uint32_t count, seeds;
+    double mean_goal, deviation_goal, g_goal;
 } Case;
 
 static const Case cases[] = {
-    {"1 dense, even", "-1.4 .. +6.5, 0 .. +9.7", DISCS, 0.75, 200, 2.5, 10, 0},
-    {"2 sparse, even", "-1.5 .. +4.5, -13.8 .. -2.6", DISCS, 0.6, 60, 2.5, 15, 0},
-    {"3 alone and grouped", "+0.4 .. +15.1, -3.3 .. +3.3", GROUPS, 0, 180, 5, 15, 0},
-    {"jittered grid", "", GRID, 0.5, 196, 2.5, 15, 0},
-    {"discs", "", DISCS, 0.75, 2000, 2.5, 10, 0.03},
-    {"discs, loose", "", DISCS, 0.5, 2000, 2.5, 10, 0.03},
-    {"groups", "", GROUPS, 0, 2000, 5, 15, 0.06},
-    {"discs", "", DISCS, 0.75, 20000, 1, 5, 0.03},
-    {"discs, loose", "", DISCS, 0.5, 20000, 1, 5, 0.03},
-    {"groups", "", GROUPS, 0, 20000, 5, 15, 0.06},
-    {"discs", "", DISCS, 0.75, 100000, 1, 5, 0.03},
-    {"discs, loose", "", DISCS, 0.5, 100000, 1, 5, 0.03},
+    {"1 dense, even", "-1.4 .. +6.5, 0 .. +9.7", DISCS, 0.75, 200, 20, 2.5, 10, 0.03},
+    {"2 sparse, even", "-1.5 .. +4.5, -13.8 .. -2.6", DISCS, 0.6, 200, 20, 2.5, 10, 0.03},
+    {"3 alone and grouped", "+0.4 .. +15.1, -3.3 .. +3.3", GROUPS, 0, 200, 20, 5, 15, 0.06},
+    {"jittered grid", "", GRID, 0.5, 196, 20, 2.5, 15, 0.06},
+    {"discs", "", DISCS, 0.75, 2000, 4, 2.5, 10, 0.03},
+    {"discs, loose", "", DISCS, 0.5, 2000, 4, 2.5, 10, 0.03},
+    {"groups", "", GROUPS, 0, 2000, 4, 5, 15, 0.06},
+    {"discs", "", DISCS, 0.75, 20000, 1, 1, 5, 0.03},
+    {"discs, loose", "", DISCS, 0.5, 20000, 1, 1, 5, 0.03},
+    {"groups", "", GROUPS, 0, 20000, 1, 5, 15, 0.06},
+    {"discs", "", DISCS, 0.75, 100000, 1, 1, 5, 0.03},
+    {"discs, loose", "", DISCS, 0.5, 100000, 1, 1, 5, 0.03},
 };
 
 static int by_triangle(const void *a, const void *b)
@@ -263,30 +264,6 @@ static uint32_t take(Run *run, const MesoDetail *details, const float *shares, c
     return taken;
 }
 
-/* Where there are pairs at all. */
-static double mark_difference(const MesoPairCorrelation *a, const MesoPairCorrelation *b)
-{
-    double sum = 0;
-    for (uint32_t i = 0; i < a->bin_count; i++)
-        sum += fabs(a->marks[i] - b->marks[i]);
-    return sum / a->bin_count;
-}
-
-/* How far other draws of the same kind are: no distribution can be told to have changed by less. */
-static double noise_of(Run *run, const Case *c)
-{
-    double most = 0;
-    for (uint64_t seed = 100; seed < 100 + NOISE_SEEDS; seed++) {
-        uint32_t count;
-        MesoDetail *details = strew(c, &run->scene->mesh, seed, &count);
-        uint32_t taken = take(run, details, NULL, NULL, count);
-        MesoPairCorrelation g = correlate(run, run->scene->mesh.positions, taken);
-        most = fmax(most, meso_pair_difference(&run->before, &g));
-        free(details);
-    }
-    return most;
-}
-
 static void run_init(Run *run, Scene *scene, MesoDetail *originals, uint32_t count, bool marked)
 {
     *run = (Run){.scene = scene, .originals = originals, .count = count, .marked = marked,
@@ -310,60 +287,125 @@ static MesoReplication *begin(Run *run, MesoReplicateMode mode, MesoReplicateBir
     return status == MESO_OK ? r : NULL;
 }
 
+/* ---- tallies ---- */
+
+/* What is looked at of details, in the mean of all seeds: of a few the pairs of one draw are no more than a draw. */
+typedef struct Look {
+    double g[BINS], marks[BINS];
+} Look;
+
+/* Of all seeds of one way. */
+typedef struct Tally {
+    Range mean, deviation, density;         /* of the worst seed */
+    double mean_at[FRAMES + 1], deviation_at[FRAMES + 1];       /* in the mean of all seeds */
+    Look looks[LOOKS + 1];
+    double change, build, step;
+    uint32_t runs, count, living, wrong;
+} Tally;
+
+static void look_at(Look *look, const MesoPairCorrelation *g, uint32_t seeds)
+{
+    CHECK(g->bin_count == BINS);
+    for (uint32_t b = 0; b < BINS; b++) {
+        look->g[b] += g->g[b] / seeds;
+        look->marks[b] += g->marks ? g->marks[b] / seeds : 0;
+    }
+}
+
+static double apart(const double a[BINS], const double b[BINS])
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < BINS; i++)
+        sum += fabs(a[i] - b[i]) / BINS;
+    return sum;
+}
+
+/* Beside those at rest; and beside each other those at rest of two sets of seeds, which differ by as much as chance. */
+static void print_looks(const Tally *tally, const Look at_rest[2], double goal, bool marked)
+{
+    double g = 0, marks = 0;
+    for (uint32_t k = 0; k <= LOOKS; k++) {
+        g = fmax(g, apart(tally->looks[k].g, at_rest[0].g));
+        marks = fmax(marks, apart(tally->looks[k].marks, at_rest[0].marks));
+    }
+    print_most("g", g, apart(at_rest[0].g, at_rest[1].g), goal);
+    if (marked)
+        print_most("marks", marks, apart(at_rest[0].marks, at_rest[1].marks), 0.1);
+}
+
+static void note_changes(Tally *tally, const float *grown, float *earlier, uint32_t count, bool first)
+{
+    for (uint32_t i = 0; i < count && !first; i++)
+        tally->change = fmax(tally->change, fabs((double)grown[i] - (double)earlier[i]));
+    memcpy(earlier, grown, count * sizeof *earlier);
+}
+
 /* ---- from frame to frame ---- */
 
-static void print_steps(Run *run, const Case *c, const char *name, MesoReplicateMode mode, MesoReplicateBirths births,
-                        double g_goal)
+static void run_steps(Tally *tally, Run *run, const Case *c, MesoReplicateMode mode, MesoReplicateBirths births)
 {
-    double build, g = 0, marks = 0, change = 0, all = 0;
+    double build;
     MesoReplication *r = begin(run, mode, births, &build);
     if (!r)
         return;
     MesoWebEdges first = meso_web_edges(meso_replicate_web(r));
-    Range mean = NOTHING, deviation = NOTHING, density = NOTHING;
-    uint32_t count = 0, living = 0;
     float *earlier = MESO_NEW(&run->arena, float, run->room, NULL);
+    uint32_t count;
+    tally->build += build / c->seeds;
     for (uint32_t f = 0; f <= FRAMES; f++) {
         double start = cpu_seconds();
         CHECK(meso_replicate_step(r, f, NULL) == MESO_OK);
-        all += cpu_seconds() - start;
+        tally->step += (cpu_seconds() - start) / (FRAMES + 1) / c->seeds;
         MesoWebEdges edges = meso_web_edges(meso_replicate_web(r));
         const MesoDetail *details = meso_replicate_details(r, &count);
-        const float *grown = meso_replicate_grown(r);
-        living = take(run, details, NULL, meso_replicate_fates(r), count);
+        tally->living = take(run, details, NULL, meso_replicate_fates(r), count);
         double area = meso_surface_area(&run->scene->mesh, run->scene->moved) / run->scene->area;
-        widen(&mean, percent(edges.mean, first.mean));
-        widen(&deviation, percent(edges.deviation, first.deviation));
-        widen(&density, percent(living, run->count * area));
-        for (uint32_t i = 0; i < count && f > 0; i++)
-            change = fmax(change, fabs((double)grown[i] - (double)earlier[i]));
-        memset(earlier, 0, run->room * sizeof *earlier);
-        memcpy(earlier, grown, count * sizeof *earlier);
-        if (f % (FRAMES / LOOKS) != 0)
-            continue;
-        MesoPairCorrelation now = correlate(run, run->scene->moved, living);
-        g = fmax(g, meso_pair_difference(&run->before, &now));
-        marks = run->marked ? fmax(marks, mark_difference(&run->before, &now)) : 0;
+        widen(&tally->mean, percent(edges.mean, first.mean));
+        widen(&tally->deviation, percent(edges.deviation, first.deviation));
+        widen(&tally->density, percent(tally->living, run->count * area));
+        tally->mean_at[f] += percent(edges.mean, first.mean) / c->seeds;
+        tally->deviation_at[f] += percent(edges.deviation, first.deviation) / c->seeds;
+        note_changes(tally, meso_replicate_grown(r), earlier, count, f == 0);
+        if (f % (FRAMES / LOOKS) == 0) {
+            MesoPairCorrelation now = correlate(run, run->scene->moved, tally->living);
+            look_at(&tally->looks[f / (FRAMES / LOOKS)], &now, c->seeds);
+        }
     }
-    printf("  %s", name);
-    print_range("edges", mean, -c->mean_goal, c->mean_goal);
-    print_range("deviation", deviation, -c->deviation_goal, c->deviation_goal);
-    print_range("density", density, -2, 2);
-    print_most("g", g, g_goal);
-    if (run->marked)
-        print_most("marks", marks, 0.1);
-    printf("  share a frame %.2f  begin %.1f ms  step %.2f ms  %u -> %u\n", change, 1e3 * build,
-           1e3 * all / (FRAMES + 1), run->count, living);
+    tally->count = run->count;
+    tally->runs++;
     meso_replicate_release(r);
+}
+
+static Range range_of(const double values[FRAMES + 1])
+{
+    Range range = NOTHING;
+    for (uint32_t f = 0; f <= FRAMES; f++)
+        widen(&range, values[f]);
+    return range;
+}
+
+/* Edges of groups differ by more from draw to draw than they may change: there it is the mean that counts. */
+static void print_steps(const Tally *tally, const Case *c, const char *name, const Look at_rest[2])
+{
+    bool in_mean = c->kind == GROUPS;
+    if (tally->runs == 0)
+        return;
+    printf("  %s", name);
+    print_range("edges", in_mean ? range_of(tally->mean_at) : tally->mean, c->mean_goal);
+    print_range("deviation", in_mean ? range_of(tally->deviation_at) : tally->deviation, c->deviation_goal);
+    print_range("density", tally->density, 2);
+    print_looks(tally, at_rest, c->g_goal, c->kind == GROUPS);
+    printf("  share a frame %.2f  begin %.1f ms  step %.2f ms  %u -> %u\n", tally->change, 1e3 * tally->build,
+           1e3 * tally->step, tally->count, tally->living);
 }
 
 /* ---- played ---- */
 
-static void print_play(Run *run, double g_goal)
+static void run_play(Tally *tally, Run *run, const Case *c)
 {
     MesoReplicaPlan plan;
     MesoPlayer *player;
-    double build, seconds = 0, change = 0, g = 0, marks = 0;
+    double build;
     MesoReplication *r = begin(run, MESO_REPLICATE_PLAN, MESO_BIRTHS_USUAL, &build);
     CHECK(r);
     for (uint32_t f = 0; f <= FRAMES; f++)
@@ -371,64 +413,83 @@ static void print_play(Run *run, double g_goal)
     double start = cpu_seconds();
     CHECK(meso_replicate_plan(&plan, &run->arena, r, NULL) == MESO_OK);
     CHECK(meso_player_build(&player, &run->arena, &run->scene->mesh, &plan, NULL) == MESO_OK);
-    double planning = cpu_seconds() - start;
+    tally->build += (cpu_seconds() - start) / c->seeds;
     float *grown = MESO_NEW(&run->arena, float, plan.detail_count, NULL);
     float *earlier = MESO_NEW(&run->arena, float, plan.detail_count, NULL);
     CHECK(grown && earlier);
-    Range density = NOTHING;
-    uint32_t wrong = 0;
     for (uint32_t f = 0; f <= FRAMES; f++) {
         const MesoVec3 *positions = positions_at(run->scene, f, NULL);
         start = cpu_seconds();
         meso_player_play(player, grown, positions, 1);
-        seconds += cpu_seconds() - start;
+        tally->step += (cpu_seconds() - start) / (FRAMES + 1) / c->seeds;
         double sum = 0, area = meso_surface_area(&run->scene->mesh, positions) / run->scene->area;
         for (uint32_t i = 0; i < plan.detail_count; i++) {
             sum += (double)grown[i];
-            change = f > 0 ? fmax(change, fabs((double)grown[i] - (double)earlier[i])) : 0;
-            wrong += f == 0 && grown[i] != (float)(i < run->count);
+            tally->wrong += f == 0 && grown[i] != (float)(i < run->count);
         }
-        widen(&density, percent(sum, run->count * area));
-        memcpy(earlier, grown, plan.detail_count * sizeof *grown);
-        if (f % (FRAMES / LOOKS) != 0)
-            continue;
-        MesoPairCorrelation now = correlate(run, positions, take(run, plan.details, grown, NULL, plan.detail_count));
-        g = fmax(g, meso_pair_difference(&run->before, &now));
-        marks = run->marked ? fmax(marks, mark_difference(&run->before, &now)) : 0;
+        widen(&tally->density, percent(sum, run->count * area));
+        note_changes(tally, grown, earlier, plan.detail_count, f == 0);
+        if (f % (FRAMES / LOOKS) == 0) {
+            uint32_t taken = take(run, plan.details, grown, NULL, plan.detail_count);
+            MesoPairCorrelation now = correlate(run, positions, taken);
+            look_at(&tally->looks[f / (FRAMES / LOOKS)], &now, c->seeds);
+        }
     }
-    printf("  play ");
-    print_range("density", density, -2, 2);
-    print_most("g", g, g_goal);
-    if (run->marked)
-        print_most("marks", marks, 0.1);
-    printf("  share a frame %.2f  wrong at rest %u  plan %.1f ms  frame %.2f ms\n", change, wrong, 1e3 * planning,
-           1e3 * seconds / (FRAMES + 1));
     meso_replicate_release(r);
+}
+
+static void print_play(const Tally *tally, const Case *c, const Look at_rest[2])
+{
+    printf("  play ");
+    print_range("density", tally->density, 2);
+    print_looks(tally, at_rest, c->g_goal, c->kind == GROUPS);
+    printf("  share a frame %.2f  wrong at rest %u  plan %.1f ms  frame %.2f ms\n", tally->change, tally->wrong,
+           1e3 * tally->build, 1e3 * tally->step);
 }
 
 /* ---- a row ---- */
 
-static void measure(const Case *c, const char *where, Ground ground, Motion motion, bool all_modes)
+enum { PLAN, OTHER, PAPER, PLAY, TALLIES };
+
+static void run_seed(Tally tallies[TALLIES], Look at_rest[2], const Case *c, uint64_t seed, Scene *scene, bool all)
+{
+    Run run;
+    for (uint64_t k = 2; k-- > 0;) {    /* those of the seed itself last: they are gone on with */
+        uint32_t count;
+        MesoDetail *originals = strew(c, &scene->mesh, seed + 1000 * k, &count);
+        run_init(&run, scene, originals, count, c->kind == GROUPS);
+        look_at(&at_rest[k], &run.before, c->seeds);
+        if (k == 0) {
+            run_steps(&tallies[PLAN], &run, c, MESO_REPLICATE_LIVE, MESO_BIRTHS_USUAL);
+            if (all)
+                run_steps(&tallies[OTHER], &run, c, MESO_REPLICATE_LIVE,
+                          c->kind == GROUPS ? MESO_BIRTHS_EXEMPLARS : MESO_BIRTHS_STATISTICS);
+            if (all)
+                run_steps(&tallies[PAPER], &run, c, MESO_REPLICATE_PAPER, MESO_BIRTHS_USUAL);
+            run_play(&tallies[PLAY], &run, c);
+        }
+        meso_arena_release(&run.arena);
+        free(originals);
+    }
+}
+
+static void measure(const Case *c, const char *where, Ground ground, Motion motion, bool all)
 {
     Scene scene;
-    Run run;
-    uint32_t count;
+    Tally tallies[TALLIES];
+    Look at_rest[2] = {0};
     scene_init(&scene, ground, c->count, motion);
-    MesoDetail *originals = strew(c, &scene.mesh, 7, &count);
-    run_init(&run, &scene, originals, count, c->kind == GROUPS);
-    double g_goal = run.count > 2000 ? c->g_goal : fmax(c->g_goal, noise_of(&run, c));
-    printf("%s, %u%s%s%s\n", c->name, run.count, where, *c->paper ? "; the paper: " : "", c->paper);
-    print_steps(&run, c, "plan ", MESO_REPLICATE_LIVE, MESO_BIRTHS_USUAL, g_goal);
-    if (all_modes && c->kind == GROUPS)
-        print_steps(&run, c, "plan, by exemplars", MESO_REPLICATE_LIVE, MESO_BIRTHS_EXEMPLARS, g_goal);
-    if (all_modes && c->kind != GROUPS)
-        print_steps(&run, c, "plan, by statistics", MESO_REPLICATE_LIVE, MESO_BIRTHS_STATISTICS, g_goal);
-    if (all_modes)
-        print_steps(&run, c, "paper", MESO_REPLICATE_PAPER, MESO_BIRTHS_USUAL, g_goal);
-    print_play(&run, g_goal);
-    meso_arena_release(&run.arena);
+    for (uint32_t i = 0; i < TALLIES; i++)
+        tallies[i] = (Tally){.mean = NOTHING, .deviation = NOTHING, .density = NOTHING};
+    for (uint64_t seed = 7; seed < 7 + c->seeds; seed++)
+        run_seed(tallies, at_rest, c, seed, &scene, all);
+    printf("%s, %u%s, %u seed%s%s%s\n", c->name, tallies[PLAN].count, where, c->seeds, c->seeds == 1 ? "" : "s",
+           *c->paper ? "; the paper: " : "", c->paper);
+    print_steps(&tallies[PLAN], c, "plan ", at_rest);
+    print_steps(&tallies[OTHER], c, c->kind == GROUPS ? "plan, by exemplars" : "plan, by statistics", at_rest);
+    print_steps(&tallies[PAPER], c, "paper", at_rest);
+    print_play(&tallies[PLAY], c, at_rest);
     scene_release(&scene);
-    free(originals);
 }
 
 /* ---- times ---- */
@@ -476,8 +537,8 @@ static void print_step_time(uint32_t count, double begin_goal, double step_goal)
 int main(int argc, char **argv)
 {
     uint32_t most = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 100000;
-    printf("Stretched to twice the length in %d frames; in per cent of rest, least and most of all frames [goal]\n",
-           FRAMES);
+    printf("Stretched to twice the length in %d frames; in per cent of rest, least and most of all frames and seeds "
+           "[goal]; pairs in the mean of the seeds\n", FRAMES);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         if (cases[i].count <= most)
             measure(&cases[i], "", SHEET, stretch, true);

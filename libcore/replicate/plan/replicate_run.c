@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/grow.h"
 #include "libcore/base/random.h"
 #include "libcore/mesh/point/vertex_normals.h"
 #include "libcore/replicate/plan/pair_target.h"
@@ -11,6 +12,9 @@
 #include "libcore/replicate/plan/split_order.h"
 
 enum { BLOCK = 48, RING = 32, PARTS = 8 };
+
+/* What a birth may cost before a better place is looked for. */
+static const double CROWDED = 1, CROWDED_OF_FEW = 0.2;
 
 /* ---- beginning ---- */
 
@@ -39,7 +43,7 @@ static int by_ticket(const void *a, const void *b)
     return x->detail < y->detail ? -1 : x->detail > y->detail;
 }
 
-/* Which give way first where the surface shrinks, chance decides: so each part of it keeps its kind of distribution. */
+/* Which give way first where the surface shrinks, chance decides: so groups stay groups. */
 static MesoStatus rank_originals(MesoReplication *r, MesoArena *arena, MesoError *error)
 {
     Ticket *tickets = MESO_NEW(arena, Ticket, r->detail_count, error);
@@ -163,9 +167,11 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
     if (status == MESO_OK)
         status = make_blocks(r, error);
     if (status == MESO_OK)
-        status = meso_find_above(r, error);
-    if (status == MESO_OK)
         status = meso_pair_target_build(&r->pairs, r, error);
+    if (status == MESO_OK && r->options.mode == MESO_REPLICATE_PLAN && !r->pairs.grouped)
+        status = meso_rank_by_crowd(r, error);
+    if (status == MESO_OK)
+        status = meso_find_above(r, error);
     r->by_pairs = r->options.births == MESO_BIRTHS_STATISTICS
                   || (r->options.births == MESO_BIRTHS_USUAL && r->pairs.grouped);
     if (status != MESO_OK || r->options.mode != MESO_REPLICATE_PAPER)
@@ -248,19 +254,12 @@ const MesoWeb *meso_replicate_web(const MesoReplication *r)
 
 /* ---- births and deaths of a step ---- */
 
-/* So that blocks do not all come to their next detail at once; in all as good as nothing. */
-static double phase_of(uint32_t block)
-{
-    double at = (block + 0.5) * 0.6180339887498949;
-    return 0.9 * (at - floor(at) - 0.5);
-}
-
 /* Details due by the stretch of the surface at each original, less those there are. Returns how many will be born. */
 static double count_due(MesoReplication *r)
 {
     double all = 0;
     for (uint32_t b = 0; b < r->block_count; b++)
-        r->due[b] = phase_of(b);
+        r->due[b] = meso_phase_of(b);
     for (uint32_t i = 0; i < r->detail_count; i++) {
         double due = meso_lives(r, i) ? -1 : 0;
         uint32_t t = r->details[i].point.triangle;
@@ -273,34 +272,70 @@ static double count_due(MesoReplication *r)
     return all;
 }
 
-static MesoStatus split(MesoSplitOrder *order, uint32_t triangle, uint32_t limit, int32_t frame, MesoError *error)
+/* Triangles that had no good place, and the births of a step. */
+typedef struct Bearing {
+    MesoSplitOrder order;
+    int32_t frame;
+    uint32_t late_count, late_room;
+    uint32_t *late;         /* [late_count] */
+} Bearing;
+
+/* As far as its corners are from the place that is farthest from them all: nearer than there is anything at rest. */
+static bool is_narrow(const MesoReplication *r, uint32_t triangle)
 {
-    MesoReplication *r = order->r;
+    const uint32_t *c = r->web.corners + 3 * (size_t)triangle;
+    double a2 = meso_web_length2(&r->web, c[0], c[1]), b2 = meso_web_length2(&r->web, c[1], c[2]);
+    double c2 = meso_web_length2(&r->web, c[2], c[0]);
+    return r->detail_count >= MESO_FEW_DETAILS
+           && a2 * b2 * c2 < r->tolerance.edges.least2 * meso_heron(a2, b2, c2);
+}
+
+static MesoStatus split(Bearing *b, uint32_t triangle, double most, bool *done, MesoError *error)
+{
+    MesoReplication *r = b->order.r;
     MesoBirth births[MESO_EXEMPLAR_INSIDE];
-    uint32_t block = meso_block_of(r, triangle), count = meso_choose_births(r, triangle, limit, births);
-    for (uint32_t i = 0; i < count; i++) {
+    uint32_t block = meso_block_of(r, triangle);
+    uint32_t limit = (uint32_t)fmin(r->due[block] + 0.5, MESO_EXEMPLAR_INSIDE);
+    double cost;
+    *done = most == INFINITY || !is_narrow(r, triangle);
+    uint32_t count = *done ? meso_choose_births(r, triangle, limit, births, &cost) : 0;
+    *done = *done && cost <= most;
+    for (uint32_t i = 0; i < count && *done; i++) {
         births[i].block = block;
-        MesoStatus status = meso_give_birth(r, triangle, &births[i], frame, error);
+        MesoStatus status = meso_give_birth(r, triangle, &births[i], b->frame, error);
         if (status != MESO_OK)
             return status;
         uint32_t node = r->web.node_count - 1, h = r->web.node_corner[node], first = h;
         do {    /* the details that are joined to it: their triangles are new */
-            meso_split_push(order, h / 3);
+            meso_split_push(&b->order, h / 3);
             h = r->web.twins[meso_previous_corner(h)];
         } while (h != first && h != MESO_NO_INDEX);
     }
     return MESO_OK;
 }
 
-static MesoStatus bear(MesoSplitOrder *order, int32_t frame, MesoError *error)
+/* What is born where it stands too near to others is born when there is no better place in its block. */
+static MesoStatus bear(Bearing *b, MesoError *error)
 {
-    MesoReplication *r = order->r;
+    MesoReplication *r = b->order.r;
+    double most = r->detail_count < MESO_FEW_DETAILS ? CROWDED_OF_FEW : CROWDED;
     uint32_t triangle;
-    while (meso_split_pop(order, &triangle)) {
-        double room = r->due[meso_block_of(r, triangle)];
-        if (room < 0.5)
+    bool done;
+    while (meso_split_pop(&b->order, &triangle)) {
+        MesoStatus status = split(b, triangle, most, &done, error);
+        if (status == MESO_OK && !done) {
+            b->late = MESO_GROW(&r->scratch, b->late, b->late_count, b->late_room, 256, error);
+            if (!b->late)
+                return MESO_ERR_MEMORY;
+            b->late[b->late_count++] = triangle;
+        }
+        if (status != MESO_OK)
+            return status;
+    }
+    for (uint32_t i = 0; i < b->late_count; i++) {
+        if (r->due[meso_block_of(r, b->late[i])] < 0.5)
             continue;
-        MesoStatus status = split(order, triangle, (uint32_t)fmin(room + 0.5, MESO_EXEMPLAR_INSIDE), frame, error);
+        MesoStatus status = split(b, b->late[i], INFINITY, &done, error);
         if (status != MESO_OK)
             return status;
     }
@@ -318,12 +353,12 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
                          r->detail_count + due);
     if (r->by_pairs)
         return meso_bear_by_pairs(r, (uint32_t)due, frame, error);
-    MesoSplitOrder order;
+    Bearing b = {.frame = frame};
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
     meso_tolerance_adapt(&r->tolerance, &r->web);
-    status = meso_split_order(&order, &r->scratch, r, (uint32_t)due, error);
+    status = meso_split_order(&b.order, &r->scratch, r, (uint32_t)due, error);
     if (status == MESO_OK)
-        status = bear(&order, frame, error);
+        status = bear(&b, error);
     meso_arena_rewind(&r->scratch, mark);
     return status;
 }

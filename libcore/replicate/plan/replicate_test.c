@@ -1,5 +1,6 @@
 /* Plans of clips, and what comes out when they are played. */
 #include "libcore/replicate/plan/clip_stage_fixture.h"
+#include "libcore/replicate/plan/replicate_work.h"
 
 /* Twice the area, twice the details; twice the size, four times; bent, none. Each is a copy, where it was born. */
 static void test_counts(void)
@@ -265,8 +266,89 @@ static void test_odd(void)
     end(&s);
 }
 
+/* ---- exemplars ---- */
+
+typedef struct Shape {
+    double area, angle;
+} Shape;
+
+static double twice_area(const MesoVec3 *a, const MesoVec3 *b, const MesoVec3 *c)
+{
+    return (double)meso_vec3_cross(meso_vec3_sub(*b, *a), meso_vec3_sub(*c, *a)).z;
+}
+
+static double length2(const MesoVec3 *a, const MesoVec3 *b)
+{
+    MesoVec3 d = meso_vec3_sub(*b, *a);
+    return (double)meso_vec3_dot(d, d);
+}
+
+static Shape shape_of(const MesoVec3 *a, const MesoVec3 *b, const MesoVec3 *c)
+{
+    return (Shape){fabs(twice_area(a, b, c)) / 2, meso_smallest_angle(length2(a, b), length2(b, c), length2(c, a))};
+}
+
+static uint32_t count_inside(const MesoVec3 *p, uint32_t count, const MesoVec3 *a, const MesoVec3 *b, const MesoVec3 *c)
+{
+    double turn = twice_area(a, b, c) < 0 ? -1 : 1;
+    uint32_t inside = 0;
+    for (uint32_t i = 0; i < count; i++)
+        inside += turn * twice_area(a, b, &p[i]) > 0 && turn * twice_area(b, c, &p[i]) > 0
+                  && turn * twice_area(c, a, &p[i]) > 0;
+    return inside;
+}
+
+/* Equation 3. */
+static double unlike(const MesoExemplars *e, Shape a, Shape b)
+{
+    return fmax(fabs(a.area - b.area) / e->area, fabs(a.angle - b.angle) / e->angle);
+}
+
+/* Of all triangles of details with others inside, the most similar. */
+static double search_all(const MesoExemplars *e, const MesoVec3 *p, uint32_t n, Shape wanted)
+{
+    double least = INFINITY;
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = i + 1; j < n; j++)
+            for (uint32_t k = j + 1; k < n; k++) {
+                double error = unlike(e, shape_of(&p[i], &p[j], &p[k]), wanted);
+                uint32_t inside = error < least ? count_inside(p, n, &p[i], &p[j], &p[k]) : 0;
+                if (inside > 0 && inside <= MESO_EXEMPLAR_INSIDE)
+                    least = error;
+            }
+    return least;
+}
+
+/* Those near each other, in bins of limited size, are as similar as the best of all that there are. */
+static void test_exemplars(void)
+{
+    Stage s;
+    double all = 0, ours = 0;
+    start(&s, meso_fixture_sheet(20, 20, 0.05f), 40, stretch, 1);
+    const MesoWeb *web = meso_replicate_web(s.replication);
+    const MesoExemplars *e = &s.replication->exemplars;
+    for (uint32_t t = 0; t < web->triangle_count; t++) {
+        MesoVec3 corners[3];
+        const MesoExemplar *found[8];
+        bool inner = true;
+        for (uint32_t k = 0; k < 3; k++) {
+            inner = inner && web->corners[3 * t + k] >= web->fixed_count;
+            corners[k] = stretch(web->positions[web->corners[3 * t + k]], 0.6f);
+        }
+        Shape wanted = shape_of(&corners[0], &corners[1], &corners[2]);
+        if (!inner)
+            continue;
+        CHECK(meso_exemplars_near(e, wanted.area, wanted.angle, MESO_EXEMPLAR_INSIDE, found, 8) == 8);
+        ours += unlike(e, (Shape){(double)found[0]->area, (double)found[0]->angle}, wanted);
+        all += search_all(e, web->positions + web->fixed_count, s.count, wanted);
+    }
+    CHECK(ours > 0 && ours < 1.01 * all);
+    end(&s);
+}
+
 int main(void)
 {
+    test_exemplars();
     test_counts();
     test_closed();
     test_played();

@@ -5,15 +5,34 @@
 #include "libcore/replicate/plan/exemplars.h"
 #include "libcore/replicate/plan/replicate.h"
 
-enum { MESO_BIRTH_NEAR = 24 };
+enum { MESO_BIRTH_NEAR = 24, MESO_EDGE_BINS = 32 };
+
+/* Of fewer each birth is looked at longer. */
+enum { MESO_FEW_DETAILS = 4096 };
+
+/* Edges between details, by squared length: what there is too much of now pushes those away that are born. */
+typedef struct MesoEdgePush {
+    float bins_a_square;            /* bins of a squared length */
+    double least2;                  /* nearer, squared, than this there are none at rest */
+    double rest[MESO_EDGE_BINS];    /* share of all edges */
+    float push[MESO_EDGE_BINS + 1]; /* what it costs to be born at that distance; 0 beyond the last */
+} MesoEdgePush;
+
+static inline float meso_push_at(const MesoEdgePush *edges, float length2)
+{
+    float at = length2 * edges->bins_a_square;
+    return edges->push[at < MESO_EDGE_BINS ? (int)at : MESO_EDGE_BINS];
+}
 
 /* How much larger triangles are than others at rest, and so may be later. */
 typedef struct MesoTolerance {
     uint32_t count;
     float *rest;            /* [count] of some triangles: area over what their corners have each */
-    float *weights;         /* [count] rest to the power -`power` */
+    float *weights;         /* [count] rest to the power of what is told by `power` and the spread now, less than 0 */
+    bool plain;             /* that is 0 */
     double power;
     double spread;          /* deviation over mean of edges at rest */
+    MesoEdgePush edges;
 } MesoTolerance;
 
 enum { MESO_TARGET_BINS = 24 };
@@ -65,6 +84,13 @@ struct MesoReplication {
     double *due;                    /* [block_count] details due in a block, less those there */
 };
 
+/* So that blocks do not all come to their next detail at once: of one; in all as good as nothing. */
+static inline double meso_phase_of(uint32_t block)
+{
+    double at = (block + 0.5) * 0.6180339887498949;
+    return 0.9 * (at - floor(at) - 0.5);
+}
+
 /* What a copy that there is of an original counts, beside a misfit: all have about as many, and kinds their shares. */
 #define MESO_COPY_COST 0.1
 
@@ -76,9 +102,12 @@ typedef struct MesoBirth {
     uint32_t block;     /* in which it was due */
 } MesoBirth;
 
-/* Those that the best of similar exemplars puts into a triangle of the web that has a detail; how many. */
+/*
+ * Those that the best of similar exemplars puts into a triangle of the web that has a detail; how many. `cost`: of the
+ * worst of them, how far the distances around it are from what they are at rest.
+ */
 uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
-                            MesoBirth births[MESO_EXEMPLAR_INSIDE]);
+                            MesoBirth births[MESO_EXEMPLAR_INSIDE], double *cost);
 
 /*
  * The point under a place near the surface: from triangle to triangle towards it, not through what lies between, so
@@ -96,6 +125,12 @@ bool meso_let_die(MesoReplication *r, uint32_t detail, int32_t frame);
 
 /* Details die where there are more than are due. MESO_ERR_MEMORY alone. */
 MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error);
+
+/*
+ * Ranks of originals, so that those of high rank give way first and the others lie as evenly as they can be then: from
+ * the most crowded on, in each block about as many. MESO_ERR_MEMORY alone. O(originals).
+ */
+MesoStatus meso_rank_by_crowd(MesoReplication *r, MesoError *error);
 
 static inline bool meso_lives(const MesoReplication *r, uint32_t detail)
 {

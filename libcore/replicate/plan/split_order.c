@@ -1,5 +1,7 @@
 #include "libcore/replicate/plan/split_order.h"
 
+#include <string.h>
+
 #include "libcore/base/parallel.h"
 
 enum { GRAIN = 4096, DRAWS = 4096, SAMPLE = 31, CHUNK = 16, NEW_EACH = 32, WANTED_LEAST = 256, WANTED_EACH = 6 };
@@ -10,8 +12,15 @@ enum { STEPS = 1024, STEPS_A_UNIT = 128 };
 /* A triangle is not split that is no larger than this much of what it may be. */
 static const float LEAST_EXCESS = 1.2f;
 
-/* How fast the power follows, and from where to where it goes. */
-static const double GAIN = 6, LEAST_POWER = 0.0, MOST_POWER = 1.6;
+/* How fast the power follows, and how much at once; from where to where it goes. */
+static const double GAIN = 6, AT_ONCE = 20, LEAST_POWER = 0.0, MOST_POWER = 3;
+
+/* Lengths of edges are counted up to so many mean ones: beyond, most pairs have no edge. */
+static const double REACH = 1.35;
+
+/* Of edges of a length that are too many, for those at rest, or a RARE share; and of a length below which NONE are. */
+static const double PUSH = 0.2, RARE = 0.01, NONE = 0.001;
+static const float WALL = 3;
 
 /* ---- tolerance ---- */
 
@@ -50,7 +59,7 @@ static uint32_t draw_of(const MesoReplication *r, uint32_t triangle)
 
 static float excess_by(const MesoReplication *r, uint32_t triangle, float ratio)
 {
-    return ratio > 0 && r->tolerance.power != 0 ? ratio * r->tolerance.weights[draw_of(r, triangle)] : ratio;
+    return ratio > 0 && !r->tolerance.plain ? ratio * r->tolerance.weights[draw_of(r, triangle)] : ratio;
 }
 
 static float excess_of(const MesoReplication *r, uint32_t triangle)
@@ -58,27 +67,54 @@ static float excess_of(const MesoReplication *r, uint32_t triangle)
     return excess_by(r, triangle, ratio_of(r, triangle));
 }
 
-/* Deviation over mean of the edges between details, of every `stride`th CHUNK of triangles. */
-static double spread_of(const MesoWeb *web, uint32_t stride)
+typedef struct Edges {
+    uint32_t count;
+    double sum, squares;
+    double bins[MESO_EDGE_BINS];    /* share of all */
+} Edges;
+
+/* Those between details, of every `stride`th CHUNK of triangles. */
+static Edges edges_of(const MesoWeb *web, uint32_t stride, float bins_a_square)
 {
-    double sum = 0, squares = 0;
-    uint32_t count = 0;
+    Edges e = {.count = 0};
     for (uint32_t t = 0; t < web->triangle_count; t += t % CHUNK == CHUNK - 1 ? (stride - 1) * CHUNK + 1 : 1)
         for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
             uint32_t a = web->corners[h], b = web->corners[meso_next_corner(h)];
             if (a < web->fixed_count || b < web->fixed_count)
                 continue;
-            double l2 = meso_web_length2(web, a, b);
-            sum += sqrt(l2);
-            squares += l2;
-            count++;
+            double l2 = meso_web_length2(web, a, b), at = l2 * (double)bins_a_square;
+            e.sum += sqrt(l2);
+            e.squares += l2;
+            e.count++;
+            if (at < MESO_EDGE_BINS)
+                e.bins[(uint32_t)at]++;
         }
-    return sum > 0 ? sqrt(fmax(0, squares * count / (sum * sum) - 1)) : 0;
+    for (uint32_t i = 0; i < MESO_EDGE_BINS; i++)
+        e.bins[i] /= e.count ? e.count : 1;
+    return e;
+}
+
+/* Deviation over mean. */
+static double spread_of(const Edges *e)
+{
+    return e->sum > 0 ? sqrt(fmax(0, e->squares * e->count / (e->sum * e->sum) - 1)) : 0;
 }
 
 static uint32_t stride_of(const MesoWeb *web)
 {
     return web->triangle_count > SAMPLE * DRAWS ? SAMPLE : 1;
+}
+
+static void know_edges(MesoTolerance *tolerance, const MesoWeb *web)
+{
+    Edges edges = edges_of(web, stride_of(web), 0);
+    tolerance->spread = spread_of(&edges);
+    if (!(edges.sum > 0))
+        return;
+    double reach = REACH * edges.sum / edges.count;
+    tolerance->edges.bins_a_square = (float)(MESO_EDGE_BINS / (reach * reach));
+    edges = edges_of(web, stride_of(web), tolerance->edges.bins_a_square);
+    memcpy(tolerance->edges.rest, edges.bins, sizeof edges.bins);
 }
 
 MesoStatus meso_tolerance_build(MesoTolerance *tolerance, MesoReplication *r, MesoError *error)
@@ -95,18 +131,35 @@ MesoStatus meso_tolerance_build(MesoTolerance *tolerance, MesoReplication *r, Me
     }
     if (tolerance->count == 0)
         tolerance->rest[tolerance->count++] = 1;
-    tolerance->spread = spread_of(&r->web, stride_of(&r->web));
+    know_edges(tolerance, &r->web);
     return MESO_OK;
+}
+
+/* As much as there are too many, for those that there are at rest. */
+static void push_by(MesoEdgePush *push, const Edges *now)
+{
+    double below = 0;
+    for (uint32_t i = 0; i < MESO_EDGE_BINS; i++) {
+        push->push[i] = (float)(PUSH * (now->bins[i] - push->rest[i]) / fmax(push->rest[i], RARE));
+        below += push->rest[i];
+        if (below >= NONE)
+            continue;
+        push->push[i] += WALL;
+        push->least2 = (i + 1) / (double)push->bins_a_square;
+    }
 }
 
 void meso_tolerance_adapt(MesoTolerance *tolerance, const MesoWeb *web)
 {
-    double spread = spread_of(web, stride_of(web));
-    if (tolerance->spread > 0)
-        tolerance->power += GAIN * (1 - spread / tolerance->spread);
-    tolerance->power = fmin(MOST_POWER, fmax(LEAST_POWER, tolerance->power));
+    Edges edges = edges_of(web, stride_of(web), tolerance->edges.bins_a_square);
+    double spread = spread_of(&edges);
+    push_by(&tolerance->edges, &edges);
+    double error = tolerance->spread > 0 ? 1 - spread / tolerance->spread : 0;
+    tolerance->power = fmin(MOST_POWER, fmax(LEAST_POWER, tolerance->power + GAIN * error));
+    double power = fmin(MOST_POWER, fmax(LEAST_POWER, tolerance->power + AT_ONCE * error));
+    tolerance->plain = power == 0;
     for (uint32_t i = 0; i < tolerance->count; i++)
-        tolerance->weights[i] = (float)pow((double)tolerance->rest[i], -tolerance->power);
+        tolerance->weights[i] = (float)pow((double)tolerance->rest[i], -power);
 }
 
 /* ---- order ---- */
@@ -157,6 +210,8 @@ bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle)
 {
     while (order->count > 0) {
         MesoSplitCandidate first = take_first(order);
+        if (order->r->due[meso_block_of(order->r, first.triangle)] < 0.5)   /* and none will be */
+            continue;
         float excess = excess_of(order->r, first.triangle);
         *triangle = first.triangle;
         if (excess == first.excess)

@@ -32,7 +32,7 @@ MesoStatus meso_split_order(MesoSplitOrder *order, MesoArena *arena, MesoReplica
 /* A triangle that is new, or another by now. */
 void meso_split_push(MesoSplitOrder *order, uint32_t triangle);
 
-/* The next one; a corner of it is a detail, or more. False where there is none. */
+/* The next one in whose block a detail is due; a corner of it is a detail, or more. False where there is none. */
 bool meso_split_pop(MesoSplitOrder *order, uint32_t *triangle);
 
 /* By a corner that is a detail. */

@@ -411,15 +411,19 @@ MesoStatus meso_carve(MesoCarvedMesh *c, const MesoDetail *detail, MesoCarving c
 {
     Spot s = {detail, carving, meso_detail_position(c->mesh, c->mesh->positions, &detail->point),
               fmaxf(detail->size, detail->width), fineness, c->carved_count++};
-    uint32_t count;
+    uint32_t count = 0;
     if (carving == MESO_CARVE_NOTHING)
         return MESO_OK;
     MesoStatus status = refine_around(c, &s, error);
     if (!status && carving == MESO_CARVE_HOLE)
         status = gather(c, &s, HOLE_CORE * fminf(detail->size, detail->width), &count, error);
-    if (!status && carving == MESO_CARVE_HOLE && can_open(c, count))
+    if (status || carving != MESO_CARVE_HOLE)
+        return status;
+    if (can_open(c, count))
         open_hole(c, &s, count);
-    return status;
+    else
+        c->uncut_count++;
+    return MESO_OK;
 }
 
 /* ---- checks ---- */

@@ -36,6 +36,7 @@ typedef struct MesoCarvedMesh {
     uint32_t *queue;                /* [queue_room] of a search */
     uint32_t queue_room;
     uint32_t carved_count;          /* details that were carved so far */
+    uint32_t uncut_count;           /* holes among them that were not cut */
 } MesoCarvedMesh;
 
 typedef enum MesoCarving {

@@ -4,58 +4,24 @@
 #include <string.h>
 
 #include "libcore/tiling/problem/strand_forest.h"
+#include "libcore/tiling/problem/strand_joints.h"
 
-/*
- * Joints are numbered by the sections of the label at the first of the two
- * half-edges of an edge: base[h] + the section's place in its interface. The
- * sections on top and bottom are joints of one slot alone.
- */
 typedef struct StrandMap {
     const MesoAssignment *assignment;
     const MesoTileSet *set;
     const MesoSlotGraph *graph;
-    uint32_t *base;             /* [6 * slot_count] first joint of each side, top and bottom too */
-    uint32_t joint_count;
+    MesoStrandJoints joints;
     MesoStrandForest forest;
 } StrandMap;
 
-static uint32_t section_count(const StrandMap *map, uint32_t slot, uint32_t side)
-{
-    const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
-    int32_t label = side < 4 ? meso_tile_label(tile, map->assignment->transform[slot], side) : tile->labels[side];
-    return label ? map->set->interfaces[meso_label_interface(label)].section_count : 0;
-}
-
-static MesoStatus number_joints(StrandMap *map, MesoArena *arena, MesoError *error)
-{
-    uint64_t count = 0;
-    map->base = MESO_NEW(arena, uint32_t, 6 * (size_t)map->graph->slot_count, error);
-    if (!map->base)
-        return MESO_ERR_MEMORY;
-    for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
-        for (uint32_t side = 0; side < 6; side++) {
-            uint32_t half_edge = 4 * slot + side;
-            uint32_t twin = side < 4 ? map->graph->twin[half_edge] : MESO_NO_INDEX;
-            size_t at = 6 * (size_t)slot + side;
-            if (twin != MESO_NO_INDEX && twin < half_edge) {
-                map->base[at] = map->base[6 * (size_t)(twin / 4) + twin % 4];
-                continue;
-            }
-            map->base[at] = (uint32_t)count;
-            count += section_count(map, slot, side);
-            if (count >= MESO_NO_INDEX)
-                return meso_fail(error, MESO_ERR_LIMIT, "too many cross-sections for strands: over %u",
-                                 MESO_NO_INDEX - 1);
-        }
-    map->joint_count = (uint32_t)count;
-    return meso_strand_forest_init(&map->forest, arena, map->joint_count, error);
-}
-
 static uint32_t joint(const StrandMap *map, uint32_t slot, uint32_t side, uint32_t section)
 {
-    uint32_t place = meso_transform_side(map->assignment->transform[slot], side);
-    uint32_t first = map->set->interfaces[map->set->sections[section].interface].section_begin;
-    return map->base[6 * (size_t)slot + place] + section - first;
+    return meso_strand_joint(&map->joints, map->assignment, map->set, slot, side, section);
+}
+
+static uint32_t sections_on(const StrandMap *map, uint32_t slot, uint32_t side)
+{
+    return meso_strand_section_count(map->assignment, map->set, slot, side);
 }
 
 static void link_slot(StrandMap *map, uint32_t slot)
@@ -72,7 +38,9 @@ static MesoStatus build(StrandMap *map, MesoArena *arena, const MesoAssignment *
                         const MesoTileSet *set, const MesoSlotGraph *graph, MesoError *error)
 {
     *map = (StrandMap){.assignment = assignment, .set = set, .graph = graph};
-    MesoStatus status = number_joints(map, arena, error);
+    MesoStatus status = meso_strand_joints_number(&map->joints, arena, assignment, set, graph, error);
+    if (!status)
+        status = meso_strand_forest_init(&map->forest, arena, map->joints.count, error);
     for (uint32_t slot = 0; slot < graph->slot_count && !status; slot++)
         link_slot(map, slot);
     return status;
@@ -106,7 +74,7 @@ MesoStatus meso_strands_count(MesoStrandStatistics *statistics, const MesoAssign
     *statistics = (MesoStrandStatistics){0};
     meso_arena_init(&arena);
     MesoStatus status = build(&map, &arena, assignment, set, graph, error);
-    for (uint32_t i = 0; !status && i < map.joint_count; i++)
+    for (uint32_t i = 0; !status && i < map.joints.count; i++)
         if (is_strand(&map, i))
             count_strand(statistics, &map.forest.nodes[i]);
     meso_arena_release(&arena);
@@ -196,7 +164,7 @@ typedef struct CutBuilder {
 
 static void number_offenders(CutBuilder *builder)
 {
-    for (uint32_t i = 0; i < builder->map->joint_count && builder->count < builder->most; i++)
+    for (uint32_t i = 0; i < builder->map->joints.count && builder->count < builder->most; i++)
         if (is_strand(builder->map, i) && offence(builder->rule, &builder->map->forest.nodes[i]))
             builder->cut_of[i] = ++builder->count;
 }
@@ -208,7 +176,7 @@ static void number_offenders(CutBuilder *builder)
  */
 static MesoStatus break_into_pieces(StrandMap *map, const MesoStrandRule *rule, MesoArena *arena, MesoError *error)
 {
-    if (meso_strand_forest_init(&map->forest, arena, map->joint_count, error))
+    if (meso_strand_forest_init(&map->forest, arena, map->joints.count, error))
         return MESO_ERR_MEMORY;
     for (uint32_t slot = 0; slot < map->graph->slot_count; slot++) {
         const MesoTile *tile = &map->set->tiles[map->assignment->tile[slot]];
@@ -253,7 +221,7 @@ static void number_unconnected(CutBuilder *builder, const uint32_t *component, S
 /* The cut of the strand at the joint of a slot's side and the section at this place of its interface; 0: none. */
 static uint32_t cut_at(const CutBuilder *builder, uint32_t slot, uint32_t side, uint32_t place)
 {
-    uint32_t at = builder->map->base[6 * (size_t)slot + side] + place;
+    uint32_t at = builder->map->joints.base[6 * (size_t)slot + side] + place;
     return builder->cut_of[meso_strand_root(&builder->map->forest, at)];
 }
 
@@ -262,7 +230,7 @@ static bool met_before(const CutBuilder *builder, uint32_t slot, uint32_t side, 
 {
     uint32_t cut = cut_at(builder, slot, side, place);
     for (uint32_t k = 0; k <= side; k++)
-        for (uint32_t i = 0; i < (k < side ? section_count(builder->map, slot, k) : place); i++)
+        for (uint32_t i = 0; i < (k < side ? sections_on(builder->map, slot, k) : place); i++)
             if (cut_at(builder, slot, k, i) == cut)
                 return true;
     return false;
@@ -287,7 +255,7 @@ static void go_through_cuts(const CutBuilder *builder, uint32_t *fill, uint32_t 
     const StrandMap *map = builder->map;
     for (uint32_t slot = 0; slot < map->graph->slot_count; slot++)
         for (uint32_t side = 0; side < 6; side++)
-            for (uint32_t i = 0; i < section_count(map, slot, side); i++) {
+            for (uint32_t i = 0; i < sections_on(map, slot, side); i++) {
                 uint32_t cut = cut_at(builder, slot, side, i);
                 if (cut == 0 || met_before(builder, slot, side, i) ||
                     (builder->lasting && !has_sweep_in(builder, slot, cut)))
@@ -324,7 +292,7 @@ static MesoStatus begin_cuts(CutBuilder *builder, const StrandMap *map, const Me
                              const MesoStrandCuts *cuts, uint32_t most, MesoArena *arena, MesoError *error)
 {
     *builder = (CutBuilder){.map = map, .rule = rule, .most = most - cuts->count};
-    builder->cut_of = MESO_NEW(arena, uint32_t, map->joint_count, error);
+    builder->cut_of = MESO_NEW(arena, uint32_t, map->joints.count, error);
     return builder->cut_of ? MESO_OK : MESO_ERR_MEMORY;
 }
 

@@ -11,6 +11,7 @@
 #include "libcore/shell/hexahedra.h"
 #include "libcore/tiling/strand/slot_winding.h"
 #include "libcore/tiling/strand/steps.h"
+#include "libcore/tiling/strand/strand_port.h"
 #include "libcore/tiling/strand/trajectory.h"
 
 enum { INSTANCES_A_RANGE = 1024 };
@@ -29,9 +30,9 @@ typedef struct Builder {
     const MesoContourSet *contours;
     MesoShell shell;
     MesoShellCell cell;         /* in whose ports sweeps begin and end where sections deform */
+    MesoPortFinder ports;
     uint32_t *bucket_slots;     /* [slot_count] slots by tile and mirroring, ascending within */
     uint32_t *bucket_begin;     /* [2 * tile_count + 1] */
-    float *slot_sizes;          /* [slot_count] mean length of the slot's edges, where sections follow it; or NULL */
     atomic_uint_fast64_t failed;    /* smallest instance that has no port */
 } Builder;
 
@@ -119,15 +120,6 @@ static MesoStatus make_cages(Builder *b, MesoArena *arena, MesoError *error)
     return b->scene->cages ? MESO_OK : MESO_ERR_MEMORY;
 }
 
-static float slot_size(const MesoQuadMesh *mesh, uint32_t slot)
-{
-    const uint32_t *corners = mesh->face_vertices + 4 * (size_t)slot;
-    float sum = 0;
-    for (uint32_t i = 0; i < 4; i++)
-        sum += meso_vec3_length(meso_vec3_sub(mesh->positions[corners[(i + 1) % 4]], mesh->positions[corners[i]]));
-    return sum / 4;
-}
-
 /* What one edge length in the drawings is in a cell, whose edges have the mean length. */
 static float cell_scale(const MesoMapOptions *options, const MesoModel *model)
 {
@@ -163,7 +155,7 @@ static float profile_tolerance(const MesoMapOptions *options, const MesoModel *m
     if (stretch.most > 0)
         return meso_map_options_tolerance(options, mean) / (stretch.most * cell_scale(options, model));
     for (uint32_t slot = 0; slot < surface->face_count && options->section_size == MESO_SECTION_SLOT; slot++)
-        largest = fmaxf(largest, slot_size(surface, slot));
+        largest = fmaxf(largest, meso_slot_size(surface, slot));
     float size = largest > 0 && mean > 0 ? largest / mean : 1;
     return meso_map_options_tolerance(options, mean) / (options->section_scale * size);
 }
@@ -175,28 +167,19 @@ static MesoColumnLimits column_limits(const MesoMapOptions *options, const MesoM
                               stretch.bend > 0 ? sqrtf(8 * bend / stretch.bend) / cell_scale(options, model) : 0};
 }
 
-static MesoStatus measure_slots(Builder *b, MesoArena *scratch, MesoError *error)
-{
-    if (b->options.section_size == MESO_SECTION_SCENE || deforms(b))
-        return MESO_OK;
-    uint32_t count = b->model->surface.face_count;
-    b->slot_sizes = MESO_NEW(scratch, float, count, error);
-    for (uint32_t slot = 0; b->slot_sizes && slot < count; slot++)
-        b->slot_sizes[slot] = slot_size(&b->model->surface, slot);
-    return b->slot_sizes ? MESO_OK : MESO_ERR_MEMORY;
-}
-
-/* Of a tile in some slot, at the face of another one of some shell. */
-static MesoStatus port_of(const Builder *b, const MesoShell *shell, uint32_t at, uint32_t slot, uint32_t tile_side,
-                          MesoVec2 center, MesoPort *port, MesoError *error)
+/* That of the cell which stands for the slot. */
+static MesoStatus cell_port(const Builder *b, uint32_t slot, uint32_t tile_side, MesoVec2 center, MesoPort *port,
+                            MesoError *error)
 {
     const MesoAssignment *a = &b->model->assignment;
     MesoTransform transform = a->transform[slot];
-    int32_t label = b->model->tile_set.tiles[a->tile[slot]].labels[tile_side];
-    if (tile_side >= MESO_SIDE_TOP)
-        return meso_shell_lid_port(shell, at, tile_side == MESO_SIDE_BOTTOM, transform, center, label < 0, port, error);
-    return meso_shell_wall_port(shell, at, meso_transform_side(transform, tile_side), center,
-                                (label < 0) != meso_transform_flips(transform), port, error);
+    if (tile_side >= MESO_SIDE_TOP) {
+        bool flipped = b->model->tile_set.tiles[a->tile[slot]].labels[tile_side] < 0;
+        return meso_shell_lid_port(&b->cell.shell, 0, tile_side == MESO_SIDE_BOTTOM, transform, center, flipped, port,
+                                   error);
+    }
+    return meso_shell_wall_port(&b->cell.shell, 0, meso_transform_side(transform, tile_side), center,
+                                meso_port_flipped(b->model, slot, tile_side), NULL, port, error);
 }
 
 /* Where sections deform, that of the cell; but none where the slot has none. */
@@ -204,26 +187,16 @@ static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side,
                             MesoPort *port, MesoError *error)
 {
     MesoVec2 center = b->contours->center[section];
-    MesoStatus status = port_of(b, &b->shell, slot, slot, tile_side, center, port, error);
+    MesoStatus status = meso_port_find(&b->ports, slot, tile_side, section, port, error);
     if (status || !deforms(b))
         return status;
     center = (MesoVec2){meso_cell_round(center.x), meso_cell_round(center.y)};
-    return port_of(b, &b->cell.shell, 0, slot, tile_side, center, port, error);
+    return cell_port(b, slot, tile_side, center, port, error);
 }
 
-/* Of the sections there: both slots of an edge say the same, so that their rings are equal. */
 static float port_size(const Builder *b, uint32_t slot, uint32_t tile_side)
 {
-    if (deforms(b))
-        return cell_scale(&b->options, b->model);
-    if (b->options.section_size == MESO_SECTION_SCENE)
-        return 1;
-    float mean = b->model->surface.mean_edge_length, own = b->slot_sizes[slot];
-    if (!(mean > 0))
-        return 1;
-    uint32_t other = tile_side >= MESO_SIDE_TOP ? MESO_NO_INDEX
-        : b->model->graph.twin[4 * (size_t)slot + meso_transform_side(b->model->assignment.transform[slot], tile_side)];
-    return 0.5f * (own + b->slot_sizes[other == MESO_NO_INDEX ? slot : other / 4]) / mean;
+    return deforms(b) ? cell_scale(&b->options, b->model) : meso_port_size(&b->ports, slot, tile_side);
 }
 
 static float one_if_none(float scale)
@@ -490,9 +463,7 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
     MesoProfileSet profiles;
     MesoCellStretch stretch;
     float tolerance = meso_map_options_tolerance(&b->options, b->model->surface.mean_edge_length);
-    MesoStatus status = measure_slots(b, scratch, error);
-    if (!status)
-        status = measure_stretch(&stretch, &b->options, b->model, error);
+    MesoStatus status = measure_stretch(&stretch, &b->options, b->model, error);
     if (!status)
         status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours, b->options.divisions,
                                         column_limits(&b->options, b->model, stretch), error);
@@ -504,6 +475,8 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         return status;
 
     status = meso_model_shell(&b->shell, scratch, b->model, error);
+    if (!status)
+        status = meso_port_finder_make(&b->ports, scratch, b->model, &b->shell, b->contours->center, error);
     if (!status)
         status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)

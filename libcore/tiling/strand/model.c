@@ -1,5 +1,7 @@
 #include "libcore/tiling/strand/model.h"
 
+#include <string.h>
+
 const char *const meso_section_size_names[] = {"scene", "slot", NULL};
 const char *const meso_tolerance_unit_names[] = {"edge", "scene", NULL};
 
@@ -38,7 +40,19 @@ const char *meso_map_options_problem(const MesoMapOptions *options)
         return "deformation";
     if (!within(options->tolerance, 0, longest) || options->tolerance_in > MESO_TOLERANCE_SCENE)
         return "tolerance";
+    if (options->relax > MESO_RELAX_MOST)
+        return "number of steps of relaxation";
     return NULL;
+}
+
+bool meso_map_options_same_form(const MesoMapOptions *a, const MesoMapOptions *b)
+{
+    MesoMapOptions x = *a;
+    x.section_step = b->section_step;
+    x.divisions = b->divisions;
+    x.tolerance = b->tolerance;
+    x.tolerance_in = b->tolerance_in;
+    return memcmp(&x, b, sizeof x) == 0;
 }
 
 float meso_map_options_tolerance(const MesoMapOptions *options, float mean_edge_length)

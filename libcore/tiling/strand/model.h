@@ -50,7 +50,18 @@ typedef struct MesoMapOptions {
     float tolerance;        /* of steps along and around, instead of divisions and section step; 0 is none */
     uint32_t tolerance_in;  /* a MesoToleranceUnit */
     uint32_t deform;        /* a MesoSweepDeform (scene.h) */
+    uint32_t relax;         /* steps of relaxation (relax.h), at most MESO_RELAX_MOST; 0: none */
 } MesoMapOptions;
+
+enum { MESO_RELAX_MOST = 10000 };
+
+/* How far the joints of a relaxed model are from where they were: a MesoWallMove in whole numbers. */
+typedef struct MesoJointMove {
+    int16_t along, rise;            /* of 1 / MESO_JOINT_PLACES */
+    int16_t lean_along, lean_rise;  /* of 1 / MESO_JOINT_LEANS */
+} MesoJointMove;
+
+enum { MESO_JOINT_PLACES = 32767, MESO_JOINT_LEANS = 16384 };
 
 /* Bounds of the factors and the lifts of a shell's vertices. */
 #define MESO_FACTOR_LEAST 1e-4f
@@ -63,6 +74,8 @@ typedef struct MesoModel {
     MesoSlotGraph graph;                /* of the surface */
     MesoAssignment assignment;
     MesoMapOptions options;
+    MesoJointMove *joints;              /* [joint_count] by their numbers (strand_joints.h), or NULL: none has moved */
+    uint32_t joint_count;               /* where they have */
     float *factors, *lifts;             /* [surface.vertex_count] of the shell (shell_form.h), or NULL */
     MesoTriangleMesh *inner_meshes;     /* [tile_set.inner_count], empty where there is none */
 } MesoModel;
@@ -80,6 +93,9 @@ float meso_map_options_tolerance(const MesoMapOptions *options, float mean_edge_
 
 /* `options` with every default filled in from the mean edge length. */
 MesoMapOptions meso_map_options_resolve(MesoMapOptions options, float mean_edge_length);
+
+/* Whether sweeps have the same trajectories and sections under both: all but the steps that they are cut up by. */
+bool meso_map_options_same_form(const MesoMapOptions *a, const MesoMapOptions *b);
 
 /* The model's shell, with its options resolved; what it needs lives in `arena`. MESO_ERR_MEMORY alone. */
 MesoStatus meso_model_shell(MesoShell *shell, MesoArena *arena, const MesoModel *model, MesoError *error);
