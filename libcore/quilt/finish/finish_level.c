@@ -11,9 +11,12 @@
 #include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_work.h"
 
-/* What is kept changes over less than this share of the swatch's shorter side, in mean edges within these bounds. */
-#define REACH 0.12
-#define EDGES_LEAST 4
+/*
+ * What is kept changes over less than this share of the swatch's shorter side, in mean edges within these bounds: joins
+ * need a few edges, and strands that are off their heights for longer are what one sees, and what others run into.
+ */
+#define REACH 0.06
+#define EDGES_LEAST 2
 #define EDGES_MOST 24
 
 /* Trust in vertices that the border has made. */

@@ -235,7 +235,16 @@ static void test_wholes(void)
     meso_arena_release(&arena);
 }
 
-/* A bar that rises along its way, as over many patches, comes back down. */
+/* How far vertices are from the heights of the swatch, on the mean. */
+static double mean_rise(const MesoQuilt *q, const MesoSwatch *swatch)
+{
+    double sum = 0;
+    for (uint32_t v = 0; v < q->vertex_count; v++)
+        sum += fabs((double)q->vertices[v].height - (double)swatch->positions[q->origins[v]].z);
+    return sum / q->vertex_count;
+}
+
+/* A bar that rises along its way, as over many patches, comes back down; and one that is in waves, as long as patches. */
 static void test_level(void)
 {
     MesoArena arena;
@@ -246,16 +255,17 @@ static void test_level(void)
     MesoQuiltBase base;
     CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
     const Copy bar = {0, RINGS - 1, {-2 - swatch.positions[0].x, 1.3f - swatch.positions[0].y, 0}};
-    for (int level = 0; level < 2; level++) {
+    for (int i = 0; i < 4; i++) {
+        bool level = i % 2, waves = i / 2;
         MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, &bar, 1);
-        for (uint32_t v = 0; v < q.vertex_count; v++)
-            q.vertices[v].height += 0.5f * (float)v / (float)q.vertex_count;
+        for (uint32_t v = 0; v < q.vertex_count; v++) {
+            float along = (float)v / (float)q.vertex_count;
+            q.vertices[v].height += waves ? 0.5f * sinf(4 * (float)MESO_PI * along) : 0.5f * along;
+        }
         const MesoFinishOptions options = {.scale = level ? 1 : 0};
         CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &options, &error) == MESO_OK);
-        double sum = 0;
-        for (uint32_t v = 0; v < q.vertex_count; v++)
-            sum += fabs((double)q.vertices[v].height - swatch.positions[q.origins[v]].z);
-        CHECK(level ? sum < 0.05 * q.vertex_count : sum > 0.2 * q.vertex_count);
+        CHECK(!level || mean_rise(&q, &swatch) < (waves ? 0.12 : 0.05));
+        CHECK(level || mean_rise(&q, &swatch) > 0.2);
     }
     meso_quilt_base_release(&base);
     meso_triangulation_release(&plane);
