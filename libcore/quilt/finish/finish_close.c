@@ -7,6 +7,10 @@
 /* Longer loops are closed around a point: ears take the square of their number. */
 enum { EARS_LIMIT = 512 };
 
+/* Loops along a border are strips where they are so many times as long as high; what they may be off by where they end. */
+#define NARROW 4
+#define GAP_MOST 0.1f
+
 typedef struct Closer {
     MesoFinishWork *work;
     uint32_t half_edge_count;
@@ -70,6 +74,50 @@ static uint32_t go_on(const Closer *c, uint32_t h)
     return next;
 }
 
+/* ---- strips along borders ---- */
+
+/* Along the border at a place on it: where what is inside does not change. */
+static MesoVec3 border_way(const MesoFinishWork *work, uint32_t triangle)
+{
+    const MesoTriangulation *mesh = &work->base->mesh;
+    const uint32_t *corner = &mesh->corners[3 * (size_t)triangle];
+    const float *inside = work->base->inside;
+    MesoVec3 a = mesh->positions[corner[0]], b = meso_vec3_sub(mesh->positions[corner[1]], a);
+    MesoVec3 way = meso_vec3_scale(meso_vec3_sub(mesh->positions[corner[2]], a), inside[corner[1]] - inside[corner[0]]);
+    way = meso_vec3_mad(way, inside[corner[0]] - inside[corner[2]], b);
+    return meso_vec3_direction(way, (MesoVec3){0, 0, 0});
+}
+
+/* Lays a loop that a border has made flat: x along the border, y up. False where it goes around the border, or is short. */
+static bool lay_flat(MesoVec2 *places, const Closer *c, uint32_t count)
+{
+    const MesoFinishWork *work = c->work;
+    MesoVec2 low = {0, INFINITY}, high = {0, -INFINITY};
+    float at = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        MesoQuiltVertex here = work->vertices[c->loop[i]], next = work->vertices[c->loop[(i + 1) % count]];
+        MesoVec3 step = meso_vec3_sub(meso_finish_foot(work, next), meso_finish_foot(work, here));
+        MesoVec3 way = meso_vec3_add(border_way(work, here.triangle), border_way(work, next.triangle));
+        places[i] = (MesoVec2){at, here.height};
+        low = (MesoVec2){fminf(low.x, at), fminf(low.y, here.height)};
+        high = (MesoVec2){fmaxf(high.x, at), fmaxf(high.y, here.height)};
+        at += copysignf(meso_vec3_length(step), meso_vec3_dot(step, way));
+    }
+    float length = high.x - low.x;
+    return fabsf(at) < GAP_MOST * length && length > NARROW * (high.y - low.y);
+}
+
+static MesoStatus try_strip(bool *closed, uint32_t *corners, Closer *c, const MesoSection *section, MesoError *error)
+{
+    MesoArenaMark mark = meso_arena_mark(&c->scratch);
+    MesoVec2 *places = MESO_NEW(&c->scratch, MesoVec2, section->count, error);
+    if (!places)
+        return MESO_ERR_MEMORY;
+    *closed = lay_flat(places, c, section->count) && meso_section_strip(corners, section, places);
+    meso_arena_rewind(&c->scratch, mark);
+    return MESO_OK;
+}
+
 /* ---- caps ---- */
 
 /* Whether two corners of a cap that are no neighbours in the loop have an edge already. */
@@ -122,16 +170,19 @@ static MesoStatus close_loop(Closer *c, uint32_t count, uint32_t beside, MesoErr
         return MESO_OK;
     }
     work->report->closed_count++;
-    if (count > EARS_LIMIT)
-        return close_around(c, count, beside);
     MesoArenaMark mark = meso_arena_mark(&c->scratch);
     uint32_t *corners = MESO_NEW(&c->scratch, uint32_t, 3 * (size_t)count, error);
     if (!corners)
         return MESO_ERR_MEMORY;
     MesoSection section = {.count = count, .vertices = c->loop, .positions = work->points};
-    meso_section_measure(&section);
-    MesoStatus status = meso_section_cap(corners, &c->scratch, &section, error);
-    if (!status && has_chord_twice(c, corners, count - 2))
+    bool closed = false;
+    MesoStatus status = at_border ? try_strip(&closed, corners, c, &section, error) : MESO_OK;
+    if (!status && !closed && count <= EARS_LIMIT) {
+        meso_section_measure(&section);
+        status = meso_section_cap(corners, &c->scratch, &section, error);
+        closed = true;
+    }
+    if (!status && (!closed || has_chord_twice(c, corners, count - 2)))
         status = close_around(c, count, beside);
     else if (!status)
         add_cap(c, corners, count - 2, beside);

@@ -21,9 +21,9 @@ typedef struct MesoFinishOptions {
  * Finishes a quilt over `base`->mesh, in place; its arrays are anew in `arena` where any of this changes it:
  *
  * - Strands are cut where base->inside is 0, whole elements that reach further beyond than `overhang` are left out.
- * - Loops of open edges, wherever they come from, are closed by caps: flat ones by the ears of the loop, others, and
- *   those whose chords are edges already, around a point in their middle. So no edge is open on a closed surface,
- *   and with open_borders only those along borders.
+ * - Loops of open edges, wherever they come from, are closed by caps: long ones along a border by strips that follow
+ *   it, flat ones by the ears of the loop, others, and those whose chords are edges already, around a point in their
+ *   middle. So no edge is open on a closed surface, and with open_borders only those along borders.
  * - Pieces of strands no longer than about one and a half times the reach of their section are left out: those whose
  *   points are nowhere further apart than 2.5 times the largest reach of their swatch element's open ends.
  * - Strands come back to the heights that the swatch has them at, but for what joins need of them.

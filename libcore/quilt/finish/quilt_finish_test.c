@@ -235,6 +235,41 @@ static void test_wholes(void)
     meso_arena_release(&arena);
 }
 
+/* A base or a surface that is flat comes to have borders that bend. */
+static void bend_borders(MesoTriangulation *mesh)
+{
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        float x = mesh->positions[v].x - 2;
+        mesh->positions[v].y += 0.2f * x * x;
+    }
+}
+
+/* A bar that lies along a border, half of it outside: what is left has a cap that follows the border. */
+static void test_along_border(void)
+{
+    MesoArena arena;
+    MesoError error = {0};
+    meso_arena_init(&arena);
+    MesoSwatch swatch = make_swatch(&arena);
+    MesoTriangulation plane = meso_fixture_sheet(16, 16, 0.25f);
+    MesoQuiltBase base;
+    CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
+    const Copy bar = {0, RINGS - 1, {-2 - swatch.positions[0].x, 3.9f - swatch.positions[0].y, 0}};
+    MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, &bar, 1);
+    bend_borders(&plane);
+    bend_borders(&base.mesh);
+    CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &(MesoFinishOptions){0}, &error) == MESO_OK);
+    CHECK(q.element_count == 1 && count_open(&q) == 0);
+    double volume, area = area_of(&q, &plane, 0, &volume), length = 0;
+    for (uint32_t i = 0; i < 16; i++)
+        length += hypot(0.25, 0.2 * (pow(0.25 * i - 1.75, 2) - pow(0.25 * i - 2, 2)));
+    CHECK(fabs(volume - 4 * BAR_SIDE * BAR_SIDE / 2) < 0.005);      /* rings and borders bend at other places */
+    CHECK(fabs(area - length * 3 * BAR_SIDE) < 0.1 * area);     /* two sides half as wide, one, the cap, and ends */
+    meso_quilt_base_release(&base);
+    meso_triangulation_release(&plane);
+    meso_arena_release(&arena);
+}
+
 /* How far vertices are from the heights of the swatch, on the mean. */
 static double mean_rise(const MesoQuilt *q, const MesoSwatch *swatch)
 {
@@ -332,6 +367,7 @@ static void test_part(void)
 
 int main(void)
 {
+    test_along_border();
     test_level();
     test_part();
     test_plane(false);

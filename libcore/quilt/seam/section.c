@@ -170,3 +170,65 @@ MesoStatus meso_section_cap(uint32_t *corners, MesoArena *scratch, const MesoSec
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
 }
+
+/* ---- strips ---- */
+
+/* There and back may be longer than straight ahead by so much. */
+#define WINDING_MOST 1.2f
+
+/* From one end of a strip to the other, by both sides. */
+typedef struct Strip {
+    const MesoSection *section;
+    const MesoVec2 *places;
+    uint32_t first, last;       /* in the section */
+} Strip;
+
+/* The point so many steps from the first one, with the section or against it. */
+static uint32_t along_strip(const Strip *strip, uint32_t steps, bool against)
+{
+    uint32_t count = strip->section->count;
+    return (strip->first + (against ? count - steps : steps)) % count;
+}
+
+static bool find_ends(Strip *strip)
+{
+    const MesoVec2 *places = strip->places;
+    uint32_t count = strip->section->count;
+    float length = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        strip->first = places[i].x < places[strip->first].x ? i : strip->first;
+        strip->last = places[i].x > places[strip->last].x ? i : strip->last;
+        length += fabsf(places[(i + 1) % count].x - places[i].x);
+    }
+    return length <= WINDING_MOST * 2 * (places[strip->last].x - places[strip->first].x);
+}
+
+static void add_corners(uint32_t **corners, const Strip *strip, uint32_t a, uint32_t b, uint32_t c)
+{
+    const uint32_t *vertices = strip->section->vertices;
+    *(*corners)++ = vertices[a];
+    *(*corners)++ = vertices[b];
+    *(*corners)++ = vertices[c];
+}
+
+bool meso_section_strip(uint32_t *corners, const MesoSection *section, const MesoVec2 *places)
+{
+    Strip strip = {.section = section, .places = places};
+    if (section->count < 3 || !find_ends(&strip))
+        return false;
+    uint32_t with_count = (strip.last + section->count - strip.first) % section->count;
+    uint32_t against_count = section->count - with_count, i = 1, j = 1;
+    add_corners(&corners, &strip, along_strip(&strip, 1, false), strip.first, along_strip(&strip, 1, true));
+    while (i + j + 1 < section->count) {
+        uint32_t at = along_strip(&strip, i, false), across = along_strip(&strip, j, true);
+        uint32_t after = along_strip(&strip, i + 1, false), beyond = along_strip(&strip, j + 1, true);
+        if (j == against_count || (i < with_count && places[after].x <= places[beyond].x)) {
+            add_corners(&corners, &strip, after, at, across);
+            i++;
+        } else {
+            add_corners(&corners, &strip, across, beyond, at);
+            j++;
+        }
+    }
+    return true;
+}

@@ -125,11 +125,47 @@ static void test_across(void)
     }
 }
 
+/*
+ * A wave of a strip, bent around an axis: triangles from side to side have the strip's area where it is laid flat, all of
+ * one winding, and are no longer than its sides and ends.
+ */
+static void test_strip(void)
+{
+    enum { HALF = 700, COUNT = 2 * HALF };
+    static MesoVec3 positions[COUNT];
+    static MesoVec2 places[COUNT];
+    static uint32_t vertices[COUNT], corners[3 * (COUNT - 2)];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        bool back = i >= HALF;
+        float x = 0.1f * (float)(back ? COUNT - 1 - i : i), y = sinf(0.5f * x) + (back ? 0.5f : 0);
+        places[i] = (MesoVec2){x, y};
+        positions[i] = (MesoVec3){12 * cosf(x / 12), 12 * sinf(x / 12), y};
+        vertices[i] = i;
+    }
+    MesoSection section = measured(COUNT, vertices, positions);
+    CHECK(meso_section_strip(corners, &section, places));
+    double area = 0;
+    for (uint32_t t = 0; t < COUNT - 2; t++) {
+        const uint32_t *c = &corners[3 * t];
+        MesoVec2 a = meso_vec2_sub(places[c[1]], places[c[0]]), b = meso_vec2_sub(places[c[2]], places[c[0]]);
+        CHECK(meso_vec2_cross(a, b) < 1e-5f);       /* against the loop */
+        area -= 0.5 * (double)meso_vec2_cross(a, b);
+        for (uint32_t k = 0; k < 3; k++)
+            CHECK(meso_vec3_length(meso_vec3_sub(positions[c[k]], positions[c[(k + 1) % 3]])) < 0.7f);
+    }
+    CHECK(fabs(area - 0.5 * 0.1 * (HALF - 1)) < 1e-3);
+    CHECK(meso_fixture_open_edges(corners, COUNT - 2) == COUNT);
+    for (uint32_t i = 0; i < COUNT; i++)    /* a loop that goes to and fro is none */
+        places[i].x = fmodf(places[i].x, 7);
+    CHECK(!meso_section_strip(corners, &section, places));
+}
+
 int main(void)
 {
     test_measure();
     test_halves();
     test_wild_rings();
     test_across();
+    test_strip();
     return 0;
 }
