@@ -7,7 +7,7 @@
 /* Longer loops are closed around a point: ears take the square of their number. */
 enum { EARS_LIMIT = 512 };
 
-/* Loops along a border are strips where they are so many times as long as high; what they may be off by where they end. */
+/* Loops along a border are strips where they are so many times as long as high; what may be missing at their end. */
 #define NARROW 4
 #define GAP_MOST 0.1f
 
@@ -88,7 +88,7 @@ static MesoVec3 border_way(const MesoFinishWork *work, uint32_t triangle)
     return meso_vec3_direction(way, (MesoVec3){0, 0, 0});
 }
 
-/* Lays a loop that a border has made flat: x along the border, y up. False where it goes around the border, or is short. */
+/* Lays a loop along a border flat: x along the border, y up. False where it goes all around it, or is short. */
 static bool lay_flat(MesoVec2 *places, const Closer *c, uint32_t count)
 {
     const MesoFinishWork *work = c->work;

@@ -33,6 +33,8 @@ static bool is_finished(const MesoFinishWork *work)
 static MesoStatus finish(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *work, MesoError *error)
 {
     MesoStatus status = find_normals(work, error);
+    if (!status && work->options->scale > 0)
+        status = meso_finish_relax(quilt, work, error);
     if (!status)
         status = meso_finish_cut(work, quilt, error);
     if (!status && work->options->scale > 0)

@@ -47,6 +47,10 @@ float meso_finish_inside(const MesoFinishWork *work, MesoQuiltVertex vertex);
 
 /* ---- steps ---- */
 
+/* Moves strands along the surface to where they lie around each other as in the swatch, as far as joins allow. Nothing,
+ * where the swatch has whole elements. */
+MesoStatus meso_finish_relax(MesoQuilt *quilt, MesoFinishWork *work, MesoError *error);
+
 /* Takes over what a quilt has on this side of the borders. */
 MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error);
 

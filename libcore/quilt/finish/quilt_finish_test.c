@@ -279,7 +279,7 @@ static double mean_rise(const MesoQuilt *q, const MesoSwatch *swatch)
     return sum / q->vertex_count;
 }
 
-/* A bar that rises along its way, as over many patches, comes back down; and one that is in waves, as long as patches. */
+/* A bar that rises along its way, as over many patches, comes back down; and one in waves, as long as patches. */
 static void test_level(void)
 {
     MesoArena arena;

@@ -50,9 +50,9 @@ void meso_section_zip(uint32_t *corners, const MesoSection *a, const MesoSection
 MesoStatus meso_section_cap(uint32_t *corners, MesoArena *scratch, const MesoSection *section, MesoError *error);
 
 /*
- * Closes a long and narrow section, as of a strand cut along, by count - 2 triangles from side to side of it, none longer
- * than it has to be, so that they follow it where it bends. `places` [count]: laid flat, x along it. False, and nothing is
- * written, where it does not go there and back by x. To `corners` [3 * (count - 2)]. O(count).
+ * Closes a long and narrow section, as of a strand cut along, by count - 2 triangles from side to side of it, none
+ * longer than it has to be, so that they follow it where it bends. `places` [count]: laid flat, x along it. False, and
+ * nothing is written, where it does not go there and back by x. To `corners` [3 * (count - 2)]. O(count).
  */
 bool meso_section_strip(uint32_t *corners, const MesoSection *section, const MesoVec2 *places);
 

@@ -126,8 +126,8 @@ static void test_across(void)
 }
 
 /*
- * A wave of a strip, bent around an axis: triangles from side to side have the strip's area where it is laid flat, all of
- * one winding, and are no longer than its sides and ends.
+ * A wave of a strip, bent around an axis: triangles from side to side have the strip's area where it is laid flat, all
+ * of one winding, and are no longer than its sides and ends.
  */
 static void test_strip(void)
 {

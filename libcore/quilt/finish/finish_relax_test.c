@@ -1,0 +1,142 @@
+#include "libcore/mesh/cut/triangulation_fixture.h"
+#include "libcore/quilt/finish/finish_work.h"
+#include "libcore/quilt/quilt_work.h"
+#include "libcore/quilt/swatch/swatch_make.h"
+
+/* A cloth of two patches on a plane around it. */
+typedef struct Cloth {
+    MesoArena arena;
+    MesoSwatch swatch;
+    MesoTriangulation plane;
+    MesoQuiltBase base;
+    MesoQuilt quilt;
+} Cloth;
+
+enum { SQUARES = 12 };
+#define PLANE 8.0f
+#define MARGIN 2.0f
+
+static MesoQuiltVertex place_at(const MesoTriangulation *mesh, MesoVec3 p)
+{
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *c = &mesh->corners[3 * (size_t)t];
+        MesoVec3 o = mesh->positions[c[0]], a = meso_vec3_sub(mesh->positions[c[1]], o);
+        MesoVec3 b = meso_vec3_sub(mesh->positions[c[2]], o), q = meso_vec3_sub(p, o);
+        float area = a.x * b.y - a.y * b.x, u = (q.x * b.y - q.y * b.x) / area, v = (a.x * q.y - a.y * q.x) / area;
+        if (u >= -1e-5f && v >= -1e-5f && u + v <= 1.00002f)
+            return (MesoQuiltVertex){t, u, v, p.z};
+    }
+    fprintf(stderr, "a point is off the base\n");
+    exit(1);
+}
+
+static MesoVec3 point_of(const Cloth *cloth, uint32_t v)
+{
+    MesoFinishWork work = {.base = &cloth->base};
+    MesoVec3 p = meso_finish_foot(&work, cloth->quilt.vertices[v]);
+    p.z = cloth->quilt.vertices[v].height;
+    return p;
+}
+
+/* What a vertex of the swatch is moved by: waves along and across, so large. */
+static MesoVec3 bent(MesoVec3 p, float size)
+{
+    return (MesoVec3){p.x + MARGIN + size * sinf(1.5f * p.y), p.y + MARGIN + size * sinf(1.2f * p.x), p.z};
+}
+
+static void init(Cloth *cloth, float size)
+{
+    MesoError error;
+    MesoPolygonMesh mesh;
+    meso_arena_init(&cloth->arena);
+    const MesoSwatchRecipe recipe = {.name = "weave", .columns = 4, .rows = 4, .jitter = 0.05f, .sides = 6};
+    CHECK(meso_swatch_make(&mesh, &cloth->arena, &recipe, &error) == MESO_OK);
+    const MesoSwatchOptions options = {.up = 2};
+    CHECK(meso_swatch_build(&cloth->swatch, &cloth->arena, &mesh, &options, &error) == MESO_OK);
+    cloth->plane = meso_fixture_sheet(SQUARES, SQUARES, PLANE / SQUARES);
+    CHECK(meso_quilt_base_build(&cloth->base, &cloth->arena, &cloth->plane, NULL, 2, 1, &error) == MESO_OK);
+    const MesoSwatch *s = &cloth->swatch;
+    MesoQuilt *q = &cloth->quilt;
+    *q = (MesoQuilt){.vertex_count = s->vertex_count, .triangle_count = s->triangle_count,
+                     .element_count = s->element_count, .corners = s->corners, .vertex_begin = s->vertex_begin,
+                     .triangle_begin = s->triangle_begin};
+    q->vertices = MESO_NEW(&cloth->arena, MesoQuiltVertex, s->vertex_count, &error);
+    q->origins = MESO_NEW(&cloth->arena, uint32_t, s->vertex_count, &error);
+    q->patches = MESO_NEW(&cloth->arena, uint32_t, s->triangle_count, &error);
+    CHECK(q->vertices && q->origins && q->patches);
+    for (uint32_t v = 0; v < s->vertex_count; v++) {
+        q->vertices[v] = place_at(&cloth->base.mesh, bent(s->positions[v], size));
+        q->origins[v] = v;
+    }
+    MesoStrandRings rings;
+    CHECK(meso_strands_find_rings(&rings, s, &cloth->arena, &error) == MESO_OK);
+    for (uint32_t c = 0; c < 3 * s->triangle_count; c++)    /* cut between rings: bands are the second's */
+        q->patches[c / 3] |= rings.middles[rings.of_vertex[s->corners[c]]].x > 0.45f * s->size.x;
+}
+
+static void release(Cloth *cloth)
+{
+    meso_quilt_base_release(&cloth->base);
+    meso_triangulation_release(&cloth->plane);
+    meso_arena_release(&cloth->arena);
+}
+
+static void relax(Cloth *cloth)
+{
+    MesoError error;
+    const MesoFinishOptions options = {.scale = 1};
+    MesoFinishWork work = {.base = &cloth->base, .swatch = &cloth->swatch, .options = &options,
+                           .arena = &cloth->arena};
+    CHECK(meso_finish_relax(&cloth->quilt, &work, &error) == MESO_OK);
+}
+
+/* By how much vertices some pitches apart are nearer or farther than in the swatch: root of the mean square. */
+static double strain(const Cloth *cloth)
+{
+    double sum = 0;
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < cloth->swatch.vertex_count; v += 5)
+        for (uint32_t w = v + 1; w < cloth->swatch.vertex_count; w += 7) {
+            MesoVec3 there = meso_vec3_sub(cloth->swatch.positions[w], cloth->swatch.positions[v]);
+            float apart = meso_vec3_length(there);
+            if (apart < 2 || apart > 3)
+                continue;
+            double off = (double)(meso_vec3_length(meso_vec3_sub(point_of(cloth, w), point_of(cloth, v))) - apart);
+            sum += off * off;
+            count++;
+        }
+    return sqrt(sum / count);
+}
+
+static void test_bent(void)
+{
+    Cloth cloth;
+    init(&cloth, 0.12f);
+    double before = strain(&cloth);
+    relax(&cloth);
+    CHECK(before > 0.05);
+    CHECK(strain(&cloth) < 0.4 * before);
+    release(&cloth);
+}
+
+/* What lies as in the swatch stays, to the bit. */
+static void test_straight(void)
+{
+    Cloth cloth;
+    init(&cloth, 0);
+    size_t size = cloth.quilt.vertex_count * sizeof *cloth.quilt.vertices;
+    MesoQuiltVertex *before = malloc(size);
+    CHECK(before);
+    memcpy(before, cloth.quilt.vertices, size);
+    relax(&cloth);
+    CHECK(memcmp(before, cloth.quilt.vertices, size) == 0);
+    free(before);
+    release(&cloth);
+}
+
+int main(void)
+{
+    test_bent();
+    test_straight();
+    return 0;
+}
