@@ -10,6 +10,9 @@ static const float DISTANCES[2] = {0.08f, 0.16f};
 /* Along strands into another patch: so many rings, of which each third counts. */
 enum { ACROSS = 9, ACROSS_STRIDE = 3 };
 
+/* The step from patch to patch itself is to be as long as all others. */
+#define JOINT_WEIGHT 10
+
 /*
  * What another patch has where this one would have a ring: at most so far from there, as a share of the swatch's
  * shorter side; on the same side of the surface, and along the same way, by the cosines; and as high, by a share of
@@ -151,8 +154,10 @@ static uint32_t pair_across(MesoRelaxPair *pairs, const MesoRelaxing *r, uint32_
         return 0;
     for (uint32_t step = 1; step <= ACROSS && at != MESO_NO_INDEX && name != MESO_NO_INDEX; step++) {
         if (r->nodes[at].patch != from->patch && (step == 1 || step % ACROSS_STRIDE == 0)) {
-            if (pairs)
+            if (pairs) {
                 pairs[count] = pair_of(r, from->name, at, name);
+                pairs[count].weight *= step == 1 ? JOINT_WEIGHT : 1;
+            }
             count++;
         }
         uint32_t node_after = other_of(r->nodes[at].next, before);
