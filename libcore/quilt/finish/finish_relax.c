@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "libcore/base/disjoint_sets.h"
-#include "libcore/quilt/finish/relax_work.h"
+#include "libcore/quilt/finish/finish_relax_work.h"
 
 /* ---- nodes ---- */
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
-#include "libcore/quilt/finish/relax_work.h"
+#include "libcore/quilt/finish/finish_relax_work.h"
 
 /* Rings around a ring are looked for at these distances, as shares of the swatch's shorter side. */
 static const float DISTANCES[2] = {0.08f, 0.16f};

@@ -1,7 +1,7 @@
 /* Moves of rings, by turns of the swatch at each of them and one system for all. */
 #include <string.h>
 
-#include "libcore/quilt/finish/relax_work.h"
+#include "libcore/quilt/finish/finish_relax_work.h"
 
 /* Rings that are off by a larger share of their distance, or of that length, are meant to be elsewhere. */
 #define FAR 0.6f
