@@ -1,6 +1,6 @@
 /* What strands are relaxed by: rings of a quilt, and where they should have each other. */
-#ifndef MESO_RELAX_WORK_H
-#define MESO_RELAX_WORK_H
+#ifndef MESO_FINISH_RELAX_WORK_H
+#define MESO_FINISH_RELAX_WORK_H
 
 #include "libcore/quilt/finish/finish_work.h"
 #include "libcore/quilt/quilt_work.h"
