@@ -27,8 +27,15 @@ MesoStatus meso_render_source_check(MesoRenderArguments *a, MesoError *error)
         return meso_fail(error, MESO_ERR_USAGE, "--mesh-path is for --tiles; a model holds its meshes");
     if (a->tiles && a->show)
         return meso_fail(error, MESO_ERR_USAGE, "--tiles and --show both say what is drawn: give one of them");
-    if (a->tiles)
+    if (a->tiles) {
+        MesoCameraOptions *camera = &a->camera;
+        bool placed = camera->fov_given || camera->focal_given || camera->ortho_given || camera->file || a->keys;
+        if (!placed) {              /* of cells beside each other none looks larger */
+            camera->ortho_given = true;
+            camera->ortho = 0;
+        }
         return need_operands(a, 0, ": --tiles is what is drawn", error);
+    }
     a->model = a->tool.operand_count ? a->tool.operands[0] : NULL;
     if (a->show) {
         MesoStatus status = meso_render_show_check(a, error);
