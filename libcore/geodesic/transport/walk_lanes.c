@@ -171,12 +171,18 @@ INLINE Bits begin(Walkers *walkers, Places *places, const MesoWalk *walks)
     return ~(first | second | third);
 }
 
-INLINE Ahead look_ahead(const Walkers *walkers, const Places *places)
+/* Over the sides that walks have come in by. */
+INLINE Plane far_apex(const Places *places)
 {
 #define FAR_RE(lane) places->faces[lane]->apexes[places->sides[lane]].re
 #define FAR_IM(lane) places->faces[lane]->apexes[places->sides[lane]].im
+    return (Plane){EACH(Lanes, FAR_RE), EACH(Lanes, FAR_IM)};
+}
+
+INLINE Ahead look_ahead(const Walkers *walkers, const Places *places)
+{
     Ahead ahead;
-    Plane side = walkers->side, left = walkers->left, apex = {EACH(Lanes, FAR_RE), EACH(Lanes, FAR_IM)};
+    Plane side = walkers->side, left = walkers->left, apex = far_apex(places);
     Plane to_far = times(apex, side), from_far = minus(side, to_far);
     Plane far = {left.re + to_far.re, left.im + to_far.im};
     ahead.far_left = far.im >= 0;
