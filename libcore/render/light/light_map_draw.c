@@ -97,7 +97,7 @@ static Boxes boxes_of(const MesoShapes *shapes, uint64_t first, uint32_t count)
 }
 
 /* Whether there is a texel's middle within what a box covers. */
-static inline bool has_middle(float middle, float reach)
+static inline uint8_t has_middle(float middle, float reach)
 {
     const float slack = 2.f / MESO_RASTER_UNIT;
     return floorf(middle + reach - 0.5f + slack) >= middle - reach - 0.5f - slack;
