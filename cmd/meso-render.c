@@ -14,8 +14,7 @@
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
 #include "libcore/base/index.h"
-#include "libcore/render/apart.h"
-#include "libcore/render/picture/covered.h"
+#include "libcore/render/picture/apart.h"
 #include "libcore/render/picture/motion.h"
 #include "libcore/render/picture/tile_picture.h"
 
@@ -160,19 +159,8 @@ static bool wants_gl(const MesoRenderArguments *a)
 
 static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
 {
-    if (wants_gl(a) && strcmp(a->samples_text, "16") == 0)
-        return meso_fail(error, MESO_ERR_USAGE, "--samples 16 is for --visibility tiles; GL draws 1 or 4");
-    if (wants_gl(a) && strcmp(a->ground, "none") != 0)
-        return meso_fail(error, MESO_ERR_USAGE, "--ground is for --visibility tiles; GL draws none");
-    if (wants_gl(a) && a->extras)
-        return meso_fail(error, MESO_ERR_USAGE, "--aov is for --visibility tiles; GL draws the usual variables alone");
-    if (wants_gl(a) && a->show && (strcmp(a->show, "strands") == 0 || strncmp(a->show, "id:", 3) == 0))
-        return meso_fail(error, MESO_ERR_USAGE, "--show %s is for --visibility tiles; GL draws models as they are",
-                         a->show);
-    if (wants_gl(a) && strcmp(a->light, "camera") != 0)
-        return meso_fail(error, MESO_ERR_USAGE, "--light is for --visibility tiles; GL's light comes with the camera");
-    if (wants_gl(a) && a->vary > 0)
-        return meso_fail(error, MESO_ERR_USAGE, "--vary is for --visibility tiles; GL varies nothing");
+    if (wants_gl(a) && a->extras & MESO_EXTRA_MOTION)
+        return meso_fail(error, MESO_ERR_USAGE, "--aov motion is for --visibility tiles; GL finds none");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
         return meso_fail(error, MESO_ERR_USAGE, "--context is for --visibility gl; tiles need none");
     return MESO_OK;
@@ -187,13 +175,11 @@ static bool tight(const MesoRenderArguments *a)
 static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
 {
-    MesoPicture *picture;
+    MesoApartPicture *picture;
     double at = meso_seconds();
-    MesoStatus status = meso_picture_init(&picture, arena, a->context, a->tool.threads, scene, &d->options, error);
+    MesoStatus status = meso_apart_picture_init(&picture, arena, a->context, a->tool.threads, scene, &d->options, error);
     if (status)
         return status;
-    if (tight(a))
-        meso_covered_add(&picture->image.covered, &picture->image, 0);
     d->renderer = meso_arena_copy_text(&a->tool.arena, picture->renderer, error);
     d->drawing = meso_seconds() - picture->context_made;
     d->context = lap(&at) - d->drawing;
@@ -204,7 +190,7 @@ static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *aren
         status = meso_picture_files_band(&d->files, error);
     status = meso_picture_files_end(&d->files, status, error);
     d->writing = lap(&at);
-    meso_picture_release(picture);
+    meso_apart_picture_release(picture);
     return status;
 }
 

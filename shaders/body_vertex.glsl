@@ -1,9 +1,10 @@
-// A vertex of a body, placed on the CPU. COLORED: with a colour of its own.
+// A vertex of a body, placed on the CPU.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in uint ids;
-#ifdef COLORED
+layout(location = 2) in uint shape;
+#ifdef DETAILED
 layout(location = 3) in vec3 color;
+layout(location = 4) in vec2 uv;
 #endif
 
 layout(location = 0) uniform mat4 clip_from_world;
@@ -11,10 +12,11 @@ layout(location = 1) uniform vec4 depth_axis;
 
 out vec3 world_normal;
 out float view_depth;
-out float material_blend;
-flat out uint id_row;
-#ifdef COLORED
-out vec3 vertex_color;
+out float along_shape;
+flat out uint shape_id;
+#ifdef DETAILED
+out vec2 shape_uv;
+out vec3 shape_color;
 #endif
 
 void main()
@@ -22,9 +24,10 @@ void main()
     gl_Position = clip_from_world * vec4(position, 1.0);
     world_normal = normal;
     view_depth = dot(depth_axis, vec4(position, 1.0));
-    material_blend = 0.0;
-    id_row = ids;
-#ifdef COLORED
-    vertex_color = color;
+    along_shape = 0.0;
+    shape_id = shape;
+#ifdef DETAILED
+    shape_uv = uv;
+    shape_color = color;
 #endif
 }

@@ -12,8 +12,12 @@ layout(location = 7) in vec3 up0;
 layout(location = 8) in vec3 up1;
 layout(location = 9) in vec3 direction0;
 layout(location = 10) in vec3 direction1;
-layout(location = 11) in uint ids;
+layout(location = 11) in uint shape;
 layout(location = 12) in vec3 size_twist;       // size at both ends, twist
+
+#ifdef DETAILED
+layout(location = 14) in float around;
+#endif
 
 #ifdef BENT
 layout(location = 13) in uint cage;
@@ -32,8 +36,12 @@ layout(location = 10) uniform vec4 middle;      // start.xy, end.xy
 
 out vec3 world_normal;
 out float view_depth;
-out float material_blend;
-flat out uint id_row;
+out float along_shape;
+flat out uint shape_id;
+#ifdef DETAILED
+out vec2 shape_uv;
+out vec3 shape_color;
+#endif
 
 vec3 unit(vec3 v, vec3 otherwise)
 {
@@ -121,7 +129,6 @@ void main()
     vec2 n = cap_rise * size_twist.x * profile_normal.xy;
     float lean = 4.0 * v * v * v * dot(start, profile_normal.xy);
     vec3 x = across(up, tangent);
-    material_blend = 0.0;
 #else
     bool inside = v > 0.0 && v < 1.0;
     float w = 1.0 - v, blend = v * v * (3.0 - 2.0 * v), twist = size_twist.z;
@@ -150,7 +157,6 @@ void main()
     }
     float speed = length(derivative);
     float lean = speed > 0.0 ? -section_scale * 6.0 * v * w * slope / speed : 0.0;
-    material_blend = v;
 #endif
     vec3 y = cross(tangent, x);
     vec3 position = origin + section_scale * (s.x * x + s.y * y);
@@ -161,5 +167,10 @@ void main()
     world_normal = unit(normal, x);
     gl_Position = clip_from_world * vec4(position, 1.0);
     view_depth = dot(depth_axis, vec4(position, 1.0));
-    id_row = ids;
+    along_shape = v;
+    shape_id = shape;
+#ifdef DETAILED
+    shape_uv = vec2(around, v);
+    shape_color = vec3(1);
+#endif
 }

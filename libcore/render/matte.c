@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "libcore/base/bits.h"
 #include "libcore/base/index.h"
 
 static uint32_t turned(uint32_t x, int by)
@@ -53,18 +52,13 @@ const char *meso_matte_name(const MesoMatte *matte, uint32_t i, char text[16])
     return text;
 }
 
-MesoStatus meso_matte_init(MesoMatte *matte, MesoArena *arena, MesoError *error)
+void meso_matte_init(MesoMatte *matte)
 {
-    matte->hashes = MESO_NEW(arena, float, matte->count, error);
-    matte->seen = MESO_NEW(arena, uint64_t, meso_bits_words(matte->count), error);
-    if (!matte->hashes || !matte->seen)
-        return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < matte->count; i++) {
         char text[16];
         const char *name = meso_matte_name(matte, i, text);
         matte->hashes[i] = meso_matte_number(meso_matte_hash(name, strlen(name)));
     }
-    return MESO_OK;
 }
 
 typedef struct Share {

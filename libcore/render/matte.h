@@ -9,7 +9,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "libcore/base/arena.h"
 
 /* Things a pixel that are kept, those that cover most of it; three layers of two each. */
 enum { MESO_MATTE_RANKS = 6, MESO_MATTE_MOST = 8 };
@@ -19,7 +18,7 @@ typedef struct MesoMatte {
     uint32_t count;             /* things */
     const char *const *names;   /* [count], or NULL: numbers are their own names */
     float *hashes;              /* [count] */
-    uint64_t *seen;             /* bits of things: those that some pixel shows */
+    uint64_t *seen;             /* [words of count] bits of things: those that some pixel shows */
     float *ranks;               /* [2 * MESO_MATTE_RANKS * pixels] number and coverage of each, most first; 0 for none */
 } MesoMatte;
 
@@ -29,8 +28,8 @@ float meso_matte_number(uint32_t hash);
 /* The name of thing `i`, in `text` where it is a number. */
 const char *meso_matte_name(const MesoMatte *matte, uint32_t i, char text[16]);
 
-/* Hashes all names; `hashes` and `seen` live in `arena`. MESO_ERR_MEMORY alone. */
-MesoStatus meso_matte_init(MesoMatte *matte, MesoArena *arena, MesoError *error);
+/* Hashes all names; `hashes` and `seen`, zeroed, have their places. */
+void meso_matte_init(MesoMatte *matte);
 
 /*
  * Fills in the ranks of a pixel from its samples' things [sample_count], of which MESO_NO_INDEX is none. May be called

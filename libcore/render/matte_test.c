@@ -9,9 +9,6 @@
 #include "libcore/base/index.h"
 #include "libcore/base/random.h"
 
-static MesoArena arena;
-static MesoError error;
-
 static void test_hashes(void)
 {
     CHECK(meso_matte_hash("", 0) == 0 && meso_matte_hash("test", 4) == 0xba6bd213u);
@@ -27,8 +24,10 @@ static void test_ranks(void)
 {
     MesoRandom random;
     float ranks[2 * MESO_MATTE_RANKS * 2];
-    MesoMatte matte = {.name = "tile", .count = 200, .ranks = ranks};
-    CHECK(meso_matte_init(&matte, &arena, &error) == MESO_OK);
+    float hashes[200];
+    uint64_t bits[4] = {0};
+    MesoMatte matte = {.name = "tile", .count = 200, .hashes = hashes, .seen = bits, .ranks = ranks};
+    meso_matte_init(&matte);
     meso_random_init(&random, 5, 0);
     for (uint32_t turn = 0; turn < 2000; turn++) {
         uint32_t things[16], counts[200] = {0}, n = turn % 3 == 0 ? 1 : turn % 3 == 1 ? 4 : 16, kinds = 1 + turn % 12;
@@ -62,9 +61,7 @@ static void test_ranks(void)
 
 int main(void)
 {
-    meso_arena_init(&arena);
     test_hashes();
     test_ranks();
-    meso_arena_release(&arena);
     return 0;
 }

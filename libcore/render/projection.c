@@ -94,31 +94,3 @@ MesoMatrix meso_view_clip_from_world(const MesoView *view, float end_depth, uint
     set_row(&matrix, 3, view->forward, -meso_vec3_dot(view->forward, eye));
     return matrix;
 }
-
-MesoMatrix meso_light_clip_from_world(MesoVec3 direction, MesoVec3 low, MesoVec3 high, float *extent)
-{
-    MesoVec3 axes[3] = {{0, 0, 0}, {0, 0, 0}, meso_vec3_scale(direction, -1)};
-    build_basis(direction, across(direction), &axes[0], &axes[1]);
-
-    float center[3], half[3];
-    for (uint32_t a = 0; a < 3; a++) {
-        float least = INFINITY, most = -INFINITY;
-        for (uint32_t i = 0; i < 8; i++) {
-            float d = meso_vec3_dot(axes[a], meso_box_corner(low, high, i));
-            least = fminf(least, d);
-            most = fmaxf(most, d);
-        }
-        center[a] = 0.5f * (least + most);
-        half[a] = 0.5f * (most - least);
-    }
-    float side = 1.02f * fmaxf(fmaxf(half[0], half[1]), 1e-20f);
-    float deep = 1.02f * fmaxf(half[2], 1e-20f);
-    *extent = 2 * side;
-
-    MesoMatrix matrix;
-    set_row(&matrix, 0, meso_vec3_scale(axes[0], 1 / side), -center[0] / side);
-    set_row(&matrix, 1, meso_vec3_scale(axes[1], 1 / side), -center[1] / side);
-    set_row(&matrix, 2, meso_vec3_scale(axes[2], 0.5f / deep), 0.5f - 0.5f * center[2] / deep);
-    set_row(&matrix, 3, (MesoVec3){0, 0, 0}, 1);
-    return matrix;
-}

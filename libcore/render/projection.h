@@ -1,6 +1,6 @@
 /*
  * From the world to pixels: the basis of a camera, and matrices for a window
- * of its image and for the light's orthographic view. Depth is reversed and
+ * of its image. Depth is reversed and
  * infinite: 1 at the near plane, 0 at infinity, which keeps floats exact where
  * the picture needs them.
  */
@@ -60,12 +60,5 @@ MesoVec3 meso_box_anchor(MesoVec3 low, MesoVec3 high);
  */
 MesoMatrix meso_view_clip_from_world(const MesoView *view, float end_depth, uint32_t width,
                                      uint32_t height, MesoWindow window);
-
-/*
- * World to the light's clip space (z in [0,1], 1 nearest): looks along `direction`
- * (unit, from the light), tight around the box. `extent` gets the width of the
- * view, which is square, in scene units.
- */
-MesoMatrix meso_light_clip_from_world(MesoVec3 direction, MesoVec3 low, MesoVec3 high, float *extent);
 
 #endif

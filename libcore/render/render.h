@@ -1,14 +1,14 @@
-/* Renderer: a scene to an image with its arbitrary output variables (AOVs). */
+/* Images with their arbitrary output variables (AOVs), and what they are asked for: picture/tile_picture.h draws them. */
 #ifndef MESO_RENDER_H
 #define MESO_RENDER_H
 
 #include <stddef.h>
 
 #include "libcore/render/camera.h"
-#include "libcore/render/context.h"
+#include "libcore/base/arena.h"
 #include "libcore/render/matte.h"
 
-/* Variables that are made where they are asked for, and not by GL. */
+/* Variables that are made where they are asked for. */
 typedef enum MesoImageExtra {
     MESO_EXTRA_POSITION = 1, MESO_EXTRA_UV = 2, MESO_EXTRA_OCCLUSION = 4, MESO_EXTRA_MATERIAL = 8,
     MESO_EXTRA_MATTES = 16, MESO_EXTRA_MOTION = 32
@@ -38,42 +38,32 @@ typedef struct MesoImage {
 typedef struct MesoRenderOptions {
     uint32_t width, height;     /* up to 16384 each */
     MesoCamera camera;
-    uint32_t samples;           /* for antialiasing of color; 1 or 4, or 16 without GL */
-    MesoVec3 up;                /* in the world, of the ground and an environment; 0: the camera's; without GL */
-    bool ground;                /* shadow where nothing is, on the ground under the scene; without GL */
+    uint32_t samples;           /* for antialiasing of color; 1, 4 or 16 */
+    MesoVec3 up;                /* in the world, of the ground and an environment; 0: the camera's */
+    bool ground;                /* shadow where nothing is, on the ground under the scene */
     unsigned extras;            /* MesoImageExtra, or-ed */
-    const struct MesoEnvironment *environment;      /* the light (environment.h); NULL: one that comes with the camera;
-                                                     * without GL */
-    float vary;                 /* how much colours differ from thing to thing (light/vary.h); without GL */
-    uint32_t color_ids;         /* channel + 1 whose ids give the colours (id_color.h); 0: materials do; without GL */
+    const struct MesoEnvironment *environment;      /* the light (environment.h); NULL: one that comes with the
+                                                     * camera */
+    float vary;                 /* how much colours differ from thing to thing (light/vary.h) */
+    uint32_t color_ids;         /* channel + 1 whose ids give the colours (id_color.h); 0: materials do */
     uint32_t band_rows;         /* of a picture that is painted in bands (picture/tile_picture.h); 0: by their memory */
     MesoCamera next_camera;     /* of the next frame, for motion */
     const MesoScene *next_scene;    /* alike (picture/motion.h); NULL: the same */
-    bool find_covered;          /* fill in `covered` of the image; without GL */
+    bool find_covered;          /* fill in `covered` of the image */
     bool full_detail;           /* every column and ring of the kinds, however small on the picture */
 } MesoRenderOptions;
 
-/*
- * Draws all sweeps and bodies of `scene`. Colour is antialiased, the
- * other variables are those of the pixel's centre. Arrays of `image` go to
- * `arena`, the names of its channels stay the scene's. MESO_ERR_LIMIT for an image over the context's limits,
- * MESO_ERR_INTERNAL with the driver's words where GL fails.
- */
-MesoStatus meso_render(MesoImage *image, MesoArena *arena, MesoGlContext *context,
-                       const MesoScene *scene, const MesoRenderOptions *options,
-                       MesoError *error);
+/* MESO_ERR_LIMIT or MESO_ERR_USAGE for options that no picture has. */
+MesoStatus meso_render_check(const MesoRenderOptions *options, MesoError *error);
+
+/* What the image's arrays take, a pixel, and all of them. */
+size_t meso_image_pixel_bytes(const MesoScene *scene, const MesoRenderOptions *options);
+size_t meso_image_bytes(const MesoScene *scene, const MesoRenderOptions *options);
 
 /*
- * The parts of meso_render(), for an image whose memory is not an arena's.
- * First: checks `options`, and says how many bytes the image takes, and how
- * many at the least GL takes to draw it. Then the image's arrays get their
- * places in `memory`, aligned to 64, and are drawn.
+ * Places the arrays that `options` ask for in `memory`, aligned to 64, zeroed, which the image may outlive no more than
+ * the scene, whose names it has. O(things that mattes are of).
  */
-MesoStatus meso_render_memory(const MesoScene *scene, const MesoRenderOptions *options, size_t *image_bytes,
-                              size_t *least_bytes, MesoError *error);
 void meso_image_place(MesoImage *image, void *memory, const MesoScene *scene, const MesoRenderOptions *options);
-MesoStatus meso_render_placed(MesoImage *image, MesoArena *arena, MesoGlContext *context,
-                              const MesoScene *scene, const MesoRenderOptions *options,
-                              MesoError *error);
 
 #endif

@@ -9,7 +9,8 @@
 #include "formats/model/model_file.h"
 #include "libcore/base/check.h"
 #include "libcore/base/clock.h"
-#include "libcore/render/render.h"
+#include "libcore/render/gl/context.h"
+#include "libcore/render/picture/tile_picture.h"
 #include "libcore/tiling/strand/expansion.h"
 
 enum { FIELD = 128, SIDES = 16, REPEATS = 3 };
@@ -66,7 +67,7 @@ static void measure(const char *name, MesoGlContext *context, const MesoScene *s
         MesoError error;
         meso_arena_init(&arena);
         double start = meso_seconds();
-        CHECK(meso_render(&image, &arena, context, scene, &options, &error) == MESO_OK);
+        CHECK(meso_gl_picture(&image, &arena, context, scene, &options, 0, &error) == MESO_OK);
         best = fmin(best, meso_seconds() - start);
         meso_arena_release(&arena);
     }

@@ -59,7 +59,6 @@ refuse() {
     echo "status $status"
 }
 refuse --light-turn 20
-refuse --light studio --visibility gl
 refuse --background light
 refuse --background 1,2,3
 refuse --background some.jpg

@@ -24,8 +24,15 @@ meso-info -q --compare tiles.exr varied.exr -o beside.json || echo "status $?"
 for channel in R A slot Z N.X albedo.R; do
     awk -v n="$(field $channel differing)" 'BEGIN { print (n > 0) }'
 done
-render --vary 0.5 --visibility gl -o no.exr
-echo "status $?"
+
+echo "== GL finds what is seen for the same light"
+for maker in tiles gl; do
+    render --visibility $maker --light sky --ground shadow --vary 0.5 --aov all -o $maker.exr
+done
+meso-info -q --compare tiles.exr gl.exr -o beside.json || echo "status $?"
+for channel in R G A AO P.X uv.U; do
+    awk -v n="$(field $channel relative)" 'BEGIN { print (n < 0.1) }'
+done
 
 echo "== from elsewhere"
 meso-info -q --compare tiles.exr other.exr -o beside.json || echo "status $?"

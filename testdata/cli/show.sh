@@ -76,7 +76,6 @@ refuse --show failures --report no.json cube.obj
 refuse --show failures --report vase.tiles.json vase.obj
 refuse --show macro --report no.json vase.obj
 refuse --show macro --tiles vase.tiles.json
-refuse --show strands --visibility gl vase.meso
 sed 's/"slots": \[/"slots": [240, /' no.json >beyond.json
 refuse --show failures --report beyond.json vase.obj
 ls x.png 2>/dev/null

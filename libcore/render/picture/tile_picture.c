@@ -1,5 +1,7 @@
 #include "libcore/render/picture/tile_picture.h"
 
+#include "libcore/base/parallel.h"
+#include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/light/light_rig.h"
 #include "libcore/render/light/vary.h"
 #include "libcore/render/picture/covered.h"
@@ -28,8 +30,17 @@ struct MesoTilePainter {
     uint32_t varied;            /* channel whose things differ in colour, or MESO_NO_INDEX */
     MesoRasterJob job;
     MesoRasterBins *bins;
+    MesoGlVisibility *gl;       /* in their place, or NULL */
     MesoMotion motion;          /* where it is asked for */
 };
+
+/* A window of the picture in which somebody has found what is seen. */
+typedef struct Seen {
+    MesoWindow window;
+    bool (*sample)(const struct Seen *seen, uint32_t x, uint32_t y, uint32_t sample, MesoSurfaceSample *out);
+    MesoRasterTile *tile;
+    const MesoGlVisibility *gl;
+} Seen;
 
 /* Half of the way to the nearest thing, but a share of the way to the farthest; the eye's plane of a parallel view. */
 static float near_depth_of(const MesoView *view, const MesoBox *box)
@@ -208,17 +219,17 @@ static void put_mattes(const Picture *p, size_t pixel, uint32_t (*things)[MOST_S
 }
 
 /* `pixel` is its number in the band. */
-static void take_pixel(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
+static void take_pixel(const Picture *p, const Seen *from, uint32_t x, uint32_t y, size_t pixel)
 {
     Group groups[MOST_SAMPLES];
     MesoSurfaceSample sample;
     uint32_t samples = p->options->samples, count = 0, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
-    MesoWindow window = meso_raster_tile_window(tile);
+    MesoWindow window = from->window;
     bool middle = false;
     float *color = p->image->color + 4 * pixel;
     color[0] = color[1] = color[2] = color[3] = 0;
     for (uint32_t i = 0; i < samples; i++) {
-        bool there = meso_raster_tile_sample(tile, x, y, i, &sample);
+        bool there = from->sample(from, x, y, i, &sample);
         if (i == 0 && there)
             put_middle(p, &sample, pixel);
         else if (i == 0)
@@ -243,14 +254,14 @@ static void take_pixel(const Picture *p, MesoRasterTile *tile, uint32_t x, uint3
 }
 
 /* What is there, without light. */
-static void take_things(const Picture *p, MesoRasterTile *tile, uint32_t x, uint32_t y, size_t pixel)
+static void take_things(const Picture *p, const Seen *from, uint32_t x, uint32_t y, size_t pixel)
 {
     MesoSurfaceSample sample;
-    MesoWindow window = meso_raster_tile_window(tile);
+    MesoWindow window = from->window;
     uint32_t samples = p->options->samples, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
     float *color = p->image->color + 4 * pixel;
     for (uint32_t i = 0; i < samples; i++) {
-        bool there = meso_raster_tile_sample(tile, x, y, i, &sample);
+        bool there = from->sample(from, x, y, i, &sample);
         note_things(p, there ? &sample : NULL, i, things);
         seen += there;
     }
@@ -260,88 +271,75 @@ static void take_things(const Picture *p, MesoRasterTile *tile, uint32_t x, uint
         shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f, 1, color);
 }
 
-static void take_tile(void *context, MesoRasterTile *tile)
+/* Rows [begin, end) of the window, as far as the band has them. */
+static void take_rows(const Picture *p, const Seen *from, uint32_t begin, uint32_t end)
 {
-    const Picture *p = context;
-    MesoWindow window = meso_raster_tile_window(tile);
-    for (uint32_t y = 0; y < window.height; y++) {
-        uint32_t row = window.y + y;
+    for (uint32_t y = begin; y < end; y++) {
+        uint32_t row = from->window.y + y;
         if (row < p->first_row || row - p->first_row >= p->image->height)
             continue;
-        size_t pixel = (size_t)(row - p->first_row) * p->image->width + window.x;
-        for (uint32_t x = 0; x < window.width; x++, pixel++)
+        size_t pixel = (size_t)(row - p->first_row) * p->image->width + from->window.x;
+        for (uint32_t x = 0; x < from->window.width; x++, pixel++)
             if (p->things_only)
-                take_things(p, tile, x, y, pixel);
+                take_things(p, from, x, y, pixel);
             else
-                take_pixel(p, tile, x, y, pixel);
+                take_pixel(p, from, x, y, pixel);
     }
 }
 
-/* ---- extras ---- */
-
-/* Zeroed where it was asked for. */
-static bool make_extra(float **array, const MesoImage *image, unsigned asked, unsigned extra, size_t width,
-                       MesoArena *arena, MesoError *error)
+static bool sample_tile(const Seen *from, uint32_t x, uint32_t y, uint32_t sample, MesoSurfaceSample *out)
 {
-    if (!(asked & extra))
-        return true;
-    *array = MESO_NEW(arena, float, width * image->width * image->height, error);
-    return *array != NULL;
+    return meso_raster_tile_sample(from->tile, x, y, sample, out);
 }
 
-static MesoStatus make_mattes(MesoImage *image, MesoArena *arena, const MesoScene *scene, MesoError *error)
+static void take_tile(void *context, MesoRasterTile *tile)
+{
+    const Seen from = {.window = meso_raster_tile_window(tile), .sample = sample_tile, .tile = tile};
+    take_rows(context, &from, 0, from.window.height);
+}
+
+/* ---- by GL ---- */
+
+static bool sample_gl(const Seen *from, uint32_t x, uint32_t y, uint32_t sample, MesoSurfaceSample *out)
+{
+    return meso_gl_visibility_sample(from->gl, x, y, sample, out);
+}
+
+typedef struct GlRows {
+    const Picture *picture;
+    Seen from;
+} GlRows;
+
+static void take_gl_rows(void *context, uint64_t begin, uint64_t end)
+{
+    const GlRows *rows = context;
+    take_rows(rows->picture, &rows->from, (uint32_t)begin, (uint32_t)end);
+}
+
+static MesoStatus paint_by_gl(const Picture *p, MesoError *error)
 {
     MesoStatus status = MESO_OK;
-    image->matte_count = image->channel_count + 1;
-    for (uint32_t m = 0; m < image->matte_count && !status; m++) {
-        MesoMatte *matte = &image->mattes[m];
-        *matte = m < image->channel_count
-                     ? (MesoMatte){.name = scene->channels[m].name, .count = scene->channels[m].count,
-                                   .names = (const char *const *)scene->channels[m].names}
-                     : (MesoMatte){.name = "material", .count = scene->material_count,
-                                   .names = (const char *const *)scene->material_names};
-        status = meso_matte_init(matte, arena, error);
-        if (!status)
-            matte->ranks = MESO_NEW(arena, float, 2 * MESO_MATTE_RANKS * (size_t)image->width * image->height, error);
-        if (!matte->ranks)
-            status = MESO_ERR_MEMORY;
-    }
+    uint32_t side = meso_gl_window_side(p->options->samples), end = p->first_row + p->image->height;
+    for (uint32_t y = p->first_row; y < end && !status; y += side)
+        for (uint32_t x = 0; x < p->image->width && !status; x += side) {
+            MesoWindow window = {x, y, p->image->width - x < side ? p->image->width - x : side,
+                                 end - y < side ? end - y : side};
+            GlRows rows = {p, {.window = window, .sample = sample_gl, .gl = p->gl}};
+            status = meso_gl_visibility_draw(p->gl, window, error);
+            if (!status)
+                meso_parallel_for(p->thread_count, window.height, 4, take_gl_rows, &rows);
+        }
     return status;
 }
 
-static MesoStatus make_extras(MesoImage *image, MesoArena *arena, const MesoScene *scene, unsigned asked,
-                              MesoError *error)
-{
-    bool made = make_extra(&image->position, image, asked, MESO_EXTRA_POSITION, 3, arena, error) &&
-                make_extra(&image->uv, image, asked, MESO_EXTRA_UV, 2, arena, error) &&
-                make_extra(&image->openness, image, asked, MESO_EXTRA_OCCLUSION, 1, arena, error) &&
-                make_extra(&image->material, image, asked, MESO_EXTRA_MATERIAL, 2, arena, error) &&
-                make_extra(&image->motion, image, asked, MESO_EXTRA_MOTION, 2, arena, error);
-    if (!made)
-        return MESO_ERR_MEMORY;
-    return asked & MESO_EXTRA_MATTES ? make_mattes(image, arena, scene, error) : MESO_OK;
-}
-
 /* ---- all of it, or bands ---- */
-
-/* What a pixel takes in an image. */
-static size_t pixel_bytes(const MesoScene *scene, const MesoRenderOptions *options)
-{
-    const size_t usual = sizeof(float) * (4 + 1 + 3 + 3), ids = sizeof(uint32_t) * scene->channel_count;
-    const size_t mattes = 2 * MESO_MATTE_RANKS * sizeof(float) * (scene->channel_count + 1);
-    unsigned asked = options->extras;
-    return usual + ids + (asked & MESO_EXTRA_POSITION ? 3 * sizeof(float) : 0) +
-           (asked & MESO_EXTRA_UV ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_OCCLUSION ? sizeof(float) : 0) +
-           (asked & MESO_EXTRA_MATERIAL ? 2 * sizeof(float) : 0) +
-           (asked & MESO_EXTRA_MOTION ? 2 * sizeof(float) : 0) + (asked & MESO_EXTRA_MATTES ? mattes : 0);
-}
 
 /* A tile that more than one band has rows of is drawn for each of them. */
 uint32_t meso_tile_band_rows(const MesoScene *scene, const MesoRenderOptions *options)
 {
     enum { LEAST = 16 };
     uint32_t tile = meso_raster_tile_rows(options->samples);
-    size_t rows = MESO_BAND_BYTES / (options->width * pixel_bytes(scene, options));
+    size_t rows = MESO_BAND_BYTES / (options->width * meso_image_pixel_bytes(scene, options));
     if (options->band_rows)
         rows = (options->band_rows + LEAST - 1) / LEAST * LEAST;
     else if (rows >= tile)
@@ -355,18 +353,16 @@ uint32_t meso_tile_band_rows(const MesoScene *scene, const MesoRenderOptions *op
 static MesoStatus make_band(MesoImage *band, MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
                             MesoError *error)
 {
-    size_t bytes, least;
-    MesoStatus status = meso_render_memory(scene, options, &bytes, &least, error);
+    MesoRenderOptions rows = *options;
+    MesoStatus status = meso_render_check(options, error);
     if (status)
         return status;
-    MesoRenderOptions rows = *options;
     rows.height = meso_tile_band_rows(scene, options);
-    status = meso_render_memory(scene, &rows, &bytes, &least, error);
-    unsigned char *memory = status ? NULL : MESO_NEW(arena, unsigned char, bytes + 64, error);
+    unsigned char *memory = MESO_NEW(arena, unsigned char, meso_image_bytes(scene, &rows) + 64, error);
     if (!memory)
-        return status ? status : MESO_ERR_MEMORY;
+        return MESO_ERR_MEMORY;
     meso_image_place(band, memory + (64 - (size_t)(uintptr_t)memory % 64) % 64, scene, &rows);
-    return make_extras(band, arena, scene, options->extras, error);
+    return MESO_OK;
 }
 
 static MesoStatus paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
@@ -375,6 +371,8 @@ static MesoStatus paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row,
     band->height = band->height < left ? band->height : left;
     p->image = band;
     p->first_row = first_row;
+    if (p->gl)
+        return paint_by_gl(p, error);
     return meso_raster_rows(p->bins, first_row, first_row + band->height, p->thread_count, take_tile, p, error);
 }
 
@@ -401,34 +399,50 @@ static MesoStatus look_through(MesoTilePainter *p, MesoImage *band, MesoError *e
     return status;
 }
 
-MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
-                                  const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+/* Of what is seen, and of light. */
+static MesoStatus get_ready(MesoTilePainter *p, MesoArena *arena, MesoError *error)
 {
-    MesoTilePainter *p = *painter = MESO_NEW(arena, MesoTilePainter, 1, error);
-    if (!p)
-        return MESO_ERR_MEMORY;
-    *p = (MesoTilePainter){.options = options, .scene = scene, .varied = meso_vary_channel(scene),
-                           .thread_count = thread_count};
+    const MesoRenderOptions *options = p->options;
+    const MesoScene *scene = p->scene;
     MesoStatus status = meso_view_build(&p->view, &options->camera, error);
-    if (!status)
-        status = make_band(band, arena, scene, options, error);
     if (status)
         return status;
     p->view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
-    status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, thread_count, error);
+    status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, p->thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
     if (!status)
         status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view,
                                      meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p->view.up)),
-                                     options->environment, &quality, thread_count, error);
-    if (status)
-        return status;
+                                     options->environment, &quality, p->thread_count, error);
     p->raster = meso_raster_view(&p->view, options->width, options->height, near_depth_of(&p->view, &scene->box));
     p->job = (MesoRasterJob){
         .shapes = &p->shapes, .view = p->raster, .width = options->width, .height = options->height,
         .samples = options->samples,
         .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
-    status = meso_raster_bins_init(&p->bins, arena, &p->job, thread_count, error);
+    return status;
+}
+
+static MesoTilePainter *new_painter(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
+                                    uint32_t thread_count, MesoError *error)
+{
+    MesoTilePainter *p = MESO_NEW(arena, MesoTilePainter, 1, error);
+    if (p)
+        *p = (MesoTilePainter){.options = options, .scene = scene, .varied = meso_vary_channel(scene),
+                               .thread_count = thread_count};
+    return p;
+}
+
+MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
+                                  const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+{
+    MesoTilePainter *p = *painter = new_painter(arena, scene, options, thread_count, error);
+    if (!p)
+        return MESO_ERR_MEMORY;
+    MesoStatus status = make_band(band, arena, scene, options, error);
+    if (!status)
+        status = get_ready(p, arena, error);
+    if (!status)
+        status = meso_raster_bins_init(&p->bins, arena, &p->job, thread_count, error);
     if (!status && options->extras & MESO_EXTRA_MOTION)
         status = meso_motion_init(&p->motion, arena, &p->job, options, thread_count, error);
     bool in_bands = band->height < options->height;
@@ -444,4 +458,33 @@ MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene
     whole.band_rows = options->height;
     MesoStatus status = meso_tile_painter_init(&painter, image, arena, scene, &whole, thread_count, error);
     return status ? status : meso_tile_paint(painter, image, 0, error);
+}
+
+MesoStatus meso_gl_picture(MesoImage *image, MesoArena *arena, const MesoGlContext *context, const MesoScene *scene,
+                           const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+{
+    MesoRenderOptions whole = *options;
+    whole.band_rows = options->height;
+    MesoStatus status = make_band(image, arena, scene, &whole, error);
+    return status ? status
+                  : meso_gl_picture_placed(image, arena, context, scene, options, thread_count, error);
+}
+
+MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const MesoGlContext *context,
+                                  const MesoScene *scene, const MesoRenderOptions *options, uint32_t thread_count,
+                                  MesoError *error)
+{
+    if (options->extras & MESO_EXTRA_MOTION)
+        return meso_fail(error, MESO_ERR_USAGE, "GL finds no motion");
+    MesoTilePainter *p = new_painter(arena, scene, options, thread_count, error);
+    if (!p)
+        return MESO_ERR_MEMORY;
+    bool detailed = options->extras & MESO_EXTRA_UV || meso_scene_is_colored(scene);
+    MesoStatus status = get_ready(p, arena, error);
+    if (!status)
+        status = meso_gl_visibility_init(&p->gl, arena, context, &p->job, &p->view, detailed, error);
+    if (!status)
+        status = meso_tile_paint(p, image, 0, error);
+    meso_gl_visibility_release(p->gl);
+    return status;
 }

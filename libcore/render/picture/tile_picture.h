@@ -1,16 +1,29 @@
-/* Pictures without a driver, whole or in bands: visibility by raster_tiles.h, light by light_rig.h. */
+/* Pictures, whole or in bands: visibility by raster_tiles.h or gl_visibility.h, light by light_rig.h. */
 #ifndef MESO_TILE_PICTURE_H
 #define MESO_TILE_PICTURE_H
 
+#include "libcore/render/gl/gl_context.h"
 #include "libcore/render/render.h"
 
 /*
- * meso_render() on this machine's processors alone, `thread_count` of them (0: all); the same bytes for any number.
- * Colour is the mean over 1, 4 or 16 samples a pixel, the other variables are those of its middle. Scratch goes to
+ * All sweeps and bodies of `scene`, on this machine's processors alone, `thread_count` of them (0: all); the same bytes
+ * for any number. The image's arrays go to `arena`, the names of its channels stay the scene's. Colour is the mean over 1, 4 or 16 samples a pixel, the other variables are those of its middle. Scratch goes to
  * `arena` too. MESO_ERR_MEMORY, MESO_ERR_LIMIT or MESO_ERR_USAGE for options that no picture has.
  */
 MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
+
+/*
+ * The same with visibility by GL: all but motion, for which it is MESO_ERR_USAGE. `context` is current on this thread;
+ * light is done by `thread_count` threads. Also MESO_ERR_INTERNAL, with the driver's words, where GL fails.
+ */
+MesoStatus meso_gl_picture(MesoImage *image, MesoArena *arena, const MesoGlContext *context, const MesoScene *scene,
+                           const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
+
+/* Into an image whose arrays have their places (meso_image_place()). */
+MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const MesoGlContext *context,
+                                  const MesoScene *scene, const MesoRenderOptions *options, uint32_t thread_count,
+                                  MesoError *error);
 
 /*
  * The parts of meso_tile_picture(), for pictures that are larger than memory: bands of rows, of which each is painted

@@ -3,6 +3,7 @@
  * number of threads, in bands, from inside, far from the origin; light that nothing holds off, and shadows where they
  * must fall.
  */
+#include "libcore/render/gl/context.h"
 #include "libcore/render/picture/tile_picture.h"
 
 #include <string.h>
@@ -203,10 +204,14 @@ static void test_gl(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, ui
 {
     MesoRenderOptions options = look(at, eye, samples);
     options.camera.height = height;
+    options.ground = true;
+    options.vary = 0.5f;
+    options.extras = MESO_EXTRA_POSITION | MESO_EXTRA_UV | MESO_EXTRA_OCCLUSION | MESO_EXTRA_MATTES;
     MesoImage ours = draw(b, &options, 2), gl;
-    CHECK(meso_render(&gl, &arena, &context, &b->scene, &options, &error) == MESO_OK);
+    CHECK(meso_gl_picture(&gl, &arena, &context, &b->scene, &options, 2, &error) == MESO_OK);
     uint32_t covered = 0, wrong = 0;
-    double normals = 0, colors = 0, depths = 0, alpha = 0;
+    double normals = 0, colors = 0, depths = 0, alpha = 0, light = 0, places = 0, uvs = 0, openness = 0;
+    CHECK(memcmp(ours.mattes[0].seen, gl.mattes[0].seen, sizeof *gl.mattes[0].seen) == 0);
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
         wrong += ours.ids[0][i] != gl.ids[0][i];
         alpha += fabs((double)(ours.color[4 * i + 3] - gl.color[4 * i + 3]));
@@ -217,11 +222,17 @@ static void test_gl(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, ui
         for (size_t c = 0; c < 3; c++) {
             normals += pow((double)(ours.normal[3 * i + c] - gl.normal[3 * i + c]), 2);
             colors += pow((double)(ours.albedo[3 * i + c] - gl.albedo[3 * i + c]), 2);
+            light += fabs((double)(ours.color[4 * i + c] - gl.color[4 * i + c])) / 3;
+            places += fabs((double)(ours.position[3 * i + c] - gl.position[3 * i + c])) / 3;
         }
+        uvs += fmin(fabs((double)(ours.uv[2 * i] - gl.uv[2 * i])), 1) +
+               fmin(fabs((double)(ours.uv[2 * i + 1] - gl.uv[2 * i + 1])), 1);
+        openness += fabs((double)(ours.openness[i] - gl.openness[i]));
     }
     CHECK(covered > WIDTH * HEIGHT / 10 && wrong <= covered / 100);
     CHECK(sqrt(normals / covered) < 0.05 && sqrt(colors / covered) < 0.01);
     CHECK(depths / covered < 0.01 && alpha / covered < 0.02);
+    CHECK(light / covered < 3e-4 && places / covered < 3e-5 && uvs / covered < 5e-5 && openness / covered < 2e-3);
 }
 
 static bool same_pixels(const MesoImage *a, const MesoImage *b)
@@ -476,6 +487,7 @@ int main(void)
     test_rays(&b, origin, (MesoVec3){0.04f, 0.05f, 0.09f}, 2.5f);       /* the eye's plane cuts */
     test_gl(&b, origin, outside, 0, 1);
     test_gl(&b, origin, outside, 2.5f, 4);
+    test_gl(&b, origin, outside, 0, 16);
     test_gl(&b, origin, (MesoVec3){0.04f, 0.05f, 0.09f}, 2.5f, 1);
     test_threads(&b, origin);
     test_bands(&b, origin);

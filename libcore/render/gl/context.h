@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "libcore/render/gl_context.h"
+#include "libcore/render/gl/gl_context.h"
 
 /*
  * `maker` is "osmesa", "egl" or "auto" (egl where it offers a GPU, else

@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "libcore/base/check.h"
-#include "libcore/render/render.h"
+#include "libcore/render/gl/context.h"
+#include "libcore/render/picture/tile_picture.h"
 #include "libcore/scene/parts.h"
 
 enum { SIDES = 32, RINGS = 65, WIDTH = 160, HEIGHT = 90, VERTICES = (SIDES + 1) * RINGS, FACES = SIDES * (RINGS - 1) };
@@ -77,7 +78,7 @@ static MesoImage draw(MesoArena *arena, const MesoScene *scene, bool full_detail
     MesoRenderOptions options = {.width = WIDTH, .height = HEIGHT, .samples = 1, .full_detail = full_detail,
                                  .camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 15}};
     if (meso_gl_context_init(&context, "osmesa", 0, &error) ||
-        meso_render(&image, arena, &context, scene, &options, &error))
+        meso_gl_picture(&image, arena, &context, scene, &options, 0, &error))
         fprintf(stderr, "%s\n", error.message);
     CHECK(error.status == MESO_OK);
     meso_gl_context_release(&context);

@@ -1,4 +1,4 @@
-#include "libcore/render/gl_functions.h"
+#include "libcore/render/gl/gl_functions.h"
 
 #include <stddef.h>
 

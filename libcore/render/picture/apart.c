@@ -1,9 +1,12 @@
-#include "libcore/render/apart.h"
+#include "libcore/render/picture/apart.h"
 
 #include <string.h>
 
 #include "libcore/base/clock.h"
+#include "libcore/render/gl/context.h"
+#include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/isolate.h"
+#include "libcore/render/picture/tile_picture.h"
 
 /*
  * What a software driver takes: its tables, the code that it compiles, and the stacks of its threads; some 130 MB
@@ -13,10 +16,10 @@
 enum { DRIVER_BYTES = 192 << 20 };
 
 /* The arrays of the image follow the head. */
-enum { HEAD_BYTES = (sizeof(MesoPicture) + 63) / 64 * 64 };
+enum { HEAD_BYTES = (sizeof(MesoApartPicture) + 63) / 64 * 64 };
 
 typedef struct Work {
-    MesoPicture *picture;
+    MesoApartPicture *picture;
     MesoArena *arena;
     const char *maker;
     uint32_t thread_count;
@@ -34,37 +37,36 @@ static MesoStatus draw(void *pointer, MesoError *error)
         return status;
     work->picture->context_made = meso_seconds();
     memcpy(work->picture->renderer, context.renderer, sizeof context.renderer);
-    return meso_render_placed(&work->picture->image, work->arena, &context, work->scene,
-                              work->options, error);
+    return meso_gl_picture_placed(&work->picture->image, work->arena, &context, work->scene, work->options,
+                                  work->thread_count, error);
 }
 
-MesoStatus meso_picture_init(MesoPicture **picture, MesoArena *arena, const char *maker,
+MesoStatus meso_apart_picture_init(MesoApartPicture **picture, MesoArena *arena, const char *maker,
                              uint32_t thread_count, const MesoScene *scene,
                              const MesoRenderOptions *options, MesoError *error)
 {
-    size_t image_bytes, least_bytes;
     *picture = NULL;
-    MesoStatus status = meso_render_memory(scene, options, &image_bytes, &least_bytes, error);
+    MesoStatus status = meso_render_check(options, error);
     if (status)
         return status;
-    size_t size = HEAD_BYTES + image_bytes;
-    MesoPicture *result = meso_shared_new(size, error);
+    size_t size = HEAD_BYTES + meso_image_bytes(scene, options);
+    MesoApartPicture *result = meso_shared_new(size, error);
     if (!result)
         return MESO_ERR_MEMORY;
     result->size = size;
     meso_image_place(&result->image, (unsigned char *)result + HEAD_BYTES, scene, options);
 
     Work work = {result, arena, maker, thread_count, scene, options};
-    status = meso_isolate("drawing", draw, &work, DRIVER_BYTES + least_bytes, error);
+    status = meso_isolate("drawing", draw, &work, DRIVER_BYTES + meso_gl_window_bytes(options->samples), error);
     if (status) {
-        meso_picture_release(result);
+        meso_apart_picture_release(result);
         return status;
     }
     *picture = result;
     return MESO_OK;
 }
 
-void meso_picture_release(MesoPicture *picture)
+void meso_apart_picture_release(MesoApartPicture *picture)
 {
     if (picture)
         meso_shared_free(picture, picture->size);

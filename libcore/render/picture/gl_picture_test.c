@@ -11,9 +11,9 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/base/check.h"
-#include "libcore/render/context_makers.h"
-#include "libcore/render/render.h"
-#include "libcore/render/renderer_name.h"
+#include "libcore/render/gl/context.h"
+#include "libcore/render/gl/renderer_name.h"
+#include "libcore/render/picture/tile_picture.h"
 
 enum { SIDES = 64, WIDTH = 160, HEIGHT = 90 };
 
@@ -73,7 +73,7 @@ static MesoImage draw(MesoArena *arena, const MesoScene *scene, const MesoRender
     MesoError error = {0};
     MesoImage image;
     if (meso_gl_context_init(&context, maker, threads, &error)
-        || meso_render(&image, arena, &context, scene, options, &error))
+        || meso_gl_picture(&image, arena, &context, scene, options, threads, &error))
         fprintf(stderr, "%s\n", error.message);
     CHECK(error.status == MESO_OK);
     meso_gl_context_release(&context);
@@ -274,15 +274,15 @@ static void test_refusals(MesoArena *arena)
     CHECK(meso_gl_context_init(&context, "glx", 0, &error) == MESO_ERR_USAGE);
     CHECK(meso_gl_context_init(&context, "osmesa", 0, &error) == MESO_OK);
     MesoRenderOptions options = look(2);
-    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_USAGE);
+    CHECK(meso_gl_picture(&image, arena, &context, &bar.scene, &options, 0, &error) == MESO_ERR_USAGE);
     options = look(1);
     options.width = 16385;
-    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_LIMIT);
+    CHECK(meso_gl_picture(&image, arena, &context, &bar.scene, &options, 0, &error) == MESO_ERR_LIMIT);
     options = look(1);
     options.camera.eye.z = 0;
-    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_USAGE);
+    CHECK(meso_gl_picture(&image, arena, &context, &bar.scene, &options, 0, &error) == MESO_ERR_USAGE);
     options.camera.eye.z = NAN;
-    CHECK(meso_render(&image, arena, &context, &bar.scene, &options, &error) == MESO_ERR_USAGE);
+    CHECK(meso_gl_picture(&image, arena, &context, &bar.scene, &options, 0, &error) == MESO_ERR_USAGE);
     meso_gl_context_release(&context);
     CHECK(meso_gl_is_software("llvmpipe (LLVM 15.0.6, 256 bits)") && !meso_gl_is_software("NVIDIA H200"));
 }

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "libcore/render/gl_context.h"
+#include "libcore/render/gl/gl_context.h"
 
 MesoStatus meso_gl_osmesa_init(MesoGlContext *context, MesoError *error);
 

@@ -1,4 +1,4 @@
-#include "libcore/render/draw_lists.h"
+#include "libcore/render/gl/draw_lists.h"
 
 #include <stddef.h>
 
@@ -7,7 +7,7 @@
 #include "libcore/scene/parts.h"
 
 extern const char meso_shader_sweep_vertex[], meso_shader_body_vertex[];
-extern const char meso_shader_surface_fragment[], meso_shader_depth_fragment[];
+extern const char meso_shader_seen_fragment[];
 
 /* GL counts indices and base vertices in signed ints. */
 static const uint64_t MAX_ELEMENTS = INT32_MAX;
@@ -16,20 +16,18 @@ static const uint64_t MAX_ELEMENTS = INT32_MAX;
 static const uint32_t MAX_CAGES = 1 << 20;
 
 /* Uniforms by the locations that the shaders give them. */
-enum {
-    CLIP_FROM_WORLD, DEPTH_AXIS, SECTION_SCALE, CAP_RISE, START_COLOR, END_COLOR,
-    START_METALLIC, END_METALLIC, TURN, LEAST_TURN, MIDDLE
-};
+enum {CLIP_FROM_WORLD, DEPTH_AXIS, SECTION_SCALE, CAP_RISE, TURN = 8, LEAST_TURN, MIDDLE};
 
 typedef struct PatternVertex {
     MesoVec2 start, end, start_normal, end_normal;
-    float along;
+    float along, around;
 } PatternVertex;
 
 typedef struct BodyVertex {
     MesoVec3 position, normal;
-    uint32_t ids;
+    uint32_t shape;
     uint8_t color[4];
+    MesoVec2 uv;
 } BodyVertex;
 
 /* A pattern in the making: which columns and how many rings of each kind. */
@@ -119,7 +117,7 @@ static void fill_vertices(PatternVertex *out, const MesoSweepColumn *columns, co
         for (uint32_t c = 0; c < kept_count; c++) {
             const MesoSweepColumn *column = &columns[kept[c]];
             *out++ = (PatternVertex){column->start, column->end, column->start_normal,
-                                     column->end_normal, (float)r / (float)(ring_count - 1)};
+                                     column->end_normal, (float)r / (float)(ring_count - 1), column->u};
         }
 }
 
@@ -145,7 +143,7 @@ static void describe_sweeps(MesoDrawLists *lists)
     const MesoGl *gl = lists->gl;
     static const struct { GLuint size, offset; } shared[] = {
         {4, offsetof(PatternVertex, start)}, {4, offsetof(PatternVertex, start_normal)},
-        {1, offsetof(PatternVertex, along)}};
+        {1, offsetof(PatternVertex, along)}, {1, offsetof(PatternVertex, around)}};
 
     gl->CreateVertexArrays(1, &lists->sweep_array);
     GLuint array = lists->sweep_array;
@@ -153,12 +151,13 @@ static void describe_sweeps(MesoDrawLists *lists)
     gl->VertexArrayVertexBuffer(array, 1, lists->instances, 0, sizeof(MesoSweepInstance));
     gl->VertexArrayBindingDivisor(array, 1, 1);
     gl->VertexArrayElementBuffer(array, lists->pattern_indices);
-    for (GLuint i = 0; i < 14; i++) {
+    for (GLuint i = 0; i < 15; i++) {
+        bool is_shared = i < 3 || i == 14;
+        GLuint k = i < 3 ? i : 3;
         gl->EnableVertexArrayAttrib(array, i);
-        gl->VertexArrayAttribBinding(array, i, i < 3 ? 0 : 1);
-        if (i < 3)
-            gl->VertexArrayAttribFormat(array, i, (GLint)shared[i].size, GL_FLOAT, GL_FALSE,
-                                        shared[i].offset);
+        gl->VertexArrayAttribBinding(array, i, is_shared ? 0 : 1);
+        if (is_shared)
+            gl->VertexArrayAttribFormat(array, i, (GLint)shared[k].size, GL_FLOAT, GL_FALSE, shared[k].offset);
         else if (i < 11)    /* p[4], up[2], direction[2] follow each other */
             gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE,
                                         (i - 3) * (GLuint)sizeof(MesoVec3));
@@ -172,25 +171,26 @@ static void describe_sweeps(MesoDrawLists *lists)
 
 static MesoStatus upload_cages(MesoDrawLists *lists, MesoArena *arena, MesoError *error)
 {
-    if (lists->near.cage_count > MAX_CAGES)
+    const MesoScene *near = &lists->shapes->near;
+    if (near->cage_count > MAX_CAGES)
         return meso_fail(error, MESO_ERR_LIMIT, "sections deform in too many slots to draw by GL (%u)",
-                         lists->near.cage_count);
-    float *corners = MESO_NEW(arena, float, 32 * (size_t)lists->near.cage_count, error), *out = corners;
-    for (uint32_t i = 0; corners && i < 8 * lists->near.cage_count; i++) {
-        MesoVec3 p = meso_cage_corner(&lists->near.cages[i / 8], i % 8);
+                         near->cage_count);
+    float *corners = MESO_NEW(arena, float, 32 * (size_t)near->cage_count, error), *out = corners;
+    for (uint32_t i = 0; corners && i < 8 * near->cage_count; i++) {
+        MesoVec3 p = meso_cage_corner(&near->cages[i / 8], i % 8);
         *out++ = p.x;
         *out++ = p.y;
         *out++ = p.z;
         *out++ = 0;
     }
     if (corners)
-        lists->cages = upload(lists->gl, corners, 32 * (size_t)lists->near.cage_count * sizeof *corners);
+        lists->cages = upload(lists->gl, corners, 32 * (size_t)near->cage_count * sizeof *corners);
     return corners ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Plan *plan, MesoError *error)
 {
-    const MesoScene *scene = lists->scene;
+    const MesoScene *scene = lists->shapes->scene;
     PatternVertex *vertices = MESO_NEW(arena, PatternVertex, plan->vertex_count, error);
     uint32_t *indices = MESO_NEW(arena, uint32_t, plan->index_count, error);
     if (!vertices || !indices)
@@ -221,7 +221,6 @@ static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Pl
     if (status)
         return status;
     describe_sweeps(lists);
-    meso_draw_lists_select(lists, NULL);
     return meso_gl_check(lists->gl, "upload of the sweeps", error);
 }
 
@@ -234,23 +233,13 @@ static void describe_bodies(MesoDrawLists *lists)
     gl->VertexArrayElementBuffer(array, lists->body_indices);
     gl->VertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, position));
     gl->VertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, normal));
-    gl->VertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, offsetof(BodyVertex, ids));
+    gl->VertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, offsetof(BodyVertex, shape));
     gl->VertexArrayAttribFormat(array, 3, 3, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(BodyVertex, color));
-    for (GLuint i = 0; i < 4; i++) {
+    gl->VertexArrayAttribFormat(array, 4, 2, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, uv));
+    for (GLuint i = 0; i < 5; i++) {
         gl->EnableVertexArrayAttrib(array, i);
         gl->VertexArrayAttribBinding(array, i, 0);
     }
-}
-
-/* One draw for consecutive parts of one material. */
-static void add_body_draw(MesoDrawLists *lists, uint32_t material, uint32_t index_begin, uint32_t index_end)
-{
-    MesoDrawBodies *last = lists->bodies_count ? &lists->bodies[lists->bodies_count - 1] : NULL;
-    if (last && last->material == material) {
-        last->index_count += index_end - index_begin;
-        return;
-    }
-    lists->bodies[lists->bodies_count++] = (MesoDrawBodies){material, index_begin, index_end - index_begin};
 }
 
 static uint32_t add_triangles(uint32_t *indices, const MesoMeshFace *face)
@@ -296,74 +285,56 @@ static MesoStatus make_bodies(BodyArrays *arrays, MesoArena *arena, const MesoSc
     return MESO_OK;
 }
 
-static MesoStatus upload_bodies(MesoDrawLists *lists, MesoArena *arena, MesoVec3 anchor, MesoError *error)
+/* The first run of faces of each placed body stands for all of it: they look alike. */
+static void fill_vertices_of(BodyVertex *out, const BodyArrays *arrays, const MesoSceneParts *parts,
+                             const MesoShapes *shapes)
+{
+    uint32_t first = parts->scene->sweep_count;
+    uint64_t vertex = 0;
+    for (uint32_t p = first, run = 0; p < parts->part_count; p++) {
+        while (first + run + 1 < shapes->count && shapes->runs[run].placed < p - first)
+            run++;
+        for (; vertex < parts->vertex_begin[p + 1] - parts->vertex_begin[first]; vertex++) {
+            MesoMeshVertex v = arrays->points[vertex];
+            MesoMeshColor c = arrays->colors[vertex];
+            out[vertex] = (BodyVertex){meso_vec3_sub(v.position, shapes->anchor), v.normal, first + run,
+                                       {c.r, c.g, c.b, 255}, v.uv};
+        }
+    }
+}
+
+static MesoStatus upload_bodies(MesoDrawLists *lists, MesoArena *arena, MesoError *error)
 {
     MesoSceneParts parts;
     BodyArrays arrays = {0};
-    MesoStatus status = meso_scene_parts_init(&parts, arena, lists->scene, error);
+    MesoStatus status = meso_scene_parts_init(&parts, arena, lists->shapes->scene, error);
     if (!status)
         status = make_bodies(&arrays, arena, &parts, error);
     if (status)
         return status;
 
-    uint32_t index = 0, first = lists->scene->sweep_count;
-    uint64_t vertex = 0, face = 0;
-    for (uint32_t p = first; p < parts.part_count; p++) {
-        MesoPart part = meso_scene_part(&parts, p);
-        uint32_t index_begin = index;
-        for (; vertex < parts.vertex_begin[p + 1] - parts.vertex_begin[first]; vertex++) {
-            MesoMeshColor c = arrays.colors[vertex];
-            arrays.vertices[vertex] = (BodyVertex){meso_vec3_sub(arrays.points[vertex].position, anchor),
-                                                   arrays.points[vertex].normal, part.ids, {c.r, c.g, c.b, 255}};
-        }
-        for (; face < parts.face_begin[p + 1] - parts.face_begin[first]; face++)
-            index += add_triangles(&arrays.indices[index], &arrays.faces[face]);
-        add_body_draw(lists, part.material, index_begin, index);
-    }
-    if (index == 0)
+    uint32_t first = parts.scene->sweep_count;
+    uint64_t vertex_count = parts.vertex_begin[parts.part_count] - parts.vertex_begin[first];
+    uint64_t face_count = parts.face_begin[parts.part_count] - parts.face_begin[first];
+    for (uint64_t face = 0; face < face_count; face++)
+        lists->body_index_count += add_triangles(&arrays.indices[lists->body_index_count], &arrays.faces[face]);
+    if (lists->body_index_count == 0)
         return MESO_OK;
-    lists->body_vertices = upload(lists->gl, arrays.vertices, vertex * sizeof *arrays.vertices);
-    lists->body_indices = upload(lists->gl, arrays.indices, index * sizeof *arrays.indices);
+    fill_vertices_of(arrays.vertices, &arrays, &parts, lists->shapes);
+    lists->body_vertices = upload(lists->gl, arrays.vertices, vertex_count * sizeof *arrays.vertices);
+    lists->body_indices = upload(lists->gl, arrays.indices, lists->body_index_count * sizeof *arrays.indices);
     describe_bodies(lists);
     return meso_gl_check(lists->gl, "upload of the bodies", error);
 }
 
-static bool is_zero(MesoVec3 v)
+MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const MesoGl *gl, const MesoShapes *shapes,
+                                const MesoView *view, uint32_t height, float tolerance_pixels, MesoError *error)
 {
-    return v.x == 0 && v.y == 0 && v.z == 0;
-}
-
-/* The sweeps, or their cages, relative to `anchor`. */
-static MesoStatus bring_near(MesoScene *near, const MesoScene *scene, MesoVec3 anchor, MesoArena *arena,
-                             MesoError *error)
-{
-    *near = *scene;
-    if (is_zero(anchor) || scene->sweep_count == 0)
-        return MESO_OK;
-    if (scene->deform == MESO_SWEEP_SHAPE) {
-        near->cages = meso_cages_from(scene, anchor, arena, error);
-        return near->cages ? MESO_OK : MESO_ERR_MEMORY;
-    }
-    near->sweeps = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
-    for (uint32_t i = 0; near->sweeps && i < scene->sweep_count; i++) {
-        near->sweeps[i] = scene->sweeps[i];
-        for (uint32_t k = 0; k < 4; k++)
-            near->sweeps[i].p[k] = meso_vec3_sub(near->sweeps[i].p[k], anchor);
-    }
-    return near->sweeps ? MESO_OK : MESO_ERR_MEMORY;
-}
-
-MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const MesoGl *gl,
-                                const MesoScene *scene, const MesoView *view, uint32_t height,
-                                float tolerance_pixels, MesoError *error)
-{
-    *lists = (MesoDrawLists){.gl = gl, .scene = scene};
-    if (bring_near(&lists->near, scene, view->anchor, arena, error))
-        return MESO_ERR_MEMORY;
+    const MesoScene *scene = shapes->scene;
+    *lists = (MesoDrawLists){.gl = gl, .shapes = shapes};
     lists->sweeps = MESO_NEW(arena, MesoDrawSweep, scene->kind_count, error);
-    lists->bodies = MESO_NEW(arena, MesoDrawBodies, scene->placed_count, error);
     lists->selected = MESO_NEW(arena, MesoSweepInstance, scene->sweep_count, error);
-    if (!lists->sweeps || !lists->bodies || !lists->selected)
+    if (!lists->sweeps || !lists->selected)
         return MESO_ERR_MEMORY;
 
     MesoArenaMark mark = meso_arena_mark(arena);
@@ -372,7 +343,7 @@ MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const Me
     if (!status && plan.index_count && scene->sweep_count)
         status = upload_sweeps(lists, arena, &plan, error);
     if (!status && scene->placed_count)
-        status = upload_bodies(lists, arena, view->anchor, error);
+        status = upload_bodies(lists, arena, error);
     meso_arena_rewind(arena, mark);
     if (status)
         meso_draw_lists_release(lists);
@@ -391,30 +362,27 @@ void meso_draw_lists_release(MesoDrawLists *lists)
     *lists = (MesoDrawLists){0};
 }
 
-MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, MesoDrawPurpose purpose,
-                                   const MesoScene *scene, MesoError *error)
+MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, const MesoScene *scene, bool detailed,
+                                   MesoError *error)
 {
 #define BENT "#define BENT\n"
 #define CAP "#define CAP\n"
-#define PACKED "#define PACKED\n"
-#define COLORED "#define COLORED\n"
-    /* Sweeps and caps, those that are bent, bodies without and with colours. */
-    static const char *const defines[][6] = {
-        [MESO_DRAW_SURFACE] = {"", CAP, BENT, BENT CAP, "", COLORED},
-        [MESO_DRAW_PACKED] = {PACKED, CAP PACKED, BENT PACKED, BENT CAP PACKED, PACKED, PACKED COLORED},
-        [MESO_DRAW_DEPTH] = {"", CAP, BENT, BENT CAP, "", ""},
+#define DETAILED "#define DETAILED\n"
+    /* Sweeps and caps, those that are bent, bodies; and with details. */
+    static const char *const defines[2][5] = {
+        {"", CAP, BENT, BENT CAP, ""},
+        {DETAILED, DETAILED CAP, DETAILED BENT, DETAILED BENT CAP, DETAILED},
     };
-    uint32_t bent = scene->deform == MESO_SWEEP_SHAPE ? 2 : 0, colored = meso_scene_is_colored(scene);
-    const char *const *text = defines[purpose];
+    const char *const *text = defines[detailed];
     const char *sweep = meso_shader_sweep_vertex, *body = meso_shader_body_vertex;
-    const char *fragment = purpose == MESO_DRAW_DEPTH ? meso_shader_depth_fragment
-                                                      : meso_shader_surface_fragment;
+    const char *fragment = meso_shader_seen_fragment;
+    uint32_t bent = scene->deform == MESO_SWEEP_SHAPE ? 2 : 0;
     *programs = (MesoDrawPrograms){0};
     MesoStatus status = meso_gl_program(&programs->sweep, gl, text[bent], sweep, fragment, error);
     if (!status)
         status = meso_gl_program(&programs->cap, gl, text[bent + 1], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->body, gl, text[4 + colored], body, fragment, error);
+        status = meso_gl_program(&programs->body, gl, text[4], body, fragment, error);
     if (status)
         meso_draw_programs_release(programs, gl);
     return status;
@@ -464,72 +432,49 @@ static bool may_show(const Plane planes[5], const MesoSweepHull *hull)
     return true;
 }
 
-static void select_all(MesoDrawLists *lists)
+/* With its number among the shapes in the place of its ids. */
+static MesoSweepInstance instance_of(const MesoShapes *shapes, uint32_t sweep)
 {
-    for (uint32_t d = 0; d < lists->sweep_count; d++) {
-        const MesoSweptKind *kind = &lists->scene->kinds[lists->sweeps[d].kind];
-        lists->sweeps[d].instance_begin = kind->instance_begin;
-        lists->sweeps[d].instance_count = kind->instance_count;
-    }
-}
-
-/* Returns how many were selected. */
-static uint32_t select_shown(MesoDrawLists *lists, const MesoMatrix *clip_from_world)
-{
-    const MesoScene *scene = lists->scene;
-    uint32_t count = 0;
-    Plane planes[5];
-    frustum_planes(planes, clip_from_world);
-    for (uint32_t d = 0; d < lists->sweep_count; d++) {
-        MesoDrawSweep *draw = &lists->sweeps[d];
-        const MesoSweptKind *kind = &scene->kinds[draw->kind];
-        draw->instance_begin = count;
-        for (uint32_t i = 0; i < kind->instance_count; i++) {
-            const MesoSweepInstance *instance = &lists->near.sweeps[kind->instance_begin + i];
-            MesoSweepHull hull = meso_sweep_hull(&lists->near, instance, draw->reach);
-            if (may_show(planes, &hull))
-                lists->selected[count++] = *instance;
-        }
-        draw->instance_count = count - draw->instance_begin;
-    }
-    return count;
+    MesoSweepInstance instance = shapes->near.sweeps[sweep];
+    for (uint32_t k = 0; k < 4 && shapes->near.deform != MESO_SWEEP_SHAPE; k++)
+        instance.p[k] = meso_vec3_sub(instance.p[k], shapes->anchor);
+    instance.ids = sweep;
+    return instance;
 }
 
 void meso_draw_lists_select(MesoDrawLists *lists, const MesoMatrix *clip_from_world)
 {
-    const MesoSweepInstance *shown = lists->near.sweeps;
-    uint32_t count = lists->scene->sweep_count;
+    const MesoShapes *shapes = lists->shapes;
+    uint32_t count = 0;
+    Plane planes[5];
     if (lists->sweep_count == 0)
         return;
-    if (clip_from_world) {
-        shown = lists->selected;
-        count = select_shown(lists, clip_from_world);
-    } else {
-        select_all(lists);
+    frustum_planes(planes, clip_from_world);
+    for (uint32_t d = 0; d < lists->sweep_count; d++) {
+        MesoDrawSweep *draw = &lists->sweeps[d];
+        const MesoSweptKind *kind = &shapes->scene->kinds[draw->kind];
+        draw->instance_begin = count;
+        for (uint32_t i = 0; i < kind->instance_count; i++) {
+            MesoSweepInstance instance = instance_of(shapes, kind->instance_begin + i);
+            MesoSweepHull hull = meso_sweep_hull(&shapes->near, &instance, draw->reach);
+            if (may_show(planes, &hull))
+                lists->selected[count++] = instance;
+        }
+        draw->instance_count = count - draw->instance_begin;
     }
-    lists->gl->NamedBufferData(lists->instances, (GLsizeiptr)(count * sizeof *shown), shown, GL_STATIC_DRAW);
+    lists->gl->NamedBufferData(lists->instances, (GLsizeiptr)(count * sizeof *lists->selected), lists->selected,
+                               GL_STATIC_DRAW);
 }
 
 /* ---- drawing ---- */
-
-static void set_materials(const MesoDrawLists *lists, GLuint program, uint32_t start, uint32_t end)
-{
-    const MesoGl *gl = lists->gl;
-    const MesoMaterial *a = &lists->scene->materials[start], *b = &lists->scene->materials[end];
-    gl->ProgramUniform4f(program, START_COLOR, a->albedo[0], a->albedo[1], a->albedo[2], a->roughness);
-    gl->ProgramUniform4f(program, END_COLOR, b->albedo[0], b->albedo[1], b->albedo[2], b->roughness);
-    gl->ProgramUniform1f(program, START_METALLIC, a->metallic);
-    gl->ProgramUniform1f(program, END_METALLIC, b->metallic);
-}
 
 static void set_view(const MesoDrawLists *lists, GLuint program, const MesoMatrix *clip_from_world,
                      const MesoView *view)
 {
     const MesoGl *gl = lists->gl;
     gl->ProgramUniformMatrix4fv(program, CLIP_FROM_WORLD, 1, GL_FALSE, clip_from_world->m);
-    if (view)
-        gl->ProgramUniform4f(program, DEPTH_AXIS, view->forward.x, view->forward.y, view->forward.z,
-                             -meso_vec3_dot(view->forward, meso_vec3_sub(view->eye, view->anchor)));
+    gl->ProgramUniform4f(program, DEPTH_AXIS, view->forward.x, view->forward.y, view->forward.z,
+                         -meso_vec3_dot(view->forward, meso_vec3_sub(view->eye, view->anchor)));
 }
 
 static const void *index_offset(uint32_t index)
@@ -537,14 +482,12 @@ static const void *index_offset(uint32_t index)
     return (const void *)(sizeof(uint32_t) * (uintptr_t)index);
 }
 
-static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, GLuint program, bool shaded)
+static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, GLuint program)
 {
     const MesoGl *gl = lists->gl;
-    const MesoSweptKind *kind = &lists->scene->kinds[draw->kind];
+    const MesoSweptKind *kind = &lists->shapes->scene->kinds[draw->kind];
     if (draw->index_count == 0 || draw->instance_count == 0)
         return;
-    if (shaded)
-        set_materials(lists, program, kind->start_material, kind->cap ? kind->start_material : kind->end_material);
     if (!kind->cap) {
         gl->ProgramUniform1f(program, TURN, kind->turn);
         gl->ProgramUniform4f(program, MIDDLE, kind->middle[0].x, kind->middle[0].y, kind->middle[1].x,
@@ -556,39 +499,32 @@ static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, GL
         (GLsizei)draw->instance_count, (GLint)draw->base_vertex, draw->instance_begin);
 }
 
-static void draw_bodies(const MesoDrawLists *lists, const MesoDrawBodies *draw, GLuint program, bool shaded)
-{
-    const MesoGl *gl = lists->gl;
-    if (shaded)
-        set_materials(lists, program, draw->material, draw->material);
-    gl->UseProgram(program);
-    gl->DrawElementsBaseVertex(GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT,
-                               index_offset(draw->index_begin), 0);
-}
-
 void meso_draw_lists_draw(const MesoDrawLists *lists, const MesoDrawPrograms *programs,
                           const MesoMatrix *clip_from_world, const MesoView *view)
 {
     const MesoGl *gl = lists->gl;
+    const MesoScene *scene = lists->shapes->scene;
     const GLuint all[] = {programs->sweep, programs->cap, programs->body};
     for (uint32_t i = 0; i < 3; i++)
         set_view(lists, all[i], clip_from_world, view);
     for (uint32_t i = 0; i < 2; i++) {
-        gl->ProgramUniform1f(all[i], SECTION_SCALE, lists->scene->section_scale);
+        gl->ProgramUniform1f(all[i], SECTION_SCALE, scene->section_scale);
         if (all[i] == programs->cap)
             gl->ProgramUniform1f(all[i], CAP_RISE, MESO_CAP_RISE);
         else
-            gl->ProgramUniform1i(all[i], LEAST_TURN, lists->scene->frame_rule == MESO_FRAME_MINIMAL);
+            gl->ProgramUniform1i(all[i], LEAST_TURN, scene->frame_rule == MESO_FRAME_MINIMAL);
     }
 
     gl->BindVertexArray(lists->sweep_array);
     if (lists->cages)
         gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, lists->cages);
     for (uint32_t i = 0; i < lists->sweep_count; i++) {
-        bool cap = lists->scene->kinds[lists->sweeps[i].kind].cap;
-        draw_sweep(lists, &lists->sweeps[i], cap ? programs->cap : programs->sweep, view);
+        bool cap = scene->kinds[lists->sweeps[i].kind].cap;
+        draw_sweep(lists, &lists->sweeps[i], cap ? programs->cap : programs->sweep);
     }
+    if (!lists->body_array)
+        return;
     gl->BindVertexArray(lists->body_array);
-    for (uint32_t i = 0; i < lists->bodies_count && lists->body_array; i++)
-        draw_bodies(lists, &lists->bodies[i], programs->body, view);
+    gl->UseProgram(programs->body);
+    gl->DrawElementsBaseVertex(GL_TRIANGLES, (GLsizei)lists->body_index_count, GL_UNSIGNED_INT, index_offset(0), 0);
 }

@@ -7,13 +7,12 @@
 
 #include <GL/glcorearb.h>
 
-#include "libcore/render/gl_context.h"
+#include "libcore/render/gl/gl_context.h"
 
 #define MESO_GL_FUNCTIONS(X)                                                        \
     X(ATTACHSHADER, AttachShader)                                                   \
     X(BINDBUFFERBASE, BindBufferBase)                                               \
     X(BINDFRAMEBUFFER, BindFramebuffer)                                             \
-    X(BINDTEXTUREUNIT, BindTextureUnit)                                             \
     X(BINDVERTEXARRAY, BindVertexArray)                                             \
     X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus)                     \
     X(CLEARNAMEDFRAMEBUFFERFV, ClearNamedFramebufferfv)                             \
@@ -34,15 +33,12 @@
     X(DELETEVERTEXARRAYS, DeleteVertexArrays)                                       \
     X(DEPTHFUNC, DepthFunc)                                                         \
     X(DISABLE, Disable)                                                             \
-    X(DRAWARRAYS, DrawArrays)                                                       \
     X(DRAWELEMENTSBASEVERTEX, DrawElementsBaseVertex)                               \
     X(DRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCE, DrawElementsInstancedBaseVertexBaseInstance) \
     X(ENABLE, Enable)                                                               \
     X(ENABLEVERTEXARRAYATTRIB, EnableVertexArrayAttrib)                             \
-    X(FINISH, Finish)                                                               \
     X(FRONTFACE, FrontFace)                                                         \
     X(GETERROR, GetError)                                                           \
-    X(GETINTEGERV, GetIntegerv)                                                     \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                         \
     X(GETPROGRAMIV, GetProgramiv)                                                   \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                           \
@@ -54,17 +50,12 @@
     X(NAMEDFRAMEBUFFERREADBUFFER, NamedFramebufferReadBuffer)                       \
     X(NAMEDFRAMEBUFFERTEXTURE, NamedFramebufferTexture)                             \
     X(PIXELSTOREI, PixelStorei)                                                     \
-    X(POLYGONOFFSET, PolygonOffset)                                                 \
     X(PROGRAMUNIFORM1F, ProgramUniform1f)                                           \
     X(PROGRAMUNIFORM1I, ProgramUniform1i)                                           \
-    X(PROGRAMUNIFORM1UI, ProgramUniform1ui)                                         \
-    X(PROGRAMUNIFORM2I, ProgramUniform2i)                                           \
-    X(PROGRAMUNIFORM3F, ProgramUniform3f)                                           \
     X(PROGRAMUNIFORM4F, ProgramUniform4f)                                           \
     X(PROGRAMUNIFORMMATRIX4FV, ProgramUniformMatrix4fv)                             \
     X(READPIXELS, ReadPixels)                                                       \
     X(SHADERSOURCE, ShaderSource)                                                   \
-    X(TEXTUREPARAMETERI, TextureParameteri)                                         \
     X(TEXTURESTORAGE2D, TextureStorage2D)                                           \
     X(USEPROGRAM, UseProgram)                                                       \
     X(VERTEXARRAYATTRIBBINDING, VertexArrayAttribBinding)                           \

@@ -4,23 +4,23 @@
 
 #include "libcore/render/render.h"
 
-typedef struct MesoPicture {
+typedef struct MesoApartPicture {
     MesoImage image;
     char renderer[128];         /* GL_RENDERER */
     double context_made;        /* when drawing began: seconds of the monotonic clock */
     size_t size;                /* of the whole, which is shared memory */
-} MesoPicture;
+} MesoApartPicture;
 
 /*
- * meso_render() in a child of this process (isolate.h), with a context that
+ * meso_gl_picture() in a child of this process (isolate.h), with a context that
  * meso_gl_context_init() makes there: this process opens no GL, and keeps its
  * environment. `arena` is scratch. What they return; also MESO_ERR_MEMORY
  * where memory is short before drawing or at the driver's death, and
  * MESO_ERR_INTERNAL where it dies otherwise.
  */
-MesoStatus meso_picture_init(MesoPicture **picture, MesoArena *arena, const char *maker,
+MesoStatus meso_apart_picture_init(MesoApartPicture **picture, MesoArena *arena, const char *maker,
                              uint32_t thread_count, const MesoScene *scene,
                              const MesoRenderOptions *options, MesoError *error);
-void meso_picture_release(MesoPicture *picture);
+void meso_apart_picture_release(MesoApartPicture *picture);
 
 #endif

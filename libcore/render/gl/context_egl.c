@@ -8,9 +8,9 @@
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>
 
-#include "libcore/render/context_makers.h"
-#include "libcore/render/driver_library.h"
-#include "libcore/render/renderer_name.h"
+#include "libcore/render/gl/context_makers.h"
+#include "libcore/render/gl/driver_library.h"
+#include "libcore/render/gl/renderer_name.h"
 
 enum { MAX_DEVICES = 32 };
 

@@ -1,4 +1,4 @@
-#include "libcore/render/driver_library.h"
+#include "libcore/render/gl/driver_library.h"
 
 #include <dlfcn.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 
 #include <GL/osmesa.h>
 
-#include "libcore/render/context_makers.h"
-#include "libcore/render/driver_library.h"
+#include "libcore/render/gl/context_makers.h"
+#include "libcore/render/gl/driver_library.h"
 
 /* Mesa's LLVM keeps 200 to 320 bytes a context to the end. */
 #if defined(__SANITIZE_ADDRESS__)

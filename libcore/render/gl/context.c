@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE     /* clearenv() */
-#include "libcore/render/context.h"
+#include "libcore/render/gl/context.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include <GL/glcorearb.h>
 
-#include "libcore/render/context_makers.h"
+#include "libcore/render/gl/context_makers.h"
 
 /*
  * Mesa and other drivers read some hundred variables, under names of no one

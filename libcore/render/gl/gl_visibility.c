@@ -1,0 +1,225 @@
+#include "libcore/render/gl/gl_visibility.h"
+
+#include <string.h>
+
+#include "libcore/render/gl/draw_lists.h"
+
+/* What shaders/seen_fragment.glsl writes: a target each, of four words. */
+enum { SEEN, DETAILS, TARGETS, WORDS = 4 };
+
+struct MesoGlVisibility {
+    MesoGl gl;
+    MesoRasterJob job;
+    MesoRasterLanes lanes;
+    MesoView view;
+    MesoDrawLists lists;
+    MesoDrawPrograms programs;
+    float end_depth;
+    uint32_t side, target_count;
+    GLuint targets[TARGETS], depth, frame;
+    uint32_t *words[TARGETS];   /* [4 * pixels of the window * samples] sample by sample */
+    MesoWindow window;          /* drawn last */
+};
+
+uint32_t meso_gl_window_side(uint32_t samples)
+{
+    return samples == 1 ? 1024 : samples == 4 ? 512 : 256;
+}
+
+size_t meso_gl_window_bytes(uint32_t samples)
+{
+    size_t side = meso_gl_window_side(samples);
+    return (TARGETS * WORDS + 1) * sizeof(uint32_t) * side * side;
+}
+
+/* The near plane of a perspective, the far one of a parallel view (projection.h). */
+static float end_depth_of(const MesoView *view, const MesoBox *box)
+{
+    float nearest = INFINITY, farthest = 0;
+    for (uint32_t i = 0; i < 8; i++) {
+        MesoVec3 corner = meso_box_corner(box->low, box->high, i);
+        float depth = meso_vec3_dot(meso_vec3_sub(corner, view->eye), view->forward);
+        nearest = fminf(nearest, depth);
+        farthest = fmaxf(farthest, depth);
+    }
+    float depth = view->parallel ? 1.001f * farthest : fmaxf(0.5f * nearest, 1e-5f * farthest);
+    return depth > 0 && isfinite(depth) ? depth : 1e-3f;
+}
+
+static GLuint make_texture(const MesoGl *gl, GLenum format, uint32_t side)
+{
+    GLuint texture = 0;
+    gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
+    gl->TextureStorage2D(texture, 1, format, (GLsizei)side, (GLsizei)side);
+    return texture;
+}
+
+static MesoStatus make_frame(MesoGlVisibility *v, MesoError *error)
+{
+    static const GLenum buffers[TARGETS] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    const MesoGl *gl = &v->gl;
+    gl->CreateFramebuffers(1, &v->frame);
+    for (uint32_t i = 0; i < v->target_count; i++) {
+        v->targets[i] = make_texture(gl, GL_RGBA32UI, v->side);
+        gl->NamedFramebufferTexture(v->frame, buffers[i], v->targets[i], 0);
+    }
+    v->depth = make_texture(gl, GL_DEPTH_COMPONENT32F, v->side);
+    gl->NamedFramebufferTexture(v->frame, GL_DEPTH_ATTACHMENT, v->depth, 0);
+    gl->NamedFramebufferDrawBuffers(v->frame, (GLsizei)v->target_count, buffers);
+    MesoStatus status = meso_gl_check(gl, "framebuffer", error);
+    if (!status && gl->CheckNamedFramebufferStatus(v->frame, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        status = meso_fail(error, MESO_ERR_LIMIT, "GL driver has no framebuffer of %u x %u", v->side, v->side);
+    return status;
+}
+
+static void set_state(const MesoGl *gl)
+{
+    gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->DepthFunc(GL_GREATER);
+    gl->Disable(GL_CULL_FACE);
+    gl->FrontFace(GL_CW);       /* rows run downwards, which mirrors the picture */
+}
+
+static MesoStatus make_words(MesoGlVisibility *v, MesoArena *arena, MesoError *error)
+{
+    for (uint32_t i = 0; i < v->target_count; i++) {
+        v->words[i] = MESO_NEW(arena, uint32_t, (size_t)WORDS * v->side * v->side * v->job.samples, error);
+        if (!v->words[i])
+            return MESO_ERR_MEMORY;
+    }
+    return MESO_OK;
+}
+
+MesoStatus meso_gl_visibility_init(MesoGlVisibility **out, MesoArena *arena, const MesoGlContext *context,
+                                   const MesoRasterJob *job, const MesoView *view, bool detailed, MesoError *error)
+{
+    MesoGlVisibility *v = *out = MESO_NEW(arena, MesoGlVisibility, 1, error);
+    if (!v)
+        return MESO_ERR_MEMORY;
+    const MesoScene *scene = job->shapes->scene;
+    *v = (MesoGlVisibility){.job = *job, .lanes = meso_raster_lanes(job->samples), .view = *view,
+                            .end_depth = end_depth_of(view, &scene->box), .side = meso_gl_window_side(job->samples),
+                            .target_count = detailed ? TARGETS : 1};
+    MesoStatus status = meso_gl_load(&v->gl, context, error);
+    if (status) {
+        *out = NULL;
+        return status;
+    }
+    status = make_words(v, arena, error);
+    if (!status)
+        status = meso_draw_programs_init(&v->programs, &v->gl, scene, detailed, error);
+    if (!status)
+        status = make_frame(v, error);
+    if (!status)
+        status = meso_draw_lists_init(&v->lists, arena, &v->gl, job->shapes, view, job->height, job->tolerance, error);
+    set_state(&v->gl);
+    return status;
+}
+
+void meso_gl_visibility_release(MesoGlVisibility *v)
+{
+    if (!v)
+        return;
+    meso_draw_lists_release(&v->lists);
+    meso_draw_programs_release(&v->programs, &v->gl);
+    v->gl.DeleteFramebuffers(1, &v->frame);
+    v->gl.DeleteTextures(TARGETS, v->targets);
+    v->gl.DeleteTextures(1, &v->depth);
+}
+
+/* ---- a window ---- */
+
+/* Moves the picture so that the place (x, y), in units from the pixel's middle, comes to lie there. */
+static MesoMatrix moved(MesoMatrix clip, MesoWindow window, int32_t x, int32_t y)
+{
+    float right = -2 * (float)x / (MESO_RASTER_UNIT * (float)window.width);
+    float down = -2 * (float)y / (MESO_RASTER_UNIT * (float)window.height);
+    for (uint32_t column = 0; column < 4; column++) {
+        float *m = clip.m + 4 * column;
+        m[0] += right * m[3];
+        m[1] += down * m[3];
+    }
+    return clip;
+}
+
+static void draw_sample(MesoGlVisibility *v, const MesoMatrix *clip)
+{
+    static const GLuint nothing[4] = {0};
+    static const float farthest = 0;
+    const MesoGl *gl = &v->gl;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, v->frame);
+    gl->Viewport(0, 0, (GLsizei)v->window.width, (GLsizei)v->window.height);
+    gl->ClearNamedFramebufferfv(v->frame, GL_DEPTH, 0, &farthest);
+    gl->ClearNamedFramebufferuiv(v->frame, GL_COLOR, SEEN, nothing);    /* the details of nothing are not looked at */
+    meso_draw_lists_draw(&v->lists, &v->programs, clip, &v->view);
+}
+
+static void read_sample(MesoGlVisibility *v, uint32_t sample)
+{
+    const MesoGl *gl = &v->gl;
+    GLsizei width = (GLsizei)v->window.width, height = (GLsizei)v->window.height;
+    size_t first = (size_t)WORDS * sample * v->window.width * v->window.height;
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    for (uint32_t i = 0; i < v->target_count; i++) {
+        gl->NamedFramebufferReadBuffer(v->frame, GL_COLOR_ATTACHMENT0 + i);
+        gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, v->words[i] + first);
+    }
+}
+
+MesoStatus meso_gl_visibility_draw(MesoGlVisibility *v, MesoWindow window, MesoError *error)
+{
+    MesoMatrix clip = meso_view_clip_from_world(&v->view, v->end_depth, v->job.width, v->job.height, window);
+    v->window = window;
+    meso_draw_lists_select(&v->lists, &clip);
+    for (uint32_t i = 0; i < v->job.samples; i++) {
+        int32_t middle = MESO_RASTER_UNIT / 2;
+        MesoMatrix at = moved(clip, window, v->lanes.x[i] - middle, v->lanes.y[i] - middle);
+        draw_sample(v, &at);
+        read_sample(v, i);
+    }
+    return meso_gl_check(&v->gl, "drawing", error);
+}
+
+/* ---- samples ---- */
+
+static float float_of(uint32_t bits)
+{
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* "A Survey of Efficient Representations for Independent Unit Vectors" (Cigolle and others 2014). */
+static MesoVec3 unpack_normal(uint32_t bits)
+{
+    float x = (float)(int16_t)(bits & 0xffff) / 32767, y = (float)(int16_t)(bits >> 16) / 32767;
+    float z = 1 - fabsf(x) - fabsf(y);
+    MesoVec3 n = {x, y, z};
+    if (z < 0)
+        n = (MesoVec3){copysignf(1 - fabsf(y), x), copysignf(1 - fabsf(x), y), z};
+    return meso_vec3_unit(n, (MesoVec3){0, 0, 1});
+}
+
+bool meso_gl_visibility_sample(const MesoGlVisibility *v, uint32_t x, uint32_t y, uint32_t sample,
+                               MesoSurfaceSample *out)
+{
+    const float unit = 1.f / MESO_RASTER_UNIT;
+    size_t at = ((size_t)sample * v->window.height + y) * v->window.width + x;
+    const uint32_t *seen = v->words[SEEN] + WORDS * at;
+    if (seen[0] == 0)
+        return false;
+    MesoRasterRay ray = meso_raster_ray(&v->job.view, (float)(v->window.x + x) + (float)v->lanes.x[sample] * unit,
+                                        (float)(v->window.y + y) + (float)v->lanes.y[sample] * unit);
+    float depth = float_of(seen[1]);
+    *out = (MesoSurfaceSample){.shape = seen[0] - 1, .position = meso_vec3_mad(ray.origin, depth, ray.direction),
+                               .normal = unpack_normal(seen[2]), .depth = depth, .along = float_of(seen[3]),
+                               .color = {1, 1, 1}};
+    if (v->target_count == 1)
+        return true;
+    const uint32_t *details = v->words[DETAILS] + WORDS * at;
+    out->uv = (MesoVec2){float_of(details[0]), float_of(details[1])};
+    for (int c = 0; c < 3; c++)
+        out->color[c] = (float)(details[2] >> 8 * c & 255) / 255;
+    return true;
+}

@@ -1,0 +1,35 @@
+/*
+ * Visibility of a picture by GL, window by window: the nearest surface at each sample, as raster_tiles.h has it, which
+ * it agrees with but for what rounding decides. The samples of a pixel are drawn one after the other, each with the
+ * picture moved by its place.
+ */
+#ifndef MESO_GL_VISIBILITY_H
+#define MESO_GL_VISIBILITY_H
+
+#include "libcore/render/gl/gl_context.h"
+#include "libcore/render/raster/raster_tiles.h"
+
+typedef struct MesoGlVisibility MesoGlVisibility;
+
+/*
+ * Uploads the job's shapes, which have to last, as the job's view and `view`, which is the same. `detailed`: samples
+ * have uv and colour too, which are 0 and white otherwise. Never has triangles or shares of their corners. What is not
+ * GL's lives in `arena`. MESO_ERR_LIMIT over the driver's limits, MESO_ERR_INTERNAL with the driver's words where GL
+ * fails.
+ */
+MesoStatus meso_gl_visibility_init(MesoGlVisibility **visibility, MesoArena *arena, const MesoGlContext *context,
+                                   const MesoRasterJob *job, const MesoView *view, bool detailed, MesoError *error);
+void meso_gl_visibility_release(MesoGlVisibility *visibility);
+
+/* Pixels a side of the windows that are drawn at once, and the least that GL takes for one. */
+uint32_t meso_gl_window_side(uint32_t samples);
+size_t meso_gl_window_bytes(uint32_t samples);
+
+/* Finds what a window shows, at most of that side. */
+MesoStatus meso_gl_visibility_draw(MesoGlVisibility *visibility, MesoWindow window, MesoError *error);
+
+/* The surface at sample `sample` of pixel (x, y) of the window drawn last; false where there is nothing. */
+bool meso_gl_visibility_sample(const MesoGlVisibility *visibility, uint32_t x, uint32_t y, uint32_t sample,
+                               MesoSurfaceSample *out);
+
+#endif

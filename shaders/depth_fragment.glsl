@@ -1,4 +1,0 @@
-// Depth alone.
-void main()
-{
-}
