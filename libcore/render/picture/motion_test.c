@@ -1,6 +1,6 @@
 /*
- * Motion of bent tubes with a cap, and of a body: under a camera that moves, and with a model that grows and turns
- * about the origin. What a pixel shows is known by its position, and where that goes by the formula. Nothing moves
+ * Motion of bent tubes with a cap, of such tubes with sections bent into a cage, and of a body: under a camera that
+ * moves, and with a model that grows and turns about the origin. What a pixel shows is known by its position, and where that goes by the formula. Nothing moves
  * where nothing does; scenes of another structure are told.
  */
 #include "libcore/render/picture/motion.h"
@@ -28,6 +28,7 @@ typedef struct Bundle {
     uint32_t corners[8];
     MesoBody bodies[1];
     MesoPlacedBody placed[1];
+    MesoCage cage;
     MesoScene scene;
 } Bundle;
 
@@ -108,6 +109,30 @@ static void make_bundle(Bundle *b, Turn turn)
     meso_scene_measure(&b->scene);
 }
 
+/* The tubes of an unturned bundle in a cell, with a cage that is twisted and tapered, and turned: all goes with it. */
+static void put_in_cage(Bundle *b, Turn turn)
+{
+    static const MesoVec3 base[4] = {{2, -1, 0}, {1.5f, 0.6f, 0.3f}, {-1.5f, 1, 0}, {-2, -0.8f, 0.5f}};
+    for (uint32_t i = 0; i < TUBES + CAPS; i++) {
+        MesoSweepInstance *sweep = &b->instances[i];
+        for (uint32_t k = 0; k < 4; k++)
+            sweep->p[k] = (MesoVec3){sweep->p[k].x / 3 + 0.5f, sweep->p[k].y / 3 + 0.5f, sweep->p[k].z / 3 + 0.25f};
+        sweep->size[0] = sweep->size[1] = 1.f / 3;
+        sweep->cage = 0;
+    }
+    for (uint32_t k = 0; k < 4; k++) {
+        b->cage.base[k] = turned(turn, base[k]);
+        b->cage.rise[k] = turned(turn, (MesoVec3){k < 2 ? 0.5f : 0, 0, k % 2 ? 2 : 1.5f});
+    }
+    b->cage.high = 1;
+    b->scene.deform = MESO_SWEEP_SHAPE;
+    b->scene.cages = &b->cage;
+    b->scene.cage_count = 1;
+    b->scene.section_scale = 1;
+    make_body(b, turn);
+    meso_scene_measure(&b->scene);
+}
+
 /* Pixels from the left and from the bottom. */
 static void project(const MesoCamera *camera, MesoVec3 p, double place[2])
 {
@@ -154,7 +179,7 @@ static double check(const MesoScene *now, const MesoScene *next, Turn turn, Meso
 
 int main(void)
 {
-    static Bundle now, then, other;
+    static Bundle now, then, other, caged, caged_then;
     const MesoCamera here = {.eye = {1, 2, 5}, .up = {0, 1, 0}, .fov_degrees = 40};
     const MesoCamera there = {.eye = {1.5f, 2, 4.5f}, .target = {0, 0.1f, 0}, .up = {0.1f, 1, 0}, .fov_degrees = 42};
     const MesoCamera flat = {.eye = {1.5f, 2, 4.5f}, .up = {0.1f, 1, 0}, .fov_degrees = 42, .height = 3.8f};
@@ -170,6 +195,12 @@ int main(void)
     CHECK(check(&now.scene, &then.scene, grown, there) > 1);
     CHECK(check(&now.scene, &then.scene, grown, flat) > 1);
     CHECK(meso_motion_alike(&now.scene, &then.scene));
+    make_bundle(&caged, none);
+    put_in_cage(&caged, none);
+    make_bundle(&caged_then, none);
+    put_in_cage(&caged_then, grown);
+    CHECK(check(&caged.scene, &caged_then.scene, grown, here) > 1);
+    CHECK(check(&caged.scene, &caged_then.scene, grown, there) > 1);
     other.corners[3] = 0;
     CHECK(!meso_motion_alike(&now.scene, &other.scene));
     other.corners[3] = 3;
