@@ -16,7 +16,7 @@
 #include "libcore/base/index.h"
 #include "libcore/render/picture/apart.h"
 #include "libcore/render/picture/motion.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
@@ -198,16 +198,16 @@ static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *aren
 static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
 {
-    MesoTilePainter *painter;
+    MesoPainter *painter;
     MesoImage band;
     double at = meso_seconds();
     d->renderer = "tiles";
-    MesoStatus status = meso_tile_painter_init(&painter, &band, arena, scene, &d->options, a->tool.threads, error);
+    MesoStatus status = meso_painter_init(&painter, &band, arena, scene, &d->options, a->tool.threads, error);
     d->drawing = lap(&at);
     if (status)
         return status;
     for (uint32_t row = 0; row < d->options.height && !status; row += band.height) {
-        status = meso_tile_paint(painter, &band, row, error);
+        status = meso_paint(painter, &band, row, error);
         d->drawing += lap(&at);
         if (!status && row == 0)
             status = meso_picture_files_begin(&d->files, a, frame, d->numbered, backdrop, &band, d->options.height,

@@ -1,4 +1,4 @@
-/* Images with their arbitrary output variables (AOVs), and what they are asked for: picture/tile_picture.h draws them. */
+/* Images with their arbitrary output variables (AOVs), and what they are asked for: picture/painter.h draws them. */
 #ifndef MESO_RENDER_H
 #define MESO_RENDER_H
 
@@ -46,7 +46,7 @@ typedef struct MesoRenderOptions {
                                                      * camera */
     float vary;                 /* how much colours differ from thing to thing (light/vary.h) */
     uint32_t color_ids;         /* channel + 1 whose ids give the colours (id_color.h); 0: materials do */
-    uint32_t band_rows;         /* of a picture that is painted in bands (picture/tile_picture.h); 0: by their memory */
+    uint32_t band_rows;         /* of a picture that is painted in bands (picture/painter.h); 0: by their memory */
     MesoCamera next_camera;     /* of the next frame, for motion */
     const MesoScene *next_scene;    /* alike (picture/motion.h); NULL: the same */
     bool find_covered;          /* fill in `covered` of the image */

@@ -20,9 +20,12 @@ static bool grow(void **array, uint32_t room, size_t size)
     return grown != NULL;
 }
 
-/* Whether there is room for so many more. */
+/* Whether there is room for so many more; half of what 32 bits count is the most. */
 static bool make_room(MesoSketch *s, uint32_t bars, uint32_t vertices, uint32_t faces)
 {
+    const uint32_t most = UINT32_MAX / 2;
+    if (s->bar_count > most - bars || s->vertex_count > most - vertices || s->face_count > most - faces)
+        s->failed = true;
     if (!s->failed && s->bar_count + bars > s->bar_room) {
         s->bar_room = 2 * (s->bar_count + bars);
         s->failed = !grow((void **)&s->bars, s->bar_room, sizeof *s->bars);

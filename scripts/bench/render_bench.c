@@ -10,7 +10,7 @@
 #include "libcore/base/check.h"
 #include "libcore/base/clock.h"
 #include "libcore/render/gl/context.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 #include "libcore/tiling/strand/expansion.h"
 
 enum { FIELD = 128, SIDES = 16, REPEATS = 3 };

@@ -6,7 +6,7 @@
 #include "libcore/render/gl/context.h"
 #include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/isolate.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 
 /*
  * What a software driver takes: its tables, the code that it compiles, and the stacks of its threads; some 130 MB

@@ -13,7 +13,7 @@
 #include "libcore/base/check.h"
 #include "libcore/render/gl/context.h"
 #include "libcore/render/gl/renderer_name.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 
 enum { SIDES = 64, WIDTH = 160, HEIGHT = 90 };
 

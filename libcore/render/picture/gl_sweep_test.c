@@ -5,7 +5,7 @@
 
 #include "libcore/base/check.h"
 #include "libcore/render/gl/context.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 #include "libcore/scene/parts.h"
 
 enum { SIDES = 32, RINGS = 65, WIDTH = 160, HEIGHT = 90, VERTICES = (SIDES + 1) * RINGS, FACES = SIDES * (RINGS - 1) };

@@ -9,7 +9,7 @@
 
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 
 enum { SIDES = 12, TUBES = 6, CAPS = 3, WIDTH = 96, HEIGHT = 72 };
 

@@ -1,6 +1,6 @@
 /* Pictures, whole or in bands: visibility by raster_tiles.h or gl_visibility.h, light by light_rig.h. */
-#ifndef MESO_TILE_PICTURE_H
-#define MESO_TILE_PICTURE_H
+#ifndef MESO_PAINTER_H
+#define MESO_PAINTER_H
 
 #include "libcore/render/gl/gl_context.h"
 #include "libcore/render/render.h"
@@ -29,21 +29,21 @@ MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const Meso
  * The parts of meso_tile_picture(), for pictures that are larger than memory: bands of rows, of which each is painted
  * into the same image, whose height is the band's. All pixels are as those of the whole picture.
  */
-typedef struct MesoTilePainter MesoTilePainter;
+typedef struct MesoPainter MesoPainter;
 
 /* Rows of a band, a multiple of 16, or all: those that `options` ask for, or as many as go into MESO_BAND_BYTES. */
 enum { MESO_BAND_BYTES = 64 << 20 };
-uint32_t meso_tile_band_rows(const MesoScene *scene, const MesoRenderOptions *options);
+uint32_t meso_paint_band_rows(const MesoScene *scene, const MesoRenderOptions *options);
 
 /*
  * Gets ready, draws the lights' maps, and makes room for a band. The painter lives in `arena`, as long as the scene
  * and `options` do; `band` has all that is the same for all bands. Where mattes, or the box of what is covered, come of
  * several bands, the whole picture is looked through for what is on it: both are told before the first band.
  */
-MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
+MesoStatus meso_painter_init(MesoPainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
                                   const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
 
 /* Paints the band that begins with this row, and cuts its height to the picture's. MESO_ERR_MEMORY alone. */
-MesoStatus meso_tile_paint(MesoTilePainter *painter, MesoImage *band, uint32_t first_row, MesoError *error);
+MesoStatus meso_paint(MesoPainter *painter, MesoImage *band, uint32_t first_row, MesoError *error);
 
 #endif

@@ -4,7 +4,7 @@
  * must fall.
  */
 #include "libcore/render/gl/context.h"
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 
 #include <string.h>
 
@@ -282,11 +282,11 @@ static void test_bands(const Bundle *b, MesoVec3 at)
         options.extras = MESO_EXTRA_POSITION | MESO_EXTRA_MATTES;
         options.band_rows = rows;
         MesoImage whole = draw(b, &options, 2), band;
-        MesoTilePainter *painter;
-        CHECK(meso_tile_painter_init(&painter, &band, &arena, &b->scene, &options, 2, &error) == MESO_OK);
+        MesoPainter *painter;
+        CHECK(meso_painter_init(&painter, &band, &arena, &b->scene, &options, 2, &error) == MESO_OK);
         CHECK(band.height == rows && band.mattes[0].seen[0] == whole.mattes[0].seen[0] && whole.mattes[0].seen[0] != 0);
         for (uint32_t row = 0; row < HEIGHT; row += band.height) {
-            CHECK(meso_tile_paint(painter, &band, row, &error) == MESO_OK);
+            CHECK(meso_paint(painter, &band, row, &error) == MESO_OK);
             MesoImage part = rows_from(&whole, row, band.height);
             size_t first = (size_t)row * WIDTH, count = (size_t)band.height * WIDTH;
             CHECK(same_pixels(&band, &part));
@@ -302,13 +302,13 @@ static void test_plan(const Bundle *b)
 {
     for (uint32_t samples = 1; samples <= 16; samples *= 4) {
         MesoRenderOptions options = {.width = 16384, .height = 16384, .samples = samples};
-        uint32_t rows = meso_tile_band_rows(&b->scene, &options);
+        uint32_t rows = meso_paint_band_rows(&b->scene, &options);
         CHECK(rows == 64 && rows % 16 == 0 && 48.0 * 16384 * rows <= MESO_BAND_BYTES);
         options.extras = ~0u;
-        rows = meso_tile_band_rows(&b->scene, &options);
+        rows = meso_paint_band_rows(&b->scene, &options);
         CHECK(rows >= 16 && rows % 16 == 0 && 176.0 * 16384 * rows <= MESO_BAND_BYTES);
         options.width = 1280, options.height = 720, options.extras = 0;
-        CHECK(meso_tile_band_rows(&b->scene, &options) == 720);
+        CHECK(meso_paint_band_rows(&b->scene, &options) == 720);
     }
 }
 

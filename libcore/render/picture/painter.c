@@ -1,4 +1,4 @@
-#include "libcore/render/picture/tile_picture.h"
+#include "libcore/render/picture/painter.h"
 
 #include "libcore/base/parallel.h"
 #include "libcore/render/gl/gl_visibility.h"
@@ -14,9 +14,9 @@ static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.125f;
 
 enum { MOST_SAMPLES = 16 };
 
-typedef struct MesoTilePainter Picture;
+typedef struct MesoPainter Picture;
 
-struct MesoTilePainter {
+struct MesoPainter {
     MesoImage *image;           /* the band */
     uint32_t first_row;         /* of it in the picture */
     bool things_only;           /* nothing but mattes and alpha */
@@ -335,7 +335,7 @@ static MesoStatus paint_by_gl(const Picture *p, MesoError *error)
 /* ---- all of it, or bands ---- */
 
 /* A tile that more than one band has rows of is drawn for each of them. */
-uint32_t meso_tile_band_rows(const MesoScene *scene, const MesoRenderOptions *options)
+uint32_t meso_paint_band_rows(const MesoScene *scene, const MesoRenderOptions *options)
 {
     enum { LEAST = 16 };
     uint32_t tile = meso_raster_tile_rows(options->samples);
@@ -357,7 +357,7 @@ static MesoStatus make_band(MesoImage *band, MesoArena *arena, const MesoScene *
     MesoStatus status = meso_render_check(options, error);
     if (status)
         return status;
-    rows.height = meso_tile_band_rows(scene, options);
+    rows.height = meso_paint_band_rows(scene, options);
     unsigned char *memory = MESO_NEW(arena, unsigned char, meso_image_bytes(scene, &rows) + 64, error);
     if (!memory)
         return MESO_ERR_MEMORY;
@@ -365,7 +365,7 @@ static MesoStatus make_band(MesoImage *band, MesoArena *arena, const MesoScene *
     return MESO_OK;
 }
 
-static MesoStatus paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
+static MesoStatus paint(MesoPainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
 {
     uint32_t left = p->options->height - first_row;
     band->height = band->height < left ? band->height : left;
@@ -376,7 +376,7 @@ static MesoStatus paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row,
     return meso_raster_rows(p->bins, first_row, first_row + band->height, p->thread_count, take_tile, p, error);
 }
 
-MesoStatus meso_tile_paint(MesoTilePainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
+MesoStatus meso_paint(MesoPainter *p, MesoImage *band, uint32_t first_row, MesoError *error)
 {
     MesoStatus status = paint(p, band, first_row, error);
     if (!status && p->options->find_covered && band->height == p->options->height)
@@ -384,7 +384,7 @@ MesoStatus meso_tile_paint(MesoTilePainter *p, MesoImage *band, uint32_t first_r
     return status;
 }
 
-static MesoStatus look_through(MesoTilePainter *p, MesoImage *band, MesoError *error)
+static MesoStatus look_through(MesoPainter *p, MesoImage *band, MesoError *error)
 {
     MesoStatus status = MESO_OK;
     uint32_t rows = band->height;
@@ -400,7 +400,7 @@ static MesoStatus look_through(MesoTilePainter *p, MesoImage *band, MesoError *e
 }
 
 /* Of what is seen, and of light. */
-static MesoStatus get_ready(MesoTilePainter *p, MesoArena *arena, MesoError *error)
+static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
 {
     const MesoRenderOptions *options = p->options;
     const MesoScene *scene = p->scene;
@@ -422,20 +422,20 @@ static MesoStatus get_ready(MesoTilePainter *p, MesoArena *arena, MesoError *err
     return status;
 }
 
-static MesoTilePainter *new_painter(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
+static MesoPainter *new_painter(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
                                     uint32_t thread_count, MesoError *error)
 {
-    MesoTilePainter *p = MESO_NEW(arena, MesoTilePainter, 1, error);
+    MesoPainter *p = MESO_NEW(arena, MesoPainter, 1, error);
     if (p)
-        *p = (MesoTilePainter){.options = options, .scene = scene, .varied = meso_vary_channel(scene),
+        *p = (MesoPainter){.options = options, .scene = scene, .varied = meso_vary_channel(scene),
                                .thread_count = thread_count};
     return p;
 }
 
-MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
+MesoStatus meso_painter_init(MesoPainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
                                   const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
 {
-    MesoTilePainter *p = *painter = new_painter(arena, scene, options, thread_count, error);
+    MesoPainter *p = *painter = new_painter(arena, scene, options, thread_count, error);
     if (!p)
         return MESO_ERR_MEMORY;
     MesoStatus status = make_band(band, arena, scene, options, error);
@@ -453,11 +453,11 @@ MesoStatus meso_tile_painter_init(MesoTilePainter **painter, MesoImage *band, Me
 MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
 {
-    MesoTilePainter *painter;
+    MesoPainter *painter;
     MesoRenderOptions whole = *options;
     whole.band_rows = options->height;
-    MesoStatus status = meso_tile_painter_init(&painter, image, arena, scene, &whole, thread_count, error);
-    return status ? status : meso_tile_paint(painter, image, 0, error);
+    MesoStatus status = meso_painter_init(&painter, image, arena, scene, &whole, thread_count, error);
+    return status ? status : meso_paint(painter, image, 0, error);
 }
 
 MesoStatus meso_gl_picture(MesoImage *image, MesoArena *arena, const MesoGlContext *context, const MesoScene *scene,
@@ -476,7 +476,7 @@ MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const Meso
 {
     if (options->extras & MESO_EXTRA_MOTION)
         return meso_fail(error, MESO_ERR_USAGE, "GL finds no motion");
-    MesoTilePainter *p = new_painter(arena, scene, options, thread_count, error);
+    MesoPainter *p = new_painter(arena, scene, options, thread_count, error);
     if (!p)
         return MESO_ERR_MEMORY;
     bool detailed = options->extras & MESO_EXTRA_UV || meso_scene_is_colored(scene);
@@ -484,7 +484,7 @@ MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const Meso
     if (!status)
         status = meso_gl_visibility_init(&p->gl, arena, context, &p->job, &p->view, detailed, error);
     if (!status)
-        status = meso_tile_paint(p, image, 0, error);
+        status = meso_paint(p, image, 0, error);
     meso_gl_visibility_release(p->gl);
     return status;
 }
