@@ -118,7 +118,7 @@ bool meso_growth_admit(MesoGrowthWork *work, uint32_t number)
 {
     static MesoGrowthRuleCount none;
     MesoGrowthTurn *turn = &work->turns[number];
-    if (work->uses_space && work->space.kin_count > work->since)
+    if (work->uses_space && work->space.cells.piece_count > work->since)
         bring_up_to_date(work, number);
     if (turn->batch->failed || turn->batch->seen.failed)
         return fail_memory(work);

@@ -113,7 +113,7 @@ static bool run_window(MesoGrowthWork *work, uint32_t begin_at, uint32_t count)
     MesoGrowthBatch *again = &work->batches[work->batch_count];
     uint32_t admitted = 0;
     work->window_begin = begin_at;
-    work->since = work->space.kin_count;
+    work->since = work->space.cells.piece_count;
     work->first_branch = work->branch_count;
     work->first_tip = work->tip_count;
     work->first_shoot = work->shoot_count;

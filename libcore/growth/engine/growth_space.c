@@ -1,7 +1,6 @@
 #include "libcore/growth/engine/growth_space.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Of the longest side of a triangle: by so much may points on sides be rounded in one of the two triangles there. */
 static const double rounding = 4e-15;
@@ -9,62 +8,25 @@ static const double rounding = 4e-15;
 MesoStatus meso_growth_space_init(MesoGrowthSpace *space, const MesoGrowthGround *ground, MesoError *error)
 {
     *space = (MesoGrowthSpace){.ground = ground};
-    size_t size = (size_t)ground->walk.triangle_count * sizeof *space->heads;
-    space->heads = malloc(size ? size : 1);
-    if (!space->heads)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: %zu bytes", size);
-    memset(space->heads, 0xff, size);
-    return MESO_OK;
+    return meso_growth_cells_init(&space->cells, &ground->walk, error);
 }
 
 void meso_growth_space_release(MesoGrowthSpace *space)
 {
-    free(space->heads);
-    free(space->blocks);
+    meso_growth_cells_release(&space->cells);
     free(space->kin);
-}
-
-void meso_growth_seen_release(MesoGrowthSeen *seen)
-{
-    free(seen->table);
-    free(seen->queue);
-    free(seen->ends);
-}
-
-static void add_piece(MesoGrowthSpace *space, const MesoGrowthPiece *piece, uint32_t element)
-{
-    uint32_t *head = &space->heads[piece->triangle];
-    if (*head == MESO_NO_INDEX || space->blocks[*head].count == MESO_GROWTH_LANES) {
-        space->blocks[space->block_count].count = 0;
-        space->blocks[space->block_count].next = *head;
-        *head = space->block_count++;
-    }
-    MesoGrowthBlock *block = &space->blocks[*head];
-    uint32_t lane = block->count++;
-    block->x0[lane] = piece->ends[0].re;
-    block->y0[lane] = piece->ends[0].im;
-    block->x1[lane] = piece->ends[1].re;
-    block->y1[lane] = piece->ends[1].im;
-    block->element[lane] = element;
 }
 
 bool meso_growth_space_add(MesoGrowthSpace *space, MesoGrowthKin kin, const MesoGrowthPiece *pieces, uint32_t count)
 {
-    if (!meso_make_room((void **)&space->kin, &space->kin_room, (uint64_t)space->kin_count + 1, sizeof *space->kin) ||
-        !meso_make_room((void **)&space->blocks, &space->block_room, (uint64_t)space->block_count + count,
-                        sizeof *space->blocks))
+    if (!meso_make_room((void **)&space->kin, &space->kin_room, (uint64_t)space->kin_count + 1, sizeof *space->kin))
         return false;
     uint32_t element = space->kin_count;
     space->kin[space->kin_count++] = kin;
     for (uint32_t i = 0; i < count; i++)
-        add_piece(space, &pieces[i], element);
+        if (!meso_growth_cells_add(&space->cells, &pieces[i], element))
+            return false;
     return true;
-}
-
-static inline void load_lane(const MesoGrowthBlock *block, uint32_t lane, MesoComplex ends[2])
-{
-    ends[0] = (MesoComplex){block->x0[lane], block->y0[lane]};
-    ends[1] = (MesoComplex){block->x1[lane], block->y1[lane]};
 }
 
 /* ---- kin ---- */
@@ -134,27 +96,16 @@ static inline bool lies_apart(const Segment *s, const MesoComplex ends[2])
     return fmax(a, b) < -s->slack || fmin(a, b) > s->square + s->slack;
 }
 
-/* Bit i: both ends of piece i surely lie on one side of a segment. */
-static inline uint32_t lanes_apart(const Segment *s, const MesoGrowthBlock *block)
+/* Whether both ends of another surely lie on one side of a segment. */
+static inline bool lies_aside(const Segment *s, const MesoComplex ends[2])
 {
-    uint32_t apart = 0;
-    double from[MESO_GROWTH_LANES], to[MESO_GROWTH_LANES];
-    for (uint32_t i = 0; i < MESO_GROWTH_LANES; i++) {
-        from[i] = s->along.re * (block->y0[i] - s->from.im) - s->along.im * (block->x0[i] - s->from.re);
-        to[i] = s->along.re * (block->y1[i] - s->from.im) - s->along.im * (block->x1[i] - s->from.re);
-    }
-    for (uint32_t i = 0; i < MESO_GROWTH_LANES; i++) {
-        bool left = (from[i] > s->slack) & (to[i] > s->slack), right = (from[i] < -s->slack) & (to[i] < -s->slack);
-        apart |= (uint32_t)(left | right) << i;
-    }
-    return apart;
+    return side_of(s, ends[0]) * side_of(s, ends[1]) > 0;
 }
 
-/* Whether two do, of which the other is not on one side of the first. */
 static bool segments_meet(const Segment *s, const MesoComplex s_ends[2], const MesoComplex t_ends[2], double size)
 {
     Segment t = segment(t_ends, size);
-    return side_of(&t, s_ends[0]) * side_of(&t, s_ends[1]) <= 0 && !lies_apart(s, t_ends) && !lies_apart(&t, s_ends);
+    return !lies_aside(s, t_ends) && !lies_aside(&t, s_ends) && !lies_apart(s, t_ends) && !lies_apart(&t, s_ends);
 }
 
 static inline bool is_same(MesoComplex a, MesoComplex b)
@@ -193,12 +144,52 @@ static double place_meeting(const Segment *s, const MesoComplex ends[2], double 
     return along;
 }
 
+/* ---- roughly ---- */
+
+/* A segment in floats, as a share of its triangle's size. */
+typedef struct Rough {
+    MesoFour x, y, along_x, along_y;    /* alike in all lanes: where it begins, and to its end */
+    MesoFour slack, end;                /* of turns and shares; its square, and slack */
+} Rough;
+
+static Rough rough_of(const MesoComplex ends[2], double size)
+{
+    double share = 1 / size;
+    float x = (float)((ends[1].re - ends[0].re) * share), y = (float)((ends[1].im - ends[0].im) * share);
+    float slack = meso_growth_rough * (fabsf(x) + fabsf(y));
+    return (Rough){meso_four_all((float)(ends[0].re * share)), meso_four_all((float)(ends[0].im * share)),
+                   meso_four_all(x), meso_four_all(y), meso_four_all(slack), meso_four_all(x * x + y * y + slack)};
+}
+
+/* Lanes of two numbers that are both above a limit, or both below. */
+static inline MesoFourBits both_beyond(MesoFour a, MesoFour b, MesoFour low, MesoFour high)
+{
+    return ((a > high) & (b > high)) | ((a < low) & (b < low));
+}
+
+/* Lanes of pieces that may meet a segment: where no line through one of the two has the other surely on one side. */
+static inline MesoFourBits lanes_near(const Rough *s, const MesoGrowthBlock *block)
+{
+    MesoFour x0 = block->x0 - s->x, y0 = block->y0 - s->y, x1 = block->x1 - s->x, y1 = block->y1 - s->y;
+    MesoFourBits apart = both_beyond(s->along_x * y0 - s->along_y * x0, s->along_x * y1 - s->along_y * x1, -s->slack,
+                                     s->slack);
+    apart |= both_beyond(s->along_x * x0 + s->along_y * y0, s->along_x * x1 + s->along_y * y1, -s->slack, s->end);
+    MesoFour x = x1 - x0, y = y1 - y0;
+    MesoFour slack = s->slack + meso_four_all(meso_growth_rough) * (meso_four_absolute(x) + meso_four_absolute(y) +
+                                                                    meso_four_absolute(x0) + meso_four_absolute(y0));
+    apart |= both_beyond(y * x0 - x * y0, x * (s->along_y - y0) - y * (s->along_x - x0), -slack, slack);
+    return ~apart;
+}
+
+/* ---- pieces ---- */
+
 /* A piece of the way that asks. */
 typedef struct Probe {
     const MesoGrowthSpace *space;
     const MesoGrowthAsker *asker;
     const MesoGrowthPiece *piece;
     Segment segment;
+    Rough rough;
     double size;                /* of its triangle */
     bool begins;                /* the way begins here */
 } Probe;
@@ -212,54 +203,81 @@ static bool is_root_of(const Probe *probe, uint32_t element, const MesoComplex e
     return (begins || is_same(ends[1], probe->segment.from)) && !are_alike(&probe->segment, ends[begins]);
 }
 
-static bool meets_lane(const Probe *probe, const MesoGrowthBlock *block, uint32_t lane, MesoComplex ends[2])
+static bool meets_piece(const Probe *probe, uint32_t number)
 {
-    uint32_t element = block->element[lane];
-    load_lane(block, lane, ends);
-    return element >= probe->asker->since && segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) &&
+    const MesoGrowthCells *cells = &probe->space->cells;
+    const MesoComplex *ends = cells->ends[number];
+    uint32_t element = cells->elements[number];
+    return number >= probe->asker->since && segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) &&
            !probe->space->kin[element].placed && !is_root_of(probe, element, ends);
+}
+
+/* Of those in one place, the newer, so that it does not matter in which order they are found. */
+static void take_nearer(const Probe *probe, uint32_t number, MesoGrowthMeeting *first)
+{
+    MesoComplex at;
+    double along = place_meeting(&probe->segment, probe->space->cells.ends[number], probe->size, &at);
+    if (along < first->along || (along == first->along && number > first->met))
+        *first = (MesoGrowthMeeting){.met = number, .at = at, .along = along};
 }
 
 /* The nearest meeting in a block, where it is nearer than `first`; where that is NULL, any. */
 static bool meets_in_block(const Probe *probe, const MesoGrowthBlock *block, MesoGrowthMeeting *first)
 {
-    uint32_t left = ((1u << block->count) - 1) & ~lanes_apart(&probe->segment, block);
+    MesoFourBits near = lanes_near(&probe->rough, block);
+    MesoFourWords words = (MesoFourWords)near;
     bool meets = false;
-    for (; left; left &= left - 1) {
-        MesoComplex ends[2], at;
-        if (!meets_lane(probe, block, (uint32_t)__builtin_ctz(left), ends))
+    for (uint32_t lane = 0; (words[0] | words[1]) != 0 && lane < block->count; lane++) {
+        if (!near[lane] || !meets_piece(probe, block->piece[lane]))
             continue;
         if (!first)
             return true;
-        double along = place_meeting(&probe->segment, ends, probe->size, &at);
-        if (along < first->along)
-            *first = (MesoGrowthMeeting){.at = at, .along = along};
+        take_nearer(probe, block->piece[lane], first);
         meets = true;
     }
+    return meets;
+}
+
+/* Of one cell, from its newest block on. */
+static bool meets_in_cell(const Probe *probe, uint32_t number, MesoGrowthMeeting *first)
+{
+    const MesoGrowthBlock *blocks = probe->space->cells.blocks;
+    bool meets = false;
+    while (number != MESO_NO_INDEX) {
+        const MesoGrowthBlock *block = &blocks[number];
+        if (block->piece[MESO_GROWTH_LANES - 1] < probe->asker->since)
+            break;
+        if (block->next != MESO_NO_INDEX)
+            meso_growth_fetch_block(&blocks[block->next]);
+        meets |= meets_in_block(probe, block, first);
+        if (meets && !first)
+            return true;
+        number = block->next;
+    }
+    return meets;
+}
+
+static bool meets_in_cells(const Probe *probe, MesoGrowthMeeting *first)
+{
+    MesoGrowthSight sight;
+    uint32_t number;
+    bool meets = false;
+    meso_growth_sight(&sight, &probe->space->cells, probe->piece->triangle, probe->piece->ends);
+    while (!(meets && !first) && (number = meso_growth_next_cell(&sight)) != MESO_NO_INDEX)
+        meets |= meets_in_cell(probe, number, first);
     return meets;
 }
 
 static bool piece_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *piece,
                         bool begins, MesoGrowthMeeting *first)
 {
-    uint32_t number = space->heads[piece->triangle];
-    if (number == MESO_NO_INDEX)
+    uint32_t head = space->cells.heads[piece->triangle];
+    if (head == MESO_NO_INDEX)
         return false;
     Probe probe = {space, asker, piece, .size = space->ground->walk.lengths[piece->triangle], .begins = begins};
     probe.segment = segment(piece->ends, probe.size);
-    bool meets = false;
-    while (number != MESO_NO_INDEX) {
-        const MesoGrowthBlock *block = &space->blocks[number];
-        if (block->element[block->count - 1] < asker->since)
-            break;
-        if (block->next != MESO_NO_INDEX)
-            meso_growth_fetch_block(&space->blocks[block->next]);
-        meets |= meets_in_block(&probe, block, first);
-        if (meets && !first)
-            return true;
-        number = block->next;
-    }
-    return meets;
+    probe.rough = rough_of(piece->ends, probe.size);
+    return meso_growth_is_quartered(head) ? meets_in_cells(&probe, first) : meets_in_cell(&probe, head, first);
 }
 
 bool meso_growth_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *pieces,
@@ -275,225 +293,4 @@ bool meso_growth_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *aske
         }
     }
     return false;
-}
-
-/* ---- points and segments in space ---- */
-
-static double clamp(double x, double low, double high)
-{
-    return fmin(fmax(x, low), high);
-}
-
-void meso_growth_weigh(const MesoWalkGround *ground, uint32_t triangle, MesoComplex point, double weight[3])
-{
-    const MesoWalkFace *face = &ground->faces[triangle];
-    uint32_t base = meso_walk_base(face);
-    MesoComplex apex = face->apexes[base];
-    double length = ground->lengths[triangle];
-    double far = apex.im > 0 && length > 0 ? clamp(point.im / (length * apex.im), 0, 1) : 0;
-    double next = length > 0 ? clamp(point.re / length - far * apex.re, 0, 1 - far) : 0;
-    weight[base] = 1 - far - next;
-    weight[meso_next_side(base)] = next;
-    weight[meso_previous_side(base)] = far;
-}
-
-static void load_corners(const MesoTriangulation *mesh, uint32_t triangle, double corners[3][3])
-{
-    for (uint32_t k = 0; k < 3; k++) {
-        MesoVec3 p = mesh->positions[mesh->corners[3 * (size_t)triangle + k]];
-        corners[k][0] = p.x;
-        corners[k][1] = p.y;
-        corners[k][2] = p.z;
-    }
-}
-
-static void lift_ends(const MesoWalkGround *ground, uint32_t triangle, double corners[3][3],
-                      const MesoComplex ends[2], double out[6])
-{
-    for (uint32_t end = 0; end < 2; end++) {
-        double weight[3];
-        meso_growth_weigh(ground, triangle, ends[end], weight);
-        for (uint32_t i = 0; i < 3; i++)
-            out[3 * end + i] = weight[0] * corners[0][i] + weight[1] * corners[1][i] + weight[2] * corners[2][i];
-    }
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* Square of the distance of two segments, each its two ends ("Real-Time Collision Detection", Ericson 2005, 5.1.9). */
-static double square_between(const double p[6], const double q[6])
-{
-    double u[3], v[3], w[3];
-    for (uint32_t i = 0; i < 3; i++) {
-        u[i] = p[3 + i] - p[i];
-        v[i] = q[3 + i] - q[i];
-        w[i] = p[i] - q[i];
-    }
-    double a = dot(u, u), e = dot(v, v), f = dot(v, w), b = dot(u, v), c = dot(u, w), s = 0, t = 0;
-    double area = a * e - b * b;
-    if (a > 0 && e > 0) {
-        s = area > 1e-14 * a * e ? clamp((b * f - c * e) / area, 0, 1) : 0;
-        t = (b * s + f) / e;
-        if (t < 0 || t > 1) {
-            t = clamp(t, 0, 1);
-            s = clamp((b * t - c) / a, 0, 1);
-        }
-    } else if (a > 0) {
-        s = clamp(-c / a, 0, 1);
-    } else if (e > 0) {
-        t = clamp(f / e, 0, 1);
-    }
-    double square = 0;
-    for (uint32_t i = 0; i < 3; i++) {
-        double d = w[i] + s * u[i] - t * v[i];
-        square += d * d;
-    }
-    return square;
-}
-
-/* ---- clearance ---- */
-
-static bool is_within(const double *ends, uint32_t count, const double other[6], double square)
-{
-    for (uint32_t i = 0; i < count; i++)
-        if (square_between(ends + 6 * (size_t)i, other) < square)
-            return true;
-    return false;
-}
-
-static uint32_t hash_of(uint32_t triangle, uint32_t room)
-{
-    return (triangle * 2654435769u) & (room - 1);
-}
-
-static bool enlarge_seen(MesoGrowthSeen *seen)
-{
-    uint32_t room = seen->room ? 2 * seen->room : 256;
-    uint32_t *queue = realloc(seen->queue, room * sizeof *queue);
-    if (queue)
-        seen->queue = queue;
-    uint32_t *table = realloc(seen->table, room * sizeof *table);
-    if (table)
-        seen->table = table;
-    if (!queue || !table)
-        return false;
-    seen->room = room;
-    memset(table, 0xff, room * sizeof *table);
-    for (uint32_t i = 0; i < seen->count; i++) {
-        uint32_t at = hash_of(queue[i], room);
-        while (table[at] != MESO_NO_INDEX)
-            at = (at + 1) & (room - 1);
-        table[at] = queue[i];
-    }
-    return true;
-}
-
-/* Queues a triangle that has not been seen. */
-static void see(MesoGrowthSeen *seen, uint32_t triangle)
-{
-    if (2 * (seen->count + 1) > seen->room && !enlarge_seen(seen)) {
-        seen->failed = true;
-        return;
-    }
-    uint32_t at = hash_of(triangle, seen->room);
-    for (; seen->table[at] != MESO_NO_INDEX; at = (at + 1) & (seen->room - 1))
-        if (seen->table[at] == triangle)
-            return;
-    seen->table[at] = triangle;
-    seen->queue[seen->count++] = triangle;
-}
-
-static void forget(MesoGrowthSeen *seen)
-{
-    if (seen->room > 4096 && seen->count < seen->room / 8) {
-        for (uint32_t i = 0; i < seen->count; i++) {
-            uint32_t at = hash_of(seen->queue[i], seen->room);
-            for (; seen->table[at] != MESO_NO_INDEX; at = (at + 1) & (seen->room - 1))
-                seen->table[at] = MESO_NO_INDEX;
-        }
-    } else if (seen->room) {
-        memset(seen->table, 0xff, seen->room * sizeof *seen->table);
-    }
-    seen->count = 0;
-}
-
-typedef struct Search {
-    const MesoGrowthSpace *space;
-    const MesoGrowthAsker *asker;
-    MesoGrowthSeen *seen;
-    uint32_t count;             /* pieces of the way */
-    double clear;
-    bool placed_count;
-} Search;
-
-/* Whether a piece that is too near counts. */
-static bool counts(const Search *search, uint32_t element)
-{
-    double kin = MESO_GROWTH_KIN * search->clear;
-    return (search->placed_count && search->space->kin[element].placed) ||
-           !(meso_growth_way_to(search->space, search->asker, element, kin) < kin);
-}
-
-static bool triangle_is_clear(const Search *search, uint32_t triangle, double corners[3][3])
-{
-    const MesoGrowthSpace *space = search->space;
-    double square = search->clear * search->clear;
-    for (uint32_t i = space->heads[triangle]; i != MESO_NO_INDEX; i = space->blocks[i].next) {
-        const MesoGrowthBlock *block = &space->blocks[i];
-        for (uint32_t lane = block->count; lane-- > 0;) {
-            MesoComplex flat[2];
-            double ends[6];
-            if (block->element[lane] < search->asker->since)
-                return true;
-            load_lane(block, lane, flat);
-            lift_ends(&space->ground->walk, triangle, corners, flat, ends);
-            if (is_within(search->seen->ends, search->count, ends, square) && counts(search, block->element[lane]))
-                return false;
-        }
-    }
-    return true;
-}
-
-static void see_neighbours(const Search *search, uint32_t triangle, double corners[3][3])
-{
-    const MesoWalkFace *face = &search->space->ground->walk.faces[triangle];
-    for (uint32_t k = 0; k < 3; k++) {
-        double side[6];
-        memcpy(side, corners[k], sizeof corners[k]);
-        memcpy(side + 3, corners[meso_next_side(k)], sizeof corners[k]);
-        if (face->twins[k] != MESO_NO_INDEX &&
-            is_within(search->seen->ends, search->count, side, search->clear * search->clear))
-            see(search->seen, face->twins[k] / 3);
-    }
-}
-
-bool meso_growth_is_clear(const MesoGrowthSpace *space, MesoGrowthSeen *seen, const MesoGrowthAsker *asker,
-                          const MesoGrowthPiece *pieces, uint32_t count, double clear, bool placed_count)
-{
-    const MesoTriangulation *mesh = space->ground->mesh;
-    const Search search = {space, asker, seen, count, clear, placed_count};
-    double corners[3][3];
-    bool is_clear = true;
-    if (!(clear > 0) || asker->since >= space->kin_count)
-        return true;
-    if (!meso_make_room((void **)&seen->ends, &seen->piece_room, count, 6 * sizeof *seen->ends)) {
-        seen->failed = true;
-        return true;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        load_corners(mesh, pieces[i].triangle, corners);
-        lift_ends(&space->ground->walk, pieces[i].triangle, corners, pieces[i].ends, seen->ends + 6 * (size_t)i);
-        see(seen, pieces[i].triangle);
-    }
-    for (uint32_t i = 0; i < seen->count && is_clear && !seen->failed; i++) {
-        load_corners(mesh, seen->queue[i], corners);
-        is_clear = triangle_is_clear(&search, seen->queue[i], corners);
-        if (is_clear)
-            see_neighbours(&search, seen->queue[i], corners);
-    }
-    forget(seen);
-    return is_clear;
 }

@@ -1,7 +1,7 @@
 /*
  * What has grown, where: the pieces of all strands by the triangle that they lie in, in the triangle's own frame. A new
- * piece is tested against those of its triangle alone, by signs of turns; where rounding might have made a sign, the
- * two count as meeting, so that what does not meet does not.
+ * piece is tested against those of its triangle alone, or of the parts of it that it goes through, by signs of turns;
+ * where rounding might have made a sign, the two count as meeting, so that what does not meet does not.
  *
  * Strands form trees. A step begins at a node: the end of an element, or the place of a seed. What begins or ends at
  * that node touches it there and nowhere else; and distances along the tree tell what is kin.
@@ -9,40 +9,13 @@
 #ifndef MESO_GROWTH_SPACE_H
 #define MESO_GROWTH_SPACE_H
 
-#include "libcore/growth/engine/growth_room.h"
-#include "libcore/growth/ground/growth_ground.h"
+#include "libcore/growth/engine/growth_cells.h"
 
 /* Nodes that are no element's end: with the number of a seed's place. */
 #define MESO_GROWTH_ROOT 0x80000000u
 
 /* What lies nearer than this times its distance along the strands is kin to a step that must be clear by a distance. */
 enum { MESO_GROWTH_KIN = 4 };
-
-/* A straight way through a triangle. */
-typedef struct MesoGrowthPiece {
-    MesoComplex ends[2];        /* in the triangle's frame */
-    uint32_t triangle;
-    bool turned;
-} MesoGrowthPiece;
-
-/* Pieces of one triangle, as many as are tested at a time; the last of them are the newest. */
-enum { MESO_GROWTH_LANES = 4 };
-
-typedef struct MesoGrowthBlock {
-    double x0[MESO_GROWTH_LANES], y0[MESO_GROWTH_LANES], x1[MESO_GROWTH_LANES], y1[MESO_GROWTH_LANES];  /* ends */
-    uint32_t element[MESO_GROWTH_LANES];
-    uint32_t count;
-    uint32_t next;              /* older ones of the same triangle */
-} MesoGrowthBlock;
-
-/* All lines of memory of a block. */
-static inline void meso_growth_fetch_block(const MesoGrowthBlock *block)
-{
-    __builtin_prefetch(block->x0);
-    __builtin_prefetch(block->x1);
-    __builtin_prefetch(block->element);
-    __builtin_prefetch(&block->next);
-}
 
 /* An element's place in its tree. */
 typedef struct MesoGrowthKin {
@@ -53,10 +26,9 @@ typedef struct MesoGrowthKin {
 
 typedef struct MesoGrowthSpace {
     const MesoGrowthGround *ground;
-    uint32_t *heads;            /* [triangle_count] newest block */
-    MesoGrowthBlock *blocks;
+    MesoGrowthCells cells;
     MesoGrowthKin *kin;
-    uint32_t block_count, block_room, kin_count, kin_room;
+    uint32_t kin_count, kin_room;
 } MesoGrowthSpace;
 
 /* Who asks. */
@@ -64,11 +36,12 @@ typedef struct MesoGrowthAsker {
     uint32_t node;
     bool moved;
     double length;              /* along the way from the seed, where it begins */
-    uint32_t since;             /* only elements from this one on are looked at */
+    uint32_t since;             /* only pieces from this one on are looked at */
 } MesoGrowthAsker;
 
 typedef struct MesoGrowthMeeting {
     uint32_t piece;             /* of the way that asks */
+    uint32_t met;               /* piece of a strand; where two are in one place, the newer */
     MesoComplex at;             /* on the strand that is met */
     double along;               /* the piece, up to there */
 } MesoGrowthMeeting;
@@ -88,7 +61,7 @@ void meso_growth_seen_release(MesoGrowthSeen *seen);
 /* The next element, and the pieces of its way. False where memory is out. */
 bool meso_growth_space_add(MesoGrowthSpace *space, MesoGrowthKin kin, const MesoGrowthPiece *pieces, uint32_t count);
 
-/* Whether a way meets a strand, and where it does first. O(pieces in its triangles). */
+/* Whether a way meets a strand, and where it does first. O(pieces in the cells that it goes through). */
 bool meso_growth_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *pieces,
                        uint32_t count, MesoGrowthMeeting *first);
 

@@ -46,19 +46,34 @@ typedef struct Piece {
     uint32_t element, triangle;
 } Piece;
 
+/* Once, though it may lie in several cells. */
+static void list_piece(Piece *pieces, uint32_t *count, uint32_t first, Piece piece)
+{
+    for (uint32_t i = first; i < *count; i++)
+        if (pieces[i].element == piece.element && memcmp(pieces[i].ends, piece.ends, sizeof piece.ends) == 0)
+            return;
+    pieces[(*count)++] = piece;
+}
+
 static Piece *list_pieces(const MesoGrowthWork *work, uint32_t *count)
 {
-    const MesoGrowthSpace *space = &work->space;
-    Piece *pieces = malloc((size_t)(space->block_count + 1) * MESO_GROWTH_LANES * sizeof *pieces);
+    const MesoGrowthCells *cells = &work->space.cells;
+    Piece *pieces = malloc((size_t)(cells->block_count + 1) * MESO_GROWTH_LANES * sizeof *pieces);
     CHECK(pieces);
     *count = 0;
-    for (uint32_t t = 0; t < work->ground->walk.triangle_count; t++)
-        for (uint32_t b = space->heads[t]; b != MESO_NO_INDEX; b = space->blocks[b].next)
-            for (uint32_t i = 0; i < space->blocks[b].count; i++) {
-                const MesoGrowthBlock *block = &space->blocks[b];
-                pieces[(*count)++] = (Piece){{{block->x0[i], block->y0[i]}, {block->x1[i], block->y1[i]}},
-                                             block->element[i], t};
-            }
+    for (uint32_t t = 0; t < work->ground->walk.triangle_count; t++) {
+        MesoGrowthSight sight;
+        uint32_t first = *count, b;
+        meso_growth_sight(&sight, cells, t, NULL);
+        while ((b = meso_growth_next_cell(&sight)) != MESO_NO_INDEX)
+            for (; b != MESO_NO_INDEX; b = cells->blocks[b].next)
+                for (uint32_t i = 0; i < cells->blocks[b].count; i++) {
+                    uint32_t number = cells->blocks[b].piece[i];
+                    Piece piece = {.element = cells->elements[number], .triangle = t};
+                    memcpy(piece.ends, cells->ends[number], sizeof piece.ends);
+                    list_piece(pieces, count, first, piece);
+                }
+    }
     return pieces;
 }
 

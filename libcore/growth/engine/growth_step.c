@@ -25,7 +25,7 @@ void meso_growth_collect(void *context, const MesoWalkPiece *piece)
         batch->linked[last].next = number;
     batch->last[piece->walk] = number;
     if (batch->space)
-        __builtin_prefetch(&batch->space->heads[piece->triangle]);
+        __builtin_prefetch(&batch->space->cells.heads[piece->triangle]);
 }
 
 void meso_growth_keep_pieces(MesoGrowthBatch *batch, MesoGrowthTurn *turn, uint32_t walk)

@@ -110,9 +110,9 @@ static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch
     for (uint32_t i = 0; i < count; i++)
         __builtin_prefetch(&mesh->corners[3 * (size_t)batch->walks[i].tip.triangle]);
     for (uint32_t i = first; work->uses_space && i < batch->piece_count; i++) {
-        uint32_t head = work->space.heads[batch->pieces[i].triangle];
-        if (head != MESO_NO_INDEX)
-            meso_growth_fetch_block(&work->space.blocks[head]);
+        uint32_t head = work->space.cells.heads[batch->pieces[i].triangle];
+        if (head < MESO_GROWTH_QUARTERED)
+            meso_growth_fetch_block(&work->space.cells.blocks[head]);
     }
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < 3; k++) {

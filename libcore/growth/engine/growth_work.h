@@ -146,7 +146,7 @@ typedef struct MesoGrowthWork {
 
     /* the window */
     uint32_t window, window_begin, batch_count;
-    uint32_t since;             /* the first element that it has grown */
+    uint32_t since;             /* the first piece that it has grown */
     uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
     MesoGrowthTurn *turns;      /* [window] */
     MesoGrowthTip *befores;     /* [window] where rules look; before their turns */

@@ -1,0 +1,250 @@
+#include "libcore/growth/engine/growth_cells.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Blocks of a cell from which on it may be quartered: at this number, and whenever it has doubled. */
+enum { MANY = 8 };
+
+/* Of a triangle's size: cells reach so much farther than the squares that they are, for whatever is rounded. */
+static const double beyond = 1e-9;
+
+MesoStatus meso_growth_cells_init(MesoGrowthCells *cells, const MesoWalkGround *ground, MesoError *error)
+{
+    *cells = (MesoGrowthCells){.ground = ground, .unused = MESO_NO_INDEX};
+    uint32_t count = ground->triangle_count;
+    if (!meso_make_room((void **)&cells->heads, &cells->head_room, (uint64_t)count + 1, sizeof *cells->heads))
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: %u triangles", count);
+    memset(cells->heads, 0xff, count * sizeof *cells->heads);
+    cells->head_count = count;
+    return MESO_OK;
+}
+
+void meso_growth_cells_release(MesoGrowthCells *cells)
+{
+    free(cells->heads);
+    free(cells->blocks);
+    free(cells->ends);
+    free(cells->elements);
+}
+
+/* ---- squares ---- */
+
+/* The triangle itself: its longest side is the base of its frame. */
+static MesoComplex middle_of(double size)
+{
+    return (MesoComplex){0.5 * size, 0.5 * size};
+}
+
+static double half_of(double size, uint32_t depth)
+{
+    return ldexp(size, -1 - (int)depth);
+}
+
+static MesoComplex middle_of_quarter(MesoComplex middle, double half, uint32_t k)
+{
+    double by = 0.5 * half;
+    return (MesoComplex){middle.re + (k & 1 ? by : -by), middle.im + (k & 2 ? by : -by)};
+}
+
+/* Whether a segment goes through a square, or may do so. */
+static bool goes_through(const MesoComplex ends[2], MesoComplex middle, double half)
+{
+    double x0 = ends[0].re - middle.re, y0 = ends[0].im - middle.im;
+    double x1 = ends[1].re - middle.re, y1 = ends[1].im - middle.im;
+    if ((x0 > half && x1 > half) || (x0 < -half && x1 < -half) || (y0 > half && y1 > half) || (y0 < -half && y1 < -half))
+        return false;
+    double x = x1 - x0, y = y1 - y0;
+    return fabs(x * y0 - y * x0) <= (fabs(x) + fabs(y)) * half;
+}
+
+static bool goes_through_quarter(const MesoComplex ends[2], MesoComplex middle, double half, double size, uint32_t k)
+{
+    return goes_through(ends, middle_of_quarter(middle, half, k), 0.5 * half + beyond * size);
+}
+
+/* ---- growing ---- */
+
+/* A square of heads[slot]. */
+typedef struct Place {
+    uint32_t slot, depth;
+    MesoComplex middle;
+    double size;                /* of the triangle */
+} Place;
+
+static Place quarter_of(const Place *place, uint32_t first, uint32_t k)
+{
+    double half = half_of(place->size, place->depth);
+    return (Place){first + k, place->depth + 1, middle_of_quarter(place->middle, half, k), place->size};
+}
+
+/* False where memory is out. */
+static bool begin_block(MesoGrowthCells *cells, uint32_t slot)
+{
+    uint32_t number = cells->unused, head = cells->heads[slot];
+    if (number != MESO_NO_INDEX)
+        cells->unused = cells->blocks[number].next;
+    else if (meso_make_room((void **)&cells->blocks, &cells->block_room, (uint64_t)cells->block_count + 1,
+                            sizeof *cells->blocks))
+        number = cells->block_count++;
+    else
+        return false;
+    MesoGrowthBlock *block = &cells->blocks[number];
+    uint16_t chain = head == MESO_NO_INDEX ? 0 : cells->blocks[head].chain;
+    block->count = 0;
+    block->chain = chain < UINT16_MAX ? (uint16_t)(chain + 1) : chain;
+    block->next = head;
+    cells->heads[slot] = number;
+    return true;
+}
+
+static void set_lane(MesoGrowthBlock *block, uint32_t lane, const float ends[4], uint32_t piece)
+{
+    block->x0[lane] = ends[0];
+    block->y0[lane] = ends[1];
+    block->x1[lane] = ends[2];
+    block->y1[lane] = ends[3];
+    block->piece[lane] = piece;
+}
+
+static bool append(MesoGrowthCells *cells, const Place *place, uint32_t piece)
+{
+    uint32_t head = cells->heads[place->slot];
+    if ((head == MESO_NO_INDEX || cells->blocks[head].count == MESO_GROWTH_LANES) && !begin_block(cells, place->slot))
+        return false;
+    MesoGrowthBlock *block = &cells->blocks[cells->heads[place->slot]];
+    const MesoComplex *at = cells->ends[piece];
+    double share = 1 / place->size;
+    const float ends[4] = {(float)(at[0].re * share), (float)(at[0].im * share), (float)(at[1].re * share),
+                           (float)(at[1].im * share)};
+    for (uint32_t lane = block->count++; lane < MESO_GROWTH_LANES; lane++)
+        set_lane(block, lane, ends, piece);
+    return true;
+}
+
+/* Whether few pieces go through more than one of the quarters. */
+static bool is_worth_it(const MesoGrowthCells *cells, const Place *place)
+{
+    uint32_t pieces = 0, parts = 0;
+    double half = half_of(place->size, place->depth);
+    for (uint32_t i = cells->heads[place->slot]; i != MESO_NO_INDEX; i = cells->blocks[i].next) {
+        const MesoGrowthBlock *block = &cells->blocks[i];
+        for (uint32_t lane = 0; lane < block->count; lane++) {
+            pieces++;
+            for (uint32_t k = 0; k < 4; k++)
+                parts += goes_through_quarter(cells->ends[block->piece[lane]], place->middle, half, place->size, k);
+        }
+    }
+    return 2 * parts <= 3 * pieces;
+}
+
+/* Oldest first, as they are added to quarters. */
+static uint32_t reversed(MesoGrowthCells *cells, uint32_t head)
+{
+    uint32_t before = MESO_NO_INDEX;
+    while (head != MESO_NO_INDEX) {
+        uint32_t next = cells->blocks[head].next;
+        cells->blocks[head].next = before;
+        before = head;
+        head = next;
+    }
+    return before;
+}
+
+static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece);
+
+static bool quarter(MesoGrowthCells *cells, const Place *place)
+{
+    uint32_t first = cells->head_count, at = reversed(cells, cells->heads[place->slot]);
+    if (!meso_make_room((void **)&cells->heads, &cells->head_room, (uint64_t)first + 4, sizeof *cells->heads))
+        return false;
+    cells->head_count += 4;
+    for (uint32_t k = 0; k < 4; k++)
+        cells->heads[first + k] = MESO_NO_INDEX;
+    cells->heads[place->slot] = MESO_GROWTH_QUARTERED | first;
+    while (at != MESO_NO_INDEX) {
+        MesoGrowthBlock block = cells->blocks[at];
+        cells->blocks[at].next = cells->unused;
+        cells->unused = at;
+        at = block.next;
+        for (uint32_t lane = 0; lane < block.count; lane++)
+            if (!add_to(cells, place, block.piece[lane]))
+                return false;
+    }
+    return true;
+}
+
+/* Whether a cell, which is not quartered, might be now: where its last block is full, and their number as is said. */
+static bool is_due(const MesoGrowthCells *cells, uint32_t head)
+{
+    const MesoGrowthBlock *block = &cells->blocks[head];
+    return block->count == MESO_GROWTH_LANES && block->chain >= MANY && (block->chain & (block->chain - 1)) == 0;
+}
+
+static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece)
+{
+    uint32_t head = cells->heads[place->slot];
+    if (head < MESO_GROWTH_QUARTERED && is_due(cells, head) && place->depth < MESO_GROWTH_QUARTERINGS &&
+        is_worth_it(cells, place) && !quarter(cells, place))
+        return false;
+    head = cells->heads[place->slot];
+    if (!meso_growth_is_quartered(head))
+        return append(cells, place, piece);
+    double half = half_of(place->size, place->depth);
+    for (uint32_t k = 0; k < 4; k++) {
+        Place part = quarter_of(place, head & ~MESO_GROWTH_QUARTERED, k);
+        if (goes_through_quarter(cells->ends[piece], place->middle, half, place->size, k) &&
+            !add_to(cells, &part, piece))
+            return false;
+    }
+    return true;
+}
+
+bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element)
+{
+    uint32_t number = cells->piece_count;
+    double size = cells->ground->lengths[piece->triangle];
+    Place place = {piece->triangle, 0, middle_of(size), size};
+    if (!meso_make_room((void **)&cells->ends, &cells->ends_room, (uint64_t)number + 1, sizeof *cells->ends) ||
+        !meso_make_room((void **)&cells->elements, &cells->element_room, (uint64_t)number + 1,
+                        sizeof *cells->elements))
+        return false;
+    cells->ends[number][0] = piece->ends[0];
+    cells->ends[number][1] = piece->ends[1];
+    cells->elements[number] = element;
+    cells->piece_count++;
+    return add_to(cells, &place, number);
+}
+
+/* ---- looking ---- */
+
+void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
+                       const MesoComplex ends[2])
+{
+    sight->cells = cells;
+    sight->ends = ends;
+    sight->size = cells->ground->lengths[triangle];
+    sight->count = 1;
+    sight->stack[0] = (MesoGrowthCell){cells->heads[triangle], 0, middle_of(sight->size)};
+}
+
+uint32_t meso_growth_next_cell(MesoGrowthSight *sight)
+{
+    while (sight->count) {
+        MesoGrowthCell cell = sight->stack[--sight->count];
+        if (!meso_growth_is_quartered(cell.head)) {
+            if (cell.head != MESO_NO_INDEX)
+                return cell.head;
+            continue;
+        }
+        double half = half_of(sight->size, cell.depth);
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t head = sight->cells->heads[(cell.head & ~MESO_GROWTH_QUARTERED) + k];
+            if (head != MESO_NO_INDEX &&
+                (!sight->ends || goes_through_quarter(sight->ends, cell.middle, half, sight->size, k)))
+                sight->stack[sight->count++] =
+                    (MesoGrowthCell){head, cell.depth + 1, middle_of_quarter(cell.middle, half, k)};
+        }
+    }
+    return MESO_NO_INDEX;
+}

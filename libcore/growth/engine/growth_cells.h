@@ -1,0 +1,93 @@
+/*
+ * Pieces of strands by the triangle that they lie in, and by the part of it: where many lie in one triangle it is
+ * quartered, and where many lie in a quarter this is, so that however dense it grows, few are near a place. A piece lies
+ * in each part that it goes through.
+ */
+#ifndef MESO_GROWTH_CELLS_H
+#define MESO_GROWTH_CELLS_H
+
+#include "libcore/growth/engine/growth_room.h"
+#include "libcore/growth/ground/growth_ground.h"
+#include "libcore/math/four.h"
+
+/* A straight way through a triangle. */
+typedef struct MesoGrowthPiece {
+    MesoComplex ends[2];        /* in the triangle's frame */
+    uint32_t triangle;
+    bool turned;
+} MesoGrowthPiece;
+
+/*
+ * Pieces of one cell, as many as are looked at together: roughly, in floats, as shares of the triangle's size. The last of
+ * them is the newest; and in a block that is not full it is in all the lanes that are left.
+ */
+enum { MESO_GROWTH_LANES = 4 };
+
+typedef struct MesoGrowthBlock {
+    MesoFour x0, y0, x1, y1;    /* ends */
+    uint32_t piece[MESO_GROWTH_LANES];
+    uint32_t next;              /* older ones of the same cell */
+    uint16_t count;
+    uint16_t chain;             /* blocks of the cell up to this one; no more are counted than fit */
+} MesoGrowthBlock;
+
+/* By so much of its triangle's size may what is rough be wrong. */
+static const float meso_growth_rough = 2e-6f;
+
+/* All lines of memory of a block. */
+static inline void meso_growth_fetch_block(const MesoGrowthBlock *block)
+{
+    __builtin_prefetch(&block->x0);
+    __builtin_prefetch(&block->piece[MESO_GROWTH_LANES - 1]);
+}
+
+/* Heads that are not blocks: with the number of the first of four cells. */
+#define MESO_GROWTH_QUARTERED 0x80000000u
+
+typedef struct MesoGrowthCells {
+    const MesoWalkGround *ground;
+    uint32_t *heads;            /* newest blocks: [triangle_count] of triangles, then of quarters; or quartered */
+    MesoGrowthBlock *blocks;
+    MesoComplex (*ends)[2];     /* [piece_count] of pieces, exactly, as they have grown */
+    uint32_t *elements;         /* [piece_count] whose they are */
+    uint32_t head_count, head_room, block_count, block_room, piece_count, ends_room, element_room;
+    uint32_t unused;            /* blocks that are free again, one after another */
+} MesoGrowthCells;
+
+static inline bool meso_growth_is_quartered(uint32_t head)
+{
+    return head >= MESO_GROWTH_QUARTERED && head != MESO_NO_INDEX;
+}
+
+MesoStatus meso_growth_cells_init(MesoGrowthCells *cells, const MesoWalkGround *ground, MesoError *error);
+void meso_growth_cells_release(MesoGrowthCells *cells);
+
+/* False where memory is out. */
+bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element);
+
+/* ---- looking ---- */
+
+/* Quarters, which are squares, that are still to be looked at: three of each size, and four of the last. */
+enum { MESO_GROWTH_QUARTERINGS = 16, MESO_GROWTH_CELL_STACK = 3 * MESO_GROWTH_QUARTERINGS + 1 };
+
+typedef struct MesoGrowthCell {
+    uint32_t head, depth;
+    MesoComplex middle;
+} MesoGrowthCell;
+
+typedef struct MesoGrowthSight {
+    const MesoGrowthCells *cells;
+    const MesoComplex *ends;
+    double size;
+    uint32_t count;
+    MesoGrowthCell stack[MESO_GROWTH_CELL_STACK];
+} MesoGrowthSight;
+
+/* Of the cells of a triangle that is quartered, through which a segment with these ends goes; of all where it is NULL. */
+void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
+                       const MesoComplex ends[2]);
+
+/* The newest block of the next cell that has any; MESO_NO_INDEX after the last. */
+uint32_t meso_growth_next_cell(MesoGrowthSight *sight);
+
+#endif
