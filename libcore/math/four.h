@@ -6,6 +6,9 @@
 #define MESO_FOUR_H
 
 #include <stdint.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #ifdef __GNUC__
 #define MESO_HAS_FOUR 1
@@ -40,6 +43,16 @@ MESO_FOUR MesoFour meso_four_least(MesoFour a, MesoFour b)
 MESO_FOUR MesoFour meso_four_absolute(MesoFour a)
 {
     return (MesoFour)((MesoFourBits)a & INT32_MAX);
+}
+
+/* Bit i: lane i is set. */
+MESO_FOUR uint32_t meso_four_mask(MesoFourBits bits)
+{
+#ifdef __SSE__
+    return (uint32_t)_mm_movemask_ps((__m128)bits);
+#else
+    return (uint32_t)((bits[0] & 1) | (bits[1] & 2) | (bits[2] & 4) | (bits[3] & 8));
+#endif
 }
 
 MESO_FOUR MesoFour meso_four_root(MesoFour a)

@@ -52,7 +52,9 @@ static bool goes_through(const MesoComplex ends[2], MesoComplex middle, double h
 {
     double x0 = ends[0].re - middle.re, y0 = ends[0].im - middle.im;
     double x1 = ends[1].re - middle.re, y1 = ends[1].im - middle.im;
-    if ((x0 > half && x1 > half) || (x0 < -half && x1 < -half) || (y0 > half && y1 > half) || (y0 < -half && y1 < -half))
+    if ((x0 > half && x1 > half) || (x0 < -half && x1 < -half))
+        return false;
+    if ((y0 > half && y1 > half) || (y0 < -half && y1 < -half))
         return false;
     double x = x1 - x0, y = y1 - y0;
     return fabs(x * y0 - y * x0) <= (fabs(x) + fabs(y)) * half;
@@ -91,6 +93,7 @@ static bool begin_block(MesoGrowthCells *cells, uint32_t slot)
         return false;
     MesoGrowthBlock *block = &cells->blocks[number];
     uint16_t chain = head == MESO_NO_INDEX ? 0 : cells->blocks[head].chain;
+    block->x0 = block->y0 = block->x1 = block->y1 = meso_four_all(0);
     block->count = 0;
     block->chain = chain < UINT16_MAX ? (uint16_t)(chain + 1) : chain;
     block->next = head;
@@ -98,27 +101,20 @@ static bool begin_block(MesoGrowthCells *cells, uint32_t slot)
     return true;
 }
 
-static void set_lane(MesoGrowthBlock *block, uint32_t lane, const float ends[4], uint32_t piece)
+static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, uint32_t piece)
 {
-    block->x0[lane] = ends[0];
-    block->y0[lane] = ends[1];
-    block->x1[lane] = ends[2];
-    block->y1[lane] = ends[3];
-    block->piece[lane] = piece;
-}
-
-static bool append(MesoGrowthCells *cells, const Place *place, uint32_t piece)
-{
-    uint32_t head = cells->heads[place->slot];
-    if ((head == MESO_NO_INDEX || cells->blocks[head].count == MESO_GROWTH_LANES) && !begin_block(cells, place->slot))
+    uint32_t head = cells->heads[slot];
+    if ((head == MESO_NO_INDEX || cells->blocks[head].count == MESO_GROWTH_LANES) && !begin_block(cells, slot))
         return false;
-    MesoGrowthBlock *block = &cells->blocks[cells->heads[place->slot]];
+    MesoGrowthBlock *block = &cells->blocks[cells->heads[slot]];
     const MesoComplex *at = cells->ends[piece];
-    double share = 1 / place->size;
-    const float ends[4] = {(float)(at[0].re * share), (float)(at[0].im * share), (float)(at[1].re * share),
-                           (float)(at[1].im * share)};
-    for (uint32_t lane = block->count++; lane < MESO_GROWTH_LANES; lane++)
-        set_lane(block, lane, ends, piece);
+    double share = 1 / size;
+    uint32_t lane = block->count++;
+    block->x0[lane] = (float)(at[0].re * share);
+    block->y0[lane] = (float)(at[0].im * share);
+    block->x1[lane] = (float)(at[1].re * share);
+    block->y1[lane] = (float)(at[1].im * share);
+    block->piece[lane] = piece;
     return true;
 }
 
@@ -189,7 +185,7 @@ static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece)
         return false;
     head = cells->heads[place->slot];
     if (!meso_growth_is_quartered(head))
-        return append(cells, place, piece);
+        return append(cells, place->slot, place->size, piece);
     double half = half_of(place->size, place->depth);
     for (uint32_t k = 0; k < 4; k++) {
         Place part = quarter_of(place, head & ~MESO_GROWTH_QUARTERED, k);
@@ -202,9 +198,8 @@ static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece)
 
 bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element)
 {
-    uint32_t number = cells->piece_count;
+    uint32_t number = cells->piece_count, head = cells->heads[piece->triangle];
     double size = cells->ground->lengths[piece->triangle];
-    Place place = {piece->triangle, 0, middle_of(size), size};
     if (!meso_make_room((void **)&cells->ends, &cells->ends_room, (uint64_t)number + 1, sizeof *cells->ends) ||
         !meso_make_room((void **)&cells->elements, &cells->element_room, (uint64_t)number + 1,
                         sizeof *cells->elements))
@@ -213,7 +208,53 @@ bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece,
     cells->ends[number][1] = piece->ends[1];
     cells->elements[number] = element;
     cells->piece_count++;
+    if (head == MESO_NO_INDEX || (head < MESO_GROWTH_QUARTERED && !is_due(cells, head)))
+        return append(cells, piece->triangle, size, number);
+    const Place place = {piece->triangle, 0, middle_of(size), size};
     return add_to(cells, &place, number);
+}
+
+/* ---- memory ---- */
+
+/* Pieces at a time, whose blocks are asked for together, and how many of each cell. */
+enum { TOGETHER = 64, DEEP = 3 };
+
+/* Newest block of the cell that a piece begins in. */
+static uint32_t cell_at(const MesoGrowthCells *cells, const MesoGrowthPiece *piece)
+{
+    uint32_t head = cells->heads[piece->triangle];
+    if (!meso_growth_is_quartered(head))
+        return head;
+    double by = 0.5 * cells->ground->lengths[piece->triangle];
+    MesoComplex middle = {by, by};
+    while (meso_growth_is_quartered(head)) {
+        uint32_t right = piece->ends[0].re > middle.re, up = piece->ends[0].im > middle.im;
+        head = cells->heads[(head & ~MESO_GROWTH_QUARTERED) + right + 2 * up];
+        by *= 0.5;
+        middle.re += right ? by : -by;
+        middle.im += up ? by : -by;
+    }
+    return head;
+}
+
+static void fetch_together(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count)
+{
+    uint32_t at[TOGETHER];
+    for (uint32_t i = 0; i < count; i++)
+        at[i] = cell_at(cells, &pieces[i]);
+    for (uint32_t k = 0; k < DEEP; k++)
+        for (uint32_t i = 0; i < count; i++) {
+            if (k > 0 && at[i] != MESO_NO_INDEX)
+                at[i] = cells->blocks[at[i]].next;
+            if (at[i] != MESO_NO_INDEX)
+                meso_growth_fetch_block(&cells->blocks[at[i]]);
+        }
+}
+
+void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i += TOGETHER)
+        fetch_together(cells, pieces + i, count - i < TOGETHER ? count - i : TOGETHER);
 }
 
 /* ---- looking ---- */

@@ -1,7 +1,7 @@
 /*
  * Pieces of strands by the triangle that they lie in, and by the part of it: where many lie in one triangle it is
- * quartered, and where many lie in a quarter this is, so that however dense it grows, few are near a place. A piece lies
- * in each part that it goes through.
+ * quartered, and where many lie in a quarter so is this. However dense it grows, few are near a place. A piece lies in
+ * each part that it goes through.
  */
 #ifndef MESO_GROWTH_CELLS_H
 #define MESO_GROWTH_CELLS_H
@@ -18,13 +18,13 @@ typedef struct MesoGrowthPiece {
 } MesoGrowthPiece;
 
 /*
- * Pieces of one cell, as many as are looked at together: roughly, in floats, as shares of the triangle's size. The last of
- * them is the newest; and in a block that is not full it is in all the lanes that are left.
+ * Pieces of one cell, as many as are looked at together: roughly, in floats, as shares of the triangle's size. The last
+ * of them is the newest.
  */
 enum { MESO_GROWTH_LANES = 4 };
 
 typedef struct MesoGrowthBlock {
-    MesoFour x0, y0, x1, y1;    /* ends */
+    MesoFour x0, y0, x1, y1;    /* ends; of the lanes beyond `count`, no matter what */
     uint32_t piece[MESO_GROWTH_LANES];
     uint32_t next;              /* older ones of the same cell */
     uint16_t count;
@@ -38,7 +38,12 @@ static const float meso_growth_rough = 2e-6f;
 static inline void meso_growth_fetch_block(const MesoGrowthBlock *block)
 {
     __builtin_prefetch(&block->x0);
-    __builtin_prefetch(&block->piece[MESO_GROWTH_LANES - 1]);
+    __builtin_prefetch(&block->chain);
+}
+
+static inline uint32_t meso_growth_newest(const MesoGrowthBlock *block)
+{
+    return block->piece[block->count - 1];
 }
 
 /* Heads that are not blocks: with the number of the first of four cells. */
@@ -65,6 +70,9 @@ void meso_growth_cells_release(MesoGrowthCells *cells);
 /* False where memory is out. */
 bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element);
 
+/* Asks for the memory of what lies where pieces do. */
+void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
+
 /* ---- looking ---- */
 
 /* Quarters, which are squares, that are still to be looked at: three of each size, and four of the last. */
@@ -83,7 +91,7 @@ typedef struct MesoGrowthSight {
     MesoGrowthCell stack[MESO_GROWTH_CELL_STACK];
 } MesoGrowthSight;
 
-/* Of the cells of a triangle that is quartered, through which a segment with these ends goes; of all where it is NULL. */
+/* Of the cells of a triangle through which a segment with these ends goes; of all where it is NULL. */
 void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
                        const MesoComplex ends[2]);
 

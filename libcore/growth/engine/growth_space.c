@@ -92,8 +92,8 @@ static inline double share_of(const Segment *s, MesoComplex p)
 /* Whether both ends of another surely lie before the segment's begin, or behind its end. */
 static inline bool lies_apart(const Segment *s, const MesoComplex ends[2])
 {
-    double a = share_of(s, ends[0]), b = share_of(s, ends[1]);
-    return fmax(a, b) < -s->slack || fmin(a, b) > s->square + s->slack;
+    double a = share_of(s, ends[0]), b = share_of(s, ends[1]), end = s->square + s->slack;
+    return (a < -s->slack && b < -s->slack) || (a > end && b > end);
 }
 
 /* Whether both ends of another surely lie on one side of a segment. */
@@ -208,8 +208,8 @@ static bool meets_piece(const Probe *probe, uint32_t number)
     const MesoGrowthCells *cells = &probe->space->cells;
     const MesoComplex *ends = cells->ends[number];
     uint32_t element = cells->elements[number];
-    return number >= probe->asker->since && segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) &&
-           !probe->space->kin[element].placed && !is_root_of(probe, element, ends);
+    return !is_root_of(probe, element, ends) &&
+           segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) && !probe->space->kin[element].placed;
 }
 
 /* Of those in one place, the newer, so that it does not matter in which order they are found. */
@@ -224,15 +224,15 @@ static void take_nearer(const Probe *probe, uint32_t number, MesoGrowthMeeting *
 /* The nearest meeting in a block, where it is nearer than `first`; where that is NULL, any. */
 static bool meets_in_block(const Probe *probe, const MesoGrowthBlock *block, MesoGrowthMeeting *first)
 {
-    MesoFourBits near = lanes_near(&probe->rough, block);
-    MesoFourWords words = (MesoFourWords)near;
+    uint32_t left = meso_four_mask(lanes_near(&probe->rough, block)) & ((1u << block->count) - 1);
     bool meets = false;
-    for (uint32_t lane = 0; (words[0] | words[1]) != 0 && lane < block->count; lane++) {
-        if (!near[lane] || !meets_piece(probe, block->piece[lane]))
+    for (; left; left &= left - 1) {
+        uint32_t number = block->piece[__builtin_ctz(left)];
+        if (number < probe->asker->since || !meets_piece(probe, number))
             continue;
         if (!first)
             return true;
-        take_nearer(probe, block->piece[lane], first);
+        take_nearer(probe, number, first);
         meets = true;
     }
     return meets;
@@ -245,7 +245,7 @@ static bool meets_in_cell(const Probe *probe, uint32_t number, MesoGrowthMeeting
     bool meets = false;
     while (number != MESO_NO_INDEX) {
         const MesoGrowthBlock *block = &blocks[number];
-        if (block->piece[MESO_GROWTH_LANES - 1] < probe->asker->since)
+        if (meso_growth_newest(block) < probe->asker->since)
             break;
         if (block->next != MESO_NO_INDEX)
             meso_growth_fetch_block(&blocks[block->next]);
@@ -271,13 +271,20 @@ static bool meets_in_cells(const Probe *probe, MesoGrowthMeeting *first)
 static bool piece_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *piece,
                         bool begins, MesoGrowthMeeting *first)
 {
-    uint32_t head = space->cells.heads[piece->triangle];
-    if (head == MESO_NO_INDEX)
+    const MesoGrowthCells *cells = &space->cells;
+    uint32_t head = cells->heads[piece->triangle];
+    bool quartered = meso_growth_is_quartered(head);
+    if (head == MESO_NO_INDEX || (!quartered && meso_growth_newest(&cells->blocks[head]) < asker->since))
         return false;
-    Probe probe = {space, asker, piece, .size = space->ground->walk.lengths[piece->triangle], .begins = begins};
+    Probe probe;
+    probe.space = space;
+    probe.asker = asker;
+    probe.piece = piece;
+    probe.size = space->ground->walk.lengths[piece->triangle];
+    probe.begins = begins;
     probe.segment = segment(piece->ends, probe.size);
     probe.rough = rough_of(piece->ends, probe.size);
-    return meso_growth_is_quartered(head) ? meets_in_cells(&probe, first) : meets_in_cell(&probe, head, first);
+    return quartered ? meets_in_cells(&probe, first) : meets_in_cell(&probe, head, first);
 }
 
 bool meso_growth_meets(const MesoGrowthSpace *space, const MesoGrowthAsker *asker, const MesoGrowthPiece *pieces,

@@ -109,11 +109,8 @@ static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch
     const MesoTriangulation *mesh = work->ground->mesh;
     for (uint32_t i = 0; i < count; i++)
         __builtin_prefetch(&mesh->corners[3 * (size_t)batch->walks[i].tip.triangle]);
-    for (uint32_t i = first; work->uses_space && i < batch->piece_count; i++) {
-        uint32_t head = work->space.cells.heads[batch->pieces[i].triangle];
-        if (head < MESO_GROWTH_QUARTERED)
-            meso_growth_fetch_block(&work->space.cells.blocks[head]);
-    }
+    if (work->uses_space)
+        meso_growth_cells_fetch(&work->space.cells, batch->pieces + first, batch->piece_count - first);
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t vertex = mesh->corners[3 * (size_t)batch->walks[i].tip.triangle + k];

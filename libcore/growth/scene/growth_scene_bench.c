@@ -4,7 +4,8 @@
  * rounds, by the time of the process and by the clock.
  *
  *   growth_scene_bench [MILLIONS]    and so many million terminals without geometry, with the most memory used; half as
- *                                    many first, and on two threads
+ *                                    many first, and on two threads: piled up around 18 seeds, and as dense as the 250
+ *                                    thousand are, with more seeds and smaller terminals
  */
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -21,18 +22,20 @@ typedef struct Case {
     const char *step;           /* more arguments of the step, and what is done where it is refused */
     const char *otherwise;
     uint32_t elements;
-    double pace;
+    double pace, girth;         /* length of a step, and how wide the first is, in metres */
+    uint32_t seeds;
     bool shows;
 } Case;
 
 static const Case cases[] = {
-    {"strands may cross", ", cross: true", "", 250000, 0.005, true},
-    {"strands do not cross", "", " else retry(3, 70 deg)", 250000, 0.005, true},
-    {"8.84 M polygons, may cross", ", cross: true", "", 368334, 0.005, true},
+    {"strands may cross", ", cross: true", "", 250000, 0.005, 0.004, SEEDS, true},
+    {"strands do not cross", "", " else retry(3, 70 deg)", 250000, 0.005, 0.004, SEEDS, true},
+    {"8.84 M polygons, may cross", ", cross: true", "", 368334, 0.005, 0.004, SEEDS, true},
 };
 
 static const char rules[] =
-    "meso-grow 1\nparam pace = 1 cm\nshape cord = tube(sides: 6)\nlimit elements %u\nseed Shoot(4 mm) on vertices\n"
+    "meso-grow 1\nparam pace = 1 cm\nparam girth = 4 mm\nshape cord = tube(sides: 6)\nlimit elements %u\n"
+    "seed Shoot(girth) on vertices\n"
     "rule Shoot(w) -> {\n"
     "  turn(normal(0, 12 deg))\n"
     "  step(pace, shape: cord, width: w, end: 0.995*w%s)%s\n"
@@ -52,15 +55,16 @@ static double cpu_seconds(void)
 
 static void read_case(MesoGrowthScenery *scenery, const Case *one)
 {
-    char text[1000], pace[40];
+    char text[1000], pace[40], girth[40];
     MesoError error = {0};
     snprintf(text, sizeof text, rules, one->elements, one->step, one->otherwise);
     snprintf(pace, sizeof pace, "pace=%.9g m", one->pace);
-    const MesoGrammarSetting setting = {pace};
-    const MesoGrammarOptions options = {&setting, 1, 1};
+    snprintf(girth, sizeof girth, "girth=%.9g m", one->girth);
+    const MesoGrammarSetting settings[] = {{pace}, {girth}};
+    const MesoGrammarOptions options = {settings, 2, 1};
     CHECK(!meso_grammar_read(&scenery->grammar, &scenery->arena, "bench", text, strlen(text), &options, &error));
     scenery->contexts = (MesoGrowthContexts){.ground = &scenery->ground};
-    meso_scenery_strew(scenery, SEEDS, 5);
+    meso_scenery_strew(scenery, one->seeds, 5);
 }
 
 /* Once; adds to the best times. */
@@ -116,10 +120,9 @@ static void measure_on(MesoTriangulation mesh, const MesoTerminalShape *shape)
 }
 
 /* In a process of its own, whose most memory is that of this alone. */
-static void measure_apart(MesoGrowthScenery *scenery, const MesoTerminalShape *shape, uint32_t elements,
+static void measure_apart(MesoGrowthScenery *scenery, const MesoTerminalShape *shape, const Case *many,
                           uint32_t thread_count)
 {
-    const Case many = {"many, do not cross", "", " else retry(3, 70 deg)", elements, 0.9 / sqrt(elements), false};
     struct rusage before, after;
     fflush(stdout);
     pid_t child = fork();
@@ -130,21 +133,41 @@ static void measure_apart(MesoGrowthScenery *scenery, const MesoTerminalShape *s
         return;
     }
     getrusage(RUSAGE_SELF, &before);
-    measure(scenery, shape, &many, thread_count, 1);
+    measure(scenery, shape, many, thread_count, 1);
     getrusage(RUSAGE_SELF, &after);
-    printf("     at most %.0f bytes a terminal\n", 1024.0 * (double)(after.ru_maxrss - before.ru_maxrss) / elements);
+    printf("     at most %.0f bytes a terminal\n",
+           1024.0 * (double)(after.ru_maxrss - before.ru_maxrss) / many->elements);
     exit(0);
+}
+
+/* All around the seeds of the others: the more there are, the less room each has. */
+static Case piled_up(uint32_t elements)
+{
+    return (Case){"many, piled up", "", " else retry(3, 70 deg)", elements, 0.9 / sqrt(elements), 0.004, SEEDS, false};
+}
+
+/* Each with as much room for its size as the others have. */
+static Case as_dense(uint32_t elements)
+{
+    const Case *like = &cases[1];
+    double more = (double)elements / like->elements, smaller = 1 / sqrt(more);
+    return (Case){"many, as dense as few", "", " else retry(3, 70 deg)", elements, smaller * like->pace,
+                  smaller * like->girth, (uint32_t)(more * like->seeds), false};
 }
 
 /* Linear: as many again take twice the time, and memory. */
 static void measure_many(const MesoTerminalShape *shape, double millions)
 {
+    Case (*const kinds[])(uint32_t) = {piled_up, as_dense};
     MesoGrowthScenery scenery = {0};
     uint32_t elements = (uint32_t)(1e6 * millions);
     meso_scenery_init(&scenery, meso_fixture_torus(1280, 512, 0.4f));
-    measure_apart(&scenery, shape, elements / 2, 1);
-    measure_apart(&scenery, shape, elements, 1);
-    measure_apart(&scenery, shape, elements, 2);
+    for (uint32_t i = 0; i < 2; i++) {
+        Case half = kinds[i](elements / 2), whole = kinds[i](elements);
+        measure_apart(&scenery, shape, &half, 1);
+        measure_apart(&scenery, shape, &whole, 1);
+        measure_apart(&scenery, shape, &whole, 2);
+    }
     meso_scenery_release(&scenery);
 }
 
