@@ -93,12 +93,21 @@ static bool begin_block(MesoGrowthCells *cells, uint32_t slot)
         return false;
     MesoGrowthBlock *block = &cells->blocks[number];
     uint16_t chain = head == MESO_NO_INDEX ? 0 : cells->blocks[head].chain;
-    block->x0 = block->y0 = block->x1 = block->y1 = meso_four_all(0);
+    block->from = block->to = (MesoFourBits){0, 0, 0, 0};
     block->count = 0;
     block->chain = chain < UINT16_MAX ? (uint16_t)(chain + 1) : chain;
     block->next = head;
     cells->heads[slot] = number;
     return true;
+}
+
+/* The nearest point of the grid, on which a unit of the triangle's frame is `scale` long. */
+static inline int32_t on_grid(MesoComplex at, double scale)
+{
+    double x = at.re * scale + 0.5, y = at.im * scale + 0.5;
+    uint32_t column = x > 0 ? x < MESO_GROWTH_GRID ? (uint32_t)x : MESO_GROWTH_GRID : 0;
+    uint32_t row = y > 0 ? y < MESO_GROWTH_GRID ? (uint32_t)y : MESO_GROWTH_GRID : 0;
+    return (int32_t)(column | row << 16);
 }
 
 static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, uint32_t piece)
@@ -107,13 +116,11 @@ static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, ui
     if ((head == MESO_NO_INDEX || cells->blocks[head].count == MESO_GROWTH_LANES) && !begin_block(cells, slot))
         return false;
     MesoGrowthBlock *block = &cells->blocks[cells->heads[slot]];
-    const MesoComplex *at = cells->ends[piece];
-    double share = 1 / size;
+    const MesoComplex *ends = cells->ends[piece];
+    double scale = MESO_GROWTH_GRID / size;
     uint32_t lane = block->count++;
-    block->x0[lane] = (float)(at[0].re * share);
-    block->y0[lane] = (float)(at[0].im * share);
-    block->x1[lane] = (float)(at[1].re * share);
-    block->y1[lane] = (float)(at[1].im * share);
+    block->from[lane] = on_grid(ends[0], scale);
+    block->to[lane] = on_grid(ends[1], scale);
     block->piece[lane] = piece;
     return true;
 }

@@ -18,26 +18,22 @@ typedef struct MesoGrowthPiece {
 } MesoGrowthPiece;
 
 /*
- * Pieces of one cell, as many as are looked at together: roughly, in floats, as shares of the triangle's size. The last
- * of them is the newest.
+ * Pieces of one cell, as many as are looked at together: roughly, on a grid of the triangle. The last of them is the
+ * newest.
  */
-enum { MESO_GROWTH_LANES = 4 };
+enum { MESO_GROWTH_LANES = 4, MESO_GROWTH_GRID = 0xffff };
 
 typedef struct MesoGrowthBlock {
-    MesoFour x0, y0, x1, y1;    /* ends; of the lanes beyond `count`, no matter what */
+    MesoFourBits from, to;      /* ends: x, and y above it; of the lanes beyond `count`, no matter what */
     uint32_t piece[MESO_GROWTH_LANES];
     uint32_t next;              /* older ones of the same cell */
     uint16_t count;
     uint16_t chain;             /* blocks of the cell up to this one; no more are counted than fit */
 } MesoGrowthBlock;
 
-/* By so much of its triangle's size may what is rough be wrong. */
-static const float meso_growth_rough = 2e-6f;
-
-/* All lines of memory of a block. */
 static inline void meso_growth_fetch_block(const MesoGrowthBlock *block)
 {
-    __builtin_prefetch(&block->x0);
+    __builtin_prefetch(block);
     __builtin_prefetch(&block->chain);
 }
 

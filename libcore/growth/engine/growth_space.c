@@ -146,19 +146,35 @@ static double place_meeting(const Segment *s, const MesoComplex ends[2], double 
 
 /* ---- roughly ---- */
 
-/* A segment in floats, as a share of its triangle's size. */
+/* A segment on the grid of its triangle. */
 typedef struct Rough {
     MesoFour x, y, along_x, along_y;    /* alike in all lanes: where it begins, and to its end */
     MesoFour slack, end;                /* of turns and shares; its square, and slack */
+    MesoFour size;                      /* by x and y, and 1 */
 } Rough;
+
+/* Of turns at a segment, whose ends are exact or on the grid: at that a point may lie by half of its unit beside where
+ * it is, and floats add little. */
+static const float slack_of_exact = 0.75f, slack_of_rough = 1.5f;
 
 static Rough rough_of(const MesoComplex ends[2], double size)
 {
-    double share = 1 / size;
-    float x = (float)((ends[1].re - ends[0].re) * share), y = (float)((ends[1].im - ends[0].im) * share);
-    float slack = meso_growth_rough * (fabsf(x) + fabsf(y));
-    return (Rough){meso_four_all((float)(ends[0].re * share)), meso_four_all((float)(ends[0].im * share)),
-                   meso_four_all(x), meso_four_all(y), meso_four_all(slack), meso_four_all(x * x + y * y + slack)};
+    double scale = MESO_GROWTH_GRID / size;
+    float x = (float)((ends[1].re - ends[0].re) * scale), y = (float)((ends[1].im - ends[0].im) * scale);
+    float size = fabsf(x) + fabsf(y), slack = slack_of_exact * size;
+    return (Rough){meso_four_all((float)(ends[0].re * scale)), meso_four_all((float)(ends[0].im * scale)),
+                   meso_four_all(x), meso_four_all(y), meso_four_all(slack), meso_four_all(x * x + y * y + slack),
+                   meso_four_all(size + 1)};
+}
+
+static inline MesoFour column_of(MesoFourBits points)
+{
+    return __builtin_convertvector(points & MESO_GROWTH_GRID, MesoFour);
+}
+
+static inline MesoFour row_of(MesoFourBits points)
+{
+    return __builtin_convertvector((points >> 16) & MESO_GROWTH_GRID, MesoFour);
 }
 
 /* Lanes of two numbers that are both above a limit, or both below. */
@@ -167,16 +183,17 @@ static inline MesoFourBits both_beyond(MesoFour a, MesoFour b, MesoFour low, Mes
     return ((a > high) & (b > high)) | ((a < low) & (b < low));
 }
 
-/* Lanes of pieces that may meet a segment: where no line through one of the two has the other surely on one side. */
+/* Lanes of pieces that may meet a segment: where no line along or across one of the two has the other on one side. */
 static inline MesoFourBits lanes_near(const Rough *s, const MesoGrowthBlock *block)
 {
-    MesoFour x0 = block->x0 - s->x, y0 = block->y0 - s->y, x1 = block->x1 - s->x, y1 = block->y1 - s->y;
+    MesoFour x0 = column_of(block->from) - s->x, y0 = row_of(block->from) - s->y;
+    MesoFour x1 = column_of(block->to) - s->x, y1 = row_of(block->to) - s->y;
     MesoFourBits apart = both_beyond(s->along_x * y0 - s->along_y * x0, s->along_x * y1 - s->along_y * x1, -s->slack,
                                      s->slack);
     apart |= both_beyond(s->along_x * x0 + s->along_y * y0, s->along_x * x1 + s->along_y * y1, -s->slack, s->end);
     MesoFour x = x1 - x0, y = y1 - y0;
-    MesoFour slack = s->slack + meso_four_all(meso_growth_rough) * (meso_four_absolute(x) + meso_four_absolute(y) +
-                                                                    meso_four_absolute(x0) + meso_four_absolute(y0));
+    MesoFour slack = meso_four_all(slack_of_rough) * (meso_four_absolute(x) + meso_four_absolute(y) +
+                                                      meso_four_absolute(x0) + meso_four_absolute(y0) + s->size);
     apart |= both_beyond(y * x0 - x * y0, x * (s->along_y - y0) - y * (s->along_x - x0), -slack, slack);
     return ~apart;
 }
