@@ -157,9 +157,9 @@ typedef struct Rough {
  * it is, and floats add little. */
 static const float slack_of_exact = 0.75f, slack_of_rough = 1.5f;
 
-static Rough rough_of(const MesoComplex ends[2], double size)
+static Rough rough_of(const MesoComplex ends[2], double triangle)
 {
-    double scale = MESO_GROWTH_GRID / size;
+    double scale = MESO_GROWTH_GRID / triangle;
     float x = (float)((ends[1].re - ends[0].re) * scale), y = (float)((ends[1].im - ends[0].im) * scale);
     float size = fabsf(x) + fabsf(y), slack = slack_of_exact * size;
     return (Rough){meso_four_all((float)(ends[0].re * scale)), meso_four_all((float)(ends[0].im * scale)),
