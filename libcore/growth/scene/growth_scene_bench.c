@@ -155,7 +155,7 @@ static Case as_dense(uint32_t elements)
                   smaller * like->girth, (uint32_t)(more * like->seeds), false};
 }
 
-/* Linear: as many again take twice the time, and memory. */
+/* Linear: twice as many take twice the time, and memory. */
 static void measure_many(const MesoTerminalShape *shape, double millions)
 {
     Case (*const kinds[])(uint32_t) = {piled_up, as_dense};
