@@ -50,6 +50,7 @@ bool meso_make_more_room(void **array, uint32_t *room, uint64_t count, size_t si
         return false;
     more = more < AHEAD * count / 8 ? AHEAD * count / 8 : more;
     void *larger = move(*array, *room * size, (size_t)more * size);
+    /* where so much cannot be had, even of what is not written to */
     if (!larger && more > count + count / 8) {
         more = count + count / 8;
         larger = move(*array, *room * size, (size_t)more * size);
