@@ -271,9 +271,35 @@ void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uin
 {
     sight->cells = cells;
     sight->ends = ends;
+    sight->center = (MesoComplex){0, 0};
+    sight->radius = INFINITY;
     sight->size = cells->ground->lengths[triangle];
     sight->count = 1;
     sight->stack[0] = (MesoGrowthCell){cells->heads[triangle], 0, middle_of(sight->size)};
+}
+
+void meso_growth_sight_around(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
+                              MesoComplex center, double radius)
+{
+    meso_growth_sight(sight, cells, triangle, NULL);
+    sight->center = center;
+    sight->radius = radius;
+}
+
+static bool reaches(const MesoGrowthSight *sight, MesoComplex middle, double half)
+{
+    double x = fabs(sight->center.re - middle.re) - half, y = fabs(sight->center.im - middle.im) - half;
+    x = x > 0 ? x : 0;
+    y = y > 0 ? y : 0;
+    return x * x + y * y <= sight->radius * sight->radius;
+}
+
+/* Whether what is looked for may lie in quarter k of a square. */
+static bool is_in_sight(const MesoGrowthSight *sight, MesoComplex middle, double half, uint32_t k)
+{
+    if (sight->ends)
+        return goes_through_quarter(sight->ends, middle, half, sight->size, k);
+    return reaches(sight, middle_of_quarter(middle, half, k), 0.5 * half + beyond * sight->size);
 }
 
 uint32_t meso_growth_next_cell(MesoGrowthSight *sight)
@@ -288,8 +314,7 @@ uint32_t meso_growth_next_cell(MesoGrowthSight *sight)
         double half = half_of(sight->size, cell.depth);
         for (uint32_t k = 0; k < 4; k++) {
             uint32_t head = sight->cells->heads[(cell.head & ~MESO_GROWTH_QUARTERED) + k];
-            if (head != MESO_NO_INDEX &&
-                (!sight->ends || goes_through_quarter(sight->ends, cell.middle, half, sight->size, k)))
+            if (head != MESO_NO_INDEX && is_in_sight(sight, cell.middle, half, k))
                 sight->stack[sight->count++] =
                     (MesoGrowthCell){head, cell.depth + 1, middle_of_quarter(cell.middle, half, k)};
         }

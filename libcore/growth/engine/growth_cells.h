@@ -81,7 +81,9 @@ typedef struct MesoGrowthCell {
 
 typedef struct MesoGrowthSight {
     const MesoGrowthCells *cells;
-    const MesoComplex *ends;
+    const MesoComplex *ends;    /* of a segment; NULL: a disc */
+    MesoComplex center;
+    double radius;
     double size;
     uint32_t count;
     MesoGrowthCell stack[MESO_GROWTH_CELL_STACK];
@@ -90,6 +92,10 @@ typedef struct MesoGrowthSight {
 /* Of the cells of a triangle through which a segment with these ends goes; of all where it is NULL. */
 void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
                        const MesoComplex ends[2]);
+
+/* Of those that a disc reaches. */
+void meso_growth_sight_around(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
+                              MesoComplex center, double radius);
 
 /* The newest block of the next cell that has any; MESO_NO_INDEX after the last. */
 uint32_t meso_growth_next_cell(MesoGrowthSight *sight);

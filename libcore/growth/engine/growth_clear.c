@@ -158,6 +158,7 @@ typedef struct Search {
     const MesoGrowthAsker *asker;
     MesoGrowthSeen *seen;
     uint32_t count;             /* pieces of the way */
+    double center[3], radius;   /* of a ball around it */
     double clear;
     bool placed_count;
 } Search;
@@ -190,6 +191,45 @@ static bool cell_is_clear(const Search *search, uint32_t triangle, double corner
     return true;
 }
 
+static double length_of(const double v[3])
+{
+    return sqrt(dot(v, v));
+}
+
+/* Where a point lies over the frame of a triangle; false where that has no area. */
+static bool lay_down(const MesoWalkGround *ground, uint32_t triangle, double corners[3][3], const double point[3],
+                     MesoComplex *at)
+{
+    uint32_t base = meso_walk_base(&ground->faces[triangle]);
+    double x[3], y[3], to[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        x[i] = corners[meso_next_side(base)][i] - corners[base][i];
+        y[i] = corners[meso_previous_side(base)][i] - corners[base][i];
+        to[i] = point[i] - corners[base][i];
+    }
+    double along = dot(x, x), share = along > 0 ? dot(x, y) / along : 0;
+    for (uint32_t i = 0; i < 3; i++)
+        y[i] -= share * x[i];
+    double height = length_of(y);
+    if (!(height * height > 1e-12 * along))
+        return false;
+    *at = (MesoComplex){dot(to, x) / sqrt(along), dot(to, y) / height};
+    return true;
+}
+
+/* Of cells those that a ball reaches, which is as far around the way as must be clear. */
+static void look_around(const Search *search, uint32_t triangle, double corners[3][3], MesoGrowthSight *sight)
+{
+    const MesoWalkGround *ground = &search->space->ground->walk;
+    const MesoGrowthCells *cells = &search->space->cells;
+    MesoComplex center;
+    if (lay_down(ground, triangle, corners, search->center, &center))
+        meso_growth_sight_around(sight, cells, triangle, center,
+                                 search->radius + search->clear + 1e-5 * ground->lengths[triangle]);
+    else
+        meso_growth_sight(sight, cells, triangle, NULL);
+}
+
 static bool triangle_is_clear(const Search *search, uint32_t triangle, double corners[3][3])
 {
     const MesoGrowthCells *cells = &search->space->cells;
@@ -197,7 +237,7 @@ static bool triangle_is_clear(const Search *search, uint32_t triangle, double co
     MesoGrowthSight sight;
     if (!meso_growth_is_quartered(head))
         return cell_is_clear(search, triangle, corners, head);
-    meso_growth_sight(&sight, cells, triangle, NULL);
+    look_around(search, triangle, corners, &sight);
     while ((head = meso_growth_next_cell(&sight)) != MESO_NO_INDEX)
         if (!cell_is_clear(search, triangle, corners, head))
             return false;
@@ -217,11 +257,25 @@ static void see_neighbours(const Search *search, uint32_t triangle, double corne
     }
 }
 
+static void set_ball(Search *search)
+{
+    const double *ends = search->seen->ends;
+    uint32_t last = 2 * search->count - 1;
+    for (uint32_t i = 0; i < 3; i++)
+        search->center[i] = 0.5 * (ends[i] + ends[3 * (size_t)last + i]);
+    for (uint32_t end = 0; end <= last; end++) {
+        double by[3];
+        for (uint32_t i = 0; i < 3; i++)
+            by[i] = ends[3 * (size_t)end + i] - search->center[i];
+        search->radius = fmax(search->radius, length_of(by));
+    }
+}
+
 bool meso_growth_is_clear(const MesoGrowthSpace *space, MesoGrowthSeen *seen, const MesoGrowthAsker *asker,
                           const MesoGrowthPiece *pieces, uint32_t count, double clear, bool placed_count)
 {
     const MesoTriangulation *mesh = space->ground->mesh;
-    const Search search = {space, asker, seen, count, clear, placed_count};
+    Search search = {space, asker, seen, count, {0, 0, 0}, 0, clear, placed_count};
     double corners[3][3];
     bool is_clear = true;
     if (!(clear > 0) || asker->since >= space->cells.piece_count)
@@ -235,6 +289,8 @@ bool meso_growth_is_clear(const MesoGrowthSpace *space, MesoGrowthSeen *seen, co
         lift_ends(&space->ground->walk, pieces[i].triangle, corners, pieces[i].ends, seen->ends + 6 * (size_t)i);
         see(seen, pieces[i].triangle);
     }
+    if (count)
+        set_ball(&search);
     for (uint32_t i = 0; i < seen->count && is_clear && !seen->failed; i++) {
         load_corners(mesh, seen->queue[i], corners);
         is_clear = triangle_is_clear(&search, seen->queue[i], corners);
