@@ -77,17 +77,27 @@ typedef struct MesoSweepColumn {
 } MesoSweepColumn;
 
 /*
+ * Ring r of n + 1 lies at r / n along its sweep's pace. Bowed, what lies between the ends is moved out of the bends, by
+ * (P[r - 1] - 2 P[r] + P[r + 1]) / -16 of a column's points, so that its chords lie as far outside as inside. The ends
+ * stay, and those beside them are MESO_END_NEARER of a step nearer.
+ *
  * A ring at an end has the points that its own drawing needs, whatever else the sweep needs between: the next ring's
  * vertices of other columns fan out from the last column before that has one there. The first and the last column have.
  */
 enum { MESO_ABSENT_START = 1, MESO_ABSENT_END = 2 };
+
+/* 1 - sqrt(2 / 3): a chord that is moved at one end alone is off by half as much again. */
+#define MESO_END_NEARER 0.1835f
+
+/* Parts of a pace, which runs evenly within each. */
+enum { MESO_PACE_PARTS = 8 };
 
 /* Sweeps that share their columns. The columns run clockwise around the trajectory. */
 typedef struct MesoSweptKind {
     uint32_t column_begin, column_count;
     uint32_t joint_count;               /* columns that join the next */
     uint32_t division_count;            /* vertices along, at least 2; at least 3 where some are absent */
-    float ease;                         /* ring r of n + 1 lies at v = t - ease sin(2 pi t) / (2 pi), t = r / n */
+    bool bowed;                         /* rings lie out of the bends: see there */
     uint32_t absent[2];                 /* columns that have no vertex at the start, at the end */
     uint32_t fans[2];                   /* joints there that are triangles: their second column is absent */
     uint32_t instance_begin, instance_count;
@@ -105,6 +115,7 @@ typedef struct MesoSweepInstance {
     float size[2];              /* factor on the profiles at both ends */
     float twist;                /* of the frame along the sweep, in radians; see the rules of frames */
     uint32_t cage;              /* that its cell is bent into, where sections deform */
+    uint16_t pace[MESO_PACE_PARTS - 1];     /* v at each part of the steps, of 65536; all 0: even */
 } MesoSweepInstance;
 
 /* How the frame of a sweep turns along it. */

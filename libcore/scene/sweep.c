@@ -263,13 +263,19 @@ static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track,
     return out;
 }
 
-static float ring_place(const MesoSweptKind *kind, const MesoSweepGrid *grid, uint32_t ring)
+float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t ring)
 {
-    const float round = 2 * (float)MESO_PI;
-    uint32_t last = grid->ring_count - 1;
-    float t = (float)ring / (float)last;
-    bool even = !grid->own || kind->ease == 0 || ring == 0 || ring == last;
-    return even ? t : t - kind->ease * sinf(round * t) / round;
+    uint32_t last = kind->division_count - 1;
+    if (ring == 0 || ring == last)
+        return ring == last;
+    float nearer = kind->bowed ? MESO_END_NEARER : 0;
+    float t = ((float)ring - nearer) / ((float)last - 2 * nearer);
+    if (sweep->pace[0] == 0)
+        return t;
+    uint32_t part = (uint32_t)(t * MESO_PACE_PARTS);
+    float from = part > 0 ? (float)sweep->pace[part - 1] : 0;
+    float to = part + 1 < MESO_PACE_PARTS ? (float)sweep->pace[part] : 65536;
+    return (from + (to - from) * (t * MESO_PACE_PARTS - (float)part)) / 65536;
 }
 
 static uint32_t absent_on(const MesoSweptKind *kind, const MesoSweepGrid *grid, uint32_t ring)
@@ -285,10 +291,62 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
 {
     Track track = make_track(scene, kind, sweep);
     for (uint32_t r = 0; r < grid->ring_count; r++) {
-        Ring ring = ring_at(scene, &track, ring_place(kind, grid, r));
+        float v = grid->own ? meso_sweep_place(kind, sweep, r) : (float)r / (float)(grid->ring_count - 1);
+        Ring ring = ring_at(scene, &track, v);
         out = ring_vertices(scene, &track, &ring, grid, absent_on(kind, grid, r), out);
     }
     return out;
+}
+
+/* The whole ring at an end, of which the kind has no vertices for some columns. */
+typedef struct EndRing {
+    const MesoScene *scene;
+    Track track;
+    Ring ring;
+} EndRing;
+
+static EndRing end_ring(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep, float v)
+{
+    EndRing end = {.scene = scene, .track = {.kind = kind, .sweep = sweep, .rule = scene->frame_rule}};
+    end.ring = ring_at(scene, &end.track, v);
+    return end;
+}
+
+static MesoVec3 end_point(const EndRing *end, const MesoSweepColumn *column)
+{
+    MesoVec3 point = tube_point(end->scene, &end->track, &end->ring, column);
+    return end->scene->deform == MESO_SWEEP_SHAPE ? meso_cell_point(&end->scene->cages[end->track.sweep->cage], point)
+                                                  : point;
+}
+
+/* Moves what lies between the ends of a column out of its bends. */
+static void bow_column(MesoMeshVertex *first, uint32_t stride, uint32_t count, MesoVec3 before, MesoVec3 last)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        MesoVec3 *at = &first[(size_t)i * stride].position, here = *at;
+        MesoVec3 next = i + 1 < count ? first[(size_t)(i + 1) * stride].position : last;
+        MesoVec3 bend = meso_vec3_mad(meso_vec3_add(before, next), -2, here);
+        *at = meso_vec3_mad(here, -1.0f / 16, bend);
+        before = here;
+    }
+}
+
+static void bow_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                         MesoMeshVertex *out)
+{
+    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
+    uint32_t width = kind->column_count, between = kind->division_count - 2;
+    MesoMeshVertex *start = out, *inner = out + width - kind->absent[0], *end = inner + (size_t)between * width;
+    EndRing whole[2];
+    for (uint32_t k = 0; k < 2; k++)
+        if (kind->absent[k])
+            whole[k] = end_ring(scene, kind, sweep, (float)k);
+    for (uint32_t c = 0; c < width; c++) {
+        MesoVec3 before = columns[c].absent & MESO_ABSENT_START ? end_point(&whole[0], &columns[c])
+                                                                : start++->position;
+        MesoVec3 last = columns[c].absent & MESO_ABSENT_END ? end_point(&whole[1], &columns[c]) : end++->position;
+        bow_column(inner + c, width, between, before, last);
+    }
 }
 
 /* Of the ring at v. */
@@ -351,13 +409,15 @@ void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const Me
                      const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
     MesoMeshVertex *end = (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
-    if (scene->deform == MESO_SWEEP_CURVES)
-        return;
-    const MesoCage *cage = &scene->cages[sweep->cage];
-    if (!grid->bare)
-        meso_cell_bend(cage, out, (uint64_t)(end - out));
-    for (; grid->bare && out < end; out++)
-        out->position = meso_cell_point(cage, out->position);
+    if (scene->deform == MESO_SWEEP_SHAPE) {
+        const MesoCage *cage = &scene->cages[sweep->cage];
+        if (!grid->bare)
+            meso_cell_bend(cage, out, (uint64_t)(end - out));
+        for (MesoMeshVertex *v = out; grid->bare && v < end; v++)
+            v->position = meso_cell_point(cage, v->position);
+    }
+    if (grid->own && kind->bowed)
+        bow_vertices(scene, kind, sweep, out);
 }
 
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,

@@ -11,11 +11,14 @@ MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, con
 /* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]. */
 float meso_sweep_twist(const MesoSweepInstance *sweep);
 
+/* v of ring `ring` of a sweep. */
+float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t ring);
+
 /* Which columns of a kind, and how many rings, as a level of detail has them (detail.h). */
 typedef struct MesoSweepGrid {
     const uint32_t *columns;    /* [column_count] ascending columns of the kind; NULL: all of them */
     uint32_t column_count, ring_count;
-    bool own;                   /* rings as the kind has them, eased and without what is absent; else even and whole */
+    bool own;                   /* rings as they are in files: paced, bowed, without what is absent; else even and whole */
     bool bare;                  /* positions alone: the rest of the vertices is left as it was */
 } MesoSweepGrid;
 

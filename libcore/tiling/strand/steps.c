@@ -13,10 +13,7 @@
 #include "libcore/scene/cell.h"
 #include "libcore/scene/sweep.h"
 
-enum { SWEEPS_A_RANGE = 512, LEAST_INTERVALS = 8, MOST_INTERVALS = 256, LEAST_CAP_STEPS = 3 };
-
-/* Numbers of rings are below it: a choice is one of them and so many times the number of the ease. */
-enum { RINGS = MESO_MOST_DIVISIONS + 1 };
+enum { SWEEPS_A_RANGE = 512, LEAST_INTERVALS = 16, MOST_INTERVALS = 256, LEAST_CAP_STEPS = 3 };
 
 /* Pairs of columns: the outermost, and all around where the shape changes. */
 enum { OUTER_PAIRS = 5, MORE_PAIRS = 27, MOST_PAIRS = OUTER_PAIRS + MORE_PAIRS };
@@ -28,16 +25,10 @@ enum { OUTER_PAIRS = 5, MORE_PAIRS = 27, MOST_PAIRS = OUTER_PAIRS + MORE_PAIRS }
 static const float OFF_PART = 0.95f, CAP_OFF_PART = 0.75f, LEAST_LEFT = 0.3f;
 
 /* Differences at a few places miss the worst one. */
-static const float MARGIN = 1.1f;
+static const float MARGIN = 1.1f, FITS = 1.02f;
 
-/*
- * How rings may lie along a sweep: evenly, closer at the ends, or in the middle. An S bends most at its ends and not at
- * all in the middle; 0.3 takes three quarters of the even steps there, and any spacing two thirds at least. They do not
- * lie evenly where that saves a twentieth of them.
- */
-static const float EASES[] = {0, 0.3f, 0.5f, 0.7f, -0.3f, -0.6f};
-static const float EASE_GAIN = 0.95f;
-enum { EASE_COUNT = sizeof EASES / sizeof *EASES, NEWTON_STEPS = 12 };
+/* Of what a chord is off, where both its ends are moved out of the bend, and where one is (scene.h). */
+static const float BOWED = 0.5f, BOWED_AT_END = 0.75f;
 
 /* Of a shape's size: less is none. */
 static const float SMALL_CHANGE = 0.02f;
@@ -57,7 +48,7 @@ typedef struct Chooser {
     const MesoScene *scene;
     const MesoKindOrigin *origins;
     float tolerance;
-    uint16_t *rings;    /* [sweep_count] with the number of the ease */
+    uint16_t *rings;    /* [sweep_count] */
     atomic_bool failed; /* memory is out */
 } Chooser;
 
@@ -171,42 +162,89 @@ static void add_warp(Wants *wants, const MesoMeshVertex *pair, uint32_t stride)
     }
 }
 
-/* How fast v goes at each of the places, with each ease. */
-typedef struct Rates {
-    uint32_t intervals;
-    float at[EASE_COUNT][MOST_INTERVALS + 1];
-} Rates;
+/* What is wanted somewhere, by second derivatives. */
+typedef struct Want {
+    float bend, warp;
+} Want;
 
-/* t by Newton's method, from a side where it does not overshoot: the curve bends one way on each half. */
-static float ease_rate(float ease, float v)
+static Want want_at(const Wants *wants, float v)
 {
-    const float round = 2 * (float)MESO_PI;
-    float t = ease > 0 ? 0.5f : v < 0.5f ? 0.0f : 1.0f;
-    for (uint32_t i = 0; i < NEWTON_STEPS && v > 0 && v < 1; i++)
-        t -= (t - ease * sinf(round * t) / round - v) / (1 - ease * cosf(round * t));
-    return 1 - ease * cosf(round * (v > 0 && v < 1 ? t : 0));
+    float place = v * (float)wants->intervals;
+    uint32_t i = (uint32_t)place < wants->intervals ? (uint32_t)place : wants->intervals - 1;
+    float t = place - (float)i;
+    return (Want){wants->bend[i] + t * (wants->bend[i + 1] - wants->bend[i]),
+                  wants->warp[i] + t * (wants->warp[i + 1] - wants->warp[i])};
 }
 
-static void make_rates(Rates *rates, uint32_t intervals)
+/* Steps so that the errors, of which one falls with their number and one with its square, add up to the tolerance;
+ * `part` of what chords are off counts. */
+static float steps_for(Want want, float part, float tolerance)
 {
-    if (rates->intervals == intervals)
-        return;
-    rates->intervals = intervals;
-    for (uint32_t ease = 0; ease < EASE_COUNT; ease++)
-        for (uint32_t i = 0; i <= intervals; i++)
-            rates->at[ease][i] = ease_rate(EASES[ease], (float)i / (float)intervals);
+    float e = part * want.bend, f = want.warp;
+    return (f + sqrtf(f * f + 4 * tolerance * e)) / (2 * tolerance);
 }
 
-/* Steps so that the errors, of which one falls with their number and one with its square, add up to the tolerance. */
-static float steps_for(const Wants *wants, const float *rates, float tolerance)
+static float steps_at(const Wants *wants, uint32_t i, float part, float tolerance)
 {
-    float most = 1, m = (float)wants->intervals;
-    for (uint32_t i = 0; i <= wants->intervals; i++) {
-        float rate = rates[i];
-        float e = MARGIN * wants->bend[i] * m * m * rate * rate / 8, f = MARGIN * wants->warp[i] * m * rate / 4;
-        most = fmaxf(most, (f + sqrtf(f * f + 4 * tolerance * e)) / (2 * tolerance));
+    return steps_for((Want){wants->bend[i], wants->warp[i]}, part, tolerance);
+}
+
+/* Whether the steps of a sweep with so many rings are each short enough for what lies along them. */
+static bool are_short(const Wants *wants, const MesoSweptKind *kind, const MesoSweepInstance *sweep, float tolerance)
+{
+    uint32_t last = kind->division_count - 1;
+    float from = 0;
+    bool fit = true;
+    for (uint32_t r = 1; r <= last && fit; r++) {
+        float to = meso_sweep_place(kind, sweep, r);
+        Want here = want_at(wants, from), middle = want_at(wants, (from + to) / 2), next = want_at(wants, to);
+        Want want = {(here.bend + 2 * middle.bend + next.bend) / 4, (here.warp + 2 * middle.warp + next.warp) / 4};
+        fit = (to - from) * steps_for(want, r == 1 || r == last ? BOWED_AT_END : BOWED, tolerance) <= FITS;
+        from = to;
     }
-    return most;
+    return fit;
+}
+
+/*
+ * Steps that are as many at each place as that needs, and the pace that puts them there: v where an eighth of them is
+ * reached, and so on.
+ */
+static float pace_steps(const Wants *wants, float tolerance, uint16_t pace[MESO_PACE_PARTS - 1])
+{
+    uint32_t n = wants->intervals;
+    float sums[MOST_INTERVALS + 1] = {0}, before = steps_at(wants, 0, BOWED, tolerance);
+    for (uint32_t i = 1; i <= n; i++) {
+        float here = steps_at(wants, i, BOWED, tolerance);
+        sums[i] = sums[i - 1] + (before + here) / (float)(2 * n);
+        before = here;
+    }
+    for (uint32_t k = 1, i = 0; k < MESO_PACE_PARTS && sums[n] > 0; k++) {
+        float wanted = sums[n] * (float)k / MESO_PACE_PARTS;
+        while (sums[i + 1] < wanted)
+            i++;
+        float v = ((float)i + (wanted - sums[i]) / (sums[i + 1] - sums[i])) / (float)n;
+        pace[k - 1] = (uint16_t)fminf(fmaxf(65536 * v, 1), 65535);
+    }
+    return sums[n];
+}
+
+/* Whether one step will do, which nothing is moved for. */
+static bool is_straight(const Wants *wants, float tolerance)
+{
+    bool straight = true;
+    for (uint32_t i = 0; i <= wants->intervals && straight; i++)
+        straight = steps_at(wants, i, 1, tolerance) <= 1;
+    return straight;
+}
+
+/* To what one step from end to end would be off, with a margin. */
+static void scale_wants(Wants *wants)
+{
+    float m = (float)wants->intervals;
+    for (uint32_t i = 0; i <= wants->intervals; i++) {
+        wants->bend[i] *= MARGIN * m * m / 8;
+        wants->warp[i] *= MARGIN * m / 4;
+    }
 }
 
 static uint32_t intervals_of(const MesoSweptKind *kind, const MesoSweepInstance *sweep)
@@ -218,12 +256,11 @@ static uint32_t intervals_of(const MesoSweptKind *kind, const MesoSweepInstance 
 /* What the steps of one range of sweeps are found with. */
 typedef struct Work {
     Sample sample;
-    Rates rates;
     MesoMeshVertex vertices[(MOST_INTERVALS + 1) * 2 * MOST_PAIRS];
 } Work;
 
-/* Steps, and which ease takes the fewest. */
-static float tube_steps(Work *work, const MesoSweepInstance *sweep, float tolerance, uint32_t *ease)
+/* Steps, and the sweep's pace. */
+static float tube_steps(Work *work, MesoSweepInstance *sweep, float tolerance)
 {
     Sample *sample = &work->sample;
     MesoMeshVertex *vertices = work->vertices;
@@ -236,17 +273,16 @@ static float tube_steps(Work *work, const MesoSweepInstance *sweep, float tolera
         add_bend(&wants, vertices + c, stride);
     for (uint32_t c = 0; c < stride; c += 2)
         add_warp(&wants, vertices + c, stride);
-    make_rates(&work->rates, wants.intervals);
-    float least = steps_for(&wants, work->rates.at[0], tolerance), enough = EASE_GAIN * least;
-    *ease = 0;
-    for (uint32_t i = 1; i < EASE_COUNT; i++) {
-        float steps = steps_for(&wants, work->rates.at[i], tolerance);
-        if (steps < enough) {
-            least = enough = steps;
-            *ease = i;
-        }
-    }
-    return least;
+    scale_wants(&wants);
+    if (is_straight(&wants, tolerance))
+        return 1;
+    float steps = fmaxf(2, pace_steps(&wants, tolerance, sweep->pace) + 2 * MESO_END_NEARER);
+    MesoSweptKind kind = {.bowed = true};
+    uint32_t rings = (uint32_t)ceilf(fminf(steps, MESO_MOST_DIVISIONS)) + 1;
+    for (kind.division_count = rings; kind.division_count < rings + 4 + rings / 4; kind.division_count++)
+        if (are_short(&wants, &kind, sweep, tolerance))
+            break;
+    return (float)(kind.division_count - 1);
 }
 
 /* Scene units of one unit of the profiles, at most. */
@@ -293,7 +329,6 @@ static void choose_range(void *context, uint64_t begin, uint64_t end)
         return;
     }
     uint32_t kind = meso_scene_kind(c->scene, (uint32_t)begin);
-    work->rates.intervals = 0;
     work->sample = make_sample(c->scene, &kinds[kind]);
     for (uint64_t i = begin; i < end; i++) {
         if (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count) {
@@ -301,13 +336,12 @@ static void choose_range(void *context, uint64_t begin, uint64_t end)
                 kind++;
             work->sample = make_sample(c->scene, &kinds[kind]);
         }
-        const MesoSweepInstance *sweep = &c->scene->sweeps[i];
+        MesoSweepInstance *sweep = &c->scene->sweeps[i];
         uint32_t least = kinds[kind].absent[0] || kinds[kind].absent[1] ? 3 : 2;
-        uint32_t ease = 0;
         float tolerance = tolerance_left(c, kind, sweep);
         float steps = kinds[kind].cap ? cap_steps(&work->sample, sweep, tolerance)
-                                      : tube_steps(work, sweep, tolerance, &ease);
-        c->rings[i] = (uint16_t)(rings_for(least, steps) + ease * RINGS);
+                                      : tube_steps(work, sweep, tolerance);
+        c->rings[i] = rings_for(least, steps);
     }
     free(work);
 }
@@ -321,7 +355,7 @@ typedef struct Split {
     uint32_t kind_count;
 } Split;
 
-/* `counts` [EASE_COUNT * RINGS] is all 0 before and after; `split` NULL only counts the kinds. */
+/* `counts` [MESO_MOST_DIVISIONS + 1] is all 0 before and after; `split` NULL only counts the kinds. */
 static uint32_t split_kind(Split *split, const MesoScene *scene, const MesoKindOrigin *origins, uint32_t k,
                            const uint16_t *rings, uint32_t *counts)
 {
@@ -329,13 +363,13 @@ static uint32_t split_kind(Split *split, const MesoScene *scene, const MesoKindO
     uint32_t parts = 0, end = kind->instance_begin;
     for (uint32_t i = 0; i < kind->instance_count; i++)
         parts += counts[rings[kind->instance_begin + i]]++ == 0;
-    for (uint32_t r = 0; r < EASE_COUNT * RINGS && split; r++) {
+    for (uint32_t r = 0; r <= MESO_MOST_DIVISIONS && split; r++) {
         if (!counts[r])
             continue;
         MesoSweptKind *part = &split->kinds[split->kind_count];
         *part = *kind;
-        part->division_count = r % RINGS;
-        part->ease = EASES[r / RINGS];
+        part->division_count = r;
+        part->bowed = !kind->cap;
         part->instance_begin = end;
         part->instance_count = counts[r];
         split->origins[split->kind_count++] = origins[k];
@@ -375,7 +409,7 @@ MesoStatus meso_scene_choose_steps(MesoScene *scene, MesoKindOrigin **origins, M
     MesoArena scratch;
     meso_arena_init(&scratch);
     Chooser chooser = {scene, *origins, tolerance, MESO_NEW(&scratch, uint16_t, scene->sweep_count, error), false};
-    uint32_t *counts = MESO_NEW(&scratch, uint32_t, EASE_COUNT * RINGS, error);
+    uint32_t *counts = MESO_NEW(&scratch, uint32_t, MESO_MOST_DIVISIONS + 1, error);
     MesoStatus status = MESO_ERR_MEMORY;
     if (chooser.rings && counts) {
         meso_parallel_for(thread_count, scene->sweep_count, SWEEPS_A_RANGE, choose_range, &chooser);
