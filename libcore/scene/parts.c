@@ -8,22 +8,6 @@
 
 /* ---- counting ---- */
 
-static uint64_t kind_vertex_count(const MesoSweptKind *kind)
-{
-    return (uint64_t)kind->column_count * kind->division_count - kind->absent[0] - kind->absent[1];
-}
-
-static uint64_t kind_face_count(const MesoSweptKind *kind)
-{
-    return (uint64_t)kind->joint_count * (kind->division_count - 1);
-}
-
-/* A cap's last row are triangles, and so are some joints at ends. */
-static uint64_t kind_triangle_count(const MesoSweptKind *kind)
-{
-    return 2 * kind_face_count(kind) - (kind->cap ? kind->joint_count : 0) - kind->fans[0] - kind->fans[1];
-}
-
 static uint64_t body_triangle_count(const MesoBody *body)
 {
     uint64_t count = body->face_count;
@@ -39,10 +23,10 @@ static void count_sweeps(MesoSceneParts *parts)
     for (uint32_t k = 0, part = 0; k < scene->kind_count; k++) {
         const MesoSweptKind *kind = &scene->kinds[k];
         for (uint32_t i = 0; i < kind->instance_count; i++, part++) {
-            vertices[part + 1] = vertices[part] + kind_vertex_count(kind);
-            faces[part + 1] = faces[part] + kind_face_count(kind);
+            vertices[part + 1] = vertices[part] + meso_sweep_vertex_count(kind);
+            faces[part + 1] = faces[part] + meso_sweep_face_count(kind);
         }
-        parts->triangle_count += kind_triangle_count(kind) * kind->instance_count;
+        parts->triangle_count += meso_sweep_triangle_count(kind) * kind->instance_count;
     }
 }
 

@@ -73,7 +73,7 @@ typedef struct MesoSweepColumn {
     MesoVec2 start_normal, end_normal;  /* outward, as long as the chord that they are normal to */
     float u;                            /* around, in [0,1] */
     uint32_t joins_next;                /* 1 if quads lie between this column and the next */
-    uint32_t absent;                    /* bits MESO_ABSENT_*: it has no vertex on that ring */
+    uint32_t absent;                    /* bits MESO_ABSENT_*: it has no vertex on such rings */
 } MesoSweepColumn;
 
 /*
@@ -82,24 +82,26 @@ typedef struct MesoSweepColumn {
  * stay, and those beside them are MESO_END_NEARER of a step nearer.
  *
  * A ring at an end has the points that its own drawing needs, whatever else the sweep needs between: the next ring's
- * vertices of other columns fan out from the last column before that has one there. The first and the last column have.
+ * vertices of other columns fan out from the last column before that has one there. So do a ring's own towards the
+ * next, where that has no such column. The first and the last column are on all rings.
  */
-enum { MESO_ABSENT_START = 1, MESO_ABSENT_END = 2 };
+enum { MESO_ABSENT_START = 1, MESO_ABSENT_END = 2, MESO_ABSENT_BETWEEN = 4 };
 
-/* 1 - sqrt(2 / 3): a chord that is moved at one end alone is off by half as much again. */
-#define MESO_END_NEARER 0.1835f
+/* 1 - sqrt(3) / 2: then a chord that is moved at one end alone is off as far as the next one. */
+#define MESO_END_NEARER 0.134f
 
 /* Parts of a pace, which runs evenly within each. */
-enum { MESO_PACE_PARTS = 8 };
+enum { MESO_PACE_PARTS = 16 };
 
 /* Sweeps that share their columns. The columns run clockwise around the trajectory. */
 typedef struct MesoSweptKind {
     uint32_t column_begin, column_count;
-    uint32_t joint_count;               /* columns that join the next */
+    uint32_t joint_count;               /* columns that join the next between the ends */
     uint32_t division_count;            /* vertices along, at least 2; at least 3 where some are absent */
     bool bowed;                         /* rings lie out of the bends: see there */
-    uint32_t absent[2];                 /* columns that have no vertex at the start, at the end */
-    uint32_t fans[2];                   /* joints there that are triangles: their second column is absent */
+    uint32_t absent[3];                 /* columns that have no vertex at the start, at the end, on rings between */
+    uint32_t more_joints[2];            /* faces of the first and of the last row, beyond those of others */
+    uint32_t fans[2];                   /* that are triangles: their second column is absent on either side */
     uint32_t instance_begin, instance_count;
     uint32_t start_material, end_material;  /* drawn as a blend; files know the first */
     bool cap;

@@ -282,8 +282,9 @@ static uint32_t absent_on(const MesoSweptKind *kind, const MesoSweepGrid *grid, 
 {
     if (!grid->own)
         return 0;
-    return ring == 0 && kind->absent[0] ? MESO_ABSENT_START
-         : ring + 1 == grid->ring_count && kind->absent[1] ? MESO_ABSENT_END : 0;
+    if (ring > 0 && ring + 1 < grid->ring_count)
+        return kind->absent[2] ? MESO_ABSENT_BETWEEN : 0;
+    return ring == 0 ? (kind->absent[0] ? MESO_ABSENT_START : 0) : kind->absent[1] ? MESO_ABSENT_END : 0;
 }
 
 static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
@@ -335,17 +336,20 @@ static void bow_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
                          MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    uint32_t width = kind->column_count, between = kind->division_count - 2;
-    MesoMeshVertex *start = out, *inner = out + width - kind->absent[0], *end = inner + (size_t)between * width;
+    uint32_t width = kind->column_count - kind->absent[2], between = kind->division_count - 2;
+    MesoMeshVertex *start = out, *inner = out + kind->column_count - kind->absent[0];
+    MesoMeshVertex *end = inner + (size_t)between * width;
     EndRing whole[2];
     for (uint32_t k = 0; k < 2; k++)
         if (kind->absent[k])
             whole[k] = end_ring(scene, kind, sweep, (float)k);
-    for (uint32_t c = 0; c < width; c++) {
-        MesoVec3 before = columns[c].absent & MESO_ABSENT_START ? end_point(&whole[0], &columns[c])
-                                                                : start++->position;
-        MesoVec3 last = columns[c].absent & MESO_ABSENT_END ? end_point(&whole[1], &columns[c]) : end++->position;
-        bow_column(inner + c, width, between, before, last);
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        uint32_t absent = columns[c].absent;
+        MesoMeshVertex *first = absent & MESO_ABSENT_START ? NULL : start++;
+        MesoMeshVertex *last = absent & MESO_ABSENT_END ? NULL : end++;
+        if (!(absent & MESO_ABSENT_BETWEEN))
+            bow_column(inner++, width, between, first ? first->position : end_point(&whole[0], &columns[c]),
+                       last ? last->position : end_point(&whole[1], &columns[c]));
     }
 }
 
@@ -428,49 +432,113 @@ void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
     meso_sweep_grid(scene, kind, sweep, &whole, out);
 }
 
-/* A row of faces from a whole ring to the next. */
-static MesoMeshFace *whole_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t here, bool tip,
+/* A row of faces from a ring between the ends to the next. */
+static MesoMeshFace *inner_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t here, bool tip,
                                MesoMeshFace *out)
 {
-    uint32_t ahead = here + kind->column_count;
-    for (uint32_t c = 0; c < kind->column_count; c++, here++, ahead++)
-        if (columns[c].joins_next)
-            *out++ = (MesoMeshFace){{here, ahead, tip ? here + 1 : ahead + 1, tip ? MESO_NO_INDEX : here + 1}};
+    uint32_t ahead = here + kind->column_count - kind->absent[2];
+    bool last = false;      /* whether the column before joins this one */
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        if (!(columns[c].absent & MESO_ABSENT_BETWEEN)) {
+            if (last)
+                *out++ = (MesoMeshFace){{here - 1, ahead - 1, tip ? here : ahead, tip ? MESO_NO_INDEX : here}};
+            here++;
+            ahead++;
+        }
+        last = columns[c].joins_next;
+    }
     return out;
 }
 
-/* A row between the ring at an end, from `first`, and a whole one; both walk on by the columns that they have. */
-static MesoMeshFace *end_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t first, uint32_t whole,
+/* From a row's one ring at `a` to its other at `b`, and on along both or one. */
+static MesoMeshFace row_face(uint32_t a, uint32_t b, uint32_t b_ahead, uint32_t a_ahead)
+{
+    if (a_ahead == a)
+        return (MesoMeshFace){{a, b, b_ahead, MESO_NO_INDEX}};
+    if (b_ahead == b)
+        return (MesoMeshFace){{a, b, a_ahead, MESO_NO_INDEX}};
+    return (MesoMeshFace){{a, b, b_ahead, a_ahead}};
+}
+
+/* A row between the ring at an end, from `ring`, and one between, from `inner`; both walk on by their columns. */
+static MesoMeshFace *end_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t ring, uint32_t inner,
                              bool end, MesoMeshFace *out)
 {
-    uint32_t absent = end ? MESO_ABSENT_END : MESO_ABSENT_START, last = first;
-    for (uint32_t c = 0; c < kind->column_count; c++) {
-        last += c > 0 && !(columns[c].absent & absent);
-        if (!columns[c].joins_next)
-            continue;
-        uint32_t inner = whole + c;
-        if (columns[c + 1].absent & absent)
-            *out++ = end ? (MesoMeshFace){{inner, last, inner + 1, MESO_NO_INDEX}}
-                         : (MesoMeshFace){{last, inner, inner + 1, MESO_NO_INDEX}};
-        else
-            *out++ = end ? (MesoMeshFace){{inner, last, last + 1, inner + 1}}
-                         : (MesoMeshFace){{last, inner, inner + 1, last + 1}};
+    uint32_t absent = end ? MESO_ABSENT_END : MESO_ABSENT_START;
+    for (uint32_t c = 1; c < kind->column_count; c++) {
+        uint32_t ring_ahead = ring + !(columns[c].absent & absent);
+        uint32_t inner_ahead = inner + !(columns[c].absent & MESO_ABSENT_BETWEEN);
+        if (columns[c - 1].joins_next && (ring_ahead > ring || inner_ahead > inner))
+            *out++ = end ? row_face(inner, ring, ring_ahead, inner_ahead)
+                         : row_face(ring, inner, inner_ahead, ring_ahead);
+        ring = ring_ahead;
+        inner = inner_ahead;
     }
     return out;
+}
+
+static bool row_is_uneven(const MesoSweptKind *kind, bool end)
+{
+    return kind->absent[end] || kind->absent[2];
 }
 
 /* The rings run clockwise around the tangent: along, then around is counter-clockwise from outside. */
 void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_t base, MesoMeshFace *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    uint32_t width = kind->column_count, last = kind->division_count - 1;
+    uint32_t last = kind->division_count - 1, width = kind->column_count - kind->absent[2];
+    uint32_t first = kind->column_count - kind->absent[0];
     for (uint32_t ring = 0; ring < last; ring++) {
-        uint32_t here = base + ring * width - (ring > 0 ? kind->absent[0] : 0);
-        if (ring == 0 && kind->absent[0])
-            out = end_row(kind, columns, base, base + width - kind->absent[0], false, out);
-        else if (ring + 1 == last && kind->absent[1])
+        uint32_t here = ring == 0 ? base : base + first + (ring - 1) * width;
+        if (ring == 0 && row_is_uneven(kind, false))
+            out = end_row(kind, columns, base, base + first, false, out);
+        else if (ring + 1 == last && row_is_uneven(kind, true))
             out = end_row(kind, columns, here + width, here, true, out);
         else
-            out = whole_row(kind, columns, here, kind->cap && ring + 1 == last, out);
+            out = inner_row(kind, columns, here, kind->cap && ring + 1 == last, out);
+    }
+}
+
+uint64_t meso_sweep_vertex_count(const MesoSweptKind *kind)
+{
+    uint64_t between = (uint64_t)(kind->division_count - 2) * (kind->column_count - kind->absent[2]);
+    return between + 2 * (uint64_t)kind->column_count - kind->absent[0] - kind->absent[1];
+}
+
+uint64_t meso_sweep_face_count(const MesoSweptKind *kind)
+{
+    return (uint64_t)kind->joint_count * (kind->division_count - 1) + kind->more_joints[0] + kind->more_joints[1];
+}
+
+uint64_t meso_sweep_triangle_count(const MesoSweptKind *kind)
+{
+    return 2 * meso_sweep_face_count(kind) - (kind->cap ? kind->joint_count : 0) - kind->fans[0] - kind->fans[1];
+}
+
+/* Joins of the columns that lack not all of the bits. */
+static uint32_t count_joints(const MesoSweepColumn *columns, uint32_t count, uint32_t absent)
+{
+    uint32_t joints = 0;
+    for (uint32_t c = 1; c < count; c++)
+        joints += columns[c - 1].joins_next && (columns[c].absent & absent) != absent;
+    return joints;
+}
+
+void meso_sweep_count(MesoSweptKind *kind, const MesoSweepColumn *columns)
+{
+    static const uint32_t bits[3] = {MESO_ABSENT_START, MESO_ABSENT_END, MESO_ABSENT_BETWEEN};
+    uint32_t count = kind->column_count;
+    for (uint32_t k = 0; k < 3; k++) {
+        kind->absent[k] = 0;
+        for (uint32_t c = 0; c < count; c++)
+            kind->absent[k] += (columns[c].absent & bits[k]) != 0;
+    }
+    kind->joint_count = count_joints(columns, count, MESO_ABSENT_BETWEEN);
+    for (uint32_t end = 0; end < 2; end++) {
+        uint32_t both = 0, faces = count_joints(columns, count, bits[end] | MESO_ABSENT_BETWEEN);
+        for (uint32_t c = 1; c < count; c++)
+            both += columns[c - 1].joins_next && !(columns[c].absent & (bits[end] | MESO_ABSENT_BETWEEN));
+        kind->more_joints[end] = faces - kind->joint_count;
+        kind->fans[end] = faces - both;
     }
 }

@@ -26,13 +26,20 @@ typedef struct MesoSweepGrid {
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                      const MesoSweepGrid *grid, MesoMeshVertex *out);
 
+/* Of one instance of a kind; quads are two triangles. */
+uint64_t meso_sweep_vertex_count(const MesoSweptKind *kind);
+uint64_t meso_sweep_face_count(const MesoSweptKind *kind);
+uint64_t meso_sweep_triangle_count(const MesoSweptKind *kind);
+
 /*
- * Vertices of one instance of `kind`, ring by ring, to `out` [column_count * division_count less both absent]; and
- * its faces, whose indices count from `base`, to `out` [joint_count * (division_count - 1)]. A cap's last row are
- * triangles.
+ * Vertices of one instance of `kind`, ring by ring, to `out` [meso_sweep_vertex_count()], and its faces, row by row,
+ * whose indices count from `base`, to `out` [meso_sweep_face_count()]. A cap's last row are triangles.
  */
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                          MesoMeshVertex *out);
 void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_t base, MesoMeshFace *out);
+
+/* Counts what is absent in the columns of a kind, and what is joined. */
+void meso_sweep_count(MesoSweptKind *kind, const MesoSweepColumn *columns);
 
 #endif

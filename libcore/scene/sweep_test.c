@@ -5,6 +5,7 @@
 #include "libcore/scene/sweep.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcore/base/check.h"
 
@@ -33,7 +34,7 @@ static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, u
     tube.kind = (MesoSweptKind){.column_count = count + 1, .joint_count = count, .division_count = rings,
                                 .instance_count = 1};
     tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1 / 3.f, 0, 0}, {2 / 3.f, 0, 0}, {1, 0, 0}},
-                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0};
+                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
     tube.scene = (MesoScene){.section_scale = 1, .kind_count = 1, .column_count = count + 1, .sweep_count = 1,
                              .kinds = &tube.kind, .columns = tube.columns, .sweeps = &tube.sweep};
 }
@@ -113,7 +114,7 @@ static void test_quarter(void)
     const float k = (float)(4 * (sqrt(2) - 1) / 3);
     make_tube(disc, make_disc(disc, 64, 0.2f), 0, 128);
     tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0};
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
     for (uint32_t rule = 0; rule < 2; rule++) {
         tube.scene.frame_rule = (MesoFrameRule)rule;
         tube.sweep.twist = rule ? meso_sweep_twist(&tube.sweep) : 0;
@@ -226,7 +227,7 @@ static void test_frames(void)
     const MesoVec3 ups[2][2] = {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0.2f}}};
     for (uint32_t i = 0; i < 2; i++) {
         tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1.5f, 0, 0}, {-0.5f, 0.05f, 1}, {1, 0.05f, 1}},
-                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0};
+                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
         tube.scene.frame_rule = MESO_FRAME_PAPER;
         CHECK(i == 1 || largest_step() > 0.5f);
         tube.scene.frame_rule = MESO_FRAME_MINIMAL;
@@ -265,6 +266,49 @@ static void test_bare(void)
     }
 }
 
+/* On a quarter of a circle chords of the same number are half as far off, on both sides; the ends stay. */
+static void test_bowed(void)
+{
+    const float k = (float)(4 * (sqrt(2) - 1) / 3);
+    MesoVec2 point[3] = {{0, 0}, {0, 0}, {0, 0}};
+    MesoMeshVertex plain[9];
+    make_tube(point, 3, 0, 9);
+    tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
+    sweep();
+    for (uint32_t r = 0; r < 9; r++)
+        plain[r] = tube.vertices[r * tube.kind.column_count];
+    tube.kind.bowed = true;
+    sweep();
+    CHECK(memcmp(&tube.vertices[0], &plain[0], sizeof *plain) == 0);
+    CHECK(memcmp(&tube.vertices[8 * tube.kind.column_count], &plain[8], sizeof *plain) == 0);
+    float out = 0, in = 0, before = 0;
+    for (uint32_t r = 0; r < 8; r++) {
+        MesoVec3 here = tube.vertices[r * tube.kind.column_count].position;
+        MesoVec3 next = tube.vertices[(r + 1) * tube.kind.column_count].position;
+        out = fmaxf(out, meso_vec3_length(here) - 1);
+        in = fmaxf(in, 1 - meso_vec3_length(meso_vec3_lerp(here, next, 0.5f)));
+        before = fmaxf(before, 1 - meso_vec3_length(meso_vec3_lerp(plain[r].position, plain[r + 1].position, 0.5f)));
+    }
+    CHECK(out > 0.4f * before && out < 0.65f * before && in > 0.4f * before && in < 0.65f * before);
+}
+
+/* Rings lie as a pace says: all of the steps but one part in the first tenth. */
+static void test_pace(void)
+{
+    MesoSweptKind kind = {.division_count = 2 * MESO_PACE_PARTS + 1};
+    MesoSweepInstance hasty = {.size = {1, 1}};
+    for (uint32_t i = 0; i + 1 < MESO_PACE_PARTS; i++)
+        hasty.pace[i] = (uint16_t)(6553 * (i + 1) / (MESO_PACE_PARTS - 1));
+    float before = 0;
+    for (uint32_t r = 1; r < kind.division_count; r++) {
+        float v = meso_sweep_place(&kind, &hasty, r);
+        CHECK(v > before && (v <= 0.1f) == (r <= kind.division_count - 3));
+        before = v;
+    }
+    CHECK(before == 1 && meso_sweep_place(&kind, &hasty, 0) == 0);
+}
+
 int main(void)
 {
     test_straight();
@@ -274,5 +318,7 @@ int main(void)
     test_normals();
     test_frames();
     test_bare();
+    test_bowed();
+    test_pace();
     return 0;
 }

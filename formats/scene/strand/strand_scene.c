@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "libcore/scene/sweep.h"
+
 /* ---- caps ---- */
 
 typedef struct Caps {
@@ -90,9 +92,8 @@ static void add_caps(Caps *caps, const MesoSweptKind *kind, bool at_end)
         return;
     add_columns(caps, kind, at_end);
     cap.column_count = caps->out->column_count - cap.column_begin;
-    cap.joint_count = cap.absent[0] = cap.absent[1] = cap.fans[0] = cap.fans[1] = 0;
-    for (uint32_t c = 0; c < cap.column_count; c++)
-        cap.joint_count += caps->out->columns[cap.column_begin + c].joins_next;
+    cap.bowed = false;
+    meso_sweep_count(&cap, caps->out->columns + cap.column_begin);
     caps->out->kinds[caps->out->kind_count++] = cap;
 }
 

@@ -31,18 +31,13 @@ static const MesoSweptKind *kind_of(const MesoScene *scene, uint32_t sweep)
 
 /* ---- the sweeps ---- */
 
-static uint64_t vertex_count_of(const MesoSweptKind *kind)
-{
-    return (uint64_t)kind->column_count * kind->division_count - kind->absent[0] - kind->absent[1];
-}
-
 static void count_strand(const Welder *w, uint32_t strand, Strand *s)
 {
     *s = (Strand){0};
     for (uint32_t i = w->strands->begin[strand]; i < w->strands->begin[strand + 1]; i++) {
         const MesoSweptKind *kind = kind_of(w->in, w->strands->pieces[i].sweep);
-        s->vertex_count += vertex_count_of(kind);
-        s->face_count += (uint64_t)kind->joint_count * (kind->division_count - 1);
+        s->vertex_count += meso_sweep_vertex_count(kind);
+        s->face_count += meso_sweep_face_count(kind);
     }
     for (s->table_size = 16; s->table_size < 2 * s->vertex_count;)
         s->table_size *= 2;
@@ -56,13 +51,13 @@ static void fill_strand(const Welder *w, uint32_t strand, const Strand *s)
     for (uint32_t i = begin; i < w->strands->begin[strand + 1]; i++) {
         MesoStrandPiece piece = w->strands->pieces[i];
         const MesoSweptKind *kind = kind_of(w->in, piece.sweep);
-        uint64_t count = vertex_count_of(kind);
+        uint64_t count = meso_sweep_vertex_count(kind);
         meso_sweep_vertices(w->in, kind, &w->in->sweeps[piece.sweep], vertices);
         meso_sweep_faces(w->in, kind, (uint32_t)(vertices - s->vertices), faces);
         for (uint64_t v = 0; v < count; v++)
             vertices[v].uv.y = (float)(i - begin) + (piece.reversed ? 1 - vertices[v].uv.y : vertices[v].uv.y);
         vertices += count;
-        faces += (uint64_t)kind->joint_count * (kind->division_count - 1);
+        faces += meso_sweep_face_count(kind);
     }
 }
 

@@ -339,7 +339,7 @@ static MesoStatus push_sweep(Builder *b, uint32_t tile, uint32_t sweep_index, bo
         uint32_t count = from ? from->count : to->count;
         Walk start = walk_start(from, start_flipped), end = walk_end(to, s, start_flipped, end_flipped, count);
         MesoKindOrigin origin = {tile, sweep_index, s->from_side, s->to_side, s->from_section, s->to_section,
-                                 mirrored, 0};
+                                 mirrored, {0}};
         bool hole = is_hole(b, pair);
         outline_count += !hole;
         if (!hole && from && to)
@@ -376,7 +376,7 @@ static MesoStatus push_caps(Builder *b, uint32_t tile, uint32_t side, bool mirro
         if (section_is_swept(b->set, t, side, section))
             continue;
         for (uint32_t c = contour_begin(b, section); c < contour_end(b, section); c++) {
-            MesoKindOrigin origin = {tile, MESO_NO_INDEX, side, side, section, section, mirrored, 0};
+            MesoKindOrigin origin = {tile, MESO_NO_INDEX, side, side, section, section, mirrored, {0}};
             Walk walk = walk_start(&b->rings[c], flipped);
             MesoStatus status = push_kind(b, origin, divisions, walk, walk, (Turn){0}, error);
             if (status)

@@ -4,13 +4,16 @@
 
 #include "libcore/scene/scene.h"
 
+/* Places where the blends of a kind are looked at, with both ends. */
+enum { MESO_KIND_BLENDS = 5 };
+
 /* Where a swept kind of the scene comes from. */
 typedef struct MesoKindOrigin {
     uint32_t tile, sweep;               /* sweep is MESO_NO_INDEX for a cap */
     uint32_t start_side, end_side;      /* of the tile; equal for a cap */
     uint32_t start_section, end_section;
     bool mirrored;                      /* the tile's transform flips */
-    float off;                          /* what columns that were dropped are off those that stay, at most */
+    float off[MESO_KIND_BLENDS];        /* what columns that were dropped are off those that stay, at most */
 } MesoKindOrigin;
 
 /* How coarse columns may be, in units of the profiles. */

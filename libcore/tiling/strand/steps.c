@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
@@ -22,13 +23,13 @@ enum { OUTER_PAIRS = 5, MORE_PAIRS = 27, MOST_PAIRS = OUTER_PAIRS + MORE_PAIRS }
  * What columns are off counts against the tolerance of the steps but for a small part, as both are seldom worst at one
  * place, and leaves so much of it. It counts less for caps, which bend most at the tip, where the columns meet.
  */
-static const float OFF_PART = 0.95f, CAP_OFF_PART = 0.75f, LEAST_LEFT = 0.3f;
+static const float OFF_PART = 1.0f, CAP_OFF_PART = 0.75f, LEAST_LEFT = 0.3f;
 
 /* Differences at a few places miss the worst one. */
-static const float MARGIN = 1.1f, FITS = 1.02f;
+static const float MARGIN = 1.18f;
 
-/* Of what a chord is off, where both its ends are moved out of the bend, and where one is (scene.h). */
-static const float BOWED = 0.5f, BOWED_AT_END = 0.75f;
+/* Of what a chord is off, where its ends are moved out of the bend (scene.h). */
+static const float BOWED = 0.5f;
 
 /* Of a shape's size: less is none. */
 static const float SMALL_CHANGE = 0.02f;
@@ -39,6 +40,7 @@ static const float INTERVALS_A_RADIAN = 5;
 /* Some neighbouring columns of a kind, two by two, as a kind of their own. */
 typedef struct Sample {
     MesoSweepColumn columns[2 * MOST_PAIRS];
+    bool sharp[2 * MOST_PAIRS];     /* a corner, where a column that is off is seen whichever way */
     MesoSweptKind kind;
     MesoScene scene;
     float radius;       /* of a cap */
@@ -54,12 +56,23 @@ typedef struct Chooser {
 
 /* ---- what to look at ---- */
 
+/* The column that one joins on rings between the ends; MESO_NO_INDEX: none. */
+static uint32_t next_inner(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
+{
+    if (columns[c].absent & MESO_ABSENT_BETWEEN)
+        return MESO_NO_INDEX;
+    while (c + 1 < kind->column_count && columns[c].joins_next)
+        if (!(columns[++c].absent & MESO_ABSENT_BETWEEN))
+            return c;
+    return MESO_NO_INDEX;
+}
+
 /* How far a column reaches in one of four directions, or how far it is to the next one. */
-static float worth(const MesoSweepColumn *column, uint32_t what)
+static float worth(const MesoSweepColumn *column, const MesoSweepColumn *next, uint32_t what)
 {
     if (what == 4)
-        return fmaxf(meso_vec2_length(meso_vec2_sub(column[1].start, column[0].start)),
-                     meso_vec2_length(meso_vec2_sub(column[1].end, column[0].end)));
+        return fmaxf(meso_vec2_length(meso_vec2_sub(next->start, column->start)),
+                     meso_vec2_length(meso_vec2_sub(next->end, column->end)));
     float sign = what & 1 ? -1 : 1;
     return sign * (what & 2 ? column->start.y + column->end.y : column->start.x + column->end.x);
 }
@@ -74,13 +87,42 @@ static bool changes(const MesoSweptKind *kind, const MesoSweepColumn *columns)
     return kind->turn != 0 || change > SMALL_CHANGE * size;
 }
 
-static void add_pair(Sample *sample, const MesoSweepColumn *column)
+/* Of the two columns at a corner, one does not join the other; at the seam it takes their normals to tell. */
+static bool is_sharp(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
 {
+    const MesoSweepColumn *first = columns, *last = columns + kind->column_count - 1;
+    if (c > 0 && c + 1 < kind->column_count)
+        return !columns[c].joins_next || !columns[c - 1].joins_next;
+    float cross = meso_vec2_cross(first->start_normal, last->start_normal);
+    float dot = first->start_normal.x * last->start_normal.x + first->start_normal.y * last->start_normal.y;
+    return !(fabsf(cross) < SMALL_CHANGE * dot);
+}
+
+static void add_pair(Sample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t first,
+                     uint32_t second)
+{
+    const uint32_t pair[2] = {first, second};
     for (uint32_t i = 0; i < 2; i++) {
-        MesoSweepColumn *to = &sample->columns[sample->kind.column_count++];
-        *to = column[i];
-        to->absent = 0;
+        uint32_t to = sample->kind.column_count++;
+        sample->columns[to] = columns[pair[i]];
+        sample->columns[to].absent = 0;
+        sample->sharp[to] = is_sharp(kind, columns, pair[i]);
     }
+}
+
+static void add_outermost(Sample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t what)
+{
+    uint32_t best = MESO_NO_INDEX, best_next = MESO_NO_INDEX;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        uint32_t next = next_inner(kind, columns, c);
+        if (next != MESO_NO_INDEX && (best == MESO_NO_INDEX || worth(&columns[c], &columns[next], what) >
+                                                                   worth(&columns[best], &columns[best_next], what))) {
+            best = c;
+            best_next = next;
+        }
+    }
+    if (best != MESO_NO_INDEX)
+        add_pair(sample, kind, columns, best, best_next);
 }
 
 static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
@@ -88,20 +130,17 @@ static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
     Sample sample = {.kind = *kind, .scene = {.section_scale = scene->section_scale, .frame_rule = scene->frame_rule,
                                                  .deform = scene->deform, .cages = scene->cages}};
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    sample.kind.column_begin = sample.kind.column_count = sample.kind.absent[0] = sample.kind.absent[1] = 0;
-    for (uint32_t what = 0; what < OUTER_PAIRS; what++) {
-        const MesoSweepColumn *best = NULL;
-        for (uint32_t c = 0; c < kind->column_count; c++)
-            if (columns[c].joins_next && (!best || worth(&columns[c], what) > worth(best, what)))
-                best = &columns[c];
-        if (best)
-            add_pair(&sample, best);
-    }
-    uint32_t stride = 1 + kind->column_count / MORE_PAIRS;
+    sample.kind.column_begin = sample.kind.column_count = 0;
+    memset(sample.kind.absent, 0, sizeof sample.kind.absent);
+    for (uint32_t what = 0; what < OUTER_PAIRS; what++)
+        add_outermost(&sample, kind, columns, what);
+    uint32_t stride = 1 + (kind->column_count - kind->absent[2]) / MORE_PAIRS, passed = 0;
     bool more = scene->deform == MESO_SWEEP_SHAPE || changes(kind, columns);
-    for (uint32_t c = 0; c < kind->column_count && more; c += stride)
-        if (columns[c].joins_next)
-            add_pair(&sample, &columns[c]);
+    for (uint32_t c = 0; c < kind->column_count && more; c++) {
+        uint32_t next = next_inner(kind, columns, c);
+        if (next != MESO_NO_INDEX && passed++ % stride == 0)
+            add_pair(&sample, kind, columns, c, next);
+    }
     for (uint32_t c = 0; c < kind->column_count; c++)
         sample.radius = fmaxf(sample.radius, meso_vec2_length(columns[c].start));
     return sample;
@@ -109,10 +148,13 @@ static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
 
 /* ---- how many it takes ---- */
 
-static float across(MesoVec3 a, MesoVec3 along)
+/* How far off a bend is seen: across the column at a corner, elsewhere across the surface. */
+static float seen(MesoVec3 bend, MesoVec3 along, MesoVec3 normal, bool sharp)
 {
     float square = meso_vec3_dot(along, along);
-    return meso_vec3_length(square > 0 ? meso_vec3_mad(a, -meso_vec3_dot(a, along) / square, along) : a);
+    if (!sharp)
+        return fabsf(meso_vec3_dot(bend, normal));
+    return meso_vec3_length(square > 0 ? meso_vec3_mad(bend, -meso_vec3_dot(bend, along) / square, along) : bend);
 }
 
 static MesoVec3 second_difference(const MesoMeshVertex *v, uint32_t stride)
@@ -120,18 +162,22 @@ static MesoVec3 second_difference(const MesoMeshVertex *v, uint32_t stride)
     return meso_vec3_add(meso_vec3_mad(v[0].position, -2, v[stride].position), v[2 * stride].position);
 }
 
-/* At each of the places along a sweep: how much columns bend, by second differences, and quads are warped, by D. */
+/*
+ * At each of the places along a sweep: how much columns bend, by second differences, and quads are warped, by D; and what
+ * of the tolerance columns leave.
+ */
 typedef struct Wants {
     uint32_t intervals;
     float bend[MOST_INTERVALS + 1];
     float warp[MOST_INTERVALS + 1];
+    float left[MOST_INTERVALS + 1];
 } Wants;
 
 /*
  * At the ends, where there is no second difference, it goes on as it does beside them, half the way: the first step's
  * own middle is not nearer to the end but where there are many.
  */
-static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride)
+static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride, bool sharp)
 {
     uint32_t n = wants->intervals;
     MesoVec3 before = {0, 0, 0};
@@ -139,11 +185,11 @@ static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride
         const MesoMeshVertex *v = column + (i - 1) * stride;
         MesoVec3 bend = second_difference(v, stride), along = meso_vec3_sub(v[2 * stride].position, v[0].position);
         MesoVec3 step = meso_vec3_sub(bend, before);
-        wants->bend[i] = fmaxf(wants->bend[i], across(bend, along));
+        wants->bend[i] = fmaxf(wants->bend[i], seen(bend, along, v[stride].normal, sharp));
         if (i == 2)
-            wants->bend[0] = fmaxf(wants->bend[0], across(meso_vec3_mad(before, -0.5f, step), along));
+            wants->bend[0] = fmaxf(wants->bend[0], seen(meso_vec3_mad(before, -0.5f, step), along, column->normal, sharp));
         if (i + 1 == n)
-            wants->bend[n] = fmaxf(wants->bend[n], across(meso_vec3_mad(bend, 0.5f, step), along));
+            wants->bend[n] = fmaxf(wants->bend[n], seen(meso_vec3_mad(bend, 0.5f, step), along, v[2 * stride].normal, sharp));
         before = bend;
     }
 }
@@ -162,9 +208,9 @@ static void add_warp(Wants *wants, const MesoMeshVertex *pair, uint32_t stride)
     }
 }
 
-/* What is wanted somewhere, by second derivatives. */
+/* What is wanted somewhere. */
 typedef struct Want {
-    float bend, warp;
+    float bend, warp, left;
 } Want;
 
 static Want want_at(const Wants *wants, float v)
@@ -173,48 +219,58 @@ static Want want_at(const Wants *wants, float v)
     uint32_t i = (uint32_t)place < wants->intervals ? (uint32_t)place : wants->intervals - 1;
     float t = place - (float)i;
     return (Want){wants->bend[i] + t * (wants->bend[i + 1] - wants->bend[i]),
-                  wants->warp[i] + t * (wants->warp[i + 1] - wants->warp[i])};
+                  wants->warp[i] + t * (wants->warp[i + 1] - wants->warp[i]),
+                  wants->left[i] + t * (wants->left[i + 1] - wants->left[i])};
 }
 
-/* Steps so that the errors, of which one falls with their number and one with its square, add up to the tolerance;
+/* Steps so that the errors, of which one falls with their number and one with its square, add up to what is left;
  * `part` of what chords are off counts. */
-static float steps_for(Want want, float part, float tolerance)
+static float steps_for(Want want, float part)
 {
     float e = part * want.bend, f = want.warp;
-    return (f + sqrtf(f * f + 4 * tolerance * e)) / (2 * tolerance);
+    return (f + sqrtf(f * f + 4 * want.left * e)) / (2 * want.left);
 }
 
-static float steps_at(const Wants *wants, uint32_t i, float part, float tolerance)
+static float steps_at(const Wants *wants, uint32_t i, float part)
 {
-    return steps_for((Want){wants->bend[i], wants->warp[i]}, part, tolerance);
+    return steps_for((Want){wants->bend[i], wants->warp[i], wants->left[i]}, part);
 }
 
-/* Whether the steps of a sweep with so many rings are each short enough for what lies along them. */
-static bool are_short(const Wants *wants, const MesoSweptKind *kind, const MesoSweepInstance *sweep, float tolerance)
+/* How far a ring is moved out of the bend, by the steps before and behind it. */
+static float shift_at(const Wants *wants, float before, float here, float next)
+{
+    return want_at(wants, here).bend * ((here - before) * (here - before) + (next - here) * (next - here)) / 4;
+}
+
+/* Whether a sweep with so many rings is off by no more than is left: the middle of each step, whose ends have moved. */
+static bool are_enough(const Wants *wants, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
 {
     uint32_t last = kind->division_count - 1;
-    float from = 0;
-    bool fit = true;
-    for (uint32_t r = 1; r <= last && fit; r++) {
-        float to = meso_sweep_place(kind, sweep, r);
-        Want here = want_at(wants, from), middle = want_at(wants, (from + to) / 2), next = want_at(wants, to);
-        Want want = {(here.bend + 2 * middle.bend + next.bend) / 4, (here.warp + 2 * middle.warp + next.warp) / 4};
-        fit = (to - from) * steps_for(want, r == 1 || r == last ? BOWED_AT_END : BOWED, tolerance) <= FITS;
+    float from = 0, to = meso_sweep_place(kind, sweep, 1), shift = 0;
+    bool enough = true;
+    for (uint32_t r = 1; r <= last && enough; r++) {
+        float next = r < last ? meso_sweep_place(kind, sweep, r + 1) : 1, step = to - from;
+        float shift_ahead = r < last ? shift_at(wants, from, to, next) : 0;
+        Want want = want_at(wants, (from + to) / 2);
+        float off = want.bend * step * step - (shift + shift_ahead) / 2 + want.warp * step;
+        enough = off <= want.left && shift_ahead <= want.left;
         from = to;
+        to = next;
+        shift = shift_ahead;
     }
-    return fit;
+    return enough;
 }
 
 /*
  * Steps that are as many at each place as that needs, and the pace that puts them there: v where an eighth of them is
  * reached, and so on.
  */
-static float pace_steps(const Wants *wants, float tolerance, uint16_t pace[MESO_PACE_PARTS - 1])
+static float pace_steps(const Wants *wants, uint16_t pace[MESO_PACE_PARTS - 1])
 {
     uint32_t n = wants->intervals;
-    float sums[MOST_INTERVALS + 1] = {0}, before = steps_at(wants, 0, BOWED, tolerance);
+    float sums[MOST_INTERVALS + 1] = {0}, before = steps_at(wants, 0, BOWED);
     for (uint32_t i = 1; i <= n; i++) {
-        float here = steps_at(wants, i, BOWED, tolerance);
+        float here = steps_at(wants, i, BOWED);
         sums[i] = sums[i - 1] + (before + here) / (float)(2 * n);
         before = here;
     }
@@ -229,21 +285,29 @@ static float pace_steps(const Wants *wants, float tolerance, uint16_t pace[MESO_
 }
 
 /* Whether one step will do, which nothing is moved for. */
-static bool is_straight(const Wants *wants, float tolerance)
+static bool is_straight(const Wants *wants)
 {
     bool straight = true;
     for (uint32_t i = 0; i <= wants->intervals && straight; i++)
-        straight = steps_at(wants, i, 1, tolerance) <= 1;
+        straight = steps_at(wants, i, 1) <= 1;
     return straight;
 }
 
-/* To what one step from end to end would be off, with a margin. */
-static void scale_wants(Wants *wants)
+/* Of a tolerance that columns use, at one of the blends. */
+typedef struct Budget {
+    float left[MESO_KIND_BLENDS];
+} Budget;
+
+/* To what one step from end to end would be off, with a margin. Sections are blended by w (scene.h). */
+static void scale_wants(Wants *wants, const Budget *budget)
 {
     float m = (float)wants->intervals;
     for (uint32_t i = 0; i <= wants->intervals; i++) {
+        float v = (float)i / m, place = v * v * (3 - 2 * v) * (MESO_KIND_BLENDS - 1);
+        uint32_t k = place < MESO_KIND_BLENDS - 1 ? (uint32_t)place : MESO_KIND_BLENDS - 2;
         wants->bend[i] *= MARGIN * m * m / 8;
         wants->warp[i] *= MARGIN * m / 4;
+        wants->left[i] = budget->left[k] + (place - (float)k) * (budget->left[k + 1] - budget->left[k]);
     }
 }
 
@@ -260,7 +324,7 @@ typedef struct Work {
 } Work;
 
 /* Steps, and the sweep's pace. */
-static float tube_steps(Work *work, MesoSweepInstance *sweep, float tolerance)
+static float tube_steps(Work *work, MesoSweepInstance *sweep, const Budget *budget)
 {
     Sample *sample = &work->sample;
     MesoMeshVertex *vertices = work->vertices;
@@ -270,17 +334,17 @@ static float tube_steps(Work *work, MesoSweepInstance *sweep, float tolerance)
     sample->scene.columns = sample->columns;
     meso_sweep_vertices(&sample->scene, &sample->kind, sweep, vertices);
     for (uint32_t c = 0; c < stride; c++)
-        add_bend(&wants, vertices + c, stride);
+        add_bend(&wants, vertices + c, stride, sample->sharp[c]);
     for (uint32_t c = 0; c < stride; c += 2)
         add_warp(&wants, vertices + c, stride);
-    scale_wants(&wants);
-    if (is_straight(&wants, tolerance))
+    scale_wants(&wants, budget);
+    if (is_straight(&wants))
         return 1;
-    float steps = fmaxf(2, pace_steps(&wants, tolerance, sweep->pace) + 2 * MESO_END_NEARER);
+    float steps = fmaxf(2, pace_steps(&wants, sweep->pace) + 2 * MESO_END_NEARER);
     MesoSweptKind kind = {.bowed = true};
     uint32_t rings = (uint32_t)ceilf(fminf(steps, MESO_MOST_DIVISIONS)) + 1;
     for (kind.division_count = rings; kind.division_count < rings + 4 + rings / 4; kind.division_count++)
-        if (are_short(&wants, &kind, sweep, tolerance))
+        if (are_enough(&wants, &kind, sweep))
             break;
     return (float)(kind.division_count - 1);
 }
@@ -306,17 +370,19 @@ static uint16_t rings_for(uint32_t least, float steps)
     if (!(steps < MESO_MOST_DIVISIONS - 1))
         return MESO_MOST_DIVISIONS;
     uint32_t whole = steps > (float)(least - 1) ? (uint32_t)ceilf(steps) : least - 1, grain = 1;
-    while (whole > 24 * grain)
+    while (whole > 48 * grain)
         grain *= 2;
     whole = (whole + grain - 1) / grain * grain;
     return (uint16_t)(whole + 1 < MESO_MOST_DIVISIONS ? whole + 1 : MESO_MOST_DIVISIONS);
 }
 
-static float tolerance_left(const Chooser *c, uint32_t kind, const MesoSweepInstance *sweep)
+static Budget budget_of(const Chooser *c, uint32_t kind, const MesoSweepInstance *sweep)
 {
-    float part = c->scene->kinds[kind].cap ? CAP_OFF_PART : OFF_PART;
-    float off = c->origins[kind].off * scale_of(c->scene, sweep);
-    return fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - part * off);
+    float scale = scale_of(c->scene, sweep), part = c->scene->kinds[kind].cap ? CAP_OFF_PART : OFF_PART;
+    Budget budget;
+    for (uint32_t k = 0; k < MESO_KIND_BLENDS; k++)
+        budget.left[k] = fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - part * scale * c->origins[kind].off[k]);
+    return budget;
 }
 
 static void choose_range(void *context, uint64_t begin, uint64_t end)
@@ -337,10 +403,11 @@ static void choose_range(void *context, uint64_t begin, uint64_t end)
             work->sample = make_sample(c->scene, &kinds[kind]);
         }
         MesoSweepInstance *sweep = &c->scene->sweeps[i];
-        uint32_t least = kinds[kind].absent[0] || kinds[kind].absent[1] ? 3 : 2;
-        float tolerance = tolerance_left(c, kind, sweep);
-        float steps = kinds[kind].cap ? cap_steps(&work->sample, sweep, tolerance)
-                                      : tube_steps(work, sweep, tolerance);
+        const uint32_t *absent = kinds[kind].absent;
+        uint32_t least = absent[0] || absent[1] || absent[2] ? 3 : 2;
+        const Budget budget = budget_of(c, kind, sweep);
+        float steps = kinds[kind].cap ? cap_steps(&work->sample, sweep, budget.left[0])
+                                      : tube_steps(work, sweep, &budget);
         c->rings[i] = rings_for(least, steps);
     }
     free(work);

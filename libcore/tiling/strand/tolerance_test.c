@@ -4,6 +4,7 @@
  */
 #include <math.h>
 
+#include "libcore/scene/sweep.h"
 #include "libcore/tiling/strand/expansion_fixture.h"
 
 typedef struct Meshed {
@@ -79,6 +80,25 @@ static void make_case(Case *s, MesoArena *arena)
     s->model.options = (MesoMapOptions){.frame = MESO_FRAME_MINIMAL, .section_scale = 1};
 }
 
+/* Of the exact surface in the middle between its columns, which are far apart on flat sides. */
+static float error_between(const Meshed *exact, uint32_t part, const Meshed *coarse, uint32_t other)
+{
+    const MesoSweptKind *kind = &exact->scene.kinds[meso_scene_kind(&exact->scene, part)];
+    const MesoSweepColumn *columns = exact->scene.columns + kind->column_begin;
+    float worst = 0;
+    for (uint32_t c = 0, i = 0; c + 1 < kind->column_count; c++) {
+        MesoSweepColumn middle = columns[c];
+        middle.start = meso_vec2_lerp(columns[c].start, columns[c + 1].start, 0.5f);
+        middle.end = meso_vec2_lerp(columns[c].end, columns[c + 1].end, 0.5f);
+        bool wide = meso_vec2_length(meso_vec2_sub(columns[c + 1].start, columns[c].start)) > 0.05f;
+        for (uint32_t k = 1; columns[c].joins_next && (wide || i++ % 7 == 0) && k < 40; k += wide ? 1 : 13)
+            worst = fmaxf(worst, distance_to_part(coarse, other, meso_sweep_point(&exact->scene, kind,
+                                                                                  &exact->scene.sweeps[part], &middle,
+                                                                                  (float)k / 40)));
+    }
+    return worst;
+}
+
 static float largest_error(const Meshed *exact, const Meshed *coarse)
 {
     float worst = 0;
@@ -87,6 +107,7 @@ static float largest_error(const Meshed *exact, const Meshed *coarse)
         uint64_t begin = exact->parts.vertex_begin[part], end = exact->parts.vertex_begin[part + 1];
         for (uint64_t v = begin; v < end; v += 61)
             worst = fmaxf(worst, distance_to_part(coarse, other, exact->vertices[v].position));
+        worst = fmaxf(worst, error_between(exact, part, coarse, other));
     }
     return worst;
 }
@@ -139,6 +160,40 @@ static void test_corners(MesoArena *arena)
     }
 }
 
+/*
+ * Between drawings that need their points in different places, rings have about as many as each drawing has, not those of
+ * both; and every row joins what it lies between.
+ */
+static void test_between(MesoArena *arena)
+{
+    Case s = {0};
+    Meshed coarse;
+    MesoError error;
+    uint32_t fewer = 0;
+    make_case(&s, arena);
+    s.model.options.tolerance = 0.002f;
+    mesh(&coarse, &s.model, arena);
+    for (uint32_t k = 0; k < coarse.scene.kind_count; k++) {
+        const MesoSweptKind *kind = &coarse.scene.kinds[k];
+        uint32_t between = kind->column_count - kind->absent[2];
+        CHECK(kind->absent[2] == 0 || kind->division_count > 2);
+        fewer += kind->absent[2] > 0 && 3 * between < 2 * kind->column_count;
+    }
+    CHECK(fewer > 0);
+    for (uint32_t part = 0; part < coarse.scene.sweep_count; part++) {
+        uint64_t used = 0, count = coarse.parts.vertex_begin[part + 1] - coarse.parts.vertex_begin[part];
+        uint8_t *seen = MESO_NEW(arena, uint8_t, count, &error);
+        for (uint64_t f = coarse.parts.face_begin[part]; f < coarse.parts.face_begin[part + 1]; f++)
+            for (uint32_t i = 0; i < 4 && coarse.faces[f].v[i] != MESO_NO_INDEX; i++) {
+                uint64_t v = coarse.faces[f].v[i] - coarse.parts.vertex_begin[part];
+                CHECK(v < count);
+                used += !seen[v];
+                seen[v] = 1;
+            }
+        CHECK(used == count || origin_of(&coarse, part)->sweep == MESO_NO_INDEX);   /* a cap meets in one point */
+    }
+}
+
 /* However a section turns on the way to another, what turns inside out there takes no columns of its own. */
 static void test_turned(MesoArena *arena)
 {
@@ -165,6 +220,7 @@ int main(void)
     test_error(&arena, MESO_SWEEP_CURVES);
     test_error(&arena, MESO_SWEEP_SHAPE);
     test_corners(&arena);
+    test_between(&arena);
     test_turned(&arena);
     meso_arena_release(&arena);
     return 0;
