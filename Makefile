@@ -186,8 +186,8 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
-bench-map: all
-	@scripts/bench/map $(BIN) $(DATA)
+bench-map: all $(OUT)/test/scripts/bench/map_bound_bench
+	@scripts/bench/map $(OUT) $(BIN) $(DATA)
 bench-render: all generators
 	@scripts/bench/render $(OUT) $(BIN) $(DATA)
 bench-cycles: all generators

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -29,6 +30,7 @@ struct MesoOutput {
     size_t buffered;
     uint64_t end;               /* size of the file */
     MesoError failure;          /* status MESO_OK while all is well */
+    pthread_mutex_t lock;       /* of all that changes, while threads write at places of their own */
 };
 
 /* What failed once fails for good: the file has a hole where the bytes should be. */
@@ -178,6 +180,7 @@ static void release(MesoOutput *output)
     meso_temporary_remove(&output->temporary);
     if (output->file >= 0)
         close(output->file);
+    pthread_mutex_destroy(&output->lock);
     free(output->shown);
     free(output->target);
     free(output->copy_path);
@@ -193,6 +196,7 @@ MesoStatus meso_output_open(MesoOutput **result, const char *path, MesoError *er
         return meso_fail(error, MESO_ERR_MEMORY, "out of memory");
     output->file = output->copy_file = -1;
     output->temporary = MESO_NO_TEMPORARY;
+    pthread_mutex_init(&output->lock, NULL);    /* of the default kind: it does not fail */
     output->buffer = malloc(BUFFER_SIZE);
     size_t size = strlen(path) + 32;
     output->shown = malloc(size);
@@ -265,21 +269,33 @@ MesoStatus meso_output_print(MesoOutput *output, MesoError *error, const char *f
     return meso_output_write(output, text, size < (int)sizeof text ? (size_t)size : sizeof text - 1, error);
 }
 
-MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void *data, size_t size,
-                                MesoError *error)
+/* Everything buffered is in the file, and nothing has failed. */
+static MesoStatus begin_write_at(MesoOutput *output, uint64_t offset, size_t size, MesoError *error)
 {
+    pthread_mutex_lock(&output->lock);
     MesoStatus status = refuse_after_failure(output, error);
     if (!status)
         status = flush(output, error);
+    if (!status && offset > INT64_MAX - size)
+        status = fail_errno(output, EFBIG, error);
+    pthread_mutex_unlock(&output->lock);
+    return status;
+}
+
+MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void *data, size_t size,
+                                MesoError *error)
+{
+    MesoStatus status = begin_write_at(output, offset, size, error);
     if (status)
         return status;
-    if (offset > INT64_MAX - size)
-        return fail_errno(output, EFBIG, error);
-    if (!write_fully(output->file, data, size, offset))
-        return fail_errno(output, errno, error);
-    if (offset + size > output->end)
+    int reason = write_fully(output->file, data, size, offset) ? 0 : errno;
+    pthread_mutex_lock(&output->lock);
+    if (reason)
+        status = fail_errno(output, reason, error);
+    else if (offset + size > output->end)
         output->end = offset + size;
-    return MESO_OK;
+    pthread_mutex_unlock(&output->lock);
+    return status;
 }
 
 /* Everything is in the file; one that is to be renamed is closed. */

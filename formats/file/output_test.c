@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 
 #include "formats/file/test_folder.h"
+#include "libcore/base/parallel.h"
 #include "libcore/base/random.h"
 
 static void write_whole(const char *path, const char *text)
@@ -290,6 +291,39 @@ static void test_against_memory(const TestFolder *folder)
     free(piece);
 }
 
+typedef struct Pieces {
+    MesoOutput *output;
+    const uint8_t *bytes;
+    MesoStatus status[64];
+} Pieces;
+
+static void write_piece(void *context, uint64_t begin, uint64_t end)
+{
+    Pieces *pieces = context;
+    pieces->status[begin] = meso_output_write_at(pieces->output, 100 + 4096 * begin, pieces->bytes + 4096 * begin,
+                                                 4096 * (end - begin), NULL);
+}
+
+/* Threads write at places of their own, behind what is buffered; the last of them says where the file ends. */
+static void test_threads(const TestFolder *folder)
+{
+    uint8_t *expected = malloc(100 + 64 * 4096);
+    Pieces pieces = {0};
+    MesoError error;
+    CHECK(expected);
+    for (size_t i = 0; i < 100 + 64 * 4096; i++)
+        expected[i] = (uint8_t)(i * 7 + i / 4096);
+    pieces.bytes = expected + 100;
+    CHECK(meso_output_open(&pieces.output, test_path(folder, "threads"), &error) == MESO_OK);
+    CHECK(meso_output_write(pieces.output, expected, 100, &error) == MESO_OK);
+    meso_parallel_for(4, 64, 1, write_piece, &pieces);
+    for (uint32_t i = 0; i < 64; i++)
+        CHECK(pieces.status[i] == MESO_OK);
+    CHECK(meso_output_commit(pieces.output, &error) == MESO_OK);
+    CHECK(test_file_is(test_path(folder, "threads"), expected, 100 + 64 * 4096));
+    free(expected);
+}
+
 int main(void)
 {
     TestFolder folder = test_folder_make();
@@ -305,6 +339,7 @@ int main(void)
     test_standard_output(&folder);
     test_no_space(&folder);
     test_against_memory(&folder);
+    test_threads(&folder);
     test_folder_remove(&folder);
     return 0;
 }

@@ -1,6 +1,7 @@
 #include "formats/scene/mesh_window.h"
 
 #include <assert.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,25 +12,22 @@
 
 enum { SCRATCH_ALIGNMENT = 64 };
 
-/* A range of parts, and the memory that its bytes go to. */
-typedef struct Chunk {
-    uint32_t begin, end;
-    size_t size;        /* bytes formatted */
-    uint8_t *data;
-} Chunk;
-
-typedef struct Window {
-    uint32_t chunk_count;
-    Chunk *chunks;      /* [chunk capacity of the run] */
-} Window;
-
+/* What one pass runs with. Each thread formats a range of parts, and writes it itself while it is in its caches. */
 typedef struct Run {
     MesoMeshStream *stream;
     const MesoMeshPass *pass;
-    Window *filling, *full;
+    uint64_t capacity;              /* bytes of a thread's memory */
+    uint8_t *memory;                /* [threads * capacity] */
+    uint32_t range_count;
+    MesoPartRange *ranges;          /* [RANGES_A_WINDOW] */
+    pthread_mutex_t lock;
+    pthread_cond_t next;
+    uint64_t turn;                  /* range whose place in the file is known */
     MesoStatus status;
     MesoError error;
 } Run;
+
+enum { RANGES_A_WINDOW = 128 };
 
 static uint64_t round_up(uint64_t size)
 {
@@ -54,26 +52,48 @@ static uint64_t chunk_bound(const MesoMeshPass *pass, const MesoSceneParts *part
            round_up(faces * pass->face_scratch);
 }
 
-/* Item 0 writes the full window; the others format a chunk of the one that is being filled. */
-static void run_item(void *context, uint64_t begin, uint64_t end)
+/* Where the bytes of a range go, once those of all before it are counted; whether they are wanted. */
+static bool take_place(Run *run, uint64_t range, size_t size, uint64_t *offset)
+{
+    pthread_mutex_lock(&run->lock);
+    while (run->turn != range)
+        pthread_cond_wait(&run->next, &run->lock);
+    *offset = run->stream->offset;
+    run->stream->offset += size;
+    run->turn++;
+    bool good = !run->status;
+    pthread_cond_broadcast(&run->next);
+    pthread_mutex_unlock(&run->lock);
+    return good;
+}
+
+/* Of ranges that fail at once, one is told: they fail for the same reason. */
+static void note_failure(Run *run, MesoStatus status, const MesoError *error)
+{
+    pthread_mutex_lock(&run->lock);
+    if (!run->status) {
+        run->status = status;
+        run->error = *error;
+    }
+    pthread_mutex_unlock(&run->lock);
+}
+
+static void run_range(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Run *run = context;
     const MesoSceneParts *parts = run->stream->parts;
-    for (uint64_t item = begin; item < end; item++) {
-        if (item > 0) {
-            Chunk *chunk = &run->filling->chunks[item - 1];
-            uint64_t text = text_bound(run->pass, parts, chunk->begin, chunk->end);
-            chunk->size = run->pass->format(run->pass->context, parts, chunk->begin, chunk->end,
-                                            chunk->data, chunk->data + text);
-            assert(chunk->size <= text);
+    uint8_t *data = run->memory + worker * run->capacity;
+    for (uint64_t i = begin; i < end; i++) {
+        const MesoPartRange *range = &run->ranges[i];
+        uint64_t text = text_bound(run->pass, parts, range->begin, range->end), offset;
+        size_t size = run->pass->format(run->pass->context, parts, range->begin, range->end, data, data + text);
+        MesoError error;
+        assert(size <= text);
+        if (!take_place(run, i, size, &offset))
             continue;
-        }
-        for (uint32_t i = 0; i < run->full->chunk_count && !run->status; i++) {
-            const Chunk *chunk = &run->full->chunks[i];
-            run->status = meso_output_write_at(run->stream->output, run->stream->offset,
-                                               chunk->data, chunk->size, &run->error);
-            run->stream->offset += chunk->size;
-        }
+        MesoStatus status = meso_output_write_at(run->stream->output, offset, data, size, &error);
+        if (status)
+            note_failure(run, status, &error);
     }
 }
 
@@ -103,38 +123,25 @@ static Cursor begin_ranges(const MesoPartRange *ranges, uint32_t count)
     return cursor;
 }
 
-static MesoStatus make_window(Window *window, MesoArena *arena, uint32_t chunk_count,
-                              uint64_t capacity, MesoError *error)
+/* Gives a range as many parts of the cursor's as a thread's memory holds, at least one. */
+static MesoPartRange cut_range(const Run *run, Cursor *cursor)
 {
-    window->chunk_count = 0;
-    window->chunks = MESO_NEW(arena, Chunk, chunk_count, error);
-    uint8_t *data = window->chunks ? meso_arena_alloc(arena, chunk_count, capacity, error) : NULL;
-    if (!data)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < chunk_count; i++)
-        window->chunks[i].data = data + i * capacity;
-    return MESO_OK;
+    const MesoSceneParts *parts = run->stream->parts;
+    MesoPartRange range = {cursor->part, cursor->part + 1};
+    while (range.end < cursor->ranges[cursor->range].end &&
+           chunk_bound(run->pass, parts, range.begin, range.end + 1) <= run->capacity)
+        range.end++;
+    cursor->part = range.end;
+    cursor->parts_done += range.end - range.begin;
+    return range;
 }
 
-/* Gives a chunk as many parts of the cursor's range as its memory holds, at least one. */
-static void cut_chunk(Chunk *chunk, uint64_t capacity, const MesoMeshPass *pass, const MesoSceneParts *parts,
-                      Cursor *cursor)
+static void cut_window(Run *run, Cursor *cursor)
 {
-    const uint32_t range_end = cursor->ranges[cursor->range].end;
-    chunk->begin = cursor->part++;
-    while (cursor->part < range_end && chunk_bound(pass, parts, chunk->begin, cursor->part + 1) <= capacity)
-        cursor->part++;
-    chunk->end = cursor->part;
-    cursor->parts_done += chunk->end - chunk->begin;
-}
-
-static void cut_window(Window *window, uint32_t chunk_capacity, uint64_t capacity, const MesoMeshPass *pass,
-                       const MesoSceneParts *parts, Cursor *cursor)
-{
-    window->chunk_count = 0;
-    while (window->chunk_count < chunk_capacity && cursor->range < cursor->range_count) {
+    run->range_count = 0;
+    while (run->range_count < RANGES_A_WINDOW && cursor->range < cursor->range_count) {
         if (cursor->part < cursor->ranges[cursor->range].end)
-            cut_chunk(&window->chunks[window->chunk_count++], capacity, pass, parts, cursor);
+            run->ranges[run->range_count++] = cut_range(run, cursor);
         else if (++cursor->range < cursor->range_count)
             cursor->part = cursor->ranges[cursor->range].begin;
     }
@@ -149,22 +156,17 @@ static void report(const MesoMeshStream *stream, uint64_t work, const Cursor *cu
                           stream->total);
 }
 
-static MesoStatus run_windows(Run *run, Window windows[2], uint32_t chunk_capacity,
-                              uint64_t capacity, Cursor *cursor, uint64_t work)
+static void run_windows(Run *run, uint32_t threads, Cursor *cursor, uint64_t work)
 {
-    const MesoSceneParts *parts = run->stream->parts;
-    uint32_t threads = run->stream->options->thread_count;
-    run->filling = &windows[0];
-    run->full = &windows[1];
-    do {
-        cut_window(run->filling, chunk_capacity, capacity, run->pass, parts, cursor);
-        meso_parallel_for(threads, (uint64_t)run->filling->chunk_count + 1, 1, run_item, run);
-        Window *full = run->filling;
-        run->filling = run->full;
-        run->full = full;
+    pthread_mutex_init(&run->lock, NULL);
+    pthread_cond_init(&run->next, NULL);
+    for (cut_window(run, cursor); run->range_count > 0 && !run->status; cut_window(run, cursor)) {
+        run->turn = 0;
+        meso_parallel_team(threads, run->range_count, 1, run_range, run);
         report(run->stream, work, cursor);
-    } while (!run->status && run->full->chunk_count > 0);
-    return run->status;
+    }
+    pthread_cond_destroy(&run->next);
+    pthread_mutex_destroy(&run->lock);
 }
 
 MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass, uint64_t work,
@@ -172,21 +174,21 @@ MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass
 {
     const MesoPartRange all = {0, stream->parts->part_count};
     Cursor cursor = begin_ranges(stream->ranges ? stream->ranges : &all, stream->ranges ? stream->range_count : 1);
-    uint64_t capacity = largest_part(pass, stream->parts, &cursor);
-    if (capacity < MESO_WINDOW_CHUNK)
-        capacity = MESO_WINDOW_CHUNK;
-    uint64_t chunks = MESO_WINDOW_BYTES / capacity;
-    uint32_t chunk_capacity = chunks > 0 ? (uint32_t)chunks : 1;
+    uint32_t threads = stream->options->thread_count;
+    Run run = {.stream = stream, .pass = pass, .capacity = largest_part(pass, stream->parts, &cursor)};
+    if (run.capacity < MESO_WINDOW_CHUNK)
+        run.capacity = MESO_WINDOW_CHUNK;
+    threads = threads ? threads : meso_parallel_cores();
+    threads = threads < RANGES_A_WINDOW ? threads : RANGES_A_WINDOW;
 
     MesoArena arena;
     meso_arena_init(&arena);
-    Window windows[2];
-    Run run = {.stream = stream, .pass = pass};
-    MesoStatus status = make_window(&windows[0], &arena, chunk_capacity, capacity, error);
-    if (!status)
-        status = make_window(&windows[1], &arena, chunk_capacity, capacity, error);
+    run.ranges = MESO_NEW(&arena, MesoPartRange, RANGES_A_WINDOW, error);
+    run.memory = run.ranges ? meso_arena_alloc(&arena, threads, run.capacity, error) : NULL;
+    MesoStatus status = run.memory ? MESO_OK : MESO_ERR_MEMORY;
     if (!status) {
-        status = run_windows(&run, windows, chunk_capacity, capacity, &cursor, work);
+        run_windows(&run, threads, &cursor, work);
+        status = run.status;
         if (status && error)
             *error = run.error;
     }

@@ -38,16 +38,15 @@ typedef struct MesoMeshStream {
 
 /*
  * Runs `pass` over all parts, or over those of the ranges, and writes its bytes, in order, from
- * `stream->offset` on, which is moved. While one thread writes a window the
- * others format the next: two windows of about MESO_WINDOW_BYTES are held, or
- * of the largest part where that is more. `work` is added to `stream->done` in
- * the end. O(parts + bytes).
+ * `stream->offset` on, which is moved. A thread writes what it has formatted itself, while it is in its caches: each holds
+ * MESO_WINDOW_CHUNK bytes, or the largest part where that is more. `work` is added to `stream->done` in the end.
+ * O(parts + bytes).
  */
 MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass, uint64_t work,
                                 MesoError *error);
 
-/* A window stays within the caches of a core or two: what is formatted is written while it is hot. */
-enum { MESO_WINDOW_BYTES = 8 << 20, MESO_WINDOW_CHUNK = 256 << 10 };
+/* What a thread formats at once stays within its caches. */
+enum { MESO_WINDOW_CHUNK = 256 << 10 };
 
 /* MESO_ERR_INPUT for a scene without faces, MESO_ERR_LIMIT where 32-bit vertex numbers,
  * or 16-bit numbers of names, do not suffice. */

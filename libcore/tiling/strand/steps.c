@@ -40,6 +40,7 @@ static const float INTERVALS_A_RADIAN = 5;
 /* Some neighbouring columns of a kind, two by two, as a kind of their own. */
 typedef struct Sample {
     MesoSweepColumn columns[2 * MOST_PAIRS];
+    uint32_t firsts[MOST_PAIRS];    /* of the kind, of each pair */
     bool sharp[2 * MOST_PAIRS];     /* a corner, where a column that is off is seen whichever way */
     MesoSweptKind kind;
     MesoScene scene;
@@ -102,6 +103,10 @@ static void add_pair(Sample *sample, const MesoSweptKind *kind, const MesoSweepC
                      uint32_t second)
 {
     const uint32_t pair[2] = {first, second};
+    for (uint32_t c = 0; c < sample->kind.column_count; c += 2)
+        if (sample->firsts[c / 2] == first)
+            return;     /* it is there */
+    sample->firsts[sample->kind.column_count / 2] = first;
     for (uint32_t i = 0; i < 2; i++) {
         uint32_t to = sample->kind.column_count++;
         sample->columns[to] = columns[pair[i]];
