@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/file/packed_chunk.h"
 #include "formats/json/json_text.h"
 #include "formats/model/model_mapping.h"
 #include "formats/tiling/tiles/tiles_file.h"
@@ -11,8 +12,20 @@
 #include "libcore/tiling/problem/strand_joints.h"
 #include "libcore/tiling/tile/tile_set_check.h"
 
-/* 1 is of models of bodies (model_body.h); 2 has the chunk 'mapping', 3 'joint'. */
-enum { MINOR = 0, MINOR_MAPPING = 2, MINOR_JOINT = 3 };
+/* 1 is of models of bodies (model_body.h); 2 has the chunk 'mapping', 3 had 'joint', 4 has packed chunks. */
+enum { MINOR = 0, MINOR_MAPPING = 2, MINOR_PACKED = 4 };
+
+/* What a relaxed model packs: half of one are its joints. */
+enum { FACE, FACE_NORMAL, TILE, JOINT, PACKED_COUNT };
+static const struct {
+    const char *packed, *name;
+    MesoPacking packing;
+} PACKED[PACKED_COUNT] = {
+    [FACE] = {"zface", "face", {4, 4, true}},
+    [FACE_NORMAL] = {"zfacenrm", "facenorm", {4, 4, true}},
+    [TILE] = {"ztile", "tile", {4, 1, false}},
+    [JOINT] = {"zjoint", "joint", {2, 4, false}},
+};
 
 /* How options lie in the file. */
 typedef struct StoredOptions {
@@ -68,7 +81,17 @@ static MesoStatus join_inners(InnerArrays *all, const MesoModel *model, MesoAren
 
 static uint16_t minor_of(const MesoModel *model, const char *mapping)
 {
-    return model->joints ? MINOR_JOINT : mapping || model->factors || model->lifts ? MINOR_MAPPING : MINOR;
+    return model->joints ? MINOR_PACKED : mapping || model->factors || model->lifts ? MINOR_MAPPING : MINOR;
+}
+
+/* Packed where the model is relaxed. */
+static MesoStatus add_numbers(MesoContainer *file, const MesoModel *model, uint32_t which, const void *data,
+                              uint64_t size, MesoArena *arena, MesoError *error)
+{
+    if (model->joints)
+        return meso_packed_add(file, arena, PACKED[which].packed, data, size, PACKED[which].packing, error);
+    meso_container_add(file, PACKED[which].name, data, size);
+    return MESO_OK;
 }
 
 /* `mapping` is NULL where no option asks for it. */
@@ -94,18 +117,21 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
     if (model->lifts)
         meso_container_add(&file, "lift", model->lifts, surface->vertex_count * sizeof(float));
     if (model->joints)
-        meso_container_add(&file, "joint", model->joints, model->joint_count * sizeof *model->joints);
+        status = add_numbers(&file, model, JOINT, model->joints, model->joint_count * sizeof *model->joints, arena, error);
     meso_container_add(&file, "position", surface->positions, surface->vertex_count * vector);
     meso_container_add(&file, "normal", surface->normals, surface->normal_count * vector);
-    meso_container_add(&file, "face", surface->face_vertices, 4 * faces * index);
-    meso_container_add(&file, "facenorm", surface->face_normals, 4 * faces * index);
-    meso_container_add(&file, "tile", model->assignment.tile, faces * index);
+    if (!status)
+        status = add_numbers(&file, model, FACE, surface->face_vertices, 4 * faces * index, arena, error);
+    if (!status)
+        status = add_numbers(&file, model, FACE_NORMAL, surface->face_normals, 4 * faces * index, arena, error);
+    if (!status)
+        status = add_numbers(&file, model, TILE, model->assignment.tile, faces * index, arena, error);
     meso_container_add(&file, "xform", model->assignment.transform, faces);
     meso_container_add(&file, "inner", inner.counts, 2 * index * model->tile_set.inner_count);
     meso_container_add(&file, "innerpos", inner.positions, inner.vertex_count * vector);
     meso_container_add(&file, "innernrm", inner.normals, inner.vertex_count * vector);
     meso_container_add(&file, "innertri", inner.triangles, 3 * inner.triangle_count * index);
-    return meso_container_write(&file, output, error);
+    return status ? status : meso_container_write(&file, output, error);
 }
 
 MesoStatus meso_model_write(const MesoModel *model, const MesoProvenance *provenance,
@@ -404,9 +430,14 @@ MesoStatus meso_model_provenance(const char **provenance, MesoArena *arena, cons
 MesoStatus meso_model_take(MesoModel *model, MesoArena *arena, const MesoContainer *container, const char *path,
                            MesoError *error)
 {
-    Reading in = {.model = model, .file = container, .arena = arena, .path = path};
+    MesoContainer plain = *container;
+    Reading in = {.model = model, .file = &plain, .arena = arena, .path = path};
     *model = (MesoModel){0};
-    MesoStatus status = read_tiles(&in, error);
+    MesoStatus status = MESO_OK;
+    for (uint32_t i = 0; i < PACKED_COUNT && !status; i++)
+        status = meso_packed_open(&plain, arena, path, PACKED[i].packed, PACKED[i].name, error);
+    if (!status)
+        status = read_tiles(&in, error);
     if (!status)
         status = read_options(&in, error);
     if (!status)

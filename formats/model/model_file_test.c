@@ -2,6 +2,7 @@
 #include "formats/model/model_file.h"
 
 #include "formats/file/container_fixture.h"
+#include "formats/file/packed_chunk.h"
 #include "formats/model/model_fixture.h"
 #include "libcore/tiling/relax/relax.h"
 
@@ -122,25 +123,62 @@ static void test_options(void)
     expect("options", &cases[0].stored, 20, "file: chunk 'options' has 20 bytes, not 1 times 24");
 }
 
+static void expect_joints(const char *path, const MesoModel *model)
+{
+    MesoModel back;
+    MesoInput input;
+    MesoError error;
+    CHECK(meso_input_open(&input, path, &error) == MESO_OK);
+    CHECK(meso_model_read(&back, NULL, &arena, &input, &error) == MESO_OK);
+    CHECK(back.options.relax == 3 && back.joint_count == 7);
+    CHECK(memcmp(back.joints, model->joints, 7 * sizeof *model->joints) == 0);
+    CHECK(memcmp(back.assignment.tile, model->assignment.tile, back.surface.face_count * sizeof(uint32_t)) == 0);
+    meso_input_close(&input);
+}
+
+/* The same with the chunks plain, as version 1.3 had them. */
+static void test_plain_joints(const MesoModel *model)
+{
+    static const char *const names[4][2] = {{"zjoint", "joint"}, {"zface", "face"}, {"zfacenrm", "facenorm"},
+                                            {"ztile", "tile"}};
+    MesoContainer container;
+    MesoInput input;
+    MesoOutput *output;
+    MesoError error;
+    CHECK(meso_input_open(&input, test_path(&folder, "joints.meso"), &error) == MESO_OK);
+    CHECK(meso_container_read(&container, &input, "model", 1, &error) == MESO_OK && container.minor == 4);
+    for (uint32_t i = 0; i < 4; i++) {
+        uint64_t size;
+        CHECK(meso_container_find(&container, names[i][0], &size));
+        CHECK(meso_packed_open(&container, &arena, "file", names[i][0], names[i][1], &error) == MESO_OK);
+    }
+    container.minor = 3;
+    CHECK(meso_output_open(&output, test_path(&folder, "plain.meso"), &error) == MESO_OK);
+    CHECK(meso_container_write(&container, output, &error) == MESO_OK);
+    CHECK(meso_output_commit(output, &error) == MESO_OK);
+    meso_input_close(&input);
+    expect_joints(test_path(&folder, "plain.meso"), model);
+}
+
 /* A relaxed model: it needs its joints, all of them, and gives them back. */
 static void test_joints(void)
 {
     const int16_t short_of[4] = {1, 2, 3, 4};
-    MesoModel model = model_fixture(&arena), back;
-    MesoInput input;
+    MesoModel model = model_fixture(&arena);
+    MesoContainer few = {.kind = "model"};
     MesoError error;
     model.options.relax = 3;
     CHECK(meso_model_relax(&model, NULL, &arena, 1, &error) == MESO_OK && model.joint_count == 7);
     model.joints[2] = (MesoJointMove){-7, 32767, -32768, 1};
     write_file(&model, test_path(&folder, "joints.meso"));
-    CHECK(meso_input_open(&input, test_path(&folder, "joints.meso"), &error) == MESO_OK);
-    CHECK(meso_model_read(&back, NULL, &arena, &input, &error) == MESO_OK);
-    CHECK(back.options.relax == 3 && back.joint_count == 7);
-    CHECK(memcmp(back.joints, model.joints, 7 * sizeof *model.joints) == 0);
-    meso_input_close(&input);
+    expect_joints(test_path(&folder, "joints.meso"), &model);
+    test_plain_joints(&model);
+    CHECK(meso_packed_add(&few, &arena, "zjoint", short_of, 8, (MesoPacking){2, 4, false}, &error) == MESO_OK);
     const ContainerFixture relaxed = {&folder, "joints.meso", "model", 1, read_quietly};
-    container_fixture_expect(&relaxed, "joint", NULL, UINT64_MAX, "file: chunk 'joint' is missing");
-    container_fixture_expect(&relaxed, "joint", short_of, 8, "file: chunk 'joint' has 8 bytes, not 7 times 8");
+    container_fixture_expect(&relaxed, "zjoint", NULL, UINT64_MAX, "file: chunk 'joint' is missing");
+    container_fixture_expect(&relaxed, "zjoint", short_of, 8, "file: chunk 'zjoint' cannot be unpacked");
+    container_fixture_expect(&relaxed, "zjoint", few.chunks[0].data, few.chunks[0].size,
+                             "file: chunk 'joint' has 8 bytes, not 7 times 8");
 }
 
 /* Numbers of the six vertices. */
