@@ -10,7 +10,7 @@
 #   check-growth      growth over $(CHECK_MESHES) broken meshes alone
 #   check-reference   comparison with the prototype's published data in $(DATA)
 #   check-pairs       what meso-check says of the models of all pairs in $(DATA): a table
-#   check-readers     meshes opened by Blender and assimp, where they are: counts and bounds
+#   check-readers     meshes opened by Blender, assimp and TinyUSDZ, where they are: counts and bounds
 #   bench             rates of every stage, beside the prototype's
 #   bench-solve       the solver alone: pairs, growth, many seeds, random tile sets on a torus, and every
 #                     combination of the data's surfaces and tile sets

@@ -30,8 +30,8 @@ MesoStatus meso_output_print(MesoOutput *output, MesoError *error, const char *f
     __attribute__((format(printf, 3, 4)));
 
 /*
- * Writes at `offset`, which may lie anywhere; the end of the file follows the furthest byte. Threads may call it at once,
- * for places apart.
+ * Writes at `offset`, which may lie anywhere; the end of the file follows the furthest byte. Threads may call it at
+ * once, for places apart.
  */
 MesoStatus meso_output_write_at(MesoOutput *output, uint64_t offset, const void *data, size_t size,
                                 MesoError *error);

@@ -102,7 +102,8 @@ static uint8_t *unpack(MesoArena *arena, const uint8_t *chunk, uint64_t size, He
     if (!is_possible(head, size - sizeof *head))
         return NULL;
     struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
-    uint8_t *planes = meso_arena_alloc(arena, head->size, 1, error), *data = meso_arena_alloc(arena, head->size, 1, error);
+    uint8_t *planes = meso_arena_alloc(arena, head->size, 1, error);
+    uint8_t *data = meso_arena_alloc(arena, head->size, 1, error);
     size_t used = 0;
     bool whole = false;
     if (!decompressor || !planes || !data)
@@ -128,7 +129,8 @@ MesoStatus meso_packed_open(MesoContainer *container, MesoArena *arena, const ch
             continue;
         const uint8_t *data = unpack(arena, chunk->data, chunk->size, &head, &status, error);
         if (!data)
-            return status ? status : meso_fail(error, MESO_ERR_INPUT, "%s: chunk '%s' cannot be unpacked", path, packed);
+            return status ? status
+                          : meso_fail(error, MESO_ERR_INPUT, "%s: chunk '%s' cannot be unpacked", path, packed);
         *chunk = (MesoChunk){.data = data, .size = head.size};
         memcpy(chunk->name, name, strlen(name) + 1);
     }

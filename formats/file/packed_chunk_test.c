@@ -41,7 +41,8 @@ static void test_broken(MesoArena *arena)
     MesoError error;
     for (uint32_t i = 0; i < 96; i++)
         data[i] = (uint16_t)(i * i);
-    CHECK(meso_packed_add(&container, arena, "zthing", data, sizeof data, (MesoPacking){2, 4, true}, &error) == MESO_OK);
+    const MesoPacking packing = {2, 4, true};
+    CHECK(meso_packed_add(&container, arena, "zthing", data, sizeof data, packing, &error) == MESO_OK);
     uint64_t size = container.chunks[0].size;
     uint8_t *copy = malloc(size);
     CHECK(copy);

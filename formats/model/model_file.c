@@ -117,7 +117,8 @@ static MesoStatus write_chunks(const MesoModel *model, const char *provenance, c
     if (model->lifts)
         meso_container_add(&file, "lift", model->lifts, surface->vertex_count * sizeof(float));
     if (model->joints)
-        status = add_numbers(&file, model, JOINT, model->joints, model->joint_count * sizeof *model->joints, arena, error);
+        status = add_numbers(&file, model, JOINT, model->joints, model->joint_count * sizeof *model->joints, arena,
+                             error);
     meso_container_add(&file, "position", surface->positions, surface->vertex_count * vector);
     meso_container_add(&file, "normal", surface->normals, surface->normal_count * vector);
     if (!status)

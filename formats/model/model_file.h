@@ -12,7 +12,7 @@
  *     face      u32[4 * face_count]         facenorm u32[4 * face_count]
  *               corners in the slots' order: not the surface file's where slots were oriented
  *     tile      u32[face_count]             xform    u8[face_count]
- *     zjoint, zface, zfacenrm, ztile   the same, packed (packed_chunk.h), in relaxed models since 1.4; 1.3 had them plain
+ *     zjoint, zface, zfacenrm, ztile   the same, packed (packed_chunk.h), in relaxed models since 1.4; plain in 1.3
  *     inner     u32[2 * inner_count]: vertex and triangle count of each inner mesh
  *     innerpos, innernrm  f32[3 * sum]      innertri u32[3 * sum]
  */

@@ -38,8 +38,8 @@ typedef struct MesoMeshStream {
 
 /*
  * Runs `pass` over all parts, or over those of the ranges, and writes its bytes, in order, from
- * `stream->offset` on, which is moved. A thread writes what it has formatted itself, while it is in its caches: each holds
- * MESO_WINDOW_CHUNK bytes, or the largest part where that is more. `work` is added to `stream->done` in the end.
+ * `stream->offset` on, which is moved. A thread writes what it has formatted itself, while it is in its caches: each
+ * holds MESO_WINDOW_CHUNK bytes, or the largest part where that is more. `work` is added to `stream->done` in the end.
  * O(parts + bytes).
  */
 MesoStatus meso_mesh_stream_run(MesoMeshStream *stream, const MesoMeshPass *pass, uint64_t work,

@@ -18,7 +18,7 @@ float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep
 typedef struct MesoSweepGrid {
     const uint32_t *columns;    /* [column_count] ascending columns of the kind; NULL: all of them */
     uint32_t column_count, ring_count;
-    bool own;                   /* rings as they are in files: paced, bowed, without what is absent; else even and whole */
+    bool own;                   /* rings as files have them: paced, bowed, without what is absent; else even, whole */
     bool bare;                  /* positions alone: the rest of the vertices is left as it was */
 } MesoSweepGrid;
 

@@ -165,7 +165,7 @@ static float height_at(const Thinning *t, const Row *row, const Post *before, co
 
 /* ---- where kinds begin anew ---- */
 
-/* Whether a column from the one's start to the other's end, `gap` apart, will do for all between, wherever it blends. */
+/* Whether a column from the one's start to the other's end, `gap` apart, will do for all between, at each blend. */
 static bool will_do(const Thinning *t, const Row *row, const Post *post, uint32_t gap)
 {
     uint32_t before = least_place(post) - gap, behind = most_place(post) + gap;
@@ -355,7 +355,7 @@ static uint32_t set_inner_posts(Thinning *t, const Row *row)
 
 /*
  * Where two drawings need different points, what lies between the ends has others than either: as few as the surface
- * there needs, and the corners of both. Returns how many posts there are then, or what there were if that gains nothing.
+ * there needs, and the corners of both. Returns how many posts there are then; as before, if that gains little.
  */
 static uint32_t divide_inner(Thinning *t, const Row *row, uint32_t post_count, float *off)
 {

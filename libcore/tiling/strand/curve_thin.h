@@ -24,7 +24,9 @@ typedef struct MesoCurveRow {
 /*
  * Keeps as few points as the limits allow, about evenly off, between those that are fixed, or from `first` all around.
  * The others that stay move out of the bends, so that a curve lies as far outside of its chords as inside, which takes
- * seven chords for ten; no chord stands for a turn of over 60 degrees. `off` [curve_count] gets what chords are off at most.
+ * seven chords for ten; no chord stands for a turn of over 60 degrees.
+ *
+ * off   [curve_count] gets what chords are off, at most
  */
 void meso_curves_thin(const MesoCurveRow *row, uint32_t first, MesoColumnLimits limits, float *off);
 

@@ -168,8 +168,8 @@ static MesoVec3 second_difference(const MesoMeshVertex *v, uint32_t stride)
 }
 
 /*
- * At each of the places along a sweep: how much columns bend, by second differences, and quads are warped, by D; and what
- * of the tolerance columns leave.
+ * At each of the places along a sweep: how much columns bend, by second differences, and quads are warped, by D; and
+ * what columns leave of the tolerance.
  */
 typedef struct Wants {
     uint32_t intervals;
@@ -192,9 +192,11 @@ static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride
         MesoVec3 step = meso_vec3_sub(bend, before);
         wants->bend[i] = fmaxf(wants->bend[i], seen(bend, along, v[stride].normal, sharp));
         if (i == 2)
-            wants->bend[0] = fmaxf(wants->bend[0], seen(meso_vec3_mad(before, -0.5f, step), along, column->normal, sharp));
+            wants->bend[0] = fmaxf(wants->bend[0],
+                                   seen(meso_vec3_mad(before, -0.5f, step), along, column->normal, sharp));
         if (i + 1 == n)
-            wants->bend[n] = fmaxf(wants->bend[n], seen(meso_vec3_mad(bend, 0.5f, step), along, v[2 * stride].normal, sharp));
+            wants->bend[n] = fmaxf(wants->bend[n],
+                                   seen(meso_vec3_mad(bend, 0.5f, step), along, v[2 * stride].normal, sharp));
         before = bend;
     }
 }

@@ -161,8 +161,8 @@ static void test_corners(MesoArena *arena)
 }
 
 /*
- * Between drawings that need their points in different places, rings have about as many as each drawing has, not those of
- * both; and every row joins what it lies between.
+ * Between drawings that need their points in different places, rings have about as many as each drawing has, not those
+ * of both; and every row joins what it lies between.
  */
 static void test_between(MesoArena *arena)
 {
