@@ -39,7 +39,7 @@ static void make_sweep(Case *c)
                               .instance_count = 1, .turn = (float)(3 * MESO_PI),
                               .middle = {{0.05f, 0}, {-0.05f, 0}}};
     c->sweep = (MesoSweepInstance){{{-1.5f, -0.5f, 0}, {0, -0.5f, 0.5f}, {0, 0.5f, -0.5f}, {1.5f, 0.5f, 0}},
-                                   {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0, 0};
+                                   {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0, 0, {0}};
     for (uint32_t end = 0; end < 2; end++)
         c->sweep.direction[end] = meso_vec3_direction(meso_vec3_sub(c->sweep.p[1 + 2 * end], c->sweep.p[2 * end]),
                                                       (MesoVec3){0, 0, 0});
