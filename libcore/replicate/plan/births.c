@@ -2,9 +2,10 @@
 #include "libcore/base/grow.h"
 #include "libcore/field/triangle_frames.h"
 #include "libcore/replicate/plan/replicate_work.h"
-#include "libcore/replicate/plan/web_edit.h"
+#include "libcore/replicate/plan/surface_foot.h"
+#include "libcore/replicate/web/web_edit.h"
 
-enum { CHOICES = 6, CHOICES_OF_FEW = 64, AROUND = 48, WALK_LIMIT = 10000 };
+enum { CHOICES = 6, CHOICES_OF_FEW = 64, AROUND = 48 };
 
 /* What corners that are not alike count, beside distances that are not. */
 static const double UNLIKE = 0.15;
@@ -241,81 +242,7 @@ uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_
     return made;
 }
 
-/* ---- onto the surface ---- */
-
-/* Weights of the foot of a place in a triangle's plane; false where that has no area. */
-static bool weights_in(const MesoVec3 corners[3], MesoVec3 place, double w[3])
-{
-    MesoVec3 u = meso_vec3_sub(corners[1], corners[0]), v = meso_vec3_sub(corners[2], corners[0]);
-    MesoVec3 p = meso_vec3_sub(place, corners[0]);
-    double uu = meso_vec3_dot(u, u), uv = meso_vec3_dot(u, v), vv = meso_vec3_dot(v, v);
-    double pu = meso_vec3_dot(p, u), pv = meso_vec3_dot(p, v), det = uu * vv - uv * uv;
-    if (!(det > 0))
-        return false;
-    w[1] = (vv * pu - uv * pv) / det;
-    w[2] = (uu * pv - uv * pu) / det;
-    w[0] = 1 - w[1] - w[2];
-    return true;
-}
-
-static uint32_t least_weight(const double w[3])
-{
-    uint32_t least = w[1] < w[0];
-    return w[2] < w[least] ? 2 : least;
-}
-
-static MesoMeshPoint point_of(uint32_t triangle, const double w[3])
-{
-    MesoMeshPoint point = {.triangle = triangle};
-    double sum = 0;
-    for (uint32_t k = 0; k < 3; k++)
-        sum += fmax(0, w[k]);
-    for (uint32_t k = 0; k < 3; k++)
-        point.weight[k] = (float)(fmax(0, w[k]) / sum);
-    return point;
-}
-
-MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *positions, MesoMeshPoint from,
-                                 MesoVec3 place)
-{
-    uint32_t triangle = from.triangle, before = MESO_NO_INDEX;
-    for (uint32_t steps = 0; steps < WALK_LIMIT; steps++) {
-        const uint32_t *c = mesh->corners + 3 * (size_t)triangle;
-        const MesoVec3 corners[3] = {positions[c[0]], positions[c[1]], positions[c[2]]};
-        double w[3];
-        if (!weights_in(corners, place, w))
-            break;
-        uint32_t least = least_weight(w);
-        uint32_t across = mesh->twins[3 * triangle + (least + 1) % 3];
-        /* on a ridge the foot lies beyond the side from both */
-        if (w[least] >= 0 || across == MESO_NO_INDEX || across / 3 == before)
-            return point_of(triangle, w);
-        before = triangle;
-        triangle = across / 3;
-    }
-    return from;
-}
-
 /* ---- into the web ---- */
-
-/* The triangle of the web under a place, by the same walk. */
-static uint32_t web_triangle(const MesoWeb *web, uint32_t triangle, MesoVec3 place)
-{
-    uint32_t before = MESO_NO_INDEX;
-    for (uint32_t steps = 0; steps < 64; steps++) {
-        const uint32_t *c = web->corners + 3 * (size_t)triangle;
-        const MesoVec3 corners[3] = {web->positions[c[0]], web->positions[c[1]], web->positions[c[2]]};
-        double w[3];
-        if (!weights_in(corners, place, w))
-            break;
-        uint32_t least = least_weight(w), across = web->twins[3 * triangle + (least + 1) % 3];
-        if (w[least] >= 0 || across == MESO_NO_INDEX || across / 3 == before)
-            break;
-        before = triangle;
-        triangle = across / 3;
-    }
-    return triangle;
-}
 
 static float copied_angle(const MesoReplication *r, const MesoBirth *birth, uint32_t triangle)
 {
@@ -419,8 +346,10 @@ MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirt
     MesoVec3 position = meso_detail_position(r->rest, positions, &point);
     MesoVec3 normal = meso_vec3_unit(meso_detail_position(r->rest, r->normals, &point), (MesoVec3){0, 0, 1});
     MesoStatus status = make_room(r, error);
+    bool beyond;    /* does not matter: the point is on the surface */
+    triangle = meso_web_triangle(web, triangle, position, &beyond);
     if (status == MESO_OK)
-        status = meso_web_insert(web, web_triangle(web, triangle, position), point, position, normal, error);
+        status = meso_web_insert(web, triangle, point, position, normal, error);
     if (status != MESO_OK)
         return status;
     uint32_t detail = r->detail_count++;

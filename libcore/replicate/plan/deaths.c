@@ -6,9 +6,6 @@
 
 enum { RING = 48 };
 
-/* Of details more than are due in a block. Births begin at a half too few: what trembles changes nothing. */
-static const double SURPLUS = 0.6;
-
 /* Copies die before originals, so that what has come with a stretch goes with it. */
 static const double COPY_FIRST = 1000;
 
@@ -89,7 +86,7 @@ static uint32_t gather(Crowded *out, uint32_t *living, const MesoReplication *r)
         if (!meso_lives(r, i))
             continue;
         living[r->blocks[i]]++;
-        if (r->due[r->blocks[i]] <= -SURPLUS)
+        if (r->due[r->blocks[i]] <= -MESO_SURPLUS)
             out[count++] = (Crowded){crowd_of(r, i), i};
     }
     return count;
@@ -102,7 +99,7 @@ static void thin(MesoReplication *r, const Crowded *crowded, uint32_t count, uin
         for (uint32_t i = 0; i < count; i++) {
             uint32_t detail = crowded[i].detail, block = r->blocks[detail];
             /* the last of a block stays: where the surface grows again, others are born beside it */
-            if (r->due[block] > -SURPLUS || living[block] == 1 || !meso_lives(r, detail)
+            if (r->due[block] > -MESO_SURPLUS || living[block] == 1 || !meso_lives(r, detail)
                 || (pass == 0 && crowd_of(r, detail) < crowded[i].crowd))
                 continue;
             if (meso_let_die(r, detail, frame))
@@ -114,11 +111,11 @@ MesoStatus meso_thin_out(MesoReplication *r, int32_t frame, MesoError *error)
 {
     double due = 0;
     for (uint32_t b = 0; b < r->block_count; b++)
-        due += r->due[b] <= -SURPLUS ? fmax(1, floor(-r->due[b])) : 0;
+        due += r->due[b] <= -MESO_SURPLUS ? fmax(1, floor(-r->due[b])) : 0;
     if (due == 0)
         return MESO_OK;
     if (r->by_pairs)
-        return meso_thin_by_pairs(r, SURPLUS, (uint32_t)fmin(due, r->detail_count), frame, error);
+        return meso_thin_by_pairs(r, (uint32_t)fmin(due, r->detail_count), frame, error);
     MesoArenaMark mark = meso_arena_mark(&r->scratch);
     Crowded *crowded = MESO_NEW(&r->scratch, Crowded, r->detail_count, error);
     uint32_t *living = MESO_NEW(&r->scratch, uint32_t, r->block_count, error);

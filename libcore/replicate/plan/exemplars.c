@@ -56,6 +56,7 @@ static void know_original(MesoOriginal *original, const MesoTriangulation *rest,
                 d = further;
             }
     }
+    original->nearest = nearest;
     original->turn = nearest == MESO_NO_INDEX ? 0 : turn_from(rest, &details[i], &details[nearest]);
 }
 

@@ -7,7 +7,7 @@
 #define MESO_EXEMPLARS_H
 
 #include "libcore/replicate/detail/surface_detail.h"
-#include "libcore/replicate/plan/detail_web.h"
+#include "libcore/replicate/web/detail_web.h"
 
 enum { MESO_EXEMPLAR_INSIDE = 6, MESO_EXEMPLAR_BINS = 24, MESO_EXEMPLAR_BIN_ROOM = 48, MESO_ORIGINAL_NEAR = 3 };
 
@@ -31,6 +31,7 @@ typedef struct MesoOriginal {
     float log_area, log_size;
     float near[MESO_ORIGINAL_NEAR];     /* distances of the nearest others, ascending; INFINITY: no more */
     float aspect;                       /* of its ellipse, in whose norm distances are */
+    uint32_t nearest;                   /* of those that it is joined to; MESO_NO_INDEX: none */
     float turn;                         /* its heading from that of the nearest */
     uint32_t kind;
 } MesoOriginal;

@@ -1,6 +1,7 @@
 #include "libcore/replicate/plan/paper_rule.h"
 
 #include "libcore/base/grow.h"
+#include "libcore/replicate/plan/surface_foot.h"
 
 enum { GRID = MESO_PAPER_GRID, SPLITS_A_STEP = 1000 };
 

@@ -10,7 +10,7 @@
 #ifndef MESO_REPLICATE_H
 #define MESO_REPLICATE_H
 
-#include "libcore/replicate/plan/detail_web.h"
+#include "libcore/replicate/web/detail_web.h"
 #include "libcore/replicate/plan/replica_play.h"
 
 /* A sequence of shapes of one surface. */
@@ -30,7 +30,7 @@ typedef enum MesoReplicateMode {
 
 /* What says where details are born, but for the paper's rule. */
 typedef enum MesoReplicateBirths {
-    MESO_BIRTHS_USUAL,      /* statistics where details stand in groups, else exemplars */
+    MESO_BIRTHS_USUAL,      /* statistics where they stand in groups, or are few and none longer than wide; or exemplars */
     MESO_BIRTHS_EXEMPLARS,  /* triangles of originals with others inside */
     MESO_BIRTHS_STATISTICS  /* how many others there are at which distance (pair_target.h) */
 } MesoReplicateBirths;

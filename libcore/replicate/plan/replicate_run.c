@@ -146,6 +146,15 @@ static float area_now(const MesoTriangulation *mesh, const MesoVec3 *positions, 
     return 0.5f * meso_vec3_length(meso_vec3_cross(u, v));
 }
 
+/* Of those each birth is looked at long; and pairs do not tell directions apart. */
+static bool are_few_and_round(const MesoReplication *r)
+{
+    bool so = r->detail_count <= MESO_FEW_DETAILS;
+    for (uint32_t i = 0; i < r->detail_count && so; i++)
+        so = meso_detail_aspect(&r->details[i]) == 1;
+    return so;
+}
+
 static MesoStatus begin(MesoReplication *r, MesoError *error)
 {
     r->rest = r->options.clip->rest;
@@ -173,7 +182,7 @@ static MesoStatus begin(MesoReplication *r, MesoError *error)
     if (status == MESO_OK)
         status = meso_find_above(r, error);
     r->by_pairs = r->options.births == MESO_BIRTHS_STATISTICS
-                  || (r->options.births == MESO_BIRTHS_USUAL && r->pairs.grouped);
+                  || (r->options.births == MESO_BIRTHS_USUAL && (r->pairs.grouped || are_few_and_round(r)));
     if (status != MESO_OK || r->options.mode != MESO_REPLICATE_PAPER)
         return status;
     r->paper = MESO_NEW(&r->arena, MesoPaperRule, 1, error);

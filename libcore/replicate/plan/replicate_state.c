@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "libcore/replicate/plan/replicate_work.h"
-#include "libcore/replicate/plan/web_edit.h"
+#include "libcore/replicate/web/web_edit.h"
 
 MesoReplicaState meso_replicate_state(const MesoReplication *r)
 {

@@ -4,6 +4,7 @@
 
 #include "libcore/replicate/plan/exemplars.h"
 #include "libcore/replicate/plan/replicate.h"
+#include "libcore/replicate/web/edge_balance.h"
 
 enum { MESO_BIRTH_NEAR = 24, MESO_EDGE_BINS = 32 };
 
@@ -47,6 +48,10 @@ typedef struct MesoPairTarget {
     MesoPairCounts rest;        /* a detail's, in the mean */
     MesoPairCounts weights;     /* of a difference, squared */
     MesoPairCounts debt;        /* of births and deaths of a step so far */
+    double border_share;        /* of what is around a detail, for its distance, that is beyond the border */
+    double core2;               /* nearer, squared, than this are hardly any */
+    MesoEdgeRest edges;         /* of the web */
+    MesoEdgeBalance edge_debt;  /* likewise */
     bool grouped;               /* there are far more pairs at small distances than of details strewn freely */
 } MesoPairTarget;
 
@@ -94,6 +99,10 @@ static inline double meso_phase_of(uint32_t block)
 /* What a copy that there is of an original counts, beside a misfit: all have about as many, and kinds their shares. */
 #define MESO_COPY_COST 0.1
 
+/* Of details more than are due in a block, so that some die. Births begin at a half too few: what trembles changes
+   nothing. */
+#define MESO_SURPLUS 0.6
+
 /* A detail that will be born. */
 typedef struct MesoBirth {
     uint32_t copied;
@@ -108,13 +117,6 @@ typedef struct MesoBirth {
  */
 uint32_t meso_choose_births(const MesoReplication *r, uint32_t triangle, uint32_t limit,
                             MesoBirth births[MESO_EXEMPLAR_INSIDE], double *cost);
-
-/*
- * The point under a place near the surface: from triangle to triangle towards it, not through what lies between, so
- * that the other side of a thin part is not met.
- */
-MesoMeshPoint meso_point_towards(const MesoTriangulation *mesh, const MesoVec3 *positions, MesoMeshPoint from,
-                                 MesoVec3 place);
 
 /* Adds a detail to the web, in or near a triangle of it, and to what is known. */
 MesoStatus meso_give_birth(MesoReplication *r, uint32_t triangle, const MesoBirth *birth, int32_t frame,

@@ -10,7 +10,7 @@
 #ifndef MESO_DETAIL_WEB_H
 #define MESO_DETAIL_WEB_H
 
-#include "libcore/replicate/plan/web.h"
+#include "libcore/replicate/web/web.h"
 
 /*
  * Of details on a surface, in its own shape. Places and normals are those of that shape.

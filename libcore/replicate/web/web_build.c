@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcore/replicate/plan/detail_web.h"
-#include "libcore/replicate/plan/oriented_surface.h"
-#include "libcore/replicate/plan/web_edit.h"
+#include "libcore/replicate/web/detail_web.h"
+#include "libcore/replicate/web/oriented_surface.h"
+#include "libcore/replicate/web/web_edit.h"
 
 enum { STACK = 256, RING = 256, ROUNDS = 50 };
 

@@ -1,4 +1,4 @@
-#include "libcore/replicate/plan/oriented_surface.h"
+#include "libcore/replicate/web/oriented_surface.h"
 
 /* The half-edge that a surface's becomes. */
 static uint32_t side_of(const uint8_t *turned, uint32_t h)

@@ -1,8 +1,8 @@
-#include "libcore/replicate/plan/detail_web.h"
+#include "libcore/replicate/web/detail_web.h"
 
 #include "libcore/base/grow.h"
 #include "libcore/base/parallel.h"
-#include "libcore/replicate/plan/web_edit.h"
+#include "libcore/replicate/web/web_edit.h"
 
 enum { GRAIN = 4096 };
 

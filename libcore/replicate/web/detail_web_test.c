@@ -1,7 +1,7 @@
 /* Webs of details: on surfaces of any genus, with borders, that move and get more details. */
 #include "libcore/mesh/point/vertex_normals.h"
 #include "libcore/mesh/cut/triangulation_fixture.h"
-#include "libcore/replicate/plan/detail_web.h"
+#include "libcore/replicate/web/detail_web.h"
 #include "libcore/replicate/statistics/points_fixture.h"
 
 typedef struct Stage {

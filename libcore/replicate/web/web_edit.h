@@ -2,7 +2,7 @@
 #ifndef MESO_WEB_EDIT_H
 #define MESO_WEB_EDIT_H
 
-#include "libcore/replicate/plan/web.h"
+#include "libcore/replicate/web/web.h"
 
 /* Node of a half-edge's triangle that is not on it. */
 static inline uint32_t meso_web_apex(const MesoWeb *web, uint32_t h)

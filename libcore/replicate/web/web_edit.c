@@ -1,4 +1,4 @@
-#include "libcore/replicate/plan/web_edit.h"
+#include "libcore/replicate/web/web_edit.h"
 
 #include "libcore/base/grow.h"
 
