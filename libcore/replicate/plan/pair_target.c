@@ -316,6 +316,18 @@ typedef struct Choice {
     double cost;
 } Choice;
 
+/* From a place to its foot in a triangle, which is nearer to the surface. */
+static void go_down(Choice *tried, const MesoWeb *web)
+{
+    const uint32_t *c = web->corners + 3 * (size_t)tried->triangle;
+    MesoVec3 a = web->positions[c[0]];
+    MesoVec3 u = meso_vec3_sub(web->positions[c[1]], a), v = meso_vec3_sub(web->positions[c[2]], a);
+    MesoVec3 n = meso_vec3_unit(meso_vec3_cross(u, v), (MesoVec3){0, 0, 0});
+    tried->place = meso_vec3_mad(tried->place, -meso_vec3_dot(meso_vec3_sub(tried->place, a), n), n);
+    MesoVec3 sum = meso_vec3_add(meso_vec3_add(web->normals[c[0]], web->normals[c[1]]), web->normals[c[2]]);
+    tried->normal = meso_vec3_unit(sum, tried->normal);
+}
+
 /* Not beyond a border: there many places would have the same foot. */
 static void try_place(const Bearing *b, Choice *best, uint32_t beside, uint32_t from, MesoVec3 place, MesoVec3 normal)
 {
@@ -327,11 +339,13 @@ static void try_place(const Bearing *b, Choice *best, uint32_t beside, uint32_t 
     tried.triangle = meso_web_triangle(web, from, place, &beyond);
     if (beyond && best->cost < INFINITY)
         return;
-    MesoEdgeBalance change = meso_edge_balance_with(web, &target->edges, tried.triangle, place, normal, &nearest2);
+    go_down(&tried, web);
+    MesoEdgeBalance change = meso_edge_balance_with(web, &target->edges, tried.triangle, tried.place, tried.normal,
+                                                    &nearest2);
     tried.cost = edge_cost_of(b, &change);
     if (tried.cost + (nearest2 < BIRTH_CORE * BIRTH_CORE * target->core2 ? WALL : 0) >= best->cost)
         return;
-    meso_cells_look(&tried.around, &b->cells, place, normal, MESO_NO_INDEX);
+    meso_cells_look(&tried.around, &b->cells, tried.place, tried.normal, MESO_NO_INDEX);
     tried.cost += cost_of(b, &tried.around, 1);
     if (tried.cost < best->cost)
         *best = tried;
