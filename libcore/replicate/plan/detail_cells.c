@@ -29,11 +29,24 @@ static uint64_t cell_of(int32_t x, int32_t y, int32_t z)
     return ((uint64_t)(uint32_t)x & mask) << 42 | ((uint64_t)(uint32_t)y & mask) << 21 | ((uint64_t)(uint32_t)z & mask);
 }
 
-/* That of a place, or a neighbour of it; OWN is itself, and k and NEIGHBOURS - 1 - k are on opposite sides. */
-static uint64_t cell_beside(const MesoDetailCells *cells, MesoVec3 p, int32_t k)
+typedef struct Cell {
+    int32_t x, y, z;
+} Cell;
+
+static Cell cell_under(const MesoDetailCells *cells, MesoVec3 p)
 {
-    return cell_of(cell_at(p.x, cells->radius) + k % 3 - 1, cell_at(p.y, cells->radius) + k / 3 % 3 - 1,
-                   cell_at(p.z, cells->radius) + k / 9 - 1);
+    return (Cell){cell_at(p.x, cells->radius), cell_at(p.y, cells->radius), cell_at(p.z, cells->radius)};
+}
+
+/* A neighbour; OWN is the cell itself, and k and NEIGHBOURS - 1 - k are on opposite sides. */
+static uint64_t cell_beside(Cell cell, int32_t k)
+{
+    return cell_of(cell.x + k % 3 - 1, cell.y + k / 3 % 3 - 1, cell.z + k / 9 - 1);
+}
+
+static uint64_t cell_with(const MesoDetailCells *cells, MesoVec3 p)
+{
+    return cell_beside(cell_under(cells, p), OWN);
 }
 
 static uint32_t slot_of(const MesoDetailCells *cells, uint64_t cell)
@@ -43,7 +56,7 @@ static uint32_t slot_of(const MesoDetailCells *cells, uint64_t cell)
 
 void meso_cells_put(MesoDetailCells *cells, uint32_t detail, MesoVec3 place, MesoVec3 normal)
 {
-    Spot spot = {place, normal, detail, cell_beside(cells, place, OWN)};
+    Spot spot = {place, normal, detail, cell_with(cells, place)};
     Slot *slot = &cells->slots[slot_of(cells, spot.cell)];
     cells->next[cells->spot_count - cells->first_later] = slot->later;
     slot->later = cells->spot_count;
@@ -52,7 +65,7 @@ void meso_cells_put(MesoDetailCells *cells, uint32_t detail, MesoVec3 place, Mes
 
 void meso_cells_take(MesoDetailCells *cells, uint32_t detail, MesoVec3 place)
 {
-    Slot *slot = &cells->slots[slot_of(cells, cell_beside(cells, place, OWN))];
+    Slot *slot = &cells->slots[slot_of(cells, cell_with(cells, place))];
     uint32_t at = slot->begin;
     while (cells->spots[at].detail != detail)
         at++;
@@ -74,14 +87,14 @@ MesoStatus meso_cells_build(MesoDetailCells *cells, MesoReplication *r, double r
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < n; i++)
         if (meso_lives(r, i))
-            cells->slots[slot_of(cells, cell_beside(cells, places[i], OWN)) + 1].begin++;
+            cells->slots[slot_of(cells, cell_with(cells, places[i])) + 1].begin++;
     for (uint32_t s = 0; s <= cells->mask; s++) {
         cells->slots[s + 1].begin += cells->slots[s].begin;
         cells->slots[s].end = cells->slots[s].begin;
         cells->slots[s].later = MESO_NO_INDEX;
     }
     for (uint32_t i = 0; i < n; i++) {
-        Spot spot = {places[i], normals[i], i, cell_beside(cells, places[i], OWN)};
+        Spot spot = {places[i], normals[i], i, cell_with(cells, places[i])};
         if (meso_lives(r, i))
             cells->spots[cells->slots[slot_of(cells, spot.cell)].end++] = spot;
     }
@@ -119,8 +132,9 @@ void meso_cells_look(MesoVicinity *v, const MesoDetailCells *cells, MesoVec3 pla
     *v = (MesoVicinity){.nearest = MESO_NO_INDEX};
     for (uint32_t k = 0; k < NEAREST; k++)
         v->near[k] = INFINITY;
+    Cell under = cell_under(cells, place);
     for (int32_t k = 0; k < NEIGHBOURS; k++) {
-        uint64_t cell = cell_beside(cells, place, k);
+        uint64_t cell = cell_beside(under, k);
         const Slot *slot = &cells->slots[slot_of(cells, cell)];
         for (uint32_t i = slot->begin; i < slot->end; i++) {
             float d2 = distance2_to(&cells->spots[i], cell, place, normal);
@@ -144,8 +158,9 @@ static void count_from(uint64_t bins[BINS], const MesoDetailCells *cells, uint32
     const Spot *self = &cells->spots[at];
     float most2 = cells->radius * cells->radius, bins_a_length = BINS / cells->radius;
     uint64_t own = !left_out || !left_out[self->detail];
+    Cell under = cell_under(cells, self->place);
     for (int32_t k = 0; k < (all ? OWN + 1 : NEIGHBOURS); k++) {
-        uint64_t cell = cell_beside(cells, self->place, k);
+        uint64_t cell = cell_beside(under, k);
         const Slot *slot = &cells->slots[slot_of(cells, cell)];
         for (uint32_t i = slot->begin; i < slot->end; i++) {
             float d2 = distance2_to(&cells->spots[i], cell, self->place, self->normal);

@@ -13,6 +13,9 @@
 
 enum { BLOCK = 48, RING = 32, PARTS = 8 };
 
+/* Of more, births by statistics take several times as long as by exemplars. */
+enum { MANY = 1 << 15 };
+
 /* What a birth may cost before a better place is looked for. */
 static const double CROWDED = 1, CROWDED_OF_FEW = 0.2;
 
@@ -146,10 +149,10 @@ static float area_now(const MesoTriangulation *mesh, const MesoVec3 *positions, 
     return 0.5f * meso_vec3_length(meso_vec3_cross(u, v));
 }
 
-/* Of those each birth is looked at long; and pairs do not tell directions apart. */
+/* Pairs do not tell directions apart. */
 static bool are_few_and_round(const MesoReplication *r)
 {
-    bool so = r->detail_count <= MESO_FEW_DETAILS;
+    bool so = r->detail_count <= MANY;
     for (uint32_t i = 0; i < r->detail_count && so; i++)
         so = meso_detail_aspect(&r->details[i]) == 1;
     return so;

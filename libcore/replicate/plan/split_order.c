@@ -19,7 +19,7 @@ static const double GAIN = 6, AT_ONCE = 20, LEAST_POWER = 0.0, MOST_POWER = 3;
 static const double REACH = 1.35;
 
 /* Of edges of a length that are too many, for those at rest, or a RARE share; and of a length below which NONE are. */
-static const double PUSH = 0.2, RARE = 0.01, NONE = 0.001;
+static const double PUSH = 0.3, RARE = 0.01, NONE = 0.001;
 static const float WALL = 3;
 
 /* ---- tolerance ---- */
