@@ -9,8 +9,7 @@
 
 /* ---- the surface at rest ---- */
 
-/* Normals of the file are those at rest. */
-static MesoStatus drop_normals(MesoPolygonMesh *mesh, MesoTool *tool)
+MesoStatus meso_replicate_drop_normals(MesoPolygonMesh *mesh, MesoTool *tool)
 {
     MesoAttribute *kept = MESO_NEW(&tool->arena, MesoAttribute, mesh->attribute_count, &tool->error);
     uint32_t count = 0;
@@ -86,7 +85,7 @@ MesoStatus meso_replicate_clip_open(MesoReplicateClip *c, MesoReplicateArguments
     if (status)
         return status;
     c->polygons = *meso_clip_mesh(c->file);
-    status = drop_normals(&c->polygons, tool);
+    status = meso_replicate_drop_normals(&c->polygons, tool);
     if (!status)
         status = triangulate(c);
     return status ? status : make_room(c);

@@ -32,6 +32,9 @@ MesoStatus meso_replicate_clip_find(const MesoReplicateClip *clip, int32_t numbe
 /* Loads a frame, and keeps the one that was loaded as the one before. MESO_ERR_INPUT as of clip_file.h. */
 MesoStatus meso_replicate_clip_load(MesoReplicateClip *clip, uint32_t frame);
 
+/* What files say of normals is so at rest alone. */
+MesoStatus meso_replicate_drop_normals(MesoPolygonMesh *mesh, MesoTool *tool);
+
 /* As if no frame had been loaded. */
 static inline void meso_replicate_clip_rewind(MesoReplicateClip *clip) { clip->number = -1; }
 

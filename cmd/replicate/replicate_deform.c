@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cmd/common/input_kind.h"
+#include "cmd/replicate/replicate_clip.h"
 #include "formats/clip/frame_list.h"
 #include "formats/mesh/mesh_read.h"
 #include "formats/model/scene_of_mesh.h"
@@ -67,22 +68,6 @@ static MesoStatus take_file(Job *job)
 }
 
 /* ---- frames ---- */
-
-/* What files say of normals is so at rest alone. */
-static MesoStatus drop_normals(Job *job)
-{
-    MesoPolygonMesh *mesh = &job->mesh;
-    MesoAttribute *kept = MESO_NEW(&job->tool->arena, MesoAttribute, mesh->attribute_count, &job->tool->error);
-    uint32_t count = 0;
-    if (!kept)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < mesh->attribute_count; i++)
-        if (strcmp(mesh->attributes[i].name, "normal") != 0)
-            kept[count++] = mesh->attributes[i];
-    mesh->attributes = kept;
-    mesh->attribute_count = count;
-    return MESO_OK;
-}
 
 static MesoStatus write_frame(Job *job, uint32_t number, const char *pattern)
 {
@@ -149,7 +134,7 @@ static MesoStatus run(Job *job)
     MesoDeformKind kind;
     MesoStatus status = meso_polygon_mesh_read(&job->mesh, &tool->arena, &job->input, tool->threads, &tool->error);
     if (!status)
-        status = drop_normals(job);
+        status = meso_replicate_drop_normals(&job->mesh, tool);
     if (!status)
         status = find_kind(job->arguments->deform, &kind) ? take_kind(job, kind) : take_file(job);
     if (status)

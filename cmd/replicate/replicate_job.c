@@ -145,16 +145,31 @@ static void close_inputs(Job *job)
 
 /* ---- frames ---- */
 
-/* With a state, what comes behind its last frame; all where that is none of the list. */
+/* How many of the list were the last ones that have been gone through: it may come by a frame more than once. */
+static uint32_t frames_done(const Job *job)
+{
+    const MesoReplicateRun *r = &job->run;
+    uint32_t most = r->history_count < job->frames.count ? r->history_count : job->frames.count;
+    while (most > 0 && memcmp(r->history + r->history_count - most, job->frames.frames,
+                              most * sizeof *job->frames.frames) != 0)
+        most--;
+    return most;
+}
+
+/*
+ * With a state, what comes behind the frames that it has gone through, or at least behind its last one; all where that
+ * is none of the list.
+ */
 static uint32_t first_frame(const Job *job)
 {
     if (!job->arguments->state || job->run.history_count == 0)
         return 0;
+    uint32_t done = frames_done(job);
     int32_t last = job->run.history[job->run.history_count - 1];
-    for (uint32_t i = job->frames.count; i > 0; i--)
+    for (uint32_t i = job->frames.count; i > 0 && done == 0; i--)
         if (job->frames.frames[i - 1] == last)
-            return i;
-    return 0;
+            done = i;
+    return done;
 }
 
 static MesoStatus run_frame(Job *job, int32_t number, json_t *reports)

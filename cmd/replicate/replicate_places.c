@@ -124,8 +124,8 @@ static MesoStatus places_of_poisson(MesoDetailPlaces *out, const MesoReplicateGr
 
 /* ---- scattered ---- */
 
-/* Draws for each that is wanted, where the density lets only a few stay. */
-enum { DRAWS_EACH = 1000 };
+/* Draws for each that is wanted, where the density lets only a few stay; and for the first of all. */
+enum { DRAWS_EACH = 1000, DRAWS_FOR_FIRST = 1 << 20 };
 
 static double share_of(MesoRandom *random)
 {
@@ -162,11 +162,15 @@ static MesoStatus places_scattered(MesoDetailPlaces *out, const MesoReplicateGro
         sums[t + 1] = sums[t] + meso_triangle_area(mesh, t);
     out->count = 0;
     for (uint64_t n = 0; out->count < d->count && n < DRAWS_EACH * (uint64_t)d->count; n++) {
+        if (n == DRAWS_FOR_FIRST && out->count == 0)
+            break;
         MesoMeshPoint point = point_in(mesh, sums, &random);
         const double weight[3] = {(double)point.weight[0], (double)point.weight[1], (double)point.weight[2]};
         if (share_of(&random) < meso_map_value(&g->ground, density, point.triangle, weight))
             out->places[out->count++] = (MesoDetailPlace){point, nothing};
     }
+    if (out->count < d->count)
+        meso_tool_say(g->tool, "%u of %u details are scattered: the density is too low for more", out->count, d->count);
     return MESO_OK;
 }
 

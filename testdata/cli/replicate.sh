@@ -50,6 +50,24 @@ replicate --state other.state scales.json long-%02d.ply -o out-%02d.meso && cmp 
 cmp out-06.meso whole/out-06.meso
 meso-replicate --state other.state scales.json long-%02d.ply -o out-%02d.meso
 
+echo "== there and back, cut on the way there"
+replicate --state turn.state --frames 1-6,5-1 scales.json long-%02d.ply -o back-%02d.meso
+replicate --state half.state --frames 1-3 scales.json long-%02d.ply -o half-%02d.meso
+replicate --state half.state --frames 1-6,5-1 scales.json long-%02d.ply -o half-%02d.meso && cmp half.state turn.state
+
+echo "== scattered by a density that is low, or nowhere"
+thin() {
+    awk -v d=$1 'NR == 1 { print "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y"
+        print "property float z\nproperty float dense\nelement face 1\nproperty list uchar int vertex_indices\nend_header"
+        print "0 0 0", d; print "1 0 0", d; print "1 1 0", d; print "0 1 0", d; print "4 0 1 2 3" }' scale.obj
+}
+details '"scale": {"mesh": "scale.obj"}' '{"scatter": 60, "density": {"attribute": "dense"}}' >thin.json
+details '"scale": {"mesh": "scale.obj"}' '{"scatter": 900000, "density": {"attribute": "dense"}}' >none.json
+thin 0.0001 >thin-1.ply; thin 0 >none-1.ply
+meso-replicate thin.json thin-%d.ply -o x-%d.ply
+try replicate none.json none-%d.ply -o x-%d.ply
+rm x-*
+
 echo "== killed: nothing half done, and the same in the end"
 rm -f out-* k.state
 meso-replicate -q --state k.state mixed.json long-%02d.ply -o out-%02d.ply &
