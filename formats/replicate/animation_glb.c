@@ -86,6 +86,9 @@ MesoStatus meso_animation_frame(MesoAnimation *a, int32_t number, const MesoInst
     if (frame->count > MESO_ANIMATION_DETAILS)
         return meso_fail(error, MESO_ERR_LIMIT, "an animated .glb takes %d details at most, and there are %u: write a "
                          ".usda, or a file a frame", MESO_ANIMATION_DETAILS, frame->count);
+    if (a->scene->surface && a->frame_count == MESO_ANIMATION_SHAPES)
+        return meso_fail(error, MESO_ERR_LIMIT, "an animated .glb takes %d frames of a surface at most: write a .usda, "
+                         "or a file a frame", MESO_ANIMATION_SHAPES);
     if (a->frame_count == 0)
         a->first = number;
     Kept kept = {.time = (float)((number - a->first) / a->rate), .count = frame->count,

@@ -8,8 +8,8 @@
 #include "formats/file/output.h"
 #include "formats/replicate/instance_scene.h"
 
-/* More nodes are no longer shown smoothly. */
-enum { MESO_ANIMATION_DETAILS = 4096 };
+/* More nodes are no longer shown smoothly; and of more frames the weights of a surface's targets alone take 4 GiB. */
+enum { MESO_ANIMATION_DETAILS = 4096, MESO_ANIMATION_SHAPES = 1 << 15 };
 
 typedef struct MesoAnimation MesoAnimation;
 
@@ -17,7 +17,10 @@ typedef struct MesoAnimation MesoAnimation;
 MesoStatus meso_animation_begin(MesoAnimation **animation, const MesoInstanceScene *scene, double frames_per_second,
                                 MesoError *error);
 
-/* Adds a frame, and keeps it; numbers ascend. O(details + vertices). MESO_ERR_LIMIT over MESO_ANIMATION_DETAILS. */
+/*
+ * Adds a frame, and keeps it; numbers ascend. O(details + vertices). MESO_ERR_LIMIT over MESO_ANIMATION_DETAILS, or
+ * over MESO_ANIMATION_SHAPES with a surface.
+ */
 MesoStatus meso_animation_frame(MesoAnimation *animation, int32_t number, const MesoInstanceFrame *frame,
                                 MesoError *error);
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "formats/file/test_folder.h"
+#include "formats/replicate/animation_glb.h"
 #include "formats/replicate/instance_glb.h"
 #include "formats/replicate/usda_file.h"
 
@@ -209,6 +210,19 @@ static void test_usda(const TestFolder *folder)
     meso_input_close(&input);
 }
 
+/* Weights of targets are as many as frames by frames: they are refused before they cannot be counted. */
+static void test_frames(void)
+{
+    MesoAnimation *animation;
+    MesoError error;
+    const MesoInstanceFrame bare = {0, details, placed, square, up};
+    CHECK(!meso_animation_begin(&animation, &scene, 24, &error));
+    for (int32_t i = 0; i < MESO_ANIMATION_SHAPES; i++)
+        CHECK(!meso_animation_frame(animation, i, &bare, &error));
+    CHECK(meso_animation_frame(animation, MESO_ANIMATION_SHAPES, &bare, &error) == MESO_ERR_LIMIT);
+    meso_animation_release(animation);
+}
+
 int main(void)
 {
     TestFolder folder = test_folder_make();
@@ -220,5 +234,6 @@ int main(void)
         puts(folder.path);
     else
         test_folder_remove(&folder);
+    test_frames();
     return 0;
 }

@@ -29,6 +29,9 @@ static const double IN_CORE = 0.005, WALL = 1000, BIRTH_CORE = 0.92;
 /* What it costs that edges are not as at rest, beside pairs; and how far a birth can change them, at most. */
 static const double EDGE_COST = 8, SPREAD_COST = 1, MOST_EXCESS = 4, MOST_SPREAD = 8;
 
+/* Of edges that are as good as all alike, what else would be a deviation that cannot be. */
+static const double LEAST_VARIANCE = 0.01;
+
 /* Of what stands beside what is copied: how unlike it may be, beside distances. */
 static const double UNLIKE = 0.5;
 
@@ -140,6 +143,12 @@ static double share(Bearing *b)
     return (double)(meso_random_next(&b->random) >> 11) * 0x1p-53;
 }
 
+/* By which differences of deviation are told. */
+static double variance_of(const MesoPairTarget *target)
+{
+    return fmax(target->edges.variance, LEAST_VARIANCE);
+}
+
 static double within(double x, double most)
 {
     return fmin(most, fmax(-most, x));
@@ -173,7 +182,7 @@ static MesoStatus know_wanted(Bearing *b, double births, MesoError *error)
     }
     MesoEdgeBalance edges = meso_edge_balance(&r->web, &target->edges, left_out);
     b->edges_wanted = (MesoEdgeBalance){within(-edges.excess / fabs(births), MOST_EXCESS),
-                                        within(-edges.spread / fabs(births), MOST_SPREAD * target->edges.variance)};
+                                        within(-edges.spread / fabs(births), MOST_SPREAD * variance_of(target))};
     return MESO_OK;
 }
 
@@ -212,8 +221,7 @@ static double edge_cost_of(const Bearing *b, const MesoEdgeBalance *change)
 {
     const MesoPairTarget *target = &b->r->pairs;
     double excess = target->edge_debt.excess + b->edges_wanted.excess - change->excess;
-    double spread = target->edge_debt.spread + b->edges_wanted.spread - change->spread;
-    spread = target->edges.variance > 0 ? spread / target->edges.variance : 0;
+    double spread = (target->edge_debt.spread + b->edges_wanted.spread - change->spread) / variance_of(target);
     return EDGE_COST * excess * excess + SPREAD_COST * spread * spread;
 }
 
@@ -227,7 +235,7 @@ static void owe(Bearing *b, const MesoPairCounts *counts, const MesoEdgeBalance 
                                     4 * target->rest.of[i] + 4);
     edges->excess = within(edges->excess + b->edges_wanted.excess - change->excess, 4 * MOST_EXCESS);
     edges->spread = within(edges->spread + b->edges_wanted.spread - change->spread,
-                           4 * MOST_SPREAD * target->edges.variance);
+                           4 * MOST_SPREAD * variance_of(target));
 }
 
 /* ---- places ---- */
@@ -363,7 +371,9 @@ static Choice choose_place(Bearing *b, const uint32_t *members, uint32_t count)
     MesoReplication *r = b->r;
     const MesoVec3 *normals = r->web.normals + r->web.fixed_count;
     const MesoVec3 *places = r->web.positions + r->web.fixed_count;
-    Choice best = {.cost = INFINITY};
+    uint32_t first = r->web.fixed_count + members[0];
+    Choice best = {.place = places[members[0]], .normal = normals[members[0]], .beside = members[0],
+                   .triangle = r->web.node_corner[first] / 3, .around = {.nearest = members[0]}, .cost = INFINITY};
     uint32_t tries = tries_for(b), last = (uint32_t)(BESIDE * tries);
     for (uint32_t n = 0; n < tries - last; n++) {
         uint32_t beside = members[meso_random_below(&b->random, count)];
