@@ -377,12 +377,12 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
 
 /* ---- a step ---- */
 
-/* Each step looks at a part of the triangles; at all, where of those more than a few were no longer Delaunay. */
+/* Each step looks at a part of the triangles; and at more, while of those more than a few were no longer Delaunay. */
 static void settle(MesoReplication *r)
 {
-    uint32_t flips = meso_web_settle(&r->web, r->step_count++ % PARTS, PARTS);
-    if (flips > r->web.triangle_count / PARTS / 32)
-        meso_web_settle(&r->web, 0, 1);
+    uint32_t first = r->step_count++, many = r->web.triangle_count / PARTS / 32, flips = many + 1;
+    for (uint32_t part = 0; part < PARTS && flips > many; part++)
+        flips = meso_web_settle(&r->web, (first + part) % PARTS, PARTS);
 }
 
 static void grow(MesoReplication *r)
