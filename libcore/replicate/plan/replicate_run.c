@@ -13,7 +13,8 @@
 
 enum { BLOCK = 48, RING = 32, PARTS = 8 };
 
-/* Of more, births by statistics take several times as long as by exemplars. */
+/* Of more details, births by statistics take several times as long as by exemplars; and of more triangles it takes as
+   long to look at all. */
 enum { MANY = 1 << 15 };
 
 /* What a birth may cost before a better place is looked for. */
@@ -377,11 +378,17 @@ static MesoStatus replicate(MesoReplication *r, int32_t frame, MesoError *error)
 
 /* ---- a step ---- */
 
-/* Each step looks at a part of the triangles; and at more, while of those more than a few were no longer Delaunay. */
+/*
+ * Each step looks at a part of the triangles. Where of those more than a few were no longer Delaunay it looks at all; or
+ * of many, at part after part, while they are so.
+ */
 static void settle(MesoReplication *r)
 {
-    uint32_t first = r->step_count++, many = r->web.triangle_count / PARTS / 32, flips = many + 1;
-    for (uint32_t part = 0; part < PARTS && flips > many; part++)
+    uint32_t first = r->step_count++, many = r->web.triangle_count / PARTS / 32;
+    uint32_t flips = meso_web_settle(&r->web, first % PARTS, PARTS);
+    if (flips > many && r->web.triangle_count < MANY)
+        meso_web_settle(&r->web, 0, 1);
+    for (uint32_t part = 1; part < PARTS && flips > many && r->web.triangle_count >= MANY; part++)
         flips = meso_web_settle(&r->web, (first + part) % PARTS, PARTS);
 }
 
