@@ -48,14 +48,37 @@ enum { CHUNK = 64 };    /* so many kernels at once */
  * r^2 log r from one place to `count` others, in which what bends without limit of its own is least (Green's function
  * of the plate, times 8 pi).
  */
-static void kernels(double *restrict values, double x, double y, const double *restrict xs, const double *restrict ys,
-                    uint32_t count)
+static inline __attribute__((always_inline)) void do_kernels(double *restrict values, double x, double y,
+                                                             const double *restrict xs, const double *restrict ys,
+                                                             uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         double square = (x - xs[i]) * (x - xs[i]) + (y - ys[i]) * (y - ys[i]);
         double value = 0.5 * square * logarithm(square);
         values[i] = square >= DBL_MIN ? value : 0;
     }
+}
+
+/* The same operations, and so the same bytes, on wider registers. */
+#ifdef __x86_64__
+__attribute__((target("avx2"))) static void kernels_avx2(double *restrict values, double x, double y,
+                                                         const double *restrict xs, const double *restrict ys,
+                                                         uint32_t count)
+{
+    do_kernels(values, x, y, xs, ys, count);
+}
+#endif
+
+static void kernels(double *restrict values, double x, double y, const double *restrict xs, const double *restrict ys,
+                    uint32_t count)
+{
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2")) {
+        kernels_avx2(values, x, y, xs, ys, count);
+        return;
+    }
+#endif
+    do_kernels(values, x, y, xs, ys, count);
 }
 
 /* ---- planes: what does not bend ---- */
@@ -212,7 +235,6 @@ static void solve_block(const double *matrix, double *x, uint32_t begin, uint32_
 
 typedef struct Fit {
     Planes planes;
-    double *places;     /* [2 * count] points in units of the plate's scale from its centre: all x, then all y */
     double *values;     /* [3 * count] means of what coincides */
     uint32_t *repeats;  /* [count] how many points one stands for */
     double *matrix;     /* [count^2] H (K + ridge) H; behind `rank`, its factor */
@@ -224,8 +246,7 @@ typedef struct Fit {
 static MesoStatus allocate_matrix(Fit *fit, MesoArena *scratch, uint32_t count, MesoError *error)
 {
     fit->planes.count = count;
-    if (!(fit->places = MESO_NEW(scratch, double, 2 * (size_t)count, error)) ||
-        !(fit->planes.columns = MESO_NEW(scratch, double, PLANES * (size_t)count, error)) ||
+    if (!(fit->planes.columns = MESO_NEW(scratch, double, PLANES * (size_t)count, error)) ||
         !(fit->planes.reflections = MESO_NEW(scratch, double, PLANES * (size_t)count, error)) ||
         !(fit->matrix = MESO_NEW(scratch, double, (size_t)count * count, error)) ||
         !(fit->work = MESO_NEW(scratch, double, count, error)) ||
@@ -332,10 +353,10 @@ static const double LEAST_RIDGE = 1e-10;
 static MesoStatus fit_plate(MesoThinPlate *plate, Fit *fit, double smoothing, MesoError *error)
 {
     uint32_t n = plate->count;
-    place(plate, plate->points, n, fit->places, fit->places + n);
-    find_planes(&fit->planes, fit->places);
+    place(plate, plate->points, n, plate->places, plate->places + n);
+    find_planes(&fit->planes, plate->places);
     double ridge = 8 * MESO_PI * smoothing / (plate->scale * plate->scale);
-    fill_kernel(fit->matrix, fit->places, fit->repeats, n, fmax(ridge, LEAST_RIDGE));
+    fill_kernel(fit->matrix, plate->places, fit->repeats, n, fmax(ridge, LEAST_RIDGE));
     for (uint32_t k = 0; k < fit->planes.rank; k++)
         reflect_matrix(fit->matrix, fit->planes.reflections + (size_t)k * n, fit->work, n);
     if (!factor_block(fit->matrix, fit->planes.rank, n))
@@ -371,7 +392,8 @@ MesoStatus meso_thin_plate_fit(MesoThinPlate *plate, MesoArena *arena, uint32_t 
     *plate = (MesoThinPlate){0};
     MesoVec2 *merged = MESO_NEW(arena, MesoVec2, count, error);
     plate->weights = merged ? MESO_NEW(arena, double, 3 * ((size_t)count + PLANES), error) : NULL;
-    if (!plate->weights)
+    plate->places = plate->weights ? MESO_NEW(arena, double, 2 * (size_t)count, error) : NULL;
+    if (!plate->places)
         return MESO_ERR_MEMORY;
 
     Fit fit = {0};
@@ -393,7 +415,7 @@ MesoStatus meso_thin_plate_fit(MesoThinPlate *plate, MesoArena *arena, uint32_t 
 
 MesoVec3 meso_thin_plate_at(const MesoThinPlate *plate, MesoVec2 point)
 {
-    double x, y, xs[CHUNK], ys[CHUNK], values[CHUNK], sum[3];
+    double x, y, values[CHUNK], sum[3];
     place(plate, &point, 1, &x, &y);
     const double *planes = plate->weights + 3 * (size_t)plate->count;
     for (int c = 0; c < 3; c++)
@@ -401,8 +423,7 @@ MesoVec3 meso_thin_plate_at(const MesoThinPlate *plate, MesoVec2 point)
     for (uint32_t begin = 0; begin < plate->count; begin += CHUNK) {
         uint32_t count = plate->count - begin < CHUNK ? plate->count - begin : CHUNK;
         const double *weights = plate->weights + 3 * (size_t)begin;
-        place(plate, plate->points + begin, count, xs, ys);
-        kernels(values, x, y, xs, ys, count);
+        kernels(values, x, y, plate->places + begin, plate->places + plate->count + begin, count);
         for (size_t i = 0; i < count; i++)
             for (size_t c = 0; c < 3; c++)
                 sum[c] += weights[3 * i + c] * values[i];

@@ -13,6 +13,7 @@
 typedef struct MesoThinPlate {
     uint32_t count;         /* of different points */
     const MesoVec2 *points; /* [count] a copy */
+    double *places;         /* [2 * count] the same in units of `scale` from `centre`: all x, then all y */
     double *weights;        /* [3 * (count + 3)] of the points, then of 1, x, y in units of `scale` from `centre` */
     double centre[2], scale;
 } MesoThinPlate;

@@ -222,26 +222,29 @@ static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, M
     return MESO_OK;
 }
 
+/* Placements of a patch, best first. */
+typedef struct Places {
+    MesoMatch matches[MESO_QUILT_TRIALS];
+    uint32_t found;
+} Places;
+
 /* The placement with the fewest ends; of equal ones the one that matches best. */
-static MesoStatus choose_placement(Candidate *best, MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena,
+static MesoStatus choose_placement(Candidate *best, const Places *places, MesoQuiltPatch *patch, MesoQuiltWork *work,
                                    MesoError *error)
 {
     MesoQuiltStep *step = &patch->step;
-    MesoMatch matches[MESO_QUILT_TRIALS];
-    uint32_t found, chosen;
-    double clock = meso_seconds();
-    MesoStatus status = meso_quilt_place(matches, &found, MESO_QUILT_TRIALS, step, work, arena, error);
-    step->tally->report.seconds[1] += meso_seconds() - clock;
+    uint32_t found = places->found, chosen;
     Trials trials = {.work = work, .arenas = patch->trial_arenas};
-    for (uint32_t i = 0; i < found && !status; i++) {
+    for (uint32_t i = 0; i < found; i++) {
         trials.candidates[i].step = *step;
-        meso_quilt_choose(&trials.candidates[i].step, work, matches[i]);
+        trials.candidates[i].step.beside = NULL;    /* they are tried side by side */
+        meso_quilt_choose(&trials.candidates[i].step, work, places->matches[i]);
     }
-    if (!status)
-        status = run_trials(&trials, found, &chosen, error);
+    MesoStatus status = run_trials(&trials, found, &chosen, error);
     if (status)
         return status;
     *best = trials.candidates[chosen];
+    best->step.beside = step->beside;
     for (uint32_t i = 0; i < found; i++)
         if (i != chosen && patch->trial_arenas[i]) {
             meso_arena_pool_return(&work->pool, patch->trial_arenas[i]);
@@ -309,7 +312,7 @@ static float guide_angle(const MesoQuiltStep *step, const MesoQuiltWork *work)
     return x != 0 || y != 0 ? (float)(atan2(y, x) / symmetry) : 0;
 }
 
-/* Chart, plane, and what is there already. */
+/* Chart, plane, and what lies there already. */
 static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     MesoQuiltStep *step = &patch->step;
@@ -324,39 +327,56 @@ static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *
                                    guide_angle(step, work), work->options.scale, work->options.height_scale,
                                    work->options.offset, error);
     patch->laid_out = true;
-    if (!status)
-        status = meso_old_geometry_load(step, work, arena, error);
-    if (!status)
-        status = meso_strands_old_rings(&step->old_rings, &step->old, work, arena, error);
-    return status ? status : meso_quilt_ground(step, work, arena, error);
+    return status ? status : meso_old_geometry_load(step, work, arena, error);
+}
+
+/* What is to be known of what lies there before a seam can go through it, and where the swatch may go. */
+typedef struct Look {
+    MesoQuiltStep *step;
+    const MesoQuiltWork *work;
+    Places places;
+} Look;
+
+static MesoStatus look_at(void *context, int side, MesoArena *arena, MesoError *error)
+{
+    Look *look = context;
+    MesoQuiltStep *step = look->step;
+    if (side)
+        return meso_quilt_place(look->places.matches, &look->places.found, MESO_QUILT_TRIALS, step, look->work, arena,
+                                error);
+    MesoStatus status = meso_strands_old_rings(&step->old_rings, &step->old, look->work, arena, error);
+    return status ? status : meso_quilt_ground(step, look->work, arena, error);
 }
 
 MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error)
 {
     MesoQuiltStep *step = &patch->step;
-    double *seconds = step->tally->report.seconds, clocks[5] = {meso_seconds()};
+    double *seconds = step->tally->report.seconds, clocks[6] = {meso_seconds()};
+    step->beside = meso_arena_pool_lend(&work->pool);
     MesoStatus status = survey(patch, work, arena, error);
     clocks[1] = meso_seconds();
     Candidate c = {0};
+    Look look = {.step = step, .work = work};
     if (!status)
-        status = choose_placement(&c, patch, work, arena, error);
-    step->beside = c.step.beside = status ? NULL : meso_arena_pool_lend(&work->pool);
+        status = meso_quilt_both(look_at, &look, step, work, arena, error);
+    clocks[2] = meso_seconds();
+    if (!status)
+        status = choose_placement(&c, &look.places, patch, work, error);
     if (!status)
         status = fit(&c, step, work, arena, error);
-    clocks[2] = meso_seconds();
+    clocks[3] = meso_seconds();
     if (!status && !step->warp.count)
         status = meso_strands_try_weld(&patch->weld, &patch->welded, &c.old_side, &c.new_side, step, work, arena,
                                        error);
     if (!status && !patch->welded)
         status = meso_strands_plan(&patch->joint, &c.old_side, &c.new_side, &c.shares, step, work, arena, error);
-    clocks[3] = meso_seconds();
+    clocks[4] = meso_seconds();
     if (!status)
         status = meso_quilt_plan_wholes(&patch->wholes, &c.wholes, step, work, arena, error);
-    clocks[4] = meso_seconds();
-    const int stages[4] = {0, 2, 4, 3};     /* of MesoQuiltReport */
-    double matching = seconds[1];   /* is part of what comes next, and stands for itself */
-    for (int i = 0; i < 4; i++)
-        seconds[stages[i]] += clocks[i + 1] - clocks[i] - (i == 1 ? matching : 0);
+    clocks[5] = meso_seconds();
+    const int stages[5] = {0, 1, 2, 4, 3};  /* of MesoQuiltReport */
+    for (int i = 0; i < 5; i++)
+        seconds[stages[i]] += clocks[i + 1] - clocks[i];
     return status;
 }
 

@@ -29,8 +29,8 @@ enum { MESO_QUILT_PATCHES = 4 };
 /* Placements of a patch that are looked at closely. */
 enum { MESO_QUILT_TRIALS = 4 };
 
-/* Scratch for placements, lent to those who ask: as many as there can be at once. */
-enum { MESO_QUILT_ARENAS = MESO_QUILT_PATCHES * MESO_QUILT_TRIALS };
+/* Scratch for placements and for second tasks, lent to those who ask: as many as there can be at once. */
+enum { MESO_QUILT_ARENAS = MESO_QUILT_PATCHES * (MESO_QUILT_TRIALS + 1) };
 
 typedef struct MesoArenaPool {
     MesoArena arenas[MESO_QUILT_ARENAS];

@@ -144,8 +144,8 @@ static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, const Meso
     return list_near(side, step, arena, error);
 }
 
-static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep *step, const MesoQuiltWork *work,
-                           MesoArena *arena, MesoError *error)
+static MesoStatus make_new(RingSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
+                           MesoError *error)
 {
     const MesoStrandRings *rings = &work->rings;
     MesoVec3 *middles = MESO_NEW(arena, MesoVec3, rings->count, error);
@@ -162,17 +162,23 @@ static MesoStatus make_new(RingSide *side, MesoVec3 *places, const MesoQuiltStep
         side->values[r] = seam_at(step, middles[r]);
         side->fixed[r] = rim_at(step, middles[r]) < 0;
     }
+    return list_near(side, step, arena, error);
+}
+
+/* Vertices of new rings that are of interest come to their places; rings that have one off the chart are `fixed`. */
+static void place_vertices(MesoVec3 *places, uint8_t *fixed, const RingSide *side, uint32_t begin, uint32_t end,
+                           const MesoQuiltStep *step, const MesoQuiltWork *work)
+{
+    const MesoStrandRings *rings = &work->rings;
     float deep = -DEEP_EDGES * work->swatch->mean_edge;
     uint32_t near = MESO_NO_INDEX;
-    for (uint32_t v = 0; v < work->swatch->vertex_count; v++) {
+    for (uint32_t v = begin; v < end; v++) {
         uint32_t r = rings->of_vertex[v];
-        if (r == MESO_NO_INDEX || side->values[r] < deep || rim_at(step, middles[r]) < 0)
+        if (r == MESO_NO_INDEX || side->values[r] < deep || rim_at(step, side->middles[r]) < 0)
             continue;
         places[v] = meso_step_warp(step, meso_step_from_swatch(step, work->swatch->positions[v]));
-        side->fixed[r] = side->fixed[r] ||
-                         !meso_quilt_plane_has(&step->plane, (MesoVec2){places[v].x, places[v].y}, &near);
+        fixed[r] = fixed[r] || !meso_quilt_plane_has(&step->plane, (MesoVec2){places[v].x, places[v].y}, &near);
     }
-    return list_near(side, step, arena, error);
 }
 
 /* ---- strands that both have ---- */
@@ -294,6 +300,7 @@ static MesoStatus list_pulls(MesoRingShares *shares, const RingSide *side, const
 typedef struct Sharing {
     RingSide sides[2];
     uint8_t *meets[2];          /* [rings of the side] the other side's ring is fixed */
+    uint8_t *fixed[2];          /* [rings of the new side] by each half of the vertices */
     MesoVec3 *places;
     const MesoQuiltStep *step;
     const MesoQuiltWork *work;
@@ -302,12 +309,30 @@ typedef struct Sharing {
 static MesoStatus make_side(void *context, int side, MesoArena *arena, MesoError *error)
 {
     Sharing *s = context;
-    MesoStatus status = side ? make_new(&s->sides[1], s->places, s->step, s->work, arena, error)
+    MesoStatus status = side ? make_new(&s->sides[1], s->step, s->work, arena, error)
                              : make_old(&s->sides[0], s->step, s->work, arena, error);
     if (status)
         return status;
     s->meets[side] = MESO_NEW(arena, uint8_t, s->sides[side].rings->count, error);
     return s->meets[side] ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* The new side's vertices take longer than all else: either task has half of them. */
+static MesoStatus place_half(void *context, int half, MesoArena *arena, MesoError *error)
+{
+    Sharing *s = context;
+    uint32_t count = s->work->swatch->vertex_count, middle = count / 2;
+    s->fixed[half] = MESO_NEW(arena, uint8_t, s->work->rings.count, error);
+    if (!s->fixed[half])
+        return MESO_ERR_MEMORY;
+    place_vertices(s->places, s->fixed[half], &s->sides[1], half ? middle : 0, half ? count : middle, s->step, s->work);
+    return MESO_OK;
+}
+
+static void fix_new(Sharing *s)
+{
+    for (uint32_t r = 0; r < s->work->rings.count; r++)
+        s->sides[1].fixed[r] |= s->fixed[0][r] | s->fixed[1][r];
 }
 
 static MesoStatus find_side(void *context, int side, MesoArena *arena, MesoError *error)
@@ -328,7 +353,11 @@ MesoStatus meso_strands_share(MesoRingShares *shares, const MesoQuiltStep *step,
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_quilt_both(make_side, &s, step, work, arena, error);
     if (!status)
-        status = meso_quilt_both(find_side, &s, step, work, arena, error);
+        status = meso_quilt_both(place_half, &s, step, work, arena, error);
+    if (status)
+        return status;
+    fix_new(&s);
+    status = meso_quilt_both(find_side, &s, step, work, arena, error);
     if (status)
         return status;
     share_out(&s.sides[0], s.meets[0], step, false);

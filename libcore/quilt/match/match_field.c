@@ -48,6 +48,7 @@ typedef struct Builder {
     uint32_t begins[MESO_MATCH_BINS + 1];
     uint32_t *list;         /* [triangle_count] faces by bin */
     bool known[MESO_MATCH_BINS];    /* bins that have faces; the nearest are kept where the field's faces come to be */
+    float turns[MESO_MATCH_BINS][MESO_MATCH_BINS];  /* the least of 1 + |n - n(f)| over a bin's faces, by bin and n */
     uint32_t worker_count;
     float *squares;         /* [worker_count * voxels] */
     uint32_t *nearest;      /* [worker_count * voxels] */
@@ -113,6 +114,26 @@ static void put_face(const MesoMatchField *field, size_t at, uint32_t face)
         field->many_faces[at] = face;
 }
 
+static float turn_between(MesoVec3 n, float x, float y, float z)
+{
+    float dx = n.x - x, dy = n.y - y, dz = n.z - z;
+    return 1 + sqrtf(dx * dx + dy * dy + dz * dz);
+}
+
+/* To `turns`, of one bin: by directions. */
+static void measure_turns(float *turns, const MesoMatchField *field, const uint32_t *list, uint32_t count)
+{
+    for (uint32_t direction = 0; direction < MESO_MATCH_BINS; direction++) {
+        MesoVec3 n = meso_match_direction(direction);
+        turns[direction] = INFINITY;
+        for (uint32_t i = 0; i < count; i++) {
+            MesoVec3 own = field->face_normals[list[i]];
+            float turn = turn_between(n, own.x, own.y, own.z);
+            turns[direction] = turn < turns[direction] ? turn : turns[direction];
+        }
+    }
+}
+
 static void measure_bins(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Builder *builder = context;
@@ -124,6 +145,7 @@ static void measure_bins(void *context, uint32_t worker, uint64_t begin, uint64_
         meso_nearest_faces(nearest, builder->squares + worker * voxels, &builder->grid, swatch->positions,
                            swatch->corners, builder->list + first, builder->begins[bin + 1] - first,
                            builder->scratch + worker * builder->scratch_size);
+        measure_turns(builder->turns[bin], builder->field, builder->list + first, builder->begins[bin + 1] - first);
         builder->known[bin] = nearest[0] != MESO_NO_INDEX;
         for (size_t v = 0; v < voxels && builder->known[bin]; v++)
             put_face(builder->field, bin * voxels + v, nearest[v]);
@@ -131,12 +153,13 @@ static void measure_bins(void *context, uint32_t worker, uint64_t begin, uint64_
 }
 
 /* So many voxels of a row at once: what is known of them stays near. They are filled up to whole lanes by the last. */
-enum { CHUNK = 64, LANES = 8 };
+enum { CHUNK = MESO_TRIANGLE_ROW, LANES = 8 };
 
 /* The nearest faces of one bin along a row. */
 typedef struct Stretch {
     float factors[CHUNK], x[CHUNK], y[CHUNK], z[CHUNK];     /* 1 + lambda distance; normals */
     uint32_t faces[CHUNK];
+    uint32_t bin;
     float least;                                            /* of the factors */
 } Stretch;
 
@@ -151,30 +174,37 @@ static uint32_t whole_lanes(uint32_t count)
     return (count + LANES - 1) / LANES * LANES;
 }
 
-static float distance_to(const MesoSwatch *swatch, uint32_t face, MesoVec3 point)
+/* The corners of a face, and the centre of a voxel. */
+static void put_in_row(MesoTriangleRow *row, uint32_t i, const MesoSwatch *swatch, uint32_t face, MesoVec3 centre)
 {
     const uint32_t *corners = &swatch->corners[3 * (size_t)face];
-    const MesoVec3 *p = swatch->positions;
-    return sqrtf(meso_triangle_square(point, p[corners[0]], p[corners[1]], p[corners[2]]));
+    MesoVec3 a = swatch->positions[corners[0]], b = swatch->positions[corners[1]], c = swatch->positions[corners[2]];
+    row->p[0][i] = centre.x, row->p[1][i] = centre.y, row->p[2][i] = centre.z;
+    row->a[0][i] = a.x, row->a[1][i] = a.y, row->a[2][i] = a.z;
+    row->b[0][i] = b.x, row->b[1][i] = b.y, row->b[2][i] = b.z;
+    row->c[0][i] = c.x, row->c[1][i] = c.y, row->c[2][i] = c.z;
 }
 
-/* `at`: the first voxel, (x, y, z), in the table of the bin. */
+/* `at`: the first voxel, (x, y, z), in the table of the bin. What fills it up is the last one. */
 static void load_stretch(Stretch *stretch, const Builder *builder, size_t at, const uint32_t place[3], uint32_t count)
 {
     const MesoMatchField *field = builder->field;
-    stretch->least = INFINITY;
-    for (uint32_t i = 0; i < whole_lanes(count); i++) {
+    MesoTriangleRow row;
+    for (uint32_t i = 0; i < CHUNK; i++) {
         uint32_t from = i < count ? i : count - 1, face = meso_match_face(field, at + from);
         MesoVec3 n = field->face_normals[face];
-        MesoVec3 centre = meso_voxel_centre(&builder->grid, place[0] + from, place[1], place[2]);
-        float factor = i < count ? 1 + field->lambda * distance_to(field->swatch, face, centre)
-                                 : stretch->factors[count - 1];
-        stretch->factors[i] = factor;
+        put_in_row(&row, i, field->swatch, face,
+                   meso_voxel_centre(&builder->grid, place[0] + from, place[1], place[2]));
         stretch->x[i] = n.x;
         stretch->y[i] = n.y;
         stretch->z[i] = n.z;
         stretch->faces[i] = face;
-        stretch->least = factor < stretch->least ? factor : stretch->least;
+    }
+    meso_triangle_squares(stretch->factors, &row);
+    stretch->least = INFINITY;
+    for (uint32_t i = 0; i < CHUNK; i++) {
+        stretch->factors[i] = 1 + field->lambda * sqrtf(stretch->factors[i]);
+        stretch->least = stretch->factors[i] < stretch->least ? stretch->factors[i] : stretch->least;
     }
 }
 
@@ -183,8 +213,7 @@ static void load_stretch(Stretch *stretch, const Builder *builder, size_t at, co
 static void keep_better(Best *restrict best, const Stretch *restrict stretch, MesoVec3 n, uint32_t count)
 {
     for (uint32_t i = 0; i < whole_lanes(count); i++) {
-        float x = n.x - stretch->x[i], y = n.y - stretch->y[i], z = n.z - stretch->z[i];
-        float cost = stretch->factors[i] * (1 + sqrtf(x * x + y * y + z * z));
+        float cost = stretch->factors[i] * turn_between(n, stretch->x[i], stretch->y[i], stretch->z[i]);
         float kept = best->costs[i];
         uint32_t mask = cost < kept ? UINT32_MAX : 0;
         best->costs[i] = cost < kept ? cost : kept;
@@ -218,8 +247,10 @@ static void combine_stretch(const Builder *builder, const uint32_t place[3], uin
     Stretch stretches[MESO_MATCH_BINS];
     uint32_t known_count = 0;
     for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++)
-        if (builder->known[bin])
+        if (builder->known[bin]) {
+            stretches[known_count].bin = bin;
             load_stretch(&stretches[known_count++], builder, bin * voxels + at, place, count);
+        }
     for (uint32_t bin = 0; bin < MESO_MATCH_BINS; bin++) {
         MesoVec3 direction = meso_match_direction(bin);
         float largest = INFINITY;
@@ -230,8 +261,8 @@ static void combine_stretch(const Builder *builder, const uint32_t place[3], uin
         }
         for (uint32_t k = 0; k < known_count; k++) {
             const Stretch *stretch = &stretches[(k + bin) % known_count];
-            if (stretch->least >= largest)
-                continue;
+            if (stretch->least * builder->turns[stretch->bin][bin] >= largest)
+                continue;   /* rounded products grow with what is multiplied: none of them is less */
             keep_better(&best, stretch, direction, count);
             largest = largest_cost(&best, count);
         }

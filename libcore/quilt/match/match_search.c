@@ -103,7 +103,7 @@ static size_t voxel_at(float x, uint32_t last)
  * Adds three tables, each times a weight, to all shifts. This is where the time goes: rows are contiguous, and nothing
  * overlaps.
  */
-static void add_tables(const Sheet *sheet, const uint16_t *const tables[3], const float weights[3], size_t stride)
+static inline __attribute__((always_inline)) void add_tables(const Sheet *sheet, const uint16_t *const tables[3], const float weights[3], size_t stride)
 {
     const float u = weights[0], v = weights[1], w = weights[2];
     for (uint32_t y = 0; y < sheet->rows; y++) {
@@ -115,7 +115,7 @@ static void add_tables(const Sheet *sheet, const uint16_t *const tables[3], cons
     }
 }
 
-static void add_point(const Sheet *sheet, const MesoMatchField *field, MesoMatchPoint point, float weight)
+static inline __attribute__((always_inline)) void add_point(const Sheet *sheet, const MesoMatchField *field, MesoMatchPoint point, float weight)
 {
     MesoVec3 p = meso_vec3_scale(meso_vec3_sub(point.position, field->low), 1 / field->voxel);
     size_t x = voxel_at(p.x + (float)sheet->first_x, field->count[0] - sheet->columns);
@@ -131,6 +131,35 @@ static void add_point(const Sheet *sheet, const MesoMatchField *field, MesoMatch
     add_tables(sheet, tables, blend.weights, field->count[0]);
 }
 
+static inline __attribute__((always_inline)) void add_all(const Sheet *sheet, const Search *search, float cosine,
+                                                          float sine)
+{
+    for (uint32_t i = 0; i < search->point_count; i++)
+        if (weight_of(search, i) > 0)
+            add_point(sheet, search->field, moved(search->points[i], cosine, sine, (MesoVec2){0, 0}),
+                      weight_of(search, i));
+}
+
+/* The same operations, and so the same sums, on wider registers. */
+#ifdef __x86_64__
+__attribute__((target("avx2"))) static void add_all_avx2(const Sheet *sheet, const Search *search, float cosine,
+                                                         float sine)
+{
+    add_all(sheet, search, cosine, sine);
+}
+#endif
+
+static void add_points(const Sheet *sheet, const Search *search, float cosine, float sine)
+{
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2")) {
+        add_all_avx2(sheet, search, cosine, sine);
+        return;
+    }
+#endif
+    add_all(sheet, search, cosine, sine);
+}
+
 static MesoStatus fill_sheet(Sheet *sheet, const Search *search, uint32_t turn, MesoArena *scratch, MesoError *error)
 {
     float cosine, sine;
@@ -139,12 +168,8 @@ static MesoStatus fill_sheet(Sheet *sheet, const Search *search, uint32_t turn, 
     sheet->sums = MESO_NEW(scratch, float, (size_t)sheet->columns * sheet->rows, error);
     if (!sheet->sums)
         return MESO_ERR_MEMORY;
-    if (sheet->columns == 0 || sheet->rows == 0)
-        return MESO_OK;
-    for (uint32_t i = 0; i < search->point_count; i++)
-        if (weight_of(search, i) > 0)
-            add_point(sheet, search->field, moved(search->points[i], cosine, sine, (MesoVec2){0, 0}),
-                      weight_of(search, i));
+    if (sheet->columns > 0 && sheet->rows > 0)
+        add_points(sheet, search, cosine, sine);
     return MESO_OK;
 }
 

@@ -1,5 +1,6 @@
 #include "libcore/quilt/match/match_fixture.h"
 #include "libcore/quilt/match/match_search.h"
+#include "libcore/quilt/match/triangle_distance.h"
 
 static MesoArena arena;
 
@@ -293,9 +294,38 @@ static void test_weights(void)
     }
 }
 
+/* Whole coordinates now and then: triangles without area, points on sides and corners. */
+static float random_coordinate(MesoRandom *random, bool whole)
+{
+    return whole ? (float)meso_random_below(random, 3) : meso_fixture_float(random, -2, 2);
+}
+
+static void test_rows_of_triangles(void)
+{
+    MesoRandom random;
+    meso_random_init(&random, 12, 0);
+    for (int round = 0; round < 500; round++) {
+        MesoTriangleRow row;
+        float squares[MESO_TRIANGLE_ROW], (*places[4])[MESO_TRIANGLE_ROW] = {row.p, row.a, row.b, row.c};
+        for (size_t i = 0; i < MESO_TRIANGLE_ROW; i++) {
+            bool whole = meso_random_below(&random, 2);
+            for (size_t k = 0; k < 12; k++)
+                places[k / 3][k % 3][i] = random_coordinate(&random, whole);
+        }
+        meso_triangle_squares(squares, &row);
+        for (size_t i = 0; i < MESO_TRIANGLE_ROW; i++) {
+            MesoVec3 v[4];
+            for (size_t k = 0; k < 4; k++)
+                v[k] = (MesoVec3){places[k][0][i], places[k][1][i], places[k][2][i]};
+            CHECK(squares[i] == meso_triangle_square(v[0], v[1], v[2], v[3]));
+        }
+    }
+}
+
 int main(void)
 {
     meso_arena_init(&arena);
+    test_rows_of_triangles();
     meso_fixture_weave(&swatch, &arena, TILE, 13, 6, 0.1f, 5);
     CHECK(meso_match_field_build(&field, &arena, &swatch, 1 / swatch.mean_edge, 0.1f, 1, NULL) == MESO_OK);
     test_bins();
