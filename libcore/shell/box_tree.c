@@ -106,3 +106,30 @@ void meso_box_tree_query(const MesoBoxTree *tree, MesoBox box, void (*found)(voi
                 found(context, tree->order[b]);
     }
 }
+
+void meso_box_tree_query_after(const MesoBoxTree *tree, uint32_t place, void (*found)(void *context, uint32_t place),
+                               void *context)
+{
+    struct {
+        uint32_t node, leaf, leaves;    /* the first of its leaves, and how many */
+    } stack[64], at;
+    uint32_t depth = 0;
+    const MesoBox box = tree->boxes[place];
+    at.node = 1, at.leaf = 0, at.leaves = tree->leaf_count;
+    stack[depth++] = at;
+    while (depth > 0) {
+        at = stack[--depth];
+        if ((uint64_t)(at.leaf + at.leaves) * LEAF <= (uint64_t)place + 1 || !meet(&tree->nodes[at.node], &box))
+            continue;
+        if (at.leaves > 1) {
+            uint32_t half = at.leaves / 2;
+            stack[depth].node = 2 * at.node + 1, stack[depth].leaf = at.leaf + half, stack[depth++].leaves = half;
+            stack[depth].node = 2 * at.node, stack[depth].leaf = at.leaf, stack[depth++].leaves = half;
+            continue;
+        }
+        uint64_t b = (uint64_t)at.leaf * LEAF, end = b + LEAF;
+        for (b = b > place ? b : (uint64_t)place + 1; b < tree->count && b < end; b++)
+            if (meet(&tree->boxes[b], &box))
+                found(context, (uint32_t)b);
+    }
+}

@@ -20,4 +20,11 @@ MesoStatus meso_box_tree_build(MesoBoxTree *tree, MesoArena *arena, const MesoBo
 void meso_box_tree_query(const MesoBoxTree *tree, MesoBox box, void (*found)(void *context, uint32_t number),
                          void *context);
 
+/*
+ * Calls `found` with the place in `order` of each box behind place `place` that meets or touches the box there: over
+ * all places, once for each pair.
+ */
+void meso_box_tree_query_after(const MesoBoxTree *tree, uint32_t place, void (*found)(void *context, uint32_t place),
+                               void *context);
+
 #endif

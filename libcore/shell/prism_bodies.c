@@ -46,6 +46,79 @@ bool meso_prism_hulls_apart(const MesoPrismBody *a, const MesoPrismBody *b)
     return false;
 }
 
+/* ---- hulls in floats ---- */
+
+MesoPrismHull meso_prism_hull(const MesoPrismBody *body, MesoVec3d origin)
+{
+    MesoPrismHull hull;
+    MesoVec3 p[6], low = {0, 0, 0}, high = {0, 0, 0};
+    for (uint32_t k = 0; k < 6; k++)
+        p[k] = meso_vec3d_narrow(meso_vec3d_sub(body->corners[k], origin));
+    for (uint32_t k = 0; k < 3; k++) {
+        low = meso_vec3_mad(low, 1.0f / 3, p[k]);
+        high = meso_vec3_mad(high, 1.0f / 3, p[k + 3]);
+    }
+    for (uint32_t i = 0; i < 2; i++) {
+        const MesoVec3 *q = &p[4 * i], *last = &p[i ? 5 : 3], *third = &p[i ? 5 : 2];
+        hull.x[i] = (MesoFour){q[0].x, q[1].x, third->x, last->x};
+        hull.y[i] = (MesoFour){q[0].y, q[1].y, third->y, last->y};
+        hull.z[i] = (MesoFour){q[0].z, q[1].z, third->z, last->z};
+    }
+    hull.centre = meso_vec3_lerp(low, high, 0.5f);
+    hull.rise = meso_vec3_sub(high, low);
+    return hull;
+}
+
+/* How far corners lie along an axis. */
+static inline MesoFour along(const MesoPrismHull *hull, int i, MesoVec3 axis)
+{
+    return hull->x[i] * axis.x + hull->y[i] * axis.y + hull->z[i] * axis.z;
+}
+
+static inline float least_of(MesoFour a)
+{
+    a = meso_four_least(a, MESO_FOUR_SHUFFLE(a, a, 2, 3, 0, 1));
+    a = meso_four_least(a, MESO_FOUR_SHUFFLE(a, a, 1, 0, 3, 2));
+    return a[0];
+}
+
+/* Whether a plane across `axis`, which leads from b to a, is between them. */
+static inline bool is_clear(const MesoPrismHull *a, const MesoPrismHull *b, MesoVec3 axis, float size)
+{
+    const float rounding = 2e-6f;       /* four times what two sums of three products can be off by */
+    float low = least_of(meso_four_least(along(a, 0, axis), along(a, 1, axis)));
+    float high = -least_of(meso_four_least(-along(b, 0, axis), -along(b, 1, axis)));
+    return low - high > rounding * size * (fabsf(axis.x) + fabsf(axis.y) + fabsf(axis.z));
+}
+
+bool meso_prism_hulls_clear(const MesoPrismHull *a, const MesoPrismHull *b, float size)
+{
+    MesoVec3 way = meso_vec3_sub(a->centre, b->centre);
+    float square = meso_vec3_dot(a->rise, a->rise);
+    return is_clear(a, b, square > 0 ? meso_vec3_mad(way, -meso_vec3_dot(way, a->rise) / square, a->rise) : way, size);
+}
+
+/* The lower corners are the first three of the hull, and the fourth is above the first. */
+static inline MesoVec3 lower_corner(const MesoPrismHull *hull, int k)
+{
+    return (MesoVec3){hull->x[0][k], hull->y[0][k], hull->z[0][k]};
+}
+
+bool meso_prism_walls_clear(const MesoPrismHull *a, const MesoPrismHull *b, float size)
+{
+    MesoVec3 way = meso_vec3_sub(a->centre, b->centre);
+    for (int i = 0; i < 6; i++) {
+        const MesoPrismHull *of = i < 3 ? a : b;
+        MesoVec3 side = meso_vec3_sub(lower_corner(of, (i + 1) % 3), lower_corner(of, i % 3));
+        MesoVec3 across = meso_vec3_cross(side, of->rise);
+        if (meso_vec3_dot(across, way) < 0)
+            across = meso_vec3_scale(across, -1);
+        if (is_clear(a, b, across, size))
+            return true;
+    }
+    return false;
+}
+
 /* ---- tetrahedra ---- */
 
 typedef struct Tetrahedron {

@@ -13,18 +13,20 @@ typedef struct Search {
     double low, high;       /* with the surface itself between them */
     uint8_t *graphs;        /* [vertex_count] */
     MesoBox *boxes;         /* [triangle_count] */
-    MesoBoxTree tree;
+    MesoVec3 middle;        /* of them all */
+    MesoBoxTree tree;       /* of the prisms' boxes: what lies near to each other is asked for together */
+    MesoPrismHull *hulls;   /* [triangle_count] by places in the tree */
+    float size;             /* that no coordinate of theirs is beyond, from the middle */
     Pair *pairs;            /* that meet */
     uint32_t pair_count;
     MesoArena *arena;
     MesoError *error;
 } Search;
 
-/* Pairs of some triangles, by themselves: they are put in one row in the triangles' order. */
+/* Pairs of some triangles, by themselves: they are put in one row in the tree's order. */
 typedef struct Block {
     const Search *search;
-    uint32_t asking;
-    MesoPrismBody body;     /* of the one that asks */
+    uint32_t asking;        /* place in the tree */
     Pair *pairs;
     uint32_t pair_count, pair_room;
     MesoArena arena;
@@ -106,23 +108,35 @@ static bool triangles_meet(const Search *search, uint32_t a, uint32_t b)
     return !meso_prism_hulls_apart(&one, &other);
 }
 
-static bool bodies_meet(const Search *search, uint32_t a, uint32_t b, const MesoPrismBody *body)
+static bool bodies_meet(const Search *search, uint32_t a, uint32_t b)
 {
     bool graph = false, neighbours = share_vertex(search, a, b, &graph);
     if (graph)
         return false;
-    MesoPrismBody other = body_of(search, b, 1);
-    if (!neighbours && meso_prism_hulls_apart(body, &other))
+    MesoPrismBody body = body_of(search, a, 1), other = body_of(search, b, 1);
+    if (!neighbours && meso_prism_hulls_apart(&body, &other))
         return false;
-    return !meso_prism_tetrahedra_apart(body, &other) && (neighbours || !triangles_meet(search, a, b));
+    return !meso_prism_tetrahedra_apart(&body, &other) && (neighbours || !triangles_meet(search, a, b));
 }
 
-static void try_pair(void *context, uint32_t number)
+/* Most prisms whose boxes meet do not, and that by far: those at two places of the tree. */
+static bool are_clear(const Search *search, uint32_t place, uint32_t other)
+{
+    const MesoPrismHull *a = &search->hulls[place], *b = &search->hulls[other];
+    bool graph = false;
+    return meso_prism_hulls_clear(a, b, search->size) ||
+           (!share_vertex(search, search->tree.order[place], search->tree.order[other], &graph) &&
+            meso_prism_walls_clear(a, b, search->size));
+}
+
+static void try_pair(void *context, uint32_t place)
 {
     Block *block = context;
     const Search *search = block->search;
-    if (number <= block->asking || block->status || search->layer->flat[number] ||
-        !bodies_meet(search, block->asking, number, &block->body))
+    uint32_t one = search->tree.order[block->asking], other = search->tree.order[place];
+    Pair pair = {one < other ? one : other, one < other ? other : one};
+    if (block->status || search->layer->flat[other] || are_clear(search, block->asking, place) ||
+        !bodies_meet(search, pair.a, pair.b))
         return;
     Pair *pairs = MESO_GROW(&block->arena, block->pairs, block->pair_count, block->pair_room, 256, &block->error);
     if (!pairs) {
@@ -130,7 +144,7 @@ static void try_pair(void *context, uint32_t number)
         return;
     }
     block->pairs = pairs;
-    block->pairs[block->pair_count++] = (Pair){block->asking, number};
+    block->pairs[block->pair_count++] = pair;
 }
 
 /* The box as floats, no smaller. */
@@ -158,12 +172,10 @@ static void find_blocks(void *context, uint64_t begin, uint64_t end)
         Block *block = &((Block *)context)[b];
         const Search *search = block->search;
         uint64_t last = (b + 1) * BLOCK, count = search->layer->mesh->triangle_count;
-        for (uint32_t t = (uint32_t)(b * BLOCK); t < (last < count ? last : count); t++) {
-            if (search->layer->flat[t])
-                continue;
-            block->asking = t;
-            block->body = body_of(search, t, 1);
-            meso_box_tree_query(&search->tree, search->boxes[t], try_pair, block);
+        for (uint32_t place = (uint32_t)(b * BLOCK); place < (last < count ? last : count); place++) {
+            block->asking = place;
+            if (!search->layer->flat[search->tree.order[place]])
+                meso_box_tree_query_after(&search->tree, place, try_pair, block);
         }
     }
 }
@@ -190,20 +202,54 @@ static MesoStatus gather_blocks(Search *search, const Block *blocks, uint32_t co
     return MESO_OK;
 }
 
+static void make_boxes(void *context, uint64_t begin, uint64_t end)
+{
+    Search *search = context;
+    for (uint32_t t = (uint32_t)begin; t < end; t++) {
+        MesoPrismBody body = body_of(search, t, 1);
+        search->boxes[t] = box_of(&body);
+    }
+}
+
+static void make_hulls(void *context, uint64_t begin, uint64_t end)
+{
+    Search *search = context;
+    for (uint32_t place = (uint32_t)begin; place < end; place++) {
+        MesoPrismBody body = body_of(search, search->tree.order[place], 1);
+        search->hulls[place] = meso_prism_hull(&body, meso_vec3d(search->middle));
+    }
+}
+
+/* A tree of the boxes, and the hulls about the middle of all. */
+static MesoStatus build_tree(Search *search)
+{
+    uint32_t count = search->layer->mesh->triangle_count;
+    search->hulls = MESO_NEW(search->arena, MesoPrismHull, count, search->error);
+    MesoBox *boxes = MESO_NEW(search->arena, MesoBox, count, search->error), all = meso_box_empty();
+    if (!search->hulls || !boxes)
+        return MESO_ERR_MEMORY;
+    search->boxes = boxes;
+    meso_parallel_for(search->layer->thread_count, count, BLOCK, make_boxes, search);
+    for (uint32_t t = 0; t < count; t++) {
+        meso_box_add(&all, boxes[t].low);
+        meso_box_add(&all, boxes[t].high);
+    }
+    MesoStatus status = meso_box_tree_build(&search->tree, search->arena, boxes, count, search->error);
+    if (status)
+        return status;
+    search->middle = meso_vec3_lerp(all.low, all.high, 0.5f);
+    MesoVec3 half = meso_vec3_sub(all.high, search->middle);
+    search->size = fmaxf(half.x, fmaxf(half.y, half.z));
+    meso_parallel_for(search->layer->thread_count, count, BLOCK, make_hulls, search);
+    return MESO_OK;
+}
+
 static MesoStatus find_pairs(Search *search)
 {
     const MesoTriangulation *mesh = search->layer->mesh;
     uint32_t block_count = mesh->triangle_count / BLOCK + (mesh->triangle_count % BLOCK != 0);
-    search->boxes = MESO_NEW(search->arena, MesoBox, mesh->triangle_count, search->error);
     Block *blocks = MESO_NEW(search->arena, Block, block_count, search->error);
-    if (!search->boxes || !blocks)
-        return MESO_ERR_MEMORY;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        MesoPrismBody body = body_of(search, t, 1);
-        search->boxes[t] = box_of(&body);
-    }
-    MesoStatus status = meso_box_tree_build(&search->tree, search->arena, search->boxes, mesh->triangle_count,
-                                            search->error);
+    MesoStatus status = blocks ? build_tree(search) : MESO_ERR_MEMORY;
     if (status)
         return status;
     for (uint32_t b = 0; b < block_count; b++) {
@@ -250,8 +296,7 @@ static MesoStatus lower_pairs(Search *search, uint8_t *marked, uint8_t *touched)
         uint32_t kept = 0;
         for (uint32_t p = 0; p < search->pair_count; p++) {
             Pair pair = search->pairs[p];
-            MesoPrismBody body = body_of(search, pair.a, 1);
-            if (bodies_meet(search, pair.a, pair.b, &body))
+            if (bodies_meet(search, pair.a, pair.b))
                 search->pairs[kept++] = pair;
         }
         search->pair_count = kept;
