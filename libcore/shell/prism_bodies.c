@@ -41,7 +41,8 @@ bool meso_prism_hulls_apart(const MesoPrismBody *a, const MesoPrismBody *b)
         double square = meso_vec3d_dot(way, way);
         if (!(square > 0))
             return false;
-        at = meso_vec3d_mad(at, fmin(-meso_vec3d_dot(at, way) / square, 1), way);
+        double share = -meso_vec3d_dot(at, way) / square;
+        at = meso_vec3d_mad(at, share < 1 ? share : 1, way);
     }
     return false;
 }
@@ -141,8 +142,8 @@ static bool is_between(const Tetrahedron *a, const Tetrahedron *b, MesoVec3d axi
     for (uint32_t k = 0; k < 4; k++) {
         double s = meso_vec3d_dot(meso_vec3d_sub(a->corners[k], a->corners[0]), axis);
         double t = meso_vec3d_dot(meso_vec3d_sub(b->corners[k], a->corners[0]), axis);
-        low[0] = fmin(low[0], s), high[0] = fmax(high[0], s);
-        low[1] = fmin(low[1], t), high[1] = fmax(high[1], t);
+        low[0] = s < low[0] ? s : low[0], high[0] = s > high[0] ? s : high[0];
+        low[1] = t < low[1] ? t : low[1], high[1] = t > high[1] ? t : high[1];
     }
     double slack = rounding * (high[0] - low[0] + high[1] - low[1]);
     return slack > 0 && (high[0] <= low[1] + slack || high[1] <= low[0] + slack);

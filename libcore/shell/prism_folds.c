@@ -37,7 +37,7 @@ static double least_share(const MesoPrismLayer *layer, uint32_t vertex, MesoVec3
         if (layer->flat[t])
             continue;
         MesoVec3d base = meso_prism_base(layer->mesh, t);
-        double s = meso_vec3d_dot(base, direction) / meso_vec3d_length(base);
+        double s = meso_vec3d_dot(base, direction) / layer->areas[t];
         if (s < share) {
             share = s;
             *least = t;
@@ -67,7 +67,7 @@ static MesoVec3d facing_direction(const MesoPrismLayer *layer, uint32_t vertex, 
         if (share > enough)
             break;
         MesoVec3d base = meso_prism_base(layer->mesh, least);
-        at = meso_vec3d_mad(unit, 0.25 / (1 + 0.1 * step) / meso_vec3d_length(base), base);
+        at = meso_vec3d_mad(unit, 0.25 / (1 + 0.1 * step) / layer->areas[least], base);
     }
     return best;
 }
@@ -81,7 +81,7 @@ static double mean_thickness(const MesoPrismLayer *layer, uint32_t vertex)
     double once = 0, twice = 0;
     do {
         MesoVec3d base = meso_prism_base(layer->mesh, fan.corner / 3);
-        double area = meso_vec3d_length(base), along = meso_vec3d_dot(base, layer->normals[vertex]);
+        double area = layer->areas[fan.corner / 3], along = meso_vec3d_dot(base, layer->normals[vertex]);
         if (area > 0) {
             once += along;
             twice += along * along / area;
@@ -90,7 +90,7 @@ static double mean_thickness(const MesoPrismLayer *layer, uint32_t vertex)
     return once > 0 && twice > 0 ? fmin(once / twice, most) : 1;
 }
 
-static bool is_flat(const MesoTriangulation *mesh, uint32_t triangle)
+static bool is_flat(const MesoTriangulation *mesh, uint32_t triangle, double area)
 {
     const double thinnest = 1e-5;
     const uint32_t *v = &mesh->corners[3 * (size_t)triangle];
@@ -99,7 +99,7 @@ static bool is_flat(const MesoTriangulation *mesh, uint32_t triangle)
         MesoVec3d side = meso_vec3d_sub(meso_vec3d(mesh->positions[v[k]]), meso_vec3d(mesh->positions[v[(k + 1) % 3]]));
         longest = fmax(longest, meso_vec3d_dot(side, side));
     }
-    return !(meso_vec3d_length(meso_prism_base(mesh, triangle)) > thinnest * longest);
+    return !(area > thinnest * longest);
 }
 
 void meso_prism_normals(MesoPrismLayer *layer)
@@ -109,7 +109,8 @@ void meso_prism_normals(MesoPrismLayer *layer)
         layer->normals[v] = (MesoVec3d){0, 0, 0};
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         MesoVec3d base = meso_prism_base(mesh, t);
-        layer->flat[t] = is_flat(mesh, t);
+        layer->areas[t] = meso_vec3d_length(base);
+        layer->flat[t] = is_flat(mesh, t, layer->areas[t]);
         for (uint32_t k = 0; k < 3; k++) {
             MesoVec3d *sum = &layer->normals[mesh->corners[3 * (size_t)t + k]];
             *sum = meso_vec3d_add(*sum, base);
@@ -164,7 +165,7 @@ bool meso_prism_stands(const MesoPrismLayer *layer, uint32_t triangle, double ma
         sides[k][0] = meso_vec3d_mad(flat, layer->low, more);
         sides[k][1] = meso_vec3d_mad(flat, layer->high, more);
     }
-    double area = meso_vec3d_length(meso_prism_base(layer->mesh, triangle));
+    double area = layer->areas[triangle];
     for (uint32_t k = 0; k < 3; k++) {
         MesoVec3d rise = layer->rises[v[k]];
         double least = margin * area * meso_vec3d_length(rise);

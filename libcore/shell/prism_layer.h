@@ -13,6 +13,7 @@ typedef struct MesoPrismLayer {
     MesoVec3d *rises;       /* [vertex_count] directions as they are */
     MesoVec3d *normals;     /* [vertex_count] unit; 0 where a vertex has no side */
     double *thickness;      /* [vertex_count] the wanted length along the normal */
+    double *areas;          /* [triangle_count] twice */
     uint8_t *flat;          /* [triangle_count] 1: too low to have a side; not looked at */
 } MesoPrismLayer;
 
@@ -35,7 +36,7 @@ void meso_prism_split(const uint32_t vertices[3], uint8_t tetrahedra[3][4]);
 
 /* ---- prism_folds.c: a prism by itself ---- */
 
-/* Sets normals, thickness, rises and flat. */
+/* Sets normals, thickness, rises, areas and flat. */
 void meso_prism_normals(MesoPrismLayer *layer);
 
 /* Turns directions towards the normals until they are well outside of all triangles around. */

@@ -53,7 +53,7 @@ static bool lids_face(const Search *search, uint32_t triangle, MesoVec3d axis)
         sides[0][k] = meso_vec3d_sub(meso_prism_corner(search->layer, v[1], height), p);
         sides[1][k] = meso_vec3d_sub(meso_prism_corner(search->layer, v[2], height), p);
     }
-    double least = margin * meso_vec3d_length(meso_prism_base(search->layer->mesh, triangle));
+    double least = margin * search->layer->areas[triangle];
     for (uint32_t k = 0; k < 4; k++)
         if (!(meso_vec3d_det(sides[0][k & 1], sides[1][k >> 1], axis) > least))
             return false;

@@ -30,7 +30,7 @@ static void measure(Relaxation *relax)
         for (uint32_t k = 0; k < 3; k++)
             sides[k] = meso_vec3d_sub(meso_vec3d(mesh->positions[v[(k + 2) % 3]]),
                                       meso_vec3d(mesh->positions[v[(k + 1) % 3]]));
-        double area = 0.5 * meso_vec3d_length(meso_prism_base(mesh, t));
+        double area = 0.5 * relax->layer->areas[t];
         relax->flats[t][0] = area;
         for (uint32_t k = 0; k < 3; k++)
             relax->flats[t][1 + k] = meso_vec3d_dot(sides[(k + 1) % 3], sides[(k + 2) % 3]) / (4 * area * area);
@@ -66,7 +66,7 @@ typedef struct Prism {
     MesoVec3d places[3], rises[3];
 } Prism;
 
-static Prism prism_of(const Relaxation *relax, uint32_t triangle, uint32_t from)
+static inline __attribute__((always_inline)) Prism prism_of(const Relaxation *relax, uint32_t triangle, uint32_t from)
 {
     Prism prism;
     for (uint32_t k = 0; k < 3; k++) {
@@ -78,7 +78,7 @@ static Prism prism_of(const Relaxation *relax, uint32_t triangle, uint32_t from)
 }
 
 /* The integral over heights of twice the lid's area, as a vector. */
-static MesoVec3d lid_integral(const Relaxation *relax, const Prism *prism)
+static inline __attribute__((always_inline)) MesoVec3d lid_integral(const Relaxation *relax, const Prism *prism)
 {
     const MesoVec3d *p = prism->places, *d = prism->rises;
     MesoVec3d a = meso_vec3d_sub(p[1], p[0]), da = meso_vec3d_sub(d[1], d[0]);
@@ -94,7 +94,7 @@ static MesoVec3d mean_rise(const Prism *prism)
 }
 
 /* Of the volume by the first corner's direction. */
-static MesoVec3d volume_derivative(const Relaxation *relax, const Prism *prism)
+static inline __attribute__((always_inline)) MesoVec3d volume_derivative(const Relaxation *relax, const Prism *prism)
 {
     MesoVec3d across = meso_vec3d_scale(meso_vec3d_sub(prism->places[1], prism->places[2]), relax->lengths[1]);
     across = meso_vec3d_mad(across, relax->lengths[2], meso_vec3d_sub(prism->rises[1], prism->rises[2]));
@@ -126,9 +126,10 @@ static double slope_of(const Relaxation *relax)
 static MesoVec3d keep_thickness(const MesoPrismLayer *layer, uint32_t vertex, MesoVec3d rise)
 {
     MesoVec3d normal = layer->normals[vertex];
-    double most = layer->thickness[vertex], least = fmin(meso_vec3d_dot(layer->rises[vertex], normal), most);
-    double height = meso_vec3d_dot(rise, normal);
-    return meso_vec3d_mad(rise, fmax(least, fmin(height, most)) - height, normal);
+    double most = layer->thickness[vertex], own = meso_vec3d_dot(layer->rises[vertex], normal);
+    double least = own < most ? own : most, height = meso_vec3d_dot(rise, normal);
+    double kept = height < most ? height : most;
+    return meso_vec3d_mad(rise, (kept > least ? kept : least) - height, normal);
 }
 
 /* ---- all directions at once ---- */

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "libcore/base/parallel.h"
 #include "libcore/shell/prism_layer.h"
 #include "libcore/shell/shell_stretch.h"
 
@@ -23,8 +24,9 @@ static MesoStatus allocate(MesoPrismLayer *layer, MesoArena *arena, MesoError *e
     layer->rises = MESO_NEW(arena, MesoVec3d, vertex_count, error);
     layer->normals = MESO_NEW(arena, MesoVec3d, vertex_count, error);
     layer->thickness = MESO_NEW(arena, double, vertex_count, error);
+    layer->areas = MESO_NEW(arena, double, layer->mesh->triangle_count, error);
     layer->flat = MESO_NEW(arena, uint8_t, layer->mesh->triangle_count, error);
-    return layer->rises && layer->normals && layer->thickness && layer->flat ? MESO_OK : MESO_ERR_MEMORY;
+    return layer->rises && layer->normals && layer->thickness && layer->areas && layer->flat ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* ---- stretch ---- */
@@ -132,36 +134,72 @@ static MesoStatus relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *er
     return status;
 }
 
-/* From the full thickness; back to what there was where that is no better. */
-static MesoStatus optimise(MesoPrismLayer *layer, Sums *best, const double *thickness, MesoArena *scratch,
-                           MesoError *error)
+/*
+ * Two ways to begin, at the same time: from normals, lowered until nothing meets, and from the solution of one system
+ * at the full thickness, lowered until nothing folds.
+ */
+typedef struct Beginnings {
+    MesoPrismLayer *layers[2];
+    MesoArena *arenas[2];
+    MesoStatus statuses[2];
+    MesoError errors[2];
+    Sums normal;                /* of what the first comes to */
+} Beginnings;
+
+static MesoStatus begin_solved(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
 {
-    uint32_t count = layer->mesh->vertex_count;
-    MesoVec3d *kept = MESO_NEW(scratch, MesoVec3d, count, error);
-    if (!kept)
-        return MESO_ERR_MEMORY;
-    for (uint32_t v = 0; v < count; v++) {
-        kept[v] = layer->rises[v];
-        layer->thickness[v] = thickness[v];
-        layer->rises[v] = meso_vec3d_scale(layer->normals[v], thickness[v]);
-    }
     MesoStatus status = meso_prism_solve(layer, scratch, error);
     if (status)
         return status;
     meso_prism_face(layer);
     status = meso_prism_lower_folds(layer, NULL, scratch, error);
-    if (status)
-        return status;
-    meso_prism_raise(layer);
-    status = relax(layer, scratch, error);
-    if (status)
-        return status;
-    Sums after = measure(layer);
-    if (meso_shell_stretch_sixth(&after.there) <= meso_shell_stretch_sixth(&best->there))
-        *best = after;
-    else
-        for (uint32_t v = 0; v < count; v++)
-            layer->rises[v] = kept[v];
+    if (!status)
+        meso_prism_raise(layer);
+    return status;
+}
+
+static void begin_range(void *context, uint64_t begin, uint64_t end)
+{
+    Beginnings *b = context;
+    for (uint64_t i = begin; i < end; i++) {
+        b->statuses[i] = i ? begin_solved(b->layers[i], b->arenas[i], &b->errors[i])
+                           : lower(b->layers[i], b->arenas[i], &b->errors[i]);
+        if (!i && !b->statuses[i])
+            b->normal = measure(b->layers[i]);
+    }
+}
+
+/* As the layer is now, with directions of its own. */
+static MesoStatus copy_layer(MesoPrismLayer *copy, const MesoPrismLayer *layer, MesoArena *arena, MesoError *error)
+{
+    size_t count = layer->mesh->vertex_count;
+    *copy = *layer;
+    copy->rises = MESO_NEW(arena, MesoVec3d, count, error);
+    copy->thickness = MESO_NEW(arena, double, count, error);
+    if (!copy->rises || !copy->thickness)
+        return MESO_ERR_MEMORY;
+    if (count) {
+        memcpy(copy->rises, layer->rises, count * sizeof *copy->rises);
+        memcpy(copy->thickness, layer->thickness, count * sizeof *copy->thickness);
+    }
+    return MESO_OK;
+}
+
+/* `solved` NULL: from normals alone. */
+static MesoStatus begin_layers(Beginnings *b, MesoPrismLayer *layer, MesoPrismLayer *solved, MesoArena *scratch,
+                               MesoError *error)
+{
+    MesoArena beside;
+    meso_arena_init(&beside);
+    *b = (Beginnings){.layers = {layer, solved}, .arenas = {scratch, &beside}};
+    meso_parallel_for(layer->thread_count, solved ? 2 : 1, 1, begin_range, b);
+    meso_arena_release(&beside);
+    for (int i = 0; i < 2; i++)
+        if (b->statuses[i]) {
+            if (error)
+                *error = b->errors[i];
+            return b->statuses[i];
+        }
     return MESO_OK;
 }
 
@@ -183,24 +221,34 @@ static void count_limits(MesoPrismReport *report, const MesoPrismLayer *layer, c
 static MesoStatus build(MesoPrismLayer *layer, MesoPrismReport *report, MesoArena *scratch, bool wants_least,
                         MesoError *error)
 {
-    MesoStatus status = allocate(layer, scratch, error);
-    double *thickness = MESO_NEW(scratch, double, layer->mesh->vertex_count, error);
-    if (status || !thickness)
+    if (allocate(layer, scratch, error))
         return MESO_ERR_MEMORY;
     meso_prism_normals(layer);
+    MesoPrismLayer solved;
+    Beginnings beginnings;
+    double *thickness = MESO_NEW(scratch, double, layer->mesh->vertex_count, error);
+    if (!thickness)
+        return MESO_ERR_MEMORY;
     if (layer->mesh->vertex_count)
         memcpy(thickness, layer->thickness, layer->mesh->vertex_count * sizeof *thickness);
-    status = lower(layer, scratch, error);
+    wants_least = wants_least && layer->high > layer->low;
+    MesoStatus status = copy_layer(&solved, layer, scratch, error);
+    if (!status)
+        status = begin_layers(&beginnings, layer, wants_least ? &solved : NULL, scratch, error);
+    if (!status && wants_least)
+        status = relax(&solved, scratch, error);
     if (status)
         return status;
-    Sums before = measure(layer), after = before;
-    if (wants_least && layer->high > layer->low)
-        status = optimise(layer, &after, thickness, scratch, error);
+    Sums before = beginnings.normal, after = wants_least ? measure(&solved) : before;
+    if (meso_shell_stretch_sixth(&after.there) <= meso_shell_stretch_sixth(&before.there) && wants_least)
+        layer->rises = solved.rises;
+    else
+        after = before;
     *report = (MesoPrismReport){meso_shell_stretch(&before.there), meso_shell_stretch(&after.there),
                                 meso_shell_stretch(&before.back), meso_shell_stretch(&after.back), 0, 1,
                                 after.inverted_count};
     count_limits(report, layer, thickness);
-    return status;
+    return MESO_OK;
 }
 
 MesoStatus meso_prisms_build(MesoVec3 *directions, MesoPrismReport *report, MesoArena *scratch,
