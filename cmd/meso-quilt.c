@@ -1,5 +1,6 @@
 /* meso-quilt: grows a swatch of geometry over a surface, patch by patch. */
 #include "cmd/quilt/quilt_job.h"
+#include "libcore/base/lean_memory.h"
 
 #define OUTPUTS "OUT.meso|.quilt|MESH"
 
@@ -73,6 +74,7 @@ int main(int argc, char **argv)
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };
+    meso_lean_memory();
     if (!meso_tool_start(&a.tool, &QUILT_TOOL, options, argc, argv))
         return meso_tool_finish(&a.tool);
     a.tool.status = meso_quilt_job_run(&a);

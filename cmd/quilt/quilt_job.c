@@ -154,17 +154,25 @@ static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, u
                                       .offset = options.offset, .thread_count = options.thread_count,
                                       .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
     meso_tool_progress_begin(tool, "quilting", "triangles");
-    MesoStatus status = meso_quilt_grow(quilt, &tool->arena, &base->mesh, &job->swatch.swatch, &options, &tool->error);
+    MesoStatus status = meso_quilt_grow(quilt, &result->room.arenas[0], &base->mesh, &job->swatch.swatch, &options, &tool->error);
     result->times.growth = lap(&since);
+    const MesoQuiltVertex *before = quilt->vertices;
     if (!status)
-        status = meso_quilt_finish(quilt, &tool->arena, base, &job->swatch.swatch, &finish, &tool->error);
+        status = meso_quilt_finish(quilt, meso_quilt_room_free(&result->room), base, &job->swatch.swatch, &finish,
+                                   &tool->error);
+    if (!status)
+        meso_quilt_room_turn(&result->room, quilt, before);
     result->times.finish = lap(&since);
     const MesoSettleOptions settle = {.scale = options.scale, .height_scale = options.height_scale,
                                       .offset = options.offset, .overhang = finish.overhang,
                                       .thread_count = options.thread_count,
                                       .partial = options.step_limit > 0};
+    before = quilt->vertices;
     if (!status)
-        status = meso_quilt_settle(quilt, &tool->arena, &job->surface.base, &job->swatch.swatch, &settle, &tool->error);
+        status = meso_quilt_settle(quilt, meso_quilt_room_free(&result->room), &job->surface.base, &job->swatch.swatch,
+                                   &settle, &tool->error);
+    if (!status)
+        meso_quilt_room_turn(&result->room, quilt, before);
     result->times.settling = lap(&since);
     return status;
 }
@@ -265,7 +273,10 @@ static MesoStatus run_seed(Job *job, uint64_t seed)
         status = (job->as_quilt ? write_quilt : write_scene)(job, &result);
     if (!status)
         status = meso_quilt_report(tool, &result, &job->swatch.swatch, scale_of(job));
-    return status || !job->arguments->check ? status : measure(job, &result);
+    if (!status && job->arguments->check)
+        status = measure(job, &result);
+    meso_quilt_room_release(&result.room);
+    return status;
 }
 
 /* ---- many seeds ---- */

@@ -13,6 +13,7 @@ typedef struct MesoQuiltTimes {
 
 typedef struct MesoQuiltResult {
     MesoQuilt quilt;
+    MesoQuiltRoom room;         /* where that lies */
     MesoQuiltLay lay;
     MesoVec3 *positions;        /* [quilt.vertex_count] */
     MesoQuiltTimes times;

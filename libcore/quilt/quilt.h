@@ -80,4 +80,29 @@ typedef struct MesoQuilt {
 MesoStatus meso_quilt_grow(MesoQuilt *quilt, MesoArena *arena, const MesoTriangulation *base, const MesoSwatch *swatch,
                            const MesoQuiltOptions *options, MesoError *error);
 
+/* Where a quilt lies through steps that put it anew, to the arena that is not in use: what was there before can go. */
+typedef struct MesoQuiltRoom {
+    MesoArena arenas[2];        /* zero to begin with */
+    uint32_t used;
+} MesoQuiltRoom;
+
+static inline MesoArena *meso_quilt_room_free(MesoQuiltRoom *room)
+{
+    return &room->arenas[1 - room->used];
+}
+
+/* After a step that has come to its end; `before`: the quilt's vertices before it. Some steps leave it where it was. */
+static inline void meso_quilt_room_turn(MesoQuiltRoom *room, const MesoQuilt *quilt, const MesoQuiltVertex *before)
+{
+    if (quilt->vertices != before)
+        room->used = 1 - room->used;
+    meso_arena_release(meso_quilt_room_free(room));
+}
+
+static inline void meso_quilt_room_release(MesoQuiltRoom *room)
+{
+    meso_arena_release(&room->arenas[0]);
+    meso_arena_release(&room->arenas[1]);
+}
+
 #endif

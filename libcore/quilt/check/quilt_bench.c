@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "libcore/base/clock.h"
+#include "libcore/base/lean_memory.h"
 #include "libcore/field/direction_field.h"
 #include "libcore/quilt/base/quilt_base.h"
 #include "libcore/quilt/check/bench_surfaces_fixture.h"
@@ -86,6 +87,7 @@ typedef struct Run {
     MesoTriangulation surface;
     MesoQuiltBase base;
     MesoQuilt quilt;
+    MesoQuiltRoom room;
     MesoVec3 *guide, *positions;
     float scale;
     double since;
@@ -166,7 +168,7 @@ static MesoStatus make_base(Run *run)
 static MesoStatus grow(Run *run)
 {
     uint32_t turns = run->row->turns ? run->row->turns : 1;
-    MesoStatus status = meso_quilt_grow(&run->quilt, &run->arena, &run->base.mesh, &run->swatch,
+    MesoStatus status = meso_quilt_grow(&run->quilt, &run->room.arenas[0], &run->base.mesh, &run->swatch,
                                         &(MesoQuiltOptions){.scale = run->scale, .turn_count = turns,
                                                             .guide = run->base.guide}, &run->error);
     run->outcome->growth = lap(run);
@@ -175,20 +177,26 @@ static MesoStatus grow(Run *run)
 
 static MesoStatus finish(Run *run)
 {
-    MesoStatus status = meso_quilt_finish(&run->quilt, &run->arena, &run->base, &run->swatch,
+    const MesoQuiltVertex *before = run->quilt.vertices;
+    MesoStatus status = meso_quilt_finish(&run->quilt, meso_quilt_room_free(&run->room), &run->base, &run->swatch,
                                           &(MesoFinishOptions){.scale = run->scale,
                                                                .overhang = 0.5f * run->scale * run->swatch.mean_edge},
                                           &run->error);
+    if (!status)
+        meso_quilt_room_turn(&run->room, &run->quilt, before);
     run->outcome->finish = lap(run);
     return status;
 }
 
 static MesoStatus settle(Run *run)
 {
-    MesoStatus status = meso_quilt_settle(&run->quilt, &run->arena, &run->surface, &run->swatch,
+    const MesoQuiltVertex *before = run->quilt.vertices;
+    MesoStatus status = meso_quilt_settle(&run->quilt, meso_quilt_room_free(&run->room), &run->surface, &run->swatch,
                                           &(MesoSettleOptions){.scale = run->scale,
                                                                .overhang = 0.5f * run->scale * run->swatch.mean_edge},
                                           &run->error);
+    if (!status)
+        meso_quilt_room_turn(&run->room, &run->quilt, before);
     run->outcome->settling = lap(run);
     return status;
 }
@@ -351,6 +359,7 @@ int main(int argc, char **argv)
     uint64_t triangles = 0, published_triangles = 0;
     double seconds = 0, preparation = 0, minutes = 0, share = 0;
     uint32_t failed_count = 0;
+    meso_lean_memory();
     printf("%-20s %13s | %13s | %19s %17s %13s | %32s | %5s + %5s %5s %6s %5s %6s %5s %5s %5s | %14s | bytes a triangle\n",
            "surface + swatch", "surface f v", "swatch f v", "faces (paper)", "vertices (paper)", "elements",
            "seconds (paper) faster", "prep", "field", "base", "growth", "end", "settle", "prism", "embed", "anew",
