@@ -91,11 +91,12 @@ static inline MesoArena *meso_quilt_room_free(MesoQuiltRoom *room)
     return &room->arenas[1 - room->used];
 }
 
-/* After a step that has come to its end; `before`: the quilt's vertices before it. Some steps leave it where it was. */
+/* After a step that has come to its end; `before`: the quilt's vertices before it. Steps may leave these where they are. */
 static inline void meso_quilt_room_turn(MesoQuiltRoom *room, const MesoQuilt *quilt, const MesoQuiltVertex *before)
 {
-    if (quilt->vertices != before)
-        room->used = 1 - room->used;
+    if (quilt->vertices == before)
+        return;
+    room->used = 1 - room->used;
     meso_arena_release(meso_quilt_room_free(room));
 }
 

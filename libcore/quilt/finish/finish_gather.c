@@ -172,8 +172,17 @@ static MesoStatus count_elements(MesoQuilt *quilt, MesoArena *arena, Gatherer *g
     return MESO_OK;
 }
 
-static MesoStatus make_room(MesoQuilt *quilt, MesoArena *arena, MesoError *error)
+/* Nothing is asked of what was there before but the elements' origins: it makes room for what comes of it. */
+static MesoStatus make_room(MesoQuilt *quilt, const MesoQuilt *before, MesoArena *arena, MesoError *error)
 {
+    if (quilt->vertex_count <= before->vertex_count && quilt->triangle_count <= before->triangle_count) {
+        quilt->vertices = before->vertices;
+        quilt->origins = before->origins;
+        quilt->corners = before->corners;
+        quilt->triangle_origins = before->triangle_origins;
+        quilt->patches = before->patches;
+        return MESO_OK;
+    }
     quilt->vertices = MESO_NEW(arena, MesoQuiltVertex, quilt->vertex_count, error);
     quilt->origins = MESO_NEW(arena, uint32_t, quilt->vertex_count, error);
     quilt->corners = MESO_NEW(arena, uint32_t, 3 * (size_t)quilt->triangle_count, error);
@@ -223,7 +232,7 @@ static MesoStatus gather(MesoQuilt *quilt, MesoArena *arena, Gatherer *g, MesoEr
         return MESO_ERR_MEMORY;
     status = count_elements(quilt, arena, g, numbers, error);
     if (!status)
-        status = make_room(quilt, arena, error);
+        status = make_room(quilt, g->before, arena, error);
     if (!status)
         fill(quilt, g, numbers, places, at);
     return status;

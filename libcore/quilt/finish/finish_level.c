@@ -30,7 +30,7 @@ typedef struct Level {
     uint32_t count;
     const uint32_t *begin;      /* [count + 1] into `near` */
     const uint32_t *near;       /* vertices beside each, one for each half-edge from it */
-    const double *trust;        /* [count] */
+    const uint8_t *at_border;   /* [count] */
     double weight;
 } Level;
 
@@ -38,20 +38,31 @@ typedef struct Level {
 typedef struct Gradients {
     const Level *level;
     double *s, *d;              /* the solution so far, and what is left of the right side */
-    double *z, *p, *q;
+    double *p, *q;
     double alpha, beta;
     double *sums[2];            /* [blocks] of a pass, so that sums do not depend on threads */
     uint32_t thread_count;
 } Gradients;
 
+static double trust_in(const Level *level, uint64_t v)
+{
+    return level->at_border[v] ? TRUST_LEAST : 1;
+}
+
+/* What is left at a vertex, scaled. */
+static double scaled(const Gradients *g, uint64_t v)
+{
+    const Level *level = g->level;
+    return g->d[v] / (trust_in(level, v) + level->weight * (level->begin[v + 1] - level->begin[v]));
+}
+
 /* The diagonal's share of what is left, and what is left itself. */
 static void scale_range(void *context, uint64_t begin, uint64_t end)
 {
-    Gradients *g = context;
+    const Gradients *g = context;
     double along = 0, left = 0;
     for (uint64_t v = begin; v < end; v++) {
-        g->z[v] = g->d[v] / (g->level->trust[v] + g->level->weight * (g->level->begin[v + 1] - g->level->begin[v]));
-        along += g->d[v] * g->z[v];
+        along += g->d[v] * scaled(g, v);
         left += g->d[v] * g->d[v];
     }
     g->sums[0][begin / BLOCK] = along;
@@ -62,7 +73,7 @@ static void turn_range(void *context, uint64_t begin, uint64_t end)
 {
     Gradients *g = context;
     for (uint64_t v = begin; v < end; v++)
-        g->p[v] = g->z[v] + g->beta * g->p[v];
+        g->p[v] = scaled(g, v) + g->beta * g->p[v];
 }
 
 /* q = T p + w L p */
@@ -75,7 +86,7 @@ static void apply_range(void *context, uint64_t begin, uint64_t end)
         double sum = 0;
         for (uint32_t i = level->begin[v]; i < level->begin[v + 1]; i++)
             sum += g->p[v] - g->p[level->near[i]];
-        g->q[v] = level->trust[v] * g->p[v] + level->weight * sum;
+        g->q[v] = trust_in(level, v) * g->p[v] + level->weight * sum;
         along += g->p[v] * g->q[v];
     }
     g->sums[0][begin / BLOCK] = along;
@@ -108,11 +119,11 @@ static MesoStatus solve(double *s, double *d, const Level *level, const MesoFini
 {
     uint32_t n = level->count, blocks = n / BLOCK + 1;
     MesoArena *arena = work->arena;
-    Gradients g = {.level = level, .s = s, .d = d, .z = MESO_NEW(arena, double, n, error),
+    Gradients g = {.level = level, .s = s, .d = d,
                    .p = MESO_NEW(arena, double, n, error), .q = MESO_NEW(arena, double, n, error),
                    .sums = {MESO_NEW(arena, double, blocks, error), MESO_NEW(arena, double, blocks, error)},
                    .thread_count = work->options->thread_count};
-    if (!g.z || !g.p || !g.q || !g.sums[0] || !g.sums[1])
+    if (!g.p || !g.q || !g.sums[0] || !g.sums[1])
         return MESO_ERR_MEMORY;
     double before = 0, first = 0;
     for (int step = 0; step < STEPS; step++) {
@@ -140,8 +151,8 @@ static bool is_strand(const MesoFinishWork *work, const MesoQuilt *quilt, uint32
 static MesoStatus connect(Level *level, const MesoQuilt *quilt, const MesoFinishWork *work, MesoError *error)
 {
     uint32_t *begin = MESO_NEW(work->arena, uint32_t, (size_t)work->vertex_count + 2, error);
-    uint32_t *near = MESO_NEW(work->arena, uint32_t, 3 * (size_t)work->triangle_count, error);
-    if (!begin || !near)
+    uint32_t *near = NULL;
+    if (!begin)
         return MESO_ERR_MEMORY;
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t c = 0; c < 3 * work->triangle_count; c++) {
@@ -155,6 +166,8 @@ static MesoStatus connect(Level *level, const MesoQuilt *quilt, const MesoFinish
         }
         for (uint32_t v = 0; v < work->vertex_count && !pass; v++)
             begin[v + 2] += begin[v + 1];
+        if (!pass && !(near = MESO_NEW(work->arena, uint32_t, begin[work->vertex_count + 1], error)))
+            return MESO_ERR_MEMORY;
     }
     level->count = work->vertex_count;
     level->begin = begin;
@@ -163,35 +176,31 @@ static MesoStatus connect(Level *level, const MesoQuilt *quilt, const MesoFinish
 }
 
 /* T d, with d how far vertices of strands are from the heights of their origins. */
-static void find_differences(double *trust, double *d, const Level *level, const MesoFinishWork *work)
+static void find_differences(double *d, const Level *level, const MesoFinishWork *work)
 {
     const MesoFinishOptions *options = work->options;
     double scale = options->height_scale > 0 ? options->height_scale : options->scale;
-    for (uint32_t v = 0; v < work->vertex_count; v++) {
-        trust[v] = work->at_border[v] ? TRUST_LEAST : 1;
+    for (uint32_t v = 0; v < work->vertex_count; v++)
         if (level->begin[v + 1] > level->begin[v])
-            d[v] = trust[v] * (work->vertices[v].height - options->offset -
-                               scale * work->swatch->positions[work->origins[v]].z);
-    }
+            d[v] = trust_in(level, v) * (work->vertices[v].height - options->offset -
+                                         scale * work->swatch->positions[work->origins[v]].z);
 }
 
 static MesoStatus level_strands(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
-    Level level = {0};
+    Level level = {.at_border = work->at_border};
     double *d = MESO_NEW(work->arena, double, work->vertex_count, error);
     double *s = MESO_NEW(work->arena, double, work->vertex_count, error);
-    double *trust = MESO_NEW(work->arena, double, work->vertex_count, error);
-    if (!d || !s || !trust)
+    if (!d || !s)
         return MESO_ERR_MEMORY;
     double edges = REACH * fmin(swatch->size.x, swatch->size.y) / swatch->mean_edge;
     edges = fmin(fmax(edges, EDGES_LEAST), EDGES_MOST);
     level.weight = 0.5 * edges * edges;
-    level.trust = trust;
     MesoStatus status = connect(&level, quilt, work, error);
     if (status)
         return status;
-    find_differences(trust, d, &level, work);
+    find_differences(d, &level, work);
     status = solve(s, d, &level, work, error);
     for (uint32_t v = 0; v < work->vertex_count && !status; v++) {
         work->vertices[v].height -= (float)s[v];

@@ -18,7 +18,8 @@ typedef struct MesoFinishOptions {
 } MesoFinishOptions;
 
 /*
- * Finishes a quilt over `base`->mesh, in place; its arrays are anew in `arena` where any of this changes it:
+ * Finishes a quilt over `base`->mesh, in place; of its arrays those that do not fit where they were are anew in `arena`
+ * where any of this changes it:
  *
  * - Strands move along the surface to where they lie around each other as in the swatch, as far as that and their joins
  *   allow; not where the swatch has whole elements, which would not follow.
