@@ -1,5 +1,6 @@
 #include "libcore/math/min_cut.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "libcore/base/index.h"
@@ -11,20 +12,33 @@ typedef struct Arc {
     uint64_t room;
 } Arc;
 
+/*
+ * What the source feeds is pushed from node to node, from the highest first (Cherkassky and Goldberg, "On Implementing
+ * the Push-Relabel Method for the Maximum Flow Problem", 1997), until all that is left has no way to the sink: that is
+ * enough for a cut.
+ */
 typedef struct Network {
     uint32_t node_count;
     uint32_t *begins;   /* [node_count + 1] arcs by the node that they leave */
     Arc *arcs;
-    uint64_t *supplies; /* [node_count] what the source may still send to a node */
+    uint64_t *excess;   /* [node_count] what has come to a node, from the source at first, and not gone on */
     uint64_t *demands;  /* [node_count] what the sink may still take from it */
-    uint32_t *levels;   /* [node_count] arcs with room on the way to the sink; MESO_NO_INDEX: there is no way */
-    uint32_t *next_arcs;    /* [node_count] those before it lead nowhere in this phase */
-    uint32_t *queue;    /* [node_count] for levels; then the arcs of a path */
+    uint32_t *levels;   /* [node_count] no more than arcs with room on the way to the sink, that last one too */
+    uint32_t *next_arcs;    /* [node_count] those before it lead nowhere from this level */
+    uint32_t *queue;    /* [node_count] for levels */
+    uint32_t *heads;    /* [node_count + 2] by level, the first node that has something to push; MESO_NO_INDEX: none */
+    uint32_t *following;    /* [node_count] the next one of that level */
+    uint32_t *sizes;    /* [node_count + 2] nodes by level */
+    uint32_t highest;   /* level that may have such nodes */
+    uint64_t work;      /* since levels were measured */
     uint64_t flow;
 } Network;
 
 /* More than what all edges can carry together: there are fewer than 2^31, of less than 2^32 each. */
 static const uint64_t FIXED = UINT64_MAX / 2;
+
+/* Levels are measured again after so much work a node: a lift's own, and its arcs. */
+enum { LIFT_WORK = 12, WORK_MOST = 6 };
 
 static uint64_t terminal_capacity(uint32_t capacity)
 {
@@ -40,11 +54,14 @@ static MesoStatus allocate(Network *network, MesoArena *scratch, uint32_t edge_c
         return meso_fail(error, MESO_ERR_LIMIT, "%u edges are beyond what can be cut", edge_count);
     if (!(network->begins = MESO_NEW(scratch, uint32_t, count + 1, error)) ||
         !(network->arcs = MESO_NEW(scratch, Arc, 2 * (size_t)edge_count, error)) ||
-        !(network->supplies = MESO_NEW(scratch, uint64_t, count, error)) ||
+        !(network->excess = MESO_NEW(scratch, uint64_t, count, error)) ||
         !(network->demands = MESO_NEW(scratch, uint64_t, count, error)) ||
         !(network->levels = MESO_NEW(scratch, uint32_t, count, error)) ||
         !(network->next_arcs = MESO_NEW(scratch, uint32_t, count, error)) ||
-        !(network->queue = MESO_NEW(scratch, uint32_t, count, error)))
+        !(network->queue = MESO_NEW(scratch, uint32_t, count, error)) ||
+        !(network->heads = MESO_NEW(scratch, uint32_t, count + 2, error)) ||
+        !(network->following = MESO_NEW(scratch, uint32_t, count, error)) ||
+        !(network->sizes = MESO_NEW(scratch, uint32_t, count + 2, error)))
         return MESO_ERR_MEMORY;
     return MESO_OK;
 }
@@ -57,7 +74,7 @@ static MesoStatus join_terminals(Network *network, const uint32_t *source, const
         uint64_t through = supply < demand ? supply : demand;
         if (through == FIXED)
             return meso_fail(error, MESO_ERR_INPUT, "node %u is fixed to both sides of a cut", v);
-        network->supplies[v] = supply - through;
+        network->excess[v] = supply - through;
         network->demands[v] = demand - through;
         network->flow += through;
     }
@@ -91,22 +108,37 @@ static MesoStatus join_edges(Network *network, const uint32_t *source, const uin
     return MESO_OK;
 }
 
-/* ---- phases ---- */
+/* ---- levels ---- */
 
-/* How far it is to the sink from wherever there is a way. Returns whether the source has any. */
-static int find_levels(Network *network)
+/* Has something to push, and a way. */
+static void activate(Network *network, uint32_t v)
+{
+    uint32_t level = network->levels[v];
+    network->following[v] = network->heads[level];
+    network->heads[level] = v;
+    network->highest = level > network->highest ? level : network->highest;
+}
+
+/* How far it is to the sink from wherever there is a way; other nodes are out of it. */
+static void measure_levels(Network *network)
 {
     uint32_t *levels = network->levels, *queue = network->queue, end = 0;
-    int found = 0;
     memset(levels, 0xff, network->node_count * sizeof *levels);
+    memset(network->heads, 0xff, ((size_t)network->node_count + 2) * sizeof *network->heads);
+    memset(network->sizes, 0, ((size_t)network->node_count + 2) * sizeof *network->sizes);
+    network->highest = 0;
+    network->work = 0;
     for (uint32_t v = 0; v < network->node_count; v++)
         if (network->demands[v]) {
-            levels[v] = 0;
+            levels[v] = 1;
             queue[end++] = v;
         }
     for (uint32_t begin = 0; begin < end; begin++) {
         uint32_t v = queue[begin];
-        found |= network->supplies[v] != 0;
+        network->next_arcs[v] = network->begins[v];
+        network->sizes[levels[v]]++;
+        if (network->excess[v])
+            activate(network, v);
         for (uint32_t k = network->begins[v]; k < network->begins[v + 1]; k++) {
             const Arc *arc = &network->arcs[k];
             if (levels[arc->target] == MESO_NO_INDEX && network->arcs[arc->twin].room) {
@@ -115,72 +147,108 @@ static int find_levels(Network *network)
             }
         }
     }
-    return found;
 }
 
-/* The next arc that leads from `v` one level down; MESO_NO_INDEX where there is none left. */
-static uint32_t find_down(Network *network, uint32_t v)
+/* No node is left at a level: none above it has a way to the sink. */
+static void cut_off(Network *network, uint32_t level)
 {
-    for (uint32_t *k = &network->next_arcs[v]; *k < network->begins[v + 1]; ++*k) {
-        const Arc *arc = &network->arcs[*k];
-        if (arc->room && network->levels[arc->target] == network->levels[v] - 1)
-            return *k;
-    }
-    return MESO_NO_INDEX;
-}
-
-/* Sends what fits along a path of arcs to `end`. Returns how many of the arcs come before the first that is full now. */
-static uint32_t send(Network *network, uint32_t start, const uint32_t *path, uint32_t length, uint32_t end)
-{
-    Arc *arcs = network->arcs;
-    uint64_t amount = network->supplies[start] < network->demands[end] ? network->supplies[start]
-                                                                       : network->demands[end];
-    for (uint32_t k = 0; k < length; k++)
-        amount = arcs[path[k]].room < amount ? arcs[path[k]].room : amount;
-    uint32_t keep = length;
-    for (uint32_t k = length; k-- > 0;) {
-        Arc *arc = &arcs[path[k]];
-        arc->room -= amount;
-        arcs[arc->twin].room += amount;
-        if (!arc->room)
-            keep = k;
-    }
-    network->supplies[start] -= amount;
-    network->demands[end] -= amount;
-    network->flow += amount;
-    return keep;
-}
-
-/* All that can flow down the levels from one node. A sink's own node has level 0 until it is full. */
-static void drain(Network *network, uint32_t start)
-{
-    uint32_t *path = network->queue, length = 0, v = start;
-    while (network->supplies[start]) {
-        if (network->levels[v] == 0 && network->demands[v]) {
-            length = send(network, start, path, length, v);
-            v = length ? network->arcs[path[length - 1]].target : start;
-            continue;
-        }
-        uint32_t down = network->levels[v] == 0 ? MESO_NO_INDEX : find_down(network, v);
-        if (down != MESO_NO_INDEX) {
-            path[length++] = down;
-            v = network->arcs[down].target;
-            continue;
-        }
-        if (!length)
-            return;
-        uint32_t back = path[--length];
-        v = network->arcs[network->arcs[back].twin].target;
-        network->next_arcs[v]++;
-    }
-}
-
-static void run_phase(Network *network)
-{
-    memcpy(network->next_arcs, network->begins, network->node_count * sizeof *network->next_arcs);
     for (uint32_t v = 0; v < network->node_count; v++)
-        if (network->supplies[v] && network->levels[v] != MESO_NO_INDEX)
-            drain(network, v);
+        if (network->levels[v] != MESO_NO_INDEX && network->levels[v] > level) {
+            network->sizes[network->levels[v]]--;
+            network->levels[v] = MESO_NO_INDEX;
+        }
+    for (uint32_t above = level; above <= network->highest; above++)
+        network->heads[above] = MESO_NO_INDEX;
+}
+
+/* One above the lowest node that the arcs with room of `v` lead to; MESO_NO_INDEX where there is none. */
+static uint32_t level_above(const Network *network, uint32_t v, uint32_t *arc)
+{
+    uint32_t least = MESO_NO_INDEX;
+    *arc = network->begins[v];
+    if (network->demands[v])
+        return 1;
+    for (uint32_t k = network->begins[v]; k < network->begins[v + 1]; k++)
+        if (network->arcs[k].room && network->levels[network->arcs[k].target] < least) {
+            least = network->levels[network->arcs[k].target];
+            *arc = k;
+        }
+    return least < network->node_count ? least + 1 : MESO_NO_INDEX;
+}
+
+/* Whether `v`, which none of its arcs leads down from, has a way at a higher level. */
+static bool lift(Network *network, uint32_t v)
+{
+    uint32_t level = network->levels[v], arc, higher = level_above(network, v, &arc);
+    network->work += LIFT_WORK + network->begins[v + 1] - network->begins[v];
+    network->levels[v] = higher;
+    network->next_arcs[v] = arc;
+    if (--network->sizes[level] == 0) {
+        network->levels[v] = MESO_NO_INDEX;
+        cut_off(network, level);
+        return false;
+    }
+    if (higher == MESO_NO_INDEX)
+        return false;
+    network->sizes[higher]++;
+    network->highest = higher > network->highest ? higher : network->highest;
+    return true;
+}
+
+/* ---- pushes ---- */
+
+static uint64_t lesser(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+static void push_to_sink(Network *network, uint32_t v)
+{
+    uint64_t amount = lesser(network->excess[v], network->demands[v]);
+    network->excess[v] -= amount;
+    network->demands[v] -= amount;
+    network->flow += amount;
+}
+
+/* Along the arcs of `v` that lead one level down. */
+static void push_down(Network *network, uint32_t v)
+{
+    uint32_t below = network->levels[v] - 1, *k = &network->next_arcs[v];
+    if (below == 0)
+        push_to_sink(network, v);
+    for (; *k < network->begins[v + 1] && network->excess[v]; ++*k) {
+        Arc *arc = &network->arcs[*k];
+        if (!arc->room || network->levels[arc->target] != below)
+            continue;
+        uint64_t amount = lesser(network->excess[v], arc->room);
+        if (!network->excess[arc->target])
+            activate(network, arc->target);
+        arc->room -= amount;
+        network->arcs[arc->twin].room += amount;
+        network->excess[arc->target] += amount;
+        network->excess[v] -= amount;
+        if (!network->excess[v])
+            break;      /* there may be more room here */
+    }
+}
+
+static void push_all(Network *network)
+{
+    measure_levels(network);
+    while (network->highest) {
+        uint32_t v = network->heads[network->highest];
+        if (v == MESO_NO_INDEX) {
+            network->highest--;
+            continue;
+        }
+        network->heads[network->highest] = network->following[v];
+        do
+            push_down(network, v);
+        while (network->excess[v] && lift(network, v));
+        if (network->work > WORK_MOST * (uint64_t)network->node_count + network->begins[network->node_count])
+            measure_levels(network);
+    }
+    measure_levels(network);
 }
 
 MesoStatus meso_min_cut(uint8_t *sink_side, uint64_t *value, MesoArena *scratch, uint32_t node_count,
@@ -195,8 +263,7 @@ MesoStatus meso_min_cut(uint8_t *sink_side, uint64_t *value, MesoArena *scratch,
     if (!status)
         status = join_edges(&network, source, sink, edges, edge_count, error);
     if (!status) {
-        while (find_levels(&network))
-            run_phase(&network);
+        push_all(&network);
         /* the last levels are of those nodes that still have a way to the sink */
         for (uint32_t v = 0; v < node_count; v++)
             sink_side[v] = network.levels[v] != MESO_NO_INDEX;

@@ -1,7 +1,6 @@
 /*
  * The least cut of a graph between a source and a sink, by whole numbers
- * (Dinic, "Algorithm for Solution of a Problem of Maximum Flow in Networks with
- * Power Estimation", 1970).
+ * (Goldberg and Tarjan, "A New Approach to the Maximum-Flow Problem", 1988).
  */
 #ifndef MESO_MIN_CUT_H
 #define MESO_MIN_CUT_H

@@ -7,7 +7,7 @@
 #include "libcore/quilt/swatch/swatch_elements.h"
 
 /* What has been taken away makes room when there is so much more than at the last packing, and a little. */
-#define PACK_RATIO 1.25
+#define PACK_RATIO 1.15
 #define PACK_LEAST 32768
 
 /* An array that is owned by the composite, made larger; false where memory is out. */
@@ -21,7 +21,7 @@ static bool enlarge(void *array, uint32_t room, size_t width)
 
 static uint32_t larger_room(uint32_t room)
 {
-    uint64_t larger = (uint64_t)room + room / 4 + 1024;
+    uint64_t larger = (uint64_t)room + room / 8 + 1024;
     return larger < MESO_NO_INDEX / 3 ? (uint32_t)larger : MESO_NO_INDEX / 3;
 }
 
@@ -178,7 +178,7 @@ static void shrink(void *array, uint32_t room, size_t width)
 
 static uint32_t room_for(uint32_t count)
 {
-    return count + count / 8 + 1024;
+    return count + count / 16 + 1024;
 }
 
 /* Numbers the vertices of what lives, in their order, in `marks`, and moves them there. */

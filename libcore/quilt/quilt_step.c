@@ -196,6 +196,13 @@ static void try_range(void *context, uint64_t begin, uint64_t end)
     }
 }
 
+static void give_back(Trials *trials, uint32_t i)
+{
+    if (trials->arenas[i])
+        meso_arena_pool_return(&trials->work->pool, trials->arenas[i]);
+    trials->arenas[i] = NULL;
+}
+
 /*
  * The first one; where that leaves flaws, the others as well. Which has the fewest. Cores that would be idle begin with
  * the others meanwhile: what comes of these counts only where the first one has flaws.
@@ -215,8 +222,11 @@ static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, M
                     *error = trials->errors[i];
                 return trials->statuses[i];
             }
-            if (trials->candidates[i].flaws < trials->candidates[*chosen].flaws)
-                *chosen = i;
+            if (i == *chosen)
+                continue;
+            bool better = trials->candidates[i].flaws < trials->candidates[*chosen].flaws;
+            give_back(trials, better ? *chosen : i);
+            *chosen = better ? i : *chosen;
         }
     }
     return MESO_OK;
@@ -246,10 +256,8 @@ static MesoStatus choose_placement(Candidate *best, const Places *places, MesoQu
     *best = trials.candidates[chosen];
     best->step.beside = step->beside;
     for (uint32_t i = 0; i < found; i++)
-        if (i != chosen && patch->trial_arenas[i]) {
-            meso_arena_pool_return(&work->pool, patch->trial_arenas[i]);
-            patch->trial_arenas[i] = NULL;
-        }
+        if (i != chosen)
+            give_back(&trials, i);
     step->tally->report.retry_count += chosen > 0;
     step->tally->cost_sum += best->step.match.cost;
     return MESO_OK;

@@ -5,6 +5,10 @@
 #include "libcore/shell/box_tree.h"
 #include "libcore/shell/prism_layer.h"
 
+/* No coordinate of a hull about that origin is larger. */
+#define SIZE 8.0f
+static const MesoVec3d ORIGIN = {0.5, 0.25, 0.5};
+
 static double uniform(MesoRandom *random)
 {
     return (double)(meso_random_next(random) >> 11) / 4503599627370496.0 - 1;
@@ -50,6 +54,8 @@ static void test_meet(void)
             b.corners[k] = meso_vec3d_add(b.corners[k], shift);
         CHECK(!meso_prism_hulls_apart(&a, &b) && !meso_prism_tetrahedra_apart(&a, &b));
         CHECK(!meso_prism_hulls_apart(&b, &a) && !meso_prism_tetrahedra_apart(&b, &a));
+        MesoPrismHull c = meso_prism_hull(&a, ORIGIN), d = meso_prism_hull(&b, ORIGIN);
+        CHECK(!meso_prism_hulls_clear(&c, &d, SIZE) && !meso_prism_walls_clear(&c, &d, SIZE));
     }
 }
 
@@ -57,7 +63,7 @@ static void test_meet(void)
 static void test_apart(void)
 {
     MesoRandom random;
-    uint32_t told = 0;
+    uint32_t told = 0, cleared = 0;
     meso_random_init(&random, 2, 0);
     for (uint32_t i = 0; i < 3000; i++) {
         MesoPrismBody a = body_at(&random, 0.2, (MesoVec3d){0, 0, 0}), b = body_at(&random, 0.2, (MesoVec3d){0, 0, 0});
@@ -71,8 +77,24 @@ static void test_apart(void)
             b.corners[k] = meso_vec3d_mad(b.corners[k], (high - low + 0.01 * sqrt(square)) / square, axis);
         CHECK(meso_prism_tetrahedra_apart(&a, &b) && meso_prism_tetrahedra_apart(&b, &a));
         told += meso_prism_hulls_apart(&a, &b);
+        MesoPrismHull c = meso_prism_hull(&a, ORIGIN), d = meso_prism_hull(&b, ORIGIN);
+        cleared += meso_prism_hulls_clear(&c, &d, SIZE) || meso_prism_walls_clear(&c, &d, SIZE);
     }
-    CHECK(told > 2900);
+    CHECK(told > 2900 && cleared > 100);
+}
+
+/* Side by side, as most are: always told, by the way from one to the other. */
+static void test_beside(void)
+{
+    MesoRandom random;
+    meso_random_init(&random, 5, 0);
+    for (uint32_t i = 0; i < 1000; i++) {
+        double angle = 4 * uniform(&random);
+        MesoPrismBody a = body_at(&random, 0.1, (MesoVec3d){0, 0, 0});
+        MesoPrismBody b = body_at(&random, 0.1, (MesoVec3d){3 * cos(angle), 3 * sin(angle), 0.2 * uniform(&random)});
+        MesoPrismHull c = meso_prism_hull(&a, ORIGIN), d = meso_prism_hull(&b, ORIGIN);
+        CHECK(meso_prism_hulls_clear(&c, &d, SIZE) && meso_prism_hulls_clear(&d, &c, SIZE));
+    }
 }
 
 /* Neighbours touch in a whole wall, and are apart; a little nearer they meet. */
@@ -140,10 +162,48 @@ static void test_tree(void)
     meso_arena_release(&arena);
 }
 
+typedef struct PairHits {
+    uint32_t place;
+    uint8_t seen[500][500];     /* by places in the tree */
+} PairHits;
+
+static void hit_pair(void *context, uint32_t place)
+{
+    PairHits *hits = context;
+    CHECK(place > hits->place && !hits->seen[hits->place][place]);
+    hits->seen[hits->place][place] = 1;
+}
+
+/* Each pair of boxes that meet once. */
+static void test_pairs(void)
+{
+    static PairHits hits;
+    MesoRandom random;
+    MesoArena arena;
+    MesoBox boxes[500];
+    meso_random_init(&random, 6, 0);
+    meso_arena_init(&arena);
+    for (uint32_t count = 0; count < 500; count = count < 20 ? count + 1 : count + 97) {
+        MesoBoxTree tree;
+        for (uint32_t b = 0; b < count; b++)
+            boxes[b] = any_box(&random);
+        CHECK(meso_box_tree_build(&tree, &arena, boxes, count, NULL) == MESO_OK);
+        hits = (PairHits){0};
+        for (hits.place = 0; hits.place < count; hits.place++)
+            meso_box_tree_query_after(&tree, hits.place, hit_pair, &hits);
+        for (uint32_t p = 0; p < count; p++)
+            for (uint32_t q = p + 1; q < count; q++)
+                CHECK(hits.seen[p][q] == boxes_meet(boxes[tree.order[p]], boxes[tree.order[q]]));
+    }
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     test_meet();
     test_apart();
+    test_beside();
+    test_pairs();
     test_touch();
     test_tree();
     return 0;

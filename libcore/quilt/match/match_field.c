@@ -414,11 +414,15 @@ static void try_table(Climb *climb)
     voxels_around(p.x, field->count[0], x);
     voxels_around(p.y, field->count[1], y);
     voxels_around(p.z, field->count[2], z);
+    uint32_t last = MESO_NO_INDEX;
     for (int k = 0; k < 3; k++)
         for (int n = 0; n < 4 && blend.weights[k] > 0; n++) {
             size_t layer = (size_t)blend.bins[k] * field->count[2] + z[n == 3];
             size_t at = (layer * field->count[1] + y[n == 2]) * field->count[0] + x[n == 1];
-            try_face(climb, meso_match_face(field, at));
+            uint32_t face = meso_match_face(field, at);
+            if (face != last)   /* neighbours often have the same */
+                try_face(climb, face);
+            last = face;
         }
 }
 
