@@ -154,7 +154,8 @@ static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, u
                                       .offset = options.offset, .thread_count = options.thread_count,
                                       .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
     meso_tool_progress_begin(tool, "quilting", "triangles");
-    MesoStatus status = meso_quilt_grow(quilt, &result->room.arenas[0], &base->mesh, &job->swatch.swatch, &options, &tool->error);
+    MesoStatus status = meso_quilt_grow(quilt, &result->room.arenas[0], &base->mesh, &job->swatch.swatch, &options,
+                                        &tool->error);
     result->times.growth = lap(&since);
     const MesoQuiltVertex *before = quilt->vertices;
     if (!status)

@@ -91,7 +91,10 @@ static inline MesoArena *meso_quilt_room_free(MesoQuiltRoom *room)
     return &room->arenas[1 - room->used];
 }
 
-/* After a step that has come to its end; `before`: the quilt's vertices before it. Steps may leave these where they are. */
+/*
+ * After a step that has come to its end; `before`: the quilt's vertices before it. Steps may leave these where they
+ * are.
+ */
 static inline void meso_quilt_room_turn(MesoQuiltRoom *room, const MesoQuilt *quilt, const MesoQuiltVertex *before)
 {
     if (quilt->vertices == before)

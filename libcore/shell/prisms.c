@@ -26,7 +26,8 @@ static MesoStatus allocate(MesoPrismLayer *layer, MesoArena *arena, MesoError *e
     layer->thickness = MESO_NEW(arena, double, vertex_count, error);
     layer->areas = MESO_NEW(arena, double, layer->mesh->triangle_count, error);
     layer->flat = MESO_NEW(arena, uint8_t, layer->mesh->triangle_count, error);
-    return layer->rises && layer->normals && layer->thickness && layer->areas && layer->flat ? MESO_OK : MESO_ERR_MEMORY;
+    return layer->rises && layer->normals && layer->thickness && layer->areas && layer->flat
+               ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* ---- stretch ---- */

@@ -103,7 +103,8 @@ static size_t voxel_at(float x, uint32_t last)
  * Adds three tables, each times a weight, to all shifts. This is where the time goes: rows are contiguous, and nothing
  * overlaps.
  */
-static inline __attribute__((always_inline)) void add_tables(const Sheet *sheet, const uint16_t *const tables[3], const float weights[3], size_t stride)
+static inline __attribute__((always_inline)) void add_tables(const Sheet *sheet, const uint16_t *const tables[3],
+                                                             const float weights[3], size_t stride)
 {
     const float u = weights[0], v = weights[1], w = weights[2];
     for (uint32_t y = 0; y < sheet->rows; y++) {
@@ -115,7 +116,8 @@ static inline __attribute__((always_inline)) void add_tables(const Sheet *sheet,
     }
 }
 
-static inline __attribute__((always_inline)) void add_point(const Sheet *sheet, const MesoMatchField *field, MesoMatchPoint point, float weight)
+static inline __attribute__((always_inline)) void add_point(const Sheet *sheet, const MesoMatchField *field,
+                                                            MesoMatchPoint point, float weight)
 {
     MesoVec3 p = meso_vec3_scale(meso_vec3_sub(point.position, field->low), 1 / field->voxel);
     size_t x = voxel_at(p.x + (float)sheet->first_x, field->count[0] - sheet->columns);
