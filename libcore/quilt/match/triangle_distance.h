@@ -84,7 +84,8 @@ static inline __attribute__((always_inline)) void meso_triangle_squares(float *r
         bool left_of_bc = has & (meso_vec3_dot(meso_vec3_cross(bc, bp), n) >= 0);
         bool left_of_ca = has & (meso_vec3_dot(meso_vec3_cross(ap, ac), n) >= 0);
         float over = height * height / (has ? square : 1);
-        float least = left_of_ab & left_of_bc & left_of_ca ? over : INFINITY;
+        bool inside = left_of_ab & left_of_bc & left_of_ca;
+        float least = inside ? over : INFINITY;
         float other = meso_segment_square_unless(left_of_ab, ap, ab);
         least = other < least ? other : least;
         other = meso_segment_square_unless(left_of_bc, bp, bc);
