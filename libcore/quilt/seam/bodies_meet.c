@@ -24,9 +24,9 @@ static float volume(MesoVec3 a, MesoVec3 b, MesoVec3 c, MesoVec3 d)
     return meso_vec3_dot(meso_vec3_cross(meso_vec3_sub(b, a), meso_vec3_sub(c, a)), meso_vec3_sub(d, a));
 }
 
-static bool segment_crosses(MesoVec3 p, MesoVec3 q, const MesoVec3 *t)
+/* Whether a segment whose ends are so far above a triangle goes through it. */
+static bool segment_crosses(MesoVec3 p, float above, MesoVec3 q, float below, const MesoVec3 *t)
 {
-    float above = volume(t[0], t[1], t[2], p), below = volume(t[0], t[1], t[2], q);
     if (!((above > 0 && below < 0) || (above < 0 && below > 0)))
         return false;
     float a = volume(p, q, t[0], t[1]), b = volume(p, q, t[1], t[2]), c = volume(p, q, t[2], t[0]);
@@ -35,9 +35,17 @@ static bool segment_crosses(MesoVec3 p, MesoVec3 q, const MesoVec3 *t)
 
 bool meso_triangles_cross(const MesoVec3 *p, const MesoVec3 *q)
 {
-    for (int k = 0; k < 3; k++)
-        if (segment_crosses(p[k], p[(k + 1) % 3], q) || segment_crosses(q[k], q[(k + 1) % 3], p))
+    float above_q[3], above_p[3];
+    for (int k = 0; k < 3; k++) {
+        above_q[k] = volume(q[0], q[1], q[2], p[k]);
+        above_p[k] = volume(p[0], p[1], p[2], q[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        int l = (k + 1) % 3;
+        if (segment_crosses(p[k], above_q[k], p[l], above_q[l], q) ||
+            segment_crosses(q[k], above_p[k], q[l], above_p[l], p))
             return true;
+    }
     return false;
 }
 

@@ -331,7 +331,7 @@ MesoStatus meso_settle_find_bodies(MesoSettleWork *work, const MesoQuilt *quilt,
         MesoSettleBody body;
         if (work->kind_of[quilt->element_origins[e]] == MESO_NO_INDEX || !find_body(&body, work, quilt, positions, e))
             continue;
-        if (work->linked)
+        if (work->fixed)
             status = meso_settle_bend(&body, work, &positions[quilt->vertex_begin[e]], error);
         if (!status && meso_settle_add_body(work, &body, error) == MESO_NO_INDEX)
             status = error ? error->status : MESO_ERR_MEMORY;

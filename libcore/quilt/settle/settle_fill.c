@@ -10,7 +10,7 @@
 #define EMPTY 0.5f
 #define ROOM 0.8f
 
-/* Steps around a place in search of one where a linked body cuts nothing. */
+/* Steps around a place in search of one where a body cuts nothing among such as stay. */
 #define NUDGE 0.06f
 
 /* No more bodies are added once there are so many times those that the swatch has on the same area. */
@@ -45,7 +45,7 @@ static bool predict(MesoSettleBody *body, const MesoSettleWork *work, const Meso
         if (!meso_settle_move(work, body, meso_vec3_add(body->root, meso_settle_to_space(&body->pose,
                                                                                      meso_vec3_scale(way, 0.5f)))))
             return false;
-    body->place.height = work->kinds[body->kind].height;
+    body->place.height = from->place.height + work->kinds[body->kind].height - work->kinds[from->kind].height;
     body->pose.origin = meso_settle_point(work, body->place);
     meso_settle_set_root(work, body);
     return true;
@@ -97,7 +97,7 @@ static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t rel
         meso_settle_relax_body(work, &body, MESO_NO_INDEX);
     if (is_taken(work, &body, ROOM * work->spacing) || !is_over_surface(work, &body))
         return MESO_OK;
-    if (work->linked) {
+    if (work->fixed) {
         bool meets;
         MesoStatus status = thread_in(&meets, &body, work, error);
         if (status || meets)

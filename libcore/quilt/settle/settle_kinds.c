@@ -153,6 +153,21 @@ static uint32_t list_relations(MesoSettleRelation *relations, const MesoSettleWo
     return count;
 }
 
+/* Whether bodies of the swatch cut each other as they stand there. */
+static bool cuts_itself(const MesoSettleWork *work)
+{
+    const MesoPose here = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+    for (uint32_t k = 0; k < work->kind_count; k++)
+        for (uint32_t r = work->kinds[k].relation_begin; r < work->kinds[k].relation_end; r++) {
+            MesoPose there = here;
+            there.origin = work->relations[r].offset;
+            if (meso_sphere_trees_crossings(&work->kinds[k].spheres, &here,
+                                            &work->kinds[work->relations[r].kind].spheres, &there, 1))
+                return true;
+        }
+    return false;
+}
+
 /* Whether most of them have another one so near. */
 static bool are_linked(const MesoSettleWork *work)
 {
@@ -184,7 +199,8 @@ static MesoStatus find_relations(MesoSettleWork *work, MesoError *error)
     for (uint32_t k = 0; k < work->kind_count; k++)
         list_relations(&work->relations[work->kinds[k].relation_begin], work, k);
     work->linked = are_linked(work);
-    return MESO_OK;
+    work->fixed = work->linked && (!work->alone || cuts_itself(work));
+    return meso_settle_borrow(work, error);
 }
 
 MesoStatus meso_settle_find_kinds(MesoSettleWork *work, MesoError *error)
@@ -214,13 +230,14 @@ MesoStatus meso_settle_find_kinds(MesoSettleWork *work, MesoError *error)
     return status ? status : find_relations(work, error);
 }
 
-uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, MesoVec2 offset, float most)
+uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, const MesoSettleSpread *spread, MesoVec2 offset,
+                              float most)
 {
     uint32_t best = MESO_NO_INDEX;
     float least = most * most;
     for (uint32_t r = work->kinds[kind].relation_begin; r < work->kinds[kind].relation_end; r++) {
         float x = work->relations[r].offset.x - offset.x, y = work->relations[r].offset.y - offset.y;
-        if (x * x + y * y < least) {
+        if (x * x + y * y < least && meso_settle_alike(&work->kinds[work->relations[r].kind].spread, spread)) {
             least = x * x + y * y;
             best = r;
         }

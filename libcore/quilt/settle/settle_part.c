@@ -100,7 +100,7 @@ static void part_body(MesoSettleWork *work, uint32_t a)
     body->settled = !better;
 }
 
-void meso_settle_part(MesoSettleWork *work)
+static void give_way(MesoSettleWork *work)
 {
     bool all = false;
     for (uint32_t round = 0; round < PART_ROUNDS && !all; round++) {
@@ -111,6 +111,14 @@ void meso_settle_part(MesoSettleWork *work)
                 all &= work->bodies[b].settled;
             }
     }
+}
+
+void meso_settle_part(MesoSettleWork *work)
+{
+    if (work->linked)
+        meso_settle_push(work);
+    else
+        give_way(work);
     for (uint32_t b = work->body_count; b-- > 0;) {
         MesoSettleBody *body = &work->bodies[b];
         if (!body->gone && body->element == MESO_NO_INDEX && meso_settle_crossings(work, body, b, 1))

@@ -8,17 +8,8 @@
 /* Bodies nearer than that, and not meant to be, move apart. */
 #define TOO_NEAR 0.85f
 
-/* Turned against each other by more, cosine, they are of no common order. */
-#define ALIKE 0.94f
-
 /* Of what is wanted, a round does so much. */
 #define SHARE 0.5f
-
-/* Bodies on sides of the surface that face each other have nothing to do with each other. */
-static bool is_on_this_side(const MesoSettleBody *a, const MesoSettleBody *b)
-{
-    return meso_vec3_dot(a->pose.z, b->pose.z) > 0.3f;
-}
 
 MesoVec2 meso_settle_offset(const MesoSettleBody *from, const MesoSettleBody *to)
 {
@@ -30,22 +21,37 @@ MesoVec2 meso_settle_offset(const MesoSettleBody *from, const MesoSettleBody *to
 /* What neighbours want of a body. */
 typedef struct Wish {
     MesoVec3 move;
-    float turn;                 /* sine, around its own z */
-    uint32_t count, turn_count;
+    float along, across;        /* where they are by where it has them: what makes its turn */
+    uint32_t count;
 } Wish;
 
-/* The way in which `from` would have something that it has a relation to; added with a sign. */
+/*
+ * The way in which `from` would have something that it has a relation to; added with a sign. With -1 it is `from` itself
+ * that wishes, to turn as fits best what is around it: by turns of its neighbours', wishes of all would chase each other.
+ */
 static bool wish_by(Wish *wish, const MesoSettleWork *work, const MesoSettleBody *from, const MesoSettleBody *to,
                     float sign)
 {
     MesoVec2 at = meso_settle_offset(from, to);
-    uint32_t r = meso_settle_relation(work, from->kind, at, MEANT * work->spacing);
+    MesoSettleSpread spread = meso_settle_spread(work, to, &from->pose);
+    uint32_t r = meso_settle_relation(work, from->kind, &spread, at, MEANT * work->spacing);
     if (r == MESO_NO_INDEX)
         return false;
-    MesoVec3 miss = {sign * (work->relations[r].offset.x - at.x), sign * (work->relations[r].offset.y - at.y), 0};
+    MesoVec3 offset = work->relations[r].offset, miss = {sign * (offset.x - at.x), sign * (offset.y - at.y), 0};
     wish->move = meso_vec3_add(wish->move, meso_settle_to_space(&from->pose, miss));
     wish->count++;
+    if (sign < 0) {
+        wish->along += offset.x * at.x + offset.y * at.y;
+        wish->across += offset.x * at.y - offset.y * at.x;
+    }
     return true;
+}
+
+bool meso_settle_is_meant(const MesoSettleWork *work, const MesoSettleBody *from, const MesoSettleBody *to, float most)
+{
+    MesoSettleSpread spread = meso_settle_spread(work, to, &from->pose);
+    return meso_settle_relation(work, from->kind, &spread, meso_settle_offset(from, to), most * work->spacing) !=
+           MESO_NO_INDEX;
 }
 
 static void add_wishes(Wish *wish, const MesoSettleWork *work, const MesoSettleBody *a, const MesoSettleBody *b)
@@ -57,12 +63,6 @@ static void add_wishes(Wish *wish, const MesoSettleWork *work, const MesoSettleB
     if (!meant && distance < TOO_NEAR * work->spacing && distance > 0) {
         wish->move = meso_vec3_mad(wish->move, (TOO_NEAR * work->spacing - distance) / distance, d);
         wish->count++;
-    }
-    MesoVec3 x = meso_vec3_sub(b->pose.x, meso_vec3_scale(a->pose.z, meso_vec3_dot(b->pose.x, a->pose.z)));
-    x = meso_vec3_unit(x, a->pose.x);
-    if (meant && meso_vec3_dot(x, a->pose.x) > ALIKE) {
-        wish->turn += meso_vec3_dot(x, a->pose.y);
-        wish->turn_count++;
     }
 }
 
@@ -86,7 +86,7 @@ bool meso_settle_relax_body(const MesoSettleWork *work, MesoSettleBody *body, ui
     for (uint32_t i = 0; i < count; i++) {
         const MesoSettleBody *other = &work->bodies[near[i]];
         MesoVec3 d = meso_vec3_sub(other->root, body->root);
-        if (near[i] != itself && is_on_this_side(body, other) && meso_vec3_dot(d, d) < 4 * work->spacing * work->spacing)
+        if (near[i] != itself && meso_settle_same_side(body, other) && meso_vec3_dot(d, d) < 4 * work->spacing * work->spacing)
             add_wishes(&wish, work, body, other);
     }
     if (!wish.count)
@@ -96,8 +96,8 @@ bool meso_settle_relax_body(const MesoSettleWork *work, MesoSettleBody *body, ui
     if (length > most)
         move = meso_vec3_scale(move, most / length);
     bool moved = meso_settle_move(work, body, meso_vec3_add(body->root, move));
-    if (wish.turn_count)
-        meso_settle_turn(body, SHARE * wish.turn / (float)wish.turn_count);
+    if (wish.along > 0)
+        meso_settle_turn(body, SHARE * wish.across / hypotf(wish.along, wish.across));
     return moved;
 }
 

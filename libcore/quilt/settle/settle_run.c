@@ -11,7 +11,7 @@
 /* Heights as a share of their range that make no other layer. */
 #define SAME_HEIGHT 0.01f
 
-enum { RELAX_ROUNDS = 24, LAYER_ROUNDS = 4 };
+enum { RELAX_ROUNDS = 48, LAYER_ROUNDS = 4 };
 
 typedef struct Settling {
     MesoSettleWork work;
@@ -23,7 +23,6 @@ typedef struct Settling {
     bool *kept;                 /* [body_count] it stays as it was */
     uint32_t *kept_bodies;      /* [kept_count] those */
     uint32_t kept_count;
-    bool alone;                 /* there are no strands */
 } Settling;
 
 static MesoStatus make_layer(Settling *s, MesoQuiltHeights heights, MesoError *error)
@@ -64,10 +63,10 @@ static MesoStatus list_bodies(Settling *s, MesoError *error)
 static MesoStatus arrange(Settling *s, MesoError *error)
 {
     MesoSettleWork *work = &s->work;
-    if (!s->alone || !(work->spacing > 0) || !work->body_count)
+    if (!work->alone || !(work->spacing > 0) || !work->body_count)
         return MESO_OK;
-    if (work->linked)
-        return s->work.options.partial ? MESO_OK : meso_settle_fill(work, error);
+    if (work->fixed)
+        return work->options.partial ? MESO_OK : meso_settle_fill(work, error);
     meso_settle_relax(work, RELAX_ROUNDS);
     MesoStatus status = MESO_OK;
     for (int i = 0; i < 2 && !status && !work->options.partial; i++) {
@@ -255,6 +254,8 @@ static MesoStatus list_sources(Sources *sources, Settling *s, MesoError *error)
     for (uint32_t e = 0; e < before->element_count; e++) {
         uint32_t origin = before->element_origins[e], b = s->body_of[e];
         bool carried = work->swatch->kinds[origin] == MESO_ELEMENT_WHOLE && work->kind_of[origin] == MESO_NO_INDEX;
+        if (b != MESO_NO_INDEX && work->bodies[b].gone)
+            continue;
         if (b != MESO_NO_INDEX && !s->kept[b])
             add_body(sources, s, b);
         else if (!carried || carrier_of(s, e) != MESO_NO_INDEX)
@@ -387,16 +388,17 @@ MesoStatus meso_quilt_settle(MesoQuilt *quilt, MesoArena *arena, const MesoTrian
 {
     MesoQuilt before = *quilt;
     MesoArena scratch;
-    Settling s = {.before = &before, .alone = true};
-    bool any = false;
+    Settling s = {.before = &before};
+    bool any = false, alone = true;
     for (uint32_t e = 0; e < swatch->element_count; e++) {
         any |= swatch->kinds[e] == MESO_ELEMENT_WHOLE;
-        s.alone &= swatch->kinds[e] == MESO_ELEMENT_WHOLE;
+        alone &= swatch->kinds[e] == MESO_ELEMENT_WHOLE;
     }
     if (!any || !quilt->element_count)
         return MESO_OK;
     meso_arena_init(&scratch);
-    s.work = (MesoSettleWork){.surface = surface, .swatch = swatch, .options = *options, .arena = &scratch};
+    s.work = (MesoSettleWork){.surface = surface, .swatch = swatch, .options = *options, .alone = alone,
+                              .arena = &scratch};
     if (!(options->height_scale > 0))
         s.work.options.height_scale = options->scale;
     MesoStatus status = settle(quilt, arena, &s, error);

@@ -11,6 +11,11 @@ typedef struct MesoSettleRelation {
     MesoVec3 offset;            /* from centre to centre, in the surface's units */
 } MesoSettleRelation;
 
+/* How far points spread from a centre, which is alike where shapes stand alike: means of xx, yy, zz, xy, xz, yz. */
+typedef struct MesoSettleSpread {
+    float of[6];
+} MesoSettleSpread;
+
 /* A whole element of the swatch, with the smaller ones that stand in it. Lengths are in the surface's units. */
 typedef struct MesoSettleKind {
     uint32_t member_begin, member_end;      /* in members: the element itself, then what it carries */
@@ -21,6 +26,8 @@ typedef struct MesoSettleKind {
     float reach;                /* of its points from the centre */
     float height;               /* of the centre above the surface */
     uint32_t root;              /* the point where it grows from a strand, or MESO_NO_INDEX */
+    MesoSettleSpread spread;
+    uint32_t likeness;          /* the first kind that spreads like it */
     uint32_t relation_begin, relation_end;
 } MesoSettleKind;
 
@@ -36,6 +43,7 @@ typedef struct MesoSettleBody {
     bool gone;
     bool stays;                 /* it lies at a border, and is not moved */
     bool settled;               /* it is known to cut nothing, or that it cannot be helped */
+    uint32_t friends;           /* those around it that stand as in the swatch, once they are counted */
 } MesoSettleBody;
 
 typedef struct MesoSettleWork {
@@ -51,7 +59,9 @@ typedef struct MesoSettleWork {
     uint32_t *kind_of;          /* [swatch->element_count] that it is the first member of, or MESO_NO_INDEX */
     float spacing;              /* mean distance of a body of the swatch from the nearest one; 0: there is one alone */
     float reach;                /* the largest of any kind */
-    bool linked;                /* bodies reach through or under each other: they are not moved */
+    bool alone;                 /* there are no strands */
+    bool linked;                /* bodies reach through or under each other */
+    bool fixed;                 /* they stay where the quilt has them, and bend with the layer */
     uint32_t body_count, body_room;
     MesoSettleBody *bodies;     /* [body_count] */
     uint32_t *buckets, mask;    /* first body by hash of the cell */
@@ -142,14 +152,38 @@ MesoStatus meso_settle_fill(MesoSettleWork *work, MesoError *error);
 /* Bodies that cut others give way; of those that still do, such that were added go. */
 void meso_settle_part(MesoSettleWork *work);
 
+/* The same of linked ones, but for what was added: of two in each other's place, that goes which has fewer friends. */
+void meso_settle_push(MesoSettleWork *work);
+
 /* How many pairs of triangles of a body and of its neighbours cross, up to `most`; rigid ones. */
 uint32_t meso_settle_crossings(const MesoSettleWork *work, const MesoSettleBody *body, uint32_t itself, uint32_t most);
 
 /* Whether a body, rigid or not, cuts another one. */
 MesoStatus meso_settle_meets(bool *meets, const MesoSettleWork *work, const MesoSettleBody *body, MesoError *error);
 
-/* The relation of a kind that is nearest to an offset in the swatch's plane, within `most`; MESO_NO_INDEX: none. */
-uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, MesoVec2 offset, float most);
+/*
+ * The relation of a kind that is nearest to an offset in the swatch's plane, within `most`, to something that spreads like
+ * `spread`; MESO_NO_INDEX: none.
+ */
+uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, const MesoSettleSpread *spread, MesoVec2 offset,
+                              float most);
+
+/* How a body spreads by given axes. */
+MesoSettleSpread meso_settle_spread(const MesoSettleWork *work, const MesoSettleBody *body, const MesoPose *axes);
+bool meso_settle_alike(const MesoSettleSpread *a, const MesoSettleSpread *b);
+
+/* Finds kinds that are like each other, and gives those at the sides of the tile what all others like them have around
+ * them. */
+MesoStatus meso_settle_borrow(MesoSettleWork *work, MesoError *error);
+
+/* Whether one body stands around another one as in the swatch, within a share of the spacing. */
+bool meso_settle_is_meant(const MesoSettleWork *work, const MesoSettleBody *from, const MesoSettleBody *to, float most);
+
+/* Bodies on sides of the surface that face each other have nothing to do with each other. */
+static inline bool meso_settle_same_side(const MesoSettleBody *a, const MesoSettleBody *b)
+{
+    return meso_vec3_dot(a->pose.z, b->pose.z) > 0.3f;
+}
 
 /* From one body to another, in the plane of the first one, as far as their roots are apart. */
 MesoVec2 meso_settle_offset(const MesoSettleBody *from, const MesoSettleBody *to);

@@ -122,7 +122,20 @@ static MesoVec3 moved(const MesoPose *pose, MesoVec3 p)
     return meso_vec3_mad(meso_vec3_mad(q, p.y, pose->y), p.z, pose->z);
 }
 
-static uint32_t leaf_crossings(const MesoSphereTree *a, const MesoSphereNode *m, const MesoSphereTree *b,
+/* Whether a triangle is all on one side of another one's plane, of normal `up`. */
+static bool is_beside(const MesoVec3 p[3], MesoVec3 on, MesoVec3 up)
+{
+    float a = meso_vec3_dot(meso_vec3_sub(p[0], on), up), b = meso_vec3_dot(meso_vec3_sub(p[1], on), up);
+    float c = meso_vec3_dot(meso_vec3_sub(p[2], on), up);
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
+static MesoVec3 normal_of(const MesoVec3 p[3])
+{
+    return meso_vec3_unit(meso_vec3_cross(meso_vec3_sub(p[1], p[0]), meso_vec3_sub(p[2], p[0])), (MesoVec3){0, 0, 0});
+}
+
+static uint32_t leaf_crossings(MesoVec3 *push, const MesoSphereTree *a, const MesoSphereNode *m, const MesoSphereTree *b,
                                const MesoSphereNode *n, const MesoPose *pose)
 {
     uint32_t count = 0;
@@ -130,10 +143,14 @@ static uint32_t leaf_crossings(const MesoSphereTree *a, const MesoSphereNode *m,
         MesoVec3 q[3];
         for (uint32_t k = 0; k < 3; k++)
             q[k] = moved(pose, corner_at(b, b->order[j], k));
+        const MesoVec3 up = meso_vec3_cross(meso_vec3_sub(q[1], q[0]), meso_vec3_sub(q[2], q[0]));
         for (uint32_t i = m->begin; i < m->begin + m->count; i++) {
             const MesoVec3 p[3] = {corner_at(a, a->order[i], 0), corner_at(a, a->order[i], 1),
                                    corner_at(a, a->order[i], 2)};
-            count += meso_triangles_cross(p, q);
+            if (is_beside(p, q[0], up) || !meso_triangles_cross(p, q))
+                continue;
+            count++;
+            *push = meso_vec3_add(*push, meso_vec3_sub(normal_of(q), normal_of(p)));
         }
     }
     return count;
@@ -143,9 +160,10 @@ typedef struct Pair {
     uint32_t m, n;
 } Pair;
 
-uint32_t meso_sphere_trees_crossings(const MesoSphereTree *a, const MesoPose *at_a, const MesoSphereTree *b,
-                                     const MesoPose *at_b, uint32_t most)
+uint32_t meso_sphere_trees_push(MesoVec3 *push, const MesoSphereTree *a, const MesoPose *at_a, const MesoSphereTree *b,
+                                const MesoPose *at_b, uint32_t most)
 {
+    MesoVec3 sum = {0, 0, 0};
     MesoPose pose = between(at_a, at_b);
     Pair stack[2 * DEPTH];
     uint32_t size = 0, count = 0;
@@ -159,7 +177,7 @@ uint32_t meso_sphere_trees_crossings(const MesoSphereTree *a, const MesoPose *at
         if (meso_vec3_dot(d, d) > reach * reach)
             continue;
         if (m->count && n->count) {
-            count += leaf_crossings(a, m, b, n, &pose);
+            count += leaf_crossings(&sum, a, m, b, n, &pose);
         } else if (n->count || (!m->count && m->radius > n->radius)) {
             stack[size++] = (Pair){m->next, pair.n};
             stack[size++] = (Pair){pair.m + 1, pair.n};
@@ -168,5 +186,13 @@ uint32_t meso_sphere_trees_crossings(const MesoSphereTree *a, const MesoPose *at
             stack[size++] = (Pair){pair.m, pair.n + 1};
         }
     }
+    *push = meso_vec3_mad(meso_vec3_mad(meso_vec3_scale(at_a->x, sum.x), sum.y, at_a->y), sum.z, at_a->z);
     return count < most ? count : most;
+}
+
+uint32_t meso_sphere_trees_crossings(const MesoSphereTree *a, const MesoPose *at_a, const MesoSphereTree *b,
+                                     const MesoPose *at_b, uint32_t most)
+{
+    MesoVec3 push;
+    return meso_sphere_trees_push(&push, a, at_a, b, at_b, most);
 }

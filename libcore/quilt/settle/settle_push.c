@@ -1,0 +1,108 @@
+/*
+ * Linked bodies off each other: what goes through others has many ways in which it may get worse, and few to get better,
+ * which are told by where it cuts. By small steps each goes that way, along the layer and up and down.
+ */
+#include "libcore/quilt/settle/settle_work.h"
+
+/* Shares of the spacing: a step; bodies nearer than that are in each other's place, if they are not meant to be there; how
+ * far off friends may be, and what is meant. */
+#define STEP 0.02f
+#define TOO_NEAR 0.85f
+#define FRIEND 0.2f
+#define MEANT 0.4f
+
+enum { ROUNDS = 16, MOST_CROSSINGS = 64 };
+
+/* ---- bodies in each other's place ---- */
+
+static void count_friends(MesoSettleWork *work, uint32_t a)
+{
+    MesoSettleBody *body = &work->bodies[a];
+    uint32_t near[MESO_SETTLE_NEAR], count = meso_settle_near(near, MESO_SETTLE_NEAR, work, body->pose.origin);
+    body->friends = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (near[i] != a && meso_settle_same_side(body, &work->bodies[near[i]]))
+            body->friends += meso_settle_is_meant(work, body, &work->bodies[near[i]], FRIEND);
+}
+
+/* Whether a body has another one in its place that has more friends. */
+static bool is_displaced(const MesoSettleWork *work, uint32_t a)
+{
+    const MesoSettleBody *body = &work->bodies[a];
+    uint32_t near[MESO_SETTLE_NEAR], count = meso_settle_near(near, MESO_SETTLE_NEAR, work, body->pose.origin);
+    for (uint32_t i = 0; i < count; i++) {
+        const MesoSettleBody *other = &work->bodies[near[i]];
+        float apart = meso_vec3_length(meso_vec3_sub(other->root, body->root));
+        if (near[i] != a && body->friends < other->friends && apart < TOO_NEAR * work->spacing &&
+            meso_settle_same_side(body, other) && !meso_settle_is_meant(work, other, body, MEANT) &&
+            !meso_settle_is_meant(work, body, other, MEANT))
+            return true;
+    }
+    return false;
+}
+
+static void weed(MesoSettleWork *work)
+{
+    for (uint32_t b = 0; b < work->body_count; b++)
+        count_friends(work, b);
+    for (uint32_t b = 0; b < work->body_count; b++)
+        work->bodies[b].gone |= !work->bodies[b].stays && is_displaced(work, b);
+}
+
+/* ---- pushes ---- */
+
+/*
+ * The way off all that a body cuts, at most of length 1; false where it cuts nothing. In the first round what is settled
+ * and comes before it is known not to cut it.
+ */
+static bool find_push(MesoVec3 *push, MesoSettleWork *work, uint32_t a, bool first)
+{
+    const MesoSettleBody *body = &work->bodies[a];
+    uint32_t near[MESO_SETTLE_NEAR], count = meso_settle_near(near, MESO_SETTLE_NEAR, work, body->pose.origin);
+    bool any = false;
+    *push = (MesoVec3){0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        MesoSettleBody *other = &work->bodies[near[i]];
+        MesoVec3 d = meso_vec3_sub(body->pose.origin, other->pose.origin), off;
+        float reach = work->kinds[body->kind].reach + work->kinds[other->kind].reach;
+        if (near[i] == a || meso_vec3_dot(d, d) >= reach * reach || (first && near[i] < a && other->settled))
+            continue;
+        if (!meso_sphere_trees_push(&off, &work->kinds[body->kind].spheres, &body->pose,
+                                    &work->kinds[other->kind].spheres, &other->pose, MOST_CROSSINGS))
+            continue;
+        *push = meso_vec3_add(*push, meso_vec3_direction(off, (MesoVec3){0, 0, 0}));
+        other->settled = false;
+        any = true;
+    }
+    float length = meso_vec3_length(*push);
+    if (length > 1)
+        *push = meso_vec3_scale(*push, 1 / length);
+    return any;
+}
+
+static void push_body(MesoSettleWork *work, uint32_t a, bool first)
+{
+    MesoSettleBody *body = &work->bodies[a];
+    MesoVec3 push;
+    body->settled = !find_push(&push, work, a, first) || body->stays;
+    if (body->settled)
+        return;
+    MesoVec3 step = meso_vec3_scale(push, STEP * work->spacing);
+    body->place.height += meso_vec3_dot(step, meso_settle_up(work, body->place));
+    meso_settle_move(work, body, meso_vec3_add(body->root, meso_settle_along(work, body, step)));
+    meso_settle_list(work, a);
+}
+
+void meso_settle_push(MesoSettleWork *work)
+{
+    weed(work);
+    bool all = false;
+    for (uint32_t round = 0; round < ROUNDS && !all; round++) {
+        all = true;
+        for (uint32_t b = 0; b < work->body_count; b++)
+            if (!work->bodies[b].gone && !work->bodies[b].settled) {
+                push_body(work, b, round == 0);
+                all &= work->bodies[b].settled;
+            }
+    }
+}
