@@ -12,7 +12,7 @@ static const MesoToolInfo QUILT_TOOL = {
     .purpose = "Grow a swatch of geometry over a surface: mesh quilting.",
     .examples = "meso-quilt --swatch mail torso.obj -o mail.meso\n"
                 "meso-quilt --swatch weave --plane 12x8 -o cloth.ply\n"
-                "meso-quilt --guide auto --turns 4 nuts.ply bust.ply -o nuts.quilt\n"
+                "meso-quilt --guide auto --turns 6 nuts.ply bust.ply -o nuts.quilt\n"
                 "meso-quilt --swatch ivy --jitter 0.1 -o ivy.ply",
     .words = "1 .obj .ply .off .glb .gltf .drc\n"
              "2 .obj .ply .off .glb .gltf .drc\n"

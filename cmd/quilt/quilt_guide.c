@@ -153,10 +153,14 @@ static MesoStatus take_texture(MesoVec3 *guide, const MesoPolygonMesh *mesh, con
 
 /* ---- fields ---- */
 
-/* Where the swatch may be turned by a quarter or half, directions need not be told apart beyond that. */
+/* Where the swatch may be turned by a sixth, a quarter or half, directions need not be told apart beyond that. */
 static uint32_t symmetry_of(uint32_t turns)
 {
-    return turns % 4 == 0 ? 4 : turns % 2 == 0 ? 2 : 1;
+    static const uint32_t symmetries[] = {4, 6, 3, 2};
+    for (size_t i = 0; i < sizeof symmetries / sizeof *symmetries; i++)
+        if (turns % symmetries[i] == 0)
+            return symmetries[i];
+    return 1;
 }
 
 /* Directions into the triangles' planes, unit or 0. Returns how many are 0. */

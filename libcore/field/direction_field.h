@@ -9,7 +9,7 @@
 #include "libcore/mesh/cut/triangulation.h"
 
 typedef struct MesoDirectionField {
-    uint32_t symmetry;          /* 1, 2 or 4: directions are known up to turns by 2 pi / symmetry */
+    uint32_t symmetry;          /* 1 and more: directions are known up to turns by 2 pi / symmetry */
     MesoVec3 *directions;       /* [triangle_count] unit, in the triangle's plane */
     uint32_t singularity_count;
     uint32_t *singularities;    /* [singularity_count] vertices, ascending; none of a border */

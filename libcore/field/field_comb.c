@@ -17,8 +17,8 @@ static MesoComplex nearest_turn(MesoComplex direction, uint32_t symmetry, MesoCo
         MesoComplex quarter = {0, back.im > 0 ? -1 : 1};
         return meso_complex_times(direction, quarter);
     }
-    if (symmetry > 2 && symmetry != 4) {
-        double step = 2 * MESO_PI / symmetry, angle = step * -rint(atan2(back.im, back.re) / step);
+    if (symmetry == 3 || symmetry > 4) {
+        double part = 2 * MESO_PI / symmetry, angle = -part * rint(atan2(back.im, back.re) / part);
         return meso_complex_times(direction, (MesoComplex){cos(angle), sin(angle)});
     }
     if (symmetry > 1 && back.re < 0)

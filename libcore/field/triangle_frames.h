@@ -26,22 +26,26 @@ static inline MesoComplex meso_complex_unit(MesoComplex a)
     return length > 0 && length < INFINITY ? (MesoComplex){a.re / length, a.im / length} : (MesoComplex){1, 0};
 }
 
-/* To the power 1, 2 or 4. */
+/* To a power from 1 on. */
 static inline MesoComplex meso_complex_power(MesoComplex a, uint32_t power)
 {
-    for (; power > 1; power /= 2)
+    for (; power % 2 == 0; power /= 2)
         a = meso_complex_times(a, a);
-    return a;
+    MesoComplex product = a;
+    for (; power > 1; power--)
+        product = meso_complex_times(product, a);
+    return product;
 }
 
-/* That root of a number of length 1 whose real part is not negative, for powers as above. */
+/* That root of a number of length 1 which is the nearest to 1, but for a side. */
 static inline MesoComplex meso_complex_root(MesoComplex a, uint32_t power)
 {
-    for (; power > 1; power /= 2) {
+    for (; power % 2 == 0; power /= 2) {
         double re = sqrt(fmax(0, 0.5 * (1 + a.re))), im = sqrt(fmax(0, 0.5 * (1 - a.re)));
         a = (MesoComplex){re, a.im < 0 ? -im : im};
     }
-    return a;
+    double angle = power > 1 ? atan2(a.im, a.re) / power : 0;
+    return power > 1 ? (MesoComplex){cos(angle), sin(angle)} : a;
 }
 
 /* x along the longest side, y to its left: the triangle lies there. */

@@ -25,10 +25,13 @@ typedef struct MesoSettleOptions {
  * - An element lies in space as a copy of that of the swatch, moved and turned as fits best where the layer of
  *   meso_quilt_layer() has it; small ones that stand in a larger one of the swatch go with that.
  * - Where all elements are whole: those around each other move towards the places that they have around each other in
- *   the swatch, as far as the surface lets them; where the swatch would have a further one and there is room, it is
- *   added; what still cuts another one gives way, or goes if it was added.
- * - Where they reach through each other, or lie over each other: they stay where and as they were, bent with the layer, but
- *   of nearly their own volume; what is added cuts nothing.
+ *   the swatch, and turn as what is around them lies, as far as the surface lets them; where the swatch would have a
+ *   further one and there is room, it is added. What stands at a side of the swatch has around it what all those have
+ *   that are like it.
+ * - What still cuts another one gives way, or goes if it was added. Where elements reach through each other, or lie over
+ *   each other, that is by small steps, and of two in one place the one goes around which less stands as in the swatch.
+ * - Where they do so and cut each other in the swatch as well, they stay where and as they were, bent with the layer,
+ *   but of nearly their own volume; what is added cuts nothing.
  * - Where there are strands, elements stand where the strands have them; such that grow from a strand, with that place of
  *   theirs.
  * - Vertices get the triangle, the weights and the height that have the layer put them where they are. Where the layer is
@@ -36,8 +39,8 @@ typedef struct MesoSettleOptions {
  *
  * surface  that the quilt's places refer to, with twins
  *
- * Elements keep their order, and what is added comes last. Counts are added to the quilt's report. O(n log n) for n
- * triangles, but for elements that cut each other. On one thread, but for the layer. MESO_ERR_LIMIT, MESO_ERR_MEMORY.
+ * Elements that stay keep their order, and what is added comes last. Counts are added to the quilt's report. O(n log n)
+ * for n triangles, but for elements that cut each other. On one thread, but for the layer. MESO_ERR_LIMIT, MESO_ERR_MEMORY.
  */
 MesoStatus meso_quilt_settle(MesoQuilt *quilt, MesoArena *arena, const MesoTriangulation *surface,
                              const MesoSwatch *swatch, const MesoSettleOptions *options, MesoError *error);

@@ -1,7 +1,6 @@
 /*
- * Kinds that are alike: those of a lattice, whose places differ from each other by little, and what one of them has around
- * it all have. A swatch has few of them that do not stand at a side of it, where the half of what is to be around them is
- * missing.
+ * Kinds that are alike: those of a lattice, whose places differ from each other by little, and what one of them has
+ * around it all have. Most of a swatch stands at a side of it, where a half of what is to be around it is missing.
  */
 #include <string.h>
 
@@ -44,8 +43,9 @@ MesoSettleSpread meso_settle_spread(const MesoSettleWork *work, const MesoSettle
         out[k] = (MesoVec3){s[0] * a.x + s[3] * a.y + s[4] * a.z, s[3] * a.x + s[1] * a.y + s[5] * a.z,
                             s[4] * a.x + s[5] * a.y + s[2] * a.z};
     }
-    return (MesoSettleSpread){{meso_vec3_dot(in[0], out[0]), meso_vec3_dot(in[1], out[1]), meso_vec3_dot(in[2], out[2]),
-                               meso_vec3_dot(in[0], out[1]), meso_vec3_dot(in[0], out[2]), meso_vec3_dot(in[1], out[2])}};
+    return (MesoSettleSpread){{meso_vec3_dot(in[0], out[0]), meso_vec3_dot(in[1], out[1]),
+                               meso_vec3_dot(in[2], out[2]), meso_vec3_dot(in[0], out[1]),
+                               meso_vec3_dot(in[0], out[2]), meso_vec3_dot(in[1], out[2])}};
 }
 
 bool meso_settle_alike(const MesoSettleSpread *a, const MesoSettleSpread *b)
@@ -86,8 +86,9 @@ static bool is_within(const MesoSettleWork *work, uint32_t kind, MesoVec3 offset
 
 static bool has(const MesoSettleWork *work, uint32_t kind, const MesoSettleRelation *relation)
 {
-    return meso_settle_relation(work, kind, &work->kinds[relation->kind].spread,
-                                (MesoVec2){relation->offset.x, relation->offset.y}, SAME * work->spacing) != MESO_NO_INDEX;
+    const MesoVec2 offset = {relation->offset.x, relation->offset.y};
+    const MesoSettleSpread *spread = &work->kinds[relation->kind].spread;
+    return meso_settle_relation(work, kind, spread, offset, SAME * work->spacing) != MESO_NO_INDEX;
 }
 
 static bool is_same(const MesoSettleWork *work, const MesoSettleRelation *a, const MesoSettleRelation *b)

@@ -8,7 +8,7 @@
  * be.
  */
 #define EMPTY 0.5f
-#define ROOM 0.8f
+#define ROOM 0.7f
 
 /* Steps around a place in search of one where a body cuts nothing among such as stay. */
 #define NUDGE 0.06f

@@ -230,8 +230,8 @@ MesoStatus meso_settle_find_kinds(MesoSettleWork *work, MesoError *error)
     return status ? status : find_relations(work, error);
 }
 
-uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, const MesoSettleSpread *spread, MesoVec2 offset,
-                              float most)
+uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, const MesoSettleSpread *spread,
+                              MesoVec2 offset, float most)
 {
     uint32_t best = MESO_NO_INDEX;
     float least = most * most;

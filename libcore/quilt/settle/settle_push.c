@@ -1,15 +1,15 @@
 /*
- * Linked bodies off each other: what goes through others has many ways in which it may get worse, and few to get better,
- * which are told by where it cuts. By small steps each goes that way, along the layer and up and down.
+ * Linked bodies off each other: of all ways there are few that lead off what goes through others, and where it cuts them
+ * tells which. Each goes there by small steps, along the layer and up and down.
  */
 #include "libcore/quilt/settle/settle_work.h"
 
-/* Shares of the spacing: a step; bodies nearer than that are in each other's place, if they are not meant to be there; how
- * far off friends may be, and what is meant. */
+/* Shares of the spacing: a step; how near bodies are in each other's place, but such as are meant to be there; how far off
+ * what is meant may be, and friends. */
 #define STEP 0.02f
 #define TOO_NEAR 0.85f
-#define FRIEND 0.2f
 #define MEANT 0.4f
+#define FRIEND 0.2f
 
 enum { ROUNDS = 16, MOST_CROSSINGS = 64 };
 
@@ -52,8 +52,8 @@ static void weed(MesoSettleWork *work)
 /* ---- pushes ---- */
 
 /*
- * The way off all that a body cuts, at most of length 1; false where it cuts nothing. In the first round what is settled
- * and comes before it is known not to cut it.
+ * The way off all that a body cuts, at most of length 1; false where it cuts nothing. In the first round what comes
+ * before it and is settled is known not to cut it.
  */
 static bool find_push(MesoVec3 *push, MesoSettleWork *work, uint32_t a, bool first)
 {

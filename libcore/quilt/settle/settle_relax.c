@@ -27,7 +27,8 @@ typedef struct Wish {
 
 /*
  * The way in which `from` would have something that it has a relation to; added with a sign. With -1 it is `from` itself
- * that wishes, to turn as fits best what is around it: by turns of its neighbours', wishes of all would chase each other.
+ * that wishes: it also turns to what is around it. Did it turn to how its neighbours are turned, all would chase each
+ * other.
  */
 static bool wish_by(Wish *wish, const MesoSettleWork *work, const MesoSettleBody *from, const MesoSettleBody *to,
                     float sign)
@@ -85,8 +86,8 @@ bool meso_settle_relax_body(const MesoSettleWork *work, MesoSettleBody *body, ui
     Wish wish = {0};
     for (uint32_t i = 0; i < count; i++) {
         const MesoSettleBody *other = &work->bodies[near[i]];
-        MesoVec3 d = meso_vec3_sub(other->root, body->root);
-        if (near[i] != itself && meso_settle_same_side(body, other) && meso_vec3_dot(d, d) < 4 * work->spacing * work->spacing)
+        float apart = meso_vec3_length(meso_vec3_sub(other->root, body->root));
+        if (near[i] != itself && meso_settle_same_side(body, other) && apart < 2 * work->spacing)
             add_wishes(&wish, work, body, other);
     }
     if (!wish.count)

@@ -11,7 +11,7 @@
 /* Heights as a share of their range that make no other layer. */
 #define SAME_HEIGHT 0.01f
 
-enum { RELAX_ROUNDS = 48, LAYER_ROUNDS = 4 };
+enum { FILLS = 2, RELAX_ROUNDS = 48, LAYER_ROUNDS = 4 };
 
 typedef struct Settling {
     MesoSettleWork work;
@@ -67,11 +67,11 @@ static MesoStatus arrange(Settling *s, MesoError *error)
         return MESO_OK;
     if (work->fixed)
         return work->options.partial ? MESO_OK : meso_settle_fill(work, error);
-    meso_settle_relax(work, RELAX_ROUNDS);
     MesoStatus status = MESO_OK;
-    for (int i = 0; i < 2 && !status && !work->options.partial; i++) {
+    meso_settle_relax(work, RELAX_ROUNDS);
+    for (int i = 0; i < FILLS && !status && !work->options.partial; i++) {
         status = meso_settle_fill(work, error);
-        if (!status && i == 0)
+        if (!status)
             meso_settle_relax(work, RELAX_ROUNDS);
     }
     if (!status)

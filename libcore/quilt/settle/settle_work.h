@@ -162,11 +162,11 @@ uint32_t meso_settle_crossings(const MesoSettleWork *work, const MesoSettleBody 
 MesoStatus meso_settle_meets(bool *meets, const MesoSettleWork *work, const MesoSettleBody *body, MesoError *error);
 
 /*
- * The relation of a kind that is nearest to an offset in the swatch's plane, within `most`, to something that spreads like
- * `spread`; MESO_NO_INDEX: none.
+ * The relation of a kind that is nearest to an offset in the swatch's plane, within `most`, to something that spreads
+ * like `spread`; MESO_NO_INDEX: none.
  */
-uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, const MesoSettleSpread *spread, MesoVec2 offset,
-                              float most);
+uint32_t meso_settle_relation(const MesoSettleWork *work, uint32_t kind, const MesoSettleSpread *spread,
+                              MesoVec2 offset, float most);
 
 /* How a body spreads by given axes. */
 MesoSettleSpread meso_settle_spread(const MesoSettleWork *work, const MesoSettleBody *body, const MesoPose *axes);

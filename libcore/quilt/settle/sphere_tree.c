@@ -135,8 +135,9 @@ static MesoVec3 normal_of(const MesoVec3 p[3])
     return meso_vec3_unit(meso_vec3_cross(meso_vec3_sub(p[1], p[0]), meso_vec3_sub(p[2], p[0])), (MesoVec3){0, 0, 0});
 }
 
-static uint32_t leaf_crossings(MesoVec3 *push, const MesoSphereTree *a, const MesoSphereNode *m, const MesoSphereTree *b,
-                               const MesoSphereNode *n, const MesoPose *pose)
+/* Adds to `push` as well. */
+static uint32_t leaf_crossings(MesoVec3 *push, const MesoSphereTree *a, const MesoSphereNode *m,
+                               const MesoSphereTree *b, const MesoSphereNode *n, const MesoPose *pose)
 {
     uint32_t count = 0;
     for (uint32_t j = n->begin; j < n->begin + n->count; j++) {

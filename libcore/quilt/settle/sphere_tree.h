@@ -36,7 +36,7 @@ MesoStatus meso_sphere_tree_build(MesoSphereTree *tree, MesoArena *arena, const 
 uint32_t meso_sphere_trees_crossings(const MesoSphereTree *a, const MesoPose *at_a, const MesoSphereTree *b,
                                      const MesoPose *at_b, uint32_t most);
 
-/* The same; `push` becomes the sum of unit vectors in space, one for each of them, along which `a` has to go to get off. */
+/* The same; `push` becomes the sum of ways in space for `a` to get off, of about length 1 for each of them. */
 uint32_t meso_sphere_trees_push(MesoVec3 *push, const MesoSphereTree *a, const MesoPose *at_a, const MesoSphereTree *b,
                                 const MesoPose *at_b, uint32_t most);
 

@@ -89,6 +89,33 @@ static void test_rings(void)
     meso_arena_release(&arena);
 }
 
+/* Where the wires of two rings cut each other a little, it goes apart along the way that is shortest. */
+static void test_push(void)
+{
+    static Ring ring;
+    MesoArena arena;
+    MesoError error;
+    MesoSphereTree tree;
+    MesoVec3 push;
+    meso_arena_init(&arena);
+    make_ring(&ring);
+    CHECK(meso_sphere_tree_build(&tree, &arena, ring.points, ring.corners, TRIANGLES, &error) == MESO_OK);
+    float outer = 0, half = 0;
+    for (uint32_t i = 0; i < POINTS; i++) {
+        outer = fmaxf(outer, ring.points[i].x);
+        half = fmaxf(half, ring.points[i].z);
+    }
+    const MesoPose here = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+    MesoPose beside = here, above = here;
+    beside.origin.x = 2 * outer - 0.2f * half;
+    above.origin.z = 1.8f * half;
+    CHECK(meso_sphere_trees_push(&push, &tree, &here, &tree, &beside, 64) > 0);
+    CHECK(push.x < 0 && fabsf(push.x) > 4 * fabsf(push.y) && fabsf(push.x) > 4 * fabsf(push.z));
+    CHECK(meso_sphere_trees_push(&push, &tree, &here, &tree, &above, UINT32_MAX) > 0);
+    CHECK(push.z < 0 && fabsf(push.z) > 4 * fabsf(push.x) && fabsf(push.z) > 4 * fabsf(push.y));
+    meso_arena_release(&arena);
+}
+
 static void test_nothing(void)
 {
     MesoArena arena;
@@ -104,6 +131,7 @@ static void test_nothing(void)
 int main(void)
 {
     test_rings();
+    test_push();
     test_nothing();
     return 0;
 }
