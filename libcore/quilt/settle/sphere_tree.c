@@ -5,7 +5,7 @@
 #include "libcore/math/box.h"
 #include "libcore/quilt/seam/bodies_meet.h"
 
-enum { LEAF = 2, DEPTH = 64 };
+enum { LEAF = 1, DEPTH = 64 };
 
 typedef struct Item {
     float key;
