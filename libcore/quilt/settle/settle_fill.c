@@ -97,7 +97,7 @@ static MesoStatus try_relation(MesoSettleWork *work, uint32_t from, uint32_t rel
         meso_settle_relax_body(work, &body, MESO_NO_INDEX);
     if (is_taken(work, &body, ROOM * work->spacing) || !is_over_surface(work, &body))
         return MESO_OK;
-    if (work->fixed) {
+    if (work->careful) {
         bool meets;
         MesoStatus status = thread_in(&meets, &body, work, error);
         if (status || meets)

@@ -199,7 +199,7 @@ static MesoStatus find_relations(MesoSettleWork *work, MesoError *error)
     for (uint32_t k = 0; k < work->kind_count; k++)
         list_relations(&work->relations[work->kinds[k].relation_begin], work, k);
     work->linked = are_linked(work);
-    work->fixed = work->linked && (!work->alone || cuts_itself(work));
+    work->fixed = work->careful = work->linked && (!work->alone || cuts_itself(work));
     return meso_settle_borrow(work, error);
 }
 

@@ -74,9 +74,11 @@ static MesoStatus arrange(Settling *s, MesoError *error)
         if (!status)
             meso_settle_relax(work, RELAX_ROUNDS);
     }
-    if (!status)
-        meso_settle_part(work);
-    return status;
+    if (status)
+        return status;
+    meso_settle_part(work);
+    work->careful = true;   /* where others have gone */
+    return work->linked && !work->options.partial ? meso_settle_fill(work, error) : MESO_OK;
 }
 
 /* ---- back into the layer ---- */

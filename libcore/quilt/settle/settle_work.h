@@ -62,6 +62,7 @@ typedef struct MesoSettleWork {
     bool alone;                 /* there are no strands */
     bool linked;                /* bodies reach through or under each other */
     bool fixed;                 /* they stay where the quilt has them, and bend with the layer */
+    bool careful;               /* what is added may cut nothing from the first */
     uint32_t body_count, body_room;
     MesoSettleBody *bodies;     /* [body_count] */
     uint32_t *buckets, mask;    /* first body by hash of the cell */
