@@ -242,16 +242,17 @@ FILL(fill_large, int64_t)
 
 /* ---- which triangles reach a place ---- */
 
-enum { BLOCK = 64 };            /* triangles that are looked at together */
+enum { BLOCK = 64, STEP = 16 };     /* triangles that are looked at together, at most, and at once */
 
 typedef struct Block {
     int32_t ax[BLOCK], ay[BLOCK], bx[BLOCK], by[BLOCK], cx[BLOCK], cy[BLOCK];
     uint8_t kept[BLOCK];
 } Block;
 
-/* Fills the rest with triangles without area. */
-static inline void gather(Block *block, const MesoRasterVertex *vertices, const uint32_t *corners, uint32_t count)
+/* Fills up the last step with triangles without area, and returns the end of it. */
+static inline uint32_t gather(Block *block, const MesoRasterVertex *vertices, const uint32_t *corners, uint32_t count)
 {
+    uint32_t end = (count + STEP - 1) / STEP * STEP;
     for (uint32_t i = 0; i < count; i++) {
         const MesoRasterVertex *a = &vertices[corners[3 * i]], *b = &vertices[corners[3 * i + 1]];
         const MesoRasterVertex *c = &vertices[corners[3 * i + 2]];
@@ -262,8 +263,9 @@ static inline void gather(Block *block, const MesoRasterVertex *vertices, const 
         block->cx[i] = c->x;
         block->cy[i] = c->y;
     }
-    for (uint32_t i = count; i < BLOCK; i++)
+    for (uint32_t i = count; i < end; i++)
         block->ax[i] = block->ay[i] = block->bx[i] = block->by[i] = block->cx[i] = block->cy[i] = 0;
+    return end;
 }
 
 /* What becomes of a triangle: it is left out, drawn, or drawn at the one place that it has. */
@@ -280,11 +282,11 @@ static inline int32_t inside_of(int32_t dx, int32_t dy, int32_t x, int32_t y)
  * Those that look away or have no area are left out, and, with one sample a pixel, those around no pixel's middle:
  * without a branch, so that many are looked at at once. Large ones, whose areas do not fit in 32 bits, are all drawn.
  */
-__attribute__((always_inline)) static inline void sift(Block *block, const MesoRasterTarget *target, bool one_sided)
+__attribute__((always_inline)) static inline void sift_step(Block *block, uint32_t begin, const MesoRasterTarget *target, bool one_sided)
 {
     int32_t wide = 4 * target->cells_x - 1, high = 4 * target->cells_y - 1;
     bool single = target->lanes->samples == 1;
-    for (uint32_t i = 0; i < BLOCK; i++) {
+    for (uint32_t i = begin; i < begin + STEP; i++) {
         int32_t ax = block->ax[i], ay = block->ay[i], bx = block->bx[i], by = block->by[i], cx = block->cx[i];
         int32_t cy = block->cy[i];
         int32_t low_x = least(ax, least(bx, cx)), high_x = most(ax, most(bx, cx));
@@ -350,8 +352,9 @@ __attribute__((always_inline)) static inline void draw_all(const MesoRasterTarge
         uint32_t count = triangle_count - begin < BLOCK ? triangle_count - begin : BLOCK, kept = 0;
         const uint32_t *k = corners + 3 * (size_t)begin;
         uint8_t which[BLOCK];
-        gather(&block, vertices, k, count);
-        sift(&block, target, one_sided);
+        uint32_t end = gather(&block, vertices, k, count);
+        for (uint32_t step = 0; step < end; step += STEP)
+            sift_step(&block, step, target, one_sided);
         for (uint32_t i = 0; i < count; i++) {
             which[kept] = (uint8_t)i;
             kept += block.kept[i] != LEFT_OUT;
