@@ -145,13 +145,14 @@ MesoVec3 meso_sweep_middle(const MesoScene *scene, const MesoSweepInstance *swee
 MesoSweepHull meso_sweep_hull(const MesoScene *scene, const MesoSweepInstance *sweep, float radius)
 {
     MesoSweepHull hull = {.count = 4, .reach = radius};
-    MesoBox box = meso_box_empty();
-    for (uint32_t i = 0; i < 4; i++) {
-        hull.points[i] = sweep->p[i];
-        meso_box_add_around(&box, sweep->p[i], radius);
-    }
-    if (scene->deform == MESO_SWEEP_CURVES)
+    if (scene->deform == MESO_SWEEP_CURVES) {
+        for (uint32_t i = 0; i < 4; i++)
+            hull.points[i] = sweep->p[i];
         return hull;
+    }
+    MesoBox box = meso_box_empty();
+    for (uint32_t i = 0; i < 4; i++)
+        meso_box_add_around(&box, sweep->p[i], radius);
     hull.count = 8;
     hull.reach = 0;
     for (uint32_t i = 0; i < 8; i++)

@@ -15,9 +15,12 @@ typedef struct Plane {
  */
 static Plane make_plane(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed)
 {
-    MesoVec3 axis = fabsf(tangent.x) < 0.6f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
-    MesoVec3 fallback = meso_vec3_unit(meso_vec3_cross(axis, tangent), axis);
-    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(up, tangent), fallback);
+    const MesoVec3 none = {0, 0, 0};
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(up, tangent), none);
+    if (x.x == 0 && x.y == 0 && x.z == 0) {
+        MesoVec3 axis = fabsf(tangent.x) < 0.6f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
+        x = meso_vec3_unit(meso_vec3_cross(axis, tangent), axis);
+    }
     return (Plane){origin, x, meso_vec3_cross(tangent, x), tangent, speed};
 }
 
@@ -362,13 +365,19 @@ static Plane cap_plane(const MesoScene *scene, const MesoSweepInstance *cap, flo
     return plane;
 }
 
+/* Where a column meets the cap's end. */
+static inline MesoVec2 cap_place(const MesoScene *scene, const MesoSweepInstance *cap, const MesoSweepColumn *column,
+                                 float v)
+{
+    MesoVec2 at = meso_vec2_scale(column->start, cap->size[0]);
+    return v == 0 && scene->deform == MESO_SWEEP_SHAPE ? on_grain(at) : at;
+}
+
 static MesoMeshVertex cap_vertex(const MesoScene *scene, const MesoSweepInstance *cap, const Plane *plane,
                                  const MesoSweepColumn *column, float v)
 {
     float rise = MESO_CAP_RISE * cap->size[0], radius = 1 - v * v * v * v;
-    MesoVec2 at = meso_vec2_scale(column->start, cap->size[0]), n = column->start_normal;
-    if (v == 0 && scene->deform == MESO_SWEEP_SHAPE)
-        at = on_grain(at);
+    MesoVec2 at = cap_place(scene, cap, column, v), n = column->start_normal;
     float lean = 4 * v * v * v * (at.x * n.x + at.y * n.y);
     MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(in_plane(plane, n), rise), lean, plane->tangent);
     return sweep_vertex(plane, (MesoVec2){radius * at.x, radius * at.y}, normal, scene->section_scale, column->u, v);
@@ -382,7 +391,13 @@ static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind 
     for (uint32_t ring = 0; ring <= last; ring++) {
         float v = (float)ring / (float)last;
         Plane plane = cap_plane(scene, cap, v);
-        for (uint32_t c = 0; c < grid->column_count; c++)
+        float radius = 1 - v * v * v * v;
+        for (uint32_t c = 0; c < grid->column_count && grid->bare; c++) {
+            MesoVec2 at = cap_place(scene, cap, &columns[grid->columns ? grid->columns[c] : c], v);
+            MesoVec3 across = in_plane(&plane, (MesoVec2){radius * at.x, radius * at.y});
+            out++->position = meso_vec3_mad(plane.origin, scene->section_scale, across);
+        }
+        for (uint32_t c = 0; c < grid->column_count && !grid->bare; c++)
             *out++ = cap_vertex(scene, cap, &plane, &columns[grid->columns ? grid->columns[c] : c], v);
     }
     return out;
