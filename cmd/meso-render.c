@@ -18,6 +18,9 @@
 #include "libcore/render/picture/motion.h"
 #include "libcore/render/picture/painter.h"
 
+/* Of 116 bytes each: models of more are drawn without holding them. */
+enum { STORED_SWEEPS = 1 << 19 };
+
 static const MesoToolInfo RENDER_TOOL = {
     .name = "meso-render",
     .synopsis = "meso-render [options] MODEL -o OUT.exr|.png\n"
@@ -414,6 +417,8 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     if (!status && a->extras & MESO_EXTRA_MOTION && !work.frames.numbered)
         status = meso_fail(error, MESO_ERR_USAGE,
                            "--aov motion is for frames: --turntable, --keys or a MODEL by number");
+    if (wants_gl(a))            /* it has them all in its buffers */
+        a->stored_sweeps = 0;
     work.backdrop.up = a->camera.world_up;
     work.input_count = a->tool.provenance.input_count;
     if (!status)
@@ -426,7 +431,7 @@ int main(int argc, char **argv)
 {
     MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
                          .ground = "none", .data_window = "full", .rate = {24, 1}, .light = "camera",
-                         .light_strength = 1, .tone = "shoulder"};
+                         .light_strength = 1, .tone = "shoulder", .stored_sweeps = STORED_SWEEPS};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),
@@ -479,6 +484,7 @@ int main(int argc, char **argv)
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
                     &a.context, "auto|osmesa|egl", .given = &a.context_given),
         MESO_COUNT(0, "band-rows", "N", 0, &a.band_rows, 0, 16384, .more = MESO_OPTION_SILENT),
+        MESO_COUNT(0, "stored-sweeps", "N", 0, &a.stored_sweeps, 0, UINT32_MAX, .more = MESO_OPTION_SILENT),
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };

@@ -26,6 +26,7 @@ typedef struct MesoRenderArguments {
     const char *fps_text;       /* --fps */
     uint32_t rate[2];           /* frames in so many seconds */
     uint32_t band_rows;         /* --band-rows: for tests, and hidden */
+    uint32_t stored_sweeps;     /* --stored-sweeps: of more, none is (sweep_maker.h); the same */
     const char *light, *tone;   /* --light, --tone */
     float light_turn, light_strength;
     bool light_turn_given, light_strength_given;

@@ -72,7 +72,7 @@ static MesoStatus read_sheet(MesoRenderSource *source, MesoRenderArguments *a, M
 MesoStatus meso_render_source_read(MesoRenderSource *source, MesoRenderArguments *a, const char *model,
                                    MesoError *error)
 {
-    MesoSceneReading reading = {.thread_count = a->tool.threads};
+    MesoSceneReading reading = {.thread_count = a->tool.threads, .stored_sweeps = a->stored_sweeps};
     *source = (MesoRenderSource){.color_channel = MESO_NO_INDEX};
     if (a->tiles)
         return read_sheet(source, a, error);

@@ -34,7 +34,8 @@ static MesoStatus expand_tiles(MesoScene *scene, const Opened *opened, MesoError
     if (status)
         return status == MESO_ERR_INPUT ? meso_fail_prefix(error, opened->input->path) : status;
     reading->tiling = model;
-    status = meso_model_expand(scene, NULL, opened->arena, model, reading->thread_count, error);
+    status = meso_model_expand_to_draw(scene, opened->arena, model, reading->stored_sweeps, reading->thread_count,
+                                       error);
     if (status == MESO_ERR_INPUT)
         meso_fail_prefix(error, opened->input->path);
     return status;

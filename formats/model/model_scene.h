@@ -15,6 +15,7 @@ typedef struct MesoSceneReading {
      * change is relaxed anew, if it is. */
     void (*remap)(void *context, MesoMapOptions *options);
     void *context;
+    uint32_t stored_sweeps;     /* a tiling of more has a maker of them (sweep_maker.h), if that may be; 0: none has */
     /* Where a quilt's surface has moved to (quilt_move.h), and the file that it was read from; or NULL. */
     const MesoPolygonMesh *surface;
     const MesoInput *surface_input;

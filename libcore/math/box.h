@@ -2,6 +2,8 @@
 #ifndef MESO_BOX_H
 #define MESO_BOX_H
 
+#include <stdbool.h>
+
 #include "libcore/math/vec.h"
 
 typedef struct MesoBox {
@@ -45,6 +47,29 @@ static inline void meso_box_add_around(MesoBox *box, MesoVec3 p, float radius)
 {
     meso_box_add(box, (MesoVec3){p.x - radius, p.y - radius, p.z - radius});
     meso_box_add(box, (MesoVec3){p.x + radius, p.y + radius, p.z + radius});
+}
+
+/* Adds another box; one around nothing adds nothing. */
+static inline void meso_box_join(MesoBox *box, const MesoBox *other)
+{
+    if (!(other->low.x <= other->high.x))
+        return;
+    meso_box_add(box, other->low);
+    meso_box_add(box, other->high);
+}
+
+/* The box, wider by `reach` at each side: as if that much had been around all that it was made of. */
+static inline MesoBox meso_box_wider(MesoBox box, float reach)
+{
+    const MesoVec3 r = {reach, reach, reach};
+    return (MesoBox){meso_vec3_sub(box.low, r), meso_vec3_add(box.high, r)};
+}
+
+/* Whether some of `inner`, which is around something, is beside `box`. */
+static inline bool meso_box_sticks_out(const MesoBox *inner, const MesoBox *box)
+{
+    return inner->low.x < box->low.x || inner->low.y < box->low.y || inner->low.z < box->low.z ||
+           inner->high.x > box->high.x || inner->high.y > box->high.y || inner->high.z > box->high.z;
 }
 
 #endif

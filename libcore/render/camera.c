@@ -8,9 +8,11 @@
 #include "libcore/render/projection.h"
 
 #include <float.h>
+#include <string.h>
 
 #include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
+#include "libcore/scene/sweep_maker.h"
 
 /* Share of the picture that stays empty at each side. */
 static const float MARGIN = 0.05f;
@@ -109,6 +111,16 @@ static MesoVec3 curve_point(const MesoVec3 p[4], float t)
     return meso_vec3_lerp(meso_vec3_lerp(a, b, t), meso_vec3_lerp(b, c, t), t);
 }
 
+/* One whose section keeps its shape. */
+static void add_sweep(Frame *frame, const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                      float radius)
+{
+    if (kind->cap)
+        add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * sweep->size[0] * scene->section_scale));
+    for (uint32_t k = 0; k <= 4 && !kind->cap; k++)
+        add_ball(frame, curve_point(sweep->p, (float)k / 4), radius);
+}
+
 static void add_kind(Frame *frame, const MesoScene *scene, const MesoSweptKind *kind)
 {
     float radius = meso_scene_kind_radius(scene, kind);
@@ -118,12 +130,68 @@ static void add_kind(Frame *frame, const MesoScene *scene, const MesoSweptKind *
         for (uint32_t k = 0; k <= 4; k++)
             add_ball(frame, meso_sweep_middle(scene, sweep, (float)k / 4), most);
     }
-    for (uint32_t i = 0; i < kind->instance_count && scene->deform == MESO_SWEEP_CURVES; i++) {
-        const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
-        if (kind->cap)
-            add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * sweep->size[0] * scene->section_scale));
-        for (uint32_t k = 0; k <= 4 && !kind->cap; k++)
-            add_ball(frame, curve_point(sweep->p, (float)k / 4), radius);
+    for (uint32_t i = 0; i < kind->instance_count && scene->deform == MESO_SWEEP_CURVES; i++)
+        add_sweep(frame, scene, kind, &scene->sweeps[kind->instance_begin + i], radius);
+}
+
+/* ---- sweeps that are made when they are wanted ---- */
+
+enum { REACHES = 6 };
+
+static void reaches_of(const Frame *frame, float reaches[REACHES])
+{
+    const float all[REACHES] = {frame->right_most, frame->left_most, frame->high_most,
+                                frame->low_most, frame->nearest, -frame->deepest};
+    memcpy(reaches, all, sizeof all);
+}
+
+/* What a bundle may reach at most. */
+static void bundle_reaches(const Frame *frame, const MesoScene *scene, uint32_t bundle, float reaches[REACHES])
+{
+    Frame around = *frame;
+    around.right_most = around.left_most = around.high_most = around.low_most = around.nearest = -INFINITY;
+    around.deepest = INFINITY;
+    MesoBox box = meso_scene_bundle_box(scene, bundle);
+    for (uint32_t i = 0; i < 8; i++)
+        add_ball(&around, meso_box_corner(box.low, box.high, i), 0);
+    reaches_of(&around, reaches);
+}
+
+static void add_bundle(Frame *frame, const MesoScene *scene, uint32_t bundle)
+{
+    MesoMadeSweep made[MESO_BUNDLE_SWEEPS];
+    uint32_t count = scene->maker->make_bundle(scene->maker->context, bundle, made);
+    for (uint32_t i = 0; i < count; i++)
+        add_sweep(frame, scene, &scene->kinds[made[i].kind], &made[i].instance,
+                  scene->maker->kind_radii[made[i].kind]);
+}
+
+/* Few matter: those that may reach farthest, and then those that may reach farther than these do. */
+static void add_made(Frame *frame, const MesoScene *scene)
+{
+    uint32_t farthest[REACHES] = {0}, count = scene->maker->bundle_count;
+    float most[REACHES], reaches[REACHES], there[REACHES];
+    for (uint32_t r = 0; r < REACHES; r++)
+        most[r] = -INFINITY;
+    for (uint32_t b = 0; b < count; b++) {
+        bundle_reaches(frame, scene, b, reaches);
+        for (uint32_t r = 0; r < REACHES; r++) {
+            if (!(reaches[r] > most[r]))
+                continue;
+            most[r] = reaches[r];
+            farthest[r] = b;
+        }
+    }
+    for (uint32_t r = 0; r < REACHES && count > 0; r++)
+        add_bundle(frame, scene, farthest[r]);
+    for (uint32_t b = 0; b < count; b++) {
+        bool matters = false;
+        bundle_reaches(frame, scene, b, reaches);
+        reaches_of(frame, there);
+        for (uint32_t r = 0; r < REACHES; r++)
+            matters = matters || reaches[r] > there[r];
+        if (matters)
+            add_bundle(frame, scene, b);
     }
 }
 
@@ -140,7 +208,9 @@ static void add_placed(Frame *frame, const MesoScene *scene, const MesoPlacedBod
 
 static void add_scene(Frame *frame, const MesoScene *scene)
 {
-    for (uint32_t k = 0; k < scene->kind_count; k++)
+    if (scene->maker)
+        add_made(frame, scene);
+    for (uint32_t k = 0; k < scene->kind_count && !scene->maker; k++)
         add_kind(frame, scene, &scene->kinds[k]);
     for (uint32_t i = 0; i < scene->placed_count; i++)
         add_placed(frame, scene, &scene->placed[i]);

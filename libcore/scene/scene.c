@@ -19,6 +19,8 @@ uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep)
 float meso_scene_kind_size(const MesoScene *scene, const MesoSweptKind *kind)
 {
     float size = 0;
+    if (scene->maker)
+        return scene->maker->kind_sizes[kind - scene->kinds];
     for (uint32_t i = 0; i < kind->instance_count; i++) {
         const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
         size = fmaxf(size, fmaxf(sweep->size[0], sweep->size[1]));
@@ -29,6 +31,8 @@ float meso_scene_kind_size(const MesoScene *scene, const MesoSweptKind *kind)
 float meso_scene_kind_radius(const MesoScene *scene, const MesoSweptKind *kind)
 {
     float radius = 0;
+    if (scene->maker && scene->maker->kind_radii)
+        return scene->maker->kind_radii[kind - scene->kinds];
     for (uint32_t c = 0; c < kind->column_count; c++) {
         const MesoSweepColumn *column = &scene->columns[kind->column_begin + c];
         radius = fmaxf(radius, fmaxf(meso_vec2_length(column->start), meso_vec2_length(column->end)));

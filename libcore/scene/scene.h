@@ -120,6 +120,28 @@ typedef struct MesoSweepInstance {
     uint16_t pace[MESO_PACE_PARTS - 1];     /* v at each part of the steps, of 65536; all 0: even */
 } MesoSweepInstance;
 
+/*
+ * Sweeps that are made whenever they are wanted (sweep_maker.h): a scene of many millions need not hold them. They come
+ * in bundles of neighbours; what is made is the same each time, by whichever thread.
+ */
+enum { MESO_BUNDLE_SWEEPS = 64 };       /* at most */
+
+typedef struct MesoMadeSweep {
+    uint32_t sweep, kind;
+    MesoSweepInstance instance;
+} MesoMadeSweep;
+
+typedef struct MesoSweepMaker {
+    void *context;
+    uint32_t bundle_count, thread_count;    /* threads that may make bundles; 0: all cores */
+    const float *kind_sizes, *kind_radii;   /* [kind_count] as of meso_scene_kind_size(), meso_scene_kind_radius() */
+    MesoBox *bundle_boxes;                  /* [bundle_count] around each bundle, from meso_scene_measure() */
+    /* Makes a bundle, by numbers in any order, each sweep in one bundle; returns how many. */
+    uint32_t (*make_bundle)(void *context, uint32_t bundle, MesoMadeSweep *out);
+    void (*make)(void *context, uint32_t sweep, MesoSweepInstance *out);
+    uint32_t (*ids)(void *context, uint32_t sweep);   /* row of its ids */
+} MesoSweepMaker;
+
 /* How the frame of a sweep turns along it. */
 typedef enum MesoFrameRule {
     MESO_FRAME_PAPER,       /* the up vector runs straight from end to end (MesoGen, section 3.5) */
@@ -201,7 +223,8 @@ typedef struct MesoScene {
     uint32_t kind_count, column_count, sweep_count;
     MesoSweptKind *kinds;           /* [kind_count] */
     MesoSweepColumn *columns;       /* [column_count] */
-    MesoSweepInstance *sweeps;      /* [sweep_count] by kind */
+    MesoSweepInstance *sweeps;      /* [sweep_count] by kind; NULL where there is */
+    const MesoSweepMaker *maker;    /* one that makes them, for those who ask for such scenes */
 
     uint32_t body_count, placed_count, frame_count, cage_count;
     MesoBody *bodies;               /* [body_count] */

@@ -1,6 +1,7 @@
 /* The box around a scene. */
 #include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
+#include "libcore/scene/sweep_maker.h"
 
 /* A cap's own control points reach as high as it rises. */
 static void add_kind(MesoBox *box, const MesoScene *scene, const MesoSweptKind *kind)
@@ -11,6 +12,40 @@ static void add_kind(MesoBox *box, const MesoScene *scene, const MesoSweptKind *
         for (uint32_t k = 0; k < hull.count; k++)
             meso_box_add_around(box, hull.points[k], hull.reach);
     }
+}
+
+/* Boxes of what is made, one a worker. */
+typedef struct MadeBoxes {
+    const MesoScene *scene;
+    MesoBox boxes[MESO_BUNDLE_WORKERS];
+} MadeBoxes;
+
+/* Sections keep their shape: the hull is that of the control points, and reaches as far around each. */
+static void add_bundle(void *context, uint32_t worker, uint32_t bundle, const MesoMadeSweep *made, uint32_t count)
+{
+    MadeBoxes *all = context;
+    const MesoSweepMaker *maker = all->scene->maker;
+    MesoBox around = meso_box_empty();
+    for (uint32_t i = 0; i < count; i++) {
+        MesoBox hull = meso_box_of(made[i].instance.p, 4);
+        if (!(hull.low.x <= hull.high.x))
+            continue;
+        MesoBox box = meso_box_wider(hull, maker->kind_radii[made[i].kind]);
+        meso_box_join(&all->boxes[worker], &box);
+        box = meso_box_wider(hull, meso_made_reach(all->scene, made[i].kind, &made[i].instance));
+        meso_box_join(&around, &box);
+    }
+    maker->bundle_boxes[bundle] = around;
+}
+
+static void add_made(MesoBox *box, const MesoScene *scene)
+{
+    MadeBoxes all = {.scene = scene};
+    for (uint32_t w = 0; w < MESO_BUNDLE_WORKERS; w++)
+        all.boxes[w] = meso_box_empty();
+    meso_scene_each_bundle(scene, &all, add_bundle);
+    for (uint32_t w = 0; w < MESO_BUNDLE_WORKERS; w++)
+        meso_box_join(box, &all.boxes[w]);
 }
 
 static void add_placed(MesoBox *box, const MesoScene *scene, const MesoPlacedBody *placed)
@@ -29,7 +64,9 @@ static void add_placed(MesoBox *box, const MesoScene *scene, const MesoPlacedBod
 void meso_scene_measure(MesoScene *scene)
 {
     scene->box = meso_box_empty();
-    for (uint32_t k = 0; k < scene->kind_count; k++)
+    if (scene->maker)
+        add_made(&scene->box, scene);
+    for (uint32_t k = 0; k < scene->kind_count && !scene->maker; k++)
         add_kind(&scene->box, scene, &scene->kinds[k]);
     for (uint32_t i = 0; i < scene->placed_count; i++)
         add_placed(&scene->box, scene, &scene->placed[i]);

@@ -127,22 +127,28 @@ static MesoVec3 leant(const MesoWall *wall, const MesoWallMove *move)
     return meso_vec3_unit(meso_vec3_add(wall->normal, lean), wall->normal);
 }
 
-MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
-                                const MesoWallMove *move, MesoPort *port, MesoError *error)
+MesoStatus meso_wall_port(const MesoWall *wall, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
+                          const MesoWallMove *move, MesoPort *port, MesoError *error)
 {
-    MesoWall wall = meso_shell_wall(shell, slot, side);
-    MesoVec2 at = meso_wall_place(&wall, center, flipped);
-    port->point = move ? meso_wall_point(&wall, at.x + move->along, at.y + move->rise)
-                       : meso_wall_point(&wall, at.x, at.y);
-    port->up = wall.up;
-    port->inward = leant(&wall, move);
-    if (wall.reversed)
+    MesoVec2 at = meso_wall_place(wall, center, flipped);
+    port->point = move ? meso_wall_point(wall, at.x + move->along, at.y + move->rise)
+                       : meso_wall_point(wall, at.x, at.y);
+    port->up = wall->up;
+    port->inward = leant(wall, move);
+    if (wall->reversed)
         port->inward = meso_vec3_scale(port->inward, -1);
-    if (meso_vec3_dot(wall.normal, wall.normal) == 0 || meso_vec3_dot(port->up, port->up) == 0)
+    if (meso_vec3_dot(wall->normal, wall->normal) == 0 || meso_vec3_dot(port->up, port->up) == 0)
         return meso_fail(error, MESO_ERR_INPUT,
                          "slot %u: the shell has no wall on side %u (coinciding corners or opposite normals)",
                          slot, side);
     return MESO_OK;
+}
+
+MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
+                                const MesoWallMove *move, MesoPort *port, MesoError *error)
+{
+    MesoWall wall = meso_shell_wall(shell, slot, side);
+    return meso_wall_port(&wall, slot, side, center, flipped, move, port, error);
 }
 
 /* Neither the point nor the flip has a say in whether there is a wall. */

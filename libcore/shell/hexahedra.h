@@ -73,6 +73,10 @@ static inline MesoVec2 meso_wall_place(const MesoWall *wall, MesoVec2 center, bo
 MesoStatus meso_shell_wall_port(const MesoShell *shell, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
                                 const MesoWallMove *move, MesoPort *port, MesoError *error);
 
+/* The same on a wall that is there already: that of the slot's side. */
+MesoStatus meso_wall_port(const MesoWall *wall, uint32_t slot, uint32_t side, MesoVec2 center, bool flipped,
+                          const MesoWallMove *move, MesoPort *port, MesoError *error);
+
 /*
  * Counts the slots with a side where meso_shell_wall_port() fails whatever is
  * drawn there, and writes the first `room` of them, ascending, to `slots`. O(slots).

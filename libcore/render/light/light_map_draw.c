@@ -1,11 +1,13 @@
 #include "libcore/render/light/light_map.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcore/base/parallel.h"
+#include "libcore/render/light/light_order.h"
 
 /* Shapes are made a batch at a time, by ranges, and each batch is drawn into the maps that have a texel for it. */
-enum { RANGE = 64, BATCH = 128, MOST = 12 };       /* shapes, ranges, shapes */
+enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 128, MOST = 12 };       /* shapes, ranges, shapes */
 
 /* Where what a shape has begins in its range. */
 typedef struct Piece {
@@ -20,24 +22,30 @@ typedef struct Range {
     uint64_t room[3], corner_room[2];
 } Range;
 
+/* What a batch is for maps of one size. */
 typedef struct Batch {
-    const MesoShapes *shapes;
     MesoLightMaps *maps;
-    MesoRasterLanes lanes;
     float tolerance;
-    uint64_t first;             /* shape */
-    uint32_t range_count;
     Range ranges[BATCH];
     uint64_t *wanted;           /* [BATCH * maps] a bit for each shape of a range that reaches a texel's middle there */
+} Batch;
+
+typedef struct Drawing {
+    const MesoShapes *shapes;
+    MesoRasterLanes lanes;
+    uint32_t *order;            /* of bundles, where they are made */
+    uint64_t first;             /* bundle */
+    uint32_t range_count, set_count, map_count;
+    Batch *sets;                /* [set_count] */
     MesoShapeMesh *meshes;      /* one a worker */
     MesoRasterVertex **projected;
     uint64_t *projected_room;
     bool failed;
-} Batch;
+} Drawing;
 
-static void fail(Batch *batch)
+static void fail(Drawing *d)
 {
-    __atomic_store_n(&batch->failed, true, __ATOMIC_RELAXED);
+    __atomic_store_n(&d->failed, true, __ATOMIC_RELAXED);
 }
 
 static bool grow(void **array, uint64_t *room, uint64_t count, size_t size)
@@ -81,11 +89,11 @@ typedef struct Boxes {
     float middle[3][RANGE], half[3][RANGE];
 } Boxes;
 
-static Boxes boxes_of(const MesoShapes *shapes, uint64_t first, uint32_t count)
+static Boxes boxes_of(const MesoShapeBundle *bundle)
 {
     Boxes boxes = {0};
-    for (uint32_t i = 0; i < count; i++) {
-        const MesoBox *box = &shapes->bounds[first + i];
+    for (uint32_t i = 0; i < bundle->count; i++) {
+        const MesoBox *box = &bundle->bounds[i];
         MesoVec3 middle = meso_vec3_lerp(box->low, box->high, 0.5f), half = meso_vec3_sub(box->high, middle);
         const float m[3] = {middle.x, middle.y, middle.z}, h[3] = {half.x, half.y, half.z};
         for (int k = 0; k < 3; k++) {
@@ -143,20 +151,54 @@ static uint64_t wanted_of(const MesoRasterView *view, const Boxes *boxes, uint32
 
 /* ---- drawing ---- */
 
+/* Those of the wanted that are not behind what the map has. */
+static uint64_t before(const MesoShapes *shapes, const MesoLightMaps *maps, uint32_t m, const MesoShapeBundle *bundle,
+                       uint64_t wanted)
+{
+    for (uint64_t left = wanted; left; left &= left - 1) {
+        uint32_t i = (uint32_t)__builtin_ctzll(left);
+        MesoRasterRect rect = meso_shape_rect(shapes, bundle, i, &maps->maps[m].view);
+        if (meso_light_map_hides(&maps->maps[m], maps->size, &rect))
+            wanted &= ~(1ull << i);
+    }
+    return wanted;
+}
+
+/* Where sweeps are made, nothing of a bundle is that all maps hide; false for such a one. */
+static bool make_bundle(const Drawing *d, uint32_t r, MesoShapeBundle *bundle)
+{
+    uint32_t number = (uint32_t)(d->first + r);
+    bool seen = !d->order;
+    number = d->order ? d->order[number] : number;
+    for (uint32_t s = 0; s < d->set_count && !seen; s++)
+        seen = !meso_light_maps_hide(d->sets[s].maps, &d->shapes->bundle_bounds[number]);
+    if (seen)
+        meso_shape_bundle(d->shapes, number, bundle);
+    return seen;
+}
+
+/* Returns what any map wants. */
+static uint64_t look_at(const Drawing *d, Batch *batch, uint32_t r, const MesoShapeBundle *bundle, const Boxes *boxes)
+{
+    const MesoLightMaps *maps = batch->maps;
+    uint64_t any = 0, *wanted = &batch->wanted[r * maps->count];
+    for (uint32_t m = 0; m < maps->count; m++) {
+        wanted[m] = wanted_of(&maps->maps[m].view, boxes, bundle->count);
+        any |= wanted[m] = d->order ? before(d->shapes, maps, m, bundle, wanted[m]) : wanted[m];
+    }
+    return any;
+}
+
 /* Makes what some map wants of a range; false where memory is out. */
-static bool make_range(Batch *batch, uint32_t r, MesoShapeMesh *mesh)
+static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoShapeBundle *bundle, uint64_t any,
+                       MesoShapeMesh *mesh)
 {
     Range *range = &batch->ranges[r];
-    uint64_t first = batch->first + (uint64_t)r * RANGE, left = batch->shapes->count - first, any = 0;
-    uint32_t count = left < RANGE ? (uint32_t)left : RANGE;
-    Boxes boxes = boxes_of(batch->shapes, first, count);
-    for (uint32_t m = 0; m < batch->maps->count; m++)
-        any |= batch->wanted[r * batch->maps->count + m] = wanted_of(&batch->maps->maps[m].view, &boxes, count);
     range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
-        if (i < count && any >> i & 1 &&
-            !(meso_shape_make(batch->shapes, (uint32_t)(first + i), batch->tolerance, MESO_SHAPE_SHADOW, mesh) &&
+        if (i < RANGE && any >> i & 1 &&
+            !(meso_shape_make_bundled(d->shapes, bundle, i, batch->tolerance, MESO_SHAPE_SHADOW, mesh) &&
               add_mesh(range, mesh)))
             return false;
     }
@@ -165,10 +207,18 @@ static bool make_range(Batch *batch, uint32_t r, MesoShapeMesh *mesh)
 
 static void make_ranges(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
-    Batch *batch = context;
-    for (uint64_t r = begin; r < end; r++)
-        if (!make_range(batch, (uint32_t)r, &batch->meshes[worker]))
-            fail(batch);
+    Drawing *d = context;
+    MesoShapeBundle bundle;
+    for (uint64_t r = begin; r < end; r++) {
+        bundle.count = 0;
+        make_bundle(d, (uint32_t)r, &bundle);
+        Boxes boxes = boxes_of(&bundle);
+        for (uint32_t s = 0; s < d->set_count; s++) {
+            uint64_t any = look_at(d, &d->sets[s], (uint32_t)r, &bundle, &boxes);
+            if (!make_range(d, &d->sets[s], (uint32_t)r, &bundle, any, &d->meshes[worker]))
+                fail(d);
+        }
+    }
 }
 
 /* Draws shapes `first` to `last`, which is not one of them, of a range. */
@@ -199,33 +249,36 @@ static void draw_range(const MesoRasterTarget *target, const MesoRasterView *vie
     }
 }
 
-static void draw_maps(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+static void draw_map(Drawing *d, uint32_t worker, const Batch *batch, uint32_t m)
 {
-    Batch *batch = context;
-    for (uint64_t m = begin; m < end; m++) {
-        const MesoLightMap *map = &batch->maps->maps[m];
-        int32_t cells = (int32_t)batch->maps->size / 4;
-        const MesoRasterTarget target = {&batch->lanes, cells, cells, map->nearness, NULL};
-        for (uint32_t r = 0; r < batch->range_count; r++) {
-            const Range *range = &batch->ranges[r];
-            if (!grow((void **)&batch->projected[worker], &batch->projected_room[worker], range->point_count,
-                      sizeof **batch->projected)) {
-                fail(batch);
-                return;
-            }
-            draw_range(&target, &map->view, range, batch->wanted[r * batch->maps->count + m], batch->projected[worker]);
+    const MesoLightMap *map = &batch->maps->maps[m];
+    int32_t cells = (int32_t)batch->maps->size / 4;
+    const MesoRasterTarget target = {&d->lanes, cells, cells, map->nearness, NULL};
+    for (uint32_t r = 0; r < d->range_count; r++) {
+        const Range *range = &batch->ranges[r];
+        if (!grow((void **)&d->projected[worker], &d->projected_room[worker], range->point_count,
+                  sizeof **d->projected)) {
+            fail(d);
+            return;
         }
+        draw_range(&target, &map->view, range, batch->wanted[r * batch->maps->count + m], d->projected[worker]);
     }
 }
 
-static void release(Batch *batch, uint32_t workers)
+/* Maps of all sets are numbered through. */
+static void draw_maps(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
-    for (uint32_t w = 0; w < workers; w++) {
-        if (batch->meshes)
-            meso_shape_mesh_release(&batch->meshes[w]);
-        if (batch->projected)
-            free(batch->projected[w]);
+    Drawing *d = context;
+    for (uint64_t i = begin; i < end; i++) {
+        uint32_t set = 0, m = (uint32_t)i;
+        while (m >= d->sets[set].maps->count)
+            m -= d->sets[set++].maps->count;
+        draw_map(d, worker, &d->sets[set], m);
     }
+}
+
+static void release_batch(Batch *batch)
+{
     for (uint32_t r = 0; r < BATCH; r++) {
         free(batch->ranges[r].x);
         free(batch->ranges[r].y);
@@ -234,37 +287,64 @@ static void release(Batch *batch, uint32_t workers)
         free(batch->ranges[r].corners[1]);
     }
     free(batch->wanted);
-    free(batch->meshes);
-    free(batch->projected);
-    free(batch->projected_room);
-    free(batch);
 }
 
-MesoStatus meso_light_maps_draw(MesoLightMaps *maps, const MesoShapes *shapes, uint32_t thread_count, MesoError *error)
+static void release(Drawing *d, uint32_t workers)
 {
-    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
-    Batch *batch = calloc(1, sizeof *batch);
-    if (!batch)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light");
-    batch->shapes = shapes;
+    for (uint32_t w = 0; w < workers; w++) {
+        if (d->meshes)
+            meso_shape_mesh_release(&d->meshes[w]);
+        if (d->projected)
+            free(d->projected[w]);
+    }
+    for (uint32_t s = 0; d->sets && s < d->set_count; s++)
+        release_batch(&d->sets[s]);
+    free(d->sets);
+    free(d->order);
+    free(d->meshes);
+    free(d->projected);
+    free(d->projected_room);
+}
+
+static bool begin_batch(Batch *batch, MesoLightMaps *maps)
+{
     batch->maps = maps;
-    batch->lanes = meso_raster_lanes(1);
     batch->tolerance = 0.5f * maps->texel;
     batch->wanted = calloc((size_t)BATCH * maps->count, sizeof *batch->wanted);
-    batch->meshes = calloc(workers, sizeof *batch->meshes);
-    batch->projected = calloc(workers, sizeof *batch->projected);
-    batch->projected_room = calloc(workers, sizeof *batch->projected_room);
-    batch->failed = !batch->wanted || !batch->meshes || !batch->projected || !batch->projected_room;
     for (size_t i = 0; i < (size_t)maps->count * maps->size * maps->size; i++)
         maps->nearness[i] = -INFINITY;
-    for (batch->first = 0; batch->first < shapes->count && !batch->failed; batch->first += BATCH * RANGE) {
-        uint64_t left = shapes->count - batch->first;
-        batch->range_count = left < BATCH * RANGE ? (uint32_t)((left + RANGE - 1) / RANGE) : BATCH;
-        meso_parallel_team(workers, batch->range_count, 1, make_ranges, batch);
-        if (!batch->failed)
-            meso_parallel_team(workers, maps->count, 1, draw_maps, batch);
+    return batch->wanted != NULL;
+}
+
+/* False where memory is out. */
+static bool begin(Drawing *d, MesoLightMaps *const *sets)
+{
+    bool begun = d->sets && d->meshes && d->projected && d->projected_room;
+    for (uint32_t s = 0; s < d->set_count && begun; s++) {
+        begun = begin_batch(&d->sets[s], sets[s]);
+        d->map_count += sets[s]->count;
     }
-    bool failed = batch->failed;
-    release(batch, workers);
-    return failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light") : MESO_OK;
+    return begun;
+}
+
+MesoStatus meso_light_maps_draw(MesoLightMaps *const *sets, uint32_t set_count, const MesoShapes *shapes,
+                                uint32_t thread_count, MesoError *error)
+{
+    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
+    Drawing d = {.shapes = shapes, .lanes = meso_raster_lanes(1), .set_count = set_count,
+                 .sets = calloc(set_count, sizeof *d.sets), .meshes = calloc(workers, sizeof *d.meshes),
+                 .projected = calloc(workers, sizeof *d.projected),
+                 .projected_room = calloc(workers, sizeof *d.projected_room)};
+    d.failed = !begin(&d, sets);
+    if (!d.failed)              /* the last of them are the finest */
+        d.order = meso_light_order(sets[set_count - 1], shapes, &d.failed);
+    for (d.first = 0; d.first < shapes->bundle_count && !d.failed; d.first += BATCH) {
+        uint64_t left = shapes->bundle_count - d.first;
+        d.range_count = left < BATCH ? (uint32_t)left : BATCH;
+        meso_parallel_team(workers, d.range_count, 1, make_ranges, &d);
+        if (!d.failed)
+            meso_parallel_team(workers, d.map_count, 1, draw_maps, &d);
+    }
+    release(&d, workers);
+    return d.failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light") : MESO_OK;
 }

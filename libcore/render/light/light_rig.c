@@ -69,11 +69,7 @@ static MesoVec3 on_key(const MesoLightRig *rig, const MesoView *view, uint32_t i
 
 static void measure(MesoLightRig *rig, const MesoShapes *shapes)
 {
-    MesoBox box = meso_box_empty();
-    for (uint32_t i = 0; i < shapes->count; i++) {
-        meso_box_add(&box, shapes->bounds[i].low);
-        meso_box_add(&box, shapes->bounds[i].high);
-    }
+    MesoBox box = meso_shapes_box(shapes);
     if (shapes->count == 0)
         meso_box_add(&box, (MesoVec3){0, 0, 0});
     rig->middle = meso_vec3_lerp(box.low, box.high, 0.5f);
@@ -194,9 +190,8 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
     MesoStatus status = make_sky(rig, arena, quality, error);
     if (!status)
         status = make_key(rig, arena, view, quality, error);
-    if (!status)
-        status = meso_light_maps_draw(&rig->sky, shapes, thread_count, error);
-    return status || rig->key.count == 0 ? status : meso_light_maps_draw(&rig->key, shapes, thread_count, error);
+    MesoLightMaps *const sets[] = {&rig->sky, &rig->key};
+    return status ? status : meso_light_maps_draw(sets, rig->key.count ? 2 : 1, shapes, thread_count, error);
 }
 
 /* ---- light on a surface ---- */

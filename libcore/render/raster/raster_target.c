@@ -282,7 +282,8 @@ static inline int32_t inside_of(int32_t dx, int32_t dy, int32_t x, int32_t y)
  * Those that look away or have no area are left out, and, with one sample a pixel, those around no pixel's middle:
  * without a branch, so that many are looked at at once. Large ones, whose areas do not fit in 32 bits, are all drawn.
  */
-__attribute__((always_inline)) static inline void sift_step(Block *block, uint32_t begin, const MesoRasterTarget *target, bool one_sided)
+__attribute__((always_inline)) static inline void sift_step(Block *block, uint32_t begin,
+                                                            const MesoRasterTarget *target, bool one_sided)
 {
     int32_t wide = 4 * target->cells_x - 1, high = 4 * target->cells_y - 1;
     bool single = target->lanes->samples == 1;

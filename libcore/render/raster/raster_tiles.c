@@ -7,92 +7,6 @@
 
 enum { LANES = MESO_RASTER_LANES, CELLS = MESO_TILE_CELLS, PLACES = LANES * CELLS * CELLS };
 
-/* ---- shapes by tiles ---- */
-
-/* Tiles that a shape may reach; none where left is over right. */
-typedef struct TileRange {
-    uint16_t left, top, right, bottom;
-} TileRange;
-
-struct MesoRasterBins {
-    MesoRasterJob job;
-    MesoRasterLanes lanes;
-    float tile_pixels;
-    uint32_t tiles_x, tiles_y;
-    TileRange *ranges;          /* [shapes] */
-    uint64_t *begin;            /* [tiles + 1] */
-    uint32_t *shapes;           /* by tile, ascending */
-};
-
-static uint16_t tile_at(float pixel, float tile_pixels, uint32_t tiles)
-{
-    float tile = floorf(pixel / tile_pixels);
-    return tile > 0 ? tile < (float)(tiles - 1) ? (uint16_t)tile : (uint16_t)(tiles - 1) : 0;
-}
-
-static void find_ranges(void *context, uint64_t begin, uint64_t end)
-{
-    MesoRasterBins *bins = context;
-    float width = (float)bins->job.width, height = (float)bins->job.height;
-    for (uint64_t i = begin; i < end; i++) {
-        MesoRasterRect r = meso_raster_rect(&bins->job.view, &bins->job.shapes->bounds[i]);
-        bins->ranges[i] = (TileRange){1, 0, 0, 0};
-        if (!(r.right > 0 && r.bottom > 0 && r.left < width && r.top < height) ||
-            (bins->job.samples == 1 && !meso_raster_rect_has_middle(&r)))
-            continue;
-        bins->ranges[i] = (TileRange){tile_at(r.left, bins->tile_pixels, bins->tiles_x),
-                                      tile_at(r.top, bins->tile_pixels, bins->tiles_y),
-                                      tile_at(r.right, bins->tile_pixels, bins->tiles_x),
-                                      tile_at(r.bottom, bins->tile_pixels, bins->tiles_y)};
-    }
-}
-
-static MesoStatus sort_shapes(MesoRasterBins *bins, MesoArena *arena, MesoError *error)
-{
-    uint32_t count = bins->job.shapes->count;
-    uint64_t tiles = (uint64_t)bins->tiles_x * bins->tiles_y;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t y = bins->ranges[i].top; y <= bins->ranges[i].bottom; y++)
-            for (uint32_t x = bins->ranges[i].left; x <= bins->ranges[i].right; x++)
-                bins->begin[y * bins->tiles_x + x + 1]++;
-    for (uint64_t t = 0; t < tiles; t++)
-        bins->begin[t + 1] += bins->begin[t];
-    bins->shapes = MESO_NEW(arena, uint32_t, bins->begin[tiles], error);
-    uint64_t *next = MESO_NEW(arena, uint64_t, tiles, error);
-    if (!bins->shapes || !next)
-        return MESO_ERR_MEMORY;
-    memcpy(next, bins->begin, tiles * sizeof *next);
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t y = bins->ranges[i].top; y <= bins->ranges[i].bottom; y++)
-            for (uint32_t x = bins->ranges[i].left; x <= bins->ranges[i].right; x++)
-                bins->shapes[next[y * bins->tiles_x + x]++] = i;
-    return MESO_OK;
-}
-
-MesoStatus meso_raster_bins_init(MesoRasterBins **out, MesoArena *arena, const MesoRasterJob *job,
-                                 uint32_t thread_count, MesoError *error)
-{
-    MesoRasterBins *bins = *out = MESO_NEW(arena, MesoRasterBins, 1, error);
-    if (!bins)
-        return MESO_ERR_MEMORY;
-    *bins = (MesoRasterBins){.job = *job, .lanes = meso_raster_lanes(job->samples)};
-    uint32_t pixels = CELLS * bins->lanes.pixels;
-    bins->tile_pixels = (float)pixels;
-    bins->tiles_x = (job->width + pixels - 1) / pixels;
-    bins->tiles_y = (job->height + pixels - 1) / pixels;
-    bins->ranges = MESO_NEW(arena, TileRange, job->shapes->count, error);
-    bins->begin = MESO_NEW(arena, uint64_t, (uint64_t)bins->tiles_x * bins->tiles_y + 1, error);
-    if (!bins->ranges || !bins->begin)
-        return MESO_ERR_MEMORY;
-    meso_parallel_for(thread_count, job->shapes->count, 4096, find_ranges, bins);
-    return sort_shapes(bins, arena, error);
-}
-
-uint32_t meso_raster_tile_rows(uint32_t samples)
-{
-    return CELLS * meso_raster_lanes(samples).pixels;
-}
-
 /* ---- a tile ---- */
 
 /* A shape of the tile whose triangles have been seen. */
@@ -102,17 +16,28 @@ typedef struct SeenShape {
     bool colored;
 } SeenShape;
 
+/* A bundle, and how far away it begins. */
+typedef struct BundleAt {
+    float depth;
+    uint32_t bundle;
+} BundleAt;
+
 struct MesoRasterTile {
     const MesoRasterBins *bins;
     MesoRasterTarget target;
     MesoWindow window;
     const uint32_t *shapes;     /* [shape_count] of the tile */
     uint32_t shape_count;
+    MesoShapeBundle bundle;     /* where bundles are binned: the one at hand, */
+    BundleAt *bundles;          /* those of the tile from the nearest to the farthest, */
+    uint32_t *drawn_shapes;     /* and what is drawn of them */
+    uint32_t bundle_room;
     uint32_t *first_ids;        /* [shape_count + 1] */
     SeenShape *seen;            /* [shape_count] */
     uint32_t shape_room;
     MesoShapeMesh mesh;
-    MesoVec3 *from_eye;
+    float *coordinates;         /* of all vertices along x, then y, then z */
+    MesoVec3 *from_eye;         /* where some lie behind the near plane */
     MesoRasterVertex *projected;
     uint32_t vertex_room;
     MesoMeshVertex *vertices;   /* of the shapes that have been seen */
@@ -133,23 +58,18 @@ static bool grow(void **array, uint64_t count, size_t size)
     return grown != NULL;
 }
 
-static bool make_room(MesoRasterTile *tile)
+/* For `count` shapes, and one more. */
+static bool make_room(MesoRasterTile *tile, uint32_t count)
 {
-    if (tile->shape_count + 1 > tile->shape_room) {
-        uint32_t room = 2 * tile->shape_count + 16;
-        if (!grow((void **)&tile->first_ids, room, sizeof *tile->first_ids) ||
-            !grow((void **)&tile->seen, room, sizeof *tile->seen))
-            return false;
-        tile->shape_room = room;
-    }
-    memset(tile->seen, 0, (tile->shape_count + 1) * sizeof *tile->seen);
+    if (count + 1 <= tile->shape_room)
+        return true;
+    uint64_t room = 2 * (uint64_t)count + 16;
+    if (room > UINT32_MAX || !grow((void **)&tile->first_ids, room, sizeof *tile->first_ids) ||
+        !grow((void **)&tile->seen, room, sizeof *tile->seen) ||
+        (tile->bins->bundled && !grow((void **)&tile->drawn_shapes, room, sizeof *tile->drawn_shapes)))
+        return false;
+    tile->shape_room = (uint32_t)room;
     return true;
-}
-
-float meso_raster_tolerance(const MesoRasterJob *job, uint32_t shape)
-{
-    MesoRasterRect rect = meso_raster_rect(&job->view, &job->shapes->bounds[shape]);
-    return job->tolerance * meso_raster_pixel(&job->view, rect.depth);
 }
 
 /* Where the edge from a to b meets the near plane. */
@@ -180,8 +100,8 @@ static void draw_cut(MesoRasterTile *tile, const uint32_t *corners, uint32_t id)
         meso_raster_draw(&tile->target, vertices, fans + 3 * i, 1, id, false);
 }
 
-/* Projects the mesh; false where some of it lies behind the near plane. */
-static bool project(MesoRasterTile *tile)
+/* One by one; false where some of them lie behind the near plane. */
+static bool project_each(MesoRasterTile *tile)
 {
     const MesoRasterView *view = &tile->bins->job.view;
     float left = (float)tile->window.x, top = (float)tile->window.y;
@@ -195,6 +115,24 @@ static bool project(MesoRasterTile *tile)
             before = false;
     }
     return before;
+}
+
+/* Projects the mesh; false where some of it lies behind the near plane. */
+static bool project(MesoRasterTile *tile)
+{
+    const MesoRasterView *view = &tile->bins->job.view;
+    const MesoShapeMesh *mesh = &tile->mesh;
+    uint32_t count = mesh->vertex_count;
+    float *x = tile->coordinates, *y = x + count, *z = y + count;
+    if (view->parallel)
+        return project_each(tile);
+    for (uint32_t v = 0; v < count; v++) {
+        x[v] = mesh->vertices[v].position.x;
+        y[v] = mesh->vertices[v].position.y;
+        z[v] = mesh->vertices[v].position.z;
+    }
+    return meso_raster_project(view, x, y, z, count, (float)tile->window.x, (float)tile->window.y, tile->projected) ||
+           project_each(tile);
 }
 
 static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
@@ -217,19 +155,172 @@ static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
     }
 }
 
-static bool draw_shape(MesoRasterTile *tile, uint32_t shape, uint32_t first_id)
+static bool draw_made(MesoRasterTile *tile, uint32_t first_id)
 {
-    const MesoRasterJob *job = &tile->bins->job;
-    if (!meso_shape_make(job->shapes, shape, meso_raster_tolerance(job, shape), MESO_SHAPE_SEEN, &tile->mesh))
-        return false;
     if (tile->mesh.vertex_count > tile->vertex_room) {
         uint64_t room = 2 * (uint64_t)tile->mesh.vertex_count;
-        if (!grow((void **)&tile->from_eye, room, sizeof *tile->from_eye) ||
+        if (!grow((void **)&tile->coordinates, 3 * room, sizeof *tile->coordinates) ||
+            !grow((void **)&tile->from_eye, room, sizeof *tile->from_eye) ||
             !grow((void **)&tile->projected, room, sizeof *tile->projected))
             return false;
         tile->vertex_room = (uint32_t)room;
     }
     draw_mesh(tile, first_id);
+    return true;
+}
+
+static bool draw_shapes(MesoRasterTile *tile)
+{
+    const MesoRasterJob *job = &tile->bins->job;
+    uint64_t id = 1;
+    if (!make_room(tile, tile->shape_count))
+        return false;
+    for (uint32_t i = 0; i < tile->shape_count; i++) {
+        uint32_t shape = tile->shapes[i];
+        tile->first_ids[i] = (uint32_t)id;
+        if (!meso_shape_make(job->shapes, shape, meso_raster_tolerance(job, shape), MESO_SHAPE_SEEN, &tile->mesh) ||
+            !draw_made(tile, (uint32_t)id))
+            return false;
+        id += tile->mesh.triangle_count;
+        if (id > UINT32_MAX)
+            return false;
+    }
+    tile->first_ids[tile->shape_count] = (uint32_t)id;
+    return true;
+}
+
+/* ---- bundles of a tile ---- */
+
+/* By their places in the list where they are as far: the same order for any number of threads. */
+static int by_depth(const void *a, const void *b)
+{
+    const BundleAt *x = a, *y = b;
+    if (x->depth != y->depth)
+        return x->depth < y->depth ? -1 : 1;
+    return x->bundle < y->bundle ? -1 : x->bundle > y->bundle;
+}
+
+static bool sort_bundles(MesoRasterTile *tile, const uint32_t *binned, uint32_t count)
+{
+    const MesoRasterBins *bins = tile->bins;
+    if (count > tile->bundle_room) {
+        if (!grow((void **)&tile->bundles, 2 * (uint64_t)count, sizeof *tile->bundles))
+            return false;
+        tile->bundle_room = 2 * count;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        tile->bundles[i] = (BundleAt){meso_raster_rect(&bins->job.view, &bins->bounds[binned[i]]).depth, binned[i]};
+    qsort(tile->bundles, count, sizeof *tile->bundles, by_depth);
+    return true;
+}
+
+/* Pixels of the tile's window in which a rectangle may cover a sample, the last ones included. */
+typedef struct Pixels {
+    int32_t left, top, right, bottom;
+} Pixels;
+
+static int32_t first_pixel(float pixel, uint32_t begin, uint32_t count)
+{
+    float at = pixel - (float)begin;
+    return at > 0 ? at < (float)count ? (int32_t)at : (int32_t)count : 0;
+}
+
+static int32_t last_pixel(float pixel, uint32_t begin, uint32_t count)
+{
+    float at = pixel - (float)begin;
+    return at < (float)(count - 1) ? at >= 0 ? (int32_t)at : -1 : (int32_t)count - 1;
+}
+
+static Pixels pixels_of(const MesoRasterTile *tile, const MesoRasterRect *r)
+{
+    const float slack = 2.f / MESO_RASTER_UNIT;
+    const MesoWindow *w = &tile->window;
+    bool middles = tile->bins->job.samples == 1;
+    float left = middles ? ceilf(r->left + 0.5f - slack) : floorf(r->left + 1 - slack);
+    float top = middles ? ceilf(r->top + 0.5f - slack) : floorf(r->top + 1 - slack);
+    float right = middles ? floorf(r->right - 1.5f + slack) : floorf(r->right - 1 + slack);
+    float bottom = middles ? floorf(r->bottom - 1.5f + slack) : floorf(r->bottom - 1 + slack);
+    return (Pixels){first_pixel(left, w->x, w->width), first_pixel(top, w->y, w->height),
+                    last_pixel(right, w->x, w->width), last_pixel(bottom, w->y, w->height)};
+}
+
+static bool is_covered(const MesoRasterTile *tile, uint32_t x, uint32_t y, float nearest)
+{
+    const MesoRasterLanes *lanes = &tile->bins->lanes;
+    uint32_t lane = ((y % lanes->pixels) * lanes->pixels + x % lanes->pixels) * lanes->samples;
+    const float *there = tile->nearness + (size_t)LANES * ((y / lanes->pixels) * CELLS + x / lanes->pixels) + lane;
+    for (uint32_t i = 0; i < lanes->samples; i++)
+        if (!(there[i] > nearest))
+            return false;
+    return true;
+}
+
+/* Whether nothing of what is in such a rectangle can be seen in the tile: it is beside it, or behind what is there. */
+static bool is_hidden(const MesoRasterTile *tile, const MesoRasterRect *rect)
+{
+    enum { MOST_PIXELS = 1024 };        /* of more, one is soon seen */
+    const MesoRasterView *view = &tile->bins->job.view;
+    Pixels p = pixels_of(tile, rect);
+    if (p.left > p.right || p.top > p.bottom)
+        return true;
+    if ((p.right - p.left + 1) * (p.bottom - p.top + 1) > MOST_PIXELS || !(rect->depth > view->near_depth))
+        return false;
+    /* What triangles are nearer than their corners by rounding is far less. */
+    float nearest = view->parallel ? 0.01f / view->focal - rect->depth : 1.00001f / rect->depth;
+    for (int32_t y = p.top; y <= p.bottom; y++)
+        for (int32_t x = p.left; x <= p.right; x++)
+            if (!is_covered(tile, (uint32_t)x, (uint32_t)y, nearest))
+                return false;
+    return true;
+}
+
+static bool draw_bundle(MesoRasterTile *tile, uint64_t *id)
+{
+    const MesoRasterJob *job = &tile->bins->job;
+    const MesoShapeBundle *bundle = &tile->bundle;
+    for (uint32_t i = 0; i < bundle->count; i++) {
+        MesoRasterRect rect = meso_shape_rect(job->shapes, bundle, i, &job->view);
+        if (is_hidden(tile, &rect))
+            continue;
+        if (!make_room(tile, tile->shape_count + 1))
+            return false;
+        tile->first_ids[tile->shape_count] = (uint32_t)*id;
+        tile->drawn_shapes[tile->shape_count++] = bundle->shapes[i];
+        float depth = meso_raster_rect(&job->view, &bundle->bounds[i]).depth;
+        float tolerance = job->tolerance * meso_raster_pixel(&job->view, depth);
+        if (!meso_shape_make_bundled(job->shapes, bundle, i, tolerance, MESO_SHAPE_SEEN, &tile->mesh) ||
+            !draw_made(tile, (uint32_t)*id))
+            return false;
+        *id += tile->mesh.triangle_count;
+        if (*id > UINT32_MAX)
+            return false;
+    }
+    return true;
+}
+
+/* Near ones first, so that few of those behind them are made at all. */
+static bool draw_bundles(MesoRasterTile *tile)
+{
+    const MesoRasterBins *bins = tile->bins;
+    uint32_t count = tile->shape_count;
+    uint64_t id = 1;
+    if (!sort_bundles(tile, tile->shapes, count))
+        return false;
+    tile->shape_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t bundle = tile->bundles[i].bundle;
+        MesoRasterRect rect = meso_raster_rect(&bins->job.view, &bins->bounds[bundle]);
+        if (is_hidden(tile, &rect))
+            continue;
+        meso_shape_bundle(bins->job.shapes, bundle, &tile->bundle);
+        if (!draw_bundle(tile, &id))
+            return false;
+    }
+    if (!make_room(tile, tile->shape_count))
+        return false;
+    tile->first_ids[tile->shape_count] = (uint32_t)id;
+    tile->shapes = tile->drawn_shapes;
+    tile->drawn = tile->shape_count > 0;
     return true;
 }
 
@@ -241,26 +332,17 @@ static bool draw_tile(MesoRasterTile *tile, uint64_t number)
     uint32_t y = (uint32_t)(number / bins->tiles_x) * pixels;
     tile->window = (MesoWindow){x, y, bins->job.width - x < pixels ? bins->job.width - x : pixels,
                                 bins->job.height - y < pixels ? bins->job.height - y : pixels};
-    tile->shapes = bins->shapes + bins->begin[number];
+    tile->shapes = bins->binned + bins->begin[number];
     tile->shape_count = (uint32_t)(bins->begin[number + 1] - bins->begin[number]);
     tile->vertices_used = tile->corners_used = 0;
     tile->last = 0;
     tile->drawn = tile->shape_count > 0;
     if (!tile->drawn)
         return true;
-    if (!make_room(tile))
-        return false;
     meso_raster_clear(&tile->target, bins->job.view.parallel ? -INFINITY : 0);
-    uint64_t id = 1;
-    for (uint32_t i = 0; i < tile->shape_count; i++) {
-        tile->first_ids[i] = (uint32_t)id;
-        if (!draw_shape(tile, tile->shapes[i], (uint32_t)id))
-            return false;
-        id += tile->mesh.triangle_count;
-        if (id > UINT32_MAX)
-            return false;
-    }
-    tile->first_ids[tile->shape_count] = (uint32_t)id;
+    if (!(bins->bundled ? draw_bundles : draw_shapes)(tile))
+        return false;
+    memset(tile->seen, 0, (tile->shape_count + 1) * sizeof *tile->seen);
     return true;
 }
 
@@ -431,8 +513,11 @@ static void release(MesoRasterTile *tile)
     if (!tile)
         return;
     meso_shape_mesh_release(&tile->mesh);
+    free(tile->bundles);
+    free(tile->drawn_shapes);
     free(tile->first_ids);
     free(tile->seen);
+    free(tile->coordinates);
     free(tile->from_eye);
     free(tile->projected);
     free(tile->vertices);

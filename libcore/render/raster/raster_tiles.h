@@ -6,18 +6,7 @@
 #ifndef MESO_RASTER_TILES_H
 #define MESO_RASTER_TILES_H
 
-#include "libcore/render/raster/raster_view.h"
-#include "libcore/render/raster/shapes.h"
-
-enum { MESO_TILE_CELLS = 32 };
-
-typedef struct MesoRasterJob {
-    const MesoShapes *shapes;
-    MesoRasterView view;
-    uint32_t width, height;     /* of the picture */
-    uint32_t samples;           /* a pixel: 1, 4 or 16 */
-    float tolerance;            /* of the level of detail, in pixels; 0: all of it */
-} MesoRasterJob;
+#include "libcore/render/raster/raster_bins.h"
 
 /* The surface at a sample. */
 typedef struct MesoSurfaceSample {
@@ -32,9 +21,6 @@ typedef struct MesoSurfaceSample {
 
 typedef struct MesoRasterTile MesoRasterTile;
 
-/* The tolerance that a shape is made with, in scene units: what the job wants at its nearest point. */
-float meso_raster_tolerance(const MesoRasterJob *job, uint32_t shape);
-
 /* Where the tile lies in the picture, and its pixels that are in it. */
 MesoWindow meso_raster_tile_window(const MesoRasterTile *tile);
 
@@ -45,17 +31,6 @@ bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint3
 
 /* Whether there is anything at all in the tile. */
 bool meso_raster_tile_empty(const MesoRasterTile *tile);
-
-/*
- * Which shapes each tile may show. Lives in `arena`, as long as the job's shapes: 8 bytes a shape and 4 a shape and
- * tile. O(shapes + shapes of each tile). MESO_ERR_MEMORY alone.
- */
-typedef struct MesoRasterBins MesoRasterBins;
-MesoStatus meso_raster_bins_init(MesoRasterBins **bins, MesoArena *arena, const MesoRasterJob *job,
-                                 uint32_t thread_count, MesoError *error);
-
-/* Rows of the picture that a tile has. */
-uint32_t meso_raster_tile_rows(uint32_t samples);
 
 /*
  * Draws the tiles that have some of the rows [row_begin, row_end) of the picture, and hands over each, whole, once it

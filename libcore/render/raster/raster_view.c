@@ -8,6 +8,19 @@ MesoRasterView meso_raster_view(const MesoView *view, uint32_t width, uint32_t h
         .middle_x = 0.5f * (float)width, .middle_y = 0.5f * (float)height, .near_depth = near_depth};
 }
 
+/* Around a box along the view's axes, relative to the eye. */
+static MesoRasterRect rect_of(const MesoRasterView *view, const MesoBox *seen)
+{
+    /* A side is farthest out where it is nearest, but for one that lies across the middle. */
+    float low_x = seen->low.x, high_x = seen->high.x, low_y = seen->low.y, high_y = seen->high.y;
+    float near_scale = view->parallel ? view->focal : view->focal / seen->low.z;
+    float far_scale = view->parallel ? view->focal : view->focal / seen->high.z;
+    return (MesoRasterRect){view->middle_x + low_x * (low_x < 0 ? near_scale : far_scale) - 1,
+                            view->middle_y + low_y * (low_y < 0 ? near_scale : far_scale) - 1,
+                            view->middle_x + high_x * (high_x > 0 ? near_scale : far_scale) + 1,
+                            view->middle_y + high_y * (high_y > 0 ? near_scale : far_scale) + 1, seen->low.z};
+}
+
 /* Corners of the box from the eye, as a middle and half extents along the view's axes. */
 MesoRasterRect meso_raster_rect(const MesoRasterView *view, const MesoBox *box)
 {
@@ -23,14 +36,19 @@ MesoRasterRect meso_raster_rect(const MesoRasterView *view, const MesoBox *box)
     if (!view->parallel && !(nearest >= view->near_depth))
         return (MesoRasterRect){-INFINITY, -INFINITY, farthest >= view->near_depth ? INFINITY : -INFINITY, INFINITY,
                                 view->near_depth};
-    /* A side is farthest out where it is nearest, but for one that lies across the middle. */
-    float low_x = q.x - reach[0], high_x = q.x + reach[0], low_y = q.y - reach[1], high_y = q.y + reach[1];
-    float near_scale = view->parallel ? view->focal : view->focal / nearest;
-    float far_scale = view->parallel ? view->focal : view->focal / farthest;
-    return (MesoRasterRect){view->middle_x + low_x * (low_x < 0 ? near_scale : far_scale) - 1,
-                            view->middle_y + low_y * (low_y < 0 ? near_scale : far_scale) - 1,
-                            view->middle_x + high_x * (high_x > 0 ? near_scale : far_scale) + 1,
-                            view->middle_y + high_y * (high_y > 0 ? near_scale : far_scale) + 1, nearest};
+    const MesoBox seen = {{q.x - reach[0], q.y - reach[1], nearest}, {q.x + reach[0], q.y + reach[1], farthest}};
+    return rect_of(view, &seen);
+}
+
+MesoRasterRect meso_raster_rect_around(const MesoRasterView *view, const MesoVec3 *points, uint32_t count, float reach)
+{
+    MesoBox seen = meso_box_empty();
+    for (uint32_t i = 0; i < count; i++)
+        meso_box_add(&seen, meso_raster_from_eye(view, points[i]));
+    seen = meso_box_wider(seen, reach);
+    if (!view->parallel && !(seen.low.z >= view->near_depth))
+        return (MesoRasterRect){-INFINITY, -INFINITY, INFINITY, INFINITY, view->near_depth};
+    return rect_of(view, &seen);
 }
 
 /* ---- many points ---- */

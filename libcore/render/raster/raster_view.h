@@ -74,6 +74,12 @@ typedef struct MesoRasterRect {
 /* Holds what is in the box; everything where the box reaches behind the near plane. */
 MesoRasterRect meso_raster_rect(const MesoRasterView *view, const MesoBox *box);
 
+/*
+ * The same around balls of one radius about `points` [count], which is narrower; but what is behind a parallel view's
+ * near plane is not left out.
+ */
+MesoRasterRect meso_raster_rect_around(const MesoRasterView *view, const MesoVec3 *points, uint32_t count, float reach);
+
 /* Whether the middle of some pixel may be covered by what is in the box of such a rectangle, which is a pixel wider. */
 static inline bool meso_raster_rect_has_middle(const MesoRasterRect *rect)
 {

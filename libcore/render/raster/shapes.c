@@ -192,33 +192,175 @@ static MesoBox run_box(const MesoShapes *shapes, const MesoShapeRun *run)
     return box;
 }
 
-/* Within the hull of the sweep, as wide as what the kind's profiles reach. */
-static MesoBox sweep_box(const MesoShapes *shapes, uint32_t sweep)
+/* How far from the hull of the trajectory a sweep lies at most. */
+static float sweep_reach(const MesoShapes *shapes, uint32_t kind, const MesoSweepInstance *sweep)
 {
-    const MesoScene *scene = shapes->scene;
+    const MesoKindDetail *detail = &shapes->details[kind];
+    float rise = MESO_CAP_RISE * shapes->scene->section_scale * sweep->size[0];
+    float radius = detail->radius / detail->stretch.most;
+    return radius > rise ? radius : rise;
+}
+
+static MesoBox sweep_box(const MesoShapes *shapes, uint32_t kind, const MesoSweepInstance *sweep)
+{
     MesoBox box = meso_box_empty();
-    const MesoKindDetail *detail = &shapes->details[shapes->kind_of[sweep]];
-    float rise = MESO_CAP_RISE * scene->section_scale * scene->sweeps[sweep].size[0];
-    MesoSweepHull hull = meso_sweep_hull(scene, &scene->sweeps[sweep],
-                                         fmaxf(detail->radius / detail->stretch.most, rise));
+    MesoSweepHull hull = meso_sweep_hull(shapes->scene, sweep, sweep_reach(shapes, kind, sweep));
     for (uint32_t k = 0; k < hull.count; k++)
-        meso_box_add_around(&box, meso_vec3_sub(hull.points[k], shapes->anchor), hull.reach);
-    return box;
+        meso_box_add(&box, meso_vec3_sub(hull.points[k], shapes->anchor));
+    return meso_box_wider(box, hull.reach);
+}
+
+static uint32_t kind_of(const MesoShapes *shapes, uint32_t sweep)
+{
+    return shapes->kind_of ? shapes->kind_of[sweep] : meso_scene_kind(shapes->scene, sweep);
+}
+
+MesoBox meso_shape_bounds(const MesoShapes *shapes, uint32_t shape)
+{
+    if (shape >= shapes->made)
+        return shapes->bounds[shape - shapes->made];
+    MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
+    return sweep_box(shapes, kind_of(shapes, shape), &sweep);
 }
 
 static void bound(void *context, uint64_t begin, uint64_t end)
 {
     MesoShapes *shapes = context;
     uint32_t sweeps = shapes->scene->sweep_count;
-    for (uint64_t i = begin; i < end; i++)
-        shapes->bounds[i] = i < sweeps ? sweep_box(shapes, (uint32_t)i) : run_box(shapes, &shapes->runs[i - sweeps]);
+    for (uint64_t i = shapes->made + begin; i < shapes->made + end; i++)
+        shapes->bounds[i - shapes->made] =
+            i < sweeps ? sweep_box(shapes, shapes->kind_of[i], &shapes->scene->sweeps[i])
+                       : run_box(shapes, &shapes->runs[i - sweeps]);
+}
+
+static MesoStatus bound_all(MesoShapes *shapes, MesoArena *arena, uint32_t thread_count, MesoError *error)
+{
+    const MesoScene *scene = shapes->scene;
+    uint32_t stored = shapes->count - shapes->made;
+    if (!shapes->made)
+        shapes->kind_of = MESO_NEW(arena, uint32_t, scene->sweep_count, error);
+    shapes->bounds = MESO_NEW(arena, MesoBox, stored, error);
+    if ((!shapes->made && !shapes->kind_of) || !shapes->bounds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < scene->kind_count && !shapes->made; k++)
+        for (uint32_t i = 0; i < scene->kinds[k].instance_count; i++)
+            shapes->kind_of[scene->kinds[k].instance_begin + i] = k;
+    meso_parallel_for(thread_count, stored, 1024, bound, shapes);
+    return MESO_OK;
+}
+
+/* ---- bundles ---- */
+
+static uint32_t made_bundles(const MesoShapes *shapes)
+{
+    return shapes->made ? shapes->scene->maker->bundle_count : 0;
+}
+
+void meso_shape_bundle(const MesoShapes *shapes, uint32_t bundle, MesoShapeBundle *out)
+{
+    const MesoSweepMaker *maker = shapes->scene->maker;
+    uint32_t made = made_bundles(shapes);
+    out->made = bundle < made;
+    if (out->made) {
+        out->count = maker->make_bundle(maker->context, bundle, out->sweeps);
+        for (uint32_t i = 0; i < out->count; i++) {
+            out->shapes[i] = out->sweeps[i].sweep;
+            out->bounds[i] = sweep_box(shapes, out->sweeps[i].kind, &out->sweeps[i].instance);
+        }
+        return;
+    }
+    uint32_t first = shapes->made + (bundle - made) * MESO_SHAPE_BUNDLE, left = shapes->count - first;
+    out->count = left < MESO_SHAPE_BUNDLE ? left : MESO_SHAPE_BUNDLE;
+    for (uint32_t i = 0; i < out->count; i++) {
+        out->shapes[i] = first + i;
+        out->bounds[i] = shapes->bounds[first + i - shapes->made];
+    }
+}
+
+MesoRasterRect meso_shape_rect(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i,
+                               const MesoRasterView *view)
+{
+    const MesoMadeSweep *made = &bundle->sweeps[i];
+    MesoVec3 points[4];
+    if (!bundle->made)
+        return meso_raster_rect(view, &bundle->bounds[i]);
+    for (uint32_t k = 0; k < 4; k++)
+        points[k] = meso_vec3_sub(made->instance.p[k], shapes->anchor);
+    return meso_raster_rect_around(view, points, 4, sweep_reach(shapes, made->kind, &made->instance));
+}
+
+/* Around what bundles of sweeps are known to lie in, and others are. */
+static MesoBox bundle_box(const MesoShapes *shapes, uint32_t b)
+{
+    MesoBox box = meso_box_empty();
+    uint32_t made = made_bundles(shapes);
+    if (b < made) {
+        box = meso_scene_bundle_box(shapes->scene, b);
+        return (MesoBox){meso_vec3_sub(box.low, shapes->anchor), meso_vec3_sub(box.high, shapes->anchor)};
+    }
+    uint32_t first = (b - made) * MESO_SHAPE_BUNDLE, left = shapes->count - shapes->made - first;
+    for (uint32_t i = 0; i < MESO_SHAPE_BUNDLE && i < left; i++)
+        meso_box_join(&box, &shapes->bounds[first + i]);
+    return box;
+}
+
+static MesoStatus make_bundles(MesoShapes *shapes, MesoArena *arena, MesoError *error)
+{
+    uint32_t made = made_bundles(shapes);
+    uint64_t count = made + ((uint64_t)shapes->count - shapes->made + MESO_SHAPE_BUNDLE - 1) / MESO_SHAPE_BUNDLE;
+    if (count > UINT32_MAX)
+        return meso_fail(error, MESO_ERR_LIMIT, "the scene has too many parts to draw");
+    shapes->bundle_count = (uint32_t)count;
+    if (!shapes->made)
+        return MESO_OK;
+    shapes->bundle_bounds = MESO_NEW(arena, MesoBox, count, error);
+    if (!shapes->bundle_bounds)
+        return MESO_ERR_MEMORY;
+    for (uint32_t b = 0; b < shapes->bundle_count; b++)
+        shapes->bundle_bounds[b] = bundle_box(shapes, b);
+    return MESO_OK;
+}
+
+static void join_bundle(MesoBox *box, const MesoShapes *shapes, uint32_t b)
+{
+    MesoShapeBundle bundle;
+    meso_shape_bundle(shapes, b, &bundle);
+    for (uint32_t i = 0; i < bundle.count; i++)
+        meso_box_join(box, &bundle.bounds[i]);
+}
+
+/* Of those that are not made, and of few others: those that may reach farthest, and then those that may stick out. */
+MesoBox meso_shapes_box(const MesoShapes *shapes)
+{
+    MesoBox box = meso_box_empty();
+    uint32_t made = made_bundles(shapes), farthest[6] = {0};
+    const MesoBox *b = shapes->bundle_bounds;
+    for (uint32_t i = 0; i < shapes->count - shapes->made; i++)
+        meso_box_join(&box, &shapes->bounds[i]);
+    for (uint32_t i = 0; i < made; i++) {
+        if (!(b[i].low.x <= b[i].high.x))       /* of nothing */
+            continue;
+        farthest[0] = b[i].low.x < b[farthest[0]].low.x ? i : farthest[0];
+        farthest[1] = b[i].low.y < b[farthest[1]].low.y ? i : farthest[1];
+        farthest[2] = b[i].low.z < b[farthest[2]].low.z ? i : farthest[2];
+        farthest[3] = b[i].high.x > b[farthest[3]].high.x ? i : farthest[3];
+        farthest[4] = b[i].high.y > b[farthest[4]].high.y ? i : farthest[4];
+        farthest[5] = b[i].high.z > b[farthest[5]].high.z ? i : farthest[5];
+    }
+    for (uint32_t k = 0; k < 6 && made > 0; k++)
+        join_bundle(&box, shapes, farthest[k]);
+    for (uint32_t i = 0; i < made; i++)
+        if (b[i].low.x <= b[i].high.x && meso_box_sticks_out(&b[i], &box))
+            join_bundle(&box, shapes, i);
+    return box;
 }
 
 MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
                             uint32_t thread_count, MesoError *error)
 {
     float size = meso_vec3_length(meso_vec3_sub(scene->box.high, scene->box.low));
-    *shapes = (MesoShapes){.scene = scene, .near = *scene, .anchor = anchor, .finest = 1e-6f * size};
+    *shapes = (MesoShapes){.scene = scene, .near = *scene, .anchor = anchor, .finest = 1e-6f * size,
+                            .made = scene->maker ? scene->sweep_count : 0};
     MesoStatus status = make_runs(shapes, arena, error);
     if (!status && scene->deform == MESO_SWEEP_SHAPE) {
         shapes->near.cages = meso_cages_from(scene, anchor, arena, error);
@@ -228,17 +370,9 @@ MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScen
         status = place_bodies(shapes, arena, thread_count, error);
     if (!status)
         status = make_levels(shapes, arena, error);
-    if (status)
-        return status;
-    shapes->kind_of = MESO_NEW(arena, uint32_t, scene->sweep_count, error);
-    shapes->bounds = MESO_NEW(arena, MesoBox, shapes->count, error);
-    if (!shapes->kind_of || !shapes->bounds)
-        return MESO_ERR_MEMORY;
-    for (uint32_t k = 0; k < scene->kind_count; k++)
-        for (uint32_t i = 0; i < scene->kinds[k].instance_count; i++)
-            shapes->kind_of[scene->kinds[k].instance_begin + i] = k;
-    meso_parallel_for(thread_count, shapes->count, 1024, bound, shapes);
-    return MESO_OK;
+    if (!status)
+        status = bound_all(shapes, arena, thread_count, error);
+    return status ? status : make_bundles(shapes, arena, error);
 }
 
 /* ---- meshes ---- */
@@ -280,24 +414,22 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
     *mesh = (MesoShapeMesh){0};
 }
 
-static MesoSweepInstance anchored(const MesoShapes *shapes, uint32_t sweep)
+static MesoSweepInstance anchored(const MesoShapes *shapes, MesoSweepInstance instance)
 {
-    MesoSweepInstance instance = shapes->scene->sweeps[sweep];
     for (uint32_t i = 0; i < 4 && shapes->scene->deform == MESO_SWEEP_CURVES; i++)
         instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
     return instance;
 }
 
-static bool make_sweep(const MesoShapes *shapes, uint32_t sweep, float tolerance, MesoShapeUse use,
-                       MesoShapeMesh *mesh)
+static bool make_sweep(const MesoShapes *shapes, uint32_t k, const MesoSweepInstance *sweep, float tolerance,
+                       MesoShapeUse use, MesoShapeMesh *mesh)
 {
     bool seen = use != MESO_SHAPE_SHADOW;
     const MesoScene *scene = &shapes->near;
-    uint32_t k = shapes->kind_of[sweep];
     const MesoSweptKind *kind = &scene->kinds[k];
     const MesoShapeColumns *columns = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS +
                                                              level_for(shapes, tolerance)];
-    MesoSweepInstance instance = anchored(shapes, sweep);
+    MesoSweepInstance instance = anchored(shapes, *sweep);
     uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance, seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings,
                                 .bare = use != MESO_SHAPE_WHOLE};
@@ -355,8 +487,18 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
 bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh)
 {
     uint32_t sweeps = shapes->scene->sweep_count;
-    return shape < sweeps ? make_sweep(shapes, shape, tolerance, use, mesh)
-                          : make_run(shapes, &shapes->runs[shape - sweeps], mesh);
+    if (shape >= sweeps)
+        return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
+    MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
+    return make_sweep(shapes, kind_of(shapes, shape), &sweep, tolerance, use, mesh);
+}
+
+bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
+                             MesoShapeUse use, MesoShapeMesh *mesh)
+{
+    const MesoMadeSweep *made = &bundle->sweeps[i];
+    return bundle->made ? make_sweep(shapes, made->kind, &made->instance, tolerance, use, mesh)
+                        : meso_shape_make(shapes, bundle->shapes[i], tolerance, use, mesh);
 }
 
 /* ---- corners ---- */
@@ -365,10 +507,10 @@ static void sweep_corners(const MesoShapes *shapes, uint32_t sweep, float tolera
                           MesoShapeCorner corners[3])
 {
     static const uint32_t sides[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};   /* of ring and column */
-    uint32_t k = shapes->kind_of[sweep], quad = triangle / 2;
+    uint32_t k = kind_of(shapes, sweep), quad = triangle / 2;
     const MesoShapeColumns *columns =
         &shapes->columns[true][(size_t)k * MESO_SHAPE_LEVELS + level_for(shapes, tolerance)];
-    MesoSweepInstance instance = anchored(shapes, sweep);
+    MesoSweepInstance instance = anchored(shapes, meso_scene_sweep(shapes->scene, sweep));
     uint32_t rings = meso_detail_instance_rings(&shapes->scene->kinds[k], &shapes->details[k], &instance, tolerance,
                                                 true);
     for (uint32_t i = 0; i < 3; i++) {
@@ -406,8 +548,8 @@ MesoVec3 meso_shape_corner_at(const MesoShapes *shapes, uint32_t shape, const Me
         const MesoShapeRun *run = &shapes->runs[shape - scene->sweep_count];
         return meso_vec3_sub(shapes->positions[run->placed][corner->vertex], shapes->anchor);
     }
-    const MesoSweptKind *kind = &scene->kinds[shapes->kind_of[shape]];
-    MesoSweepInstance instance = anchored(shapes, shape);
+    const MesoSweptKind *kind = &scene->kinds[kind_of(shapes, shape)];
+    MesoSweepInstance instance = anchored(shapes, meso_scene_sweep(shapes->scene, shape));
     float v = (float)corner->ring / (float)(corner->ring_count - 1);
     return meso_sweep_point(scene, kind, &instance, &scene->columns[kind->column_begin + corner->column], v);
 }
@@ -416,8 +558,8 @@ MesoShapeLook meso_shape_look(const MesoShapes *shapes, uint32_t shape)
 {
     const MesoScene *scene = shapes->scene;
     if (shape < scene->sweep_count) {
-        const MesoSweptKind *kind = &scene->kinds[shapes->kind_of[shape]];
-        return (MesoShapeLook){scene->sweeps[shape].ids, kind->start_material, kind->end_material};
+        const MesoSweptKind *kind = &scene->kinds[kind_of(shapes, shape)];
+        return (MesoShapeLook){meso_scene_sweep_ids(scene, shape), kind->start_material, kind->end_material};
     }
     const MesoPlacedBody *placed = &scene->placed[shapes->runs[shape - scene->sweep_count].placed];
     return (MesoShapeLook){placed->ids, placed->material, placed->material};

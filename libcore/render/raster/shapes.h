@@ -6,8 +6,9 @@
 #define MESO_SHAPES_H
 
 #include "libcore/base/arena.h"
+#include "libcore/render/raster/raster_view.h"
 #include "libcore/scene/detail.h"
-#include "libcore/scene/scene.h"
+#include "libcore/scene/sweep_maker.h"
 
 enum { MESO_SHAPE_FACES = 128 };        /* of a body, at most */
 
@@ -35,20 +36,45 @@ typedef struct MesoShapes {
     MesoShapeRun *runs;         /* [count - sweep_count] */
     const MesoVec3 **positions, **normals;      /* [placed_count] in the world */
     bool *mirrored;             /* [placed_count] faces run the other way */
-    uint32_t *kind_of;          /* [sweep_count] */
+    uint32_t made;              /* sweeps that the scene's maker makes: all, or none */
+    uint32_t *kind_of;          /* [sweep_count], where they are stored */
     MesoKindDetail *details;    /* [kind_count] */
-    MesoBox *bounds;            /* [count] relative to the anchor */
+    MesoBox *bounds;            /* [count - made] of the rest, relative to the anchor */
+    uint32_t bundle_count;      /* those of the maker, then others, of shapes one after the other */
+    MesoBox *bundle_bounds;     /* [bundle_count], where sweeps are made */
     float finest;
     bool *closed;               /* [kind_count] sections are loops: what looks away is behind what does not */
     MesoShapeColumns *columns[2];   /* [kind_count * MESO_SHAPE_LEVELS] for shadows, and for what is seen */
 } MesoShapes;
 
 /*
- * What is there lives in `arena`. Bodies that are placed by a frame or in a cage are moved there once: 24 bytes a vertex.
+ * What is there lives in `arena`; of sweeps that the scene has a maker of, nothing does. Bodies that are placed by a
+ * frame or in a cage are moved there once: 24 bytes a vertex.
  * O(sweeps + columns * levels + vertices + faces). MESO_ERR_MEMORY, or MESO_ERR_LIMIT for more than 2^32 - 2 shapes.
  */
 MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
                             uint32_t thread_count, MesoError *error);
+
+/* The box around a shape, relative to the anchor. */
+MesoBox meso_shape_bounds(const MesoShapes *shapes, uint32_t shape);
+
+/* The box around all of them; empty where there are none. */
+MesoBox meso_shapes_box(const MesoShapes *shapes);
+
+/* Shapes that are looked at together; each is in one bundle. */
+enum { MESO_SHAPE_BUNDLE = MESO_BUNDLE_SWEEPS };
+typedef struct MesoShapeBundle {
+    uint32_t count;
+    uint32_t shapes[MESO_SHAPE_BUNDLE];
+    MesoBox bounds[MESO_SHAPE_BUNDLE];
+    bool made;
+    MesoMadeSweep sweeps[MESO_SHAPE_BUNDLE];    /* where they are made */
+} MesoShapeBundle;
+void meso_shape_bundle(const MesoShapes *shapes, uint32_t bundle, MesoShapeBundle *out);
+
+/* Where shape `i` of a bundle is in a view, as narrow as is known. */
+MesoRasterRect meso_shape_rect(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i,
+                               const MesoRasterView *view);
 
 /* A shape as triangles; t = 2 face + half. */
 typedef struct MesoShapeMesh {
@@ -72,6 +98,8 @@ typedef enum MesoShapeUse {
  * at. The mesh begins zeroed, and is used again for the next; its arrays grow by realloc(). False where memory is out.
  */
 bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
+bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
+                             MesoShapeUse use, MesoShapeMesh *mesh);
 void meso_shape_mesh_release(MesoShapeMesh *mesh);
 
 /* A corner of a shape's triangle: a place that a shape of another scene, of the same structure, has too. */

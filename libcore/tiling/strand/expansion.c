@@ -1,18 +1,14 @@
 #include "libcore/tiling/strand/expansion.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 #include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
-#include "libcore/scene/sweep.h"
-#include "libcore/shell/hexahedra.h"
+#include "libcore/tiling/strand/slot_sweeps.h"
 #include "libcore/tiling/strand/slot_winding.h"
 #include "libcore/tiling/strand/steps.h"
-#include "libcore/tiling/strand/strand_port.h"
-#include "libcore/tiling/strand/trajectory.h"
 
 enum { INSTANCES_A_RANGE = 1024 };
 
@@ -28,12 +24,8 @@ typedef struct Builder {
     MesoMapOptions options;     /* resolved */
     MesoKindOrigin *origins;    /* of the scene's kinds */
     const MesoContourSet *contours;
-    MesoShell shell;
-    MesoShellCell cell;         /* in whose ports sweeps begin and end where sections deform */
-    MesoPortFinder ports;
-    uint32_t *bucket_slots;     /* [slot_count] slots by tile and mirroring, ascending within */
-    uint32_t *bucket_begin;     /* [2 * tile_count + 1] */
-    atomic_uint_fast64_t failed;    /* smallest instance that has no port */
+    MesoSlotSweeps *slots;
+    uint32_t stored;            /* sweeps at most; 0: any number */
 } Builder;
 
 static bool deforms(const Builder *b)
@@ -41,39 +33,7 @@ static bool deforms(const Builder *b)
     return b->options.deform == MESO_SWEEP_SHAPE;
 }
 
-/* ---- slots by tile and mirroring ---- */
-
-static uint32_t bucket_of(const MesoModel *model, uint32_t slot)
-{
-    return 2 * model->assignment.tile[slot] + meso_transform_flips(model->assignment.transform[slot]);
-}
-
-static MesoStatus fill_buckets(Builder *b, MesoArena *scratch, MesoError *error)
-{
-    const MesoModel *model = b->model;
-    uint32_t bucket_count = 2 * model->tile_set.tile_count, slot_count = model->assignment.slot_count;
-    uint32_t *next = MESO_NEW(scratch, uint32_t, bucket_count, error);
-    b->bucket_begin = MESO_NEW(scratch, uint32_t, (size_t)bucket_count + 1, error);
-    b->bucket_slots = MESO_NEW(scratch, uint32_t, slot_count, error);
-    if (!next || !b->bucket_begin || !b->bucket_slots)
-        return MESO_ERR_MEMORY;
-    for (uint32_t s = 0; s < slot_count; s++)
-        b->bucket_begin[bucket_of(model, s) + 1]++;
-    for (uint32_t i = 0; i < bucket_count; i++)
-        next[i] = b->bucket_begin[i + 1] += b->bucket_begin[i];
-    for (uint32_t i = 0; i < bucket_count; i++)
-        next[i] = b->bucket_begin[i];
-    for (uint32_t s = 0; s < slot_count; s++)
-        b->bucket_slots[next[bucket_of(model, s)]++] = s;
-    return MESO_OK;
-}
-
 /* ---- kinds ---- */
-
-static uint32_t bucket_of_kind(const MesoKindOrigin *origin)
-{
-    return 2 * origin->tile + origin->mirrored;
-}
 
 /* Keeps the kinds of `profiles` that have instances. */
 static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, MesoArena *arena,
@@ -87,9 +47,9 @@ static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, Me
         return MESO_ERR_MEMORY;
     for (uint32_t k = 0; k < profiles->kind_count; k++) {
         MesoSweptKind kind = profiles->kinds[k];
-        uint32_t bucket = bucket_of_kind(&profiles->origins[k]);
+        uint32_t bucket = meso_kind_bucket(&profiles->origins[k]);
         kind.instance_begin = (uint32_t)instance_count;
-        kind.instance_count = b->bucket_begin[bucket + 1] - b->bucket_begin[bucket];
+        kind.instance_count = b->slots->bucket_begin[bucket + 1] - b->slots->bucket_begin[bucket];
         if (kind.instance_count == 0)
             continue;
         instance_count += kind.instance_count;
@@ -101,8 +61,9 @@ static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, Me
     out->sweep_count = (uint32_t)instance_count;
     out->columns = profiles->columns;
     out->column_count = profiles->column_count;
-    out->sweeps = MESO_NEW(arena, MesoSweepInstance, out->sweep_count, error);
-    return out->sweeps ? MESO_OK : MESO_ERR_MEMORY;
+    b->slots->origins = b->origins;
+    b->slots->scene = *out;
+    return MESO_OK;
 }
 
 /* ---- instances ---- */
@@ -116,15 +77,8 @@ static MesoStatus make_cages(Builder *b, MesoArena *arena, MesoError *error)
     b->scene->cage_count = count;
     b->scene->cages = MESO_NEW(arena, MesoCage, count, error);
     for (uint32_t slot = 0; slot < count && b->scene->cages; slot++)
-        b->scene->cages[slot] = meso_shell_cage(&b->shell, slot);
+        b->scene->cages[slot] = meso_shell_cage(&b->slots->shell, slot);
     return b->scene->cages ? MESO_OK : MESO_ERR_MEMORY;
-}
-
-/* What one edge length in the drawings is in a cell, whose edges have the mean length. */
-static float cell_scale(const MesoMapOptions *options, const MesoModel *model)
-{
-    float mean = model->surface.mean_edge_length;
-    return options->section_scale / (mean > 0 ? mean : 1);
 }
 
 /* Of all slots, where sections deform and a tolerance asks for it. */
@@ -153,7 +107,7 @@ static float profile_tolerance(const MesoMapOptions *options, const MesoModel *m
     const MesoQuadMesh *surface = &model->surface;
     float largest = 0, mean = surface->mean_edge_length;
     if (stretch.most > 0)
-        return meso_map_options_tolerance(options, mean) / (stretch.most * cell_scale(options, model));
+        return meso_map_options_tolerance(options, mean) / (stretch.most * meso_cell_scale(options, model));
     for (uint32_t slot = 0; slot < surface->face_count && options->section_size == MESO_SECTION_SLOT; slot++)
         largest = fmaxf(largest, meso_slot_size(surface, slot));
     float size = largest > 0 && mean > 0 ? largest / mean : 1;
@@ -164,96 +118,7 @@ static MesoColumnLimits column_limits(const MesoMapOptions *options, const MesoM
 {
     float bend = BEND_SHARE * meso_map_options_tolerance(options, model->surface.mean_edge_length);
     return (MesoColumnLimits){AROUND_SHARE * profile_tolerance(options, model, stretch),
-                              stretch.bend > 0 ? sqrtf(8 * bend / stretch.bend) / cell_scale(options, model) : 0};
-}
-
-/* That of the cell which stands for the slot. */
-static MesoStatus cell_port(const Builder *b, uint32_t slot, uint32_t tile_side, MesoVec2 center, MesoPort *port,
-                            MesoError *error)
-{
-    const MesoAssignment *a = &b->model->assignment;
-    MesoTransform transform = a->transform[slot];
-    if (tile_side >= MESO_SIDE_TOP) {
-        bool flipped = b->model->tile_set.tiles[a->tile[slot]].labels[tile_side] < 0;
-        return meso_shell_lid_port(&b->cell.shell, 0, tile_side == MESO_SIDE_BOTTOM, transform, center, flipped, port,
-                                   error);
-    }
-    return meso_shell_wall_port(&b->cell.shell, 0, meso_transform_side(transform, tile_side), center,
-                                meso_port_flipped(b->model, slot, tile_side), NULL, port, error);
-}
-
-/* Where sections deform, that of the cell; but none where the slot has none. */
-static MesoStatus find_port(const Builder *b, uint32_t slot, uint32_t tile_side, uint32_t section,
-                            MesoPort *port, MesoError *error)
-{
-    MesoVec2 center = b->contours->center[section];
-    MesoStatus status = meso_port_find(&b->ports, slot, tile_side, section, port, error);
-    if (status || !deforms(b))
-        return status;
-    center = (MesoVec2){meso_cell_round(center.x), meso_cell_round(center.y)};
-    return cell_port(b, slot, tile_side, center, port, error);
-}
-
-static float port_size(const Builder *b, uint32_t slot, uint32_t tile_side)
-{
-    return deforms(b) ? cell_scale(&b->options, b->model) : meso_port_size(&b->ports, slot, tile_side);
-}
-
-static float one_if_none(float scale)
-{
-    return scale == 0 ? 1 : scale;
-}
-
-static float tangent_scale(const Builder *b, const MesoKindOrigin *origin)
-{
-    const MesoTileSet *set = &b->model->tile_set;
-    return b->options.tangent_scale * one_if_none(set->tiles[origin->tile].tangent_scale) *
-           one_if_none(set->sweeps[origin->sweep].tangent_scale);
-}
-
-static MesoStatus make_cap(const Builder *b, const MesoKindOrigin *origin, uint32_t slot,
-                           MesoSweepInstance *out, MesoError *error)
-{
-    MesoPort port;
-    MesoStatus status = find_port(b, slot, origin->start_side, origin->start_section, &port, error);
-    if (status)
-        return status;
-    float size = port_size(b, slot, origin->start_side), rise = MESO_CAP_RISE * b->scene->section_scale * size;
-    *out = (MesoSweepInstance){.up = {port.up, port.up}, .direction = {port.inward, port.inward}, .ids = slot,
-                               .size = {size, size}, .cage = slot};
-    for (int i = 0; i < 4; i++)
-        out->p[i] = meso_vec3_mad(port.point, rise * (float)i / 3, port.inward);
-    return MESO_OK;
-}
-
-static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, uint32_t slot,
-                             MesoSweepInstance *out, MesoError *error)
-{
-    MesoPort start, end;
-    MesoStatus status = find_port(b, slot, origin->start_side, origin->start_section, &start, error);
-    if (!status)
-        status = find_port(b, slot, origin->end_side, origin->end_section, &end, error);
-    if (status)
-        return status;
-    *out = (MesoSweepInstance){.up = {start.up, end.up},
-                               .direction = {start.inward, meso_vec3_scale(end.inward, -1)},
-                               .ids = slot,
-                               .size = {port_size(b, slot, origin->start_side), port_size(b, slot, origin->end_side)},
-                               .cage = slot};
-    meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(b, origin), out->p);
-    if (b->options.frame == MESO_FRAME_MINIMAL)
-        out->twist = meso_sweep_twist(out);
-    return MESO_OK;
-}
-
-static MesoStatus make_instance(const Builder *b, uint32_t kind, uint32_t i, MesoError *error)
-{
-    const MesoKindOrigin *origin = &b->origins[kind];
-    uint32_t first = b->bucket_begin[bucket_of_kind(origin)];
-    uint32_t slot = b->bucket_slots[first + (i - b->scene->kinds[kind].instance_begin)];
-    MesoSweepInstance *out = &b->scene->sweeps[i];
-    return b->scene->kinds[kind].cap ? make_cap(b, origin, slot, out, error)
-                                     : make_sweep(b, origin, slot, out, error);
+                              stretch.bend > 0 ? sqrtf(8 * bend / stretch.bend) / meso_cell_scale(options, model) : 0};
 }
 
 static void make_range(void *context, uint64_t begin, uint64_t end)
@@ -264,30 +129,29 @@ static void make_range(void *context, uint64_t begin, uint64_t end)
     for (uint64_t i = begin; i < end; i++) {
         while (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count)
             kind++;
-        if (!make_instance(b, kind, (uint32_t)i, NULL))
-            continue;
-        uint_fast64_t first = atomic_load(&b->failed);
-        while (i < first && !atomic_compare_exchange_weak(&b->failed, &first, i)) {
-        }
+        if (meso_slot_sweep(b->slots, kind, (uint32_t)i, &b->scene->sweeps[i], NULL))
+            meso_slot_sweeps_note(b->slots, i);
     }
 }
 
-/* The first failure is found again alone, so that the message does not depend on the threads. */
-static MesoStatus make_instances(Builder *b, uint32_t thread_count, MesoError *error)
+/* Many are not stored where that is allowed, but made when they are wanted. */
+static MesoStatus make_instances(Builder *b, MesoArena *arena, uint32_t thread_count, MesoError *error)
 {
-    atomic_store(&b->failed, UINT64_MAX);
+    if (b->stored && b->scene->sweep_count > b->stored)
+        return meso_slot_sweeps_maker(b->slots, b->scene, arena, thread_count, error);
+    b->scene->sweeps = MESO_NEW(arena, MesoSweepInstance, b->scene->sweep_count, error);
+    if (!b->scene->sweeps)
+        return MESO_ERR_MEMORY;
+    atomic_store(&b->slots->failed, UINT64_MAX);
     meso_parallel_for(thread_count, b->scene->sweep_count, INSTANCES_A_RANGE, make_range, b);
-    uint64_t failed = atomic_load(&b->failed);
-    if (failed == UINT64_MAX)
-        return MESO_OK;
-    return make_instance(b, meso_scene_kind(b->scene, (uint32_t)failed), (uint32_t)failed, error);
+    return meso_slot_sweeps_check(b->slots, error);
 }
 
 /* ---- inner meshes ---- */
 
 static uint32_t slots_of_tile(const Builder *b, uint32_t tile)
 {
-    return b->bucket_begin[2 * tile + 2] - b->bucket_begin[2 * tile];
+    return b->slots->bucket_begin[2 * tile + 2] - b->slots->bucket_begin[2 * tile];
 }
 
 static bool is_near(float x)
@@ -387,10 +251,10 @@ static MesoStatus place_inners(Builder *b, MesoArena *arena, MesoError *error)
     uint32_t cage_begin = 0;
     for (uint32_t t = 0; t < set->tile_count && !status; t++) {
         const MesoTile *tile = &set->tiles[t];
-        const uint32_t *slots = b->bucket_slots + b->bucket_begin[2 * t];
+        const uint32_t *slots = b->slots->bucket_slots + b->slots->bucket_begin[2 * t];
         uint32_t slot_count = placed_of_tile(b, tile) ? slots_of_tile(b, t) : 0;
         for (uint32_t i = 0; i < slot_count && !deforms(b); i++)
-            b->scene->cages[cage_begin + i] = meso_shell_cage(&b->shell, slots[i]);
+            b->scene->cages[cage_begin + i] = meso_shell_cage(&b->slots->shell, slots[i]);
         for (uint32_t inner = tile->inner_begin; inner < tile->inner_begin + tile->inner_count; inner++)
             for (uint32_t i = 0; i < slot_count && is_placed(b, inner); i++)
                 *placed++ = (MesoPlacedBody){.body = inner, .material = set->section_count + inner,
@@ -457,6 +321,27 @@ static MesoStatus make_ids(Builder *b, MesoArena *arena, MesoError *error)
 
 /* ---- all of it ---- */
 
+/* What sweeps are made by, which lives as long as the scene where that makes them. */
+static MesoStatus begin_slots(Builder *b, MesoArena *arena, MesoError *error)
+{
+    MesoSlotSweeps *slots = b->slots = MESO_NEW(arena, MesoSlotSweeps, 1, error);
+    uint32_t count = b->model->tile_set.section_count;
+    MesoVec2 *centers = MESO_NEW(arena, MesoVec2, count, error);
+    if (!slots || !centers)
+        return MESO_ERR_MEMORY;
+    if (count > 0)
+        memcpy(centers, b->contours->center, count * sizeof *centers);
+    slots->model = b->model;
+    slots->options = b->options;
+    meso_shell_cell_init(&slots->cell);
+    MesoStatus status = meso_slot_sweeps_sort(slots, arena, error);
+    if (!status)
+        status = check_inners(b, error);
+    if (!status)
+        status = meso_model_shell(&slots->shell, arena, b->model, error);
+    return status ? status : meso_port_finder_make(&slots->ports, arena, b->model, &slots->shell, centers, error);
+}
+
 static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint32_t thread_count,
                          MesoError *error)
 {
@@ -468,21 +353,13 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         status = meso_profile_set_build(&profiles, arena, &b->model->tile_set, b->contours, b->options.divisions,
                                         column_limits(&b->options, b->model, stretch), error);
     if (!status)
-        status = fill_buckets(b, scratch, error);
-    if (!status)
-        status = check_inners(b, error);
-    if (status)
-        return status;
-
-    status = meso_model_shell(&b->shell, scratch, b->model, error);
-    if (!status)
-        status = meso_port_finder_make(&b->ports, scratch, b->model, &b->shell, b->contours->center, error);
+        status = begin_slots(b, b->stored ? arena : scratch, error);
     if (!status)
         status = keep_used_kinds(b, &profiles, arena, error);
     if (!status)
         status = make_cages(b, arena, error);
     if (!status)
-        status = make_instances(b, thread_count, error);
+        status = make_instances(b, arena, thread_count, error);
     if (!status && tolerance > 0)
         status = meso_scene_choose_steps(b->scene, &b->origins, arena, tolerance, thread_count, error);
     if (!status)
@@ -493,9 +370,10 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         status = make_materials(b, arena, error);
     if (!status)
         status = make_ids(b, arena, error);
-    if (!status)
-        meso_scene_measure(b->scene);
-    return status;
+    if (status)
+        return status;
+    meso_scene_measure(b->scene);
+    return b->scene->maker ? meso_slot_sweeps_check(b->slots, error) : MESO_OK;
 }
 
 /*
@@ -508,19 +386,21 @@ static float contour_step(const MesoMapOptions *options, const MesoModel *model,
     return tolerance > 0 ? fminf(fmaxf(tolerance / 2, 2e-4f), 0.02f) : options->section_step;
 }
 
-MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
-                                  const MesoModel *model, const MesoContourSet *contours,
-                                  uint32_t thread_count, MesoError *error)
+/* Of at most `stored` sweeps, if that is not 0. */
+static MesoStatus expand_over(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena, const MesoModel *model,
+                              const MesoContourSet *contours, uint32_t stored, uint32_t thread_count, MesoError *error)
 {
     MesoArena scratch;
-    MesoModel wound;
-    meso_arena_init(&scratch);
     MesoMapOptions options = meso_map_options_resolve(model->options, model->surface.mean_edge_length);
-    Builder builder = {.model = &wound, .scene = scene, .options = options, .contours = contours};
-    *scene = (MesoScene){.section_scale = deforms(&builder) ? 1 : options.section_scale, .thickness = options.thickness,
+    bool shape = options.deform == MESO_SWEEP_SHAPE, made = stored && !shape && !(options.tolerance > 0);
+    Builder builder = {.scene = scene, .options = options, .contours = contours, .stored = made ? stored : 0};
+    *scene = (MesoScene){.section_scale = shape ? 1 : options.section_scale, .thickness = options.thickness,
                          .frame_rule = (MesoFrameRule)options.frame, .deform = (MesoSweepDeform)options.deform};
-    meso_shell_cell_init(&builder.cell);
-    MesoStatus status = meso_model_wind(&wound, model, &scratch, error);
+    meso_arena_init(&scratch);
+    MesoArena *kept = made ? arena : &scratch;
+    MesoModel *wound = MESO_NEW(kept, MesoModel, 1, error);
+    MesoStatus status = wound ? meso_model_wind(wound, model, kept, error) : MESO_ERR_MEMORY;
+    builder.model = wound;
     if (!status)
         status = expand(&builder, arena, &scratch, thread_count, error);
     meso_arena_release(&scratch);
@@ -529,8 +409,15 @@ MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, Me
     return status;
 }
 
-MesoStatus meso_model_expand(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
-                             const MesoModel *model, uint32_t thread_count, MesoError *error)
+MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
+                                  const MesoModel *model, const MesoContourSet *contours,
+                                  uint32_t thread_count, MesoError *error)
+{
+    return expand_over(scene, expansion, arena, model, contours, 0, thread_count, error);
+}
+
+static MesoStatus expand_anew(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena, const MesoModel *model,
+                              uint32_t stored, uint32_t thread_count, MesoError *error)
 {
     MesoArena scratch;
     MesoContourSet contours;
@@ -542,7 +429,19 @@ MesoStatus meso_model_expand(MesoScene *scene, MesoExpansion *expansion, MesoAre
         status = meso_contour_set_build(&contours, &scratch, &model->tile_set, contour_step(&options, model, stretch),
                                         error);
     if (!status)
-        status = meso_model_expand_over(scene, expansion, arena, model, &contours, thread_count, error);
+        status = expand_over(scene, expansion, arena, model, &contours, stored, thread_count, error);
     meso_arena_release(&scratch);
     return status;
+}
+
+MesoStatus meso_model_expand(MesoScene *scene, MesoExpansion *expansion, MesoArena *arena,
+                             const MesoModel *model, uint32_t thread_count, MesoError *error)
+{
+    return expand_anew(scene, expansion, arena, model, 0, thread_count, error);
+}
+
+MesoStatus meso_model_expand_to_draw(MesoScene *scene, MesoArena *arena, const MesoModel *model, uint32_t stored,
+                                     uint32_t thread_count, MesoError *error)
+{
+    return expand_anew(scene, NULL, arena, model, stored, thread_count, error);
 }

@@ -39,4 +39,11 @@ MesoStatus meso_model_expand_over(MesoScene *scene, MesoExpansion *expansion, Me
                                   const MesoModel *model, const MesoContourSet *contours,
                                   uint32_t thread_count, MesoError *error);
 
+/*
+ * The same scene to be drawn: one of more than `stored` sweeps has a maker in place of them (sweep_maker.h), where
+ * sections keep their shape and no tolerance chooses the steps. It points into `model` too; 0 stores all.
+ */
+MesoStatus meso_model_expand_to_draw(MesoScene *scene, MesoArena *arena, const MesoModel *model, uint32_t stored,
+                                     uint32_t thread_count, MesoError *error);
+
 #endif

@@ -54,8 +54,8 @@ static MesoWallMove move_of(const MesoJointMove *joint)
                           (float)joint->lean_along / MESO_JOINT_LEANS, (float)joint->lean_rise / MESO_JOINT_LEANS};
 }
 
-MesoStatus meso_port_find(const MesoPortFinder *finder, uint32_t slot, uint32_t tile_side, uint32_t section,
-                          MesoPort *port, MesoError *error)
+MesoStatus meso_port_find_by(const MesoPortFinder *finder, MesoSlotWalls *walls, uint32_t slot, uint32_t tile_side,
+                             uint32_t section, MesoPort *port, MesoError *error)
 {
     const MesoModel *model = finder->model;
     const MesoAssignment *a = &model->assignment;
@@ -68,9 +68,19 @@ MesoStatus meso_port_find(const MesoPortFinder *finder, uint32_t slot, uint32_t 
     }
     uint32_t side = meso_transform_side(transform, tile_side);
     bool flipped = meso_port_flipped(model, slot, tile_side);
+    if (!walls->made[side])
+        walls->walls[side] = meso_shell_wall(finder->shell, slot, side);
+    walls->made[side] = true;
     if (!model->joints)
-        return meso_shell_wall_port(finder->shell, slot, side, center, flipped, NULL, port, error);
+        return meso_wall_port(&walls->walls[side], slot, side, center, flipped, NULL, port, error);
     uint32_t joint = meso_strand_joint(&finder->joints, a, &model->tile_set, slot, tile_side, section);
     MesoWallMove move = move_of(&model->joints[joint]);
-    return meso_shell_wall_port(finder->shell, slot, side, center, flipped, &move, port, error);
+    return meso_wall_port(&walls->walls[side], slot, side, center, flipped, &move, port, error);
+}
+
+MesoStatus meso_port_find(const MesoPortFinder *finder, uint32_t slot, uint32_t tile_side, uint32_t section,
+                          MesoPort *port, MesoError *error)
+{
+    MesoSlotWalls walls = {.made = {false}};
+    return meso_port_find_by(finder, &walls, slot, tile_side, section, port, error);
 }

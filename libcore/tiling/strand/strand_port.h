@@ -25,6 +25,14 @@ MesoStatus meso_port_finder_make(MesoPortFinder *finder, MesoArena *arena, const
 MesoStatus meso_port_find(const MesoPortFinder *finder, uint32_t slot, uint32_t tile_side, uint32_t section,
                           MesoPort *port, MesoError *error);
 
+/* Walls of a slot, for whoever wants many of its ports: zeroed at first. */
+typedef struct MesoSlotWalls {
+    MesoWall walls[4];
+    bool made[4];
+} MesoSlotWalls;
+MesoStatus meso_port_find_by(const MesoPortFinder *finder, MesoSlotWalls *walls, uint32_t slot, uint32_t tile_side,
+                             uint32_t section, MesoPort *port, MesoError *error);
+
 /* Whether the drawing of a tile's side 0..3 is mirrored where its slot has it. */
 bool meso_port_flipped(const MesoModel *model, uint32_t slot, uint32_t tile_side);
 

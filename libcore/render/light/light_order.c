@@ -1,0 +1,98 @@
+#include "libcore/render/light/light_order.h"
+
+#include <stdlib.h>
+
+/* ---- order ---- */
+
+typedef struct Place {
+    float nearness;
+    uint32_t bundle;
+} Place;
+
+static int by_nearness(const void *a, const void *b)
+{
+    const Place *x = a, *y = b;
+    if (x->nearness != y->nearness)
+        return x->nearness > y->nearness ? -1 : 1;
+    return x->bundle < y->bundle ? -1 : x->bundle > y->bundle;
+}
+
+/* What lights of all directions share is how far out it is; where they are alike, their direction counts. */
+static float nearness_of(const MesoLightMaps *maps, MesoVec3 mean, const MesoBox *box)
+{
+    MesoVec3 at = meso_vec3_sub(meso_vec3_lerp(box->low, box->high, 0.5f), maps->maps[0].view.eye);
+    float nearness = meso_vec3_dot(at, mean) + (1 - meso_vec3_length(mean)) * meso_vec3_length(at);
+    return isfinite(nearness) ? nearness : -INFINITY;
+}
+
+uint32_t *meso_light_order(const MesoLightMaps *maps, const MesoShapes *shapes, bool *failed)
+{
+    MesoVec3 mean = {0, 0, 0};
+    uint32_t count = shapes->bundle_count;
+    if (!shapes->bundle_bounds || count == 0)
+        return NULL;
+    Place *places = malloc(count * sizeof *places);
+    uint32_t *order = malloc(count * sizeof *order);
+    *failed = *failed || !places || !order;
+    for (uint32_t m = 0; m < maps->count; m++)
+        mean = meso_vec3_mad(mean, 1 / (float)maps->count, maps->maps[m].toward);
+    for (uint32_t b = 0; b < count && places; b++)
+        places[b] = (Place){nearness_of(maps, mean, &shapes->bundle_bounds[b]), b};
+    if (places)
+        qsort(places, count, sizeof *places, by_nearness);
+    for (uint32_t b = 0; b < count && places && order; b++)
+        order[b] = places[b].bundle;
+    free(places);
+    return order;
+}
+
+/* ---- what is hidden ---- */
+
+/* Texels whose middles may be covered, along one axis. */
+typedef struct Span {
+    int32_t first, last;
+} Span;
+
+static Span span_of(float low, float high, uint32_t size)
+{
+    const float slack = 2.f / MESO_RASTER_UNIT;
+    float first = ceilf(low + 0.5f - slack), last = floorf(high - 1.5f + slack);       /* it is a texel wider */
+    first = first > 0 ? first : 0;
+    last = last < (float)size - 1 ? last : (float)size - 1;
+    return last >= first ? (Span){(int32_t)first, (int32_t)last} : (Span){0, -1};
+}
+
+static size_t texel_at(uint32_t size, int32_t x, int32_t y)
+{
+    return MESO_RASTER_LANES * ((size_t)(y / 4) * (size / 4) + (size_t)(x / 4)) + (size_t)(y % 4 * 4 + x % 4);
+}
+
+bool meso_light_map_hides(const MesoLightMap *map, uint32_t size, const MesoRasterRect *rect)
+{
+    enum { MOST = 256 };                /* texels: of more, one is soon seen */
+    if (!isfinite(rect->left + rect->right + rect->top + rect->bottom + rect->depth))
+        return false;
+    Span x = span_of(rect->left, rect->right, size), y = span_of(rect->top, rect->bottom, size);
+    if ((int64_t)(x.last - x.first + 1) * (y.last - y.first + 1) > MOST)
+        return false;
+    /* What triangles are nearer than their corners by rounding is far less than that part of a texel. */
+    float nearest = 0.01f / map->view.focal - rect->depth;
+    for (int32_t py = y.first; py <= y.last; py++)
+        for (int32_t px = x.first; px <= x.last; px++)
+            if (!(map->nearness[texel_at(size, px, py)] > nearest))
+                return false;
+    return true;
+}
+
+bool meso_light_maps_hide(const MesoLightMaps *maps, const MesoBox *box)
+{
+    MesoVec3 corners[8];
+    for (uint32_t i = 0; i < 8; i++)
+        corners[i] = meso_box_corner(box->low, box->high, i);
+    for (uint32_t m = 0; m < maps->count; m++) {
+        MesoRasterRect rect = meso_raster_rect_around(&maps->maps[m].view, corners, 8, 0);
+        if (!meso_light_map_hides(&maps->maps[m], maps->size, &rect))
+            return false;
+    }
+    return true;
+}
