@@ -8,8 +8,12 @@
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepColumn *column, float v);
 
-/* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]. */
-float meso_sweep_twist(const MesoSweepInstance *sweep);
+/*
+ * The mitre of a sweep that has all but that: the least, in eighths, with which no line along it runs backwards; 0
+ * where none does anyway. Where that cannot be, as its ends lie within each other, the one with which they do least.
+ * O(columns).
+ */
+float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep);
 
 /* Which columns of a kind, and how many rings, as a level of detail has them (detail.h). */
 typedef struct MesoSweepGrid {

@@ -29,20 +29,13 @@ enum { BEND_PLACES = 17 };
 
 /* ---- how much a trajectory is bent ---- */
 
-static MesoVec3 second_derivative(const MesoVec3 p[4], float v)
-{
-    MesoVec3 a = meso_vec3_add(meso_vec3_mad(p[0], -2, p[1]), p[2]);
-    MesoVec3 b = meso_vec3_add(meso_vec3_mad(p[1], -2, p[2]), p[3]);
-    return meso_vec3_scale(meso_vec3_lerp(a, b, v), 6);
-}
-
 /* The square of the curvature, summed along it; the largest curvature to `most`, the length to `length`, or NULL. */
 static float bend_of(const MesoVec3 p[4], float *most, float *length)
 {
     float sum = 0, along = 0, largest = 0;
     for (uint32_t k = 0; k < BEND_PLACES; k++) {
         float v = (float)k / (BEND_PLACES - 1);
-        MesoVec3 first = meso_bezier_derivative(p, v), second = second_derivative(p, v);
+        MesoVec3 first = meso_bezier_derivative(p, v), second = meso_bezier_second_derivative(p, v);
         float speed = meso_vec3_length(first);
         if (!(speed > 0))
             continue;

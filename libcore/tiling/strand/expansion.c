@@ -8,6 +8,7 @@
 #include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
 #include "libcore/scene/sweep.h"
+#include "libcore/scene/sweep_plane.h"
 #include "libcore/shell/hexahedra.h"
 #include "libcore/tiling/strand/slot_winding.h"
 #include "libcore/tiling/strand/steps.h"
@@ -226,7 +227,7 @@ static MesoStatus make_cap(const Builder *b, const MesoKindOrigin *origin, uint3
     return MESO_OK;
 }
 
-static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, uint32_t slot,
+static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, const MesoSweptKind *kind, uint32_t slot,
                              MesoSweepInstance *out, MesoError *error)
 {
     MesoPort start, end;
@@ -243,6 +244,7 @@ static MesoStatus make_sweep(const Builder *b, const MesoKindOrigin *origin, uin
     meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(b, origin), out->p);
     if (b->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
+    out->mitre = meso_sweep_mitre(b->scene, kind, out);
     return MESO_OK;
 }
 
@@ -253,7 +255,7 @@ static MesoStatus make_instance(const Builder *b, uint32_t kind, uint32_t i, Mes
     uint32_t slot = b->bucket_slots[first + (i - b->scene->kinds[kind].instance_begin)];
     MesoSweepInstance *out = &b->scene->sweeps[i];
     return b->scene->kinds[kind].cap ? make_cap(b, origin, slot, out, error)
-                                     : make_sweep(b, origin, slot, out, error);
+                                     : make_sweep(b, origin, &b->scene->kinds[kind], slot, out, error);
 }
 
 static void make_range(void *context, uint64_t begin, uint64_t end)
