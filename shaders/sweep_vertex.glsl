@@ -154,7 +154,7 @@ vec3 mitred_normal(float v, vec2 s, vec3 n, float slope, vec3 tangent)
     vec3 dx = (x[1] - x[0]) / (high - low), dy = (cross(tangents[1], x[1]) - cross(tangents[0], x[0])) / (high - low);
     vec3 way = derivative + section_scale * (s.x * dx + s.y * dy);
     float forwards = max(dot(way, tangent), 0.02 * length(derivative));
-    return forwards * n - (dot(way, n) + section_scale * 6.0 * v * (1.0 - v) * slope) * tangent;
+    return forwards * n - (dot(derivative, n) + section_scale * 6.0 * v * (1.0 - v) * slope) * tangent;
 }
 #endif
 

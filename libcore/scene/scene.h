@@ -30,8 +30,8 @@
  *
  * A mitre keeps the rings of a bend from crossing that is narrower than the section is wide, where the tube would fold
  * back on itself: E turns evenly, by length, from direction[0] to direction[1], by way of p[3] - p[0] if these are
- * over 120 degrees apart. Where there is one, the normal between the ends is that of the surface, by the derivatives
- * of all of the above.
+ * over 120 degrees apart. Where there is one, the normal between the ends lies across the line along the sweep, which
+ * is not always that of T: dot(T, P'(v)) n - dot(n, B'(v) + section_scale s'(v)) T made unit.
  *
  * A cap has the straight axis T = direction[0], X and Y from up[0], s = size[0] start, and
  *

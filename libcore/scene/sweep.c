@@ -113,24 +113,22 @@ static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ri
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
 }
 
-/* By how much a point of a plane moves along a direction, as the plane goes on and turns. */
-static float moves_along(const MesoScene *scene, const MesoSweepPlaneChange *change, MesoVec2 at, MesoVec3 direction)
-{
-    return meso_vec3_dot(change->origin, direction) +
-           scene->section_scale *
-               (at.x * meso_vec3_dot(change->x, direction) + at.y * meso_vec3_dot(change->y, direction));
-}
-
 /* The part of the trajectory's speed that a line along the sweep is taken to have at least, for its normals. */
 static const float LEAST_FORWARDS = 0.02f;
 
-/* The normal lies across the ring's line, as n does, and across the way of the point along the sweep. */
+/*
+ * The normal lies across the ring's line, as n does, and across the way of the point along the sweep. That frames turn
+ * about the trajectory is left out, as it is elsewhere: so that normals go on at the ends, which are the neighbours' too.
+ */
 static MesoMeshVertex place_mitred(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column, Meeting m)
 {
     float speed = ring->plane.speed, change = 6 * ring->v * (1 - ring->v);
     MesoVec3 n = in_plane(&ring->plane, m.normal);
-    float forwards = moves_along(scene, &ring->change, m.at, ring->plane.tangent);
-    float across = moves_along(scene, &ring->change, m.at, n) + scene->section_scale * change * m.slope;
+    const MesoSweepPlaneChange *plane = &ring->change;
+    MesoVec3 turn = meso_vec3_mad(meso_vec3_scale(plane->x, m.at.x), m.at.y, plane->y);
+    MesoVec3 way = meso_vec3_mad(plane->origin, scene->section_scale, turn);
+    float forwards = meso_vec3_dot(way, ring->plane.tangent);
+    float across = meso_vec3_dot(plane->origin, n) + scene->section_scale * change * m.slope;
     MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(n, fmaxf(forwards, LEAST_FORWARDS * speed)), -across,
                                     ring->plane.tangent);
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
