@@ -120,17 +120,36 @@ static bool chord_within(const MesoRelaxLink *link, uint32_t i, const MesoBox *b
 MesoRelaxNearness meso_relax_nearness(const MesoRelaxWork *work, const MesoRelaxLink *a, const MesoRelaxLink *b)
 {
     Contact contact;
-    MesoRelaxNearness out = {1, 0};
+    MesoRelaxNearness out = {1, 0, 0};
     float width = fminf(width_of(work, a), width_of(work, b));
     if (!boxes_within(&a->box, &b->box, a->bound + b->bound))
         return out;
     for (uint32_t i = 0; i < MESO_RELAX_CHORDS; i++)
         for (uint32_t k = 0; k < MESO_RELAX_CHORDS; k++)
             if (meet(work, a, i, b, k, 0, &contact)) {
+                if (contact.distance < out.distance * contact.needed)
+                    out.needed = contact.needed;
                 out.distance = fminf(out.distance, contact.distance / contact.needed);
                 out.depth = fmaxf(out.depth, (contact.needed - contact.distance) / width);
             }
     return out;
+}
+
+float meso_relax_depth_within(const MesoRelaxWork *work, const MesoRelaxLink *link, MesoVec3 point)
+{
+    float most = 0;
+    for (uint32_t i = 0; i < MESO_RELAX_CHORDS; i++) {
+        MesoVec3 along = meso_vec3_sub(link->points[i + 1], link->points[i]);
+        MesoVec3 offset = meso_vec3_sub(point, link->points[i]);
+        float square = meso_vec3_dot(along, along);
+        float part = square > 0 ? clamp(meso_vec3_dot(offset, along) / square) : 0;
+        offset = meso_vec3_mad(offset, -part, along);
+        float distance = meso_vec3_length(offset), v = ((float)i + part) / MESO_RELAX_CHORDS;
+        if (distance > 0 && distance < link->bound)
+            most = fmaxf(most, reach(&work->shapes[link->shape], link, v, along,
+                                     meso_vec3_scale(offset, 1 / distance)) - distance);
+    }
+    return most;
 }
 
 /* ---- what they ask ---- */

@@ -17,7 +17,8 @@ typedef struct MesoRelaxNode {
     MesoWallMove move;
     bool free;
     float thin;                 /* the thinnest part of its sweeps' sections, in scene units */
-    float curve_most;           /* the curvature to which contacts may bend its sweeps */
+    float curve_most;           /* the curvature to which contacts may bend its sweeps, */
+    float order_least;          /* and how near they may bring the planes at their ends to crossing */
     /* Of what is on a wall: */
     MesoWall wall;
     MesoVec3 axes[2];
@@ -120,10 +121,14 @@ void meso_relax_contacts(void *work, uint64_t begin, uint64_t end);
 typedef struct MesoRelaxNearness {
     float distance;     /* the least, as a part of what it takes there; at most 1 */
     float depth;        /* by which they overlap at most, in widths of the thinner one */
+    float needed;       /* what it takes at the least distance; 0 where nothing overlaps */
 } MesoRelaxNearness;
 
 /* Of two links that need not be in a list. */
 MesoRelaxNearness meso_relax_nearness(const MesoRelaxWork *work, const MesoRelaxLink *a, const MesoRelaxLink *b);
+
+/* How far below what a link reaches a point lies; 0 outside. */
+float meso_relax_depth_within(const MesoRelaxWork *work, const MesoRelaxLink *link, MesoVec3 point);
 
 /* Pairs of links that overlap. O(near pairs). */
 uint64_t meso_relax_count(const MesoRelaxWork *work);
