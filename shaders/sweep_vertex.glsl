@@ -153,8 +153,10 @@ vec3 mitred_normal(float v, vec2 s, vec3 n, float slope, vec3 tangent)
     plane_at(high, tangents[1], x[1]);
     vec3 dx = (x[1] - x[0]) / (high - low), dy = (cross(tangents[1], x[1]) - cross(tangents[0], x[0])) / (high - low);
     vec3 way = derivative + section_scale * (s.x * dx + s.y * dy);
-    float forwards = max(dot(way, tangent), 0.02 * length(derivative));
-    return forwards * n - (dot(derivative, n) + section_scale * 6.0 * v * (1.0 - v) * slope) * tangent;
+    float forwards = dot(way, tangent), least = 0.05 * length(derivative);
+    float tilt = forwards < least ? max(forwards, 0.0) / least : 1.0;
+    float change = dot(derivative, n) + section_scale * 6.0 * v * (1.0 - v) * slope;
+    return max(forwards, least) * n - tilt * change * tangent;
 }
 #endif
 

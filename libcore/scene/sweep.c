@@ -113,8 +113,8 @@ static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ri
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
 }
 
-/* The part of the trajectory's speed that a line along the sweep is taken to have at least, for its normals. */
-static const float LEAST_FORWARDS = 0.02f;
+/* Of the trajectory's speed: a line along the sweep that is slower, or runs backwards, has ever more n for its normal. */
+static const float LEAST_FORWARDS = 0.05f;
 
 /*
  * The normal lies across the ring's line, as n does, and across the way of the point along the sweep. That frames turn
@@ -129,8 +129,8 @@ static MesoMeshVertex place_mitred(const MesoScene *scene, const Ring *ring, con
     MesoVec3 way = meso_vec3_mad(plane->origin, scene->section_scale, turn);
     float forwards = meso_vec3_dot(way, ring->plane.tangent);
     float across = meso_vec3_dot(plane->origin, n) + scene->section_scale * change * m.slope;
-    MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(n, fmaxf(forwards, LEAST_FORWARDS * speed)), -across,
-                                    ring->plane.tangent);
+    float least = LEAST_FORWARDS * speed, tilt = forwards < least ? fmaxf(forwards, 0) / least : 1;
+    MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(n, fmaxf(forwards, least)), -tilt * across, ring->plane.tangent);
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
 }
 
@@ -274,7 +274,7 @@ float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const 
             best = trial.mitre;
         }
     }
-    return best;
+    return most > 0 ? best : 0;
 }
 
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */

@@ -9,9 +9,9 @@ MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, con
                           const MesoSweepColumn *column, float v);
 
 /*
- * The mitre of a sweep that has all but that: the least, in eighths, with which no line along it runs backwards; 0
- * where none does anyway. Where that cannot be, as its ends lie within each other, the one with which they do least.
- * O(columns).
+ * The mitre of a sweep that has all but that: the least, in eighths, with which no line along it runs backwards, but a
+ * tenth as fast as the trajectory at least, or as near to that as can be; 0 where none runs backwards anyway, and where
+ * some does with any, as its ends lie within each other. O(columns).
  */
 float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep);
 

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdlib.h>
 
 #include "libcore/math/bezier.h"
 #include "libcore/tiling/relax/relax_work.h"
@@ -208,7 +209,7 @@ static Outcome outcome_with(const MesoRelaxWork *work, uint32_t n, const MesoWal
 
 static bool is_sound(const MesoRelaxNode *node, Outcome outcome)
 {
-    return outcome.curve <= node->curve_most && outcome.order >= node->order_least;
+    return outcome.bend <= node->bend_most && outcome.curve <= node->curve_most && outcome.order >= node->order_least;
 }
 
 /* What of a wish does not run against what contacts ask. */
@@ -236,7 +237,7 @@ static MesoWallMove align(const MesoRelaxWork *work, uint32_t n)
                             step / fmaxf(wish.handle, step));
     turn = not_against(turn, wish.turn);
     Outcome here = outcome_with(work, n, &best);
-    MesoRelaxNode bounds = {.curve_most = fmaxf(here.curve, node->curve_most),
+    MesoRelaxNode bounds = {.bend_most = INFINITY, .curve_most = fmaxf(here.curve, node->curve_most),
                             .order_least = fminf(here.order, node->order_least)};
     for (uint32_t k = 0; k < sizeof shares / sizeof *shares; k++) {
         MesoWallMove move = moved(node, meso_vec3_scale(offset, shares[k][0]), meso_vec3_scale(turn, shares[k][1]),
@@ -263,6 +264,10 @@ void meso_relax_bound_bends(void *context, uint64_t begin, uint64_t end)
         Outcome outcome = outcome_with(work, (uint32_t)n, &node->move);
         node->curve_most = fmaxf(outcome.curve, widest > 0 ? FREE_BEND / widest : 0);
         node->order_least = fminf(outcome.order, FREE_ORDER);
+        float length = 0;
+        for (uint32_t i = work->end_begin[n]; i < work->end_begin[n + 1]; i++) { float l; bend_of(work->links[work->ends[i] / 2].p, NULL, &l); length += l; }
+        static float al = -1; if (al < 0) al = getenv("AL") ? (float)atof(getenv("AL")) : 1e9f;
+        node->bend_most = fmaxf(outcome.bend, widest > 0 ? length * al * al / (widest * widest) : INFINITY);
     }
 }
 

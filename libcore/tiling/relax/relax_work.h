@@ -17,6 +17,7 @@ typedef struct MesoRelaxNode {
     MesoWallMove move;
     bool free;
     float thin;                 /* the thinnest part of its sweeps' sections, in scene units */
+    float bend_most;
     float curve_most;           /* the curvature to which contacts may bend its sweeps, */
     float order_least;          /* and how near they may bring the planes at their ends to crossing */
     /* Of what is on a wall: */
