@@ -40,7 +40,7 @@ typedef struct MesoRelaxReport {
  *
  * Sections are known by how far they reach around their trajectory, in sixteen directions; inner meshes are in
  * nobody's way. The same for any number of threads. O(steps * (sweeps + pairs of sweeps near each other)), with some
- * 900 bytes of scratch a sweep and 16 a pair. MESO_ERR_USAGE where sections deform, MESO_ERR_MEMORY, and
+ * 1100 bytes of scratch a sweep and 16 a pair. MESO_ERR_USAGE where sections deform, MESO_ERR_MEMORY, and
  * what meso_model_expand() refuses in the shell.
  */
 MesoStatus meso_model_relax(MesoModel *model, MesoRelaxReport *report, MesoArena *arena, uint32_t thread_count,

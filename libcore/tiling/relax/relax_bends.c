@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdlib.h>
 
 #include "libcore/math/bezier.h"
 #include "libcore/tiling/relax/relax_work.h"
@@ -24,6 +23,9 @@ static const float STEP_OF_CLEAR = 0.2f, STEP_LEAST_OF_THIN = 0.005f;
  * At 1 the inner side of a bend would be a point.
  */
 static const float FREE_BEND = 0.5f;
+
+/* The same of the root mean square of curvatures: about that of a bend which is smooth and comes to the above. */
+static const float FREE_MEAN = 0.27f;
 
 /*
  * The planes at the ends of a sweep lie behind each other by so many times how far its sections reach, or as well as
@@ -164,7 +166,7 @@ static MesoWallMove moved(const MesoRelaxNode *node, MesoVec3 offset, MesoVec3 t
 
 /* What links of a node come to with it moved, all else where it is. */
 typedef struct Outcome {
-    float bend;             /* sum of squared curvatures */
+    float bend, length;     /* sums of squared curvatures, and of lengths */
     float curve;            /* the largest */
     float order;            /* how well the planes at their ends lie behind each other; below 0, they cross in a section */
 } Outcome;
@@ -186,8 +188,8 @@ static float order_of(const MesoRelaxLink *link, const MesoVec3 p[4], MesoVec3 s
 
 static Outcome outcome_with(const MesoRelaxWork *work, uint32_t n, const MesoWallMove *move)
 {
-    float largest;
-    Outcome outcome = {0, 0, INFINITY};
+    float largest, length;
+    Outcome outcome = {.order = INFINITY};
     MesoRelaxNode node = work->nodes[n];
     node.move = *move;
     meso_relax_place(&node);
@@ -199,7 +201,8 @@ static Outcome outcome_with(const MesoRelaxWork *work, uint32_t n, const MesoWal
             if (link->node[e] == n)
                 ends[e] = &node;
         meso_relax_control(link, ends[0], ends[1], p);
-        outcome.bend += bend_of(p, &largest, NULL);
+        outcome.bend += bend_of(p, &largest, &length);
+        outcome.length += length;
         outcome.curve = fmaxf(outcome.curve, largest);
         outcome.order = fminf(outcome.order, order_of(link, p, meso_vec3_scale(ends[0]->tangent, link->sign[0]),
                                                       meso_vec3_scale(ends[1]->tangent, -link->sign[1])));
@@ -264,10 +267,8 @@ void meso_relax_bound_bends(void *context, uint64_t begin, uint64_t end)
         Outcome outcome = outcome_with(work, (uint32_t)n, &node->move);
         node->curve_most = fmaxf(outcome.curve, widest > 0 ? FREE_BEND / widest : 0);
         node->order_least = fminf(outcome.order, FREE_ORDER);
-        float length = 0;
-        for (uint32_t i = work->end_begin[n]; i < work->end_begin[n + 1]; i++) { float l; bend_of(work->links[work->ends[i] / 2].p, NULL, &l); length += l; }
-        static float al = -1; if (al < 0) al = getenv("AL") ? (float)atof(getenv("AL")) : 1e9f;
-        node->bend_most = fmaxf(outcome.bend, widest > 0 ? length * al * al / (widest * widest) : INFINITY);
+        float even = widest > 0 ? FREE_MEAN / widest : INFINITY;
+        node->bend_most = fmaxf(outcome.bend, outcome.length * even * even);
     }
 }
 

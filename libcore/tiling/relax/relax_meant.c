@@ -59,7 +59,7 @@ static bool is_hollow_section(const MesoContourSet *contours, uint32_t section)
 static float part_of(MesoRelaxNearness drawn, bool hollow, float graze)
 {
     if (!hollow)
-        return drawn.depth > ONE_THING ? 0 : 1;
+        return drawn.depth > ONE_THING ? 0.0f : 1.0f;
     return drawn.needed > 0 ? fminf(drawn.distance + graze / drawn.needed, 1) : drawn.distance;
 }
 

@@ -17,8 +17,8 @@ typedef struct MesoRelaxNode {
     MesoWallMove move;
     bool free;
     float thin;                 /* the thinnest part of its sweeps' sections, in scene units */
-    float bend_most;
-    float curve_most;           /* the curvature to which contacts may bend its sweeps, */
+    float bend_most;            /* how much contacts may bend its sweeps, by the sum of squared curvatures, */
+    float curve_most;           /* and by the largest one, */
     float order_least;          /* and how near they may bring the planes at their ends to crossing */
     /* Of what is on a wall: */
     MesoWall wall;
@@ -48,7 +48,8 @@ typedef struct MesoRelaxLink {
     MesoVec3 p[4];
     MesoVec3 points[MESO_RELAX_CHORDS + 1];
     MesoVec3 middles[MESO_RELAX_CHORDS];    /* of the chords between them, */
-    float halves[MESO_RELAX_CHORDS];        /* and half of their lengths */
+    float halves[MESO_RELAX_CHORDS];        /* half of their lengths, */
+    MesoVec3 axes[MESO_RELAX_CHORDS][2];    /* and X and Y of the sections there */
     MesoBox box;                /* around them */
     float bound;                /* beyond which its sections do not reach */
     float room;                 /* to the nearest other sweep's section, */
