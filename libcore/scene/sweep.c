@@ -175,6 +175,9 @@ enum { MITRE_PLACES = 16, MITRE_COLUMNS = 32, MITRE_LEVELS = 8 };
 /* Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards. */
 static const float MITRE_FORWARDS = 0.1f;
 
+/* The same backwards: what is left of a line that all but stands still between two places. */
+static const float MITRE_BACKWARDS = 0.01f;
+
 static float radius_of(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
 {
     float start = 0, end = 0;
@@ -274,7 +277,7 @@ float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const 
             best = trial.mitre;
         }
     }
-    return most > 0 ? best : 0;
+    return most > -MITRE_BACKWARDS ? best : 0;
 }
 
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
