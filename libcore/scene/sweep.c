@@ -113,12 +113,13 @@ static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ri
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
 }
 
-/* Of the trajectory's speed: a line along the sweep that is slower, or runs backwards, has ever more n for its normal. */
+/* Of the trajectory's speed: a line that is slower, or runs backwards, has ever more n for its normal. */
 static const float LEAST_FORWARDS = 0.05f;
 
 /*
  * The normal lies across the ring's line, as n does, and across the way of the point along the sweep. That frames turn
- * about the trajectory is left out, as it is elsewhere: so that normals go on at the ends, which are the neighbours' too.
+ * about the trajectory is left out, as it is elsewhere: so that normals go on at the ends, which are the neighbours',
+ * too.
  */
 static MesoMeshVertex place_mitred(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column, Meeting m)
 {

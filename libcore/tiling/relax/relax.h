@@ -13,8 +13,8 @@
  * which leaves straight lines and circles alone, as far as it makes the sweeps beside the joint less bent, by the sum
  * of squared curvatures; and then pushes sweeps apart where their sections overlap, as long as none becomes bent
  * sharper than one was around there, or too sharply for its section, and planes at the ends do not come to cross. The
- * last steps do that alone. What lies within each other in a flat square slot is meant, and left; but where a section is
- * hollow, what only grazes it there gets out of it.
+ * last steps do that alone. What lies within each other in a flat square slot is meant, and left; but where a section
+ * is hollow, what only grazes it there gets out of it.
  */
 #ifndef MESO_RELAX_H
 #define MESO_RELAX_H

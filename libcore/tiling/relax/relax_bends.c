@@ -168,7 +168,7 @@ static MesoWallMove moved(const MesoRelaxNode *node, MesoVec3 offset, MesoVec3 t
 typedef struct Outcome {
     float bend, length;     /* sums of squared curvatures, and of lengths */
     float curve;            /* the largest */
-    float order;            /* how well the planes at their ends lie behind each other; below 0, they cross in a section */
+    float order;            /* how well planes at their ends lie behind each other; below 0, they cross in a section */
 } Outcome;
 
 /*

@@ -156,8 +156,8 @@ typedef struct Drawing {
     MesoMeshVertex *vertices;   /* [most of a sweep's] scratch */
 } Drawing;
 
-static MesoStatus draw_squares(Drawing *drawing, const MesoRelaxWork *work, const MesoModel *squares, MesoArena *scratch,
-                               MesoError *error)
+static MesoStatus draw_squares(Drawing *drawing, const MesoRelaxWork *work, const MesoModel *squares,
+                               MesoArena *scratch, MesoError *error)
 {
     MesoModel model = *squares;
     uint64_t most = 0;
