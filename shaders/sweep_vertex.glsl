@@ -13,7 +13,7 @@ layout(location = 8) in vec3 up1;
 layout(location = 9) in vec3 direction0;
 layout(location = 10) in vec3 direction1;
 layout(location = 11) in uint shape;
-layout(location = 12) in vec3 size_twist;       // size at both ends, twist
+layout(location = 12) in vec4 size_twist;       // size at both ends, twist, mitre
 
 #ifdef DETAILED
 layout(location = 14) in float around;
@@ -100,6 +100,64 @@ vec3 least_turned(float v)
     }
     return x;
 }
+
+float length_to(float v)
+{
+    return v / 18.0 * (5.0 * length(derivative_at(0.11270167 * v)) + 8.0 * length(derivative_at(0.5 * v))
+                       + 5.0 * length(derivative_at(0.88729833 * v)));
+}
+
+vec3 turn_to(vec3 from, vec3 to, float part)
+{
+    float sine = length(cross(from, to)), angle = atan(sine, dot(from, to));
+    if (!(sine > 1e-4))
+        return unit(mix(from, to, part), from);
+    return unit(sin((1.0 - part) * angle) * from + sin(part * angle) * to, from);
+}
+
+// E of the mitre.
+vec3 even_direction(float v)
+{
+    float whole = length_to(1.0), t = whole > 0.0 ? length_to(v) / whole : v;
+    if (dot(direction0, direction1) > -0.5)
+        return turn_to(direction0, direction1, t);
+    vec3 way = unit(p3 - p0, direction0);
+    return t < 0.5 ? turn_to(direction0, way, 2.0 * t) : turn_to(way, direction1, 2.0 * t - 1.0);
+}
+
+// The plane of a ring, by its tangent and X.
+void plane_at(float v, out vec3 tangent, out vec3 x)
+{
+    bool inside = v > 0.0 && v < 1.0;
+    vec3 direction = v > 0.5 ? direction1 : direction0;
+    float mitre = size_twist.w;
+    tangent = inside ? unit(derivative_at(v), direction) : direction;
+    if (inside && mitre > 0.0)
+        tangent = unit(mix(tangent, even_direction(v), mitre), tangent);
+    if (least_turn == 0 || !inside) {
+        x = across(mix(up0, up1, v), tangent);
+        return;
+    }
+    x = least_turned(v);
+    if (mitre > 0.0)
+        x = unit(x - dot(x, tangent) * tangent, x);
+}
+
+// The normal of a mitred sweep at s of the section, of which n is the normal in its plane, and slope what it changes.
+vec3 mitred_normal(float v, vec2 s, vec3 n, float slope, vec3 tangent)
+{
+    const float step = 1.0 / 128.0;
+    float low = max(v - step, 0.0), high = min(v + step, 1.0);
+    vec3 tangents[2], x[2], derivative = derivative_at(v);
+    plane_at(low, tangents[0], x[0]);
+    plane_at(high, tangents[1], x[1]);
+    vec3 dx = (x[1] - x[0]) / (high - low), dy = (cross(tangents[1], x[1]) - cross(tangents[0], x[0])) / (high - low);
+    vec3 way = derivative + section_scale * (s.x * dx + s.y * dy);
+    float forwards = dot(way, tangent), least = 0.05 * length(derivative);
+    float tilt = forwards < least ? max(forwards, 0.0) / least : 1.0;
+    float change = dot(derivative, n) + section_scale * 6.0 * v * (1.0 - v) * slope;
+    return max(forwards, least) * n - tilt * change * tangent;
+}
 #endif
 
 #ifdef BENT
@@ -132,14 +190,8 @@ void main()
 #else
     bool inside = v > 0.0 && v < 1.0;
     float w = 1.0 - v, blend = v * v * (3.0 - 2.0 * v), twist = size_twist.z;
-    vec3 origin = point_at(v), derivative = derivative_at(v);
-    vec3 direction = v > 0.5 ? direction1 : direction0;
-    vec3 tangent = inside ? unit(derivative, direction) : direction;
-    vec3 x;
-    if (least_turn != 0 && inside)
-        x = least_turned(v);
-    else
-        x = across(mix(up0, up1, v), tangent);
+    vec3 origin = point_at(v), tangent, x;
+    plane_at(v, tangent, x);
     vec2 start = size_twist.x * profile.xy, end = size_twist.y * profile.zw;
     vec2 start_normal = size_twist.x * profile_normal.xy, end_normal = size_twist.y * profile_normal.zw;
     vec2 s = mix(start, end, blend), n = mix(start_normal, end_normal, blend);
@@ -155,12 +207,16 @@ void main()
         s = turned(s, twist * blend);
         n = turned(n, twist * blend);
     }
-    float speed = length(derivative);
+    float speed = length(derivative_at(v));
     float lean = speed > 0.0 ? -section_scale * 6.0 * v * w * slope / speed : 0.0;
 #endif
     vec3 y = cross(tangent, x);
     vec3 position = origin + section_scale * (s.x * x + s.y * y);
     vec3 normal = n.x * x + n.y * y + lean * tangent;
+#ifndef CAP
+    if (inside && size_twist.w > 0.0)
+        normal = mitred_normal(v, s, n.x * x + n.y * y, slope, tangent);
+#endif
 #ifdef BENT
     bend(position, normal);
 #endif

@@ -17,3 +17,10 @@ MesoVec3 meso_bezier_derivative(const MesoVec3 p[4], float v)
     MesoVec3 c = meso_vec3_scale(meso_vec3_sub(p[3], p[2]), 3 * v * v);
     return meso_vec3_add(a, meso_vec3_add(b, c));
 }
+
+MesoVec3 meso_bezier_second_derivative(const MesoVec3 p[4], float v)
+{
+    MesoVec3 a = meso_vec3_add(meso_vec3_mad(p[0], -2, p[1]), p[2]);
+    MesoVec3 b = meso_vec3_add(meso_vec3_mad(p[1], -2, p[2]), p[3]);
+    return meso_vec3_scale(meso_vec3_lerp(a, b, v), 6);
+}

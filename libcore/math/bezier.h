@@ -4,8 +4,9 @@
 
 #include "libcore/math/vec.h"
 
-/* Point and derivative of the curve with control points `p` at v in [0,1]. */
+/* Point and both derivatives of the curve with control points `p` at v in [0,1]. */
 MesoVec3 meso_bezier_point(const MesoVec3 p[4], float v);
 MesoVec3 meso_bezier_derivative(const MesoVec3 p[4], float v);
+MesoVec3 meso_bezier_second_derivative(const MesoVec3 p[4], float v);
 
 #endif

@@ -7,7 +7,7 @@
  * A point of an instance of a swept kind, at column c and v in [0,1]:
  *
  *     B(v)    cubic Bezier over p[0..3] (MesoGen, section 3.5)
- *     T(v)    unit B'(v); at the ends exactly direction[0], direction[1]
+ *     T(v)    unit lerp(unit B'(v), E(v), mitre); at the ends exactly direction[0], direction[1]
  *     X(v)    by the scene's rule of frames, across T             Y(v) = cross(T, X)
  *     w(v)    v v (3 - 2 v)
  *     R(a)    turns by the angle a, from X to Y
@@ -27,6 +27,11 @@
  *     minimal    X starts as unit cross(up[0], T) and turns about T no more than it has to: MESO_FRAME_STEPS equal
  *                steps of the double reflection of "Computation of Rotation Minimizing Frames" (Wang et al. 2008),
  *                the last one cut off at v; twist is the angle that is then left to unit cross(up[1], T)
+ *
+ * A mitre keeps the rings of a bend from crossing that is narrower than the section is wide, where the tube would fold
+ * back on itself: E turns evenly, by length, from direction[0] to direction[1], by way of p[3] - p[0] if these are
+ * over 120 degrees apart. Where there is one, the normal between the ends lies across the line along the sweep, which
+ * is not always that of T: dot(T, P'(v)) n - dot(n, B'(v) + section_scale s'(v)) T made unit.
  *
  * A cap has the straight axis T = direction[0], X and Y from up[0], s = size[0] start, and
  *
@@ -116,6 +121,7 @@ typedef struct MesoSweepInstance {
     uint32_t ids;               /* row of the scene's ids */
     float size[2];              /* factor on the profiles at both ends */
     float twist;                /* of the frame along the sweep, in radians; see the rules of frames */
+    float mitre;                /* in [0,1]: 0, rings lie across the trajectory; 1, they turn evenly from end to end */
     uint32_t cage;              /* that its cell is bent into, where sections deform */
     uint16_t pace[MESO_PACE_PARTS - 1];     /* v at each part of the steps, of 65536; all 0: even */
 } MesoSweepInstance;

@@ -2,84 +2,7 @@
 
 #include "libcore/math/bezier.h"
 #include "libcore/scene/cell.h"
-
-/* The plane of one ring, with lengths scaled from edge lengths to the scene. */
-typedef struct Plane {
-    MesoVec3 origin, x, y, tangent;
-    float speed;    /* |B'| */
-} Plane;
-
-/*
- * X and Y span the plane across `tangent`. Where the up direction lies along
- * the tangent there is no such plane; any one across it will do.
- */
-static Plane make_plane(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed)
-{
-    const MesoVec3 none = {0, 0, 0};
-    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(up, tangent), none);
-    if (x.x == 0 && x.y == 0 && x.z == 0) {
-        MesoVec3 axis = fabsf(tangent.x) < 0.6f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
-        x = meso_vec3_unit(meso_vec3_cross(axis, tangent), axis);
-    }
-    return (Plane){origin, x, meso_vec3_cross(tangent, x), tangent, speed};
-}
-
-/* ---- frames that turn least ---- */
-
-/* X and T of the trajectory at one place. */
-typedef struct Station {
-    MesoVec3 point, x, tangent;
-} Station;
-
-/* The mirror image of `a` in the plane across `axis`. */
-static MesoVec3 reflect(MesoVec3 a, MesoVec3 axis)
-{
-    float square = meso_vec3_dot(axis, axis);
-    return square > 0 ? meso_vec3_mad(a, -2 * meso_vec3_dot(axis, a) / square, axis) : a;
-}
-
-static MesoVec3 tangent_at(const MesoSweepInstance *sweep, float v)
-{
-    if (v == 0 || v == 1)
-        return sweep->direction[v == 1];
-    return meso_vec3_unit(meso_bezier_derivative(sweep->p, v), sweep->direction[v > 0.5f]);
-}
-
-/* Double reflection: in the plane between both points, then in the one that takes the tangent there. */
-static Station step_to(const Station *from, const MesoSweepInstance *sweep, float v)
-{
-    Station to = {.point = meso_bezier_point(sweep->p, v), .tangent = tangent_at(sweep, v)};
-    MesoVec3 between = meso_vec3_sub(to.point, from->point);
-    MesoVec3 x = reflect(from->x, between), tangent = reflect(from->tangent, between);
-    x = reflect(x, meso_vec3_sub(to.tangent, tangent));
-    to.x = meso_vec3_unit(meso_vec3_mad(x, -meso_vec3_dot(x, to.tangent), to.tangent), from->x);
-    return to;
-}
-
-static Station first_station(const MesoSweepInstance *sweep)
-{
-    Plane start = make_plane(sweep->p[0], sweep->up[0], sweep->direction[0], 0);
-    return (Station){start.origin, start.x, start.tangent};
-}
-
-static void make_stations(const MesoSweepInstance *sweep, Station stations[MESO_FRAME_STEPS + 1])
-{
-    stations[0] = first_station(sweep);
-    for (uint32_t i = 0; i < MESO_FRAME_STEPS; i++)
-        stations[i + 1] = step_to(&stations[i], sweep, (float)(i + 1) / MESO_FRAME_STEPS);
-}
-
-float meso_sweep_twist(const MesoSweepInstance *sweep)
-{
-    Station stations[MESO_FRAME_STEPS + 1];
-    make_stations(sweep, stations);
-    const Station *last = &stations[MESO_FRAME_STEPS];
-    Plane end = make_plane(sweep->p[3], sweep->up[1], sweep->direction[1], 0);
-    MesoVec3 y = meso_vec3_cross(last->tangent, last->x);
-    return atan2f(meso_vec3_dot(end.x, y), meso_vec3_dot(end.x, last->x));
-}
-
-/* ---- planes along a trajectory ---- */
+#include "libcore/scene/sweep_plane.h"
 
 /* An angle, by its cosine and sine. */
 typedef struct Angle {
@@ -100,53 +23,26 @@ static MesoVec2 turned(MesoVec2 p, Angle angle)
 typedef struct Track {
     const MesoSweptKind *kind;
     const MesoSweepInstance *sweep;
-    MesoFrameRule rule;
-    Station stations[MESO_FRAME_STEPS + 1];     /* of the rule that needs them */
+    MesoSweepFrames frames;
     Angle back;             /* R(-turn) */
     MesoVec2 middle[2];     /* a', b' */
 } Track;
 
 static Track make_track(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
 {
-    Track track = {.kind = kind, .sweep = sweep, .rule = scene->frame_rule, .back = make_angle(-kind->turn),
+    return (Track){.kind = kind, .sweep = sweep, .frames = meso_sweep_frames(scene->frame_rule, sweep),
+                   .back = make_angle(-kind->turn),
                    .middle = {meso_vec2_scale(kind->middle[0], sweep->size[0]),
                               meso_vec2_scale(kind->middle[1], sweep->size[1])}};
-    if (track.rule == MESO_FRAME_MINIMAL)
-        make_stations(sweep, track.stations);
-    return track;
 }
 
-static MesoVec3 least_turned_x(const Track *track, float v)
-{
-    uint32_t before = (uint32_t)(v * MESO_FRAME_STEPS);
-    return step_to(&track->stations[before], track->sweep, v).x;
-}
-
-/* At the ends all comes from the ports alone: the neighbour computes the same floats. */
-static Plane plane_at(const Track *track, float v)
-{
-    const MesoSweepInstance *sweep = track->sweep;
-    if (v == 0 || v == 1) {
-        uint32_t end = v == 1;
-        float speed = 3 * meso_vec3_length(meso_vec3_sub(sweep->p[end ? 3 : 1], sweep->p[end ? 2 : 0]));
-        return make_plane(sweep->p[end ? 3 : 0], sweep->up[end], sweep->direction[end], speed);
-    }
-    MesoVec3 derivative = meso_bezier_derivative(sweep->p, v), point = meso_bezier_point(sweep->p, v);
-    MesoVec3 tangent = meso_vec3_unit(derivative, sweep->direction[v > 0.5f]);
-    float speed = meso_vec3_length(derivative);
-    if (track->rule == MESO_FRAME_PAPER)
-        return make_plane(point, meso_vec3_lerp(sweep->up[0], sweep->up[1], v), tangent, speed);
-    MesoVec3 x = least_turned_x(track, v);
-    return (Plane){point, x, meso_vec3_cross(tangent, x), tangent, speed};
-}
-
-static MesoVec3 in_plane(const Plane *plane, MesoVec2 n)
+static inline MesoVec3 in_plane(const MesoSweepPlane *plane, MesoVec2 n)
 {
     return (MesoVec3){n.x * plane->x.x + n.y * plane->y.x, n.x * plane->x.y + n.y * plane->y.y,
                       n.x * plane->x.z + n.y * plane->y.z};
 }
 
-static MesoMeshVertex sweep_vertex(const Plane *plane, MesoVec2 s, MesoVec3 normal, float scale,
+static inline MesoMeshVertex sweep_vertex(const MesoSweepPlane *plane, MesoVec2 s, MesoVec3 normal, float scale,
                                    float u, float v)
 {
     return (MesoMeshVertex){meso_vec3_mad(plane->origin, scale, in_plane(plane, s)),
@@ -157,7 +53,9 @@ static MesoMeshVertex sweep_vertex(const Plane *plane, MesoVec2 s, MesoVec3 norm
 
 /* A ring: how far along, and how far turned. */
 typedef struct Ring {
-    Plane plane;
+    MesoSweepPlane plane;
+    MesoSweepPlaneChange change;     /* where it is mitred */
+    bool mitred;
     float v, w, tilt_scale;
     bool turns;
     bool on_side;           /* of a cell, where points lie on the grain */
@@ -166,11 +64,14 @@ typedef struct Ring {
 
 static Ring ring_at(const MesoScene *scene, const Track *track, float v)
 {
-    Ring ring = {.plane = plane_at(track, v), .v = v, .w = v * v * (3 - 2 * v)};
+    Ring ring = {.plane = meso_sweep_plane(&track->frames, v), .v = v, .w = v * v * (3 - 2 * v)};
     float speed = ring.plane.speed;
     ring.tilt_scale = speed > 0 ? scene->section_scale * 6 * v * (1 - v) / speed : 0;
     ring.turns = (track->kind->turn != 0 || track->sweep->twist != 0) && v > 0 && v < 1;
     ring.on_side = scene->deform == MESO_SWEEP_SHAPE && (v == 0 || v == 1);
+    ring.mitred = track->sweep->mitre > 0 && v > 0 && v < 1;
+    if (ring.mitred)
+        ring.change = meso_sweep_plane_change(&track->frames, v);
     if (ring.turns) {
         ring.turn = make_angle(track->kind->turn * ring.w);
         ring.twist = make_angle(track->sweep->twist * ring.w);
@@ -212,12 +113,34 @@ static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ri
     return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
 }
 
+/* Of the trajectory's speed: a line that is slower, or runs backwards, has ever more n for its normal. */
+static const float LEAST_FORWARDS = 0.05f;
+
+/*
+ * The normal lies across the ring's line, as n does, and across the way of the point along the sweep. That frames turn
+ * about the trajectory is left out, as it is elsewhere: so that normals go on at the ends, which are the neighbours',
+ * too.
+ */
+static MesoMeshVertex place_mitred(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column, Meeting m)
+{
+    float speed = ring->plane.speed, change = 6 * ring->v * (1 - ring->v);
+    MesoVec3 n = in_plane(&ring->plane, m.normal);
+    const MesoSweepPlaneChange *plane = &ring->change;
+    MesoVec3 turn = meso_vec3_mad(meso_vec3_scale(plane->x, m.at.x), m.at.y, plane->y);
+    MesoVec3 way = meso_vec3_mad(plane->origin, scene->section_scale, turn);
+    float forwards = meso_vec3_dot(way, ring->plane.tangent);
+    float across = meso_vec3_dot(plane->origin, n) + scene->section_scale * change * m.slope;
+    float least = LEAST_FORWARDS * speed, tilt = forwards < least ? fmaxf(forwards, 0) / least : 1;
+    MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(n, fmaxf(forwards, least)), -tilt * across, ring->plane.tangent);
+    return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
+}
+
 static MesoVec2 on_grain(MesoVec2 p)
 {
     return (MesoVec2){meso_cell_round(p.x), meso_cell_round(p.y)};
 }
 
-static MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, const Ring *ring,
+static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, const Ring *ring,
                                   const MesoSweepColumn *column)
 {
     const float *size = track->sweep->size;
@@ -228,17 +151,134 @@ static MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, co
                             : meet(ring, start, end, start_normal, end_normal);
     if (ring->on_side)
         m.at = on_grain(m.at);
-    return place_vertex(scene, ring, column, m);
+    return ring->mitred ? place_mitred(scene, ring, column, m) : place_vertex(scene, ring, column, m);
+}
+
+static inline MesoVec2 section_point(const Track *track, const Ring *ring, const MesoSweepColumn *column)
+{
+    const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]), none = {0, 0};
+    const MesoVec2 end = meso_vec2_scale(column->end, track->sweep->size[1]);
+    Meeting m = ring->turns ? meet_turned(track, ring, start, end, none, none) : meet(ring, start, end, none, none);
+    return ring->on_side ? on_grain(m.at) : m.at;
 }
 
 static inline MesoVec3 tube_point(const MesoScene *scene, const Track *track, const Ring *ring,
                                   const MesoSweepColumn *column)
 {
-    const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]), none = {0, 0};
-    const MesoVec2 end = meso_vec2_scale(column->end, track->sweep->size[1]);
-    Meeting m = ring->turns ? meet_turned(track, ring, start, end, none, none) : meet(ring, start, end, none, none);
-    MesoVec2 at = ring->on_side ? on_grain(m.at) : m.at;
+    MesoVec2 at = section_point(track, ring, column);
     return meso_vec3_mad(ring->plane.origin, scene->section_scale, in_plane(&ring->plane, at));
+}
+
+/* ---- which mitre ---- */
+
+enum { MITRE_PLACES = 16, MITRE_COLUMNS = 32, MITRE_LEVELS = 8 };
+
+/* Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards. */
+static const float MITRE_FORWARDS = 0.1f;
+
+/* The same backwards: what is left of a line that all but stands still between two places. */
+static const float MITRE_BACKWARDS = 0.01f;
+
+static float radius_of(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    float start = 0, end = 0;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        const MesoSweepColumn *column = &scene->columns[kind->column_begin + c];
+        float from = column->start.x * column->start.x + column->start.y * column->start.y;
+        float to = column->end.x * column->end.x + column->end.y * column->end.y;
+        start = from > start ? from : start;
+        end = to > end ? to : end;
+    }
+    return scene->section_scale * fmaxf(sweep->size[0] * sqrtf(start), sweep->size[1] * sqrtf(end));
+}
+
+/* Whether some bend is narrower than the section reaches. */
+static bool is_narrow(const MesoSweepInstance *sweep, float radius)
+{
+    for (uint32_t i = 0; i <= MITRE_PLACES; i++) {
+        float v = (float)i / MITRE_PLACES;
+        MesoVec3 first = meso_bezier_derivative(sweep->p, v);
+        MesoVec3 bend = meso_vec3_cross(first, meso_bezier_second_derivative(sweep->p, v));
+        float square = meso_vec3_dot(first, first);
+        if (!(radius * radius * meso_vec3_dot(bend, bend) < square * square * square))
+            return true;
+    }
+    return false;
+}
+
+/* Points of some lines along a sweep, in the planes of its rings, which a mitre turns and leaves what they are. */
+typedef struct MitreLines {
+    uint32_t count;
+    MesoVec2 at[MITRE_PLACES + 1][MITRE_COLUMNS];
+} MitreLines;
+
+static MitreLines take_lines(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
+    uint32_t step = (kind->column_count + MITRE_COLUMNS - 1) / MITRE_COLUMNS;
+    Track track = make_track(scene, kind, sweep);
+    MitreLines lines = {0};
+    for (uint32_t i = 0; i <= MITRE_PLACES; i++) {
+        Ring ring = ring_at(scene, &track, (float)i / MITRE_PLACES);
+        lines.count = 0;
+        for (uint32_t c = 0; c < kind->column_count; c += step)
+            lines.at[i][lines.count++] = meso_vec2_scale(section_point(&track, &ring, &columns[c]),
+                                                         scene->section_scale);
+    }
+    return lines;
+}
+
+/* Along a direction, from a point of one plane to one of another. */
+typedef struct MitreStep {
+    float origin, before_x, before_y, after_x, after_y;
+} MitreStep;
+
+static MitreStep step_between(const MesoSweepPlane *before, const MesoSweepPlane *after)
+{
+    MesoVec3 along = meso_vec3_unit(meso_vec3_add(before->tangent, after->tangent), before->tangent);
+    return (MitreStep){meso_vec3_dot(meso_vec3_sub(after->origin, before->origin), along),
+                       meso_vec3_dot(before->x, along), meso_vec3_dot(before->y, along),
+                       meso_vec3_dot(after->x, along), meso_vec3_dot(after->y, along)};
+}
+
+/* How far lines go forwards at least, in parts of what the trajectory does; or less than `enough`, if it is that. */
+static float least_forwards(const MesoScene *scene, const MesoSweepInstance *sweep, const MitreLines *lines,
+                            float enough)
+{
+    float least = INFINITY;
+    MesoSweepFrames frames = meso_sweep_frames(scene->frame_rule, sweep);
+    MesoSweepPlane plane = meso_sweep_plane(&frames, 0);
+    for (uint32_t i = 1; i <= MITRE_PLACES && least > enough; i++) {
+        MesoSweepPlane next = meso_sweep_plane(&frames, (float)i / MITRE_PLACES);
+        float length = meso_vec3_length(meso_vec3_sub(next.origin, plane.origin)), shortest = INFINITY;
+        MitreStep step = step_between(&plane, &next);
+        const MesoVec2 *before = lines->at[i - 1], *after = lines->at[i];
+        for (uint32_t c = 0; c < lines->count; c++)
+            shortest = fminf(shortest, step.origin + after[c].x * step.after_x + after[c].y * step.after_y -
+                                           before[c].x * step.before_x - before[c].y * step.before_y);
+        least = fminf(least, shortest / length);
+        plane = next;
+    }
+    return least;
+}
+
+float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    MesoSweepInstance trial = *sweep;
+    trial.mitre = 0;
+    if (!is_narrow(sweep, radius_of(scene, kind, sweep)))
+        return 0;
+    MitreLines lines = take_lines(scene, kind, &trial);
+    float best = 0, most = least_forwards(scene, &trial, &lines, -INFINITY);
+    for (uint32_t i = 1; i <= MITRE_LEVELS && most < (best > 0 ? MITRE_FORWARDS : 0); i++) {
+        trial.mitre = (float)i / MITRE_LEVELS;
+        float least = least_forwards(scene, &trial, &lines, most);
+        if (least > most) {
+            most = least;
+            best = trial.mitre;
+        }
+    }
+    return most > -MITRE_BACKWARDS ? best : 0;
 }
 
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
@@ -246,7 +286,8 @@ static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
-    bool plain = !ring->turns && !ring->on_side && track->sweep->size[0] == 1 && track->sweep->size[1] == 1;
+    bool plain = !ring->turns && !ring->on_side && !ring->mitred && track->sweep->size[0] == 1 &&
+                 track->sweep->size[1] == 1;
     if (plain && !absent && !grid->columns && !grid->bare) {
         for (uint32_t c = 0; c < grid->column_count; c++)   /* most are so: nothing to decide in the loop */
             *out++ = place_vertex(scene, ring, &columns[c],
@@ -311,7 +352,7 @@ typedef struct EndRing {
 
 static EndRing end_ring(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep, float v)
 {
-    EndRing end = {.scene = scene, .track = {.kind = kind, .sweep = sweep, .rule = scene->frame_rule}};
+    EndRing end = {.scene = scene, .track = make_track(scene, kind, sweep)};
     end.ring = ring_at(scene, &end.track, v);
     return end;
 }
@@ -357,9 +398,9 @@ static void bow_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
 }
 
 /* Of the ring at v. */
-static Plane cap_plane(const MesoScene *scene, const MesoSweepInstance *cap, float v)
+static MesoSweepPlane cap_plane(const MesoScene *scene, const MesoSweepInstance *cap, float v)
 {
-    Plane plane = make_plane(cap->p[0], cap->up[0], cap->direction[0], 0);
+    MesoSweepPlane plane = meso_sweep_plane_across(cap->p[0], cap->up[0], cap->direction[0], 0);
     float rise = scene->section_scale * (MESO_CAP_RISE * cap->size[0]);
     plane.origin = meso_vec3_mad(plane.origin, rise * v, plane.tangent);
     return plane;
@@ -373,7 +414,7 @@ static inline MesoVec2 cap_place(const MesoScene *scene, const MesoSweepInstance
     return v == 0 && scene->deform == MESO_SWEEP_SHAPE ? on_grain(at) : at;
 }
 
-static MesoMeshVertex cap_vertex(const MesoScene *scene, const MesoSweepInstance *cap, const Plane *plane,
+static MesoMeshVertex cap_vertex(const MesoScene *scene, const MesoSweepInstance *cap, const MesoSweepPlane *plane,
                                  const MesoSweepColumn *column, float v)
 {
     float rise = MESO_CAP_RISE * cap->size[0], radius = 1 - v * v * v * v;
@@ -390,7 +431,7 @@ static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind 
     uint32_t last = grid->ring_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
         float v = (float)ring / (float)last;
-        Plane plane = cap_plane(scene, cap, v);
+        MesoSweepPlane plane = cap_plane(scene, cap, v);
         float radius = 1 - v * v * v * v;
         for (uint32_t c = 0; c < grid->column_count && grid->bare; c++) {
             MesoVec2 at = cap_place(scene, cap, &columns[grid->columns ? grid->columns[c] : c], v);
@@ -405,7 +446,7 @@ static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind 
 
 static MesoVec3 cap_point(const MesoScene *scene, const MesoSweepInstance *cap, const MesoSweepColumn *column, float v)
 {
-    Plane plane = cap_plane(scene, cap, v);
+    MesoSweepPlane plane = cap_plane(scene, cap, v);
     return cap_vertex(scene, cap, &plane, column, v).position;
 }
 

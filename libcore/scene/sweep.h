@@ -8,8 +8,12 @@
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepColumn *column, float v);
 
-/* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]. */
-float meso_sweep_twist(const MesoSweepInstance *sweep);
+/*
+ * The mitre of a sweep that has all but that: the least, in eighths, with which no line along it runs backwards, but a
+ * tenth as fast as the trajectory at least, or as near to that as can be; 0 where none runs backwards anyway, and where
+ * some does with any, as its ends lie within each other. O(columns).
+ */
+float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep);
 
 /* v of ring `ring` of a sweep. */
 float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t ring);

@@ -1,8 +1,10 @@
 /*
  * Sweeps against formulas: volumes of a straight tube, a quarter of a torus and boxes that turn, sections that keep
- * their width, normals against differences, ends to the bit, and frames through an S that stands up.
+ * their width, normals against differences, ends to the bit, frames through an S that stands up, and mitres where tubes
+ * would fold back on themselves.
  */
 #include "libcore/scene/sweep.h"
+#include "libcore/scene/sweep_plane.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +36,7 @@ static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, u
     tube.kind = (MesoSweptKind){.column_count = count + 1, .joint_count = count, .division_count = rings,
                                 .instance_count = 1};
     tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1 / 3.f, 0, 0}, {2 / 3.f, 0, 0}, {1, 0, 0}},
-                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
+                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
     tube.scene = (MesoScene){.section_scale = 1, .kind_count = 1, .column_count = count + 1, .sweep_count = 1,
                              .kinds = &tube.kind, .columns = tube.columns, .sweeps = &tube.sweep};
 }
@@ -114,7 +116,7 @@ static void test_quarter(void)
     const float k = (float)(4 * (sqrt(2) - 1) / 3);
     make_tube(disc, make_disc(disc, 64, 0.2f), 0, 128);
     tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
     for (uint32_t rule = 0; rule < 2; rule++) {
         tube.scene.frame_rule = (MesoFrameRule)rule;
         tube.sweep.twist = rule ? meso_sweep_twist(&tube.sweep) : 0;
@@ -227,7 +229,7 @@ static void test_frames(void)
     const MesoVec3 ups[2][2] = {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0.2f}}};
     for (uint32_t i = 0; i < 2; i++) {
         tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1.5f, 0, 0}, {-0.5f, 0.05f, 1}, {1, 0.05f, 1}},
-                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
+                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
         tube.scene.frame_rule = MESO_FRAME_PAPER;
         CHECK(i == 1 || largest_step() > 0.5f);
         tube.scene.frame_rule = MESO_FRAME_MINIMAL;
@@ -235,6 +237,78 @@ static void test_frames(void)
         CHECK(fabsf(tube.sweep.twist) < (i ? 2.0f : 0.2f));
         CHECK(largest_step() < 0.12f);
     }
+}
+
+/* Of the vertices' triangles: those that are wound against the normals of all their corners. */
+static uint32_t count_folded(void)
+{
+    static MesoMeshFace faces[MOST_COLUMNS * MOST_RINGS];
+    uint32_t folded = 0;
+    meso_sweep_faces(&tube.scene, &tube.kind, 0, faces);
+    for (uint32_t f = 0; f < tube.kind.joint_count * (tube.kind.division_count - 1); f++)
+        for (uint32_t half = 0; half < 2; half++) {
+            const MesoMeshVertex *a = &tube.vertices[faces[f].v[0]], *b = &tube.vertices[faces[f].v[1 + half]];
+            const MesoMeshVertex *c = &tube.vertices[faces[f].v[2 + half]];
+            MesoVec3 area = meso_vec3_cross(meso_vec3_sub(b->position, a->position),
+                                            meso_vec3_sub(c->position, a->position));
+            folded += meso_vec3_dot(area, a->normal) < 0 && meso_vec3_dot(area, b->normal) < 0 &&
+                      meso_vec3_dot(area, c->normal) < 0;
+        }
+    return folded;
+}
+
+/* The normals between the ends are those of the surface, by differences. */
+static bool has_true_normals(void)
+{
+    bool good = true;
+    for (uint32_t ring = 4; ring + 4 < tube.kind.division_count; ring += 4)
+        for (uint32_t c = 1; c + 1 < tube.kind.column_count; c += 3) {
+            float v = (float)ring / (float)(tube.kind.division_count - 1), h = 1e-3f;
+            MesoVec3 along = meso_vec3_sub(point_at((float)c, v + h), point_at((float)c, v - h));
+            MesoVec3 around = meso_vec3_sub(point_at((float)c + 0.5f, v), point_at((float)c - 0.5f, v));
+            MesoVec3 n = meso_vec3_unit(meso_vec3_cross(along, around), along);
+            good &= meso_vec3_dot(n, tube.vertices[ring * tube.kind.column_count + c].normal) > 0.99f;
+        }
+    return good;
+}
+
+/*
+ * A bend around a corner near by, an S between ends that lie apart, and a turn to where it came from; the last, twice
+ * as wide, has ends that lie within each other. All fold without a mitre, but for wide bends, and these have none.
+ */
+static void test_mitres(void)
+{
+    static const MesoSweepInstance bends[4] = {
+        {{{0, 0, 0}, {0.25f, 0, 0}, {0.3f, 0.05f, 0}, {0.3f, 0.3f, 0}}, {{0, 0, 1}, {0, 0, 1}},
+         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0},
+        {{{0, 0, 0}, {0.3f, 0, 0}, {0, 0.4f, 0}, {0.3f, 0.4f, 0}}, {{0, 0, 1}, {0, 0, 1}},
+         {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0},
+        {{{0, 0, 0}, {0.3f, 0, 0}, {0.3f, 0.6f, 0}, {0, 0.6f, 0}}, {{0, 0, 1}, {0, 0, 1}},
+         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0},
+        {{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 0}}, {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1},
+         0, 0, 0}};
+    MesoVec2 disc[64];
+    static MesoMeshVertex ends[2][65];
+    uint32_t width = make_disc(disc, 64, 0.24f) + 1;
+    for (uint32_t i = 0; i < 8; i++) {
+        make_tube(disc, width - 1, 0, 33);
+        tube.scene.frame_rule = i % 2 ? MESO_FRAME_MINIMAL : MESO_FRAME_PAPER;
+        tube.sweep = bends[i / 2];
+        sweep();
+        CHECK((count_folded() > 20) == (i < 6));
+        memcpy(ends[0], tube.vertices, sizeof ends[0]);
+        memcpy(ends[1], tube.vertices + 32 * width, sizeof ends[1]);
+        tube.sweep.mitre = meso_sweep_mitre(&tube.scene, &tube.kind, &tube.sweep);
+        CHECK((tube.sweep.mitre > 0) == (i < 6));
+        sweep();
+        CHECK(count_folded() == 0 && (i >= 6 || has_true_normals()));
+        CHECK(memcmp(ends[0], tube.vertices, sizeof ends[0]) == 0);
+        CHECK(memcmp(ends[1], tube.vertices + 32 * width, sizeof ends[1]) == 0);
+    }
+    tube.sweep = bends[2];
+    tube.sweep.size[0] = tube.sweep.size[1] = 2;
+    float mitre = meso_sweep_mitre(&tube.scene, &tube.kind, &tube.sweep);
+    CHECK(mitre >= 0 && mitre <= 1);
 }
 
 /* Bare vertices have the places of whole ones: turned, of two sizes, bent into a cage or not. */
@@ -317,6 +391,7 @@ int main(void)
     test_middle();
     test_normals();
     test_frames();
+    test_mitres();
     test_bare();
     test_bowed();
     test_pace();

@@ -71,7 +71,7 @@ static void add_instance(Caps *caps, const MesoSweepInstance *sweep, bool at_end
         cap.size[i] = sweep->size[at_end];
         cap.up[i] = sweep->up[at_end];
     }
-    cap.twist = 0;
+    cap.twist = cap.mitre = 0;
     caps->out->sweeps[caps->out->sweep_count++] = cap;
 }
 

@@ -1,5 +1,6 @@
 #include "libcore/mesh/edit/mesh_pieces.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcore/mesh/edit/face_area.h"
@@ -95,6 +96,50 @@ static bool looks_in(const MesoAttribute *normals, uint32_t element, MesoAreaVec
     return meso_area_dot((MesoAreaVector){(double)n.x, (double)n.y, (double)n.z}, area) < 0;
 }
 
+/* A corner by its vertex and its normal's entry. */
+typedef struct SharedNormal {
+    uint32_t vertex, entry, corner;
+} SharedNormal;
+
+static int compare_shared(const void *left, const void *right)
+{
+    const SharedNormal *a = left, *b = right;
+    if (a->vertex != b->vertex)
+        return a->vertex < b->vertex ? -1 : 1;
+    if (a->entry != b->entry)
+        return a->entry < b->entry ? -1 : 1;
+    return (a->corner > b->corner) - (a->corner < b->corner);
+}
+
+/*
+ * Corners of a vertex that share a normal go on doing so, also over an edge so sharp that it looks along one face and
+ * against the other: each gets the sum of all. Those of faces that are left alone have none.
+ */
+static MesoStatus share_sums(MesoAreaVector *sums, const MesoPolygonMesh *mesh, const MesoAttribute *normals,
+                             MesoArena *scratch, MesoError *error)
+{
+    uint32_t count = mesh->corner_count;
+    SharedNormal *shared = MESO_NEW(scratch, SharedNormal, count, error);
+    if (!shared)
+        return MESO_ERR_MEMORY;
+    for (uint32_t c = 0; c < count; c++)
+        shared[c] = (SharedNormal){mesh->corners[c], meso_attribute_entry(normals, c), c};
+    qsort(shared, count, sizeof *shared, compare_shared);
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        MesoAreaVector sum = {0, 0, 0};
+        for (end = begin; end < count && shared[end].vertex == shared[begin].vertex &&
+                          shared[end].entry == shared[begin].entry; end++) {
+            const MesoAreaVector *own = &sums[shared[end].corner];
+            sum = (MesoAreaVector){sum.x + own->x, sum.y + own->y, sum.z + own->z};
+        }
+        for (uint32_t i = begin; i < end; i++) {
+            MesoAreaVector *own = &sums[shared[i].corner];
+            *own = own->x != 0 || own->y != 0 || own->z != 0 ? sum : *own;
+        }
+    }
+    return MESO_OK;
+}
+
 /* Elements of the domain whose normals look into their faces; of `faces` alone, if there are such. */
 static MesoStatus find_wrong_normals(uint64_t **wrong, const MesoPolygonMesh *mesh, const MesoAttribute *normals,
                                      const uint64_t *faces, MesoArena *scratch, MesoError *error)
@@ -115,10 +160,11 @@ static MesoStatus find_wrong_normals(uint64_t **wrong, const MesoPolygonMesh *me
             *sum = (MesoAreaVector){sum->x + area.x, sum->y + area.y, sum->z + area.z};
         }
     }
-    for (uint32_t i = 0; i < count; i++)
+    MesoStatus status = corners && normals->entry_of ? share_sums(sums, mesh, normals, scratch, error) : MESO_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
         if (looks_in(normals, i, sums[i]))
             meso_bits_set(*wrong, i);
-    return MESO_OK;
+    return status;
 }
 
 static void negate(const MesoAttribute *normals, size_t from, size_t to)

@@ -66,6 +66,35 @@ static void test_normals(void)
     CHECK(memcmp(mesh.attributes[0].values, values, sizeof values) == 0);
 }
 
+/* Two faces that share a sharp edge and the normals there, which look along the one and against the other, share them
+ * when the other is turned over. */
+static void test_sharp_edge(void)
+{
+    static const MesoVec3 positions[6] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0.1f}, {0, 1, 0.1f}};
+    static const uint32_t corners[8] = {0, 1, 2, 3, 1, 2, 5, 4}, entries[8] = {0, 1, 1, 0, 1, 1, 2, 2};
+    for (uint32_t i = 0; i < 2; i++) {
+        float values[9] = {0, 0, 1, i ? 0.3f : -0.3f, 0, 1, 0, 0, -1};
+        MesoWindCounts counts;
+        MesoPolygonMesh sharp = {.vertex_count = 6, .positions = MESO_NEW(&arena, MesoVec3, 6, &error), .face_count = 2,
+                                 .corner_count = 8, .side_count = 4, .corners = MESO_NEW(&arena, uint32_t, 8, &error)};
+        uint32_t *entry_of = MESO_NEW(&arena, uint32_t, 8, &error);
+        memcpy(sharp.positions, positions, sizeof positions);
+        memcpy(sharp.corners, corners, sizeof corners);
+        memcpy(entry_of, entries, sizeof entries);
+        MesoAttribute normal = {.name = "normal", .domain = MESO_ON_CORNERS, .width = 3, .entry_count = 3,
+                                .values = values, .entry_of = entry_of};
+        sharp.attributes = &normal;
+        sharp.attribute_count = 1;
+        MesoPolygonMesh mesh = wind(&sharp, &counts);
+        CHECK(counts.faces_turned == 1);
+        const MesoAttribute *turned = &mesh.attributes[0];
+        for (uint32_t c = 0; c < 8; c++)
+            for (uint32_t d = 0; d < 8; d++)
+                CHECK(mesh.corners[c] != mesh.corners[d] ||
+                      meso_attribute_entry(turned, c) == meso_attribute_entry(turned, d));
+    }
+}
+
 /* A strip of `n` quads whose last side is joined to the first the wrong way round. */
 static MesoPolygonMesh make_band(uint32_t n)
 {
@@ -122,6 +151,7 @@ int main(void)
     meso_arena_init(&arena);
     test_turned();
     test_normals();
+    test_sharp_edge();
     test_band();
     test_bottle();
     meso_arena_release(&arena);

@@ -164,8 +164,8 @@ static void describe_sweeps(MesoDrawLists *lists)
         else if (i == 11 || i == 13)
             gl->VertexArrayAttribIFormat(array, i, 1, GL_UNSIGNED_INT, i == 11 ? offsetof(MesoSweepInstance, ids)
                                                                                : offsetof(MesoSweepInstance, cage));
-        else                /* size[2] and twist */
-            gl->VertexArrayAttribFormat(array, i, 3, GL_FLOAT, GL_FALSE, offsetof(MesoSweepInstance, size));
+        else                /* size[2], twist and mitre */
+            gl->VertexArrayAttribFormat(array, i, 4, GL_FLOAT, GL_FALSE, offsetof(MesoSweepInstance, size));
     }
 }
 

@@ -39,7 +39,7 @@ static void make_sweep(Case *c)
                               .instance_count = 1, .turn = (float)(3 * MESO_PI),
                               .middle = {{0.05f, 0}, {-0.05f, 0}}};
     c->sweep = (MesoSweepInstance){{{-1.5f, -0.5f, 0}, {0, -0.5f, 0.5f}, {0, 0.5f, -0.5f}, {1.5f, 0.5f, 0}},
-                                   {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0, 0, {0}};
+                                   {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0, 0, 0, {0}};
     for (uint32_t end = 0; end < 2; end++)
         c->sweep.direction[end] = meso_vec3_direction(meso_vec3_sub(c->sweep.p[1 + 2 * end], c->sweep.p[2 * end]),
                                                       (MesoVec3){0, 0, 0});
@@ -120,7 +120,7 @@ static void put_in_cell(Case *c)
 }
 
 /* The camera frames what is there, so both scenes get one box. */
-static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist, bool in_cell)
+static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist, float mitre, bool in_cell)
 {
     static Case c;
     uint32_t covered;
@@ -129,6 +129,7 @@ static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist, bool in
         put_in_cell(&c);
     c.swept.frame_rule = rule;
     c.sweep.twist = twist;
+    c.sweep.mitre = mitre;
     meso_scene_measure(&c.swept);
     make_body(&c, arena);
     MesoImage swept = draw(arena, &c.swept, true), body = draw(arena, &c.bodies, true);
@@ -141,9 +142,11 @@ int main(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    test_rule(&arena, MESO_FRAME_PAPER, 0, false);
-    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, false);
-    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, true);
+    test_rule(&arena, MESO_FRAME_PAPER, 0, 0, false);
+    test_rule(&arena, MESO_FRAME_PAPER, 0, 0.75f, false);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0, false);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0.75f, false);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0.25f, true);
     meso_arena_release(&arena);
     return 0;
 }

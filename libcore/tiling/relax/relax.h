@@ -12,8 +12,9 @@
  *
  * which leaves straight lines and circles alone, as far as it makes the sweeps beside the joint less bent, by the sum
  * of squared curvatures; and then pushes sweeps apart where their sections overlap, as long as none becomes bent
- * sharper than one was around there, or too sharply for its section. The last steps do that alone. What lies within
- * each other in a flat square slot is meant, and left.
+ * sharper than one was around there, or too sharply for its section, and planes at the ends do not come to cross. The
+ * last steps do that alone. What lies within each other in a flat square slot is meant, and left; but where a section
+ * is hollow, what only grazes it there gets out of it.
  */
 #ifndef MESO_RELAX_H
 #define MESO_RELAX_H
@@ -40,7 +41,7 @@ typedef struct MesoRelaxReport {
  *
  * Sections are known by how far they reach around their trajectory, in sixteen directions; inner meshes are in
  * nobody's way. The same for any number of threads. O(steps * (sweeps + pairs of sweeps near each other)), with some
- * 900 bytes of scratch a sweep and 16 a pair. MESO_ERR_USAGE where sections deform, MESO_ERR_MEMORY, and
+ * 1100 bytes of scratch a sweep and 16 a pair. MESO_ERR_USAGE where sections deform, MESO_ERR_MEMORY, and
  * what meso_model_expand() refuses in the shell.
  */
 MesoStatus meso_model_relax(MesoModel *model, MesoRelaxReport *report, MesoArena *arena, uint32_t thread_count,

@@ -24,17 +24,19 @@ static const float STEP_OF_CLEAR = 0.2f, STEP_LEAST_OF_THIN = 0.005f;
  */
 static const float FREE_BEND = 0.5f;
 
+/* The same of the root mean square of curvatures: about that of a bend which is smooth and comes to the above. */
+static const float FREE_MEAN = 0.27f;
+
+/*
+ * The planes at the ends of a sweep lie behind each other by so many times how far its sections reach, or as well as
+ * they did; of sweeps that are not so many times longer than that.
+ */
+static const float FREE_ORDER = 0.25f, WIDE = 4;
+
 /* Places at which bends are measured along a sweep, at the ends too. */
 enum { BEND_PLACES = 17 };
 
 /* ---- how much a trajectory is bent ---- */
-
-static MesoVec3 second_derivative(const MesoVec3 p[4], float v)
-{
-    MesoVec3 a = meso_vec3_add(meso_vec3_mad(p[0], -2, p[1]), p[2]);
-    MesoVec3 b = meso_vec3_add(meso_vec3_mad(p[1], -2, p[2]), p[3]);
-    return meso_vec3_scale(meso_vec3_lerp(a, b, v), 6);
-}
 
 /* The square of the curvature, summed along it; the largest curvature to `most`, the length to `length`, or NULL. */
 static float bend_of(const MesoVec3 p[4], float *most, float *length)
@@ -42,7 +44,7 @@ static float bend_of(const MesoVec3 p[4], float *most, float *length)
     float sum = 0, along = 0, largest = 0;
     for (uint32_t k = 0; k < BEND_PLACES; k++) {
         float v = (float)k / (BEND_PLACES - 1);
-        MesoVec3 first = meso_bezier_derivative(p, v), second = second_derivative(p, v);
+        MesoVec3 first = meso_bezier_derivative(p, v), second = meso_bezier_second_derivative(p, v);
         float speed = meso_vec3_length(first);
         if (!(speed > 0))
             continue;
@@ -162,11 +164,32 @@ static MesoWallMove moved(const MesoRelaxNode *node, MesoVec3 offset, MesoVec3 t
     return move;
 }
 
-/* How much the links of a node would be bent with it moved so, all else where it is, and their largest curvature. */
-static float bend_with(const MesoRelaxWork *work, uint32_t n, const MesoWallMove *move, float *curve)
+/* What links of a node come to with it moved, all else where it is. */
+typedef struct Outcome {
+    float bend, length;     /* sums of squared curvatures, and of lengths */
+    float curve;            /* the largest */
+    float order;            /* how well planes at their ends lie behind each other; below 0, they cross in a section */
+} Outcome;
+
+/*
+ * Points of the planes at the ends, as far from the middle as sections reach, lie behind each other along the sum of
+ * both directions, by what the middles do less the sine between the planes for each. In parts of that reach; only where
+ * that is long beside the sweep.
+ */
+static float order_of(const MesoRelaxLink *link, const MesoVec3 p[4], MesoVec3 start, MesoVec3 end)
 {
-    float sum = 0, largest;
-    *curve = 0;
+    MesoVec3 chord = meso_vec3_sub(p[3], p[0]);
+    float reach = link->bound;
+    if (!(reach * WIDE > meso_vec3_length(chord)))
+        return INFINITY;
+    return meso_vec3_dot(chord, meso_vec3_add(start, end)) / reach -
+           2 * meso_vec3_length(meso_vec3_cross(start, end));
+}
+
+static Outcome outcome_with(const MesoRelaxWork *work, uint32_t n, const MesoWallMove *move)
+{
+    float largest, length;
+    Outcome outcome = {.order = INFINITY};
     MesoRelaxNode node = work->nodes[n];
     node.move = *move;
     meso_relax_place(&node);
@@ -178,10 +201,18 @@ static float bend_with(const MesoRelaxWork *work, uint32_t n, const MesoWallMove
             if (link->node[e] == n)
                 ends[e] = &node;
         meso_relax_control(link, ends[0], ends[1], p);
-        sum += bend_of(p, &largest, NULL);
-        *curve = fmaxf(*curve, largest);
+        outcome.bend += bend_of(p, &largest, &length);
+        outcome.length += length;
+        outcome.curve = fmaxf(outcome.curve, largest);
+        outcome.order = fminf(outcome.order, order_of(link, p, meso_vec3_scale(ends[0]->tangent, link->sign[0]),
+                                                      meso_vec3_scale(ends[1]->tangent, -link->sign[1])));
     }
-    return sum;
+    return outcome;
+}
+
+static bool is_sound(const MesoRelaxNode *node, Outcome outcome)
+{
+    return outcome.bend <= node->bend_most && outcome.curve <= node->curve_most && outcome.order >= node->order_least;
 }
 
 /* What of a wish does not run against what contacts ask. */
@@ -208,13 +239,15 @@ static MesoWallMove align(const MesoRelaxWork *work, uint32_t n)
     MesoVec3 turn = at_most(meso_vec3_scale(meso_vec3_sub(aim, node->tangent), ALIGN_SHARE),
                             step / fmaxf(wish.handle, step));
     turn = not_against(turn, wish.turn);
-    float curve, least = bend_with(work, n, &best, &curve), most = fmaxf(curve, node->curve_most);
+    Outcome here = outcome_with(work, n, &best);
+    MesoRelaxNode bounds = {.bend_most = INFINITY, .curve_most = fmaxf(here.curve, node->curve_most),
+                            .order_least = fminf(here.order, node->order_least)};
     for (uint32_t k = 0; k < sizeof shares / sizeof *shares; k++) {
         MesoWallMove move = moved(node, meso_vec3_scale(offset, shares[k][0]), meso_vec3_scale(turn, shares[k][1]),
                                   TETHER);
-        float bend = bend_with(work, n, &move, &curve);
-        if (bend < least && curve <= most) {
-            least = bend;
+        Outcome there = outcome_with(work, n, &move);
+        if (there.bend < here.bend && is_sound(&bounds, there)) {
+            here.bend = there.bend;
             best = move;
         }
     }
@@ -231,8 +264,11 @@ void meso_relax_bound_bends(void *context, uint64_t begin, uint64_t end)
             widest = fmaxf(widest, work->links[work->ends[i] / 2].bound);
         if (!node->free)
             continue;
-        bend_with(work, (uint32_t)n, &node->move, &node->curve_most);
-        node->curve_most = fmaxf(node->curve_most, widest > 0 ? FREE_BEND / widest : 0);
+        Outcome outcome = outcome_with(work, (uint32_t)n, &node->move);
+        node->curve_most = fmaxf(outcome.curve, widest > 0 ? FREE_BEND / widest : 0);
+        node->order_least = fminf(outcome.order, FREE_ORDER);
+        float even = widest > 0 ? FREE_MEAN / widest : INFINITY;
+        node->bend_most = fmaxf(outcome.bend, outcome.length * even * even);
     }
 }
 
@@ -273,10 +309,8 @@ static MesoWallMove part(const MesoRelaxWork *work, const MesoRelaxNode *node, u
     sum_asked(work, n, step_of(work, n), &push, &turn);
     bool asked = meso_vec3_length(push) > 0 || meso_vec3_length(turn) > 0;
     for (uint32_t k = 0; k < sizeof shares / sizeof *shares && asked; k++) {
-        float curve;
         MesoWallMove move = moved(node, meso_vec3_scale(push, shares[k][0]), meso_vec3_scale(turn, shares[k][1]), 0);
-        bend_with(work, n, &move, &curve);
-        if (curve <= node->curve_most)
+        if (is_sound(node, outcome_with(work, n, &move)))
             return move;
     }
     return node->move;

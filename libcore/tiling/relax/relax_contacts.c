@@ -43,19 +43,28 @@ static void nearest(const MesoVec3 a[2], const MesoVec3 b[2], float *s, float *t
     }
 }
 
-/* How far the section of a link reaches towards `direction` at v, where its chord runs along `along`. */
-static float reach(const MesoRelaxShape *shape, const MesoRelaxLink *link, float v, MesoVec3 along, MesoVec3 direction)
+/* The angle of a direction, to 3e-4: directions of sections are sampled more coarsely. */
+static float angle_of(float x, float y)
+{
+    float ax = fabsf(x), ay = fabsf(y), high = ax > ay ? ax : ay, low = ax > ay ? ay : ax;
+    float t = high > 0 ? low / high : 0, square = t * t;
+    float angle = t + t * square * (-0.327622764f + square * (0.15931422f - 0.0464964749f * square));
+    angle = ay > ax ? (float)MESO_PI / 2 - angle : angle;
+    angle = x < 0 ? (float)MESO_PI - angle : angle;
+    return y < 0 ? -angle : angle;
+}
+
+/* How far the section of a link reaches towards `direction` at v, on its chord `i`. */
+static float reach(const MesoRelaxShape *shape, const MesoRelaxLink *link, float v, uint32_t i, MesoVec3 direction)
 {
     float w = v * v * (3 - 2 * v);
-    MesoVec3 tangent = meso_vec3_unit(along, (MesoVec3){0, 0, 0});
-    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(meso_vec3_lerp(link->up[0], link->up[1], v), tangent),
-                                (MesoVec3){0, 0, 0});
-    float dx = meso_vec3_dot(direction, x), dy = meso_vec3_dot(direction, meso_vec3_cross(tangent, x));
+    float dx = meso_vec3_dot(direction, link->axes[i][0]), dy = meso_vec3_dot(direction, link->axes[i][1]);
     float length = sqrtf(dx * dx + dy * dy), sum = 0;
     if (shape->round)
         return length * ((1 - w) * link->scale[0] * shape->reach[0][0] + w * link->scale[1] * shape->reach[1][0]);
+    float direct = angle_of(dx, dy);
     for (uint32_t end = 0; end < 2 && length > 0; end++) {
-        float angle = atan2f(dy, dx) - shape->turn * (end ? w - 1 : w);
+        float angle = direct - shape->turn * (end ? w - 1 : w);
         float at = angle * MESO_RELAX_DIRECTIONS / (2 * (float)MESO_PI), before = floorf(at);
         uint32_t k = (uint32_t)((int32_t)before & (MESO_RELAX_DIRECTIONS - 1));
         float one = shape->reach[end][k], two = shape->reach[end][(k + 1) % MESO_RELAX_DIRECTIONS];
@@ -93,8 +102,8 @@ static bool meet(const MesoRelaxWork *work, const MesoRelaxLink *a, uint32_t i, 
     out->v[0] = ((float)i + s) / MESO_RELAX_CHORDS;
     out->v[1] = ((float)k + t) / MESO_RELAX_CHORDS;
     out->apart = apart_of(a, b, out->distance > 1e-6f * reach_most ? offset : (MesoVec3){0, 0, 0}, da, db);
-    out->needed = reach(&work->shapes[a->shape], a, out->v[0], da, meso_vec3_scale(out->apart, -1)) +
-                  reach(&work->shapes[b->shape], b, out->v[1], db, out->apart);
+    out->needed = reach(&work->shapes[a->shape], a, out->v[0], i, meso_vec3_scale(out->apart, -1)) +
+                  reach(&work->shapes[b->shape], b, out->v[1], k, out->apart);
     return out->distance < out->needed + slack;
 }
 
@@ -120,17 +129,36 @@ static bool chord_within(const MesoRelaxLink *link, uint32_t i, const MesoBox *b
 MesoRelaxNearness meso_relax_nearness(const MesoRelaxWork *work, const MesoRelaxLink *a, const MesoRelaxLink *b)
 {
     Contact contact;
-    MesoRelaxNearness out = {1, 0};
+    MesoRelaxNearness out = {1, 0, 0};
     float width = fminf(width_of(work, a), width_of(work, b));
     if (!boxes_within(&a->box, &b->box, a->bound + b->bound))
         return out;
     for (uint32_t i = 0; i < MESO_RELAX_CHORDS; i++)
         for (uint32_t k = 0; k < MESO_RELAX_CHORDS; k++)
             if (meet(work, a, i, b, k, 0, &contact)) {
+                if (contact.distance < out.distance * contact.needed)
+                    out.needed = contact.needed;
                 out.distance = fminf(out.distance, contact.distance / contact.needed);
                 out.depth = fmaxf(out.depth, (contact.needed - contact.distance) / width);
             }
     return out;
+}
+
+float meso_relax_depth_within(const MesoRelaxWork *work, const MesoRelaxLink *link, MesoVec3 point)
+{
+    float most = 0;
+    for (uint32_t i = 0; i < MESO_RELAX_CHORDS; i++) {
+        MesoVec3 along = meso_vec3_sub(link->points[i + 1], link->points[i]);
+        MesoVec3 offset = meso_vec3_sub(point, link->points[i]);
+        float square = meso_vec3_dot(along, along);
+        float part = square > 0 ? clamp(meso_vec3_dot(offset, along) / square) : 0;
+        offset = meso_vec3_mad(offset, -part, along);
+        float distance = meso_vec3_length(offset), v = ((float)i + part) / MESO_RELAX_CHORDS;
+        if (distance > 0 && distance < link->bound)
+            most = fmaxf(most, reach(&work->shapes[link->shape], link, v, i,
+                                     meso_vec3_scale(offset, 1 / distance)) - distance);
+    }
+    return most;
 }
 
 /* ---- what they ask ---- */

@@ -216,7 +216,12 @@ void meso_relax_trace(MesoRelaxLink *link, const MesoRelaxNode *nodes)
         link->points[i] = meso_bezier_point(link->p, (float)i / MESO_RELAX_CHORDS);
     for (uint32_t i = 0; i < MESO_RELAX_CHORDS; i++) {
         link->middles[i] = meso_vec3_lerp(link->points[i], link->points[i + 1], 0.5f);
-        link->halves[i] = meso_vec3_length(meso_vec3_sub(link->points[i + 1], link->points[i])) / 2;
+        MesoVec3 along = meso_vec3_sub(link->points[i + 1], link->points[i]), none = {0, 0, 0};
+        MesoVec3 tangent = meso_vec3_unit(along, none);
+        MesoVec3 up = meso_vec3_lerp(link->up[0], link->up[1], ((float)i + 0.5f) / MESO_RELAX_CHORDS);
+        link->halves[i] = meso_vec3_length(along) / 2;
+        link->axes[i][0] = meso_vec3_unit(meso_vec3_cross(up, tangent), none);
+        link->axes[i][1] = meso_vec3_cross(tangent, link->axes[i][0]);
     }
     link->box = meso_box_of(link->points, MESO_RELAX_CHORDS + 1);
 }

@@ -1,10 +1,19 @@
+#include "libcore/scene/sweep.h"
 #include "libcore/tiling/relax/relax_work.h"
+#include "libcore/tiling/strand/expansion.h"
 #include "libcore/tiling/tile/contour.h"
 
 static const float CONTOUR_STEP = 0.02f;
 
 /* What overlaps by so many widths of the thinner one lies in the other, and is one thing with it. */
 static const float ONE_THING = 0.95f;
+
+/* Of hollow sweeps in a square: what it takes to know by how much they graze others. */
+static const float GRAZE_STEP = 0.02f;
+
+/* Of an edge: what gets deeper into another one is meant to. */
+static const float GRAZE_MOST = 0.1f;
+enum { GRAZE_RINGS = 33 };
 
 /* Less than this part of what is within reach is drawn of hollow sections. */
 static const float HOLLOW = 0.85f;
@@ -43,10 +52,15 @@ static bool is_hollow_section(const MesoContourSet *contours, uint32_t section)
     return area < HOLLOW * within;
 }
 
-/* How far apart what lies so as drawn is to be, as a part of what it takes. */
-static float part_of(MesoRelaxNearness drawn, bool hollow)
+/*
+ * How far apart what lies so as drawn is to be, as a part of what it takes. Where a hollow section meets another one by
+ * no more than grazing it, `graze` deep, they are to be so much farther apart.
+ */
+static float part_of(MesoRelaxNearness drawn, bool hollow, float graze)
 {
-    return hollow ? drawn.distance : drawn.depth > ONE_THING ? 0 : 1;
+    if (!hollow)
+        return drawn.depth > ONE_THING ? 0.0f : 1.0f;
+    return drawn.needed > 0 ? fminf(drawn.distance + graze / drawn.needed, 1) : drawn.distance;
 }
 
 /* Seen in the direction from one middle to the other, on a wall one wide and as high as half the thickness. */
@@ -57,14 +71,14 @@ static MesoRelaxNearness drawn_nearness(const MesoContourSet *contours, uint32_t
     MesoVec2 offset = {to.x - from.x, (to.y - from.y) * thickness / 2};
     float distance = meso_vec2_length(offset);
     if (!(distance > 0))
-        return (MesoRelaxNearness){0, 1};
+        return (MesoRelaxNearness){0, 1, 0};
     MesoVec2 ahead = meso_vec2_scale(offset, 1 / distance), back = meso_vec2_scale(offset, -1 / distance);
     float one = scale * (reach_of(contours, a, ahead) + reach_of(contours, a, back));
     float two = scale * (reach_of(contours, b, ahead) + reach_of(contours, b, back));
     float needed = scale * (reach_of(contours, a, ahead) + reach_of(contours, b, back));
     if (!(distance < needed))
-        return (MesoRelaxNearness){1, 0};
-    return (MesoRelaxNearness){distance / needed, (needed - distance) / fminf(one, two)};
+        return (MesoRelaxNearness){1, 0, 0};
+    return (MesoRelaxNearness){distance / needed, (needed - distance) / fminf(one, two), needed};
 }
 
 static MesoStatus find_drawn(MesoRelaxWork *work, float scale, float thickness, MesoArena *arena, MesoArena *scratch,
@@ -92,7 +106,7 @@ static MesoStatus find_drawn(MesoRelaxWork *work, float scale, float thickness, 
         for (uint32_t i = 0; i < interface->section_count; i++)
             work->drawn[pairs++] = part_of(
                 drawn_nearness(&contours, s, interface->section_begin + i, scale, thickness),
-                work->hollow[s] || work->hollow[interface->section_begin + i]);
+                work->hollow[s] || work->hollow[interface->section_begin + i], 0);
     }
     return MESO_OK;
 }
@@ -135,7 +149,63 @@ static bool is_hollow(const MesoRelaxWork *work, const MesoRelaxLink *link)
     return work->hollow[sweep->from_section] || work->hollow[sweep->to_section];
 }
 
-static MesoStatus find_meant(MesoRelaxWork *work, const MesoRelaxWork *cells, MesoArena *arena, MesoError *error)
+/* What sweeps of tiles look like in their squares. */
+typedef struct Drawing {
+    MesoScene scene;
+    MesoExpansion expansion;
+    MesoMeshVertex *vertices;   /* [most of a sweep's] scratch */
+} Drawing;
+
+static MesoStatus draw_squares(Drawing *drawing, const MesoRelaxWork *work, const MesoModel *squares,
+                               MesoArena *scratch, MesoError *error)
+{
+    MesoModel model = *squares;
+    uint64_t most = 0;
+    model.options.divisions = GRAZE_RINGS;
+    model.options.section_step = GRAZE_STEP;
+    model.inner_meshes = work->model->inner_meshes;
+    MesoStatus status = meso_model_expand(&drawing->scene, &drawing->expansion, scratch, &model, 1, error);
+    if (status)
+        return status;
+    for (uint32_t k = 0; k < drawing->scene.kind_count; k++) {
+        uint64_t count = (uint64_t)drawing->scene.kinds[k].column_count * drawing->scene.kinds[k].division_count;
+        most = count > most ? count : most;
+    }
+    drawing->vertices = MESO_NEW(scratch, MesoMeshVertex, most, error);
+    return drawing->vertices ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+/* How far a sweep as drawn gets below what the other one reaches, which is not hollow. */
+static float graze_of(const Drawing *drawing, const MesoRelaxWork *cells, const MesoRelaxLink *hollow,
+                      const MesoRelaxLink *other)
+{
+    float most = 0;
+    for (uint32_t k = 0; k < drawing->scene.kind_count; k++) {
+        const MesoSweptKind *kind = &drawing->scene.kinds[k];
+        if (drawing->expansion.origins[k].sweep != hollow->sweep)
+            continue;
+        uint32_t vertex_count = kind->column_count * kind->division_count;
+        meso_sweep_vertices(&drawing->scene, kind, &drawing->scene.sweeps[kind->instance_begin], drawing->vertices);
+        for (uint32_t v = 0; v < vertex_count; v++)
+            most = fmaxf(most, meso_relax_depth_within(cells, other, drawing->vertices[v].position));
+    }
+    return most;
+}
+
+/* The part that two sweeps of a tile are to keep. */
+static float part_of_sweeps(const MesoRelaxWork *work, const MesoRelaxWork *cells, const Drawing *drawing,
+                            const MesoRelaxLink *a, const MesoRelaxLink *b)
+{
+    MesoRelaxNearness drawn = meso_relax_nearness(cells, a, b);
+    bool hollow[2] = {is_hollow(work, a), is_hollow(work, b)};
+    float graze = 0;
+    if (drawn.needed > 0 && a != b && hollow[0] != hollow[1])
+        graze = hollow[0] ? graze_of(drawing, cells, a, b) : graze_of(drawing, cells, b, a);
+    return part_of(drawn, hollow[0] || hollow[1], graze > GRAZE_MOST ? 0 : graze);
+}
+
+static MesoStatus find_meant(MesoRelaxWork *work, const MesoRelaxWork *cells, const Drawing *drawing, MesoArena *arena,
+                             MesoError *error)
 {
     const MesoTileSet *set = &work->model->tile_set;
     uint64_t pairs = 0;
@@ -152,8 +222,7 @@ static MesoStatus find_meant(MesoRelaxWork *work, const MesoRelaxWork *cells, Me
         for (uint32_t a = begin; a < end; a++) {
             work->meant_begin[cells->links[a].sweep] = pairs;
             for (uint32_t b = begin; b < end; b++)
-                work->meant[pairs++] = part_of(meso_relax_nearness(cells, &cells->links[a], &cells->links[b]),
-                                               is_hollow(work, &cells->links[a]) || is_hollow(work, &cells->links[b]));
+                work->meant[pairs++] = part_of_sweeps(work, cells, drawing, &cells->links[a], &cells->links[b]);
         }
     }
     return MESO_OK;
@@ -175,6 +244,7 @@ MesoStatus meso_relax_find_meant(MesoRelaxWork *work, MesoArena *arena, MesoErro
                          .options = {.thickness = thickness, .section_scale = scale,
                                      .tangent_scale = work->options.tangent_scale, .frame = work->options.frame}};
     MesoRelaxWork cells = {.model = &squares, .options = meso_map_options_resolve(squares.options, 1)};
+    Drawing drawing;
     meso_arena_init(&scratch);
     MesoStatus status = find_drawn(work, scale, thickness, arena, &scratch, error);
     if (!status)
@@ -184,7 +254,9 @@ MesoStatus meso_relax_find_meant(MesoRelaxWork *work, MesoArena *arena, MesoErro
     for (uint32_t i = 0; i < cells.link_count && !status; i++)
         meso_relax_trace(&cells.links[i], cells.nodes);
     if (!status)
-        status = find_meant(work, &cells, arena, error);
+        status = draw_squares(&drawing, work, &squares, &scratch, error);
+    if (!status)
+        status = find_meant(work, &cells, &drawing, arena, error);
     meso_arena_release(&scratch);
     return status;
 }

@@ -17,7 +17,9 @@ typedef struct MesoRelaxNode {
     MesoWallMove move;
     bool free;
     float thin;                 /* the thinnest part of its sweeps' sections, in scene units */
-    float curve_most;           /* the curvature to which contacts may bend its sweeps */
+    float bend_most;            /* how much contacts may bend its sweeps, by the sum of squared curvatures, */
+    float curve_most;           /* and by the largest one, */
+    float order_least;          /* and how near they may bring the planes at their ends to crossing */
     /* Of what is on a wall: */
     MesoWall wall;
     MesoVec3 axes[2];
@@ -46,7 +48,8 @@ typedef struct MesoRelaxLink {
     MesoVec3 p[4];
     MesoVec3 points[MESO_RELAX_CHORDS + 1];
     MesoVec3 middles[MESO_RELAX_CHORDS];    /* of the chords between them, */
-    float halves[MESO_RELAX_CHORDS];        /* and half of their lengths */
+    float halves[MESO_RELAX_CHORDS];        /* half of their lengths, */
+    MesoVec3 axes[MESO_RELAX_CHORDS][2];    /* and X and Y of the sections there */
     MesoBox box;                /* around them */
     float bound;                /* beyond which its sections do not reach */
     float room;                 /* to the nearest other sweep's section, */
@@ -120,10 +123,14 @@ void meso_relax_contacts(void *work, uint64_t begin, uint64_t end);
 typedef struct MesoRelaxNearness {
     float distance;     /* the least, as a part of what it takes there; at most 1 */
     float depth;        /* by which they overlap at most, in widths of the thinner one */
+    float needed;       /* what it takes at the least distance; 0 where nothing overlaps */
 } MesoRelaxNearness;
 
 /* Of two links that need not be in a list. */
 MesoRelaxNearness meso_relax_nearness(const MesoRelaxWork *work, const MesoRelaxLink *a, const MesoRelaxLink *b);
+
+/* How far below what a link reaches a point lies; 0 outside. */
+float meso_relax_depth_within(const MesoRelaxWork *work, const MesoRelaxLink *link, MesoVec3 point);
 
 /* Pairs of links that overlap. O(near pairs). */
 uint64_t meso_relax_count(const MesoRelaxWork *work);

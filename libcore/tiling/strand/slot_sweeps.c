@@ -2,6 +2,7 @@
 
 #include "libcore/scene/cell.h"
 #include "libcore/scene/sweep.h"
+#include "libcore/scene/sweep_plane.h"
 #include "libcore/tiling/strand/trajectory.h"
 
 static bool deforms(const MesoSlotSweeps *s)
@@ -103,9 +104,10 @@ static MesoStatus make_cap(const MesoSlotSweeps *s, MesoSlotWalls *walls, const 
     return MESO_OK;
 }
 
-static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, const MesoKindOrigin *origin, uint32_t slot,
+static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint32_t kind, uint32_t slot,
                             MesoSweepInstance *out, MesoError *error)
 {
+    const MesoKindOrigin *origin = &s->origins[kind];
     MesoPort start, end;
     MesoStatus status = find_port(s, walls, slot, origin->start_side, origin->start_section, &start, error);
     if (!status)
@@ -120,13 +122,15 @@ static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, const
     meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(s, origin), out->p);
     if (s->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
+    out->mitre = meso_sweep_mitre(&s->scene, &s->scene.kinds[kind], out);
     return MESO_OK;
 }
 
 static MesoStatus make_on(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint32_t kind, uint32_t slot,
                           MesoSweepInstance *out, MesoError *error)
 {
-    return (s->scene.kinds[kind].cap ? make_cap : make_tube)(s, walls, &s->origins[kind], slot, out, error);
+    return s->scene.kinds[kind].cap ? make_cap(s, walls, &s->origins[kind], slot, out, error)
+                                    : make_tube(s, walls, kind, slot, out, error);
 }
 
 static uint32_t slot_of(const MesoSlotSweeps *s, uint32_t kind, uint32_t i)

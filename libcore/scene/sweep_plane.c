@@ -1,0 +1,155 @@
+#include "libcore/scene/sweep_plane.h"
+
+#include <math.h>
+
+#include "libcore/math/bezier.h"
+
+/* To both sides, for differences: short against a bend, long against the rounding of directions. */
+static const float CHANGE_STEP = 1.0f / 128;
+
+/* Of the angle between directions: below it there is no plane to turn in. */
+static const float LEAST_SINE = 1e-4f;
+
+/*
+ * X and Y span the plane across `tangent`. Where the up direction lies along
+ * the tangent there is no such plane; any one across it will do.
+ */
+MesoSweepPlane meso_sweep_plane_across(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed)
+{
+    MesoVec3 axis = fabsf(tangent.x) < 0.6f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
+    MesoVec3 fallback = meso_vec3_unit(meso_vec3_cross(axis, tangent), axis);
+    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(up, tangent), fallback);
+    return (MesoSweepPlane){origin, x, meso_vec3_cross(tangent, x), tangent, speed};
+}
+
+/* ---- frames that turn least ---- */
+
+/* The mirror image of `a` in the plane across `axis`. */
+static MesoVec3 reflect(MesoVec3 a, MesoVec3 axis)
+{
+    float square = meso_vec3_dot(axis, axis);
+    return square > 0 ? meso_vec3_mad(a, -2 * meso_vec3_dot(axis, a) / square, axis) : a;
+}
+
+static MesoVec3 tangent_at(const MesoSweepInstance *sweep, float v)
+{
+    if (v == 0 || v == 1)
+        return sweep->direction[v == 1];
+    return meso_vec3_unit(meso_bezier_derivative(sweep->p, v), sweep->direction[v > 0.5f]);
+}
+
+/* Double reflection: in the plane between both points, then in the one that takes the tangent there. */
+static MesoSweepStation step_to(const MesoSweepStation *from, const MesoSweepInstance *sweep, float v)
+{
+    MesoSweepStation to = {.point = meso_bezier_point(sweep->p, v), .tangent = tangent_at(sweep, v)};
+    MesoVec3 between = meso_vec3_sub(to.point, from->point);
+    MesoVec3 x = reflect(from->x, between), tangent = reflect(from->tangent, between);
+    x = reflect(x, meso_vec3_sub(to.tangent, tangent));
+    to.x = meso_vec3_unit(meso_vec3_mad(x, -meso_vec3_dot(x, to.tangent), to.tangent), from->x);
+    return to;
+}
+
+static MesoSweepStation first_station(const MesoSweepInstance *sweep)
+{
+    MesoSweepPlane start = meso_sweep_plane_across(sweep->p[0], sweep->up[0], sweep->direction[0], 0);
+    return (MesoSweepStation){start.origin, start.x, start.tangent};
+}
+
+static void make_stations(const MesoSweepInstance *sweep, MesoSweepStation stations[MESO_FRAME_STEPS + 1])
+{
+    stations[0] = first_station(sweep);
+    for (uint32_t i = 0; i < MESO_FRAME_STEPS; i++)
+        stations[i + 1] = step_to(&stations[i], sweep, (float)(i + 1) / MESO_FRAME_STEPS);
+}
+
+float meso_sweep_twist(const MesoSweepInstance *sweep)
+{
+    MesoSweepStation stations[MESO_FRAME_STEPS + 1];
+    make_stations(sweep, stations);
+    const MesoSweepStation *last = &stations[MESO_FRAME_STEPS];
+    MesoSweepPlane end = meso_sweep_plane_across(sweep->p[3], sweep->up[1], sweep->direction[1], 0);
+    MesoVec3 y = meso_vec3_cross(last->tangent, last->x);
+    return atan2f(meso_vec3_dot(end.x, y), meso_vec3_dot(end.x, last->x));
+}
+
+static MesoVec3 least_turned_x(const MesoSweepFrames *frames, float v)
+{
+    uint32_t before = (uint32_t)(v * MESO_FRAME_STEPS);
+    return step_to(&frames->stations[before], frames->sweep, v).x;
+}
+
+/* ---- mitres ---- */
+
+/* How long the trajectory is up to v, by three places of Gauss's. */
+static float length_to(const MesoSweepInstance *sweep, float v)
+{
+    static const float at[] = {0.11270167f, 0.5f, 0.88729833f}, weight[] = {5.0f / 18, 8.0f / 18, 5.0f / 18};
+    float sum = 0;
+    for (int i = 0; i < 3; i++)
+        sum += weight[i] * meso_vec3_length(meso_bezier_derivative(sweep->p, v * at[i]));
+    return v * sum;
+}
+
+/* From one direction to another, by a part of the angle between. */
+static MesoVec3 turn_to(MesoVec3 from, MesoVec3 to, float part)
+{
+    float sine = meso_vec3_length(meso_vec3_cross(from, to)), angle = atan2f(sine, meso_vec3_dot(from, to));
+    if (!(sine > LEAST_SINE))
+        return meso_vec3_unit(meso_vec3_lerp(from, to, part), from);
+    return meso_vec3_unit(meso_vec3_mad(meso_vec3_scale(from, sinf((1 - part) * angle)), sinf(part * angle), to), from);
+}
+
+/* E. */
+static MesoVec3 even_direction(const MesoSweepFrames *frames, float v)
+{
+    const MesoSweepInstance *sweep = frames->sweep;
+    const MesoVec3 *ends = sweep->direction;
+    float t = frames->length > 0 ? length_to(sweep, v) / frames->length : v;
+    if (meso_vec3_dot(ends[0], ends[1]) > -0.5f)
+        return turn_to(ends[0], ends[1], t);
+    MesoVec3 across = meso_vec3_unit(meso_vec3_sub(sweep->p[3], sweep->p[0]), ends[0]);
+    return t < 0.5f ? turn_to(ends[0], across, 2 * t) : turn_to(across, ends[1], 2 * t - 1);
+}
+
+/* ---- planes along a trajectory ---- */
+
+MesoSweepFrames meso_sweep_frames(MesoFrameRule rule, const MesoSweepInstance *sweep)
+{
+    MesoSweepFrames frames = {.sweep = sweep, .rule = rule};
+    if (rule == MESO_FRAME_MINIMAL)
+        make_stations(sweep, frames.stations);
+    if (sweep->mitre > 0)
+        frames.length = length_to(sweep, 1);
+    return frames;
+}
+
+/* At the ends all comes from the ports alone: the neighbour computes the same floats. */
+MesoSweepPlane meso_sweep_plane(const MesoSweepFrames *frames, float v)
+{
+    const MesoSweepInstance *sweep = frames->sweep;
+    if (v == 0 || v == 1) {
+        uint32_t end = v == 1;
+        float speed = 3 * meso_vec3_length(meso_vec3_sub(sweep->p[end ? 3 : 1], sweep->p[end ? 2 : 0]));
+        return meso_sweep_plane_across(sweep->p[end ? 3 : 0], sweep->up[end], sweep->direction[end], speed);
+    }
+    MesoVec3 derivative = meso_bezier_derivative(sweep->p, v), point = meso_bezier_point(sweep->p, v);
+    MesoVec3 tangent = meso_vec3_unit(derivative, sweep->direction[v > 0.5f]);
+    float speed = meso_vec3_length(derivative);
+    if (sweep->mitre > 0)
+        tangent = meso_vec3_unit(meso_vec3_lerp(tangent, even_direction(frames, v), sweep->mitre), tangent);
+    if (frames->rule == MESO_FRAME_PAPER)
+        return meso_sweep_plane_across(point, meso_vec3_lerp(sweep->up[0], sweep->up[1], v), tangent, speed);
+    MesoVec3 x = least_turned_x(frames, v);
+    if (sweep->mitre > 0)
+        x = meso_vec3_unit(meso_vec3_mad(x, -meso_vec3_dot(x, tangent), tangent), x);
+    return (MesoSweepPlane){point, x, meso_vec3_cross(tangent, x), tangent, speed};
+}
+
+MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, float v)
+{
+    float low = fmaxf(v - CHANGE_STEP, 0), high = fminf(v + CHANGE_STEP, 1), scale = 1 / (high - low);
+    MesoSweepPlane before = meso_sweep_plane(frames, low), after = meso_sweep_plane(frames, high);
+    return (MesoSweepPlaneChange){meso_bezier_derivative(frames->sweep->p, v),
+                                  meso_vec3_scale(meso_vec3_sub(after.x, before.x), scale),
+                                  meso_vec3_scale(meso_vec3_sub(after.y, before.y), scale)};
+}

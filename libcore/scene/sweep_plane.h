@@ -1,0 +1,43 @@
+/* The planes that the rings of a sweep lie in, by the formulas of scene.h: B, T, X and Y. */
+#ifndef MESO_SWEEP_PLANE_H
+#define MESO_SWEEP_PLANE_H
+
+#include "libcore/scene/scene.h"
+
+typedef struct MesoSweepPlane {
+    MesoVec3 origin, x, y, tangent;
+    float speed;    /* |B'| */
+} MesoSweepPlane;
+
+/* By how much B, X and Y change with v. */
+typedef struct MesoSweepPlaneChange {
+    MesoVec3 origin, x, y;
+} MesoSweepPlaneChange;
+
+/* X and T of the trajectory at one place. */
+typedef struct MesoSweepStation {
+    MesoVec3 point, x, tangent;
+} MesoSweepStation;
+
+/* What the planes of one sweep share. */
+typedef struct MesoSweepFrames {
+    const MesoSweepInstance *sweep;
+    MesoFrameRule rule;
+    float length;           /* of the trajectory, where there is a mitre */
+    MesoSweepStation stations[MESO_FRAME_STEPS + 1];    /* of the rule that needs them */
+} MesoSweepFrames;
+
+MesoSweepFrames meso_sweep_frames(MesoFrameRule rule, const MesoSweepInstance *sweep);
+
+MesoSweepPlane meso_sweep_plane(const MesoSweepFrames *frames, float v);
+
+/* By differences of planes close by. */
+MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, float v);
+
+/* The plane across `tangent`, X across `up`. */
+MesoSweepPlane meso_sweep_plane_across(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed);
+
+/* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]. */
+float meso_sweep_twist(const MesoSweepInstance *sweep);
+
+#endif
