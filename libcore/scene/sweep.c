@@ -238,6 +238,25 @@ static inline MesoVec3 tube_point(const MesoScene *scene, const Track *track, co
     return meso_vec3_mad(ring->plane.origin, scene->section_scale, in_plane(&ring->plane, at));
 }
 
+/* A ring of a grid without what is not wanted; its vertices are where they are without that. */
+static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
+                                       const MesoSweepGrid *grid, const uint8_t *wanted, MesoMeshVertex *out)
+{
+    const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
+    for (uint32_t c = 0; c < grid->column_count; c++)
+        if (wanted[c])
+            out[c] = tube_vertex(scene, track, ring, &columns[grid->columns ? grid->columns[c] : c]);
+    return out + grid->column_count;
+}
+
+static bool any_wanted(const uint8_t *wanted, uint32_t count)
+{
+    uint8_t any = 0;
+    for (uint32_t i = 0; i < count; i++)
+        any |= wanted[i];
+    return any != 0;
+}
+
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
 static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
@@ -292,8 +311,17 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
 {
     Track track = make_track(scene, kind, sweep);
     for (uint32_t r = 0; r < grid->ring_count; r++) {
+        const uint8_t *wanted = grid->wanted ? grid->wanted + (size_t)r * grid->column_count : NULL;
+        if (wanted && !any_wanted(wanted, grid->column_count)) {
+            out += grid->column_count;
+            continue;
+        }
         float v = grid->own ? meso_sweep_place(kind, sweep, r) : (float)r / (float)(grid->ring_count - 1);
         Ring ring = ring_at(scene, &track, v);
+        if (wanted) {
+            out = wanted_vertices(scene, &track, &ring, grid, wanted, out);
+            continue;
+        }
         out = ring_vertices(scene, &track, &ring, grid, absent_on(kind, grid, r), out);
     }
     return out;
@@ -410,8 +438,11 @@ MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, con
 }
 
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
-                     const MesoSweepGrid *grid, MesoMeshVertex *out)
+                     const MesoSweepGrid *given, MesoMeshVertex *out)
 {
+    MesoSweepGrid all = *given, *grid = &all;
+    if (scene->deform != MESO_SWEEP_CURVES)     /* all vertices are bent together */
+        all.wanted = NULL;
     MesoMeshVertex *end = (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
     if (scene->deform == MESO_SWEEP_SHAPE) {
         const MesoCage *cage = &scene->cages[sweep->cage];

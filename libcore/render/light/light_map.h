@@ -28,10 +28,11 @@ MesoStatus meso_light_maps_init(MesoLightMaps *maps, MesoArena *arena, const Mes
                                 MesoVec3 middle, float radius, uint32_t size, MesoError *error);
 
 /*
- * Draws all shapes into all maps, each as fine as half a texel. The same on any number of threads. O(shapes' vertices *
- * maps). MESO_ERR_MEMORY alone.
+ * Draws all shapes into all maps of the sets, as fine as half a texel; best with the largest maps first. The same on
+ * any number of threads. O(shapes' vertices * maps). MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_light_maps_draw(MesoLightMaps *maps, const MesoShapes *shapes, uint32_t thread_count, MesoError *error);
+MesoStatus meso_light_maps_draw(MesoLightMaps *const *sets, uint32_t set_count, const MesoShapes *shapes,
+                                uint32_t thread_count, MesoError *error);
 
 /*
  * How much a surface at `p` with the normal `n` faces each light, not below 0, and what share of that light reaches it

@@ -5,7 +5,7 @@
 #include "libcore/base/parallel.h"
 
 /* Shapes are made a batch at a time, by ranges, and each batch is drawn into the maps that have a texel for it. */
-enum { RANGE = 64, BATCH = 128, MOST = 12 };       /* shapes, ranges, shapes */
+enum { RANGE = 64, BATCH = 64, MOST = 12 };       /* shapes, ranges, shapes */
 
 /* Where what a shape has begins in its range. */
 typedef struct Piece {
@@ -18,17 +18,25 @@ typedef struct Range {
     uint32_t *corners[2];       /* of triangles that have two sides, and of closed shapes */
     uint32_t point_count, corner_count[2];
     uint64_t room[3], corner_room[2];
+    float reach;                /* towards the light of what stands for a surface: the least of its shapes */
 } Range;
 
-typedef struct Batch {
-    const MesoShapes *shapes;
+/* What a batch is for maps of one size. */
+typedef struct Part {
     MesoLightMaps *maps;
-    MesoRasterLanes lanes;
     float tolerance;
-    uint64_t first;             /* shape */
-    uint32_t range_count;
     Range ranges[BATCH];
     uint64_t *wanted;           /* [BATCH * maps] a bit for each shape of a range that reaches a texel's middle there */
+} Part;
+
+/* Parts are made and drawn together: one map alone would keep one thread busy. */
+typedef struct Batch {
+    const MesoShapes *shapes;
+    MesoRasterLanes lanes;
+    uint64_t first;             /* shape */
+    uint32_t range_count;
+    Part *parts;
+    uint32_t part_count, map_count;
     MesoShapeMesh *meshes;      /* one a worker */
     MesoRasterVertex **projected;
     uint64_t *projected_room;
@@ -69,6 +77,7 @@ static bool add_mesh(Range *range, const MesoShapeMesh *mesh)
     }
     for (uint32_t c = 0; c < 3 * mesh->triangle_count; c++)
         range->corners[closed][first + c] = range->point_count + mesh->corners[c];
+    range->reach = fminf(range->reach, mesh->reach);
     range->point_count = (uint32_t)points;
     range->corner_count[closed] = (uint32_t)corners;
     return true;
@@ -144,19 +153,20 @@ static uint64_t wanted_of(const MesoRasterView *view, const Boxes *boxes, uint32
 /* ---- drawing ---- */
 
 /* Makes what some map wants of a range; false where memory is out. */
-static bool make_range(Batch *batch, uint32_t r, MesoShapeMesh *mesh)
+static bool make_range(const Batch *batch, Part *part, uint32_t r, MesoShapeMesh *mesh)
 {
-    Range *range = &batch->ranges[r];
+    Range *range = &part->ranges[r];
     uint64_t first = batch->first + (uint64_t)r * RANGE, left = batch->shapes->count - first, any = 0;
     uint32_t count = left < RANGE ? (uint32_t)left : RANGE;
     Boxes boxes = boxes_of(batch->shapes, first, count);
-    for (uint32_t m = 0; m < batch->maps->count; m++)
-        any |= batch->wanted[r * batch->maps->count + m] = wanted_of(&batch->maps->maps[m].view, &boxes, count);
+    for (uint32_t m = 0; m < part->maps->count; m++)
+        any |= part->wanted[r * part->maps->count + m] = wanted_of(&part->maps->maps[m].view, &boxes, count);
     range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
+    range->reach = INFINITY;
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
         if (i < count && any >> i & 1 &&
-            !(meso_shape_make(batch->shapes, (uint32_t)(first + i), batch->tolerance, MESO_SHAPE_SHADOW, mesh) &&
+            !(meso_shape_make(batch->shapes, (uint32_t)(first + i), part->tolerance, MESO_SHAPE_SHADOW, mesh) &&
               add_mesh(range, mesh)))
             return false;
     }
@@ -166,8 +176,9 @@ static bool make_range(Batch *batch, uint32_t r, MesoShapeMesh *mesh)
 static void make_ranges(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Batch *batch = context;
-    for (uint64_t r = begin; r < end; r++)
-        if (!make_range(batch, (uint32_t)r, &batch->meshes[worker]))
+    for (uint64_t i = begin; i < end; i++)
+        if (!make_range(batch, &batch->parts[i / batch->range_count], (uint32_t)(i % batch->range_count),
+                        &batch->meshes[worker]))
             fail(batch);
 }
 
@@ -188,34 +199,60 @@ static void draw_range(const MesoRasterTarget *target, const MesoRasterView *vie
 {
     if (__builtin_popcountll(wanted) > MOST)        /* rather a few for nothing than many calls */
         wanted = UINT64_MAX;
+    /* What stands for thin shapes lies within them. Light is asked for two texels and more off a surface: half a texel
+     * of that makes no surface shade itself. */
+    MesoRasterView nearer = *view;
+    nearer.eye = meso_vec3_mad(view->eye, range->reach, view->forward);
     for (uint32_t first = 0; wanted; ) {
         uint32_t skipped = (uint32_t)__builtin_ctzll(wanted);
         first += skipped;
         wanted >>= skipped;
         uint32_t run = ~wanted ? (uint32_t)__builtin_ctzll(~wanted) : RANGE;
-        draw_pieces(target, view, range, first, first + run, projected);
+        draw_pieces(target, &nearer, range, first, first + run, projected);
         first += run;
         wanted = run < RANGE ? wanted >> run : 0;
     }
 }
 
+/* False where memory is out. */
+static bool draw_map(Batch *batch, const Part *part, uint32_t m, uint32_t worker)
+{
+    const MesoLightMaps *maps = part->maps;
+    int32_t cells = (int32_t)maps->size / 4;
+    const MesoRasterTarget target = {&batch->lanes, cells, cells, maps->maps[m].nearness, NULL};
+    for (uint32_t r = 0; r < batch->range_count; r++) {
+        const Range *range = &part->ranges[r];
+        if (!grow((void **)&batch->projected[worker], &batch->projected_room[worker], range->point_count,
+                  sizeof **batch->projected))
+            return false;
+        draw_range(&target, &maps->maps[m].view, range, part->wanted[r * maps->count + m], batch->projected[worker]);
+    }
+    return true;
+}
+
 static void draw_maps(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Batch *batch = context;
-    for (uint64_t m = begin; m < end; m++) {
-        const MesoLightMap *map = &batch->maps->maps[m];
-        int32_t cells = (int32_t)batch->maps->size / 4;
-        const MesoRasterTarget target = {&batch->lanes, cells, cells, map->nearness, NULL};
-        for (uint32_t r = 0; r < batch->range_count; r++) {
-            const Range *range = &batch->ranges[r];
-            if (!grow((void **)&batch->projected[worker], &batch->projected_room[worker], range->point_count,
-                      sizeof **batch->projected)) {
-                fail(batch);
-                return;
-            }
-            draw_range(&target, &map->view, range, batch->wanted[r * batch->maps->count + m], batch->projected[worker]);
-        }
+    for (uint64_t i = begin; i < end; i++) {
+        const Part *part = batch->parts;
+        uint64_t m = i;
+        for (; m >= part->maps->count; part++)
+            m -= part->maps->count;
+        if (!draw_map(batch, part, (uint32_t)m, worker))
+            fail(batch);
     }
+}
+
+static void release_part(Part *part)
+{
+    for (uint32_t r = 0; r < BATCH; r++) {
+        free(part->ranges[r].x);
+        free(part->ranges[r].y);
+        free(part->ranges[r].z);
+        free(part->ranges[r].corners[0]);
+        free(part->ranges[r].corners[1]);
+    }
+    free(part->wanted);
 }
 
 static void release(Batch *batch, uint32_t workers)
@@ -226,45 +263,51 @@ static void release(Batch *batch, uint32_t workers)
         if (batch->projected)
             free(batch->projected[w]);
     }
-    for (uint32_t r = 0; r < BATCH; r++) {
-        free(batch->ranges[r].x);
-        free(batch->ranges[r].y);
-        free(batch->ranges[r].z);
-        free(batch->ranges[r].corners[0]);
-        free(batch->ranges[r].corners[1]);
-    }
-    free(batch->wanted);
+    for (uint32_t i = 0; batch->parts && i < batch->part_count; i++)
+        release_part(&batch->parts[i]);
+    free(batch->parts);
     free(batch->meshes);
     free(batch->projected);
     free(batch->projected_room);
-    free(batch);
 }
 
-MesoStatus meso_light_maps_draw(MesoLightMaps *maps, const MesoShapes *shapes, uint32_t thread_count, MesoError *error)
+/* False where memory is out. */
+static bool begin_batch(Batch *batch, MesoLightMaps *const *sets, uint32_t set_count, uint32_t workers)
 {
-    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
-    Batch *batch = calloc(1, sizeof *batch);
-    if (!batch)
-        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light");
-    batch->shapes = shapes;
-    batch->maps = maps;
     batch->lanes = meso_raster_lanes(1);
-    batch->tolerance = 0.5f * maps->texel;
-    batch->wanted = calloc((size_t)BATCH * maps->count, sizeof *batch->wanted);
+    batch->parts = calloc(set_count + 1, sizeof *batch->parts);
+    batch->part_count = set_count;
     batch->meshes = calloc(workers, sizeof *batch->meshes);
     batch->projected = calloc(workers, sizeof *batch->projected);
     batch->projected_room = calloc(workers, sizeof *batch->projected_room);
-    batch->failed = !batch->wanted || !batch->meshes || !batch->projected || !batch->projected_room;
-    for (size_t i = 0; i < (size_t)maps->count * maps->size * maps->size; i++)
-        maps->nearness[i] = -INFINITY;
-    for (batch->first = 0; batch->first < shapes->count && !batch->failed; batch->first += BATCH * RANGE) {
-        uint64_t left = shapes->count - batch->first;
-        batch->range_count = left < BATCH * RANGE ? (uint32_t)((left + RANGE - 1) / RANGE) : BATCH;
-        meso_parallel_team(workers, batch->range_count, 1, make_ranges, batch);
-        if (!batch->failed)
-            meso_parallel_team(workers, maps->count, 1, draw_maps, batch);
+    bool made = batch->parts && batch->meshes && batch->projected && batch->projected_room;
+    for (uint32_t i = 0; made && i < set_count; i++) {
+        MesoLightMaps *maps = sets[i];
+        Part *part = &batch->parts[i];
+        part->maps = maps;
+        part->tolerance = 0.5f * maps->texel;
+        part->wanted = calloc((size_t)BATCH * maps->count + 1, sizeof *part->wanted);
+        batch->map_count += maps->count;
+        made = part->wanted != NULL;
+        for (size_t t = 0; t < (size_t)maps->count * maps->size * maps->size; t++)
+            maps->nearness[t] = -INFINITY;
     }
-    bool failed = batch->failed;
-    release(batch, workers);
-    return failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light") : MESO_OK;
+    return made;
+}
+
+MesoStatus meso_light_maps_draw(MesoLightMaps *const *sets, uint32_t set_count, const MesoShapes *shapes,
+                                uint32_t thread_count, MesoError *error)
+{
+    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
+    Batch batch = {.shapes = shapes};
+    batch.failed = !begin_batch(&batch, sets, set_count, workers);
+    for (; batch.first < shapes->count && !batch.failed; batch.first += BATCH * RANGE) {
+        uint64_t left = shapes->count - batch.first;
+        batch.range_count = left < BATCH * RANGE ? (uint32_t)((left + RANGE - 1) / RANGE) : BATCH;
+        meso_parallel_team(workers, (uint64_t)batch.part_count * batch.range_count, 1, make_ranges, &batch);
+        if (!batch.failed)
+            meso_parallel_team(workers, batch.map_count, 1, draw_maps, &batch);
+    }
+    release(&batch, workers);
+    return batch.failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light") : MESO_OK;
 }

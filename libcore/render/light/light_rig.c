@@ -194,9 +194,8 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
     MesoStatus status = make_sky(rig, arena, quality, error);
     if (!status)
         status = make_key(rig, arena, view, quality, error);
-    if (!status)
-        status = meso_light_maps_draw(&rig->sky, shapes, thread_count, error);
-    return status || rig->key.count == 0 ? status : meso_light_maps_draw(&rig->key, shapes, thread_count, error);
+    MesoLightMaps *const sets[] = {&rig->key, &rig->sky};       /* the key light's are larger */
+    return status ? status : meso_light_maps_draw(sets, 2, shapes, thread_count, error);
 }
 
 /* ---- light on a surface ---- */
