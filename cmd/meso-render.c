@@ -197,6 +197,18 @@ static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     return status;
 }
 
+/*
+ * Low bands keep the picture small beside the lights' maps; not where all of it would be looked through before the
+ * first of several.
+ */
+static uint32_t choose_rows(const MesoRenderArguments *a, const MesoScene *scene, const MesoRenderOptions *options)
+{
+    enum { LOW = 256 };
+    uint32_t most = meso_paint_band_rows(scene, options);
+    bool looked_through = options->find_covered || options->extras & MESO_EXTRA_MATTES;
+    return a->band_rows || looked_through || most <= LOW ? a->band_rows : LOW;
+}
+
 /* By tiles: each band is painted and written. */
 static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
@@ -205,6 +217,7 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     MesoImage band;
     double at = meso_seconds();
     d->renderer = "tiles";
+    d->options.band_rows = choose_rows(a, scene, &d->options);
     MesoStatus status = meso_painter_init(&painter, &band, arena, scene, &d->options, a->tool.threads, error);
     d->drawing = lap(&at);
     if (status)

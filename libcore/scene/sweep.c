@@ -281,6 +281,25 @@ float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const 
     return most > -MITRE_BACKWARDS ? best : 0;
 }
 
+/* A ring of a grid without what is not wanted; its vertices are where they are without that. */
+static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
+                                       const MesoSweepGrid *grid, const uint8_t *wanted, MesoMeshVertex *out)
+{
+    const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
+    for (uint32_t c = 0; c < grid->column_count; c++)
+        if (wanted[c])
+            out[c] = tube_vertex(scene, track, ring, &columns[grid->columns ? grid->columns[c] : c]);
+    return out + grid->column_count;
+}
+
+static bool any_wanted(const uint8_t *wanted, uint32_t count)
+{
+    uint8_t any = 0;
+    for (uint32_t i = 0; i < count; i++)
+        any |= wanted[i];
+    return any != 0;
+}
+
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
 static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
@@ -336,8 +355,17 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
 {
     Track track = make_track(scene, kind, sweep);
     for (uint32_t r = 0; r < grid->ring_count; r++) {
+        const uint8_t *wanted = grid->wanted ? grid->wanted + (size_t)r * grid->column_count : NULL;
+        if (wanted && !any_wanted(wanted, grid->column_count)) {
+            out += grid->column_count;
+            continue;
+        }
         float v = grid->own ? meso_sweep_place(kind, sweep, r) : (float)r / (float)(grid->ring_count - 1);
         Ring ring = ring_at(scene, &track, v);
+        if (wanted) {
+            out = wanted_vertices(scene, &track, &ring, grid, wanted, out);
+            continue;
+        }
         out = ring_vertices(scene, &track, &ring, grid, absent_on(kind, grid, r), out);
     }
     return out;
@@ -466,8 +494,11 @@ MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, con
 }
 
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
-                     const MesoSweepGrid *grid, MesoMeshVertex *out)
+                     const MesoSweepGrid *given, MesoMeshVertex *out)
 {
+    MesoSweepGrid all = *given, *grid = &all;
+    if (scene->deform != MESO_SWEEP_CURVES)     /* all vertices are bent together */
+        all.wanted = NULL;
     MesoMeshVertex *end = (kind->cap ? cap_vertices : tube_vertices)(scene, kind, sweep, grid, out);
     if (scene->deform == MESO_SWEEP_SHAPE) {
         const MesoCage *cage = &scene->cages[sweep->cage];
@@ -486,115 +517,4 @@ void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
     const MesoSweepGrid whole = {.column_count = kind->column_count, .ring_count = kind->division_count,
                                  .own = true};
     meso_sweep_grid(scene, kind, sweep, &whole, out);
-}
-
-/* A row of faces from a ring between the ends to the next. */
-static MesoMeshFace *inner_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t here, bool tip,
-                               MesoMeshFace *out)
-{
-    uint32_t ahead = here + kind->column_count - kind->absent[2];
-    bool last = false;      /* whether the column before joins this one */
-    for (uint32_t c = 0; c < kind->column_count; c++) {
-        if (!(columns[c].absent & MESO_ABSENT_BETWEEN)) {
-            if (last)
-                *out++ = (MesoMeshFace){{here - 1, ahead - 1, tip ? here : ahead, tip ? MESO_NO_INDEX : here}};
-            here++;
-            ahead++;
-        }
-        last = columns[c].joins_next;
-    }
-    return out;
-}
-
-/* From a row's one ring at `a` to its other at `b`, and on along both or one. */
-static MesoMeshFace row_face(uint32_t a, uint32_t b, uint32_t b_ahead, uint32_t a_ahead)
-{
-    if (a_ahead == a)
-        return (MesoMeshFace){{a, b, b_ahead, MESO_NO_INDEX}};
-    if (b_ahead == b)
-        return (MesoMeshFace){{a, b, a_ahead, MESO_NO_INDEX}};
-    return (MesoMeshFace){{a, b, b_ahead, a_ahead}};
-}
-
-/* A row between the ring at an end, from `ring`, and one between, from `inner`; both walk on by their columns. */
-static MesoMeshFace *end_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t ring, uint32_t inner,
-                             bool end, MesoMeshFace *out)
-{
-    uint32_t absent = end ? MESO_ABSENT_END : MESO_ABSENT_START;
-    for (uint32_t c = 1; c < kind->column_count; c++) {
-        uint32_t ring_ahead = ring + !(columns[c].absent & absent);
-        uint32_t inner_ahead = inner + !(columns[c].absent & MESO_ABSENT_BETWEEN);
-        if (columns[c - 1].joins_next && (ring_ahead > ring || inner_ahead > inner))
-            *out++ = end ? row_face(inner, ring, ring_ahead, inner_ahead)
-                         : row_face(ring, inner, inner_ahead, ring_ahead);
-        ring = ring_ahead;
-        inner = inner_ahead;
-    }
-    return out;
-}
-
-static bool row_is_uneven(const MesoSweptKind *kind, bool end)
-{
-    return kind->absent[end] || kind->absent[2];
-}
-
-/* The rings run clockwise around the tangent: along, then around is counter-clockwise from outside. */
-void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_t base, MesoMeshFace *out)
-{
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    uint32_t last = kind->division_count - 1, width = kind->column_count - kind->absent[2];
-    uint32_t first = kind->column_count - kind->absent[0];
-    for (uint32_t ring = 0; ring < last; ring++) {
-        uint32_t here = ring == 0 ? base : base + first + (ring - 1) * width;
-        if (ring == 0 && row_is_uneven(kind, false))
-            out = end_row(kind, columns, base, base + first, false, out);
-        else if (ring + 1 == last && row_is_uneven(kind, true))
-            out = end_row(kind, columns, here + width, here, true, out);
-        else
-            out = inner_row(kind, columns, here, kind->cap && ring + 1 == last, out);
-    }
-}
-
-uint64_t meso_sweep_vertex_count(const MesoSweptKind *kind)
-{
-    uint64_t between = (uint64_t)(kind->division_count - 2) * (kind->column_count - kind->absent[2]);
-    return between + 2 * (uint64_t)kind->column_count - kind->absent[0] - kind->absent[1];
-}
-
-uint64_t meso_sweep_face_count(const MesoSweptKind *kind)
-{
-    return (uint64_t)kind->joint_count * (kind->division_count - 1) + kind->more_joints[0] + kind->more_joints[1];
-}
-
-uint64_t meso_sweep_triangle_count(const MesoSweptKind *kind)
-{
-    return 2 * meso_sweep_face_count(kind) - (kind->cap ? kind->joint_count : 0) - kind->fans[0] - kind->fans[1];
-}
-
-/* Joins of the columns that lack not all of the bits. */
-static uint32_t count_joints(const MesoSweepColumn *columns, uint32_t count, uint32_t absent)
-{
-    uint32_t joints = 0;
-    for (uint32_t c = 1; c < count; c++)
-        joints += columns[c - 1].joins_next && (columns[c].absent & absent) != absent;
-    return joints;
-}
-
-void meso_sweep_count(MesoSweptKind *kind, const MesoSweepColumn *columns)
-{
-    static const uint32_t bits[3] = {MESO_ABSENT_START, MESO_ABSENT_END, MESO_ABSENT_BETWEEN};
-    uint32_t count = kind->column_count;
-    for (uint32_t k = 0; k < 3; k++) {
-        kind->absent[k] = 0;
-        for (uint32_t c = 0; c < count; c++)
-            kind->absent[k] += (columns[c].absent & bits[k]) != 0;
-    }
-    kind->joint_count = count_joints(columns, count, MESO_ABSENT_BETWEEN);
-    for (uint32_t end = 0; end < 2; end++) {
-        uint32_t both = 0, faces = count_joints(columns, count, bits[end] | MESO_ABSENT_BETWEEN);
-        for (uint32_t c = 1; c < count; c++)
-            both += columns[c - 1].joins_next && !(columns[c].absent & (bits[end] | MESO_ABSENT_BETWEEN));
-        kind->more_joints[end] = faces - kind->joint_count;
-        kind->fans[end] = faces - both;
-    }
 }

@@ -20,10 +20,11 @@ float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep
 
 /* Which columns of a kind, and how many rings, as a level of detail has them (detail.h). */
 typedef struct MesoSweepGrid {
-    const uint32_t *columns;    /* [column_count] ascending columns of the kind; NULL: all of them */
+    const uint32_t *columns;    /* [column_count] columns of the kind; NULL: all of them */
     uint32_t column_count, ring_count;
     bool own;                   /* rings as files have them: paced, bowed, without what is absent; else even, whole */
     bool bare;                  /* positions alone: the rest of the vertices is left as it was */
+    const uint8_t *wanted;      /* [column_count * ring_count] not 0: others may be left as they were; NULL: all are */
 } MesoSweepGrid;
 
 /* Vertices of an instance of `kind` on these, to `out` [column_count * ring_count less what is absent], by rings. */

@@ -280,13 +280,13 @@ static void test_mitres(void)
 {
     static const MesoSweepInstance bends[4] = {
         {{{0, 0, 0}, {0.25f, 0, 0}, {0.3f, 0.05f, 0}, {0.3f, 0.3f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0},
+         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
         {{{0, 0, 0}, {0.3f, 0, 0}, {0, 0.4f, 0}, {0.3f, 0.4f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0},
+         {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
         {{{0, 0, 0}, {0.3f, 0, 0}, {0.3f, 0.6f, 0}, {0, 0.6f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0},
+         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
         {{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 0}}, {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1},
-         0, 0, 0}};
+         0, 0, 0, {0}}};
     MesoVec2 disc[64];
     static MesoMeshVertex ends[2][65];
     uint32_t width = make_disc(disc, 64, 0.24f) + 1;
@@ -348,7 +348,7 @@ static void test_bowed(void)
     MesoMeshVertex plain[9];
     make_tube(point, 3, 0, 9);
     tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, {0}};
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
     sweep();
     for (uint32_t r = 0; r < 9; r++)
         plain[r] = tube.vertices[r * tube.kind.column_count];
@@ -383,6 +383,26 @@ static void test_pace(void)
     CHECK(before == 1 && meso_sweep_place(&kind, &hasty, 0) == 0);
 }
 
+/* Vertices that are wanted are as those of all; others are not touched, but where all are bent. */
+static void test_wanted(void)
+{
+    static MesoMeshVertex some[MOST_COLUMNS * MOST_RINGS];
+    uint8_t wanted[64 * 9] = {0};
+    MesoVec2 box[64];
+    uint32_t count = make_box(box, 16, 0.2f, 0.1f);
+    make_tube(box, count, count / 2, 33);
+    MesoSweepGrid grid = {.column_count = count, .ring_count = 9};
+    meso_sweep_grid(&tube.scene, &tube.kind, &tube.sweep, &grid, tube.vertices);
+    for (uint32_t v = 0; v < count * 9; v++) {
+        wanted[v] = v % 7 == 3 && v / count != 4;
+        some[v].uv.x = -1;
+    }
+    grid.wanted = wanted;
+    meso_sweep_grid(&tube.scene, &tube.kind, &tube.sweep, &grid, some);
+    for (uint32_t v = 0; v < count * 9; v++)
+        CHECK(wanted[v] ? memcmp(&some[v], &tube.vertices[v], sizeof *some) == 0 : some[v].uv.x == -1);
+}
+
 int main(void)
 {
     test_straight();
@@ -395,5 +415,6 @@ int main(void)
     test_bare();
     test_bowed();
     test_pace();
+    test_wanted();
     return 0;
 }

@@ -20,6 +20,7 @@ typedef struct Range {
     uint32_t *corners[2];       /* of triangles that have two sides, and of closed shapes */
     uint32_t point_count, corner_count[2];
     uint64_t room[3], corner_room[2];
+    float reach;                /* towards the light of what stands for a surface: the least of its shapes */
 } Range;
 
 /* What a batch is for maps of one size. */
@@ -77,6 +78,7 @@ static bool add_mesh(Range *range, const MesoShapeMesh *mesh)
     }
     for (uint32_t c = 0; c < 3 * mesh->triangle_count; c++)
         range->corners[closed][first + c] = range->point_count + mesh->corners[c];
+    range->reach = fminf(range->reach, mesh->reach);
     range->point_count = (uint32_t)points;
     range->corner_count[closed] = (uint32_t)corners;
     return true;
@@ -195,6 +197,7 @@ static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoSha
 {
     Range *range = &batch->ranges[r];
     range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
+    range->reach = INFINITY;
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
         if (i < RANGE && any >> i & 1 &&
@@ -238,12 +241,16 @@ static void draw_range(const MesoRasterTarget *target, const MesoRasterView *vie
 {
     if (__builtin_popcountll(wanted) > MOST)        /* rather a few for nothing than many calls */
         wanted = UINT64_MAX;
+    /* What stands for thin shapes lies within them. Light is asked for two texels and more off a surface: half a texel
+     * of that makes no surface shade itself. */
+    MesoRasterView nearer = *view;
+    nearer.eye = meso_vec3_mad(view->eye, range->reach, view->forward);
     for (uint32_t first = 0; wanted; ) {
         uint32_t skipped = (uint32_t)__builtin_ctzll(wanted);
         first += skipped;
         wanted >>= skipped;
         uint32_t run = ~wanted ? (uint32_t)__builtin_ctzll(~wanted) : RANGE;
-        draw_pieces(target, view, range, first, first + run, projected);
+        draw_pieces(target, &nearer, range, first, first + run, projected);
         first += run;
         wanted = run < RANGE ? wanted >> run : 0;
     }

@@ -75,8 +75,9 @@ bool meso_light_map_hides(const MesoLightMap *map, uint32_t size, const MesoRast
     Span x = span_of(rect->left, rect->right, size), y = span_of(rect->top, rect->bottom, size);
     if ((int64_t)(x.last - x.first + 1) * (y.last - y.first + 1) > MOST)
         return false;
-    /* What triangles are nearer than their corners by rounding is far less than that part of a texel. */
-    float nearest = 0.01f / map->view.focal - rect->depth;
+    /* What stands for thin shapes is drawn nearer by up to half a texel (shape_columns.h); what triangles are nearer
+     * than their corners by rounding is far less than the rest. */
+    float nearest = 0.51f / map->view.focal - rect->depth;
     for (int32_t py = y.first; py <= y.last; py++)
         for (int32_t px = x.first; px <= x.last; px++)
             if (!(map->nearness[texel_at(size, px, py)] > nearest))

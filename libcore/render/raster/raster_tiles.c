@@ -35,6 +35,8 @@ struct MesoRasterTile {
     uint32_t *first_ids;        /* [shape_count + 1] */
     SeenShape *seen;            /* [shape_count] */
     uint32_t shape_room;
+    uint8_t *seen_triangles;    /* [first_ids[shape_count]] 1: some place shows the triangle of that id */
+    uint64_t triangle_room;
     MesoShapeMesh mesh;
     float *coordinates;         /* of all vertices along x, then y, then z */
     MesoVec3 *from_eye;         /* where some lie behind the near plane */
@@ -324,6 +326,20 @@ static bool draw_bundles(MesoRasterTile *tile)
     return true;
 }
 
+/* False where memory is out. */
+static bool find_seen(MesoRasterTile *tile, uint32_t ids)
+{
+    if (ids > tile->triangle_room) {
+        if (!grow((void **)&tile->seen_triangles, 2 * (uint64_t)ids, sizeof *tile->seen_triangles))
+            return false;
+        tile->triangle_room = 2 * (uint64_t)ids;
+    }
+    memset(tile->seen_triangles, 0, ids);
+    for (uint32_t i = 0; i < PLACES; i++)
+        tile->seen_triangles[tile->ids[i]] = 1;
+    return true;
+}
+
 /* False where memory is out, or a tile has more triangles than 32 bits count. */
 static bool draw_tile(MesoRasterTile *tile, uint64_t number)
 {
@@ -343,7 +359,7 @@ static bool draw_tile(MesoRasterTile *tile, uint64_t number)
     if (!(bins->bundled ? draw_bundles : draw_shapes)(tile))
         return false;
     memset(tile->seen, 0, (tile->shape_count + 1) * sizeof *tile->seen);
-    return true;
+    return find_seen(tile, tile->first_ids[tile->shape_count]);
 }
 
 /* ---- what is there ---- */
@@ -380,7 +396,7 @@ static bool keep_shape(MesoRasterTile *tile, uint32_t i)
     MesoShapeMesh *mesh = &tile->mesh;
     SeenShape *seen = &tile->seen[i];
     float tolerance = meso_raster_tolerance(job, tile->shapes[i]);
-    if (!meso_shape_make(job->shapes, tile->shapes[i], tolerance, MESO_SHAPE_WHOLE, mesh))
+    if (!meso_shape_make_seen(job->shapes, tile->shapes[i], tolerance, tile->seen_triangles + tile->first_ids[i], mesh))
         return false;
     uint64_t vertices = tile->vertices_used + mesh->vertex_count;
     uint64_t corners = tile->corners_used + 3 * (uint64_t)mesh->triangle_count;
@@ -518,6 +534,7 @@ static void release(MesoRasterTile *tile)
     free(tile->first_ids);
     free(tile->seen);
     free(tile->coordinates);
+    free(tile->seen_triangles);
     free(tile->from_eye);
     free(tile->projected);
     free(tile->vertices);

@@ -57,30 +57,33 @@ enum { BLOCK = 64 };
 
 typedef struct Block {
     int32_t x[BLOCK], y[BLOCK];
-    float nearness[BLOCK], depth[BLOCK];
+    float nearness[BLOCK];
 } Block;
 
-/* As meso_raster_from_eye() and meso_raster_vertex(), without a branch. */
-__attribute__((always_inline)) static inline void project(const MesoRasterView *view, const float *x, const float *y,
-                                                          const float *z, uint32_t count, bool parallel, Block *out)
+/* As meso_raster_from_eye() and meso_raster_vertex(), without a branch. Whether some lie before the near plane. */
+__attribute__((always_inline)) static inline bool project(const MesoRasterView *view, const float *x, const float *y,
+                                                          const float *z, uint32_t count, bool parallel,
+                                                          int32_t corner_x, int32_t corner_y, Block *out)
 {
     const MesoRasterView v = *view;
     const float unit = MESO_RASTER_UNIT, far = 1 << 28, nearest = parallel ? -INFINITY : v.near_depth;
+    uint32_t before = 0;
     for (uint32_t i = 0; i < count; i++) {
         float dx = x[i] - v.eye.x, dy = y[i] - v.eye.y, dz = z[i] - v.eye.z;
         float right = dx * v.right.x + dy * v.right.y + dz * v.right.z;
         float down = dx * v.down.x + dy * v.down.y + dz * v.down.z;
         float depth = dx * v.forward.x + dy * v.forward.y + dz * v.forward.z;
-        out->depth[i] = depth;
+        before |= (uint32_t)!(depth >= nearest);
         depth = depth > nearest ? depth : nearest;
         float inverse = parallel ? 1 : 1 / depth, scale = v.focal * inverse;
         float px = (v.middle_x + scale * right) * unit, py = (v.middle_y + scale * down) * unit;
         px = px > far ? far : px < -far ? -far : px;
         py = py > far ? far : py < -far ? -far : py;
-        out->x[i] = (int32_t)rintf(px);
-        out->y[i] = (int32_t)rintf(py);
+        out->x[i] = (int32_t)rintf(px) - corner_x;
+        out->y[i] = (int32_t)rintf(py) - corner_y;
         out->nearness[i] = parallel ? -depth : inverse;
     }
+    return before;
 }
 
 __attribute__((always_inline)) static inline bool project_all(const MesoRasterView *view, const float *x,
@@ -92,16 +95,15 @@ __attribute__((always_inline)) static inline bool project_all(const MesoRasterVi
     Block block;
     for (uint32_t begin = 0; begin < count; begin += BLOCK) {
         uint32_t size = count - begin < BLOCK ? count - begin : BLOCK;
+        const float *px = x + begin, *py = y + begin, *pz = z + begin;
         if (view->parallel)
-            project(view, x + begin, y + begin, z + begin, size, true, &block);
+            project(view, px, py, pz, size, true, corner_x, corner_y, &block);
         else
-            project(view, x + begin, y + begin, z + begin, size, false, &block);
-        for (uint32_t i = 0; i < size; i++) {
-            out[begin + i] = (MesoRasterVertex){block.x[i] - corner_x, block.y[i] - corner_y, block.nearness[i]};
-            before |= !(block.depth[i] >= view->near_depth);
-        }
+            before |= project(view, px, py, pz, size, false, corner_x, corner_y, &block);
+        for (uint32_t i = 0; i < size; i++)
+            out[begin + i] = (MesoRasterVertex){block.x[i], block.y[i], block.nearness[i]};
     }
-    return view->parallel || !before;
+    return !before;
 }
 
 #if defined(__x86_64__)

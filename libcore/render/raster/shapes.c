@@ -10,69 +10,25 @@
 
 /* ---- levels of detail ---- */
 
-/* `scale`: scene units of one unit of the profiles, where they are largest. */
-static MesoStatus make_columns(MesoShapes *shapes, uint32_t k, float scale, uint32_t level, bool seen, MesoArena *arena,
-                               MesoError *error)
-{
-    const MesoScene *scene = shapes->scene;
-    const MesoSweptKind *kind = &scene->kinds[k];
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    MesoShapeColumns *out = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS + level];
-    float tolerance = level == 0 ? 0 : shapes->finest * exp2f(0.5f * (float)level);
-    uint32_t *kept = MESO_NEW(arena, uint32_t, 2 * (size_t)kind->column_count, error);
-    if (!kept)
-        return MESO_ERR_MEMORY;
-    uint32_t *joints = kept + kind->column_count;
-    tolerance = scale > 0 ? tolerance / scale : 0;
-    out->count = (seen ? meso_detail_columns : meso_detail_silhouette)(columns, kind->column_count, tolerance, kept);
-    out->kept = kept;
-    out->joints = joints;
-    for (uint32_t i = 0; i + 1 < out->count; i++)
-        if (columns[kept[i]].joins_next)
-            joints[out->joint_count++] = i;
-    return MESO_OK;
-}
-
-static bool is_met(const MesoSweepColumn *a, const MesoSweepColumn *b)
-{
-    return a->start.x == b->start.x && a->start.y == b->start.y && a->end.x == b->end.x && a->end.y == b->end.y;
-}
-
-/* Whether the columns are loops: runs, each of which begins where the one before ended, as at a corner, or after a loop. */
-static bool is_closed(const MesoScene *scene, const MesoSweptKind *kind)
-{
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin, *loop = NULL;
-    for (uint32_t begin = 0, end; begin < kind->column_count; begin = end + 1) {
-        end = begin;
-        while (end + 1 < kind->column_count && columns[end].joins_next)
-            end++;
-        if (!loop)
-            loop = &columns[begin];
-        else if (!is_met(&columns[begin - 1], &columns[begin]))
-            return false;
-        if (is_met(loop, &columns[end]))
-            loop = NULL;
-    }
-    return !loop;
-}
-
 static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *error)
 {
     const MesoScene *scene = shapes->scene;
     MesoStatus status = MESO_OK;
-    for (int seen = 0; seen < 2; seen++)
-        shapes->columns[seen] = MESO_NEW(arena, MesoShapeColumns, (size_t)scene->kind_count * MESO_SHAPE_LEVELS, error);
-    shapes->closed = MESO_NEW(arena, bool, scene->kind_count, error);
+    size_t count = (size_t)scene->kind_count * MESO_SHAPE_LEVELS;
     shapes->details = MESO_NEW(arena, MesoKindDetail, scene->kind_count, error);
-    if (!shapes->columns[0] || !shapes->columns[1] || !shapes->closed || !shapes->details)
+    shapes->columns = MESO_NEW(arena, MesoShapeColumns, count * MESO_SHAPE_USES, error);
+    if (!shapes->details || !shapes->columns)
         return MESO_ERR_MEMORY;
     for (uint32_t k = 0; k < scene->kind_count && !status; k++) {
-        shapes->details[k] = meso_kind_detail(scene, &scene->kinds[k]);
-        shapes->closed[k] = is_closed(scene, &scene->kinds[k]);
-        float scale = scene->section_scale * meso_scene_kind_size(scene, &scene->kinds[k]) *
-                      shapes->details[k].stretch.most;
-        for (uint32_t i = 0; i < 2 * MESO_SHAPE_LEVELS && !status; i++)
-            status = make_columns(shapes, k, scale, i / 2, i & 1, arena, error);
+        const MesoSweptKind *kind = &scene->kinds[k];
+        shapes->details[k] = meso_kind_detail(scene, kind);
+        float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * shapes->details[k].stretch.most;
+        for (uint32_t i = 0; i < MESO_SHAPE_LEVELS * MESO_SHAPE_USES && !status; i++) {
+            uint32_t level = i / MESO_SHAPE_USES;
+            float tolerance = level == 0 ? 0 : shapes->finest * exp2f(0.5f * (float)level);
+            status = meso_shape_columns(&shapes->columns[(size_t)k * MESO_SHAPE_LEVELS * MESO_SHAPE_USES + i], arena,
+                                        scene, kind, scale, tolerance, i % MESO_SHAPE_USES, error);
+        }
     }
     return status;
 }
@@ -83,6 +39,12 @@ static uint32_t level_for(const MesoShapes *shapes, float tolerance)
         return 0;
     float level = floorf(2 * log2f(tolerance / shapes->finest));
     return level < MESO_SHAPE_LEVELS - 1 ? (uint32_t)level : MESO_SHAPE_LEVELS - 1;
+}
+
+static const MesoShapeColumns *columns_for(const MesoShapes *shapes, uint32_t kind, float tolerance, MesoShapeUse use)
+{
+    size_t level = (size_t)kind * MESO_SHAPE_LEVELS + level_for(shapes, tolerance);
+    return &shapes->columns[level * MESO_SHAPE_USES + use];
 }
 
 /* ---- bodies ---- */
@@ -391,7 +353,8 @@ static bool make_room(MesoShapeMesh *mesh, uint64_t vertices, uint64_t triangles
         return false;
     if (vertices > mesh->vertex_room) {
         if (!grow((void **)&mesh->vertices, 2 * vertices, sizeof *mesh->vertices) ||
-            !grow((void **)&mesh->color_room, 2 * vertices, sizeof *mesh->color_room))
+            !grow((void **)&mesh->color_room, 2 * vertices, sizeof *mesh->color_room) ||
+            !grow((void **)&mesh->wanted, 2 * vertices, sizeof *mesh->wanted))
             return false;
         mesh->vertex_room = 2 * (uint32_t)vertices;
     }
@@ -410,6 +373,7 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
 {
     free(mesh->vertices);
     free(mesh->color_room);
+    free(mesh->wanted);
     free(mesh->corners);
     *mesh = (MesoShapeMesh){0};
 }
@@ -421,30 +385,52 @@ static MesoSweepInstance anchored(const MesoShapes *shapes, MesoSweepInstance in
     return instance;
 }
 
-static bool make_sweep(const MesoShapes *shapes, uint32_t k, const MesoSweepInstance *sweep, float tolerance,
-                       MesoShapeUse use, MesoShapeMesh *mesh)
+/* Sweeps of a kind often follow one another: their corners are the same. */
+static void make_corners(const MesoShapeColumns *columns, uint32_t rings, MesoShapeMesh *mesh)
 {
-    bool seen = use != MESO_SHAPE_SHADOW;
-    const MesoScene *scene = &shapes->near;
-    const MesoSweptKind *kind = &scene->kinds[k];
-    const MesoShapeColumns *columns = &shapes->columns[seen][(size_t)k * MESO_SHAPE_LEVELS +
-                                                             level_for(shapes, tolerance)];
-    MesoSweepInstance instance = anchored(shapes, *sweep);
-    uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance, seen);
-    const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings,
-                                .bare = use != MESO_SHAPE_WHOLE};
-    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->joint_count * (rings - 1)))
-        return false;
-    mesh->closed = shapes->closed[k];
-    meso_sweep_grid(scene, kind, &instance, &grid, mesh->vertices);
-    uint32_t *out = mesh->corners;
-    for (uint32_t r = 0; r + 1 < rings; r++)
-        for (uint32_t j = 0; j < columns->joint_count; j++) {
-            uint32_t a = r * columns->count + columns->joints[j], b = a + columns->count;
-            const uint32_t quad[6] = {a, b, b + 1, a, b + 1, a + 1};
+    uint32_t first = mesh->corners_of == columns ? mesh->ring_room : 1;
+    uint32_t *out = mesh->corners + 6 * (size_t)columns->side_count * (first - 1);
+    for (uint32_t r = first - 1; r + 1 < rings; r++)
+        for (uint32_t j = 0; j < columns->side_count; j++) {
+            uint32_t here = r * columns->count, ahead = here + columns->count;
+            MesoColumnSide side = columns->sides[j];
+            const uint32_t quad[6] = {here + side.from, ahead + side.from, ahead + side.to,
+                                      here + side.from, ahead + side.to, here + side.to};
             memcpy(out, quad, sizeof quad);
             out += 6;
         }
+    mesh->corners_of = columns;
+    mesh->ring_room = rings > first ? rings : first;
+}
+
+/* Vertices of triangles that have been seen. */
+static void find_wanted(MesoShapeMesh *mesh, const uint8_t *seen)
+{
+    memset(mesh->wanted, 0, mesh->vertex_count);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (uint32_t k = 0; seen[t] && k < 3; k++)
+            mesh->wanted[mesh->corners[3 * (size_t)t + k]] = 1;
+}
+
+static bool make_sweep(const MesoShapes *shapes, uint32_t k, const MesoSweepInstance *sweep, float tolerance,
+                       MesoShapeUse use, const uint8_t *seen, MesoShapeMesh *mesh)
+{
+    const MesoScene *scene = &shapes->near;
+    const MesoSweptKind *kind = &scene->kinds[k];
+    const MesoShapeColumns *columns = columns_for(shapes, k, tolerance, use);
+    MesoSweepInstance instance = anchored(shapes, *sweep);
+    uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance,
+                                                use != MESO_SHAPE_SHADOW);
+    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)))
+        return false;
+    mesh->closed = columns->closed;
+    mesh->reach = columns->reach;
+    make_corners(columns, rings, mesh);
+    if (seen)
+        find_wanted(mesh, seen);
+    const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings,
+                                .bare = use != MESO_SHAPE_WHOLE, .wanted = seen ? mesh->wanted : NULL};
+    meso_sweep_grid(scene, kind, &instance, &grid, mesh->vertices);
     return true;
 }
 
@@ -467,6 +453,8 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
         return false;
     mesh->colors = body->colors ? mesh->color_room : NULL;
     mesh->closed = false;
+    mesh->reach = 0;
+    mesh->corners_of = NULL;
     uint32_t vertex = 0;
     for (uint32_t f = 0; f < run->face_count; f++) {
         uint32_t sides, *corners = mesh->corners + 6 * (size_t)f;
@@ -490,15 +478,25 @@ bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, 
     if (shape >= sweeps)
         return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
     MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
-    return make_sweep(shapes, kind_of(shapes, shape), &sweep, tolerance, use, mesh);
+    return make_sweep(shapes, kind_of(shapes, shape), &sweep, tolerance, use, NULL, mesh);
 }
 
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh)
 {
     const MesoMadeSweep *made = &bundle->sweeps[i];
-    return bundle->made ? make_sweep(shapes, made->kind, &made->instance, tolerance, use, mesh)
+    return bundle->made ? make_sweep(shapes, made->kind, &made->instance, tolerance, use, NULL, mesh)
                         : meso_shape_make(shapes, bundle->shapes[i], tolerance, use, mesh);
+}
+
+bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolerance, const uint8_t *seen,
+                          MesoShapeMesh *mesh)
+{
+    uint32_t sweeps = shapes->scene->sweep_count;
+    if (shape >= sweeps)
+        return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
+    MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
+    return make_sweep(shapes, kind_of(shapes, shape), &sweep, tolerance, MESO_SHAPE_WHOLE, seen, mesh);
 }
 
 /* ---- corners ---- */
@@ -508,15 +506,15 @@ static void sweep_corners(const MesoShapes *shapes, uint32_t sweep, float tolera
 {
     static const uint32_t sides[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};   /* of ring and column */
     uint32_t k = kind_of(shapes, sweep), quad = triangle / 2;
-    const MesoShapeColumns *columns =
-        &shapes->columns[true][(size_t)k * MESO_SHAPE_LEVELS + level_for(shapes, tolerance)];
+    const MesoShapeColumns *columns = columns_for(shapes, k, tolerance, MESO_SHAPE_SEEN);
     MesoSweepInstance instance = anchored(shapes, meso_scene_sweep(shapes->scene, sweep));
     uint32_t rings = meso_detail_instance_rings(&shapes->scene->kinds[k], &shapes->details[k], &instance, tolerance,
                                                 true);
     for (uint32_t i = 0; i < 3; i++) {
-        const uint32_t *side = sides[3 * (triangle % 2) + i];
-        corners[i] = (MesoShapeCorner){.column = columns->kept[columns->joints[quad % columns->joint_count] + side[1]],
-                                       .ring = quad / columns->joint_count + side[0], .ring_count = rings};
+        const uint32_t *at = sides[3 * (triangle % 2) + i];
+        MesoColumnSide side = columns->sides[quad % columns->side_count];
+        corners[i] = (MesoShapeCorner){.column = columns->kept[at[1] ? side.to : side.from],
+                                       .ring = quad / columns->side_count + at[0], .ring_count = rings};
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/render/raster/raster_view.h"
+#include "libcore/render/raster/shape_columns.h"
 #include "libcore/scene/detail.h"
 #include "libcore/scene/sweep_maker.h"
 
@@ -20,13 +21,6 @@ typedef struct MesoShapeRun {
 
 /* Levels of detail: level l stays within finest * 2^(l / 2) of the kinds' own surfaces; 0 is all that there is. */
 enum { MESO_SHAPE_LEVELS = 40 };
-
-/* Columns of a kind that a level keeps, and which of them join the next. */
-typedef struct MesoShapeColumns {
-    uint32_t count, joint_count;
-    const uint32_t *kept;       /* [count] columns of the kind */
-    const uint32_t *joints;     /* [joint_count] numbers in `kept` */
-} MesoShapeColumns;
 
 typedef struct MesoShapes {
     const MesoScene *scene;
@@ -43,8 +37,7 @@ typedef struct MesoShapes {
     uint32_t bundle_count;      /* those of the maker, then others, of shapes one after the other */
     MesoBox *bundle_bounds;     /* [bundle_count], where sweeps are made */
     float finest;
-    bool *closed;               /* [kind_count] sections are loops: what looks away is behind what does not */
-    MesoShapeColumns *columns[2];   /* [kind_count * MESO_SHAPE_LEVELS] for shadows, and for what is seen */
+    MesoShapeColumns *columns;  /* [kind_count * MESO_SHAPE_LEVELS * MESO_SHAPE_USES] */
 } MesoShapes;
 
 /*
@@ -83,15 +76,13 @@ typedef struct MesoShapeMesh {
     MesoMeshColor *colors;      /* [vertex_count] of a body that has some; NULL: white */
     uint32_t *corners;          /* [3 * triangle_count] counter-clockwise from outside */
     bool closed;                /* nothing of its inside is seen, but for its ends */
+    float reach;                /* of the surface before what was made for its shadow */
     uint32_t vertex_room, triangle_room;
+    uint8_t *wanted;            /* [vertex_room] */
+    const MesoShapeColumns *corners_of;     /* sweeps whose corners are there: those of fewer rings come first */
+    uint32_t ring_room;
     MesoMeshColor *color_room;
 } MesoShapeMesh;
-
-/* What a shape is made for: to throw a shadow, with normals that may be far from its own; to be seen; and to be looked
- * at. Its vertices have more than positions for the last alone. */
-typedef enum MesoShapeUse {
-    MESO_SHAPE_SHADOW, MESO_SHAPE_SEEN, MESO_SHAPE_WHOLE
-} MesoShapeUse;
 
 /*
  * Makes a shape within `tolerance` of its own surface (0: all of it): the same triangles to be seen and to be looked
@@ -100,6 +91,10 @@ typedef enum MesoShapeUse {
 bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh);
+
+/* Makes it to be looked at, but for vertices of no triangle of which `seen` [triangles] is not 0: those are anything. */
+bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolerance, const uint8_t *seen,
+                          MesoShapeMesh *mesh);
 void meso_shape_mesh_release(MesoShapeMesh *mesh);
 
 /* A corner of a shape's triangle: a place that a shape of another scene, of the same structure, has too. */

@@ -1,0 +1,171 @@
+#include "libcore/render/raster/shape_columns.h"
+
+#include "libcore/scene/detail.h"
+
+/* Columns while they are chosen; `kept` and `sides` have room for all of the kind's. */
+typedef struct Choice {
+    const MesoSweepColumn *columns;
+    uint32_t *kept, count;
+    MesoColumnSide *sides;
+    uint32_t side_count;
+    bool closed;
+    bool banded;
+} Choice;
+
+static bool is_met(const MesoSweepColumn *a, const MesoSweepColumn *b)
+{
+    return a->start.x == b->start.x && a->start.y == b->start.y && a->end.x == b->end.x && a->end.y == b->end.y;
+}
+
+/* ---- loops ---- */
+
+/* Columns [begin, end) of those that detail keeps; closed: the last one lies where the first does. */
+typedef struct Loop {
+    uint32_t begin, end, side_count;
+    bool closed;
+} Loop;
+
+/* Runs, each of which begins where the one before ended, as at a corner, up to the first of them or a gap. */
+static Loop next_loop(const MesoSweepColumn *columns, const uint32_t *kept, uint32_t count, uint32_t begin)
+{
+    Loop loop = {.begin = begin, .end = begin};
+    while (loop.end < count) {
+        uint32_t last = loop.end++;
+        if (last + 1 < count && columns[kept[last]].joins_next) {
+            loop.side_count++;
+            continue;
+        }
+        loop.closed = is_met(&columns[kept[begin]], &columns[kept[last]]);
+        if (loop.closed || last + 1 == count || !is_met(&columns[kept[last]], &columns[kept[last + 1]]))
+            break;
+    }
+    return loop;
+}
+
+/* All of its columns; `merged`: those alone that lie where no other does. */
+static void add_loop(Choice *c, const uint32_t *kept, const Loop *loop, bool merged)
+{
+    uint32_t first = c->count;
+    for (uint32_t i = loop->begin; i < loop->end; i++) {
+        bool joined = i > loop->begin && c->columns[kept[i - 1]].joins_next;
+        bool again = merged && i > loop->begin && !joined;
+        bool around = merged && loop->closed && i + 1 == loop->end && i > loop->begin;
+        if (joined)
+            c->sides[c->side_count++] = (MesoColumnSide){c->count - 1, around ? first : c->count};
+        if (!again && !around)
+            c->kept[c->count++] = kept[i];
+    }
+    c->closed = c->closed && loop->closed;
+}
+
+/* ---- bands ---- */
+
+enum { FEW_SIDES = 5 };         /* four corners, and a side that is cut where the loop begins */
+
+static float square_between(const MesoSweepColumn *a, const MesoSweepColumn *b)
+{
+    MesoVec2 d = meso_vec2_sub(b->start, a->start), e = meso_vec2_sub(b->end, a->end);
+    return d.x * d.x + d.y * d.y + e.x * e.x + e.y * e.y;
+}
+
+/* How far `c` lies from `a` along (x) and to the left of (y) the way to `b`, at the start and at the end together. */
+static MesoVec2 place_by(const MesoSweepColumn *a, const MesoSweepColumn *b, const MesoSweepColumn *c)
+{
+    MesoVec2 d = meso_vec2_sub(b->start, a->start), e = meso_vec2_sub(b->end, a->end);
+    MesoVec2 p = meso_vec2_sub(c->start, a->start), q = meso_vec2_sub(c->end, a->end);
+    return (MesoVec2){d.x * p.x + d.y * p.y + e.x * q.x + e.y * q.y, meso_vec2_cross(d, p) + meso_vec2_cross(e, q)};
+}
+
+/* The larger of what is between them at the start and at the end. */
+static float between(const MesoSweepColumn *a, const MesoSweepColumn *b)
+{
+    return fmaxf(meso_vec2_length(meso_vec2_sub(a->start, b->start)), meso_vec2_length(meso_vec2_sub(a->end, b->end)));
+}
+
+static bool is_small(const Choice *c, const uint32_t *kept, const Loop *loop, float size)
+{
+    for (uint32_t i = loop->begin; i < loop->end; i++)
+        if (between(&c->columns[kept[loop->begin]], &c->columns[kept[i]]) > size)
+            return false;
+    return true;
+}
+
+static void find_farthest(const Choice *c, const uint32_t *kept, const Loop *loop, uint32_t ends[2])
+{
+    float most = 0;
+    ends[0] = ends[1] = kept[loop->begin];
+    for (uint32_t i = loop->begin; i < loop->end; i++)
+        for (uint32_t j = i + 1; j < loop->end; j++) {
+            float square = square_between(&c->columns[kept[i]], &c->columns[kept[j]]);
+            if (square <= most)
+                continue;
+            most = square;
+            ends[0] = kept[i];
+            ends[1] = kept[j];
+        }
+}
+
+static void add_band(Choice *c, const uint32_t ends[2])
+{
+    c->sides[c->side_count++] = (MesoColumnSide){c->count, c->count + 1};
+    c->kept[c->count++] = ends[0];
+    c->kept[c->count++] = ends[1];
+}
+
+/*
+ * From one column to the farthest, and between those farthest along directions turned from that: seen from any side,
+ * two reach as far as a loop of four corners does, and no gap is between them, for they cross; three fall short of a
+ * round one by a twentieth in the mean.
+ */
+static void add_bands(Choice *c, const uint32_t *kept, const Loop *loop)
+{
+    uint32_t across[2], bands = loop->side_count > FEW_SIDES ? 3 : 2;
+    find_farthest(c, kept, loop, across);
+    add_band(c, across);
+    for (uint32_t k = 1; k < bands; k++) {
+        float angle = (float)MESO_PI * (float)k / (float)bands, low = INFINITY, high = -INFINITY;
+        uint32_t ends[2] = {across[0], across[0]};
+        for (uint32_t i = loop->begin; i < loop->end; i++) {
+            MesoVec2 at = place_by(&c->columns[across[0]], &c->columns[across[1]], &c->columns[kept[i]]);
+            float place = cosf(angle) * at.x + sinf(angle) * at.y;
+            if (place < low)
+                ends[0] = kept[i];
+            if (place > high)
+                ends[1] = kept[i];
+            low = fminf(low, place);
+            high = fmaxf(high, place);
+        }
+        add_band(c, ends);
+    }
+    c->closed = false;
+    c->banded = true;
+}
+
+/* ---- all of them ---- */
+
+MesoStatus meso_shape_columns(MesoShapeColumns *out, MesoArena *arena, const MesoScene *scene,
+                              const MesoSweptKind *kind, float scale, float tolerance, MesoShapeUse use,
+                              MesoError *error)
+{
+    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
+    uint32_t *detail = MESO_NEW(arena, uint32_t, 2 * (size_t)kind->column_count + 4, error);
+    MesoColumnSide *sides = MESO_NEW(arena, MesoColumnSide, (size_t)kind->column_count + 2, error);
+    if (!detail || !sides)
+        return MESO_ERR_MEMORY;
+    float size = scale > 0 ? tolerance / scale : 0;     /* in units of the profiles */
+    uint32_t count = (use == MESO_SHAPE_SHADOW ? meso_detail_silhouette : meso_detail_columns)(
+        columns, kind->column_count, size, detail);
+    Choice choice = {.columns = columns, .kept = detail + kind->column_count, .sides = sides, .closed = true};
+    for (Loop loop = {0}; loop.end < count;) {
+        loop = next_loop(columns, detail, count, loop.end);
+        bool bands = use == MESO_SHAPE_SHADOW && loop.closed && loop.side_count >= FEW_SIDES - 1 &&
+                     is_small(&choice, detail, &loop, size);
+        if (bands)
+            add_bands(&choice, detail, &loop);
+        else
+            add_loop(&choice, detail, &loop, use != MESO_SHAPE_WHOLE);
+    }
+    *out = (MesoShapeColumns){choice.count, choice.side_count, choice.kept, sides, choice.closed,
+                              choice.banded ? tolerance : 0};
+    return MESO_OK;
+}
