@@ -113,7 +113,8 @@ static int compare_shared(const void *left, const void *right)
 
 /*
  * Corners of a vertex that share a normal go on doing so, also over an edge so sharp that it looks along one face and
- * against the other: each gets the sum of all. Those of faces that are left alone have none.
+ * against the other: each gets the sum of all. Those of faces that are left alone have none. Not where a piece has one
+ * side only: nowhere on it does a normal look out for all.
  */
 static MesoStatus share_sums(MesoAreaVector *sums, const MesoPolygonMesh *mesh, const MesoAttribute *normals,
                              MesoArena *scratch, MesoError *error)
@@ -142,7 +143,7 @@ static MesoStatus share_sums(MesoAreaVector *sums, const MesoPolygonMesh *mesh, 
 
 /* Elements of the domain whose normals look into their faces; of `faces` alone, if there are such. */
 static MesoStatus find_wrong_normals(uint64_t **wrong, const MesoPolygonMesh *mesh, const MesoAttribute *normals,
-                                     const uint64_t *faces, MesoArena *scratch, MesoError *error)
+                                     const uint64_t *faces, bool is_cut, MesoArena *scratch, MesoError *error)
 {
     bool corners = normals->domain == MESO_ON_CORNERS;
     uint32_t count = meso_polygon_elements(mesh, normals->domain);
@@ -160,7 +161,8 @@ static MesoStatus find_wrong_normals(uint64_t **wrong, const MesoPolygonMesh *me
             *sum = (MesoAreaVector){sum->x + area.x, sum->y + area.y, sum->z + area.z};
         }
     }
-    MesoStatus status = corners && normals->entry_of ? share_sums(sums, mesh, normals, scratch, error) : MESO_OK;
+    bool share = corners && normals->entry_of && !is_cut;
+    MesoStatus status = share ? share_sums(sums, mesh, normals, scratch, error) : MESO_OK;
     for (uint32_t i = 0; i < count && !status; i++)
         if (looks_in(normals, i, sums[i]))
             meso_bits_set(*wrong, i);
@@ -200,12 +202,12 @@ static MesoStatus double_entries(MesoAttribute *normals, MesoArena *arena, uint3
     return MESO_OK;
 }
 
-static MesoStatus turn_normals(const MesoPolygonMesh *mesh, MesoAttribute *normals, const uint64_t *faces,
+static MesoStatus turn_normals(const MesoPolygonMesh *mesh, MesoAttribute *normals, const uint64_t *faces, bool is_cut,
                                MesoArena *arena, MesoArena *scratch, MesoError *error)
 {
     uint64_t *wrong = NULL;
     uint32_t count = meso_polygon_elements(mesh, normals->domain), old = normals->entry_count;
-    MesoStatus status = find_wrong_normals(&wrong, mesh, normals, faces, scratch, error);
+    MesoStatus status = find_wrong_normals(&wrong, mesh, normals, faces, is_cut, scratch, error);
     if (status || meso_bits_count(wrong, meso_bits_words(count)) == 0)
         return status;
     if (normals->entry_of)
@@ -236,6 +238,7 @@ MesoStatus meso_mesh_turn(MesoPolygonMesh *mesh, MesoArena *arena, MesoArena *sc
         status = meso_mesh_copies_build(mesh, arena, from, &copies, error);
     for (uint32_t a = 0; !status && a < mesh->attribute_count; a++)
         if (is_normal(&mesh->attributes[a]))
-            status = turn_normals(mesh, &mesh->attributes[a], turning->faces, arena, scratch, error);
+            status = turn_normals(mesh, &mesh->attributes[a], turning->faces, turning->vertex_count > from->vertex_count,
+                                  arena, scratch, error);
     return status;
 }
