@@ -72,8 +72,8 @@ static const struct {
 } MAPPING[] = {MAPPING_ROW(thickness), MAPPING_ROW(offset), MAPPING_ROW(section_scale), MAPPING_ROW(tangent_scale),
                MAPPING_ROW(divisions), MAPPING_ROW(section_step), SWEEP_ROW(frame, frame),
                SWEEP_ROW(deform, deform), SWEEP_ROW(section_size, section_size), SWEEP_ROW(tolerance, tolerance),
-               SWEEP_ROW(tolerance_in, tolerance), SWEEP_ROW(relax, relax), SHELL_ROW(normals), SHELL_ROW(side),
-               SHELL_ROW(limit_folds)};
+               SWEEP_ROW(tolerance_in, tolerance), SWEEP_ROW(bends, bends), SWEEP_ROW(relax, relax),
+               SHELL_ROW(normals), SHELL_ROW(side), SHELL_ROW(limit_folds)};
 enum { MAPPING_COUNT = sizeof MAPPING / sizeof *MAPPING };
 
 static const bool *is_given(const MapArguments *a, uint32_t option)
@@ -120,6 +120,7 @@ static MesoStatus forget_defaults(MapArguments *a, MesoError *error)
     a->shell.given.normals &= a->options.normals != DEFAULTS.normals;
     a->shell.given.side &= a->options.side != DEFAULTS.side;
     a->sweep.given.frame &= a->options.frame != DEFAULTS.frame;
+    a->sweep.given.bends &= a->options.bends != DEFAULTS.bends;
     a->sweep.given.deform &= a->options.deform != DEFAULTS.deform;
     a->sweep.given.relax &= a->options.relax != DEFAULTS.relax;
     a->sweep.given.section_size &= a->options.section_size != DEFAULTS.section_size;

@@ -30,6 +30,8 @@ MesoStatus meso_map_sweep_set(const MesoMapSweep *sweep, bool steps, MesoMapOpti
         options->section_size = number_of(meso_section_size_names, sweep->section_size);
     if (sweep->deform)
         options->deform = number_of(meso_sweep_deform_names, sweep->deform);
+    if (sweep->bends)
+        options->bends = number_of(meso_bends_names, sweep->bends);
     if (options->deform == MESO_SWEEP_SHAPE && sweep->section_size)
         return meso_fail(error, MESO_ERR_USAGE, "--section-size is for sections that keep their shape; under "
                          "--deform shape they are as large as their slots make them");

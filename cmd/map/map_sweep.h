@@ -1,4 +1,4 @@
-/* Options of meso-map about sweeps: their frames, the size and shape of their sections, a tolerance. */
+/* Options of meso-map about sweeps: their frames, the size and shape of their sections, their bends, a tolerance. */
 #ifndef MESO_MAP_SWEEP_H
 #define MESO_MAP_SWEEP_H
 
@@ -6,10 +6,10 @@
 #include "libcore/tiling/strand/model.h"
 
 typedef struct MesoMapSweep {
-    const char *frame, *section_size, *deform;  /* names of MesoFrameRule and the like; NULL: not given */
+    const char *frame, *section_size, *deform, *bends;     /* names of MesoFrameRule and the like; NULL: not given */
     const char *tolerance;              /* a number, and perhaps a unit */
     struct {
-        bool frame, section_size, deform, tolerance, relax;
+        bool frame, section_size, deform, bends, tolerance, relax;
     } given;
 } MesoMapSweep;
 
@@ -21,6 +21,9 @@ typedef struct MesoMapSweep {
                 .more = MESO_OPTION_OVERRIDES),                                                               \
     MESO_CHOICE(0, "deform", "WHAT", "what follows the slots: trajectories alone, or sections, too (default curves)", \
                 &(sweep).deform, "curves|shape", .given = &(sweep).given.deform, .more = MESO_OPTION_OVERRIDES), \
+    MESO_CHOICE(0, "bends", "HOW", "tubes in bends narrower than they are: mitred, so that they do not fold back, or " \
+                "as drawn (default mitred)", &(sweep).bends, "mitred|drawn", .given = &(sweep).given.bends,   \
+                .more = MESO_OPTION_OVERRIDES),                                                               \
     MESO_TEXT(0, "tolerance", "X", "steps along and around so that the polygons stay so near to the surface, " \
               "in edge lengths, or with 'u' behind in scene units", &(sweep).tolerance,                       \
               .given = &(sweep).given.tolerance, .more = MESO_OPTION_OVERRIDES)

@@ -34,6 +34,7 @@ static const MappingRow ROWS[] = {
     WORD_ROW(section_size, meso_section_size_names),
     {"tolerance", offsetof(MesoMapOptions, tolerance), NUMBER, NULL, 0, 4 * MESO_COORDINATE_LIMIT},
     WORD_ROW(tolerance_in, meso_tolerance_unit_names),
+    WORD_ROW(bends, meso_bends_names),
     {"relax", offsetof(MesoMapOptions, relax), WHOLE, NULL, 0, MESO_RELAX_MOST},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };

@@ -19,13 +19,13 @@ static void test_text(void)
     MesoMapOptions options = {.frame = MESO_FRAME_MINIMAL, .normals = MESO_NORMALS_FLAT, .side = MESO_SHELL_BOTH,
                               .limit_folds = 1, .section_size = MESO_SECTION_SLOT,
                               .tolerance = 0.001f, .tolerance_in = MESO_TOLERANCE_SCENE, .deform = MESO_SWEEP_SHAPE,
-                              .relax = 20, .divisions = 7};
+                              .bends = MESO_BENDS_DRAWN, .relax = 20, .divisions = 7};
     MesoMapOptions back = {.divisions = 7};
     MesoError error;
     char *text;
     CHECK(meso_mapping_text(&text, &options, &error) == MESO_OK);
     CHECK_TEXT(text, "{\"frame\":\"minimal\",\"deform\":\"shape\",\"normals\":\"flat\",\"side\":\"both\",\"limit_folds\":1,"
-                     "\"section_size\":\"slot\",\"tolerance\":0.001,\"tolerance_in\":\"scene\",\"relax\":20}");
+                     "\"section_size\":\"slot\",\"tolerance\":0.001,\"tolerance_in\":\"scene\",\"bends\":\"drawn\",\"relax\":20}");
     CHECK(read_text(&back, text, &error) == MESO_OK);
     CHECK(memcmp(&back, &options, sizeof options) == 0);
     free(text);
@@ -36,7 +36,7 @@ static void test_text(void)
 }
 
 #define KEYS "\"frame\", \"deform\", \"normals\", \"side\", \"limit_folds\", \"section_size\", \"tolerance\", " \
-             "\"tolerance_in\", \"relax\""
+             "\"tolerance_in\", \"bends\", \"relax\""
 
 static void test_wrong_text(void)
 {

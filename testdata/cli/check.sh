@@ -62,6 +62,14 @@ sed 1d ply.txt | grep -v -e fold -e border -e lid >ply.faults
 sed 's/strands that leak/pieces that leak/' ply.faults >ply.words      # a mesh has the strands' numbers
 grep -v -e sizes -e fold -e border -e lid meso.txt | diff - ply.words
 
+# Tubes fold back on themselves in narrow bends where these are as drawn, and not where they are mitred again.
+meso-map -q --bends drawn small.meso -o drawn.meso
+meso-check --fast --max-faults 99999 drawn.meso | grep pinch
+meso-map -q --bends mitred drawn.meso --to stl -o mitred.stl
+meso-map -q small.meso --to stl -o small.stl
+tail -c +81 small.stl >small.body
+tail -c +81 mitred.stl | cmp - small.body
+
 # A model in which nothing is wrong.
 meso-solve -q "$testdata/cli/quad.tiles.json" vase.obj -o plain.slots
 meso-map -q "$testdata/cli/quad.tiles.json" vase.obj plain.slots -o plain.meso

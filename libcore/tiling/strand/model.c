@@ -3,6 +3,7 @@
 #include <string.h>
 
 const char *const meso_section_size_names[] = {"scene", "slot", NULL};
+const char *const meso_bends_names[] = {"mitred", "drawn", NULL};
 const char *const meso_tolerance_unit_names[] = {"edge", "scene", NULL};
 
 static float positive_or(float value, float otherwise)
@@ -32,6 +33,8 @@ const char *meso_map_options_problem(const MesoMapOptions *options)
         return "number of divisions";
     if (options->frame > MESO_FRAME_MINIMAL)
         return "frame";
+    if (options->bends > MESO_BENDS_DRAWN)
+        return "bends";
     if (options->normals > MESO_NORMALS_FLAT || options->side > MESO_SHELL_INSIDE || options->limit_folds > 1)
         return "form of the shell";
     if (options->section_size > MESO_SECTION_SLOT)

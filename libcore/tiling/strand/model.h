@@ -22,6 +22,14 @@ typedef enum MesoSectionSize {
 
 extern const char *const meso_section_size_names[];     /* ended by NULL */
 
+/* What becomes of tubes in bends that are narrower than they are wide. */
+typedef enum MesoBends {
+    MESO_BENDS_MITRED,      /* they do not fold back on themselves, as far as that can be (scene.h) */
+    MESO_BENDS_DRAWN        /* they do, as drawn (MesoGen) */
+} MesoBends;
+
+extern const char *const meso_bends_names[];    /* ended by NULL */
+
 /* What a tolerance is measured in. */
 typedef enum MesoToleranceUnit {
     MESO_TOLERANCE_EDGE,    /* the mean edge length of the surface */
@@ -50,6 +58,7 @@ typedef struct MesoMapOptions {
     float tolerance;        /* of steps along and around, instead of divisions and section step; 0 is none */
     uint32_t tolerance_in;  /* a MesoToleranceUnit */
     uint32_t deform;        /* a MesoSweepDeform (scene.h) */
+    uint32_t bends;         /* a MesoBends */
     uint32_t relax;         /* steps of relaxation (relax.h), at most MESO_RELAX_MOST; 0: none */
 } MesoMapOptions;
 

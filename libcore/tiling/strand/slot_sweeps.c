@@ -122,7 +122,8 @@ static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint3
     meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(s, origin), out->p);
     if (s->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
-    out->mitre = meso_sweep_mitre(&s->scene, &s->scene.kinds[kind], out);
+    if (s->options.bends == MESO_BENDS_MITRED)
+        out->mitre = meso_sweep_mitre(&s->scene, &s->scene.kinds[kind], out);
     return MESO_OK;
 }
 
