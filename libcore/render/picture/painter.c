@@ -423,17 +423,17 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
 }
 
 static MesoPainter *new_painter(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
-                                    uint32_t thread_count, MesoError *error)
+                                uint32_t thread_count, MesoError *error)
 {
     MesoPainter *p = MESO_NEW(arena, MesoPainter, 1, error);
     if (p)
         *p = (MesoPainter){.options = options, .scene = scene, .varied = meso_vary_channel(scene),
-                               .thread_count = thread_count};
+                           .thread_count = thread_count};
     return p;
 }
 
 MesoStatus meso_painter_init(MesoPainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
-                                  const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+                             const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
 {
     MesoPainter *p = *painter = new_painter(arena, scene, options, thread_count, error);
     if (!p)

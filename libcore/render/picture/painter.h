@@ -41,7 +41,7 @@ uint32_t meso_paint_band_rows(const MesoScene *scene, const MesoRenderOptions *o
  * several bands, the whole picture is looked through for what is on it: both are told before the first band.
  */
 MesoStatus meso_painter_init(MesoPainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
-                                  const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
+                             const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
 
 /* Paints the band that begins with this row, and cuts its height to the picture's. MESO_ERR_MEMORY alone. */
 MesoStatus meso_paint(MesoPainter *painter, MesoImage *band, uint32_t first_row, MesoError *error);
