@@ -8,6 +8,7 @@
 #include <GL/glcorearb.h>
 
 #include "libcore/render/gl/context_makers.h"
+#include "libcore/render/gl/renderer_name.h"
 
 /*
  * Mesa and other drivers read some hundred variables, under names of no one
@@ -41,6 +42,7 @@ static MesoStatus read_renderer(MesoGlContext *context, MesoError *error)
     if (!name)
         return meso_fail(error, MESO_ERR_INTERNAL, "GL context without a renderer's name");
     snprintf(context->renderer, sizeof context->renderer, "%s", (const char *)name);
+    context->bends = !meso_gl_is_software(context->renderer);
     return MESO_OK;
 }
 

@@ -2,12 +2,12 @@
 
 #include <stddef.h>
 
+#include "libcore/render/gl/draw_batch.h"
 #include "libcore/scene/cell.h"
 #include "libcore/scene/detail.h"
 #include "libcore/scene/parts.h"
 
-extern const char meso_shader_sweep_vertex[], meso_shader_body_vertex[];
-extern const char meso_shader_seen_fragment[];
+extern const char meso_shader_sweep_vertex[], meso_shader_seen_fragment[];
 
 /* GL counts indices and base vertices in signed ints. */
 static const uint64_t MAX_ELEMENTS = INT32_MAX;
@@ -15,20 +15,13 @@ static const uint64_t MAX_ELEMENTS = INT32_MAX;
 /* Every GL 4.5 has room for so many cages in one block. */
 static const uint32_t MAX_CAGES = 1 << 20;
 
-/* Uniforms by the locations that the shaders give them. */
-enum {CLIP_FROM_WORLD, DEPTH_AXIS, SECTION_SCALE, CAP_RISE, TURN = 8, LEAST_TURN, MIDDLE};
+/* Uniforms of the sweeps by the locations that their shader gives them. */
+enum {SECTION_SCALE = 2, CAP_RISE, TURN = 8, LEAST_TURN, MIDDLE};
 
 typedef struct PatternVertex {
     MesoVec2 start, end, start_normal, end_normal;
     float along, around;
 } PatternVertex;
-
-typedef struct BodyVertex {
-    MesoVec3 position, normal;
-    uint32_t shape;
-    uint8_t color[4];
-    MesoVec2 uv;
-} BodyVertex;
 
 /* A pattern in the making: which columns and how many rings of each kind. */
 typedef struct Plan {
@@ -224,24 +217,6 @@ static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Pl
     return meso_gl_check(lists->gl, "upload of the sweeps", error);
 }
 
-static void describe_bodies(MesoDrawLists *lists)
-{
-    const MesoGl *gl = lists->gl;
-    gl->CreateVertexArrays(1, &lists->body_array);
-    GLuint array = lists->body_array;
-    gl->VertexArrayVertexBuffer(array, 0, lists->body_vertices, 0, sizeof(BodyVertex));
-    gl->VertexArrayElementBuffer(array, lists->body_indices);
-    gl->VertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, position));
-    gl->VertexArrayAttribFormat(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, normal));
-    gl->VertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, offsetof(BodyVertex, shape));
-    gl->VertexArrayAttribFormat(array, 3, 3, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(BodyVertex, color));
-    gl->VertexArrayAttribFormat(array, 4, 2, GL_FLOAT, GL_FALSE, offsetof(BodyVertex, uv));
-    for (GLuint i = 0; i < 5; i++) {
-        gl->EnableVertexArrayAttrib(array, i);
-        gl->VertexArrayAttribBinding(array, i, 0);
-    }
-}
-
 static uint32_t add_triangles(uint32_t *indices, const MesoMeshFace *face)
 {
     indices[0] = face->v[0];
@@ -260,7 +235,7 @@ typedef struct BodyArrays {
     MesoMeshVertex *points;
     MesoMeshColor *colors;
     MesoMeshFace *faces;
-    BodyVertex *vertices;
+    MesoSiftVertex *vertices;
     uint32_t *indices;
 } BodyArrays;
 
@@ -275,7 +250,7 @@ static MesoStatus make_bodies(BodyArrays *arrays, MesoArena *arena, const MesoSc
     arrays->points = MESO_NEW(arena, MesoMeshVertex, vertex_count, error);
     arrays->colors = MESO_NEW(arena, MesoMeshColor, vertex_count, error);
     arrays->faces = MESO_NEW(arena, MesoMeshFace, face_count, error);
-    arrays->vertices = MESO_NEW(arena, BodyVertex, vertex_count, error);
+    arrays->vertices = MESO_NEW(arena, MesoSiftVertex, vertex_count, error);
     arrays->indices = MESO_NEW(arena, uint32_t, 6 * face_count, error);
     if (!arrays->points || !arrays->colors || !arrays->faces || !arrays->vertices || !arrays->indices)
         return MESO_ERR_MEMORY;
@@ -286,7 +261,7 @@ static MesoStatus make_bodies(BodyArrays *arrays, MesoArena *arena, const MesoSc
 }
 
 /* The first run of faces of each placed body stands for all of it: they look alike. */
-static void fill_vertices_of(BodyVertex *out, const BodyArrays *arrays, const MesoSceneParts *parts,
+static void fill_vertices_of(MesoSiftVertex *out, const BodyArrays *arrays, const MesoSceneParts *parts,
                              const MesoShapes *shapes)
 {
     uint32_t first = parts->scene->sweep_count;
@@ -297,7 +272,7 @@ static void fill_vertices_of(BodyVertex *out, const BodyArrays *arrays, const Me
         for (; vertex < parts->vertex_begin[p + 1] - parts->vertex_begin[first]; vertex++) {
             MesoMeshVertex v = arrays->points[vertex];
             MesoMeshColor c = arrays->colors[vertex];
-            out[vertex] = (BodyVertex){meso_vec3_sub(v.position, shapes->anchor), v.normal, first + run,
+            out[vertex] = (MesoSiftVertex){meso_vec3_sub(v.position, shapes->anchor), v.normal, first + run,
                                        {c.r, c.g, c.b, 255}, v.uv};
         }
     }
@@ -323,7 +298,7 @@ static MesoStatus upload_bodies(MesoDrawLists *lists, MesoArena *arena, MesoErro
     fill_vertices_of(arrays.vertices, &arrays, &parts, lists->shapes);
     lists->body_vertices = upload(lists->gl, arrays.vertices, vertex_count * sizeof *arrays.vertices);
     lists->body_indices = upload(lists->gl, arrays.indices, lists->body_index_count * sizeof *arrays.indices);
-    describe_bodies(lists);
+    lists->body_array = meso_gl_placed_array(lists->gl, lists->body_vertices, lists->body_indices);
     return meso_gl_check(lists->gl, "upload of the bodies", error);
 }
 
@@ -368,21 +343,18 @@ MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl,
 #define BENT "#define BENT\n"
 #define CAP "#define CAP\n"
 #define DETAILED "#define DETAILED\n"
-    /* Sweeps and caps, those that are bent, bodies; and with details. */
-    static const char *const defines[2][5] = {
-        {"", CAP, BENT, BENT CAP, ""},
-        {DETAILED, DETAILED CAP, DETAILED BENT, DETAILED BENT CAP, DETAILED},
-    };
+    /* Sweeps and caps, and those that are bent; and with details. */
+    static const char *const defines[2][4] = {
+        {"", CAP, BENT, BENT CAP}, {DETAILED, DETAILED CAP, DETAILED BENT, DETAILED BENT CAP}};
     const char *const *text = defines[detailed];
-    const char *sweep = meso_shader_sweep_vertex, *body = meso_shader_body_vertex;
-    const char *fragment = meso_shader_seen_fragment;
+    const char *sweep = meso_shader_sweep_vertex, *fragment = meso_shader_seen_fragment;
     uint32_t bent = scene->deform == MESO_SWEEP_SHAPE ? 2 : 0;
     *programs = (MesoDrawPrograms){0};
     MesoStatus status = meso_gl_program(&programs->sweep, gl, text[bent], sweep, fragment, error);
     if (!status)
         status = meso_gl_program(&programs->cap, gl, text[bent + 1], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->body, gl, text[4], body, fragment, error);
+        status = meso_gl_placed_program(&programs->body, gl, detailed, error);
     if (status)
         meso_draw_programs_release(programs, gl);
     return status;
@@ -468,15 +440,6 @@ void meso_draw_lists_select(MesoDrawLists *lists, const MesoMatrix *clip_from_wo
 
 /* ---- drawing ---- */
 
-static void set_view(const MesoDrawLists *lists, GLuint program, const MesoMatrix *clip_from_world,
-                     const MesoView *view)
-{
-    const MesoGl *gl = lists->gl;
-    gl->ProgramUniformMatrix4fv(program, CLIP_FROM_WORLD, 1, GL_FALSE, clip_from_world->m);
-    gl->ProgramUniform4f(program, DEPTH_AXIS, view->forward.x, view->forward.y, view->forward.z,
-                         -meso_vec3_dot(view->forward, meso_vec3_sub(view->eye, view->anchor)));
-}
-
 static const void *index_offset(uint32_t index)
 {
     return (const void *)(sizeof(uint32_t) * (uintptr_t)index);
@@ -506,7 +469,7 @@ void meso_draw_lists_draw(const MesoDrawLists *lists, const MesoDrawPrograms *pr
     const MesoScene *scene = lists->shapes->scene;
     const GLuint all[] = {programs->sweep, programs->cap, programs->body};
     for (uint32_t i = 0; i < 3; i++)
-        set_view(lists, all[i], clip_from_world, view);
+        meso_gl_set_view(gl, all[i], clip_from_world, view);
     for (uint32_t i = 0; i < 2; i++) {
         gl->ProgramUniform1f(all[i], SECTION_SCALE, scene->section_scale);
         if (all[i] == programs->cap)

@@ -1,4 +1,6 @@
-/* Shapes in GL buffers, and the calls that draw them. */
+/*
+ * Shapes in GL buffers, and the calls that draw them: what a GPU is given, whose shaders bend the sweeps.
+ */
 #ifndef MESO_DRAW_LISTS_H
 #define MESO_DRAW_LISTS_H
 

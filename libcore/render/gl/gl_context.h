@@ -2,6 +2,8 @@
 #ifndef MESO_GL_CONTEXT_H
 #define MESO_GL_CONTEXT_H
 
+#include <stdbool.h>
+
 #include "libcore/base/error.h"
 
 typedef struct MesoGlContext {
@@ -9,6 +11,7 @@ typedef struct MesoGlContext {
     void (*release)(struct MesoGlContext *context);
     void *(*find)(const char *name);    /* a GL function by its name */
     char renderer[128];                 /* GL_RENDERER */
+    bool bends;                         /* shaders are to bend sweeps: it draws on a GPU */
 } MesoGlContext;
 
 #endif

@@ -2,34 +2,56 @@
 
 #include <string.h>
 
+#include "libcore/render/gl/draw_batch.h"
 #include "libcore/render/gl/draw_lists.h"
 
 /* What shaders/seen_fragment.glsl writes: a target each, of four words. */
 enum { SEEN, DETAILS, TARGETS, WORDS = 4 };
+
+/* Pixels a side of the framebuffer at most, in which the window has a place for each sample. */
+enum { FRAME_SIDE = 1024 };
 
 struct MesoGlVisibility {
     MesoGl gl;
     MesoRasterJob job;
     MesoRasterLanes lanes;
     MesoView view;
+    bool bends;                 /* the lists are drawn, and else batches */
     MesoDrawLists lists;
     MesoDrawPrograms programs;
+    MesoDrawBatch batch;
     float end_depth;
-    uint32_t side, target_count;
+    uint32_t target_count, thread_count;
+    uint32_t frame_width, frame_height;
     GLuint targets[TARGETS], depth, frame;
-    uint32_t *words[TARGETS];   /* [4 * pixels of the window * samples] sample by sample */
+    uint32_t *words[TARGETS];   /* [4 * pixels of the window * samples] row by row of the framebuffer */
     MesoWindow window;          /* drawn last */
+    MesoMatrix clips[MESO_RASTER_LANES];    /* of its samples */
+    bool empty;                 /* nothing is in it */
 };
+
+/* Places of samples beside each other in the framebuffer; as many are below each other. */
+static uint32_t places_across(uint32_t samples)
+{
+    return samples == 1 ? 1 : samples == 4 ? 2 : 4;
+}
 
 uint32_t meso_gl_window_side(uint32_t samples)
 {
-    return samples == 1 ? 1024 : samples == 4 ? 512 : 256;
+    return FRAME_SIDE / places_across(samples);
 }
 
-size_t meso_gl_window_bytes(uint32_t samples)
+/* Pixels of the framebuffer along a side of the picture. */
+static uint32_t frame_side(uint32_t pixels, uint32_t samples)
 {
-    size_t side = meso_gl_window_side(samples);
-    return (TARGETS * WORDS + 1) * sizeof(uint32_t) * side * side;
+    uint32_t side = meso_gl_window_side(samples);
+    return places_across(samples) * (pixels < side ? pixels : side);
+}
+
+size_t meso_gl_window_bytes(uint32_t width, uint32_t height, uint32_t samples)
+{
+    size_t pixels = (size_t)frame_side(width, samples) * frame_side(height, samples);
+    return (2 * TARGETS * WORDS + 1) * sizeof(uint32_t) * pixels;
 }
 
 /* The near plane of a perspective, the far one of a parallel view (projection.h). */
@@ -46,11 +68,11 @@ static float end_depth_of(const MesoView *view, const MesoBox *box)
     return depth > 0 && isfinite(depth) ? depth : 1e-3f;
 }
 
-static GLuint make_texture(const MesoGl *gl, GLenum format, uint32_t side)
+static GLuint make_texture(const MesoGlVisibility *v, GLenum format)
 {
     GLuint texture = 0;
-    gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
-    gl->TextureStorage2D(texture, 1, format, (GLsizei)side, (GLsizei)side);
+    v->gl.CreateTextures(GL_TEXTURE_2D, 1, &texture);
+    v->gl.TextureStorage2D(texture, 1, format, (GLsizei)v->frame_width, (GLsizei)v->frame_height);
     return texture;
 }
 
@@ -60,15 +82,16 @@ static MesoStatus make_frame(MesoGlVisibility *v, MesoError *error)
     const MesoGl *gl = &v->gl;
     gl->CreateFramebuffers(1, &v->frame);
     for (uint32_t i = 0; i < v->target_count; i++) {
-        v->targets[i] = make_texture(gl, GL_RGBA32UI, v->side);
+        v->targets[i] = make_texture(v, GL_RGBA32UI);
         gl->NamedFramebufferTexture(v->frame, buffers[i], v->targets[i], 0);
     }
-    v->depth = make_texture(gl, GL_DEPTH_COMPONENT32F, v->side);
+    v->depth = make_texture(v, GL_DEPTH_COMPONENT32F);
     gl->NamedFramebufferTexture(v->frame, GL_DEPTH_ATTACHMENT, v->depth, 0);
     gl->NamedFramebufferDrawBuffers(v->frame, (GLsizei)v->target_count, buffers);
     MesoStatus status = meso_gl_check(gl, "framebuffer", error);
     if (!status && gl->CheckNamedFramebufferStatus(v->frame, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        status = meso_fail(error, MESO_ERR_LIMIT, "GL driver has no framebuffer of %u x %u", v->side, v->side);
+        status = meso_fail(error, MESO_ERR_LIMIT, "GL driver has no framebuffer of %u x %u",
+                           v->frame_width, v->frame_height);
     return status;
 }
 
@@ -84,23 +107,36 @@ static void set_state(const MesoGl *gl)
 static MesoStatus make_words(MesoGlVisibility *v, MesoArena *arena, MesoError *error)
 {
     for (uint32_t i = 0; i < v->target_count; i++) {
-        v->words[i] = MESO_NEW(arena, uint32_t, (size_t)WORDS * v->side * v->side * v->job.samples, error);
+        v->words[i] = MESO_NEW(arena, uint32_t, (size_t)WORDS * v->frame_width * v->frame_height, error);
         if (!v->words[i])
             return MESO_ERR_MEMORY;
     }
     return MESO_OK;
 }
 
+/* What draws: lists where shaders bend sweeps, and batches where processors do. */
+static MesoStatus make_geometry(MesoGlVisibility *v, MesoArena *arena, bool detailed, MesoError *error)
+{
+    const MesoRasterJob *job = &v->job;
+    if (!v->bends)
+        return meso_draw_batch_init(&v->batch, &v->gl, detailed, error);
+    MesoStatus status = meso_draw_programs_init(&v->programs, &v->gl, job->shapes->scene, detailed, error);
+    return status ? status : meso_draw_lists_init(&v->lists, arena, &v->gl, job->shapes, &v->view, job->height,
+                                                  job->tolerance, error);
+}
+
 MesoStatus meso_gl_visibility_init(MesoGlVisibility **out, MesoArena *arena, const MesoGlContext *context,
-                                   const MesoRasterJob *job, const MesoView *view, bool detailed, MesoError *error)
+                                   const MesoRasterJob *job, const MesoView *view, bool detailed,
+                                   uint32_t thread_count, MesoError *error)
 {
     MesoGlVisibility *v = *out = MESO_NEW(arena, MesoGlVisibility, 1, error);
     if (!v)
         return MESO_ERR_MEMORY;
-    const MesoScene *scene = job->shapes->scene;
     *v = (MesoGlVisibility){.job = *job, .lanes = meso_raster_lanes(job->samples), .view = *view,
-                            .end_depth = end_depth_of(view, &scene->box), .side = meso_gl_window_side(job->samples),
-                            .target_count = detailed ? TARGETS : 1};
+                            .bends = context->bends, .end_depth = end_depth_of(view, &job->shapes->scene->box),
+                            .target_count = detailed ? TARGETS : 1, .thread_count = thread_count,
+                            .frame_width = frame_side(job->width, job->samples),
+                            .frame_height = frame_side(job->height, job->samples)};
     MesoStatus status = meso_gl_load(&v->gl, context, error);
     if (status) {
         *out = NULL;
@@ -108,11 +144,9 @@ MesoStatus meso_gl_visibility_init(MesoGlVisibility **out, MesoArena *arena, con
     }
     status = make_words(v, arena, error);
     if (!status)
-        status = meso_draw_programs_init(&v->programs, &v->gl, scene, detailed, error);
-    if (!status)
         status = make_frame(v, error);
     if (!status)
-        status = meso_draw_lists_init(&v->lists, arena, &v->gl, job->shapes, view, job->height, job->tolerance, error);
+        status = make_geometry(v, arena, detailed, error);
     set_state(&v->gl);
     return status;
 }
@@ -123,6 +157,7 @@ void meso_gl_visibility_release(MesoGlVisibility *v)
         return;
     meso_draw_lists_release(&v->lists);
     meso_draw_programs_release(&v->programs, &v->gl);
+    meso_draw_batch_release(&v->batch, &v->gl);
     v->gl.DeleteFramebuffers(1, &v->frame);
     v->gl.DeleteTextures(TARGETS, v->targets);
     v->gl.DeleteTextures(1, &v->depth);
@@ -143,42 +178,83 @@ static MesoMatrix moved(MesoMatrix clip, MesoWindow window, int32_t x, int32_t y
     return clip;
 }
 
-static void draw_sample(MesoGlVisibility *v, const MesoMatrix *clip)
+/* The first pixel of a sample's place in the framebuffer. */
+static void find_place(const MesoGlVisibility *v, uint32_t sample, uint32_t *x, uint32_t *y)
+{
+    uint32_t across = places_across(v->job.samples);
+    *x = sample % across * v->window.width;
+    *y = sample / across * v->window.height;
+}
+
+static void clear_window(MesoGlVisibility *v)
 {
     static const GLuint nothing[4] = {0};
     static const float farthest = 0;
     const MesoGl *gl = &v->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, v->frame);
-    gl->Viewport(0, 0, (GLsizei)v->window.width, (GLsizei)v->window.height);
     gl->ClearNamedFramebufferfv(v->frame, GL_DEPTH, 0, &farthest);
     gl->ClearNamedFramebufferuiv(v->frame, GL_COLOR, SEEN, nothing);    /* the details of nothing are not looked at */
-    meso_draw_lists_draw(&v->lists, &v->programs, clip, &v->view);
+    v->empty = false;
 }
 
-static void read_sample(MesoGlVisibility *v, uint32_t sample)
+static void look_at_sample(const MesoGlVisibility *v, uint32_t sample)
+{
+    uint32_t x, y;
+    find_place(v, sample, &x, &y);
+    v->gl.Viewport((GLint)x, (GLint)y, (GLsizei)v->window.width, (GLsizei)v->window.height);
+}
+
+static MesoStatus draw_batch(void *context, const MesoSiftBatch *batch, MesoError *error)
+{
+    MesoGlVisibility *v = context;
+    if (v->empty)
+        clear_window(v);
+    meso_draw_batch_take(&v->batch, &v->gl, batch);
+    for (uint32_t i = 0; i < v->job.samples; i++) {
+        look_at_sample(v, i);
+        meso_draw_batch_sample(&v->batch, &v->gl, batch, i, &v->clips[i], &v->view);
+    }
+    return meso_gl_check(&v->gl, "drawing", error);
+}
+
+static void draw_lists(MesoGlVisibility *v, const MesoMatrix *clip)
+{
+    meso_draw_lists_select(&v->lists, clip);
+    clear_window(v);
+    for (uint32_t i = 0; i < v->job.samples; i++) {
+        look_at_sample(v, i);
+        meso_draw_lists_draw(&v->lists, &v->programs, &v->clips[i], &v->view);
+    }
+}
+
+static void read_window(MesoGlVisibility *v)
 {
     const MesoGl *gl = &v->gl;
-    GLsizei width = (GLsizei)v->window.width, height = (GLsizei)v->window.height;
-    size_t first = (size_t)WORDS * sample * v->window.width * v->window.height;
+    uint32_t across = places_across(v->job.samples);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
     for (uint32_t i = 0; i < v->target_count; i++) {
         gl->NamedFramebufferReadBuffer(v->frame, GL_COLOR_ATTACHMENT0 + i);
-        gl->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, v->words[i] + first);
+        gl->ReadPixels(0, 0, (GLsizei)(across * v->window.width), (GLsizei)(across * v->window.height),
+                       GL_RGBA_INTEGER, GL_UNSIGNED_INT, v->words[i]);
     }
 }
 
 MesoStatus meso_gl_visibility_draw(MesoGlVisibility *v, MesoWindow window, MesoError *error)
 {
     MesoMatrix clip = meso_view_clip_from_world(&v->view, v->end_depth, v->job.width, v->job.height, window);
+    MesoStatus status = MESO_OK;
+    int32_t middle = MESO_RASTER_UNIT / 2;
     v->window = window;
-    meso_draw_lists_select(&v->lists, &clip);
-    for (uint32_t i = 0; i < v->job.samples; i++) {
-        int32_t middle = MESO_RASTER_UNIT / 2;
-        MesoMatrix at = moved(clip, window, v->lanes.x[i] - middle, v->lanes.y[i] - middle);
-        draw_sample(v, &at);
-        read_sample(v, i);
-    }
-    return meso_gl_check(&v->gl, "drawing", error);
+    v->empty = true;
+    for (uint32_t i = 0; i < v->job.samples; i++)
+        v->clips[i] = moved(clip, window, v->lanes.x[i] - middle, v->lanes.y[i] - middle);
+    if (v->bends)
+        draw_lists(v, &clip);
+    else
+        status = meso_sift(&v->job, window, v->thread_count, draw_batch, v, error);
+    if (!status && !v->empty)
+        read_window(v);
+    return status ? status : meso_gl_check(&v->gl, "drawing", error);
 }
 
 /* ---- samples ---- */
@@ -205,9 +281,11 @@ bool meso_gl_visibility_sample(const MesoGlVisibility *v, uint32_t x, uint32_t y
                                MesoSurfaceSample *out)
 {
     const float unit = 1.f / MESO_RASTER_UNIT;
-    size_t at = ((size_t)sample * v->window.height + y) * v->window.width + x;
+    uint32_t left, top;
+    find_place(v, sample, &left, &top);
+    size_t at = (size_t)(top + y) * places_across(v->job.samples) * v->window.width + left + x;
     const uint32_t *seen = v->words[SEEN] + WORDS * at;
-    if (seen[0] == 0)
+    if (v->empty || seen[0] == 0)
         return false;
     MesoRasterRay ray = meso_raster_ray(&v->job.view, (float)(v->window.x + x) + (float)v->lanes.x[sample] * unit,
                                         (float)(v->window.y + y) + (float)v->lanes.y[sample] * unit);

@@ -1,7 +1,7 @@
 /*
  * Visibility of a picture by GL, window by window: the nearest surface at each sample, as raster_tiles.h has it, which
- * it agrees with but for what rounding decides. The samples of a pixel are drawn one after the other, each with the
- * picture moved by its place.
+ * it agrees with but for what rounding decides. The samples of a pixel are drawn side by side, each with the picture
+ * moved by its place.
  */
 #ifndef MESO_GL_VISIBILITY_H
 #define MESO_GL_VISIBILITY_H
@@ -12,18 +12,20 @@
 typedef struct MesoGlVisibility MesoGlVisibility;
 
 /*
- * Uploads the job's shapes, which have to last, as the job's view and `view`, which is the same. `detailed`: samples
- * have uv and colour too, which are 0 and white otherwise. Never has triangles or shares of their corners. What is not
- * GL's lives in `arena`. MESO_ERR_LIMIT over the driver's limits, MESO_ERR_INTERNAL with the driver's words where GL
- * fails.
+ * For the job's shapes, which have to last, as the job's view and `view`, which is the same. Where the context's
+ * shaders are to bend sweeps, all of them are uploaded; otherwise `thread_count` threads sift what each window may show
+ * (sift.h). `detailed`: samples have uv and colour too, which are 0 and white otherwise. Never has triangles or shares
+ * of their corners. What is not GL's lives in `arena`. MESO_ERR_LIMIT over the driver's limits, MESO_ERR_INTERNAL with
+ * the driver's words where GL fails.
  */
 MesoStatus meso_gl_visibility_init(MesoGlVisibility **visibility, MesoArena *arena, const MesoGlContext *context,
-                                   const MesoRasterJob *job, const MesoView *view, bool detailed, MesoError *error);
+                                   const MesoRasterJob *job, const MesoView *view, bool detailed,
+                                   uint32_t thread_count, MesoError *error);
 void meso_gl_visibility_release(MesoGlVisibility *visibility);
 
-/* Pixels a side of the windows that are drawn at once, and the least that GL takes for one. */
+/* Pixels a side of the windows that are drawn at once, and bytes that a picture's windows take, the driver's and ours. */
 uint32_t meso_gl_window_side(uint32_t samples);
-size_t meso_gl_window_bytes(uint32_t samples);
+size_t meso_gl_window_bytes(uint32_t width, uint32_t height, uint32_t samples);
 
 /* Finds what a window shows, at most of that side. */
 MesoStatus meso_gl_visibility_draw(MesoGlVisibility *visibility, MesoWindow window, MesoError *error);

@@ -57,7 +57,8 @@ MesoStatus meso_apart_picture_init(MesoApartPicture **picture, MesoArena *arena,
     meso_image_place(&result->image, (unsigned char *)result + HEAD_BYTES, scene, options);
 
     Work work = {result, arena, maker, thread_count, scene, options};
-    status = meso_isolate("drawing", draw, &work, DRIVER_BYTES + meso_gl_window_bytes(options->samples), error);
+    size_t need = DRIVER_BYTES + meso_gl_window_bytes(options->width, options->height, options->samples);
+    status = meso_isolate("drawing", draw, &work, need, error);
     if (status) {
         meso_apart_picture_release(result);
         return status;

@@ -66,18 +66,25 @@ static MesoRenderOptions look(uint32_t samples)
                                .camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, fov}};
 }
 
-static MesoImage draw(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
-                      const char *maker, uint32_t threads)
+static MesoImage draw_by(bool bends, MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
+                         const char *maker, uint32_t threads)
 {
     MesoGlContext context;
     MesoError error = {0};
-    MesoImage image;
-    if (meso_gl_context_init(&context, maker, threads, &error)
-        || meso_gl_picture(&image, arena, &context, scene, options, threads, &error))
+    MesoImage image = {0};
+    MesoStatus status = meso_gl_context_init(&context, maker, threads, &error);
+    context.bends = context.bends || bends;
+    if (status || meso_gl_picture(&image, arena, &context, scene, options, threads, &error))
         fprintf(stderr, "%s\n", error.message);
     CHECK(error.status == MESO_OK);
     meso_gl_context_release(&context);
     return image;
+}
+
+static MesoImage draw(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,
+                      const char *maker, uint32_t threads)
+{
+    return draw_by(false, arena, scene, options, maker, threads);
 }
 
 static bool same_pixels(const MesoImage *a, const MesoImage *b)
@@ -315,6 +322,8 @@ int main(void)
     MesoRenderOptions options = look(1);
     MesoImage one = draw(&arena, &bar.scene, &options, "osmesa", 0);
     test_values(&one);
+    MesoImage bent = draw_by(true, &arena, &bar.scene, &options, "osmesa", 0);  /* by shaders, as a GPU does */
+    test_values(&bent);
     options = look(4);
     MesoImage four = draw(&arena, &bar.scene, &options, "osmesa", 1);
     test_values(&four);

@@ -1,4 +1,6 @@
-/* Pictures of sweeps that the shader bends are those of the polygons that the mapper makes of them. */
+/*
+ * Pictures of sweeps, that the shader bends or the processors, are those of the polygons that the mapper makes of them.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -70,15 +72,17 @@ static void make_body(Case *c, MesoArena *arena)
     c->bodies.placed = &c->placed;
 }
 
-static MesoImage draw(MesoArena *arena, const MesoScene *scene, bool full_detail)
+static MesoImage draw(MesoArena *arena, const MesoScene *scene, bool full_detail, bool bends)
 {
     MesoGlContext context;
     MesoError error = {0};
     MesoImage image;
     MesoRenderOptions options = {.width = WIDTH, .height = HEIGHT, .samples = 1, .full_detail = full_detail,
                                  .camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 15}};
-    if (meso_gl_context_init(&context, "osmesa", 0, &error) ||
-        meso_gl_picture(&image, arena, &context, scene, &options, 0, &error))
+    CHECK(meso_gl_context_init(&context, "osmesa", 0, &error) == MESO_OK);
+    CHECK(!context.bends);
+    context.bends = bends;
+    if (meso_gl_picture(&image, arena, &context, scene, &options, 0, &error))
         fprintf(stderr, "%s\n", error.message);
     CHECK(error.status == MESO_OK);
     meso_gl_context_release(&context);
@@ -132,10 +136,15 @@ static void test_rule(MesoArena *arena, MesoFrameRule rule, float twist, float m
     c.sweep.mitre = mitre;
     meso_scene_measure(&c.swept);
     make_body(&c, arena);
-    MesoImage swept = draw(arena, &c.swept, true), body = draw(arena, &c.bodies, true);
-    CHECK(count_different(&swept, &body, 1e-3f, 0.02f, &covered) <= 8 && covered > 1000);
-    MesoImage coarse = draw(arena, &c.swept, false);
-    CHECK(count_different(&coarse, &body, 0.05f, 0.5f, &covered) <= covered / 20);
+    MesoImage body = draw(arena, &c.bodies, true, false);
+    for (int bends = 0; bends < 2; bends++) {
+        MesoImage swept = draw(arena, &c.swept, true, bends);
+        CHECK(count_different(&swept, &body, 1e-3f, 0.02f, &covered) <= 8 && covered > 1000);
+        MesoImage coarse = draw(arena, &c.swept, false, bends);
+        CHECK(count_different(&coarse, &body, 0.05f, 0.5f, &covered) <= covered / 20);
+    }
+    MesoImage uploaded = draw(arena, &c.bodies, true, true);
+    CHECK(count_different(&uploaded, &body, 1e-5f, 1e-3f, &covered) == 0);
 }
 
 int main(void)

@@ -482,7 +482,7 @@ MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const Meso
     bool detailed = options->extras & MESO_EXTRA_UV || meso_scene_is_colored(scene);
     MesoStatus status = get_ready(p, arena, error);
     if (!status)
-        status = meso_gl_visibility_init(&p->gl, arena, context, &p->job, &p->view, detailed, error);
+        status = meso_gl_visibility_init(&p->gl, arena, context, &p->job, &p->view, detailed, thread_count, error);
     if (!status)
         status = meso_paint(p, image, 0, error);
     meso_gl_visibility_release(p->gl);

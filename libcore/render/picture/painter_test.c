@@ -200,8 +200,10 @@ static void test_rays(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height)
 
 static MesoGlContext context;
 
-static void test_gl(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, uint32_t samples)
+/* `bends`: shaders bend the sweeps, as a GPU's do. */
+static void test_gl_by(bool bends, const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, uint32_t samples)
 {
+    context.bends = bends;
     MesoRenderOptions options = look(at, eye, samples);
     options.camera.height = height;
     options.ground = true;
@@ -233,6 +235,13 @@ static void test_gl(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, ui
     CHECK(sqrt(normals / covered) < 0.05 && sqrt(colors / covered) < 0.01);
     CHECK(depths / covered < 0.01 && alpha / covered < 0.02);
     CHECK(light / covered < 3e-4 && places / covered < 3e-5 && uvs / covered < 5e-5 && openness / covered < 2e-3);
+    CHECK(bends || wrong <= 2);     /* the same triangles */
+}
+
+static void test_gl(const Bundle *b, MesoVec3 at, MesoVec3 eye, float height, uint32_t samples)
+{
+    test_gl_by(false, b, at, eye, height, samples);
+    test_gl_by(true, b, at, eye, height, samples);
 }
 
 static bool same_pixels(const MesoImage *a, const MesoImage *b)

@@ -1,10 +1,10 @@
-// A vertex of a body, placed on the CPU.
+// A vertex that the processors have placed, of a body or a sweep.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint shape;
+layout(location = 4) in vec2 uv;
 #ifdef DETAILED
 layout(location = 3) in vec3 color;
-layout(location = 4) in vec2 uv;
 #endif
 
 layout(location = 0) uniform mat4 clip_from_world;
@@ -24,7 +24,7 @@ void main()
     gl_Position = clip_from_world * vec4(position, 1.0);
     world_normal = normal;
     view_depth = dot(depth_axis, vec4(position, 1.0));
-    along_shape = 0.0;
+    along_shape = uv.y;
     shape_id = shape;
 #ifdef DETAILED
     shape_uv = uv;
