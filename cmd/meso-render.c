@@ -9,6 +9,7 @@
 #include "cmd/render/render_backdrop.h"
 #include "cmd/render/render_frames.h"
 #include "cmd/render/render_light.h"
+#include "cmd/render/render_maker.h"
 #include "cmd/render/render_source.h"
 #include "formats/file/claim.h"
 #include "formats/json/json_text.h"
@@ -136,6 +137,7 @@ typedef struct Drawing {
     bool numbered;              /* it is a frame */
     MesoPictureFiles files;
     const char *renderer;
+    bool begun;                 /* there is a picture to write */
     double context, drawing, writing;
 } Drawing;
 
@@ -154,15 +156,9 @@ static double lap(double *at)
     return passed;
 }
 
-/* Tiles, unless GL is asked for, or a context of it. */
-static bool wants_gl(const MesoRenderArguments *a)
-{
-    return strcmp(a->visibility, "gl") == 0 || (strcmp(a->visibility, "auto") == 0 && a->context_given);
-}
-
 static MesoStatus check_maker(const MesoRenderArguments *a, MesoError *error)
 {
-    if (wants_gl(a) && a->extras & MESO_EXTRA_MOTION)
+    if (meso_render_wants_gl(a) && a->extras & MESO_EXTRA_MOTION)
         return meso_fail(error, MESO_ERR_USAGE, "--aov motion is for --visibility tiles; GL finds none");
     if (strcmp(a->visibility, "tiles") == 0 && a->context_given)
         return meso_fail(error, MESO_ERR_USAGE, "--context is for --visibility gl; tiles need none");
@@ -174,21 +170,41 @@ static bool tight(const MesoRenderArguments *a)
     return strcmp(a->data_window, "tight") == 0;
 }
 
+/* What frames share: a model is read once, but where each has its own. */
+typedef struct Work {
+    MesoRenderArguments *a;
+    MesoRenderFrames frames;
+    MesoRenderSource source;
+    MesoRenderSource next;      /* of the next frame, where there is one and motion is asked for */
+    bool read, next_read;       /* the sources are */
+    const MesoEnvironment *environment;     /* NULL: light that comes with the camera */
+    MesoRenderBackdrop backdrop;
+    MesoRenderMaker maker;
+    bool chosen;                /* the maker is, for all frames */
+    uint32_t input_count;       /* of the provenance, without the model */
+    uint32_t drawn, skipped;    /* frames */
+} Work;
+
 /* By GL, in a process apart, whole. */
-static MesoStatus draw_apart(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
-                             const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
+static MesoStatus draw_apart(Work *work, Drawing *d, MesoArena *arena, const MesoRenderFrame *frame, MesoError *error)
 {
+    MesoRenderArguments *a = work->a;
     MesoApartPicture *picture;
     double at = meso_seconds();
-    MesoStatus status = meso_apart_picture_init(&picture, arena, a->context, a->tool.threads, scene, &d->options, error);
+    MesoStatus status = meso_apart_picture_init(&picture, arena, work->maker.context, a->tool.threads,
+                                                &work->source.scene, &d->options, error);
     if (status)
         return status;
+    d->begun = true;
     d->renderer = meso_arena_copy_text(&a->tool.arena, picture->renderer, error);
+    if (work->maker.tried)
+        a->tool.provenance.command_line = meso_render_frame_gpu_command(&work->frames, frame, &a->tool.arena, error);
     d->drawing = meso_seconds() - picture->context_made;
     d->context = lap(&at) - d->drawing;
-    status = d->renderer ? meso_picture_files_begin(&d->files, a, frame, d->numbered, backdrop, &picture->image,
-                                                    d->options.height, error)
-                         : MESO_ERR_MEMORY;
+    status = d->renderer && a->tool.provenance.command_line
+                 ? meso_picture_files_begin(&d->files, a, frame, d->numbered, &work->backdrop, &picture->image,
+                                            d->options.height, error)
+                 : MESO_ERR_MEMORY;
     if (!status)
         status = meso_picture_files_band(&d->files, error);
     status = meso_picture_files_end(&d->files, status, error);
@@ -210,9 +226,10 @@ static uint32_t choose_rows(const MesoRenderArguments *a, const MesoScene *scene
 }
 
 /* By tiles: each band is painted and written. */
-static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *arena, const MesoScene *scene,
-                             const MesoRenderBackdrop *backdrop, const MesoRenderFrame *frame, MesoError *error)
+static MesoStatus draw_bands(Work *work, Drawing *d, MesoArena *arena, const MesoRenderFrame *frame, MesoError *error)
 {
+    MesoRenderArguments *a = work->a;
+    const MesoScene *scene = &work->source.scene;
     MesoPainter *painter;
     MesoImage band;
     double at = meso_seconds();
@@ -226,8 +243,8 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
         status = meso_paint(painter, &band, row, error);
         d->drawing += lap(&at);
         if (!status && row == 0)
-            status = meso_picture_files_begin(&d->files, a, frame, d->numbered, backdrop, &band, d->options.height,
-                                              error);
+            status = meso_picture_files_begin(&d->files, a, frame, d->numbered, &work->backdrop, &band,
+                                              d->options.height, error);
         if (!status)
             status = meso_picture_files_band(&d->files, error);
         d->writing += lap(&at);
@@ -236,19 +253,6 @@ static MesoStatus draw_bands(MesoRenderArguments *a, Drawing *d, MesoArena *aren
     d->writing += lap(&at);
     return status;
 }
-
-/* What frames share: a model is read once, but where each has its own. */
-typedef struct Work {
-    MesoRenderArguments *a;
-    MesoRenderFrames frames;
-    MesoRenderSource source;
-    MesoRenderSource next;      /* of the next frame, where there is one and motion is asked for */
-    bool read, next_read;       /* the sources are */
-    const MesoEnvironment *environment;     /* NULL: light that comes with the camera */
-    MesoRenderBackdrop backdrop;
-    uint32_t input_count;       /* of the provenance, without the model */
-    uint32_t drawn, skipped;    /* frames */
-} Work;
 
 static void close_model(Work *work)
 {
@@ -294,6 +298,39 @@ static void look_ahead(const Work *work, const MesoRenderFrame *frame, MesoRende
                                                     work->next_read ? &work->next.scene : &work->source.scene);
 }
 
+/* One maker for all frames; a GPU gets what GL holds. */
+static void choose_maker(Work *work, const Drawing *d)
+{
+    const MesoScene *scene = &work->source.scene;
+    bool held = !scene->maker && meso_paint_band_rows(scene, &d->options) == d->options.height;
+    if (!work->chosen)
+        work->maker = meso_render_maker(work->a, held);
+    if (work->maker.context)
+        work->a->stored_sweeps = 0;
+    work->chosen = true;
+}
+
+/* By the maker; a GPU that was found, and draws no first picture, leaves it to tiles. */
+static MesoStatus draw_by_maker(Work *work, Drawing *d, MesoArena *arena, const MesoRenderFrame *frame,
+                                MesoError *error)
+{
+    if (!work->maker.context)
+        return draw_bands(work, d, arena, frame, error);
+    MesoStatus status = draw_apart(work, d, arena, frame, error);
+    if (!status || d->begun || !work->maker.tried || work->drawn)
+        return status;
+    work->maker = (MesoRenderMaker){.why = meso_arena_copy_text(&work->a->tool.arena, error->message, NULL)};
+    *error = (MesoError){0};
+    return draw_bands(work, d, arena, frame, error);
+}
+
+static void say_maker(const Work *work, const Drawing *d)
+{
+    const char *why = work->maker.why;
+    if (work->a->tool.verbose)
+        meso_tool_say(&work->a->tool, "drawn by %s%s%s", d->renderer, why ? ": " : "", why ? why : "");
+}
+
 static MesoStatus draw(Work *work, Drawing *d, MesoArena *arena, const MesoRenderFrame *frame, MesoError *error)
 {
     MesoRenderArguments *a = work->a;
@@ -315,7 +352,8 @@ static MesoStatus draw(Work *work, Drawing *d, MesoArena *arena, const MesoRende
     }, .numbered = work->frames.numbered};
     if (a->extras & MESO_EXTRA_MOTION)
         look_ahead(work, frame, &d->options);
-    return (wants_gl(a) ? draw_apart : draw_bands)(a, d, arena, scene, &work->backdrop, frame, error);
+    choose_maker(work, d);
+    return draw_by_maker(work, d, arena, frame, error);
 }
 
 static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double start, MesoError *error)
@@ -328,6 +366,7 @@ static MesoStatus draw_frame(Work *work, const MesoRenderFrame *frame, double st
     MesoStatus status = draw(work, &drawing, &scratch, frame, error);
     if (!status) {
         report_image(&a->tool, &drawing.options, &work->source.scene, drawing.renderer, drawing.files.covered);
+        say_maker(work, &drawing);
         say_times(&a->tool, &drawing, model);
         work->drawn++;
     }
@@ -430,7 +469,7 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     if (!status && a->extras & MESO_EXTRA_MOTION && !work.frames.numbered)
         status = meso_fail(error, MESO_ERR_USAGE,
                            "--aov motion is for frames: --turntable, --keys or a MODEL by number");
-    if (wants_gl(a))            /* it has them all in its buffers */
+    if (meso_render_wants_gl(a))    /* it has them all in its buffers */
         a->stored_sweeps = 0;
     work.backdrop.up = a->camera.world_up;
     work.input_count = a->tool.provenance.input_count;
@@ -442,7 +481,7 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
 
 int main(int argc, char **argv)
 {
-    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
+    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto", .devices = "/dev",
                          .ground = "none", .data_window = "full", .rate = {24, 1}, .light = "camera",
                          .light_strength = 1, .tone = "shoulder", .stored_sweeps = STORED_SWEEPS};
     const MesoOption options[] = {
@@ -477,8 +516,8 @@ int main(int argc, char **argv)
                     .given = &a.light_strength_given),
         MESO_NUMBER(0, "vary", "AMOUNT", "how much colours differ from strand to strand, or element to element, 0 "
                     "(default) to 1", &a.vary, 0, 1),
-        MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): gl where "
-                    "--context is given", &a.visibility, "auto|tiles|gl"),
+        MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): a GPU "
+                    "where there is one, tiles otherwise", &a.visibility, "auto|tiles|gl"),
         MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, "
                   "motion, or all, which is without motion",
                   &a.aov),
@@ -496,6 +535,7 @@ int main(int argc, char **argv)
         MESO_CHOICE(0, "context", "MAKER",
                     "of the GL context: osmesa (default), egl, or auto for a GPU where there is one",
                     &a.context, "auto|osmesa|egl", .given = &a.context_given),
+        MESO_TEXT(0, "devices", "DIR", 0, &a.devices, .more = MESO_OPTION_SILENT),
         MESO_COUNT(0, "band-rows", "N", 0, &a.band_rows, 0, 16384, .more = MESO_OPTION_SILENT),
         MESO_COUNT(0, "stored-sweeps", "N", 0, &a.stored_sweeps, 0, UINT32_MAX, .more = MESO_OPTION_SILENT),
         MESO_TOOL_OPTIONS(a.tool),

@@ -14,6 +14,7 @@ typedef struct MesoRenderArguments {
     const char *samples_text;
     const char *context, *visibility, *ground;
     bool context_given;
+    const char *devices;        /* --devices: for tests, and hidden: where GPUs have their nodes */
     const char *frames;         /* --frames; NULL: one picture, or all frames of a turntable or of a pattern MODEL */
     uint32_t turntable;         /* --turntable: frames of a full turn; 0: none */
     const char *keys;           /* --keys: a file of cameras */

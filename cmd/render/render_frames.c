@@ -81,13 +81,25 @@ MesoStatus meso_render_frames_init(MesoRenderFrames *frames, MesoRenderArguments
 }
 
 /* The command for this frame, which is what its pictures say, whichever run made them. */
-static char *command_of(const MesoRenderFrames *frames, const MesoRenderFrame *frame, MesoArena *arena, MesoError *error)
+static char *command_of(const MesoRenderFrames *frames, const MesoRenderFrame *frame, bool by_gpu, MesoArena *arena,
+                        MesoError *error)
 {
     char number[16];
+    MesoOptionChange changes[5] = {{"resume", NULL}}, *change = changes + 1;
     snprintf(number, sizeof number, "%d", frame->number);
-    const MesoOptionChange changes[] = {{"resume", NULL}, {"frames", number}, {NULL, NULL}};
-    const MesoOptionChange single[] = {{"resume", NULL}, {NULL, NULL}};
-    return meso_tool_command(&frames->a->tool, frames->numbered ? changes : single, arena, error);
+    if (frames->numbered)
+        *change++ = (MesoOptionChange){"frames", number};
+    if (by_gpu) {
+        *change++ = (MesoOptionChange){"visibility", "gl"};
+        *change++ = (MesoOptionChange){"context", "auto"};
+    }
+    return meso_tool_command(&frames->a->tool, changes, arena, error);
+}
+
+char *meso_render_frame_gpu_command(const MesoRenderFrames *frames, const MesoRenderFrame *frame, MesoArena *arena,
+                                    MesoError *error)
+{
+    return command_of(frames, frame, true, arena, error);
 }
 
 static const char *path_of(const MesoRenderFrames *frames, const char *name, int32_t number, MesoArena *arena,
@@ -105,7 +117,7 @@ MesoStatus meso_render_frame(MesoRenderFrame *frame, const MesoRenderFrames *fra
     frame->model = path_of(frames, a->model, frame->number, arena, error);
     frame->output = path_of(frames, a->tool.output, frame->number, arena, error);
     frame->png = path_of(frames, a->png, frame->number, arena, error);
-    frame->command = command_of(frames, frame, arena, error);
+    frame->command = command_of(frames, frame, false, arena, error);
     bool made = !a->model == !frame->model && frame->output && frame->command && !a->png == !frame->png;
     return made ? MESO_OK : MESO_ERR_MEMORY;
 }

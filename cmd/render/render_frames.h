@@ -28,6 +28,13 @@ typedef struct MesoRenderFrame {
 MesoStatus meso_render_frame(MesoRenderFrame *frame, const MesoRenderFrames *frames, uint32_t i, MesoArena *arena,
                              MesoError *error);
 
+/*
+ * The command that makes it by a GPU which is not asked for by name: what its pictures say then, so that another run
+ * does not take them for those of tiles. NULL when memory is out.
+ */
+char *meso_render_frame_gpu_command(const MesoRenderFrames *frames, const MesoRenderFrame *frame, MesoArena *arena,
+                                    MesoError *error);
+
 /* Its camera for a scene. */
 MesoCamera meso_render_frame_camera(const MesoRenderFrames *frames, const MesoRenderFrame *frame, const MesoScene *scene);
 

@@ -34,6 +34,16 @@ for channel in R G A AO P.X uv.U; do
     awk -v n="$(field $channel relative)" 'BEGIN { print (n < 0.1) }'
 done
 
+echo "== auto: tiles where no GPU is there, where a driver does not find it, and for frames that are resumed"
+mkdir none gpu gpu/dri
+: >gpu/dri/renderD128
+render --visibility tiles --provenance none -o plain.exr
+auto() { __EGL_VENDOR_LIBRARY_DIRS=$PWD/none meso-render -v --size 240x300 --samples 1 --provenance none "$@" "$model"; }
+auto --devices none -o none.exr 2>&1 | grep -o 'drawn by.*'
+auto --devices gpu -o gpu.exr 2>&1 | grep -c 'drawn by tiles: .*EGL'
+auto --devices gpu --resume -o resumed.exr 2>&1 | grep -o 'drawn by.*'
+for picture in none gpu resumed; do cmp plain.exr $picture.exr; done
+
 echo "== from elsewhere"
 meso-info -q --compare tiles.exr other.exr -o beside.json || echo "status $?"
 awk -v n="$(field slot differing)" 'BEGIN { print (n > 0.1 * 240 * 300) }'

@@ -52,8 +52,10 @@ static MesoStatus make(MesoGlContext *context, const char *maker, MesoError *err
         return meso_gl_osmesa_init(context, error);
     if (strcmp(maker, "egl") == 0)
         return meso_gl_egl_init(context, false, error);
+    if (strcmp(maker, "gpu") == 0)
+        return meso_gl_egl_init(context, true, error);
     if (strcmp(maker, "auto") != 0)
-        return meso_fail(error, MESO_ERR_USAGE, "no GL context maker '%s' (osmesa, egl or auto)", maker);
+        return meso_fail(error, MESO_ERR_USAGE, "no GL context maker '%s' (osmesa, egl, gpu or auto)", maker);
     if (meso_gl_egl_init(context, true, NULL) == MESO_OK)
         return MESO_OK;
     return meso_gl_osmesa_init(context, error);

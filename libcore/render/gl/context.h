@@ -11,8 +11,8 @@
 #include "libcore/render/gl/gl_context.h"
 
 /*
- * `maker` is "osmesa", "egl" or "auto" (egl where it offers a GPU, else
- * osmesa). The context is current on this thread. `thread_count` bounds the
+ * `maker` is "osmesa", "egl", "gpu" (a GPU that egl offers) or "auto" (gpu
+ * where there is one, else osmesa). The context is current on this thread. `thread_count` bounds the
  * threads of a software driver (0: its own choice). The environment of this
  * process is emptied, but for where drivers are installed, so that it changes
  * no pixel; no other thread may read it meanwhile.

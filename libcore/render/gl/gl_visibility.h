@@ -23,7 +23,7 @@ MesoStatus meso_gl_visibility_init(MesoGlVisibility **visibility, MesoArena *are
                                    uint32_t thread_count, MesoError *error);
 void meso_gl_visibility_release(MesoGlVisibility *visibility);
 
-/* Pixels a side of the windows that are drawn at once, and bytes that a picture's windows take, the driver's and ours. */
+/* Pixels a side of the windows that are drawn at once; and what those of a picture take, the driver's part and ours. */
 uint32_t meso_gl_window_side(uint32_t samples);
 size_t meso_gl_window_bytes(uint32_t width, uint32_t height, uint32_t samples);
 

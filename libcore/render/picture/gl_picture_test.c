@@ -12,6 +12,7 @@
 #include "libcore/base/arena.h"
 #include "libcore/base/check.h"
 #include "libcore/render/gl/context.h"
+#include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/gl/renderer_name.h"
 #include "libcore/render/picture/painter.h"
 
@@ -292,6 +293,20 @@ static void test_refusals(MesoArena *arena)
     CHECK(meso_gl_picture(&image, arena, &context, &bar.scene, &options, 0, &error) == MESO_ERR_USAGE);
     meso_gl_context_release(&context);
     CHECK(meso_gl_is_software("llvmpipe (LLVM 15.0.6, 256 bits)") && !meso_gl_is_software("NVIDIA H200"));
+    CHECK(meso_gl_is_software("virgl (LLVMPIPE (LLVM 15.0.6, 256 bits))"));
+    CHECK(meso_gl_is_software("D3D12 (Microsoft Basic Render Driver)"));
+    CHECK(!meso_gl_is_software("AMD Radeon RX 6800 (radeonsi, navi21, LLVM 15.0.7)"));
+}
+
+/* A framebuffer with a place for each sample, two targets of four words and a depth; and what is read from it. */
+static void test_bytes(void)
+{
+    const size_t pixel = 4 * (2 * 4 + 1 + 2 * 4);
+    CHECK(meso_gl_window_side(16) == 256 && meso_gl_window_side(1) == 1024);
+    CHECK(meso_gl_window_bytes(64, 48, 1) == pixel * 64 * 48);
+    CHECK(meso_gl_window_bytes(64, 48, 16) == pixel * 16 * 64 * 48);
+    CHECK(meso_gl_window_bytes(1280, 720, 4) == pixel * 1024 * 1024);
+    CHECK(meso_gl_window_bytes(16384, 100, 1) == pixel * 1024 * 100);
 }
 
 /* EGL may offer nothing; where it is software, it agrees, for another number of threads too. */
@@ -311,6 +326,11 @@ static void test_makers(MesoArena *arena, const MesoScene *scene, const MesoImag
     CHECK(meso_gl_context_init(&context, "auto", 0, NULL) == MESO_OK);
     CHECK(meso_gl_is_software(context.renderer) || !software);
     meso_gl_context_release(&context);
+    MesoStatus status = meso_gl_context_init(&context, "gpu", 0, NULL);
+    CHECK(status || !meso_gl_is_software(context.renderer));
+    CHECK(status == (software ? MESO_ERR_INTERNAL : MESO_OK));
+    if (!status)
+        meso_gl_context_release(&context);
 }
 
 int main(void)
@@ -338,6 +358,7 @@ int main(void)
     test_colors(&arena);
     test_nothing(&arena);
     test_refusals(&arena);
+    test_bytes();
     meso_arena_release(&arena);
     return 0;
 }
