@@ -3,7 +3,7 @@
 #define MESO_CAMERA_OPTIONS_H
 
 #include "cmd/common/tool.h"
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 typedef struct MesoCameraOptions {
     uint32_t size[2];           /* width, height */

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 /* Names of nodes by how they begin; a number follows where there may be several. */
 typedef struct Node {

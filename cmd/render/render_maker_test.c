@@ -5,7 +5,7 @@
 
 #include "cmd/render/render_frames.h"
 #include "formats/file/test_folder.h"
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 static TestFolder folder;
 

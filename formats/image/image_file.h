@@ -5,7 +5,7 @@
 #include "formats/file/output.h"
 #include "formats/product/provenance.h"
 #include "libcore/render/picture/tone.h"
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 /*
  * One part, scan lines, ZIP: R G B A (half, linear, premultiplied), Z (float,

@@ -2,7 +2,7 @@
 #ifndef MESO_APART_H
 #define MESO_APART_H
 
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 typedef struct MesoApartPicture {
     MesoImage image;

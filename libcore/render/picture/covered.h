@@ -2,7 +2,7 @@
 #ifndef MESO_COVERED_H
 #define MESO_COVERED_H
 
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 /* Widens the box, which begins empty, by the pixels of a band that are not clear; `first_row` is the band's in the
  * picture. O(pixels). */

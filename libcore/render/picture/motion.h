@@ -3,7 +3,7 @@
 #define MESO_MOTION_H
 
 #include "libcore/render/raster/raster_tiles.h"
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 typedef struct MesoMotion {
     const MesoRasterJob *job;

@@ -3,7 +3,7 @@
 #define MESO_PAINTER_H
 
 #include "libcore/render/gl/gl_context.h"
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 /*
  * All sweeps and bodies of `scene`, on this machine's processors alone, `thread_count` of them (0: all); the same bytes

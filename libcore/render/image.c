@@ -1,4 +1,4 @@
-#include "libcore/render/render.h"
+#include "libcore/render/image.h"
 
 #include "libcore/base/bits.h"
 

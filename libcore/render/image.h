@@ -1,6 +1,6 @@
 /* Images with their arbitrary output variables (AOVs), and what they are asked for: picture/painter.h draws them. */
-#ifndef MESO_RENDER_H
-#define MESO_RENDER_H
+#ifndef MESO_IMAGE_H
+#define MESO_IMAGE_H
 
 #include <stddef.h>
 
