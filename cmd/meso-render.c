@@ -305,7 +305,7 @@ static void choose_maker(Work *work, const Drawing *d)
     bool held = !scene->maker && meso_paint_band_rows(scene, &d->options) == d->options.height;
     if (!work->chosen)
         work->maker = meso_render_maker(work->a, held);
-    if (work->maker.context)
+    if (work->maker.tried)
         work->a->stored_sweeps = 0;
     work->chosen = true;
 }
@@ -469,7 +469,7 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
     if (!status && a->extras & MESO_EXTRA_MOTION && !work.frames.numbered)
         status = meso_fail(error, MESO_ERR_USAGE,
                            "--aov motion is for frames: --turntable, --keys or a MODEL by number");
-    if (meso_render_wants_gl(a))    /* it has them all in its buffers */
+    if (meso_render_wants_gl(a) && strcmp(a->context, "osmesa") != 0)   /* a GPU has them all in its buffers */
         a->stored_sweeps = 0;
     work.backdrop.up = a->camera.world_up;
     work.input_count = a->tool.provenance.input_count;

@@ -15,6 +15,7 @@ same 3 --samples 1 --aov all --ground shadow "$fixtures/vase.meso"
 same 2 --samples 4 --light studio "$fixtures/vase.meso"
 same 3 --samples 1 --ortho 3 "$fixtures/vase.meso"
 same 2 --samples 1 --eye 0,0.5,0 --target 1,0.6,0.2 "$fixtures/vase.meso"
+same 2 --samples 4 --light studio --visibility gl "$fixtures/vase.meso"
 
 for number in 1 2; do
     meso-map -q --thickness 0.3$number "$fixtures/vase.tiles.json" "$fixtures/vase.obj" "$fixtures/vase.slots" \

@@ -118,6 +118,8 @@ static MesoStatus make_words(MesoGlVisibility *v, MesoArena *arena, MesoError *e
 static MesoStatus make_geometry(MesoGlVisibility *v, MesoArena *arena, bool detailed, MesoError *error)
 {
     const MesoRasterJob *job = &v->job;
+    if (v->bends && job->shapes->scene->maker)
+        return meso_fail(error, MESO_ERR_LIMIT, "a scene whose sweeps are not held is not for a GPU");
     if (!v->bends)
         return meso_draw_batch_init(&v->batch, &v->gl, detailed, error);
     MesoStatus status = meso_draw_programs_init(&v->programs, &v->gl, job->shapes->scene, detailed, error);
