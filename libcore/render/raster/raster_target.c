@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 enum { LANES = MESO_RASTER_LANES, HALF = MESO_RASTER_UNIT / 2 };
 
@@ -129,65 +130,7 @@ static bool set_up(Triangle *t, const MesoRasterTarget *target, const Outline *o
     return true;
 }
 
-/* ---- triangles about as small as a pixel, one sample each ---- */
-
-enum { FEW = 6 };               /* pixels whose middles are tried one by one */
-
-/* -1 in the sign where the place is outside of the edge from a to b. */
-static inline int32_t side_of(const MesoRasterVertex *a, const MesoRasterVertex *b, int32_t x, int32_t y)
-{
-    int32_t dx = b->x - a->x, dy = b->y - a->y;
-    return dx * (y - a->y) - dy * (x - a->x) - !(dy < 0 || (dy == 0 && dx > 0));
-}
-
-static inline void put(const MesoRasterTarget *target, int32_t px, int32_t py, float nearness, uint32_t id)
-{
-    size_t place = (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) +
-                   (size_t)((py & 3) * 4 + (px & 3));
-    if (!(nearness > target->nearness[place]))
-        return;
-    target->nearness[place] = nearness;
-    if (target->ids)
-        target->ids[place] = id;
-}
-
-/* Middles from (first_x, first_y) to (last_x, last_y), in pixels. */
-static inline void fill_few(const MesoRasterTarget *target, const Outline *o, int32_t first_x, int32_t last_x,
-                            int32_t first_y, int32_t last_y, uint32_t id)
-{
-    float along_x, along_y;
-    bool sloped = false;
-    for (int32_t py = first_y; py <= last_y; py++)
-        for (int32_t px = first_x; px <= last_x; px++) {
-            int32_t x = px * MESO_RASTER_UNIT + HALF, y = py * MESO_RASTER_UNIT + HALF;
-            if ((side_of(o->a, o->b, x, y) | side_of(o->b, o->c, x, y) | side_of(o->c, o->a, x, y)) < 0)
-                continue;
-            if (!sloped)
-                find_slope(o, &along_x, &along_y);
-            sloped = true;
-            put(target, px, py, o->a->nearness + along_x * (float)(x - o->a->x) + along_y * (float)(y - o->a->y), id);
-        }
-}
-
-/* Pixels of the target whose middles lie in the box around the triangle. */
-typedef struct Middles {
-    int32_t first_x, last_x, first_y, last_y;
-} Middles;
-
-static inline Middles middles_of(const MesoRasterTarget *target, int32_t low_x, int32_t high_x, int32_t low_y,
-                                 int32_t high_y)
-{
-    return (Middles){most((low_x + HALF - 1) >> 8, 0), least((high_x - HALF) >> 8, 4 * target->cells_x - 1),
-                     most((low_y + HALF - 1) >> 8, 0), least((high_y - HALF) >> 8, 4 * target->cells_y - 1)};
-}
-
-static inline bool is_few(const Middles *m, int32_t wide, int32_t high)
-{
-    return (m->last_x - m->first_x + 1) * (int64_t)(m->last_y - m->first_y + 1) <= FEW && wide < 1 << 14 &&
-           high < 1 << 14;
-}
-
-/* ---- others ---- */
+/* ---- filling cells ---- */
 
 /* One kernel, whose width the compiler chooses; twice, for whole numbers of 32 and of 64 bits. */
 #define FILL(name, whole)                                                                                              \
@@ -242,84 +185,168 @@ FILL(fill_large, int64_t)
 
 /* ---- which triangles reach a place ---- */
 
-enum { BLOCK = 64, STEP = 16 };     /* triangles that are looked at together, at most, and at once */
+enum { STEP = 16 };     /* triangles that are looked at at once */
+enum { FEW = 16 };       /* pixels whose middles are tried one by one */
 
-typedef struct Block {
-    int32_t ax[BLOCK], ay[BLOCK], bx[BLOCK], by[BLOCK], cx[BLOCK], cy[BLOCK];
-    uint8_t kept[BLOCK];
-} Block;
+/* What becomes of a triangle: it is left out, drawn, or drawn at those of few middles that are known to be in it. */
+enum { LEFT_OUT, DRAWN, AT_MIDDLES };
 
-/* Fills up the last step with triangles without area, and returns the end of it. */
-static inline uint32_t gather(Block *block, const MesoRasterVertex *vertices, const uint32_t *corners, uint32_t count)
+typedef struct Step {
+    int32_t ax[STEP], ay[STEP], bx[STEP], by[STEP], cx[STEP], cy[STEP];
+    int32_t first_x[STEP], first_y[STEP], wide[STEP];       /* of the pixels whose middles are in its box */
+    int32_t covered[STEP];      /* bits of those in the triangle, row by row */
+    uint8_t kept[STEP];
+} Step;
+
+/* Up to as many triangles as a step has; the others have no area. */
+static inline void gather(Step *step, const MesoRasterVertex *vertices, const uint32_t *corners, uint32_t count)
 {
-    uint32_t end = (count + STEP - 1) / STEP * STEP;
-    for (uint32_t i = 0; i < count; i++) {
-        const MesoRasterVertex *a = &vertices[corners[3 * i]], *b = &vertices[corners[3 * i + 1]];
-        const MesoRasterVertex *c = &vertices[corners[3 * i + 2]];
-        block->ax[i] = a->x;
-        block->ay[i] = a->y;
-        block->bx[i] = b->x;
-        block->by[i] = b->y;
-        block->cx[i] = c->x;
-        block->cy[i] = c->y;
+    for (uint32_t l = 0; l < count; l++) {
+        const MesoRasterVertex *a = &vertices[corners[3 * l]], *b = &vertices[corners[3 * l + 1]];
+        const MesoRasterVertex *c = &vertices[corners[3 * l + 2]];
+        step->ax[l] = a->x;
+        step->ay[l] = a->y;
+        step->bx[l] = b->x;
+        step->by[l] = b->y;
+        step->cx[l] = c->x;
+        step->cy[l] = c->y;
     }
-    for (uint32_t i = count; i < end; i++)
-        block->ax[i] = block->ay[i] = block->bx[i] = block->by[i] = block->cx[i] = block->cy[i] = 0;
-    return end;
+    for (uint32_t l = count; l < STEP; l++)
+        step->ax[l] = step->ay[l] = step->bx[l] = step->by[l] = step->cx[l] = step->cy[l] = 0;
 }
 
-/* What becomes of a triangle: it is left out, drawn, or drawn at the one place that it has. */
-enum { LEFT_OUT, DRAWN, ONE_PLACE };
-
-/* At least 0 inside of the edge that runs along (dx, dy), (x, y) from its beginning; anything for a large triangle. */
-static inline int32_t inside_of(int32_t dx, int32_t dy, int32_t x, int32_t y)
+/* Those that look away or have no area are left out; large ones, whose areas do not fit in 32 bits, are drawn. */
+__attribute__((always_inline)) static inline void sift(Step *step, bool one_sided)
 {
+    for (uint32_t l = 0; l < STEP; l++) {
+        int32_t ax = step->ax[l], ay = step->ay[l], bx = step->bx[l], by = step->by[l], cx = step->cx[l];
+        int32_t cy = step->cy[l];
+        int32_t wide = most(ax, most(bx, cx)) - least(ax, least(bx, cx));
+        int32_t high = most(ay, most(by, cy)) - least(ay, least(by, cy));
+        uint32_t area = (uint32_t)(bx - ax) * (uint32_t)(cy - ay) - (uint32_t)(by - ay) * (uint32_t)(cx - ax);
+        int32_t large = (wide >> 14 | high >> 14) != 0;
+        step->kept[l] = (uint8_t)(large | ((int32_t)area < 0) | (((int32_t)area > 0) & !one_sided));
+    }
+}
+
+/* An edge of the triangles of a step. */
+typedef struct EdgeLanes {
+    int32_t inside[STEP];       /* at least 0 where the middle at hand is inside of it, */
+    int32_t right[STEP];        /* its change to the next one, */
+    int32_t back[STEP];         /* and from the last one of a row to the first of the next */
+} EdgeLanes;
+
+/* From the edge's beginning to its end, and from there to the first of so wide rows of middles; `turn` is -1 or 1. */
+__attribute__((always_inline)) static inline void put_edge(EdgeLanes *edge, uint32_t lane, int32_t dx, int32_t dy,
+                                                           int32_t x, int32_t y, int32_t turn, int32_t wide)
+{
+    dx *= turn;
+    dy *= turn;
     uint32_t owns = (uint32_t)((dy < 0) | ((dy == 0) & (dx > 0)));
-    return (int32_t)((uint32_t)dx * (uint32_t)y - (uint32_t)dy * (uint32_t)x + owns - 1);
+    uint32_t right = 0u - (uint32_t)dy * MESO_RASTER_UNIT, down = (uint32_t)dx * MESO_RASTER_UNIT;
+    edge->inside[lane] = (int32_t)((uint32_t)dx * (uint32_t)y - (uint32_t)dy * (uint32_t)x + owns - 1);
+    edge->right[lane] = (int32_t)right;
+    edge->back[lane] = (int32_t)(down - (uint32_t)(wide - 1) * right);
+}
+
+/* Which of the middles, of which each triangle has `count`, are in it. */
+__attribute__((always_inline)) static inline void cover(Step *step, EdgeLanes edges[3], const int32_t *count)
+{
+    int32_t most_middles = 0, column[STEP];
+    for (uint32_t l = 0; l < STEP; l++) {
+        most_middles = most(most_middles, count[l]);
+        column[l] = step->covered[l] = 0;
+    }
+    for (int32_t k = 0; k < most_middles; k++)
+        for (uint32_t l = 0; l < STEP; l++) {
+            int32_t outside = edges[0].inside[l] | edges[1].inside[l] | edges[2].inside[l];
+            step->covered[l] |= ((outside >= 0) & (k < count[l])) << k;
+            int32_t next = column[l] + 1, last = next == step->wide[l];
+            column[l] = last ? 0 : next;
+            for (int e = 0; e < 3; e++)
+                edges[e].inside[l] += last ? edges[e].back[l] : edges[e].right[l];
+        }
 }
 
 /*
- * Those that look away or have no area are left out, and, with one sample a pixel, those around no pixel's middle:
- * without a branch, so that many are looked at at once. Large ones, whose areas do not fit in 32 bits, are all drawn.
+ * The same with one sample a pixel: those around no pixel's middle are left out too. Without a branch, so that many are
+ * looked at at once.
  */
-__attribute__((always_inline)) static inline void sift_step(Block *block, uint32_t begin,
-                                                            const MesoRasterTarget *target, bool one_sided)
+__attribute__((always_inline)) static inline void sift_middles(Step *step, const MesoRasterTarget *target,
+                                                               bool one_sided)
 {
-    int32_t wide = 4 * target->cells_x - 1, high = 4 * target->cells_y - 1;
-    bool single = target->lanes->samples == 1;
-    for (uint32_t i = begin; i < begin + STEP; i++) {
-        int32_t ax = block->ax[i], ay = block->ay[i], bx = block->bx[i], by = block->by[i], cx = block->cx[i];
-        int32_t cy = block->cy[i];
+    int32_t right = 4 * target->cells_x - 1, bottom = 4 * target->cells_y - 1, count[STEP], drawn[STEP];
+    EdgeLanes edges[3];
+    for (uint32_t l = 0; l < STEP; l++) {
+        int32_t ax = step->ax[l], ay = step->ay[l], bx = step->bx[l], by = step->by[l], cx = step->cx[l];
+        int32_t cy = step->cy[l];
         int32_t low_x = least(ax, least(bx, cx)), high_x = most(ax, most(bx, cx));
         int32_t low_y = least(ay, least(by, cy)), high_y = most(ay, most(by, cy));
-        int32_t first_x = most((low_x + HALF - 1) >> 8, 0), last_x = least((high_x - HALF) >> 8, wide);
-        int32_t first_y = most((low_y + HALF - 1) >> 8, 0), last_y = least((high_y - HALF) >> 8, high);
+        int32_t first_x = most((low_x + HALF - 1) >> 8, 0), last_x = least((high_x - HALF) >> 8, right);
+        int32_t first_y = most((low_y + HALF - 1) >> 8, 0), last_y = least((high_y - HALF) >> 8, bottom);
         uint32_t area = (uint32_t)(bx - ax) * (uint32_t)(cy - ay) - (uint32_t)(by - ay) * (uint32_t)(cx - ax);
         int32_t large = ((high_x - low_x) >> 14 | (high_y - low_y) >> 14) != 0, turn = (int32_t)area > 0 ? 1 : -1;
         int32_t seen = large | ((int32_t)area < 0) | (((int32_t)area > 0) & !one_sided);
-        int32_t middle = (first_x <= last_x) & (first_y <= last_y);
-        int32_t one = (first_x == last_x) & (first_y == last_y) & (large ^ 1);
+        int32_t wide = most(last_x - first_x + 1, 0), high = most(last_y - first_y + 1, 0), middles = wide * high;
+        int32_t few = (middles <= FEW) & (large ^ 1), kept = seen & (middles > 0);
         int32_t x = first_x * MESO_RASTER_UNIT + HALF, y = first_y * MESO_RASTER_UNIT + HALF;
-        int32_t outside = inside_of(turn * (bx - ax), turn * (by - ay), x - ax, y - ay) |
-                          inside_of(turn * (cx - bx), turn * (cy - by), x - bx, y - by) |
-                          inside_of(turn * (ax - cx), turn * (ay - cy), x - cx, y - cy);
-        int32_t drawn = single ? seen & middle & ((one ^ 1) | (outside >= 0)) : seen;
-        block->kept[i] = (uint8_t)(single ? drawn << one : drawn);
+        put_edge(&edges[0], l, bx - ax, by - ay, x - ax, y - ay, turn, wide);
+        put_edge(&edges[1], l, cx - bx, cy - by, x - bx, y - by, turn, wide);
+        put_edge(&edges[2], l, ax - cx, ay - cy, x - cx, y - cy, turn, wide);
+        step->first_x[l] = first_x;
+        step->first_y[l] = first_y;
+        step->wide[l] = wide;
+        count[l] = kept & few ? middles : 0;
+        drawn[l] = kept & (few ^ 1);
     }
+    cover(step, edges, count);
+    for (uint32_t l = 0; l < STEP; l++)
+        step->kept[l] = (uint8_t)(drawn[l] | ((step->covered[l] != 0) << 1));
 }
 
-/* Draws a small one that holds the middle of the first pixel in its box, and no other. */
-__attribute__((always_inline)) static inline void draw_place(const MesoRasterTarget *target, const MesoRasterVertex *a,
-                                                             const MesoRasterVertex *b, const MesoRasterVertex *c,
-                                                             uint32_t id)
+/* ---- drawing those ---- */
+
+static inline void put(const MesoRasterTarget *target, int32_t px, int32_t py, float nearness, uint32_t id)
 {
-    int32_t px = most((least(a->x, least(b->x, c->x)) + HALF - 1) >> 8, 0);
-    int32_t py = most((least(a->y, least(b->y, c->y)) + HALF - 1) >> 8, 0);
+    size_t place = (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) +
+                   (size_t)((py & 3) * 4 + (px & 3));
+    if (!(nearness > target->nearness[place]))
+        return;
+    target->nearness[place] = nearness;
+    if (target->ids)
+        target->ids[place] = id;
+}
+
+/* Draws triangle `l` of a step at the middles that it covers. */
+__attribute__((always_inline)) static inline void draw_middles(const MesoRasterTarget *target, const Step *step,
+                                                               uint32_t l, const MesoRasterVertex *a,
+                                                               const MesoRasterVertex *b, const MesoRasterVertex *c,
+                                                               uint32_t id)
+{
     Outline o = {.a = a, .b = b, .c = c, .area = (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x)};
     float along_x, along_y;
     find_slope(&o, &along_x, &along_y);
-    float x = (float)(px * MESO_RASTER_UNIT + HALF - a->x), y = (float)(py * MESO_RASTER_UNIT + HALF - a->y);
-    put(target, px, py, a->nearness + along_x * x + along_y * y, id);
+    uint32_t wide = (uint32_t)step->wide[l];
+    for (uint32_t left = (uint32_t)step->covered[l]; left; left &= left - 1) {
+        uint32_t k = (uint32_t)__builtin_ctz(left), row = k / wide;
+        int32_t px = step->first_x[l] + (int32_t)(k - row * wide), py = step->first_y[l] + (int32_t)row;
+        float x = (float)(px * MESO_RASTER_UNIT + HALF - a->x), y = (float)(py * MESO_RASTER_UNIT + HALF - a->y);
+        put(target, px, py, a->nearness + along_x * x + along_y * y, id);
+    }
+}
+
+/* The first at `l` or after it that was kept, or STEP. */
+static inline uint32_t next_kept(const Step *step, uint32_t l)
+{
+    while (l < STEP) {
+        uint64_t word;
+        memcpy(&word, step->kept + (l & 8), sizeof word);
+        word >>= 8 * (l & 7);
+        if (word)
+            return l + (uint32_t)__builtin_ctzll(word) / 8;
+        l = (l | 7) + 1;
+    }
+    return STEP;
 }
 
 /* Draws one that was kept. */
@@ -330,15 +357,10 @@ __attribute__((always_inline)) static inline void draw_one(const MesoRasterTarge
     Outline o = {.a = a, .b = b, .c = c,
                  .low_x = least(a->x, least(b->x, c->x)), .high_x = most(a->x, most(b->x, c->x)),
                  .low_y = least(a->y, least(b->y, c->y)), .high_y = most(a->y, most(b->y, c->y))};
-    Middles m = middles_of(target, o.low_x, o.high_x, o.low_y, o.high_y);
     Triangle t;
-    if (!turn(&o, one_sided))
+    if (!turn(&o, one_sided) || !set_up(&t, target, &o))
         return;
-    if (target->lanes->samples == 1 && is_few(&m, o.high_x - o.low_x, o.high_y - o.low_y))
-        fill_few(target, &o, m.first_x, m.last_x, m.first_y, m.last_y, id);
-    else if (!set_up(&t, target, &o))
-        return;
-    else if (o.high_x - o.low_x < 1 << 14 && o.high_y - o.low_y < 1 << 14)      /* edges fit in 32 bits */
+    if (o.high_x - o.low_x < 1 << 14 && o.high_y - o.low_y < 1 << 14)      /* edges fit in 32 bits */
         fill_small(target, &t, id);
     else
         fill_large(target, &t, id);
@@ -348,25 +370,21 @@ __attribute__((always_inline)) static inline void draw_all(const MesoRasterTarge
                                                            const MesoRasterVertex *vertices, const uint32_t *corners,
                                                            uint32_t triangle_count, uint32_t first_id, bool one_sided)
 {
-    Block block;
-    for (uint32_t begin = 0; begin < triangle_count; begin += BLOCK) {
-        uint32_t count = triangle_count - begin < BLOCK ? triangle_count - begin : BLOCK, kept = 0;
+    Step step;
+    bool single = target->lanes->samples == 1;
+    for (uint32_t begin = 0; begin < triangle_count; begin += STEP) {
         const uint32_t *k = corners + 3 * (size_t)begin;
-        uint8_t which[BLOCK];
-        uint32_t end = gather(&block, vertices, k, count);
-        for (uint32_t step = 0; step < end; step += STEP)
-            sift_step(&block, step, target, one_sided);
-        for (uint32_t i = 0; i < count; i++) {
-            which[kept] = (uint8_t)i;
-            kept += block.kept[i] != LEFT_OUT;
-        }
-        for (uint32_t i = 0; i < kept; i++) {
-            const uint32_t *at = k + 3 * (size_t)which[i];
-            const MesoRasterVertex *a = &vertices[at[0]], *b = &vertices[at[1]], *c = &vertices[at[2]];
-            if (block.kept[which[i]] == ONE_PLACE)
-                draw_place(target, a, b, c, first_id + begin + which[i]);
+        gather(&step, vertices, k, triangle_count - begin < STEP ? triangle_count - begin : STEP);
+        if (single)
+            sift_middles(&step, target, one_sided);
+        else
+            sift(&step, one_sided);
+        for (uint32_t l = 0; (l = next_kept(&step, l)) < STEP; l++) {
+            const MesoRasterVertex *a = &vertices[k[3 * l]], *b = &vertices[k[3 * l + 1]], *c = &vertices[k[3 * l + 2]];
+            if (step.kept[l] == AT_MIDDLES)
+                draw_middles(target, &step, l, a, b, c, first_id + begin + l);
             else
-                draw_one(target, a, b, c, first_id + begin + which[i], one_sided);
+                draw_one(target, a, b, c, first_id + begin + l, one_sided);
         }
     }
 }
