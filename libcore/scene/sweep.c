@@ -179,7 +179,7 @@ static const float MITRE_FORWARDS = 0.1f;
 /* The same backwards: what is left of a line that all but stands still between two places. */
 static const float MITRE_BACKWARDS = 0.01f;
 
-static float radius_of(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
 {
     float start = 0, end = 0;
     for (uint32_t c = 0; c < kind->column_count; c++) {
@@ -189,7 +189,23 @@ static float radius_of(const MesoScene *scene, const MesoSweptKind *kind, const 
         start = from > start ? from : start;
         end = to > end ? to : end;
     }
-    return scene->section_scale * fmaxf(sweep->size[0] * sqrtf(start), sweep->size[1] * sqrtf(end));
+    return (MesoKindReach){sqrtf(start), sqrtf(end)};
+}
+
+/*
+ * Whether all bends are wider than that, as most sweeps' are, by the control points: no place is slower than the
+ * slowest span along the way from end to end, and none bends more than the sharpest of their corners.
+ */
+static bool is_wide(const MesoSweepInstance *sweep, float radius)
+{
+    const float rounding = 0.99f;
+    const MesoVec3 *p = sweep->p;
+    MesoVec3 d0 = meso_vec3_sub(p[1], p[0]), d1 = meso_vec3_sub(p[2], p[1]), d2 = meso_vec3_sub(p[3], p[2]);
+    MesoVec3 along = meso_vec3_unit(meso_vec3_sub(p[3], p[0]), (MesoVec3){0, 0, 0});
+    MesoVec3 c0 = meso_vec3_sub(d1, d0), c1 = meso_vec3_sub(d2, d1);
+    float bend = fmaxf(meso_vec3_dot(c0, c0), meso_vec3_dot(c1, c1));
+    float slowest = fminf(fminf(meso_vec3_dot(d0, along), meso_vec3_dot(d1, along)), meso_vec3_dot(d2, along));
+    return slowest > 0 && radius * 6 * sqrtf(bend) < rounding * 9 * slowest * slowest;
 }
 
 /* Whether some bend is narrower than the section reaches. */
@@ -262,12 +278,14 @@ static float least_forwards(const MesoScene *scene, const MesoSweepInstance *swe
     return least;
 }
 
-float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
+                       const MesoSweepInstance *sweep)
 {
+    float radius = scene->section_scale * fmaxf(sweep->size[0] * reach.start, sweep->size[1] * reach.end);
+    if (is_wide(sweep, radius) || !is_narrow(sweep, radius))
+        return 0;
     MesoSweepInstance trial = *sweep;
     trial.mitre = 0;
-    if (!is_narrow(sweep, radius_of(scene, kind, sweep)))
-        return 0;
     MitreLines lines = take_lines(scene, kind, &trial);
     float best = 0, most = least_forwards(scene, &trial, &lines, -INFINITY);
     for (uint32_t i = 1; i <= MITRE_LEVELS && most < (best > 0 ? MITRE_FORWARDS : 0); i++) {

@@ -8,12 +8,20 @@
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepColumn *column, float v);
 
+/* How far the columns of a kind lie from the trajectory at its ends, in units of the profiles. O(columns). */
+typedef struct MesoKindReach {
+    float start, end;
+} MesoKindReach;
+MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind);
+
 /*
- * The mitre of a sweep that has all but that: the least, in eighths, with which no line along it runs backwards, but a
+ * The mitre of a sweep that has all but that, of a kind whose columns reach so far: the least, in eighths, with which no line along it runs backwards, but a
  * tenth as fast as the trajectory at least, or as near to that as can be; 0 where none runs backwards anyway, and where
- * some does with any, as its ends lie within each other. O(columns).
+ * some does with any, as its ends lie within each other. O(1) where no bend is
+ * narrower than the section, else O(columns).
  */
-float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep);
+float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
+                       const MesoSweepInstance *sweep);
 
 /* v of ring `ring` of a sweep. */
 float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t ring);

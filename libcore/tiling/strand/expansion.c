@@ -66,6 +66,17 @@ static MesoStatus keep_used_kinds(Builder *b, const MesoProfileSet *profiles, Me
     return MESO_OK;
 }
 
+/* For as long as sweeps are made. */
+static MesoStatus measure_kinds(Builder *b, MesoArena *arena, MesoError *error)
+{
+    const MesoScene *scene = b->scene;
+    MesoKindReach *reaches = MESO_NEW(arena, MesoKindReach, scene->kind_count, error);
+    for (uint32_t k = 0; k < scene->kind_count && reaches; k++)
+        reaches[k] = meso_sweep_kind_reach(scene, &scene->kinds[k]);
+    b->slots->reaches = reaches;
+    return reaches ? MESO_OK : MESO_ERR_MEMORY;
+}
+
 /* ---- instances ---- */
 
 /* Where sections deform, those of all slots, by number. */
@@ -356,6 +367,8 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         status = begin_slots(b, b->stored ? arena : scratch, error);
     if (!status)
         status = keep_used_kinds(b, &profiles, arena, error);
+    if (!status)
+        status = measure_kinds(b, b->stored ? arena : scratch, error);
     if (!status)
         status = make_cages(b, arena, error);
     if (!status)

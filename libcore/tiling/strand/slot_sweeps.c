@@ -1,7 +1,6 @@
 #include "libcore/tiling/strand/slot_sweeps.h"
 
 #include "libcore/scene/cell.h"
-#include "libcore/scene/sweep.h"
 #include "libcore/scene/sweep_plane.h"
 #include "libcore/tiling/strand/trajectory.h"
 
@@ -123,7 +122,7 @@ static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint3
     if (s->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
     if (s->options.bends == MESO_BENDS_MITRED)
-        out->mitre = meso_sweep_mitre(&s->scene, &s->scene.kinds[kind], out);
+        out->mitre = meso_sweep_mitre(&s->scene, &s->scene.kinds[kind], s->reaches[kind], out);
     return MESO_OK;
 }
 

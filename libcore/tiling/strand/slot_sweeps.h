@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 
+#include "libcore/scene/sweep.h"
 #include "libcore/scene/sweep_maker.h"
 #include "libcore/tiling/strand/profile_set.h"
 #include "libcore/tiling/strand/strand_port.h"
@@ -13,6 +14,7 @@ typedef struct MesoSlotSweeps {
     MesoMapOptions options;         /* resolved */
     MesoScene scene;                /* as it is once it has its kinds */
     const MesoKindOrigin *origins;  /* of the scene's kinds */
+    const MesoKindReach *reaches;   /* [kind_count] */
     MesoShell shell;
     MesoShellCell cell;             /* in whose ports sweeps begin and end where sections deform; points into itself */
     MesoPortFinder ports;
