@@ -146,9 +146,12 @@ static uint64_t wanted_of(const MesoRasterView *view, const Boxes *boxes, uint32
     else
 #endif
         look(view, boxes, has);
-    for (uint32_t i = 0; i < count; i++)
-        wanted |= (uint64_t)has[i] << i;
-    return wanted;
+    for (uint32_t i = 0; i < count; i += 8) {       /* eight bytes to bits: each is carried to the top by one factor */
+        uint64_t bytes;
+        memcpy(&bytes, has + i, sizeof bytes);
+        wanted |= (bytes * 0x0102040810204080u >> 56) << i;
+    }
+    return count < RANGE ? wanted & ((1ull << count) - 1) : wanted;
 }
 
 /* ---- drawing ---- */
@@ -208,13 +211,24 @@ static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoSha
     return true;
 }
 
+static void want_nothing(const Drawing *d, uint32_t r)
+{
+    for (uint32_t s = 0; s < d->set_count; s++) {
+        uint32_t count = d->sets[s].maps->count;
+        memset(&d->sets[s].wanted[r * count], 0, count * sizeof *d->sets[s].wanted);
+        d->sets[s].ranges[r].point_count = 0;
+    }
+}
+
 static void make_ranges(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Drawing *d = context;
     MesoShapeBundle bundle;
     for (uint64_t r = begin; r < end; r++) {
-        bundle.count = 0;
-        make_bundle(d, (uint32_t)r, &bundle);
+        if (!make_bundle(d, (uint32_t)r, &bundle)) {
+            want_nothing(d, (uint32_t)r);
+            continue;
+        }
         Boxes boxes = boxes_of(&bundle);
         for (uint32_t s = 0; s < d->set_count; s++) {
             uint64_t any = look_at(d, &d->sets[s], (uint32_t)r, &bundle, &boxes);

@@ -166,7 +166,12 @@ static float sweep_reach(const MesoShapes *shapes, uint32_t kind, const MesoSwee
 static MesoBox sweep_box(const MesoShapes *shapes, uint32_t kind, const MesoSweepInstance *sweep)
 {
     MesoBox box = meso_box_empty();
-    MesoSweepHull hull = meso_sweep_hull(shapes->scene, sweep, sweep_reach(shapes, kind, sweep));
+    float reach = sweep_reach(shapes, kind, sweep);
+    for (uint32_t k = 0; k < 4 && shapes->scene->deform == MESO_SWEEP_CURVES; k++)
+        meso_box_add(&box, meso_vec3_sub(sweep->p[k], shapes->anchor));
+    if (shapes->scene->deform == MESO_SWEEP_CURVES)
+        return meso_box_wider(box, reach);
+    MesoSweepHull hull = meso_sweep_hull(shapes->scene, sweep, reach);
     for (uint32_t k = 0; k < hull.count; k++)
         meso_box_add(&box, meso_vec3_sub(hull.points[k], shapes->anchor));
     return meso_box_wider(box, hull.reach);
@@ -358,11 +363,6 @@ static bool make_room(MesoShapeMesh *mesh, uint64_t vertices, uint64_t triangles
             return false;
         mesh->vertex_room = 2 * (uint32_t)vertices;
     }
-    if (triangles > mesh->triangle_room) {
-        if (!grow((void **)&mesh->corners, 2 * triangles, 3 * sizeof *mesh->corners))
-            return false;
-        mesh->triangle_room = 2 * (uint32_t)triangles;
-    }
     mesh->vertex_count = (uint32_t)vertices;
     mesh->triangle_count = (uint32_t)triangles;
     mesh->colors = NULL;
@@ -374,7 +374,9 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
     free(mesh->vertices);
     free(mesh->color_room);
     free(mesh->wanted);
-    free(mesh->corners);
+    free(mesh->run_corners);
+    for (uint32_t i = 0; i < MESO_SHAPE_CORNERS; i++)
+        free(mesh->sets[i].corners);
     *mesh = (MesoShapeMesh){0};
 }
 
@@ -385,22 +387,37 @@ static MesoSweepInstance anchored(const MesoShapes *shapes, MesoSweepInstance in
     return instance;
 }
 
-/* Sweeps of a kind often follow one another: their corners are the same. */
-static void make_corners(const MesoShapeColumns *columns, uint32_t rings, MesoShapeMesh *mesh)
+static void put_corners(const MesoShapeColumns *columns, uint32_t begin, uint32_t end, uint32_t *out)
 {
-    uint32_t first = mesh->corners_of == columns ? mesh->ring_room : 1;
-    uint32_t *out = mesh->corners + 6 * (size_t)columns->side_count * (first - 1);
-    for (uint32_t r = first - 1; r + 1 < rings; r++)
-        for (uint32_t j = 0; j < columns->side_count; j++) {
+    for (uint32_t r = begin; r < end; r++)
+        for (uint32_t j = 0; j < columns->side_count; j++, out += 6) {
             uint32_t here = r * columns->count, ahead = here + columns->count;
             MesoColumnSide side = columns->sides[j];
             const uint32_t quad[6] = {here + side.from, ahead + side.from, ahead + side.to,
                                       here + side.from, ahead + side.to, here + side.to};
             memcpy(out, quad, sizeof quad);
-            out += 6;
         }
-    mesh->corners_of = columns;
-    mesh->ring_room = rings > first ? rings : first;
+}
+
+/* Sweeps of few kinds follow one another: their corners are the same. */
+static bool make_corners(const MesoShapes *shapes, const MesoShapeColumns *columns, uint32_t rings, MesoShapeMesh *mesh)
+{
+    MesoShapeCorners *set = &mesh->sets[(size_t)(columns - shapes->columns) % MESO_SHAPE_CORNERS];
+    uint64_t sides = columns->side_count, quads = sides * (rings - 1);
+    if (quads > UINT32_MAX / 2)
+        return false;
+    if (quads > set->quad_room) {
+        if (!grow((void **)&set->corners, 2 * quads, 6 * sizeof *set->corners))
+            return false;
+        set->quad_room = 2 * (uint32_t)quads;
+    }
+    uint32_t first = set->columns == columns ? set->ring_count : 1;
+    if (rings > first)
+        put_corners(columns, first - 1, rings - 1, set->corners + 6 * sides * (first - 1));
+    set->columns = columns;
+    set->ring_count = rings > first ? rings : first;
+    mesh->corners = set->corners;
+    return true;
 }
 
 /* Vertices of triangles that have been seen. */
@@ -421,11 +438,11 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t k, const MesoSweepInst
     MesoSweepInstance instance = anchored(shapes, *sweep);
     uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance,
                                                 use != MESO_SHAPE_SHADOW);
-    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)))
+    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)) ||
+        !make_corners(shapes, columns, rings, mesh))
         return false;
     mesh->closed = columns->closed;
     mesh->reach = columns->reach;
-    make_corners(columns, rings, mesh);
     if (seen)
         find_wanted(mesh, seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .column_count = columns->count, .ring_count = rings,
@@ -451,13 +468,18 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
     bool mirrored = shapes->mirrored[run->placed];
     if (!make_room(mesh, 4 * (uint64_t)run->face_count, 2 * (uint64_t)run->face_count))
         return false;
+    if (run->face_count > mesh->run_room) {
+        if (!grow((void **)&mesh->run_corners, run->face_count, 6 * sizeof *mesh->run_corners))
+            return false;
+        mesh->run_room = run->face_count;
+    }
+    mesh->corners = mesh->run_corners;
     mesh->colors = body->colors ? mesh->color_room : NULL;
     mesh->closed = false;
     mesh->reach = 0;
-    mesh->corners_of = NULL;
     uint32_t vertex = 0;
     for (uint32_t f = 0; f < run->face_count; f++) {
-        uint32_t sides, *corners = mesh->corners + 6 * (size_t)f;
+        uint32_t sides, *corners = mesh->run_corners + 6 * (size_t)f;
         const uint32_t *v = face_of(body, run->face_begin + f, &sides);
         for (uint32_t k = 0; k < sides; k++) {
             if (mesh->colors)

@@ -69,19 +69,27 @@ void meso_shape_bundle(const MesoShapes *shapes, uint32_t bundle, MesoShapeBundl
 MesoRasterRect meso_shape_rect(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i,
                                const MesoRasterView *view);
 
+/* Corners of sweeps of the same columns: those of fewer rings come first. */
+typedef struct MesoShapeCorners {
+    const MesoShapeColumns *columns;
+    uint32_t *corners;
+    uint32_t ring_count, quad_room;
+} MesoShapeCorners;
+enum { MESO_SHAPE_CORNERS = 61 };       /* that are kept: sweeps of a few kinds take turns */
+
 /* A shape as triangles; t = 2 face + half. */
 typedef struct MesoShapeMesh {
     uint32_t vertex_count, triangle_count;
     MesoMeshVertex *vertices;   /* [vertex_count] relative to the anchor; uv.y is how far along a sweep */
     MesoMeshColor *colors;      /* [vertex_count] of a body that has some; NULL: white */
-    uint32_t *corners;          /* [3 * triangle_count] counter-clockwise from outside */
+    const uint32_t *corners;    /* [3 * triangle_count] counter-clockwise from outside */
     bool closed;                /* nothing of its inside is seen, but for its ends */
     float reach;                /* of the surface before what was made for its shadow */
-    uint32_t vertex_room, triangle_room;
+    uint32_t vertex_room, run_room;
     uint8_t *wanted;            /* [vertex_room] */
-    const MesoShapeColumns *corners_of;     /* sweeps whose corners are there: those of fewer rings come first */
-    uint32_t ring_room;
     MesoMeshColor *color_room;
+    uint32_t *run_corners;      /* [6 * run_room] of a run */
+    MesoShapeCorners sets[MESO_SHAPE_CORNERS];
 } MesoShapeMesh;
 
 /*
