@@ -1,5 +1,6 @@
 #include "libcore/render/raster/raster_bins.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcore/base/parallel.h"
@@ -71,6 +72,38 @@ MesoStatus meso_raster_bins_init(MesoRasterBins **out, MesoArena *arena, const M
         return MESO_ERR_MEMORY;
     meso_parallel_for(thread_count, bins->count, 4096, find_ranges, bins);
     return sort_shapes(bins, arena, error);
+}
+
+/* How much is to be drawn in a tile. */
+typedef struct TileLoad {
+    uint64_t binned;
+    uint32_t tile;
+} TileLoad;
+
+static int by_load(const void *a, const void *b)
+{
+    const TileLoad *x = a, *y = b;
+    if (x->binned != y->binned)
+        return x->binned > y->binned ? -1 : 1;
+    return x->tile < y->tile ? -1 : x->tile > y->tile;
+}
+
+uint32_t *meso_raster_bins_order(const MesoRasterBins *bins, uint32_t first, uint32_t count)
+{
+    TileLoad *loads = malloc((count + 1) * sizeof *loads);
+    uint32_t *order = malloc((count + 1) * sizeof *order);
+    for (uint32_t i = 0; i < count && loads; i++)
+        loads[i] = (TileLoad){bins->begin[first + i + 1] - bins->begin[first + i], first + i};
+    if (loads)
+        qsort(loads, count, sizeof *loads, by_load);
+    for (uint32_t i = 0; i < count && loads && order; i++)
+        order[i] = loads[i].tile;
+    if (!loads) {
+        free(order);
+        order = NULL;
+    }
+    free(loads);
+    return order;
 }
 
 uint32_t meso_raster_tile_rows(uint32_t samples)

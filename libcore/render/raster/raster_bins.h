@@ -46,6 +46,12 @@ typedef struct MesoRasterBins {
 MesoStatus meso_raster_bins_init(MesoRasterBins **bins, MesoArena *arena, const MesoRasterJob *job,
                                  uint32_t thread_count, MesoError *error);
 
+/*
+ * The tiles [first, first + count), the fullest first: towards the end, threads that have done with theirs find small
+ * ones. To be freed; NULL where memory is out.
+ */
+uint32_t *meso_raster_bins_order(const MesoRasterBins *bins, uint32_t first, uint32_t count);
+
 /* Rows of the picture that a tile has. */
 uint32_t meso_raster_tile_rows(uint32_t samples);
 

@@ -9,12 +9,13 @@ enum { LANES = MESO_RASTER_LANES, CELLS = MESO_TILE_CELLS, PLACES = LANES * CELL
 
 /* ---- a tile ---- */
 
-/* A shape of the tile whose triangles have been seen. */
-typedef struct SeenShape {
-    uint64_t vertex_begin;      /* of the tile's vertices, + 1; 0: not made yet */
-    uint64_t corner_begin;
+/* A triangle that some place shows. */
+typedef struct SeenTriangle {
+    uint32_t shape, triangle;
     bool colored;
-} SeenShape;
+    MesoMeshColor colors[3];
+    MesoMeshVertex corners[3];
+} SeenTriangle;
 
 /* A bundle, and how far away it begins. */
 typedef struct BundleAt {
@@ -33,23 +34,20 @@ struct MesoRasterTile {
     uint32_t *drawn_shapes;     /* and what is drawn of them */
     uint32_t bundle_room;
     uint32_t *first_ids;        /* [shape_count + 1] */
-    SeenShape *seen;            /* [shape_count] */
+    float *tolerances;          /* [shape_count] that they were made with */
     uint32_t shape_room;
-    uint8_t *seen_triangles;    /* [first_ids[shape_count]] 1: some place shows the triangle of that id */
+    uint8_t *is_seen;           /* [first_ids[shape_count]] 1: some place shows the triangle of that id, */
+    uint32_t *numbers;          /* and then which of those seen it is */
     uint64_t triangle_room;
     MesoShapeMesh mesh;
     float *coordinates;         /* of all vertices along x, then y, then z */
     MesoVec3 *from_eye;         /* where some lie behind the near plane */
     MesoRasterVertex *projected;
     uint32_t vertex_room;
-    MesoMeshVertex *vertices;   /* of the shapes that have been seen */
-    MesoMeshColor *colors;
-    uint32_t *corners;
-    uint64_t vertices_used, vertices_room, corners_used, corners_room;
-    uint32_t last;              /* shape that was asked for last, in `shapes` */
+    SeenTriangle *seen;         /* [PLACES] */
     bool failed, drawn;
     float nearness[PLACES];
-    uint32_t ids[PLACES];
+    uint32_t ids[PLACES];       /* of triangles, 0: none; at last the numbers of those seen, from 1 */
 };
 
 static bool grow(void **array, uint64_t count, size_t size)
@@ -67,7 +65,7 @@ static bool make_room(MesoRasterTile *tile, uint32_t count)
         return true;
     uint64_t room = 2 * (uint64_t)count + 16;
     if (room > UINT32_MAX || !grow((void **)&tile->first_ids, room, sizeof *tile->first_ids) ||
-        !grow((void **)&tile->seen, room, sizeof *tile->seen) ||
+        !grow((void **)&tile->tolerances, room, sizeof *tile->tolerances) ||
         (tile->bins->bundled && !grow((void **)&tile->drawn_shapes, room, sizeof *tile->drawn_shapes)))
         return false;
     tile->shape_room = (uint32_t)room;
@@ -180,7 +178,8 @@ static bool draw_shapes(MesoRasterTile *tile)
     for (uint32_t i = 0; i < tile->shape_count; i++) {
         uint32_t shape = tile->shapes[i];
         tile->first_ids[i] = (uint32_t)id;
-        if (!meso_shape_make(job->shapes, shape, meso_raster_tolerance(job, shape), MESO_SHAPE_SEEN, &tile->mesh) ||
+        tile->tolerances[i] = meso_raster_tolerance(job, shape);
+        if (!meso_shape_make(job->shapes, shape, tile->tolerances[i], MESO_SHAPE_SEEN, &tile->mesh) ||
             !draw_made(tile, (uint32_t)id))
             return false;
         id += tile->mesh.triangle_count;
@@ -286,10 +285,11 @@ static bool draw_bundle(MesoRasterTile *tile, uint64_t *id)
             continue;
         if (!make_room(tile, tile->shape_count + 1))
             return false;
-        tile->first_ids[tile->shape_count] = (uint32_t)*id;
-        tile->drawn_shapes[tile->shape_count++] = bundle->shapes[i];
         float depth = meso_raster_rect(&job->view, &bundle->bounds[i]).depth;
         float tolerance = job->tolerance * meso_raster_pixel(&job->view, depth);
+        tile->first_ids[tile->shape_count] = (uint32_t)*id;
+        tile->tolerances[tile->shape_count] = tolerance;
+        tile->drawn_shapes[tile->shape_count++] = bundle->shapes[i];
         if (!meso_shape_make_bundled(job->shapes, bundle, i, tolerance, MESO_SHAPE_SEEN, &tile->mesh) ||
             !draw_made(tile, (uint32_t)*id))
             return false;
@@ -326,17 +326,65 @@ static bool draw_bundles(MesoRasterTile *tile)
     return true;
 }
 
+/* ---- what has been seen ---- */
+
+static void keep_triangle(MesoRasterTile *tile, uint32_t shape, uint32_t triangle, SeenTriangle *out)
+{
+    const MesoShapeMesh *mesh = &tile->mesh;
+    const uint32_t *corners = mesh->corners + 3 * (size_t)triangle;
+    out->shape = shape;
+    out->triangle = triangle;
+    out->colored = mesh->colors != NULL;
+    for (uint32_t k = 0; k < 3; k++) {
+        out->corners[k] = mesh->vertices[corners[k]];
+        if (out->colored)
+            out->colors[k] = mesh->colors[corners[k]];
+    }
+}
+
+/* Makes shape `i` again, to be looked at, and keeps those of its triangles that are seen, the next of them `number`. */
+static bool keep_shape(MesoRasterTile *tile, uint32_t i, uint32_t *number)
+{
+    uint32_t first = tile->first_ids[i], count = tile->first_ids[i + 1] - first, shape = tile->shapes[i];
+    const uint8_t *begin = tile->is_seen + first, *end = begin + count, *at = memchr(begin, 1, count);
+    if (!at)
+        return true;
+    if (!meso_shape_make_seen(tile->bins->job.shapes, shape, tile->tolerances[i], begin, &tile->mesh))
+        return false;
+    for (; at; at = memchr(at + 1, 1, (size_t)(end - at) - 1)) {
+        uint32_t triangle = (uint32_t)(at - begin);
+        keep_triangle(tile, shape, triangle, &tile->seen[*number]);
+        tile->numbers[first + triangle] = ++*number;
+    }
+    return true;
+}
+
 /* False where memory is out. */
 static bool find_seen(MesoRasterTile *tile, uint32_t ids)
 {
     if (ids > tile->triangle_room) {
-        if (!grow((void **)&tile->seen_triangles, 2 * (uint64_t)ids, sizeof *tile->seen_triangles))
+        if (!grow((void **)&tile->is_seen, 2 * (uint64_t)ids, sizeof *tile->is_seen) ||
+            !grow((void **)&tile->numbers, 2 * (uint64_t)ids, sizeof *tile->numbers))
             return false;
         tile->triangle_room = 2 * (uint64_t)ids;
     }
-    memset(tile->seen_triangles, 0, ids);
+    memset(tile->is_seen, 0, ids);
     for (uint32_t i = 0; i < PLACES; i++)
-        tile->seen_triangles[tile->ids[i]] = 1;
+        tile->is_seen[tile->ids[i]] = 1;
+    return true;
+}
+
+static bool keep_seen(MesoRasterTile *tile)
+{
+    uint32_t number = 0;
+    if (!find_seen(tile, tile->first_ids[tile->shape_count]))
+        return false;
+    for (uint32_t i = 0; i < tile->shape_count; i++)
+        if (!keep_shape(tile, i, &number))
+            return false;
+    tile->numbers[0] = 0;
+    for (uint32_t i = 0; i < PLACES; i++)
+        tile->ids[i] = tile->numbers[tile->ids[i]];
     return true;
 }
 
@@ -350,16 +398,13 @@ static bool draw_tile(MesoRasterTile *tile, uint64_t number)
                                 bins->job.height - y < pixels ? bins->job.height - y : pixels};
     tile->shapes = bins->binned + bins->begin[number];
     tile->shape_count = (uint32_t)(bins->begin[number + 1] - bins->begin[number]);
-    tile->vertices_used = tile->corners_used = 0;
-    tile->last = 0;
     tile->drawn = tile->shape_count > 0;
     if (!tile->drawn)
         return true;
     meso_raster_clear(&tile->target, bins->job.view.parallel ? -INFINITY : 0);
     if (!(bins->bundled ? draw_bundles : draw_shapes)(tile))
         return false;
-    memset(tile->seen, 0, (tile->shape_count + 1) * sizeof *tile->seen);
-    return find_seen(tile, tile->first_ids[tile->shape_count]);
+    return keep_seen(tile);
 }
 
 /* ---- what is there ---- */
@@ -372,53 +417,6 @@ MesoWindow meso_raster_tile_window(const MesoRasterTile *tile)
 bool meso_raster_tile_empty(const MesoRasterTile *tile)
 {
     return !tile->drawn;
-}
-
-static uint32_t find_shape(MesoRasterTile *tile, uint32_t id)
-{
-    if (id >= tile->first_ids[tile->last] && id < tile->first_ids[tile->last + 1])
-        return tile->last;
-    uint32_t low = 0, high = tile->shape_count;
-    while (high - low > 1) {
-        uint32_t middle = low + (high - low) / 2;
-        if (tile->first_ids[middle] <= id)
-            low = middle;
-        else
-            high = middle;
-    }
-    return tile->last = low;
-}
-
-/* Makes the shape again, and keeps it while the tile lasts. */
-static bool keep_shape(MesoRasterTile *tile, uint32_t i)
-{
-    const MesoRasterJob *job = &tile->bins->job;
-    MesoShapeMesh *mesh = &tile->mesh;
-    SeenShape *seen = &tile->seen[i];
-    float tolerance = meso_raster_tolerance(job, tile->shapes[i]);
-    if (!meso_shape_make_seen(job->shapes, tile->shapes[i], tolerance, tile->seen_triangles + tile->first_ids[i], mesh))
-        return false;
-    uint64_t vertices = tile->vertices_used + mesh->vertex_count;
-    uint64_t corners = tile->corners_used + 3 * (uint64_t)mesh->triangle_count;
-    if (vertices > tile->vertices_room) {
-        if (!grow((void **)&tile->vertices, 2 * vertices, sizeof *tile->vertices) ||
-            !grow((void **)&tile->colors, 2 * vertices, sizeof *tile->colors))
-            return false;
-        tile->vertices_room = 2 * vertices;
-    }
-    if (corners > tile->corners_room) {
-        if (!grow((void **)&tile->corners, 2 * corners, sizeof *tile->corners))
-            return false;
-        tile->corners_room = 2 * corners;
-    }
-    memcpy(tile->vertices + tile->vertices_used, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
-    if (mesh->colors)
-        memcpy(tile->colors + tile->vertices_used, mesh->colors, mesh->vertex_count * sizeof *mesh->colors);
-    memcpy(tile->corners + tile->corners_used, mesh->corners, 3 * (size_t)mesh->triangle_count * sizeof *mesh->corners);
-    *seen = (SeenShape){tile->vertices_used + 1, tile->corners_used, mesh->colors != NULL};
-    tile->vertices_used = vertices;
-    tile->corners_used = corners;
-    return true;
 }
 
 /* Shares of the corners where the ray meets their plane: by the volumes that it spans with each side. */
@@ -449,13 +447,9 @@ static MesoVec3 blend(MesoVec3 a, MesoVec3 b, MesoVec3 c, const float shares[3])
     return meso_vec3_mad(meso_vec3_mad(meso_vec3_scale(a, shares[0]), shares[1], b), shares[2], c);
 }
 
-static void look_at(const MesoRasterTile *tile, uint32_t i, float x, float y, MesoSurfaceSample *out)
+static void look_at(const MesoRasterView *view, const SeenTriangle *seen, float x, float y, MesoSurfaceSample *out)
 {
-    const SeenShape *seen = &tile->seen[i];
-    const MesoRasterView *view = &tile->bins->job.view;
-    const uint32_t *c = tile->corners + seen->corner_begin + 3 * (uint64_t)out->triangle;
-    uint64_t begin = seen->vertex_begin - 1, at[3] = {begin + c[0], begin + c[1], begin + c[2]};
-    const MesoMeshVertex *v[3] = {&tile->vertices[at[0]], &tile->vertices[at[1]], &tile->vertices[at[2]]};
+    const MesoMeshVertex *v[3] = {&seen->corners[0], &seen->corners[1], &seen->corners[2]};
     const MesoVec3 corners[3] = {v[0]->position, v[1]->position, v[2]->position};
     float *shares = out->shares;
     bool behind;
@@ -475,7 +469,7 @@ static void look_at(const MesoRasterTile *tile, uint32_t i, float x, float y, Me
         return;
     out->color[0] = out->color[1] = out->color[2] = 0;
     for (int k = 0; k < 3; k++) {
-        const MesoMeshColor *color = &tile->colors[at[k]];
+        const MesoMeshColor *color = &seen->colors[k];
         out->color[0] += shares[k] * (float)color->r / 255;
         out->color[1] += shares[k] * (float)color->g / 255;
         out->color[2] += shares[k] * (float)color->b / 255;
@@ -487,18 +481,14 @@ bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint3
     const MesoRasterLanes *lanes = &tile->bins->lanes;
     uint32_t cx = x / lanes->pixels, cy = y / lanes->pixels;
     uint32_t lane = ((y % lanes->pixels) * lanes->pixels + x % lanes->pixels) * lanes->samples + sample;
-    uint32_t id = tile->drawn ? tile->ids[(size_t)LANES * (cy * CELLS + cx) + lane] : 0;
-    if (id == 0)
+    uint32_t number = tile->drawn ? tile->ids[(size_t)LANES * (cy * CELLS + cx) + lane] : 0;
+    if (number == 0)
         return false;
-    uint32_t i = find_shape(tile, id);
-    if (tile->seen[i].vertex_begin == 0 && !keep_shape(tile, i)) {
-        tile->failed = true;
-        return false;
-    }
-    out->shape = tile->shapes[i];
-    out->triangle = id - tile->first_ids[i];
+    const SeenTriangle *seen = &tile->seen[number - 1];
+    out->shape = seen->shape;
+    out->triangle = seen->triangle;
     const float unit = 1.f / MESO_RASTER_UNIT, cell = (float)lanes->pixels;
-    look_at(tile, i, (float)tile->window.x + (float)cx * cell + (float)lanes->x[lane] * unit,
+    look_at(&tile->bins->job.view, seen, (float)tile->window.x + (float)cx * cell + (float)lanes->x[lane] * unit,
             (float)tile->window.y + (float)cy * cell + (float)lanes->y[lane] * unit, out);
     return true;
 }
@@ -506,7 +496,7 @@ bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint3
 /* ---- all of them ---- */
 
 typedef struct Drawing {
-    uint64_t first;             /* tile */
+    const uint32_t *order;      /* of tiles */
     MesoRasterTile **tiles;     /* one a worker */
     MesoTakeTile *take;
     void *context;
@@ -516,8 +506,8 @@ static void draw_tiles(void *context, uint32_t worker, uint64_t begin, uint64_t 
 {
     const Drawing *d = context;
     MesoRasterTile *tile = d->tiles[worker];
-    for (uint64_t number = begin; number < end && !tile->failed; number++) {
-        if (draw_tile(tile, d->first + number))
+    for (uint64_t i = begin; i < end && !tile->failed; i++) {
+        if (draw_tile(tile, d->order[i]))
             d->take(d->context, tile);
         else
             tile->failed = true;
@@ -532,37 +522,41 @@ static void release(MesoRasterTile *tile)
     free(tile->bundles);
     free(tile->drawn_shapes);
     free(tile->first_ids);
+    free(tile->tolerances);
     free(tile->seen);
     free(tile->coordinates);
-    free(tile->seen_triangles);
+    free(tile->is_seen);
+    free(tile->numbers);
     free(tile->from_eye);
     free(tile->projected);
-    free(tile->vertices);
-    free(tile->colors);
-    free(tile->corners);
     free(tile);
 }
 
 static MesoRasterTile *make_tile(const MesoRasterBins *bins)
 {
     MesoRasterTile *tile = calloc(1, sizeof *tile);
-    if (tile) {
-        tile->bins = bins;
-        tile->target = (MesoRasterTarget){&bins->lanes, CELLS, CELLS, tile->nearness, tile->ids};
+    SeenTriangle *seen = malloc(PLACES * sizeof *seen);
+    if (!tile || !seen) {
+        free(tile);
+        free(seen);
+        return NULL;
     }
+    tile->bins = bins;
+    tile->seen = seen;
+    tile->target = (MesoRasterTarget){&bins->lanes, CELLS, CELLS, tile->nearness, tile->ids};
     return tile;
 }
 
 MesoStatus meso_raster_rows(const MesoRasterBins *bins, uint32_t row_begin, uint32_t row_end, uint32_t thread_count,
                             MesoTakeTile *take, void *context, MesoError *error)
 {
-    uint32_t pixels = (uint32_t)bins->tile_pixels;
-    uint64_t first = (uint64_t)bins->tiles_x * (row_begin / pixels);
-    uint64_t count = (uint64_t)bins->tiles_x * ((row_end + pixels - 1) / pixels) - first;
+    uint32_t pixels = (uint32_t)bins->tile_pixels, first = bins->tiles_x * (row_begin / pixels);
+    uint32_t count = bins->tiles_x * ((row_end + pixels - 1) / pixels) - first;
     uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
-    workers = workers < count ? workers : (uint32_t)count;
-    Drawing d = {first, calloc(workers + 1, sizeof *d.tiles), take, context};
-    bool made = d.tiles != NULL;
+    workers = workers < count ? workers : count;
+    uint32_t *order = meso_raster_bins_order(bins, first, count);
+    Drawing d = {order, calloc(workers + 1, sizeof *d.tiles), take, context};
+    bool made = d.tiles && order;
     for (uint32_t w = 0; made && w < workers; w++)
         made = (d.tiles[w] = make_tile(bins)) != NULL;
     if (made)
@@ -572,5 +566,6 @@ MesoStatus meso_raster_rows(const MesoRasterBins *bins, uint32_t row_begin, uint
         release(d.tiles[w]);
     }
     free(d.tiles);
+    free(order);
     return made ? MESO_OK : meso_fail(error, MESO_ERR_MEMORY, "out of memory for drawing");
 }
