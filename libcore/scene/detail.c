@@ -144,32 +144,49 @@ static uint32_t rings_of(const MesoSweptKind *kind, float steps)
     return steps < (float)(most - 1) ? (uint32_t)ceilf(steps) + 1 : most;
 }
 
+MesoSweepBend meso_detail_bend(const MesoSweptKind *kind, const MesoKindDetail *detail,
+                               const MesoSweepInstance *instance)
+{
+    if (kind->cap)
+        return (MesoSweepBend){0, 0};
+    float spread = fabsf(kind->turn) + fabsf(instance->twist);
+    float turn = turn_of(instance) + 1.5f * spread;
+    float second = bend_of(instance, detail) + 6 * detail->change +
+                   detail->radius * (size_change(instance) + turn * turn + 6 * spread);
+    return (MesoSweepBend){second, turn};
+}
+
 /* Chords that an instance needs, at least one. */
-static float steps_of(const MesoSweptKind *kind, const MesoKindDetail *detail, const MesoSweepInstance *instance,
-                      float tolerance, bool shaded)
+static float steps_of(const MesoSweptKind *kind, const MesoKindDetail *detail, MesoSweepBend bend, float tolerance,
+                      bool shaded)
 {
     if (!(tolerance > 0))
         return INFINITY;
     if (kind->cap)      /* the radius falls as 1 - v^4, whose second derivative is 12 at most */
         return fmaxf(sqrtf(12 * detail->radius / (8 * tolerance)), shaded ? 3 : 1);
-    float spread = fabsf(kind->turn) + fabsf(instance->twist);
-    float turn = turn_of(instance) + 1.5f * spread;
-    float second = bend_of(instance, detail) + 6 * detail->change +
-                   detail->radius * (size_change(instance) + turn * turn + 6 * spread);
-    return fmaxf(fmaxf(sqrtf(second / (8 * tolerance)), shaded ? turn / RING_TURN : 0), 1);
+    return fmaxf(fmaxf(sqrtf(bend.second / (8 * tolerance)), shaded ? bend.turn / RING_TURN : 0), 1);
+}
+
+uint32_t meso_detail_bend_rings(const MesoSweptKind *kind, const MesoKindDetail *detail, MesoSweepBend bend,
+                                float tolerance, bool shaded)
+{
+    return rings_of(kind, steps_of(kind, detail, bend, tolerance, shaded));
 }
 
 uint32_t meso_detail_instance_rings(const MesoSweptKind *kind, const MesoKindDetail *detail,
                                     const MesoSweepInstance *instance, float tolerance, bool shaded)
 {
-    return rings_of(kind, steps_of(kind, detail, instance, tolerance, shaded));
+    MesoSweepBend bend = tolerance > 0 ? meso_detail_bend(kind, detail, instance) : (MesoSweepBend){0, 0};
+    return meso_detail_bend_rings(kind, detail, bend, tolerance, shaded);
 }
 
 uint32_t meso_detail_rings(const MesoScene *scene, const MesoSweptKind *kind, float tolerance)
 {
     MesoKindDetail detail = meso_kind_detail(scene, kind);
-    float steps = kind->cap || !(tolerance > 0) ? steps_of(kind, &detail, NULL, tolerance, true) : 1;
-    for (uint32_t i = 0; !kind->cap && tolerance > 0 && i < kind->instance_count; i++)
-        steps = fmaxf(steps, steps_of(kind, &detail, &scene->sweeps[kind->instance_begin + i], tolerance, true));
+    float steps = kind->cap || !(tolerance > 0) ? steps_of(kind, &detail, (MesoSweepBend){0, 0}, tolerance, true) : 1;
+    for (uint32_t i = 0; !kind->cap && tolerance > 0 && i < kind->instance_count; i++) {
+        MesoSweepBend bend = meso_detail_bend(kind, &detail, &scene->sweeps[kind->instance_begin + i]);
+        steps = fmaxf(steps, steps_of(kind, &detail, bend, tolerance, true));
+    }
     return rings_of(kind, steps);
 }

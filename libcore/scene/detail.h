@@ -43,4 +43,13 @@ MesoKindDetail meso_kind_detail(const MesoScene *scene, const MesoSweptKind *kin
 uint32_t meso_detail_instance_rings(const MesoSweptKind *kind, const MesoKindDetail *detail,
                                     const MesoSweepInstance *instance, float tolerance, bool shaded);
 
+/* What the rings of one instance hang on beside its kind: its second derivative, and how far it turns. */
+typedef struct MesoSweepBend {
+    float second, turn;
+} MesoSweepBend;
+MesoSweepBend meso_detail_bend(const MesoSweptKind *kind, const MesoKindDetail *detail,
+                               const MesoSweepInstance *instance);
+uint32_t meso_detail_bend_rings(const MesoSweptKind *kind, const MesoKindDetail *detail, MesoSweepBend bend,
+                                float tolerance, bool shaded);
+
 #endif

@@ -49,7 +49,6 @@ static const MesoShapeColumns *columns_for(const MesoShapes *shapes, uint32_t ki
 
 /* ---- bodies ---- */
 
-
 typedef struct Moving {
     const MesoScene *scene;
     const uint32_t *which;
@@ -190,24 +189,42 @@ MesoBox meso_shape_bounds(const MesoShapes *shapes, uint32_t shape)
     return sweep_box(shapes, kind_of(shapes, shape), &sweep);
 }
 
+static MesoSweepInstance anchored(const MesoShapes *shapes, MesoSweepInstance instance)
+{
+    for (uint32_t i = 0; i < 4 && shapes->scene->deform == MESO_SWEEP_CURVES; i++)
+        instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
+    return instance;
+}
+
+static void bound_sweep(MesoShapes *shapes, uint32_t sweep)
+{
+    uint32_t k = shapes->kind_of[sweep];
+    const MesoSweepInstance *given = &shapes->scene->sweeps[sweep], instance = anchored(shapes, *given);
+    shapes->bounds[sweep] = sweep_box(shapes, k, given);
+    shapes->bends[sweep] = meso_detail_bend(&shapes->scene->kinds[k], &shapes->details[k], &instance);
+}
+
 static void bound(void *context, uint64_t begin, uint64_t end)
 {
     MesoShapes *shapes = context;
     uint32_t sweeps = shapes->scene->sweep_count;
     for (uint64_t i = shapes->made + begin; i < shapes->made + end; i++)
-        shapes->bounds[i - shapes->made] =
-            i < sweeps ? sweep_box(shapes, shapes->kind_of[i], &shapes->scene->sweeps[i])
-                       : run_box(shapes, &shapes->runs[i - sweeps]);
+        if (i < sweeps)
+            bound_sweep(shapes, (uint32_t)i);
+        else
+            shapes->bounds[i - shapes->made] = run_box(shapes, &shapes->runs[i - sweeps]);
 }
 
 static MesoStatus bound_all(MesoShapes *shapes, MesoArena *arena, uint32_t thread_count, MesoError *error)
 {
     const MesoScene *scene = shapes->scene;
     uint32_t stored = shapes->count - shapes->made;
-    if (!shapes->made)
+    if (!shapes->made) {
         shapes->kind_of = MESO_NEW(arena, uint32_t, scene->sweep_count, error);
+        shapes->bends = MESO_NEW(arena, MesoSweepBend, scene->sweep_count, error);
+    }
     shapes->bounds = MESO_NEW(arena, MesoBox, stored, error);
-    if ((!shapes->made && !shapes->kind_of) || !shapes->bounds)
+    if ((!shapes->made && (!shapes->kind_of || !shapes->bends)) || !shapes->bounds)
         return MESO_ERR_MEMORY;
     for (uint32_t k = 0; k < scene->kind_count && !shapes->made; k++)
         for (uint32_t i = 0; i < scene->kinds[k].instance_count; i++)
@@ -380,13 +397,6 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
     *mesh = (MesoShapeMesh){0};
 }
 
-static MesoSweepInstance anchored(const MesoShapes *shapes, MesoSweepInstance instance)
-{
-    for (uint32_t i = 0; i < 4 && shapes->scene->deform == MESO_SWEEP_CURVES; i++)
-        instance.p[i] = meso_vec3_sub(instance.p[i], shapes->anchor);
-    return instance;
-}
-
 static void put_corners(const MesoShapeColumns *columns, uint32_t begin, uint32_t end, uint32_t *out)
 {
     for (uint32_t r = begin; r < end; r++)
@@ -429,15 +439,15 @@ static void find_wanted(MesoShapeMesh *mesh, const uint8_t *seen)
             mesh->wanted[mesh->corners[3 * (size_t)t + k]] = 1;
 }
 
-static bool make_sweep(const MesoShapes *shapes, uint32_t k, const MesoSweepInstance *sweep, float tolerance,
-                       MesoShapeUse use, const uint8_t *seen, MesoShapeMesh *mesh)
+static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, const MesoSweepInstance *sweep,
+                       float tolerance, MesoShapeUse use, const uint8_t *seen, MesoShapeMesh *mesh)
 {
     const MesoScene *scene = &shapes->near;
     const MesoSweptKind *kind = &scene->kinds[k];
     const MesoShapeColumns *columns = columns_for(shapes, k, tolerance, use);
     MesoSweepInstance instance = anchored(shapes, *sweep);
-    uint32_t rings = meso_detail_instance_rings(kind, &shapes->details[k], &instance, tolerance,
-                                                use != MESO_SHAPE_SHADOW);
+    MesoSweepBend bend = shapes->bends ? shapes->bends[number] : meso_detail_bend(kind, &shapes->details[k], &instance);
+    uint32_t rings = meso_detail_bend_rings(kind, &shapes->details[k], bend, tolerance, use != MESO_SHAPE_SHADOW);
     if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)) ||
         !make_corners(shapes, columns, rings, mesh))
         return false;
@@ -500,14 +510,14 @@ bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, 
     if (shape >= sweeps)
         return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
     MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
-    return make_sweep(shapes, kind_of(shapes, shape), &sweep, tolerance, use, NULL, mesh);
+    return make_sweep(shapes, shape, kind_of(shapes, shape), &sweep, tolerance, use, NULL, mesh);
 }
 
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh)
 {
     const MesoMadeSweep *made = &bundle->sweeps[i];
-    return bundle->made ? make_sweep(shapes, made->kind, &made->instance, tolerance, use, NULL, mesh)
+    return bundle->made ? make_sweep(shapes, made->sweep, made->kind, &made->instance, tolerance, use, NULL, mesh)
                         : meso_shape_make(shapes, bundle->shapes[i], tolerance, use, mesh);
 }
 
@@ -518,7 +528,7 @@ bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolera
     if (shape >= sweeps)
         return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
     MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
-    return make_sweep(shapes, kind_of(shapes, shape), &sweep, tolerance, MESO_SHAPE_WHOLE, seen, mesh);
+    return make_sweep(shapes, shape, kind_of(shapes, shape), &sweep, tolerance, MESO_SHAPE_WHOLE, seen, mesh);
 }
 
 /* ---- corners ---- */

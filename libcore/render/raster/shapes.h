@@ -33,6 +33,7 @@ typedef struct MesoShapes {
     uint32_t made;              /* sweeps that the scene's maker makes: all, or none */
     uint32_t *kind_of;          /* [sweep_count], where they are stored */
     MesoKindDetail *details;    /* [kind_count] */
+    MesoSweepBend *bends;       /* [sweep_count], where they are stored */
     MesoBox *bounds;            /* [count - made] of the rest, relative to the anchor */
     uint32_t bundle_count;      /* those of the maker, then others, of shapes one after the other */
     MesoBox *bundle_bounds;     /* [bundle_count], where sweeps are made */
