@@ -214,15 +214,14 @@ static MesoStatus draw_apart(Work *work, Drawing *d, MesoArena *arena, const Mes
 }
 
 /*
- * Low bands keep the picture small beside the lights' maps; not where all of it would be looked through before the
- * first of several.
+ * Low bands keep the picture small beside the lights' maps, of which many samples have more, and lower tiles; not where
+ * all of it would be looked through before the first of several.
  */
 static uint32_t choose_rows(const MesoRenderArguments *a, const MesoScene *scene, const MesoRenderOptions *options)
 {
-    enum { LOW = 256 };
-    uint32_t most = meso_paint_band_rows(scene, options);
+    uint32_t most = meso_paint_band_rows(scene, options), low = options->samples > 4 ? 128 : 256;
     bool looked_through = options->find_covered || options->extras & MESO_EXTRA_MATTES;
-    return a->band_rows || looked_through || most <= LOW ? a->band_rows : LOW;
+    return a->band_rows || looked_through || most <= low ? a->band_rows : low;
 }
 
 /* By tiles: each band is painted and written. */
