@@ -263,8 +263,9 @@ __attribute__((always_inline)) static inline void cover(Step *step, EdgeLanes ed
             step->covered[l] |= ((outside >= 0) & (k < count[l])) << k;
             int32_t next = column[l] + 1, last = next == step->wide[l];
             column[l] = last ? 0 : next;
-            for (int e = 0; e < 3; e++)
-                edges[e].inside[l] += last ? edges[e].back[l] : edges[e].right[l];
+            for (int e = 0; e < 3; e++)     /* of those that are too large, anything */
+                edges[e].inside[l] = (int32_t)((uint32_t)edges[e].inside[l] +
+                                               (uint32_t)(last ? edges[e].back[l] : edges[e].right[l]));
         }
 }
 
