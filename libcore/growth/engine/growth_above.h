@@ -13,9 +13,7 @@
 bool meso_growth_is_above(const MesoGrown *grown, const MesoGrowthGround *ground, const MesoGrowthElement *element,
                           float tolerance);
 
-/* Asks for the memory that it reads of an element, of the first sort and, when that has come, of the second. */
+/* Asks for the memory that it reads of an element. */
 void meso_growth_fetch_ends(const MesoGrown *grown, const MesoGrowthGround *ground, const MesoGrowthElement *element);
-void meso_growth_fetch_corners(const MesoGrown *grown, const MesoGrowthGround *ground,
-                               const MesoGrowthElement *element);
 
 #endif

@@ -131,10 +131,8 @@ static void measure_all(void *context, uint64_t begin, uint64_t end)
     Lifting *lifting = context;
     const MesoGrowthElement *elements = lifting->grown->elements;
     for (uint64_t i = begin; i < end; i++) {
-        if (i + 2 * AHEAD < end)
-            meso_growth_fetch_ends(lifting->grown, lifting->ground, &elements[i + 2 * AHEAD]);
         if (i + AHEAD < end)
-            meso_growth_fetch_corners(lifting->grown, lifting->ground, &elements[i + AHEAD]);
+            meso_growth_fetch_ends(lifting->grown, lifting->ground, &elements[i + AHEAD]);
         lifting->depths[i] = depth_beyond(lifting, &elements[i]);
     }
 }

@@ -130,6 +130,34 @@ static MesoStatus find_windings(MesoGrowthGround *ground, MesoArena *arena, Meso
     return MESO_OK;
 }
 
+/* ---- planes ---- */
+
+static MesoFour four_of(MesoVec3 a)
+{
+    return (MesoFour){a.x, a.y, a.z, 0};
+}
+
+static MesoGrowthFlat flat_of(const MesoTriangulation *mesh, const MesoVec3 *normals, uint32_t triangle)
+{
+    const uint32_t *c = &mesh->corners[3 * (size_t)triangle];
+    MesoVec3 a = mesh->positions[c[0]], along = meso_vec3_sub(mesh->positions[c[1]], a);
+    MesoVec3 over = meso_vec3_sub(mesh->positions[c[2]], a), normal = meso_vec3_cross(along, over);
+    float square = meso_vec3_dot(normal, normal), inverse = square > 0 ? 1 / square : 0;
+    bool agrees = square > 0;
+    for (uint32_t k = 0; k < 3; k++)
+        agrees &= meso_vec3_dot(normal, normals[c[k]]) > 0;
+    return (MesoGrowthFlat){four_of(a), four_of(meso_vec3_scale(normal, agrees ? sqrtf(inverse) : 0)),
+                            four_of(meso_vec3_scale(meso_vec3_cross(over, normal), inverse)),
+                            four_of(meso_vec3_scale(meso_vec3_cross(normal, along), inverse))};
+}
+
+static void find_flats(void *context, uint64_t begin, uint64_t end)
+{
+    const Build *build = context;
+    for (uint64_t t = begin; t < end; t++)
+        build->ground->flats[t] = flat_of(build->mesh, build->ground->normals, (uint32_t)t);
+}
+
 /* ---- building ---- */
 
 static double along(MesoVec3 up, MesoVec3 p)
@@ -160,7 +188,8 @@ MesoStatus meso_growth_ground_build(MesoGrowthGround *ground, MesoArena *arena, 
     *ground = (MesoGrowthGround){.mesh = mesh, .up = meso_vec3_unit(up, UPRIGHT)};
     ground->normals = MESO_NEW(arena, MesoVec3, mesh->vertex_count, error);
     ground->curvatures = MESO_NEW(arena, float, mesh->vertex_count, error);
-    if (!ground->normals || !ground->curvatures)
+    ground->flats = MESO_NEW(arena, MesoGrowthFlat, mesh->triangle_count, error);
+    if (!ground->normals || !ground->curvatures || !ground->flats)
         return MESO_ERR_MEMORY;
     MesoStatus status = meso_walk_ground_build(&ground->walk, arena, mesh, NULL, thread_count, error);
     if (!status)
@@ -170,6 +199,7 @@ MesoStatus meso_growth_ground_build(MesoGrowthGround *ground, MesoArena *arena, 
     Build build = {ground, mesh};
     meso_parallel_for(thread_count, mesh->vertex_count, 4096, find_normals, &build);
     meso_parallel_for(thread_count, mesh->vertex_count, 4096, find_curvatures, &build);
+    meso_parallel_for(thread_count, mesh->triangle_count, 4096, find_flats, &build);
     measure(ground);
     return MESO_OK;
 }

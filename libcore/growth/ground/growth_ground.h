@@ -6,6 +6,14 @@
 #define MESO_GROWTH_GROUND_H
 
 #include "libcore/geodesic/transport/straight_walk.h"
+#include "libcore/math/four.h"
+
+/* A triangle's plane, and over it the weights of its second and third corner, as they grow from the first. */
+typedef struct MesoGrowthFlat {
+    MesoFour origin;
+    MesoFour normal;            /* unit length; 0 where the triangle has no area, or a corner's normal is against it */
+    MesoFour second, third;
+} MesoGrowthFlat;
 
 typedef struct MesoGrowthGround {
     const MesoTriangulation *mesh;
@@ -14,6 +22,7 @@ typedef struct MesoGrowthGround {
     float *curvatures;          /* [vertex_count] mean curvature, radians a unit; above 0 where the surface bulges */
     uint8_t *against;           /* [triangle_count] bit k: corner k's normal and curvature count the other way here;
                                  * NULL where all is wound alike */
+    MesoGrowthFlat *flats;      /* [triangle_count] */
     MesoVec3 up;                /* unit length */
     double bottom;              /* of the surface along `up`: heights count from there */
     double extent;              /* diagonal of its box */
