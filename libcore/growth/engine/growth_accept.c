@@ -164,7 +164,7 @@ static void begin_rule(const MesoGrowthWork *work, uint32_t number, const MesoGr
     const MesoGrammarRule *rule = &work->grammar->rules[command->rule];
     meso_copy_registers(work->registers + (size_t)number * work->grammar->local_count, command->values,
                         rule->argument_count);
-    tip->run = meso_growth_begin(rule->entry, command->key);
+    meso_growth_restart(&tip->run, rule->entry, command->key);
     if (tip->rule != MESO_NO_INDEX)
         tip->state[MESO_STATE_GENERATION]++;
     tip->rule = command->rule;

@@ -132,8 +132,9 @@ static bool hold_curves(Along *along, double length, double pixels)
     bool goes_on = tip->joint != MESO_NO_INDEX;
     double turns = goes_on ? within_half_turn(turned_since(tip) + retry) : 0;
     turn->bow = (MesoGrowthBow){(float)length, (float)(-0.5 * angle - 0.5 * turns), (float)(0.5 * angle)};
-    MesoTip begin = meso_growth_walk_of(tip, turn, turn->try).tip;
-    if (!holds_on_curve(along, &begin, &turn->bow, pixels))
+    MesoWalk begin;
+    meso_growth_set_walk(&begin, tip, turn, turn->try);
+    if (!holds_on_curve(along, &begin.tip, &turn->bow, pixels))
         return false;
     if (!goes_on || tip->bow.length == 0)
         return true;

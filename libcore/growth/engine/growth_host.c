@@ -45,7 +45,7 @@ static bool meets_ahead(const MesoGrowthAsking *asking, double length, double an
     MesoGrowthBatch *batch = asking->batch;
     uint32_t used = batch->piece_count;
     meso_tip_turn(&walk.tip, angle);
-    meso_growth_walk(asking->work, batch, walk, &apart);
+    meso_growth_walk(asking->work, batch, &walk, &apart);
     bool meets = meso_growth_meets(&asking->work->space, &asker, batch->pieces + apart.piece_begin, apart.piece_count,
                                    NULL);
     batch->piece_count = used;

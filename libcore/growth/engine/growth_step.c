@@ -44,15 +44,14 @@ void meso_growth_keep_pieces(MesoGrowthBatch *batch, MesoGrowthTurn *turn, uint3
     }
 }
 
-MesoWalk meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk walk, MesoGrowthTurn *turn)
+void meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk *walk, MesoGrowthTurn *turn)
 {
     MesoWalkOptions options = {MESO_GROWTH_CROSSINGS, turn ? meso_growth_collect : NULL, batch};
     batch->linked_count = 0;
     batch->first[0] = batch->last[0] = MESO_NO_INDEX;
-    work->march.walk(work->march.context, &walk, 1, &options);
+    work->march.walk(work->march.context, walk, 1, &options);
     if (turn)
         meso_growth_keep_pieces(batch, turn, 0);
-    return walk;
 }
 
 double meso_growth_retry_angle(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try)
@@ -66,18 +65,20 @@ static double angle_of_move(const MesoGrowthCommand *command)
     return command->values[MESO_GROWTH_ANGLE] + (command->values[MESO_GROWTH_AMOUNT] < 0 ? MESO_PI : 0);
 }
 
-MesoWalk meso_growth_walk_of(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try)
+void meso_growth_set_walk(MesoWalk *walk, const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try)
 {
     const MesoGrowthCommand *command = &turn->command;
-    MesoWalk walk = {.tip = tip->at, .length = command->values[MESO_GROWTH_AMOUNT]};
+    double length = command->values[MESO_GROWTH_AMOUNT];
     double angle = command->order == MESO_GROWTH_STEP ? 0.5 * command->values[MESO_GROWTH_ANGLE] :
                    command->order == MESO_GROWTH_MOVE ? angle_of_move(command) : 0;
     if (try > 0)
         angle += meso_growth_retry_angle(tip, turn, try);
+    walk->tip = tip->at;
     if (angle != 0)
-        meso_tip_turn(&walk.tip, angle);
-    walk.length = walk.length > 0 ? walk.length : command->order == MESO_GROWTH_MOVE ? -walk.length : 0;
-    return walk;
+        meso_tip_turn(&walk->tip, angle);
+    walk->length = length > 0 ? length : command->order == MESO_GROWTH_MOVE ? -length : 0;
+    walk->crossings = 0;
+    walk->stop = MESO_WALK_DONE;
 }
 
 static double length_of(const MesoGrowthPiece *piece)
@@ -141,14 +142,15 @@ static bool cut_at(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGrowt
 static bool joins(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
                   const double *registers, MesoGrowthTurn *turn)
 {
-    MesoWalk walk = meso_growth_walk_of(tip, turn, 0);
+    MesoWalk walk;
     MesoGrowthAsker asker = meso_growth_asker(tip, 0);
     MesoGrowthMeeting meeting;
+    meso_growth_set_walk(&walk, tip, turn, 0);
     if (!(walk.length > 0))
         return false;
     walk.length += fmax(turn->command.values[MESO_GROWTH_CLEAR], 0);
     turn->try = 0;
-    meso_growth_walk(work, batch, walk, turn);
+    meso_growth_walk(work, batch, &walk, turn);
     return meso_growth_meets(&work->space, &asker, batch->pieces + turn->piece_begin, turn->piece_count, &meeting) &&
            cut_at(work, batch, turn, &meeting) &&
            (turn->command.condition == MESO_NO_INDEX || meso_growth_holds(work, batch, tip, registers, turn));
@@ -237,7 +239,9 @@ void meso_growth_judge_again(const MesoGrowthWork *work, MesoGrowthBatch *batch,
             give_up(work, batch, tip, registers, turn, try);
             return;
         }
-        MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, try), turn);
+        MesoWalk walk;
+        meso_growth_set_walk(&walk, tip, turn, try);
+        meso_growth_walk(work, batch, &walk, turn);
         judged = judge_step(work, batch, tip, registers, turn, &walk, try);
     }
 }

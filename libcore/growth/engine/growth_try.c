@@ -135,7 +135,7 @@ static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t
         run_rule(work, batch, tip, registers_of(work, active[i]), turn);
         if (!walks(turn))
             continue;
-        batch->walks[count] = meso_growth_walk_of(tip, turn, 0);
+        meso_growth_set_walk(&batch->walks[count], tip, turn, 0);
         batch->walkers[count++] = i;
         tip->walks++;
     }
@@ -155,7 +155,7 @@ static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, ui
             join(work, tip, turn);
         } else {
             batch->walkers[left] = number;
-            batch->walks[left++] = meso_growth_walk_of(tip, turn, try + 1);
+            meso_growth_set_walk(&batch->walks[left++], tip, turn, try + 1);
         }
     }
     return batch->failed ? 0 : left;
@@ -187,7 +187,9 @@ void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_
     run_rule(work, batch, tip, registers, turn);
     if (!walks(turn))
         return;
-    MesoWalk walk = meso_growth_walk(work, batch, meso_growth_walk_of(tip, turn, 0), turn);
+    MesoWalk walk;
+    meso_growth_set_walk(&walk, tip, turn, 0);
+    meso_growth_walk(work, batch, &walk, turn);
     tip->walks++;
     if (!meso_growth_judge(work, batch, tip, registers, turn, &walk, 0))
         meso_growth_judge_again(work, batch, tip, registers, turn, 1);

@@ -200,7 +200,7 @@ bool meso_growth_collides(const MesoGrowthWork *work, MesoGrowthBatch *batch, co
                           const MesoGrowthTurn *turn, uint32_t since);
 
 /* The walk of a turn's command at its tip, with the heading of one of its tries. */
-MesoWalk meso_growth_walk_of(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try);
+void meso_growth_set_walk(MesoWalk *walk, const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try);
 
 /* Adds a ball to that of a turn. */
 void meso_growth_depends(MesoGrowthTurn *turn, MesoVec3 center, double radius);
@@ -217,7 +217,7 @@ void meso_growth_keep_pieces(MesoGrowthBatch *batch, MesoGrowthTurn *turn, uint3
 double meso_growth_retry_angle(const MesoGrowthTip *tip, const MesoGrowthTurn *turn, uint32_t try);
 
 /* Walks from a tip, alone; pieces go to the turn where there is one. */
-MesoWalk meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk walk, MesoGrowthTurn *turn);
+void meso_growth_walk(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk *walk, MesoGrowthTurn *turn);
 
 /* ---- growth_along.c: conditions of steps ---- */
 

@@ -27,13 +27,13 @@ static inline double meso_draw_share(uint64_t hash)
 /* Mean 0 and deviation 1: twelve shares of 16 bits, less 6 (within [-6, 6]); sums of whole numbers, so exact. */
 static inline double meso_draw_normal(uint64_t hash)
 {
-    uint64_t sum = 0;
+    const uint64_t even = 0x0000ffff0000ffffu;
+    uint64_t sums = 0;  /* two, of every other part */
     for (uint32_t word = 0; word < 3; word++) {
-        for (uint32_t part = 0; part < 4; part++)
-            sum += (hash >> (16 * part)) & 0xffff;
+        sums += (hash & even) + (hash >> 16 & even);
         hash = meso_draw_mix(hash + 0x9e3779b97f4a7c15u);
     }
-    return ((double)sum + 6) * 0x1p-16 - 6;
+    return ((double)(int64_t)((sums >> 32) + (sums & UINT32_MAX)) + 6) * 0x1p-16 - 6;
 }
 
 /* FNV-1a of a name, and a number in it, mixed. */

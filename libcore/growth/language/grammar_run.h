@@ -93,6 +93,16 @@ static inline void meso_copy_registers(double *to, const double *from, uint32_t 
 /* Most turns of a rule's loops, for all of them together. */
 enum { MESO_GROWTH_TURNS = 1 << 17 };
 
+/* Member by member: it is run, and so read, at once. */
+static inline void meso_growth_restart(MesoGrowthRun *run, uint32_t entry, uint64_t key)
+{
+    run->key = key;
+    run->at = entry;
+    run->refused = MESO_NO_INDEX;
+    run->turns = 0;
+    run->stepped = false;
+}
+
 static inline MesoGrowthRun meso_growth_begin(uint32_t entry, uint64_t key)
 {
     return (MesoGrowthRun){.key = key, .at = entry, .refused = MESO_NO_INDEX};
