@@ -27,21 +27,22 @@ bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint3
     tip.state[MESO_STATE_X] = tip.foot.position[0];
     tip.state[MESO_STATE_Y] = tip.foot.position[1];
     tip.state[MESO_STATE_Z] = tip.foot.position[2];
-    work->first_branch = work->branch_count++;
-    if (!meso_growth_make_rooms(work))
+    work->branch_count++;
+    if (!meso_growth_make_rooms(work, 1))
         return false;
     work->branches[tip.branch] = (MesoGrowthBranch){start->key, MESO_NO_INDEX, start->seed, MESO_NO_INDEX};
     set_tip(work, work->tip_count - 1, work->shoot_count - 1, &tip, NULL);
     return true;
 }
 
-static void begin_branches(MesoGrowthWork *work, const MesoGrowthTip *parent, const MesoGrowthTurn *turn)
+static void begin_branches(MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthTip *parent,
+                           const MesoGrowthTurn *turn)
 {
     const MesoGrowthBatch *batch = turn->batch;
     uint32_t seed = work->branches[parent->branch].seed;
     for (uint32_t i = 0; i < turn->shoot_count; i++) {
         const MesoGrowthShoot *shoot = &batch->shoots[turn->shoot_begin + i];
-        uint32_t branch = turn->branch_begin + i, since = branch - work->first_branch;
+        uint32_t branch = turn->branch_begin + i, since = branch - window->first_branch;
         MesoGrowthTip tip = *parent;
         tip.at = shoot->at;
         tip.run = meso_growth_begin(shoot->entry, shoot->key);
@@ -54,7 +55,7 @@ static void begin_branches(MesoGrowthWork *work, const MesoGrowthTip *parent, co
         tip.done = true;
         tip.rests = tip.ended = false;
         work->branches[branch] = (MesoGrowthBranch){shoot->key, parent->branch, seed, MESO_NO_INDEX};
-        set_tip(work, work->first_tip + since, work->first_shoot + since, &tip,
+        set_tip(work, window->first_tip + since, window->first_shoot + since, &tip,
                 batch->registers + (size_t)(turn->shoot_begin + i) * work->grammar->local_count);
     }
 }
@@ -172,11 +173,12 @@ static void begin_rule(const MesoGrowthWork *work, uint32_t number, const MesoGr
     tip->rests = true;
 }
 
-static void accept_turn(MesoGrowthWork *work, uint32_t number, const MesoGrowthTurn *turn)
+static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t number,
+                        const MesoGrowthTurn *turn)
 {
     MesoGrowthTip *tip = &work->tips[number];
     if (turn->shoot_count)
-        begin_branches(work, tip, turn);
+        begin_branches(work, window, tip, turn);
     if (meso_growth_is_step(turn))
         accept_step(work, tip, turn);
     else if (turn->outcome == MESO_GROWTH_PLACES)
@@ -192,11 +194,11 @@ static void accept_turn(MesoGrowthWork *work, uint32_t number, const MesoGrowthT
         tip->ended = true;
 }
 
-void meso_growth_accept(MesoGrowthWork *work, uint32_t begin, uint32_t end)
+void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t begin, uint32_t end)
 {
     for (uint32_t i = begin; i < end; i++) {
-        uint32_t at = work->window_begin + i, number = work->active[at];
-        accept_turn(work, number, &work->turns[i]);
+        uint32_t at = window->begin + i, number = work->active[at];
+        accept_turn(work, window, number, &window->turns[i]);
         work->goes_on[at] = !work->tips[number].rests && !work->tips[number].ended;
     }
 }

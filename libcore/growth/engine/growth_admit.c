@@ -30,16 +30,16 @@ static bool is_near_new(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
 }
 
 /* Does again what the window's earlier branches have changed. */
-static void bring_up_to_date(MesoGrowthWork *work, uint32_t number)
+static void bring_up_to_date(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
-    MesoGrowthTurn *turn = &work->turns[number];
-    MesoGrowthBatch *batch = &work->batches[work->batch_count];
-    uint32_t active = work->active[work->window_begin + number];
+    MesoGrowthTurn *turn = &window->turns[number];
+    MesoGrowthBatch *batch = &window->batches[work->batch_count];
+    uint32_t active = work->active[window->begin + number];
     MesoGrowthTip *tip = &work->tips[active];
     bool steps = meso_growth_is_step(turn);
     if (turn->looked) {
         if (is_near_new(work, turn))
-            meso_growth_try_again(work, batch, number);
+            meso_growth_try_again(work, window, number);
     } else if (steps || (turn->outcome == MESO_GROWTH_REFUSED && turn->command.join)) {
         bool may_be_near = !(turn->command.values[MESO_GROWTH_CLEAR] > 0) || is_near_new(work, turn);
         if (!may_be_near || (steps && !meso_growth_collides(work, batch, tip, turn, work->since)))
@@ -79,9 +79,9 @@ static bool add_ball(MesoGrowthWork *work, MesoFour center, double radius)
 }
 
 /* Turns that come later see it. */
-static bool occupy(MesoGrowthWork *work, uint32_t number, const MesoGrowthTurn *turn)
+static bool occupy(MesoGrowthWork *work, uint32_t active, const MesoGrowthTurn *turn)
 {
-    const MesoGrowthTip *tip = &work->tips[work->active[work->window_begin + number]];
+    const MesoGrowthTip *tip = &work->tips[work->active[active]];
     bool placed = turn->outcome == MESO_GROWTH_PLACES;
     float begin = (float)tip->state[MESO_STATE_LENGTH];
     MesoGrowthKin kin = {tip->node, tip->moved, placed, begin, placed ? begin : begin + (float)turn->length};
@@ -95,7 +95,7 @@ static uint32_t count_joints(const MesoGrowthTurn *turn)
     return meso_growth_is_step(turn) ? !turn->shares + turn->middle_count + 1 : 2;
 }
 
-static bool number_elements(MesoGrowthWork *work, uint32_t number, MesoGrowthTurn *turn, MesoGrowthRuleCount *counts)
+static bool number_elements(MesoGrowthWork *work, uint32_t active, MesoGrowthTurn *turn, MesoGrowthRuleCount *counts)
 {
     bool steps = meso_growth_is_step(turn);
     turn->joint_begin = work->joint_count;
@@ -108,18 +108,18 @@ static bool number_elements(MesoGrowthWork *work, uint32_t number, MesoGrowthTur
     work->raised += turn->raise > 0;
     counts->steps += steps;
     counts->placed += !steps;
-    if (work->uses_space && !occupy(work, number, turn))
+    if (work->uses_space && !occupy(work, active, turn))
         return fail_memory(work);
     turn->node = work->space.kin_count - 1;
     return true;
 }
 
-bool meso_growth_admit(MesoGrowthWork *work, uint32_t number)
+bool meso_growth_admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
     static MesoGrowthRuleCount none;
-    MesoGrowthTurn *turn = &work->turns[number];
+    MesoGrowthTurn *turn = &window->turns[number];
     if (work->uses_space && work->space.cells.piece_count > work->since)
-        bring_up_to_date(work, number);
+        bring_up_to_date(work, window, number);
     if (turn->batch->failed || turn->batch->seen.failed)
         return fail_memory(work);
     if (turn->command.order == MESO_GROWTH_FAULT) {
@@ -135,21 +135,21 @@ bool meso_growth_admit(MesoGrowthWork *work, uint32_t number)
     counts->at_borders += turn->at_border;
     counts->refused += turn->outcome == MESO_GROWTH_REFUSED;
     return !(meso_growth_is_step(turn) || turn->outcome == MESO_GROWTH_PLACES) ||
-           number_elements(work, number, turn, counts);
+           number_elements(work, window->begin + number, turn, counts);
 }
 
 #define ROOM(array, room, count) meso_make_room((void **)&work->array, &work->room, count, sizeof *work->array)
 
-bool meso_growth_make_rooms(MesoGrowthWork *work)
+bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t begun)
 {
-    uint64_t shoots = work->branch_count - work->first_branch, tips = work->tip_count + shoots;
+    uint64_t tips = (uint64_t)work->tip_count + begun;
     bool has = ROOM(joints, joint_room, work->joint_count) && ROOM(points, point_room, work->joint_count) &&
                ROOM(elements, element_room, work->element_count) && ROOM(branches, branch_room, work->branch_count) &&
                ROOM(tips, tip_room, tips) && ROOM(registers, register_room, tips * work->grammar->local_count + 1) &&
-               ROOM(shoots, shoot_room, work->shoot_count + shoots);
+               ROOM(shoots, shoot_room, (uint64_t)work->shoot_count + begun);
     if (!has)
         return fail_memory(work);
     work->tip_count = (uint32_t)tips;
-    work->shoot_count += (uint32_t)shoots;
+    work->shoot_count += begun;
     return true;
 }

@@ -39,14 +39,26 @@ static void size_window(MesoGrowthWork *work)
     uint32_t threads = work->options->thread_count ? work->options->thread_count : meso_parallel_cores();
     work->thread_count = work->options->event ? 1 : threads;
     work->batch_count = work->thread_count == 1 ? 1 : BATCHES * work->thread_count;
-    work->window = work->options->event ? 1 : work->batch_count * MESO_GROWTH_BATCH;
+    work->window_size = work->options->event ? 1 : work->batch_count * MESO_GROWTH_BATCH;
+}
+
+static void begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
+{
+    window->turns = allocate(work, work->window_size, sizeof *window->turns);
+    window->batches = allocate(work, (size_t)work->batch_count + 1, sizeof *window->batches);
+    if (work->looks) {
+        window->befores = allocate(work, work->window_size, sizeof *window->befores);
+        window->register_befores =
+            allocate(work, (size_t)work->window_size * work->grammar->local_count, sizeof(double));
+    }
+    for (uint32_t i = 0; window->batches && i <= work->batch_count; i++)
+        window->batches[i].space = work->uses_space ? &work->space : NULL;
 }
 
 static MesoStatus begin(MesoGrowthWork *work)
 {
     const MesoGrowthOptions *options = work->options;
     const MesoGrammarLimits *limits = &work->grammar->limits;
-    size_t window;
     work->element_limit = least(least(limits->elements, options->elements), INT32_MAX / 2);
     work->length_limit = least(limits->length, options->length);
     work->looks = meso_growth_rules_look(work->grammar);
@@ -54,18 +66,11 @@ static MesoStatus begin(MesoGrowthWork *work)
     work->uses_space = work->looks || meso_growth_steps_avoid(work->grammar);
     size_window(work);
     work->team = meso_team_begin(work->thread_count);
-    window = work->window;
-    work->turns = allocate(work, window, sizeof *work->turns);
-    work->batches = allocate(work, (size_t)work->batch_count + 1, sizeof *work->batches);
+    for (uint32_t i = 0; i < (work->team ? 2 : 1); i++)
+        begin_window(work, &work->windows[i]);
     work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);
-    if (work->looks) {
-        work->befores = allocate(work, window, sizeof *work->befores);
-        work->register_befores = allocate(work, window * work->grammar->local_count, sizeof(double));
-    }
     if (!work->status && work->uses_space)
         work->status = meso_growth_space_init(&work->space, work->ground, work->error);
-    for (uint32_t i = 0; work->batches && i <= work->batch_count; i++)
-        work->batches[i].space = work->uses_space ? &work->space : NULL;
     for (uint32_t i = 0; !work->status && i < options->starts->count; i++)
         meso_growth_plant(work, &options->starts->starts[i], i);
     return work->status;
@@ -81,15 +86,23 @@ static void release_batch(MesoGrowthBatch *batch)
     meso_growth_seen_release(&batch->seen);
 }
 
+static void release_window(const MesoGrowthWork *work, MesoGrowthWindow *window)
+{
+    for (uint32_t i = 0; window->batches && i <= work->batch_count; i++)
+        release_batch(&window->batches[i]);
+    free(window->batches);
+    free(window->turns);
+    free(window->befores);
+    free(window->register_befores);
+}
+
 void meso_growth_release(MesoGrowthWork *work)
 {
-    void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->turns, work->befores,
-                            work->register_befores, work->balls, work->joints, work->points, work->elements,
-                            work->branches, work->rules, work->goes_on};
-    for (uint32_t i = 0; work->batches && i <= work->batch_count; i++)
-        release_batch(&work->batches[i]);
-    free(work->batches);
+    void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->balls, work->joints,
+                            work->points, work->elements, work->branches, work->rules, work->goes_on};
     meso_team_end(work->team);
+    for (uint32_t i = 0; i < 2; i++)
+        release_window(work, &work->windows[i]);
     meso_growth_space_release(&work->space);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
@@ -97,35 +110,58 @@ void meso_growth_release(MesoGrowthWork *work)
 
 /* ---- rounds ---- */
 
-static void try_batches(void *context, uint64_t begin_at, uint64_t end)
+/* A loop of the team: batches of one window are tried, and what those of another have grown is written down. They do
+ * not touch each other: a window's branches are its own. */
+typedef struct Loop {
+    MesoGrowthWork *work;
+    MesoGrowthWindow *tried;            /* NULL: none */
+    const MesoGrowthWindow *accepted;   /* NULL: none */
+    uint32_t try_count;                 /* of turns */
+} Loop;
+
+static uint32_t round_up(uint32_t count)
 {
-    MesoGrowthWork *work = context;
-    meso_growth_try(work, &work->batches[begin_at / MESO_GROWTH_BATCH], (uint32_t)begin_at, (uint32_t)end);
+    return (count + MESO_GROWTH_BATCH - 1) / MESO_GROWTH_BATCH * MESO_GROWTH_BATCH;
 }
 
-static void accept_batches(void *context, uint64_t begin_at, uint64_t end)
+/* Tries come first, which take longer. */
+static void run_batch(void *context, uint64_t begin_at, uint64_t end)
 {
-    meso_growth_accept(context, (uint32_t)begin_at, (uint32_t)end);
+    const Loop *loop = context;
+    uint32_t tries = round_up(loop->try_count), first = (uint32_t)begin_at, last = (uint32_t)end;
+    if (first < tries)
+        meso_growth_try(loop->work, loop->tried, first, last < loop->try_count ? last : loop->try_count);
+    else
+        meso_growth_accept(loop->work, loop->accepted, first - tries, last - tries);
 }
 
-static bool run_window(MesoGrowthWork *work, uint32_t begin_at, uint32_t count)
+static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try_count,
+                     const MesoGrowthWindow *accepted)
 {
-    MesoGrowthBatch *again = &work->batches[work->batch_count];
-    uint32_t admitted = 0;
-    work->window_begin = begin_at;
+    Loop loop = {work, tried, accepted, try_count};
+    meso_team_for(work->team, (uint64_t)round_up(try_count) + (accepted ? accepted->count : 0), MESO_GROWTH_BATCH,
+                  run_batch, &loop);
+}
+
+/* Turns active[begin_at..begin_at + count), while what those before them have grown is written down. */
+static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin_at, uint32_t count,
+                       const MesoGrowthWindow *before)
+{
+    MesoGrowthBatch *again = &window->batches[work->batch_count];
+    window->begin = begin_at;
+    window->count = 0;
+    window->first_branch = work->branch_count;
+    window->first_tip = work->tip_count;
+    window->first_shoot = work->shoot_count;
     work->since = work->space.cells.piece_count;
-    work->first_branch = work->branch_count;
-    work->first_tip = work->tip_count;
-    work->first_shoot = work->shoot_count;
     work->ball_count = 0;
     again->piece_count = again->shoot_count = again->middle_count = 0;
-    meso_team_for(work->team, count, MESO_GROWTH_BATCH, try_batches, work);
-    while (admitted < count && meso_growth_admit(work, admitted))
-        admitted++;
-    if (work->status || !meso_growth_make_rooms(work))
-        return false;
-    meso_team_for(work->team, admitted, MESO_GROWTH_BATCH, accept_batches, work);
-    return admitted == count;
+    run_loop(work, window, count, before);
+    while (window->count < count && meso_growth_admit(work, window, window->count))
+        window->count++;
+    if (work->status || !meso_growth_make_rooms(work, work->branch_count - window->first_branch))
+        window->count = 0;
+    return window->count == count;
 }
 
 static bool make_active(MesoGrowthWork *work, uint64_t count)
@@ -154,18 +190,32 @@ static bool gather_active(MesoGrowthWork *work)
     return true;
 }
 
+/* A turn of each that is active. */
+static bool run_each(MesoGrowthWork *work)
+{
+    const MesoGrowthWindow *before = NULL;
+    bool goes_on = true;
+    for (uint32_t i = 0, k = 0; i < work->active_count && goes_on; i += work->window_size, k ^= 1) {
+        MesoGrowthWindow *window = &work->windows[work->team ? k : 0];
+        uint32_t rest = work->active_count - i;
+        goes_on = run_window(work, window, i, rest < work->window_size ? rest : work->window_size, before);
+        before = window;
+        if (!work->team) {
+            run_loop(work, NULL, 0, before);
+            before = NULL;
+        }
+    }
+    if (before)
+        run_loop(work, NULL, 0, before);
+    return goes_on;
+}
+
 /* Turns of all that are active, until all rest. */
 static bool run_turns(MesoGrowthWork *work)
 {
-    while (work->active_count) {
-        for (uint32_t i = 0; i < work->active_count; i += work->window) {
-            uint32_t rest = work->active_count - i;
-            if (!run_window(work, i, rest < work->window ? rest : work->window))
-                return false;
-        }
-        if (!gather_active(work))
+    while (work->active_count)
+        if (!run_each(work) || !gather_active(work))
             return false;
-    }
     return true;
 }
 

@@ -120,16 +120,17 @@ static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch
 }
 
 /* Rules of the window's turns; returns how many are about to walk. */
-static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
+static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
+                          uint32_t end)
 {
-    const uint32_t *active = work->active + work->window_begin;
+    const uint32_t *active = work->active + window->begin;
     uint32_t count = 0;
     for (uint32_t i = begin; i < end; i++) {
-        MesoGrowthTurn *turn = &work->turns[i];
+        MesoGrowthTurn *turn = &window->turns[i];
         MesoGrowthTip *tip = &work->tips[active[i]];
         if (work->looks) {
-            work->befores[i] = *tip;
-            memcpy(work->register_befores + (size_t)i * work->grammar->local_count, registers_of(work, active[i]),
+            window->befores[i] = *tip;
+            memcpy(window->register_befores + (size_t)i * work->grammar->local_count, registers_of(work, active[i]),
                    work->grammar->local_count * sizeof(double));
         }
         run_rule(work, batch, tip, registers_of(work, active[i]), turn);
@@ -143,13 +144,14 @@ static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t
 }
 
 /* Judges the walks; returns how many steps have another try, whose walks come to lie at the front. */
-static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count, uint32_t try)
+static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t count,
+                          uint32_t try)
 {
-    const uint32_t *active = work->active + work->window_begin;
+    const uint32_t *active = work->active + window->begin;
     uint32_t left = 0;
     for (uint32_t i = 0; i < count && !batch->failed; i++) {
         uint32_t number = batch->walkers[i], of = active[number];
-        MesoGrowthTurn *turn = &work->turns[number];
+        MesoGrowthTurn *turn = &window->turns[number];
         const MesoGrowthTip *tip = &work->tips[of];
         if (meso_growth_judge(work, batch, tip, registers_of(work, of), turn, &batch->walks[i], try)) {
             join(work, tip, turn);
@@ -161,28 +163,30 @@ static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, ui
     return batch->failed ? 0 : left;
 }
 
-void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end)
+void meso_growth_try(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end)
 {
+    MesoGrowthBatch *batch = &window->batches[begin / MESO_GROWTH_BATCH];
     batch->piece_count = batch->shoot_count = batch->middle_count = 0;
-    uint32_t count = run_rules(work, batch, begin, end);
+    uint32_t count = run_rules(work, window, batch, begin, end);
     for (uint32_t try = 0; count; try++) {
         uint32_t first = batch->piece_count;
         walk_all(work, batch, count);
         for (uint32_t i = 0; i < count; i++)
-            meso_growth_keep_pieces(batch, &work->turns[batch->walkers[i]], i);
+            meso_growth_keep_pieces(batch, &window->turns[batch->walkers[i]], i);
         fetch_ahead(work, batch, count, first);
-        count = judge_all(work, batch, count, try);
+        count = judge_all(work, window, batch, count, try);
     }
 }
 
-void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t number)
+void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
-    uint32_t active = work->active[work->window_begin + number];
-    MesoGrowthTurn *turn = &work->turns[number];
+    uint32_t active = work->active[window->begin + number];
+    MesoGrowthBatch *batch = &window->batches[work->batch_count];
+    MesoGrowthTurn *turn = &window->turns[number];
     MesoGrowthTip *tip = &work->tips[active];
     double *registers = registers_of(work, active);
-    *tip = work->befores[number];
-    memcpy(registers, work->register_befores + (size_t)number * work->grammar->local_count,
+    *tip = window->befores[number];
+    memcpy(registers, window->register_befores + (size_t)number * work->grammar->local_count,
            work->grammar->local_count * sizeof *registers);
     run_rule(work, batch, tip, registers, turn);
     if (!walks(turn))

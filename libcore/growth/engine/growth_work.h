@@ -3,7 +3,8 @@
  * shape, and to the end of the rule. What grows is what one turn after the other would give. To have it sooner, the
  * turns of a window of branches are tried together, against what had grown before (growth_try.c); then each in turn is
  * admitted, or done again where what the window has grown by then may have changed it (growth_admit.c). That gives
- * numbers to what they have grown, which is written down together, too (growth_accept.c).
+ * numbers to what they have grown, which is written down together, too (growth_accept.c), with the tries of the next
+ * window.
  */
 #ifndef MESO_GROWTH_WORK_H
 #define MESO_GROWTH_WORK_H
@@ -122,6 +123,16 @@ typedef struct MesoGrowthBatch {
     bool failed;                /* out of memory */
 } MesoGrowthBatch;
 
+/* Turns that are tried together. */
+typedef struct MesoGrowthWindow {
+    uint32_t begin, count;      /* of the active tips; how many are admitted */
+    uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
+    MesoGrowthTurn *turns;      /* [window_size] */
+    MesoGrowthTip *befores;     /* [window_size] where rules look; before their turns */
+    double *register_befores;
+    MesoGrowthBatch *batches;   /* [batch_count] and one for what is done again */
+} MesoGrowthWindow;
+
 typedef struct MesoGrowthWork {
     const MesoGrowthOptions *options;
     const MesoGrammar *grammar;
@@ -144,15 +155,10 @@ typedef struct MesoGrowthWork {
     uint32_t *shoots;           /* those that have begun since these took their turns */
     uint32_t active_count, active_room, goes_on_room, shoot_count, shoot_room;
 
-    /* the window */
-    uint32_t window, window_begin, batch_count;
-    uint32_t since;             /* the first piece that it has grown */
-    uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
-    MesoGrowthTurn *turns;      /* [window] */
-    MesoGrowthTip *befores;     /* [window] where rules look; before their turns */
-    double *register_befores;
-    MesoGrowthBatch *batches;   /* [batch_count] and one for what is done again */
-    float *balls;               /* [4 * ball_room] of the elements of this window: x, y, z, radius in turn */
+    MesoGrowthWindow windows[2];        /* what one has grown is written down while the next is tried */
+    uint32_t window_size, batch_count;
+    uint32_t since;             /* the first piece that the window under way has grown */
+    float *balls;               /* [4 * ball_room] of the elements of that: x, y, z, radius in turn */
     uint32_t ball_count, ball_room;
 
     /* what has grown */
@@ -179,11 +185,11 @@ void meso_growth_release(MesoGrowthWork *work);
 
 /* ---- growth_try.c: turns ---- */
 
-/* Of tips active[begin..end), into the window's turns from `begin` on. */
-void meso_growth_try(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t begin, uint32_t end);
+/* Turns [begin, end) of a window, which are a batch. */
+void meso_growth_try(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end);
 
 /* Again, one alone, from before it, against all that has grown. */
-void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t turn);
+void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t turn);
 
 /* ---- growth_step.c: walks ---- */
 
@@ -266,15 +272,15 @@ void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, M
 /* ---- growth_admit.c ---- */
 
 /* Brings turn number `turn` of the window up to date, and gives it numbers; false where growth stops before it. */
-bool meso_growth_admit(MesoGrowthWork *work, uint32_t turn);
+bool meso_growth_admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t turn);
 
-/* Makes room for all that has numbers. */
-bool meso_growth_make_rooms(MesoGrowthWork *work);
+/* Makes room for all that has numbers, and for the tips of the branches that have begun since. */
+bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t begun);
 
 /* ---- growth_accept.c ---- */
 
 /* Writes down what turns [begin, end) of the window, which are admitted, have grown. Apart for each turn. */
-void meso_growth_accept(MesoGrowthWork *work, uint32_t begin, uint32_t end);
+void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t begin, uint32_t end);
 
 /* A branch at a place of its own. False where memory is out. */
 bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint32_t number);
