@@ -143,6 +143,17 @@ static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try
                   run_batch, &loop);
 }
 
+/* Those turns that are next, which another thread may have tried, come from its memory meanwhile. */
+static void admit_all(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t count)
+{
+    enum { AHEAD = 6 };
+    do {
+        const char *next = (const char *)&window->turns[window->count + AHEAD < count ? window->count + AHEAD : 0];
+        __builtin_prefetch(next);
+        __builtin_prefetch(next + 64);
+    } while (meso_growth_admit(work, window, window->count) && ++window->count < count);
+}
+
 /* Turns active[begin_at..begin_at + count), while what those before them have grown is written down. */
 static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin_at, uint32_t count,
                        const MesoGrowthWindow *before)
@@ -157,8 +168,7 @@ static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t 
     work->ball_count = 0;
     again->piece_count = again->shoot_count = again->middle_count = 0;
     run_loop(work, window, count, before);
-    while (window->count < count && meso_growth_admit(work, window, window->count))
-        window->count++;
+    admit_all(work, window, count);
     if (work->status || !meso_growth_make_rooms(work, work->branch_count - window->first_branch))
         window->count = 0;
     return window->count == count;

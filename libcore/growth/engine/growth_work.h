@@ -63,7 +63,7 @@ struct MesoGrowthBatch;
 
 /* What comes of a turn. */
 typedef struct MesoGrowthTurn {
-    /* all that is asked when it is admitted, as a rule */
+    /* all that is asked when it is admitted, as a rule, in two lines of memory */
     struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
     double length;              /* of the way */
     uint32_t rule;              /* that it ran; MESO_NO_INDEX: a seed's */
@@ -75,9 +75,9 @@ typedef struct MesoGrowthTurn {
     bool shares;                /* `from` is the joint that the branch had */
     bool at_border;
     bool looked;                /* the rule asked for what has grown, within the ball */
-    MesoGrowthCommand command;
     /* numbers of what it has grown: the first of new joints, elements and branches, and its own node */
     uint32_t joint_begin, element_begin, branch_begin, node;
+    MesoGrowthCommand command;
     MesoTip end;
     double rest;                /* what of the way lies beyond a border */
     uint32_t try;               /* that was taken: 0, the first */
