@@ -14,10 +14,12 @@ typedef struct Showing {
     const MesoGrammar *grammar;
     const MesoGrowthShapes *shapes;
     uint32_t *order;            /* elements with shapes, by shape, then by branch, then as they have grown */
+    MesoSpan *spans;            /* theirs, in that order */
     uint32_t *shape_begin;      /* [shape count + 1] into it */
     Run *runs;
     uint32_t run_count;
     MesoVec3 *positions, *normals;
+    bool tinted;                /* any element, shown or not */
     MesoMeshColor *colors;      /* NULL where nothing is tinted */
     MesoBox box;
     size_t *vertex_begin;       /* [shape count + 1] */
@@ -53,7 +55,7 @@ static uint32_t shape_of(const MesoGrowthElement *element)
 static MesoStatus put_in_order(Showing *s, MesoArena *arena, MesoArena *scratch, MesoError *error)
 {
     const MesoGrown *grown = s->grown;
-    uint32_t count = 0;
+    uint32_t count = 0, shapes = s->shapes->count;
     uint32_t *shown = MESO_NEW(scratch, uint32_t, grown->element_count, error);
     uint32_t *by_branch = MESO_NEW(scratch, uint32_t, grown->element_count, error);
     uint32_t *begin = MESO_NEW(scratch, uint32_t, (size_t)grown->branch_count + 1, error);
@@ -63,12 +65,19 @@ static MesoStatus put_in_order(Showing *s, MesoArena *arena, MesoArena *scratch,
     s->patterns = MESO_NEW(arena, MesoBody, s->shapes->count, error);
     if (!shown || !by_branch || !begin || !s->order || !s->shape_begin || !s->vertex_begin || !s->patterns)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < grown->element_count; i++)
-        if (grown->elements[i].shape != MESO_NO_INDEX)
-            shown[count++] = i;
-    sort_by(shown, count, by_branch, begin, grown->branch_count, grown, branch_of);
-    sort_by(by_branch, count, s->order, s->shape_begin, s->shapes->count, grown, shape_of);
-    for (uint32_t k = 0; k < s->shapes->count; k++)
+    for (uint32_t i = 0; i < grown->element_count; i++) {
+        shown[count] = i;
+        count += grown->elements[i].shape != MESO_NO_INDEX;
+        s->tinted |= grown->elements[i].tint != 0;
+    }
+    if (shapes > 1) {
+        sort_by(shown, count, by_branch, begin, grown->branch_count, grown, branch_of);
+        sort_by(by_branch, count, s->order, s->shape_begin, shapes, grown, shape_of);
+    } else {
+        sort_by(shown, count, s->order, begin, grown->branch_count, grown, branch_of);
+        s->shape_begin[shapes] = count;
+    }
+    for (uint32_t k = 0; k < shapes; k++)
         s->vertex_begin[k + 1] = s->vertex_begin[k] + (size_t)(s->shape_begin[k + 1] - s->shape_begin[k]) *
                                                           s->shapes->shapes[k].body.vertex_count;
     return MESO_OK;
@@ -76,18 +85,21 @@ static MesoStatus put_in_order(Showing *s, MesoArena *arena, MesoArena *scratch,
 
 static MesoStatus find_runs(Showing *s, MesoArena *scratch, MesoError *error)
 {
+    enum { AHEAD = 16 };
     const MesoGrowthElement *elements = s->grown->elements;
-    uint32_t count = s->shape_begin[s->shapes->count];
+    uint32_t count = s->shape_begin[s->shapes->count], shape = MESO_NO_INDEX, branch = MESO_NO_INDEX;
     s->runs = MESO_NEW(scratch, Run, count, error);
-    if (!s->runs)
+    s->spans = MESO_NEW(scratch, MesoSpan, count, error);
+    if (!s->runs || !s->spans)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
         const MesoGrowthElement *element = &elements[s->order[i]];
-        Run *run = s->run_count ? &s->runs[s->run_count - 1] : NULL;
-        if (!run || run->shape != element->shape || elements[s->order[run->begin]].branch != element->branch)
-            s->runs[s->run_count++] = (Run){element->shape, i, 1};
-        else
-            run->count++;
+        __builtin_prefetch(&elements[s->order[i + AHEAD < count ? i + AHEAD : i]]);
+        if (shape != element->shape || branch != element->branch)
+            s->runs[s->run_count++] = (Run){.shape = shape = element->shape, .begin = i};
+        branch = element->branch;
+        s->runs[s->run_count - 1].count++;
+        s->spans[i] = element->span;
     }
     return MESO_OK;
 }
@@ -118,14 +130,11 @@ static MesoStatus bend_shape(Showing *s, uint32_t shape, MesoArena *scratch, uin
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
     uint32_t begin = s->shape_begin[shape], count = s->shape_begin[shape + 1] - begin;
-    MesoSpan *spans = MESO_NEW(scratch, MesoSpan, count, error);
     uint8_t *folded = folds ? MESO_NEW(scratch, uint8_t, count, error) : NULL;
     MesoBox *boxes = MESO_NEW(scratch, MesoBox, meso_bend_box_count(count), error);
-    if (!spans || !boxes || (folds && !folded))
+    if (!boxes || (folds && !folded))
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < count; i++)
-        spans[i] = s->grown->elements[s->order[begin + i]].span;
-    MesoBending bending = {&s->shapes->shapes[shape], s->grown->joints, count, spans,
+    MesoBending bending = {&s->shapes->shapes[shape], s->grown->joints, count, s->spans + begin,
                            s->positions + s->vertex_begin[shape], s->normals + s->vertex_begin[shape], folded, boxes};
     meso_bend(&bending, thread_count);
     for (uint32_t i = 0; i < meso_bend_box_count(count); i++) {
@@ -136,14 +145,6 @@ static MesoStatus bend_shape(Showing *s, uint32_t shape, MesoArena *scratch, uin
         *folds += folded[i];
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
-}
-
-static bool is_tinted(const MesoGrown *grown)
-{
-    for (uint32_t i = 0; i < grown->element_count; i++)
-        if (grown->elements[i].tint != 0)
-            return true;
-    return false;
 }
 
 static uint8_t to_byte(float x)
@@ -178,8 +179,8 @@ static MesoStatus make_vertices(Showing *s, MesoArena *arena, MesoArena *scratch
     size_t total = s->vertex_begin[s->shapes->count];
     s->positions = MESO_NEW(arena, MesoVec3, total, error);
     s->normals = MESO_NEW(arena, MesoVec3, total, error);
-    s->colors = is_tinted(s->grown) ? MESO_NEW(arena, MesoMeshColor, total, error) : NULL;
-    if (!s->positions || !s->normals || (!s->colors && is_tinted(s->grown)))
+    s->colors = s->tinted ? MESO_NEW(arena, MesoMeshColor, total, error) : NULL;
+    if (!s->positions || !s->normals || (!s->colors && s->tinted))
         return MESO_ERR_MEMORY;
     for (uint32_t k = 0; k < s->shapes->count; k++) {
         MesoStatus status = bend_shape(s, k, scratch, thread_count, folds, error);
