@@ -118,6 +118,7 @@ static void accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrow
     }
     tip->joint = set_spans(work, tip, turn, from, joint);
     tip->node = turn->node;
+    tip->piece = turn->piece;
     tip->shape = turn->command.shape;
     tip->arrive = turn->arrive;
     tip->state[MESO_STATE_WIDTH] = turn->to.width;

@@ -111,6 +111,7 @@ static bool number_elements(MesoGrowthWork *work, uint32_t active, MesoGrowthTur
     if (work->uses_space && !occupy(work, active, turn))
         return fail_memory(work);
     turn->node = work->space.kin_count - 1;
+    turn->piece = work->space.cells.piece_count - 1;
     return true;
 }
 

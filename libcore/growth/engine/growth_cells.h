@@ -66,6 +66,15 @@ void meso_growth_cells_release(MesoGrowthCells *cells);
 /* False where memory is out. */
 bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element);
 
+/* Asks for the memory of a piece; nothing where there is none of that number. */
+static inline void meso_growth_fetch_piece(const MesoGrowthCells *cells, uint32_t piece)
+{
+    if (piece >= cells->piece_count)
+        return;
+    __builtin_prefetch(&cells->ends[piece]);
+    __builtin_prefetch(&cells->elements[piece]);
+}
+
 /* Asks for the memory of what lies where pieces do. */
 void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
 

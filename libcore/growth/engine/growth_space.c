@@ -211,22 +211,22 @@ typedef struct Probe {
     bool begins;                /* the way begins here */
 } Probe;
 
-/* What begins or ends where the way begins does not meet it there. */
-static bool is_root_of(const Probe *probe, uint32_t element, const MesoComplex ends[2])
+/* What begins or ends where the way begins does not meet it there. Whose it is lies elsewhere, and is asked last. */
+static bool is_root_of(const Probe *probe, uint32_t number, const MesoComplex ends[2])
 {
-    if (!probe->begins || !is_joined(probe->space, probe->asker, element))
-        return false;
     bool begins = is_same(ends[0], probe->segment.from);
-    return (begins || is_same(ends[1], probe->segment.from)) && !are_alike(&probe->segment, ends[begins]);
+    return probe->begins && (begins || is_same(ends[1], probe->segment.from)) &&
+           !are_alike(&probe->segment, ends[begins]) &&
+           is_joined(probe->space, probe->asker, probe->space->cells.elements[number]);
 }
 
 static bool meets_piece(const Probe *probe, uint32_t number)
 {
     const MesoGrowthCells *cells = &probe->space->cells;
     const MesoComplex *ends = cells->ends[number];
-    uint32_t element = cells->elements[number];
-    return !is_root_of(probe, element, ends) &&
-           segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) && !probe->space->kin[element].placed;
+    return !is_root_of(probe, number, ends) &&
+           segments_meet(&probe->segment, probe->piece->ends, ends, probe->size) &&
+           !probe->space->kin[cells->elements[number]].placed;
 }
 
 /* Of those in one place, the newer, so that it does not matter in which order they are found. */

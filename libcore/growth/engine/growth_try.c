@@ -139,6 +139,8 @@ static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGr
         meso_growth_set_walk(&batch->walks[count], tip, turn, 0);
         batch->walkers[count++] = i;
         tip->walks++;
+        if (work->uses_space)
+            meso_growth_fetch_piece(&work->space.cells, tip->piece);
     }
     return count;
 }

@@ -36,6 +36,7 @@ typedef struct MesoGrowthTip {
     uint32_t branch, rule;      /* rule: MESO_NO_INDEX before the first */
     uint32_t joint;             /* that its next step begins at; MESO_NO_INDEX: its own */
     uint32_t node, shape;       /* shape: of its last step */
+    uint32_t piece;             /* the newest when its last step was admitted: as a rule the step's own last */
     uint32_t walks, faces;      /* of this run of a rule, so far */
     MesoGrowthBow bow;          /* of its last step, where that kept to a condition */
     float lift, roll;           /* at its joint */
@@ -75,8 +76,8 @@ typedef struct MesoGrowthTurn {
     bool shares;                /* `from` is the joint that the branch had */
     bool at_border;
     bool looked;                /* the rule asked for what has grown, within the ball */
-    /* numbers of what it has grown: the first of new joints, elements and branches, and its own node */
-    uint32_t joint_begin, element_begin, branch_begin, node;
+    /* numbers of what it has grown: the first of new joints, elements and branches, and its own node and newest piece */
+    uint32_t joint_begin, element_begin, branch_begin, node, piece;
     MesoGrowthCommand command;
     MesoTip end;
     double rest;                /* what of the way lies beyond a border */
