@@ -161,6 +161,9 @@ bool meso_growth_is_above(const MesoGrown *grown, const MesoGrowthGround *ground
 
 void meso_growth_fetch_ends(const MesoGrown *grown, const MesoGrowthGround *ground, const MesoGrowthElement *element)
 {
-    __builtin_prefetch(&ground->flats[grown->points[element->span.from].triangle]);
-    __builtin_prefetch(&ground->flats[grown->points[element->span.to].triangle]);
+    uint32_t first = grown->points[element->span.from].triangle, last = grown->points[element->span.to].triangle;
+    __builtin_prefetch(&ground->flats[first]);
+    __builtin_prefetch(&ground->flats[last]);
+    if (first != last)
+        __builtin_prefetch(&ground->walk.faces[last]);
 }
