@@ -5,12 +5,10 @@
 /* ---- branches ---- */
 
 /* A tip with registers of its own, to be active from the next turns on. */
-static void set_tip(MesoGrowthWork *work, uint32_t number, uint32_t shoot, const MesoGrowthTip *tip,
-                    const double *registers)
+static void enter_tip(MesoGrowthWork *work, uint32_t number, uint32_t shoot, const double *registers)
 {
     uint32_t width = work->grammar->local_count;
     double *own = work->registers + (size_t)number * width;
-    work->tips[number] = *tip;
     work->shoots[shoot] = number;
     if (registers)
         meso_copy_registers(own, registers, width);
@@ -20,8 +18,8 @@ static void set_tip(MesoGrowthWork *work, uint32_t number, uint32_t shoot, const
 
 bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint32_t number)
 {
-    MesoGrowthTip tip = {.at = start->tip, .rule = MESO_NO_INDEX, .joint = MESO_NO_INDEX, .shape = MESO_NO_INDEX,
-                         .branch = work->branch_count, .node = MESO_GROWTH_ROOT | number, .done = true};
+    MesoGrowthTip tip = {.at = start->tip, .seed = start->seed, .rule = MESO_NO_INDEX, .joint = MESO_NO_INDEX,
+                         .shape = MESO_NO_INDEX, .branch = work->branch_count, .node = MESO_GROWTH_ROOT | number, .done = true};
     tip.run = meso_growth_begin(work->grammar->seeds[start->seed].entry, start->key);
     tip.foot = meso_growth_foot(work->ground, &tip.at);
     tip.state[MESO_STATE_X] = tip.foot.position[0];
@@ -31,7 +29,8 @@ bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint3
     if (!meso_growth_make_rooms(work, 1))
         return false;
     work->branches[tip.branch] = (MesoGrowthBranch){start->key, MESO_NO_INDEX, start->seed, MESO_NO_INDEX};
-    set_tip(work, work->tip_count - 1, work->shoot_count - 1, &tip, NULL);
+    work->tips[work->tip_count - 1] = tip;
+    enter_tip(work, work->tip_count - 1, work->shoot_count - 1, NULL);
     return true;
 }
 
@@ -39,24 +38,24 @@ static void begin_branches(MesoGrowthWork *work, const MesoGrowthWindow *window,
                            const MesoGrowthTurn *turn)
 {
     const MesoGrowthBatch *batch = turn->batch;
-    uint32_t seed = work->branches[parent->branch].seed;
     for (uint32_t i = 0; i < turn->shoot_count; i++) {
         const MesoGrowthShoot *shoot = &batch->shoots[turn->shoot_begin + i];
         uint32_t branch = turn->branch_begin + i, since = branch - window->first_branch;
-        MesoGrowthTip tip = *parent;
-        tip.at = shoot->at;
-        tip.run = meso_growth_begin(shoot->entry, shoot->key);
-        tip.state[MESO_STATE_DEPTH]++;
-        tip.branch = branch;
-        tip.joint = MESO_NO_INDEX;
-        tip.arrive = (MesoFour){0, 0, 0, 0};
-        tip.raise = 0;
-        tip.walks = tip.faces = 0;
-        tip.done = true;
-        tip.rests = tip.ended = false;
-        work->branches[branch] = (MesoGrowthBranch){shoot->key, parent->branch, seed, MESO_NO_INDEX};
-        set_tip(work, window->first_tip + since, window->first_shoot + since, &tip,
-                batch->registers + (size_t)(turn->shoot_begin + i) * work->grammar->local_count);
+        MesoGrowthTip *tip = &work->tips[window->first_tip + since];
+        *tip = *parent;
+        tip->at = shoot->at;
+        meso_growth_restart(&tip->run, shoot->entry, shoot->key);
+        tip->state[MESO_STATE_DEPTH]++;
+        tip->branch = branch;
+        tip->joint = MESO_NO_INDEX;
+        tip->arrive = (MesoFour){0, 0, 0, 0};
+        tip->raise = 0;
+        tip->walks = tip->faces = 0;
+        tip->done = true;
+        tip->rests = tip->ended = false;
+        work->branches[branch] = (MesoGrowthBranch){shoot->key, parent->branch, parent->seed, MESO_NO_INDEX};
+        enter_tip(work, window->first_tip + since, window->first_shoot + since,
+                  batch->registers + (size_t)(turn->shoot_begin + i) * work->grammar->local_count);
     }
 }
 

@@ -33,7 +33,7 @@ typedef struct MesoGrowthTip {
     double state[MESO_STATE_COUNT];
     MesoGrowthFooting foot;     /* of `at`, but for its heading */
     MesoFour arrive;            /* how its last step came; 0 where there was none */
-    uint32_t branch, rule;      /* rule: MESO_NO_INDEX before the first */
+    uint32_t seed, branch, rule;        /* seed: of the grammar; rule: MESO_NO_INDEX before the first */
     uint32_t joint;             /* that its next step begins at; MESO_NO_INDEX: its own */
     uint32_t node, shape;       /* shape: of its last step */
     uint32_t piece;             /* the newest when its last step was admitted: as a rule the step's own last */
