@@ -69,6 +69,17 @@ static void test_threads(void)
     meso_scenery_release(&scenery);
 }
 
+/* More branches than a window has: what one has grown is written down while the next is tried. */
+static void test_windows(void)
+{
+    MesoGrowthScenery scenery;
+    prepare(&scenery, meso_fixture_bumpy_torus(60, 30), ivy, 3000);
+    MesoGrown one = meso_scenery_grow(&scenery, &scenery.arena, 1), two = meso_scenery_grow(&scenery, &scenery.arena, 2);
+    CHECK(one.generation_count > 1 && one.rules[0].steps > 2048 && one.rules[0].branches > 1000);
+    CHECK(one.rules[1].placed > 50 && are_same(&one, &two));
+    meso_scenery_release(&scenery);
+}
+
 /* ---- joints ---- */
 
 /* Consecutive steps of a branch share a joint, the end of one element and the beginning of the next. */
@@ -355,6 +366,7 @@ int main(int argc, char **argv)
         return 0;
     }
     test_threads();
+    test_windows();
     test_joints();
     test_tangents();
     test_depth("tube", 1, 0.03f, true);
