@@ -110,7 +110,8 @@ static bool any_open(const Points *points)
 }
 
 /* The triangle across the side that the first open point lies farthest beyond. */
-static uint32_t towards_open(const Points *points, const MesoGrowthGround *ground, uint32_t triangle, const MesoGrowthFlat *flat)
+static uint32_t towards_open(const Points *points, const MesoGrowthGround *ground, uint32_t triangle,
+                             const MesoGrowthFlat *flat)
 {
     uint32_t at = 0, least = 0;
     while (at + 1 < POINTS && !points->open[at / 4][at % 4])

@@ -19,7 +19,8 @@ static void enter_tip(MesoGrowthWork *work, uint32_t number, uint32_t shoot, con
 bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint32_t number)
 {
     MesoGrowthTip tip = {.at = start->tip, .seed = start->seed, .rule = MESO_NO_INDEX, .joint = MESO_NO_INDEX,
-                         .shape = MESO_NO_INDEX, .branch = work->branch_count, .node = MESO_GROWTH_ROOT | number, .done = true};
+                         .shape = MESO_NO_INDEX, .branch = work->branch_count, .node = MESO_GROWTH_ROOT | number,
+                         .done = true};
     tip.run = meso_growth_begin(work->grammar->seeds[start->seed].entry, start->key);
     tip.foot = meso_growth_foot(work->ground, &tip.at);
     tip.state[MESO_STATE_X] = tip.foot.position[0];

@@ -74,7 +74,8 @@ static void test_windows(void)
 {
     MesoGrowthScenery scenery;
     prepare(&scenery, meso_fixture_bumpy_torus(60, 30), ivy, 3000);
-    MesoGrown one = meso_scenery_grow(&scenery, &scenery.arena, 1), two = meso_scenery_grow(&scenery, &scenery.arena, 2);
+    MesoGrown one = meso_scenery_grow(&scenery, &scenery.arena, 1);
+    MesoGrown two = meso_scenery_grow(&scenery, &scenery.arena, 2);
     CHECK(one.generation_count > 1 && one.rules[0].steps > 2048 && one.rules[0].branches > 1000);
     CHECK(one.rules[1].placed > 50 && are_same(&one, &two));
     meso_scenery_release(&scenery);

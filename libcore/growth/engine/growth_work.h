@@ -76,7 +76,7 @@ typedef struct MesoGrowthTurn {
     bool shares;                /* `from` is the joint that the branch had */
     bool at_border;
     bool looked;                /* the rule asked for what has grown, within the ball */
-    /* numbers of what it has grown: the first of new joints, elements and branches, and its own node and newest piece */
+    /* numbers of what it has grown: the first of new joints, elements and branches, its own node, and newest piece */
     uint32_t joint_begin, element_begin, branch_begin, node, piece;
     MesoGrowthCommand command;
     MesoTip end;
