@@ -166,41 +166,103 @@ static void write_body(const Body *b)
             write_face(b, column, row);
 }
 
-/* Six blocks with round edges: seat, back, four legs. */
-static MesoVec3 on_block(double u, double v, const double block[6])
+/* ---- the chair: the border of the cells within blocks, made smooth ---- */
+
+enum { CHAIR_X = 26, CHAIR_Y = 26, CHAIR_Z = 54, CHAIR_VERTICES = (CHAIR_X + 1) * (CHAIR_Y + 1) * (CHAIR_Z + 1) };
+
+static const double CHAIR_CELL = 0.06;
+
+/* First and last cells of seat, back, its posts, legs. */
+static const int CHAIR_BLOCKS[8][6] = {
+    {0, 0, 22, 25, 25, 26}, {0, 21, 35, 25, 25, 53}, {0, 21, 27, 4, 25, 34}, {21, 21, 27, 25, 25, 34},
+    {0, 0, 0, 4, 4, 21},    {21, 0, 0, 25, 4, 21},   {0, 21, 0, 4, 25, 21},  {21, 21, 0, 25, 25, 21}};
+
+static bool in_chair(int x, int y, int z)
 {
-    double z = -cos(TURN / 2 * v), r = sin(TURN / 2 * v), p[3] = {r * cos(TURN * u), r * sin(TURN * u), z}, sum = 0;
-    for (int k = 0; k < 3; k++)
-        sum += pow(fabs(p[k]), 5);
-    double by = pow(sum, -0.2);
-    return point(block[0] + block[3] * by * p[0], block[1] + block[4] * by * p[1], block[2] + block[5] * by * p[2]);
+    for (int i = 0; i < 8; i++) {
+        const int *b = CHAIR_BLOCKS[i];
+        if (x >= b[0] && y >= b[1] && z >= b[2] && x <= b[3] && y <= b[4] && z <= b[5])
+            return true;
+    }
+    return false;
+}
+
+static uint32_t chair_vertex(const int at[3])
+{
+    return (uint32_t)((at[2] * (CHAIR_Y + 1) + at[1]) * (CHAIR_X + 1) + at[0]);
+}
+
+/* The corners of a cell's side, wound so that its normal leaves the cell. */
+static void chair_side(const int cell[3], int axis, int up, uint32_t quad[4])
+{
+    static const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int k = 0; k < 4; k++) {
+        int at[3];
+        at[axis] = cell[axis] + up;
+        at[(axis + 1) % 3] = cell[(axis + 1) % 3] + around[k][0];
+        at[(axis + 2) % 3] = cell[(axis + 2) % 3] + around[k][1];
+        quad[up ? k : 3 - k] = chair_vertex(at);
+    }
+}
+
+static uint32_t chair_quads(uint32_t (*quads)[4])
+{
+    uint32_t count = 0;
+    for (int z = 0; z < CHAIR_Z; z++)
+        for (int y = 0; y < CHAIR_Y; y++)
+            for (int x = 0; x < CHAIR_X; x++)
+                for (int side = 0; in_chair(x, y, z) && side < 6; side++) {
+                    int cell[3] = {x, y, z}, next[3] = {x, y, z}, axis = side / 2, up = side % 2;
+                    next[axis] += up ? 1 : -1;
+                    if (!in_chair(next[0], next[1], next[2]))
+                        chair_side(cell, axis, up, quads[count++]);
+                }
+    return count;
+}
+
+/* Moves each vertex `by` of the way to the mean of its neighbours. */
+static void chair_smooth(MesoVec3 *points, uint32_t count, uint32_t (*quads)[4], double by)
+{
+    static double sum[CHAIR_VERTICES][4];
+    memset(sum, 0, sizeof sum);
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++) {
+            MesoVec3 next = points[quads[i][(k + 1) % 4]];
+            double *to = sum[quads[i][k]];
+            to[0] += (double)next.x, to[1] += (double)next.y, to[2] += (double)next.z, to[3] += 1;
+        }
+    for (uint32_t i = 0; i < CHAIR_VERTICES; i++)
+        if (sum[i][3] > 0) {
+            double x = (double)points[i].x, y = (double)points[i].y, z = (double)points[i].z, n = sum[i][3];
+            points[i] = point(x + by * (sum[i][0] / n - x), y + by * (sum[i][1] / n - y), z + by * (sum[i][2] / n - z));
+        }
 }
 
 static void write_chair(void)
 {
-    static const double blocks[6][6] = {
-        {0, 0, 0, 0.75, 0.75, 0.14}, {0, 0.68, 1, 0.72, 0.13, 0.72},
-        {-0.6, -0.6, -0.9, 0.14, 0.14, 0.66}, {0.6, -0.6, -0.9, 0.14, 0.14, 0.66},
-        {-0.6, 0.6, -0.9, 0.14, 0.14, 0.66}, {0.6, 0.6, -0.9, 0.14, 0.14, 0.66}};
-    enum { N = 48, M = 32 };
-    const Body shape = {.around = N, .along = M, .low_pole = true, .high_pole = true};
+    static MesoVec3 points[CHAIR_VERTICES];
+    static uint32_t quads[6 * CHAIR_X * CHAIR_Y * CHAIR_Z][4], names[CHAIR_VERTICES];
+    uint32_t count = chair_quads(quads), named = 0;
+    for (int z = 0; z <= CHAIR_Z; z++)
+        for (int y = 0; y <= CHAIR_Y; y++)
+            for (int x = 0; x <= CHAIR_X; x++)
+                points[chair_vertex((int[]){x, y, z})] =
+                    point((x - 13) * CHAIR_CELL, (y - 13) * CHAIR_CELL, (z - 27) * CHAIR_CELL);
+    for (int round = 0; round < 24; round++) {
+        chair_smooth(points, count, quads, 0.5);
+        chair_smooth(points, count, quads, -0.3);
+    }
     printf("# chair\n");
-    for (uint32_t i = 0; i < 6; i++)
-        for (uint32_t row = 0; row <= M; row++)
-            for (uint32_t column = 0; column < (row % M ? N : 1); column++) {
-                MesoVec3 p = on_block((double)column / N, (double)row / M, blocks[i]);
-                printf("v %.6f %.6f %.6f 0.07 0.04 0.02\n", (double)p.x, (double)p.y, (double)p.z);
-            }
-    for (uint32_t i = 0; i < 6; i++)
-        for (uint32_t row = 0; row < M; row++)
-            for (uint32_t column = 0; column < N; column++) {
-                uint32_t first = 1 + i * (N * (M - 1) + 2);
-                printf("f %u", vertex_at(&shape, first, column, row));
-                if (row > 0)
-                    printf(" %u", vertex_at(&shape, first, column + 1, row));
-                printf(" %u", vertex_at(&shape, first, column + 1, row + 1));
-                printf(row + 1 < M ? " %u\n" : "\n", vertex_at(&shape, first, column, row + 1));
-            }
+    for (uint32_t i = 0; i < 4 * count; i++) {
+        uint32_t vertex = quads[i / 4][i % 4];
+        if (names[vertex] > 0)
+            continue;
+        names[vertex] = ++named;
+        MesoVec3 p = points[vertex];
+        printf("v %.6f %.6f %.6f 0.07 0.04 0.02\n", (double)p.x, (double)p.y, (double)p.z);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        printf("f %u %u %u %u\n", names[quads[i][0]], names[quads[i][1]], names[quads[i][2]], names[quads[i][3]]);
 }
 
 int main(int argc, char **argv)
