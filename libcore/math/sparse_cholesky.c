@@ -295,23 +295,110 @@ static bool add_row(MesoCholesky *factor, const MesoTriplet *triplets, uint32_t 
     return true;
 }
 
-/* Row `k` of L solves with the rows above it; returns its pivot. */
-static double solve_row(MesoCholesky *factor, uint32_t k, double diagonal)
+/*
+ * Columns that follow each other, the first with all rows of the second and that one itself, are taken together, up to
+ * eight: what they are subtracted from is read and written once for all of them, and four rows are done at once. Each
+ * number comes by the same operations in the same order as one column at a time.
+ */
+enum { TOGETHER = 8 };
+
+typedef double Four __attribute__((vector_size(32)));
+
+/* How many of the columns of a row from `e` on are such, at most `most`. */
+static uint32_t columns_together(const MesoCholesky *factor, size_t e, size_t end, uint32_t most)
 {
-    double *restrict work = factor->work;
-    const uint32_t *rows = factor->column_rows;
-    double *values = factor->values;
-    for (size_t e = factor->row_begins[k]; e < factor->row_begins[k + 1]; e++) {
-        uint32_t i = factor->row_columns[e];
-        size_t end = factor->column_ends[i]++;
-        double y = work[factor->order[i]];
-        work[factor->order[i]] = 0;
-        for (size_t c = factor->column_begins[i]; c < end; c++)
-            work[rows[c]] -= values[c] * y;
-        values[end] = y / factor->pivots[i];
-        diagonal -= values[end] * y;
+    const size_t *begins = factor->column_begins;
+    uint32_t i = factor->row_columns[e], width = 1;
+    for (; width < most && e + width < end; width++, i++)
+        if (factor->column_rows[begins[i]] != factor->order[i + 1] ||
+            begins[i + 1] - begins[i] != begins[i + 2] - begins[i + 1] + 1)
+            break;
+    return width;
+}
+
+/* Subtracts columns times numbers from the work row, at `count` rows that all of them have. */
+static inline __attribute__((always_inline)) void subtract(double *restrict work, const uint32_t *rows, size_t count,
+                                                           const double *const *columns, const double *y,
+                                                           const uint32_t width)
+{
+    size_t e = 0;
+    for (; e + 4 <= count; e += 4) {
+        Four sums = {work[rows[e]], work[rows[e + 1]], work[rows[e + 2]], work[rows[e + 3]]};
+        for (uint32_t c = 0; c < width; c++) {
+            Four values;
+            memcpy(&values, columns[c] + e, sizeof values);
+            sums -= values * y[c];
+        }
+        for (uint32_t k = 0; k < 4; k++)
+            work[rows[e + k]] = sums[k];
+    }
+    for (; e < count; e++)
+        for (uint32_t c = 0; c < width; c++)
+            work[rows[e]] -= columns[c][e] * y[c];
+}
+
+/* The next `width` columns of row `k`; what is left of the diagonal then. */
+static inline __attribute__((always_inline)) double solve_columns(MesoCholesky *factor, uint32_t first, double diagonal,
+                                                                  const uint32_t width)
+{
+    double *restrict work = factor->work, *values = factor->values, y[TOGETHER];
+    const double *below[TOGETHER];
+    for (uint32_t c = 0; c < width; c++) {
+        size_t begin = factor->column_begins[first + c], end = factor->column_ends[first + c]++;
+        y[c] = work[factor->order[first + c]];
+        work[factor->order[first + c]] = 0;
+        for (uint32_t d = c + 1; d < width; d++)
+            work[factor->order[first + d]] -= values[begin + d - c - 1] * y[c];
+        below[c] = &values[begin + width - c - 1];
+        values[end] = y[c] / factor->pivots[first + c];
+        diagonal -= values[end] * y[c];
+    }
+    size_t begin = factor->column_begins[first + width - 1], end = factor->column_ends[first + width - 1] - 1;
+    subtract(work, &factor->column_rows[begin], end - begin, below, y, width);
+    return diagonal;
+}
+
+/* Row `k` of L solves with the rows above it; returns its pivot. */
+static inline __attribute__((always_inline)) double solve_row(MesoCholesky *factor, uint32_t k, double diagonal)
+{
+    for (size_t e = factor->row_begins[k], end = factor->row_begins[k + 1]; e < end;) {
+        uint32_t width = columns_together(factor, e, end, TOGETHER), first = factor->row_columns[e];
+        width = width == 8 ? 8 : width >= 4 ? 4 : width >= 2 ? 2 : 1;
+        if (width == 8)
+            diagonal = solve_columns(factor, first, diagonal, 8);
+        else if (width == 4)
+            diagonal = solve_columns(factor, first, diagonal, 4);
+        else if (width == 2)
+            diagonal = solve_columns(factor, first, diagonal, 2);
+        else
+            diagonal = solve_columns(factor, first, diagonal, 1);
+        e += width;
     }
     return diagonal;
+}
+
+/* The same operations, and so the same numbers, on wider registers. */
+#ifdef __x86_64__
+__attribute__((target("avx2"))) static double solve_row_avx2(MesoCholesky *factor, uint32_t k, double diagonal)
+{
+    return solve_row(factor, k, diagonal);
+}
+#endif
+
+static double solve_row_plain(MesoCholesky *factor, uint32_t k, double diagonal)
+{
+    return solve_row(factor, k, diagonal);
+}
+
+typedef double SolveRow(MesoCholesky *factor, uint32_t k, double diagonal);
+
+static SolveRow *choose_solve_row(void)
+{
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2"))
+        return solve_row_avx2;
+#endif
+    return solve_row_plain;
 }
 
 /*
@@ -333,12 +420,13 @@ MesoStatus meso_cholesky_factor(MesoCholesky *factor, const MesoTriplet *triplet
     memcpy(factor->column_ends, factor->column_begins, factor->count * sizeof *factor->column_ends);
     memset(factor->work, 0, factor->count * sizeof *factor->work);
     memset(factor->marks, 0xff, factor->count * sizeof *factor->marks);
+    SolveRow *solve = choose_solve_row();
     for (uint32_t k = 0; k < factor->count; k++) {
         double diagonal = 0;
         if (!add_row(factor, triplets, k, &diagonal))
             return meso_fail(error, MESO_ERR_INTERNAL, "row %u of a matrix has an entry that was not analysed",
                              factor->order[k]);
-        factor->pivots[k] = solve_row(factor, k, diagonal);
+        factor->pivots[k] = solve(factor, k, diagonal);
         if (!(factor->pivots[k] > LEAST_PIVOT * diagonal && factor->pivots[k] <= DBL_MAX))
             return meso_fail(error, MESO_ERR_INPUT, "a matrix is not positive definite at row %u of %u",
                              factor->order[k], factor->count);

@@ -5,6 +5,7 @@
 #include "libcore/math/sparse_cholesky.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { MOST = 60, ROOM = 4096, WIDTH = 4 };
 
@@ -96,6 +97,40 @@ static void check_solutions(const MesoCholesky *factor, const Matrix *matrix, Me
     }
 }
 
+/* Row by row, a column of the rows above after the other: the same bytes. */
+static void check_by_columns(const MesoCholesky *factor, const MesoTriplet *triplets, size_t triplet_count)
+{
+    uint32_t count = factor->count;
+    double *work = calloc(count, sizeof *work);
+    size_t *ends = malloc(count * sizeof *ends);
+    CHECK(work && ends);
+    memcpy(ends, factor->column_begins, count * sizeof *ends);
+    for (uint32_t k = 0; k < count; k++) {
+        double diagonal = 0;
+        for (size_t t = 0; t < triplet_count; t++) {
+            uint32_t a = factor->places[triplets[t].row], b = factor->places[triplets[t].column];
+            if ((a > b ? a : b) != k)
+                continue;
+            if (a == b)
+                diagonal += triplets[t].value;
+            else
+                work[factor->order[a < b ? a : b]] += triplets[t].value;
+        }
+        for (size_t e = factor->row_begins[k]; e < factor->row_begins[k + 1]; e++) {
+            uint32_t i = factor->row_columns[e];
+            double y = work[factor->order[i]], value = y / factor->pivots[i];
+            work[factor->order[i]] = 0;
+            for (size_t c = factor->column_begins[i]; c < ends[i]; c++)
+                work[factor->column_rows[c]] -= factor->values[c] * y;
+            CHECK(!memcmp(&value, &factor->values[ends[i]++], sizeof value));
+            diagonal -= value * y;
+        }
+        CHECK(!memcmp(&diagonal, &factor->pivots[k], sizeof diagonal));
+    }
+    free(work);
+    free(ends);
+}
+
 static void test_random(void)
 {
     static Matrix matrix;
@@ -110,6 +145,7 @@ static void test_random(void)
         CHECK(!meso_cholesky_analyse(&factor, &arena, count, matrix.triplets, matrix.triplet_count, NULL));
         CHECK(!meso_cholesky_factor(&factor, matrix.triplets, matrix.triplet_count, NULL));
         check_solutions(&factor, &matrix, &random);
+        check_by_columns(&factor, matrix.triplets, matrix.triplet_count);
 
         /* the same bytes again */
         CHECK(!meso_cholesky_analyse(&again, &arena, count, matrix.triplets, matrix.triplet_count, NULL));
@@ -210,6 +246,7 @@ static void test_grid_order(void)
         CHECK(!met[factor.order[k]]++);
     CHECK(factor.column_begins[COUNT] < SIDE * SIDE * SIDE / 3);
     CHECK(!meso_cholesky_factor(&factor, triplets, triplet_count, NULL));
+    check_by_columns(&factor, triplets, triplet_count);
     static double x[COUNT], y[COUNT];
     for (uint32_t v = 0; v < COUNT; v++)
         x[v] = sin(v);
