@@ -4,6 +4,7 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/math/box.h"
+#include "libcore/math/lanes.h"
 #include "libcore/quilt/match/nearest_faces.h"
 #include "libcore/quilt/match/triangle_distance.h"
 
@@ -114,7 +115,7 @@ static void put_face(const MesoMatchField *field, size_t at, uint32_t face)
         field->many_faces[at] = face;
 }
 
-static float turn_between(MesoVec3 n, float x, float y, float z)
+static inline __attribute__((always_inline)) float turn_between(MesoVec3 n, float x, float y, float z)
 {
     float dx = n.x - x, dy = n.y - y, dz = n.z - z;
     return 1 + sqrtf(dx * dx + dy * dy + dz * dz);
@@ -153,7 +154,7 @@ static void measure_bins(void *context, uint32_t worker, uint64_t begin, uint64_
 }
 
 /* So many voxels of a row at once: what is known of them stays near. They are filled up to whole lanes by the last. */
-enum { CHUNK = MESO_TRIANGLE_ROW, LANES = 8 };
+enum { CHUNK = MESO_TRIANGLE_ROW, LANES = MESO_LANES };
 
 /* The nearest faces of one bin along a row. */
 typedef struct Stretch {
@@ -175,7 +176,9 @@ static uint32_t whole_lanes(uint32_t count)
 }
 
 /* The corners of a face, and the centre of a voxel. */
-static void put_in_row(MesoTriangleRow *row, uint32_t i, const MesoSwatch *swatch, uint32_t face, MesoVec3 centre)
+static inline __attribute__((always_inline)) void put_in_row(MesoTriangleRow *row, uint32_t i,
+                                                             const MesoSwatch *swatch, uint32_t face,
+                                                             MesoVec3 centre)
 {
     const uint32_t *corners = &swatch->corners[3 * (size_t)face];
     MesoVec3 a = swatch->positions[corners[0]], b = swatch->positions[corners[1]], c = swatch->positions[corners[2]];
@@ -186,7 +189,8 @@ static void put_in_row(MesoTriangleRow *row, uint32_t i, const MesoSwatch *swatc
 }
 
 /* `at`: the first voxel, (x, y, z), in the table of the bin. What fills it up is the last one. */
-static void load_stretch(Stretch *stretch, const Builder *builder, size_t at, const uint32_t place[3], uint32_t count)
+static inline __attribute__((always_inline)) void load_stretch(Stretch *stretch, const Builder *builder, size_t at,
+                                                               const uint32_t place[3], uint32_t count)
 {
     const MesoMatchField *field = builder->field;
     MesoTriangleRow row;
@@ -210,7 +214,9 @@ static void load_stretch(Stretch *stretch, const Builder *builder, size_t at, co
 
 /* Where the faces are better with a normal in direction `n` than what is there, they take its place. By masks: branches
  * keep the compiler from doing four at once. */
-static void keep_better(Best *restrict best, const Stretch *restrict stretch, MesoVec3 n, uint32_t count)
+static inline __attribute__((always_inline)) void keep_better(Best *restrict best,
+                                                              const Stretch *restrict stretch, MesoVec3 n,
+                                                              uint32_t count)
 {
     for (uint32_t i = 0; i < whole_lanes(count); i++) {
         float cost = stretch->factors[i] * turn_between(n, stretch->x[i], stretch->y[i], stretch->z[i]);
@@ -221,25 +227,22 @@ static void keep_better(Best *restrict best, const Stretch *restrict stretch, Me
     }
 }
 
-static float larger(float a, float b)
+static inline __attribute__((always_inline)) float largest_cost(const Best *best, uint32_t count)
 {
-    return a > b ? a : b;
-}
-
-static float largest_cost(const Best *best, uint32_t count)
-{
-    float a = 0, b = 0, c = 0, d = 0;
+    MesoLanes most = meso_lanes_all(0), costs;
     for (uint32_t i = 0; i < count; i += LANES) {
-        a = larger(larger(best->costs[i], best->costs[i + 4]), a);
-        b = larger(larger(best->costs[i + 1], best->costs[i + 5]), b);
-        c = larger(larger(best->costs[i + 2], best->costs[i + 6]), c);
-        d = larger(larger(best->costs[i + 3], best->costs[i + 7]), d);
+        memcpy(&costs, &best->costs[i], sizeof costs);
+        most = meso_lanes_most(costs, most);
     }
-    return larger(larger(a, b), larger(c, d));
+    float largest = 0;
+    for (uint32_t k = 0; k < LANES; k++)
+        largest = most[k] > largest ? most[k] : largest;
+    return largest;
 }
 
 /* All that is known of a stretch is loaded before what is best takes its place. */
-static void combine_stretch(const Builder *builder, const uint32_t place[3], uint32_t count)
+static inline __attribute__((always_inline)) void combine_stretch(const Builder *builder, const uint32_t place[3],
+                                                                  uint32_t count)
 {
     const MesoMatchField *field = builder->field;
     size_t voxels = meso_voxel_count(&builder->grid);
@@ -273,9 +276,8 @@ static void combine_stretch(const Builder *builder, const uint32_t place[3], uin
     }
 }
 
-static void combine_rows(void *context, uint64_t begin, uint64_t end)
+static inline __attribute__((always_inline)) void combine_some(const Builder *builder, uint64_t begin, uint64_t end)
 {
-    const Builder *builder = context;
     uint32_t length = builder->grid.count[0], pieces = (length + CHUNK - 1) / CHUNK;
     uint32_t piece = (length + pieces - 1) / pieces;
     for (uint64_t row = begin; row < end; row++)
@@ -283,6 +285,25 @@ static void combine_rows(void *context, uint64_t begin, uint64_t end)
             uint32_t rows = builder->grid.count[1], place[3] = {x, (uint32_t)(row % rows), (uint32_t)(row / rows)};
             combine_stretch(builder, place, length - x < piece ? length - x : piece);
         }
+}
+
+/* The same operations, and so the same table, on wider registers. */
+#ifdef __x86_64__
+__attribute__((target("avx2"))) static void combine_some_avx2(const Builder *builder, uint64_t begin, uint64_t end)
+{
+    combine_some(builder, begin, end);
+}
+#endif
+
+static void combine_rows(void *context, uint64_t begin, uint64_t end)
+{
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2")) {
+        combine_some_avx2(context, begin, end);
+        return;
+    }
+#endif
+    combine_some(context, begin, end);
 }
 
 MesoStatus meso_match_field_build(MesoMatchField *field, MesoArena *arena, const MesoSwatch *swatch, float lambda,
