@@ -204,13 +204,13 @@ static void give_back(Trials *trials, uint32_t i)
 }
 
 /*
- * The first one; where that leaves flaws, the others as well. Which has the fewest. Cores that would be idle begin with
- * the others meanwhile: what comes of these counts only where the first one has flaws.
+ * The first one; where that leaves flaws, the others as well, until one leaves none. Which has the fewest. Cores that
+ * would be idle begin with the others meanwhile: what comes of these counts only where those before them have flaws.
  */
 static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, MesoError *error)
 {
     *chosen = 0;
-    for (uint32_t tried = 0; tried < count && (tried == 0 || trials->candidates[0].flaws > 0);) {
+    for (uint32_t tried = 0; tried < count && (tried == 0 || trials->candidates[*chosen].flaws > 0);) {
         uint32_t cores = idle_cores(trials->work), some = cores < count - tried ? cores : count - tried;
         trials->first = tried;
         meso_parallel_for(some, some, 1, try_range, trials);
@@ -353,7 +353,9 @@ static MesoStatus look_at(void *context, int side, MesoArena *arena, MesoError *
         return meso_quilt_place(look->places.matches, &look->places.found, MESO_QUILT_TRIALS, step, look->work, arena,
                                 error);
     MesoStatus status = meso_strands_old_rings(&step->old_rings, &step->old, look->work, arena, error);
-    return status ? status : meso_quilt_ground(step, look->work, arena, error);
+    if (!status)
+        status = meso_quilt_ground(step, look->work, arena, error);
+    return status ? status : meso_strands_fix_old(&step->old_fixed, step, look->work, arena, error);
 }
 
 MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error)

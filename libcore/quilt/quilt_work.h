@@ -124,6 +124,7 @@ typedef struct MesoQuiltStep {
     MesoOldGeometry old;
     MesoStrandRings old_rings;  /* of what is there */
     MesoSeamGround ground;
+    uint8_t *old_fixed;         /* [old_rings.count] not 0: at the rim, they stay as they are */
     MesoMatchPoint *points;     /* [point_count] of the older quilt, that the placement is to match */
     float *point_weights;
     uint32_t *point_origins;    /* vertices of the swatch that they are copies of, or lie next to */
@@ -221,6 +222,10 @@ MesoStatus meso_strands_find_rings(MesoStrandRings *rings, const MesoSwatch *swa
 /* Those of what is there: rings of the swatch, as far as they hang together. */
 MesoStatus meso_strands_old_rings(MesoStrandRings *rings, const MesoOldGeometry *old, const MesoQuiltWork *work,
                                   MesoArena *arena, MesoError *error);
+
+/* Of these, which stay as they are, wherever the swatch comes to lie. */
+MesoStatus meso_strands_fix_old(uint8_t **old_fixed, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                                MesoArena *arena, MesoError *error);
 
 /*
  * How far each ring lies on its own side of the seam, in the plane's units. A strand that both sides have is seen where

@@ -132,32 +132,48 @@ static void add_next(MesoStrandRings *rings, uint32_t ring, uint32_t other)
         next[1] = other;
 }
 
-/* Means over edges to other rings: first which way they go as seen from above, then the direction itself. */
-static void find_axes(MesoStrandRings *rings, float *moments, float *edges, const uint32_t *corners, uint32_t corner_count)
+/* The two rings that an edge joins, and the way from one to the other; false where it does not. */
+static bool joins_rings(uint32_t ends[2], MesoVec3 *way, const MesoStrandRings *rings, const uint32_t *corners,
+                        uint32_t c)
 {
-    for (int turn = 0; turn < 2; turn++) {
-        for (uint32_t c = 0; c < corner_count; c++) {
-            uint32_t ends[2] = {rings->of_vertex[corners[c]], rings->of_vertex[corners[meso_next_corner(c)]]};
-            if (ends[0] == ends[1] || ends[0] == MESO_NO_INDEX || ends[1] == MESO_NO_INDEX)
-                continue;
-            MesoVec3 d = meso_vec3_sub(rings->middles[ends[1]], rings->middles[ends[0]]);
-            for (int k = 0; k < 2; k++) {
-                float *m = &moments[3 * (size_t)ends[k]];
-                if (turn) {
-                    MesoVec2 axis = longer_axis(m);
-                    float side = d.x * axis.x + d.y * axis.y < 0 ? -1 : 1;
-                    rings->axes[ends[k]] = meso_vec3_mad(rings->axes[ends[k]], side, d);
-                    continue;
-                }
-                m[0] += d.x * d.x;
-                m[1] += d.x * d.y;
-                m[2] += d.y * d.y;
-                add_next(rings, ends[k], ends[1 - k]);
-                rings->steps[ends[k]] += meso_vec3_length(d);
-                edges[ends[k]]++;
-            }
+    ends[0] = rings->of_vertex[corners[c]];
+    ends[1] = rings->of_vertex[corners[meso_next_corner(c)]];
+    if (ends[0] == ends[1] || ends[0] == MESO_NO_INDEX || ends[1] == MESO_NO_INDEX)
+        return false;
+    *way = meso_vec3_sub(rings->middles[ends[1]], rings->middles[ends[0]]);
+    return true;
+}
+
+/*
+ * Means over edges to other rings: first which way they go as seen from above, which takes the place of the moments
+ * that say so, then the direction itself.
+ */
+static void find_axes(MesoStrandRings *rings, float *moments, float *edges, const uint32_t *corners,
+                      uint32_t corner_count)
+{
+    uint32_t ends[2];
+    MesoVec3 d;
+    for (uint32_t c = 0; c < corner_count; c++)
+        for (int k = 0; k < 2 && joins_rings(ends, &d, rings, corners, c); k++) {
+            float *m = &moments[3 * (size_t)ends[k]];
+            m[0] += d.x * d.x;
+            m[1] += d.x * d.y;
+            m[2] += d.y * d.y;
+            add_next(rings, ends[k], ends[1 - k]);
+            rings->steps[ends[k]] += meso_vec3_length(d);
+            edges[ends[k]]++;
         }
+    for (uint32_t r = 0; r < rings->count; r++) {
+        MesoVec2 axis = longer_axis(&moments[3 * (size_t)r]);
+        moments[3 * (size_t)r] = axis.x;
+        moments[3 * (size_t)r + 1] = axis.y;
     }
+    for (uint32_t c = 0; c < corner_count; c++)
+        for (int k = 0; k < 2 && joins_rings(ends, &d, rings, corners, c); k++) {
+            const float *axis = &moments[3 * (size_t)ends[k]];
+            float side = d.x * axis[0] + d.y * axis[1] < 0 ? -1 : 1;
+            rings->axes[ends[k]] = meso_vec3_mad(rings->axes[ends[k]], side, d);
+        }
     for (uint32_t r = 0; r < rings->count; r++) {
         rings->axes[r] = meso_vec3_unit(rings->axes[r], (MesoVec3){0, 0, 0});
         rings->steps[r] = edges[r] > 0 ? rings->steps[r] / edges[r] : 0;

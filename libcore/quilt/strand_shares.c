@@ -35,7 +35,7 @@ typedef struct RingSide {
     const MesoVec3 *middles;    /* [rings->count] */
     const MesoVec3 *axes;       /* [rings->count] */
     float *values;              /* [rings->count] positive on this side */
-    uint8_t *fixed;             /* [rings->count] it reaches to the chart's rim: old ones stay, new ones do not come */
+    const uint8_t *fixed;       /* [rings->count] it reaches to the chart's rim: old ones stay, new ones do not come */
     uint32_t near_count;
     uint32_t *near;             /* [near_count] rings near the seam */
     RingPlace *by_x;            /* [near_count] the same, from left to right */
@@ -105,16 +105,19 @@ static MesoStatus list_near(RingSide *side, const MesoQuiltStep *step, MesoArena
 
 static MesoStatus side_room(RingSide *side, const MesoStrandRings *rings, MesoArena *arena, MesoError *error)
 {
-    *side = (RingSide){.rings = rings, .values = MESO_NEW(arena, float, rings->count, error),
-                       .fixed = MESO_NEW(arena, uint8_t, rings->count, error)};
-    return side->values && side->fixed ? MESO_OK : MESO_ERR_MEMORY;
+    *side = (RingSide){.rings = rings, .values = MESO_NEW(arena, float, rings->count, error)};
+    return side->values ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* Rings that reach out of the chart, and those next to them. */
-static void fix_old(uint8_t *fixed, const MesoQuiltStep *step, const MesoQuiltWork *work)
+MesoStatus meso_strands_fix_old(uint8_t **old_fixed, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                                MesoArena *arena, MesoError *error)
 {
     const MesoOldGeometry *old = &step->old;
     const MesoStrandRings *rings = &step->old_rings;
+    uint8_t *fixed = *old_fixed = MESO_NEW(arena, uint8_t, rings->count, error);
+    if (!fixed)
+        return MESO_ERR_MEMORY;
     for (uint32_t v = 0; v < old->vertex_count; v++) {
         uint32_t r = rings->of_vertex[v], of_swatch = work->rings.of_vertex[work->composite.vertex_origins[old->vertices[v]]];
         fixed[r] |= rings->sizes[r] < work->rings.sizes[of_swatch] ||
@@ -127,10 +130,10 @@ static void fix_old(uint8_t *fixed, const MesoQuiltStep *step, const MesoQuiltWo
         if (fixed[b] == 1 && !fixed[a])
             fixed[a] = 2;
     }
+    return MESO_OK;
 }
 
-static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
-                           MesoError *error)
+static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, MesoArena *arena, MesoError *error)
 {
     const MesoStrandRings *rings = &step->old_rings;
     MesoStatus status = side_room(side, rings, arena, error);
@@ -140,27 +143,29 @@ static MesoStatus make_old(RingSide *side, const MesoQuiltStep *step, const Meso
     side->axes = rings->axes;
     for (uint32_t r = 0; r < rings->count; r++)
         side->values[r] = -seam_at(step, rings->middles[r]);
-    fix_old(side->fixed, step, work);
+    side->fixed = step->old_fixed;
     return list_near(side, step, arena, error);
 }
 
-static MesoStatus make_new(RingSide *side, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
-                           MesoError *error)
+static MesoStatus make_new(RingSide *side, uint8_t **new_fixed, const MesoQuiltStep *step, const MesoQuiltWork *work,
+                           MesoArena *arena, MesoError *error)
 {
     const MesoStrandRings *rings = &work->rings;
     MesoVec3 *middles = MESO_NEW(arena, MesoVec3, rings->count, error);
     MesoVec3 *axes = MESO_NEW(arena, MesoVec3, rings->count, error);
+    uint8_t *fixed = MESO_NEW(arena, uint8_t, rings->count, error);
     MesoStatus status = side_room(side, rings, arena, error);
-    if (!middles || !axes || status)
+    if (!middles || !axes || !fixed || status)
         return MESO_ERR_MEMORY;
     side->middles = middles;
     side->axes = axes;
+    side->fixed = *new_fixed = fixed;
     for (uint32_t r = 0; r < rings->count; r++) {
         MesoVec2 flat = meso_step_turn(step, (MesoVec2){rings->axes[r].x, rings->axes[r].y});
         axes[r] = (MesoVec3){flat.x, flat.y, rings->axes[r].z};
         middles[r] = meso_step_warp(step, meso_step_from_swatch(step, rings->middles[r]));
         side->values[r] = seam_at(step, middles[r]);
-        side->fixed[r] = rim_at(step, middles[r]) < 0;
+        fixed[r] = rim_at(step, middles[r]) < 0;
     }
     return list_near(side, step, arena, error);
 }
@@ -300,6 +305,7 @@ static MesoStatus list_pulls(MesoRingShares *shares, const RingSide *side, const
 typedef struct Sharing {
     RingSide sides[2];
     uint8_t *meets[2];          /* [rings of the side] the other side's ring is fixed */
+    uint8_t *new_fixed;         /* what the new side has as `fixed` */
     uint8_t *fixed[2];          /* [rings of the new side] by each half of the vertices */
     MesoVec3 *places;
     const MesoQuiltStep *step;
@@ -309,8 +315,8 @@ typedef struct Sharing {
 static MesoStatus make_side(void *context, int side, MesoArena *arena, MesoError *error)
 {
     Sharing *s = context;
-    MesoStatus status = side ? make_new(&s->sides[1], s->step, s->work, arena, error)
-                             : make_old(&s->sides[0], s->step, s->work, arena, error);
+    MesoStatus status = side ? make_new(&s->sides[1], &s->new_fixed, s->step, s->work, arena, error)
+                             : make_old(&s->sides[0], s->step, arena, error);
     if (status)
         return status;
     s->meets[side] = MESO_NEW(arena, uint8_t, s->sides[side].rings->count, error);
@@ -332,7 +338,7 @@ static MesoStatus place_half(void *context, int half, MesoArena *arena, MesoErro
 static void fix_new(Sharing *s)
 {
     for (uint32_t r = 0; r < s->work->rings.count; r++)
-        s->sides[1].fixed[r] |= s->fixed[0][r] | s->fixed[1][r];
+        s->new_fixed[r] |= s->fixed[0][r] | s->fixed[1][r];
 }
 
 static MesoStatus find_side(void *context, int side, MesoArena *arena, MesoError *error)

@@ -66,26 +66,39 @@ typedef struct Source {
     float above, below;         /* triangles that are wanted have a value above, and one below */
 } Source;
 
-static bool is_wanted(const Source *from, const uint32_t *corner)
+/* What a vertex's value says. */
+enum { IS_THERE = 1, IS_ABOVE = 2, IS_BELOW = 4, IS_KEPT = 8 };
+
+static uint8_t *judge_vertices(const Source *from, MesoArena *arena, MesoError *error)
 {
-    float a = from->values[corner[0]], b = from->values[corner[1]], c = from->values[corner[2]];
-    return a > -INFINITY && b > -INFINITY && c > -INFINITY && (a > from->above || b > from->above || c > from->above) &&
-           (a < from->below || b < from->below || c < from->below);
+    uint8_t *says = MESO_NEW(arena, uint8_t, from->vertex_count, error);
+    for (uint32_t v = 0; says && v < from->vertex_count; v++) {
+        float value = from->values[v];
+        says[v] = (uint8_t)((value > -INFINITY ? IS_THERE : 0) | (value > from->above ? IS_ABOVE : 0) |
+                            (value < from->below ? IS_BELOW : 0) | (value > 0 ? IS_KEPT : 0));
+    }
+    return says;
+}
+
+/* By what all its corners say, and what any of them does. */
+static bool is_wanted(uint8_t all, uint8_t any)
+{
+    return (all & IS_THERE) && (any & (IS_ABOVE | IS_BELOW)) == (IS_ABOVE | IS_BELOW);
 }
 
 enum { AT_KEPT = 1, AT_DROPPED = 2, AT_CUT = 3 };
 
 /* Which vertices belong to triangles that are kept, and to such as are not. */
-static uint8_t *mark_vertices(const Source *from, MesoArena *arena, MesoError *error)
+static uint8_t *mark_vertices(const Source *from, const uint8_t *says, MesoArena *arena, MesoError *error)
 {
     uint8_t *marks = MESO_NEW(arena, uint8_t, from->vertex_count, error);
     for (uint32_t t = 0; marks && t < from->triangle_count; t++) {
         const uint32_t *corner = &from->corners[3 * (size_t)t];
-        if (!is_wanted(from, corner))
+        uint8_t a = says[corner[0]], b = says[corner[1]], c = says[corner[2]], all = a & b & c;
+        if (!is_wanted(all, a | b | c))
             continue;
-        bool kept = from->values[corner[0]] > 0 && from->values[corner[1]] > 0 && from->values[corner[2]] > 0;
         for (int k = 0; k < 3; k++)
-            marks[corner[k]] |= kept ? AT_KEPT : AT_DROPPED;
+            marks[corner[k]] |= all & IS_KEPT ? AT_KEPT : AT_DROPPED;
     }
     return marks;
 }
@@ -95,13 +108,16 @@ static MesoStatus list_triangles(MesoStrandSide *side, const Source *from, MesoC
                                  MesoError *error)
 {
     side->triangles = MESO_NEW(arena, uint32_t, from->triangle_count, error);
-    const uint8_t *marks = extent == MESO_CUT_ENDS ? mark_vertices(from, arena, error) : NULL;
-    if (!side->triangles || (extent == MESO_CUT_ENDS && !marks))
+    const uint8_t *says = judge_vertices(from, arena, error);
+    const uint8_t *marks = says && extent == MESO_CUT_ENDS ? mark_vertices(from, says, arena, error) : NULL;
+    if (!side->triangles || !says || (extent == MESO_CUT_ENDS && !marks))
         return MESO_ERR_MEMORY;
     for (uint32_t t = 0; t < from->triangle_count; t++) {
         const uint32_t *corner = &from->corners[3 * (size_t)t];
-        if (is_wanted(from, corner) && (!marks || marks[corner[0]] == AT_CUT || marks[corner[1]] == AT_CUT ||
-                                        marks[corner[2]] == AT_CUT))
+        if (marks && marks[corner[0]] != AT_CUT && marks[corner[1]] != AT_CUT && marks[corner[2]] != AT_CUT)
+            continue;
+        uint8_t a = says[corner[0]], b = says[corner[1]], c = says[corner[2]];
+        if (is_wanted(a & b & c, a | b | c))
             side->triangles[side->triangle_count++] = t;
     }
     return MESO_OK;

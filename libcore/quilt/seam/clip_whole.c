@@ -31,7 +31,7 @@ static uint32_t next_of(uint32_t h)
 static bool is_kept(const Cutter *c, uint32_t triangle)
 {
     const uint32_t *corner = &c->corners[3 * (size_t)triangle];
-    return c->values[corner[0]] > 0 && c->values[corner[1]] > 0 && c->values[corner[2]] > 0;
+    return (c->values[corner[0]] > 0) & (c->values[corner[1]] > 0) & (c->values[corner[2]] > 0);
 }
 
 static bool is_at_cut(const Cutter *c, uint32_t half_edge)
@@ -52,8 +52,11 @@ static EdgeEntry *entry_of(const Cutter *c, uint32_t from, uint32_t to)
 static uint32_t mark_touched(Cutter *c)
 {
     uint32_t count = 0;
-    for (uint32_t h = 0; h < 3 * c->triangle_count; h++)
-        c->touched[c->corners[h]] |= is_kept(c, h / 3) ? TOUCHES_KEPT : TOUCHES_DROPPED;
+    for (uint32_t t = 0; t < c->triangle_count; t++) {
+        uint8_t touches = is_kept(c, t) ? TOUCHES_KEPT : TOUCHES_DROPPED;
+        for (size_t k = 0; k < 3; k++)
+            c->touched[c->corners[3 * (size_t)t + k]] |= touches;
+    }
     for (uint32_t h = 0; h < 3 * c->triangle_count; h++)
         count += c->touched[c->corners[h]] == TOUCHES_BOTH;
     return count;
