@@ -251,15 +251,14 @@ static void prepare(Round *round, uint32_t count)
 
 static MesoStatus end_patch(Round *round, uint32_t i, bool *done, Front *front, MesoError *error)
 {
-    MesoStatus status = meso_quilt_commit(&round->patches[i], round->statuses[i], done, round->work, &round->arenas[i],
+    MesoArena *scratch = meso_arena_pool_lend(&round->work->pool);
+    MesoStatus status = meso_quilt_commit(&round->patches[i], round->statuses[i], done, round->work, scratch,
                                           &round->errors[i]);
+    meso_arena_pool_return(&round->work->pool, scratch);
     if (!status)
         extend_front(front, round->work, &round->patches[i].step.chart);
     else if (error)
         *error = round->errors[i];
-    for (int k = 0; k < MESO_QUILT_TRIALS; k++)
-        if (round->patches[i].trial_arenas[k])
-            meso_arena_pool_return(&round->work->pool, round->patches[i].trial_arenas[k]);
     if (round->patches[i].step.beside)
         meso_arena_pool_return(&round->work->pool, round->patches[i].step.beside);
     meso_arena_clear(&round->arenas[i]);

@@ -1,4 +1,6 @@
 /* One patch of a quilt. */
+#include <string.h>
+
 #include "libcore/base/clock.h"
 #include "libcore/base/parallel.h"
 #include "libcore/quilt/quilt_work.h"
@@ -196,11 +198,12 @@ static void try_range(void *context, uint64_t begin, uint64_t end)
     }
 }
 
-static void give_back(Trials *trials, uint32_t i)
+/* Nothing where it is NULL. */
+static void give_back(MesoArenaPool *pool, MesoArena **arena)
 {
-    if (trials->arenas[i])
-        meso_arena_pool_return(&trials->work->pool, trials->arenas[i]);
-    trials->arenas[i] = NULL;
+    if (*arena)
+        meso_arena_pool_return(pool, *arena);
+    *arena = NULL;
 }
 
 /*
@@ -225,7 +228,7 @@ static MesoStatus run_trials(Trials *trials, uint32_t count, uint32_t *chosen, M
             if (i == *chosen)
                 continue;
             bool better = trials->candidates[i].flaws < trials->candidates[*chosen].flaws;
-            give_back(trials, better ? *chosen : i);
+            give_back(&trials->work->pool, &trials->arenas[better ? *chosen : i]);
             *chosen = better ? i : *chosen;
         }
     }
@@ -239,8 +242,8 @@ typedef struct Places {
 } Places;
 
 /* The placement with the fewest ends; of equal ones the one that matches best. */
-static MesoStatus choose_placement(Candidate *best, const Places *places, MesoQuiltPatch *patch, MesoQuiltWork *work,
-                                   MesoError *error)
+static MesoStatus choose_placement(Candidate *best, MesoArena **trial, const Places *places, MesoQuiltPatch *patch,
+                                   MesoQuiltWork *work, MesoError *error)
 {
     MesoQuiltStep *step = &patch->step;
     uint32_t found = places->found, chosen;
@@ -254,21 +257,24 @@ static MesoStatus choose_placement(Candidate *best, const Places *places, MesoQu
     if (status)
         return status;
     *best = trials.candidates[chosen];
+    *trial = trials.arenas[chosen];
     best->step.beside = step->beside;
     for (uint32_t i = 0; i < found; i++)
         if (i != chosen)
-            give_back(&trials, i);
+            give_back(&work->pool, &trials.arenas[i]);
     step->tally->report.retry_count += chosen > 0;
     step->tally->cost_sum += best->step.match.cost;
     return MESO_OK;
 }
 
 /* Both sides as they are to be joined: cut anew where the warp has moved them. */
-static MesoStatus cut_all(Candidate *c, const MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
+static MesoStatus cut_all(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena,
                           MesoError *error)
 {
     float reach = step->warp.count ? MESO_REACH_LAST : REACH_BEFORE_WARP;
     MesoStatus status = step->warp.count ? meso_strands_share(&c->shares, step, work, arena, error) : MESO_OK;
+    step->before_sides[0] = meso_arena_mark(arena);
+    step->before_sides[1] = meso_arena_mark(step->beside);
     if (!status)
         status = meso_strands_cut_shared(&c->old_side, &c->new_side, MESO_CUT_ALL, &c->shares, step, work, arena,
                                          error);
@@ -276,17 +282,42 @@ static MesoStatus cut_all(Candidate *c, const MesoQuiltStep *step, const MesoQui
                                                work, arena, error);
 }
 
+/* The seam outlives the trial that it is of. */
+static MesoStatus keep_seam(MesoQuiltStep *step, MesoArena *arena, MesoError *error)
+{
+    size_t count = (size_t)step->seam.columns * step->seam.rows;
+    float *values = MESO_NEW(arena, float, count, error), *rim = MESO_NEW(arena, float, count, error);
+    if (!values || !rim)
+        return MESO_ERR_MEMORY;
+    step->seam.values = memcpy(values, step->seam.values, count * sizeof *values);
+    step->rim = memcpy(rim, step->rim, count * sizeof *rim);
+    return MESO_OK;
+}
+
+/* What meets where the placement has been made exact takes the place of what was tried, in `trial`. */
+static MesoStatus meet_again(Candidate *c, const MesoQuiltWork *work, MesoArena *arena, MesoArena *trial,
+                             MesoError *error)
+{
+    MesoStatus status = work->welds ? MESO_OK : keep_seam(&c->step, arena, error);
+    bool moved = meso_quilt_align(&c->step, work);
+    if (moved)
+        meso_arena_clear(trial);
+    if (!status && moved)
+        status = work->welds ? try_placement(c, work, trial, error) : meet(c, work, trial, error);
+    return status || !work->welds ? status : keep_seam(&c->step, arena, error);
+}
+
 /*
  * The placement made exact, by less than a voxel or so, and the warp that takes up what is left. The seam for which it
  * was chosen stays, but where sides may fit vertex by vertex. The step becomes the candidate's.
  */
-static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoError *error)
+static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *work, MesoArena *arena, MesoArena *trial,
+                      MesoError *error)
 {
     Pull *pulls;
     uint32_t count;
-    MesoStatus status = MESO_OK;
-    if (meso_quilt_align(&c->step, work))
-        status = work->welds ? try_placement(c, work, arena, error) : meet(c, work, arena, error);
+    MesoArenaMark beside = meso_arena_mark(step->beside);
+    MesoStatus status = meet_again(c, work, arena, trial, error);
     *step = c->step;
     if (!status)
         status = collect_pulls(&pulls, &count, step, &c->new_side, &c->shares, &c->wholes, work, arena, error);
@@ -295,6 +326,8 @@ static MesoStatus fit(Candidate *c, MesoQuiltStep *step, const MesoQuiltWork *wo
     step->tally->report.correspondence_count += count;
     if (count)
         status = fit_warp(step, pulls, count, work, arena, error);
+    if (step->warp.count)
+        meso_arena_rewind(step->beside, beside);    /* all that was cut is to be cut anew */
     return status ? status : cut_all(c, step, work, arena, error);
 }
 
@@ -366,14 +399,15 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
     MesoStatus status = survey(patch, work, arena, error);
     clocks[1] = meso_seconds();
     Candidate c = {0};
+    MesoArena *trial;
     Look look = {.step = step, .work = work};
     if (!status)
         status = meso_quilt_both(look_at, &look, step, work, arena, error);
     clocks[2] = meso_seconds();
     if (!status)
-        status = choose_placement(&c, &look.places, patch, work, error);
+        status = choose_placement(&c, &trial, &look.places, patch, work, error);
     if (!status)
-        status = fit(&c, step, work, arena, error);
+        status = fit(&c, step, work, arena, trial, error);
     clocks[3] = meso_seconds();
     if (!status && !step->warp.count)
         status = meso_strands_try_weld(&patch->weld, &patch->welded, &c.old_side, &c.new_side, step, work, arena,
@@ -384,6 +418,8 @@ MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoAr
     if (!status)
         status = meso_quilt_plan_wholes(&patch->wholes, &c.wholes, step, work, arena, error);
     clocks[5] = meso_seconds();
+    for (int i = 0; i < MESO_QUILT_TRIALS; i++)
+        give_back(&work->pool, &patch->trial_arenas[i]);
     const int stages[5] = {0, 1, 2, 4, 3};  /* of MesoQuiltReport */
     for (int i = 0; i < 5; i++)
         seconds[stages[i]] += clocks[i + 1] - clocks[i];

@@ -136,6 +136,7 @@ typedef struct MesoQuiltStep {
     MesoThinPlate warp;         /* what is added to the new side */
     float warp_limit;           /* the longest way of any of its points */
     float warp_reach;           /* distance from the seam at which that has faded out */
+    MesoArenaMark before_sides[2];  /* of its arena and of `beside`: what comes then goes where sides are cut anew */
 } MesoQuiltStep;
 
 /* What is to be done for one side of a seam: 0 the older one, 1 the new one. */
@@ -326,7 +327,7 @@ typedef struct MesoQuiltPatch {
     MesoStrandJoint joint;
     MesoWholePlan wholes;
     bool laid_out;              /* marks in the work are to be taken back */
-    MesoArena *trial_arenas[MESO_QUILT_TRIALS];     /* of the pool, or NULL; as step.beside */
+    MesoArena *trial_arenas[MESO_QUILT_TRIALS];     /* of the pool, while it is made ready; or NULL */
 } MesoQuiltPatch;
 
 MesoStatus meso_quilt_prepare(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *arena, MesoError *error);

@@ -304,6 +304,8 @@ MesoStatus meso_strands_plan(MesoStrandJoint *joint, const MesoStrandSide *old_s
     MesoStatus status = MESO_OK;
     if (meso_strands_draw_back(shares, old_side, new_side, step, work)) {
         float flaws;
+        meso_arena_rewind(arena, step->before_sides[0]);
+        meso_arena_rewind(step->beside, step->before_sides[1]);
         status = meso_strands_cut_shared(&joint->old_side, &joint->new_side, MESO_CUT_ALL, shares, step, work, arena,
                                          error);
         if (!status)
