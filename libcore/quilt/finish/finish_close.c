@@ -11,13 +11,15 @@ enum { EARS_LIMIT = 512 };
 #define NARROW 4
 #define GAP_MOST 0.1f
 
+/* Of half-edges. */
+enum { IS_OPEN = 1, IS_WALKED = 2 };
+
 typedef struct Closer {
     MesoFinishWork *work;
     uint32_t half_edge_count;
     uint32_t *begin;            /* [vertex_count + 1] half-edges by the vertex at which they begin */
     uint32_t *leaving;          /* [half_edge_count] */
-    uint32_t *twins;            /* [half_edge_count] MESO_NO_INDEX: open */
-    uint8_t *walked;            /* [half_edge_count] */
+    uint8_t *marks;             /* [half_edge_count] IS_OPEN, IS_WALKED */
     uint32_t *stack_places;     /* [vertex_count] place in the walk, or MESO_NO_INDEX */
     uint32_t stack_count;
     uint32_t *stack;            /* [open half-edges] half-edges of a walk */
@@ -53,24 +55,29 @@ static void list_leaving(Closer *c)
     c->begin[c->work->vertex_count] = c->half_edge_count;
 }
 
-/* The number of open half-edges. */
-static uint32_t find_twins(Closer *c)
+/* The half-edge across one. */
+static uint32_t twin_of(const Closer *c, uint32_t h)
 {
-    const uint32_t *corners = c->work->corners;
-    uint32_t open = 0;
+    return edge_between(c, c->work->corners[next_of(h)], c->work->corners[h]);
+}
+
+/* The number of open half-edges. */
+static uint32_t find_open(Closer *c)
+{
+    uint32_t count = 0;
     for (uint32_t h = 0; h < c->half_edge_count; h++) {
-        c->twins[h] = edge_between(c, corners[next_of(h)], corners[h]);
-        open += c->twins[h] == MESO_NO_INDEX;
+        c->marks[h] = twin_of(c, h) == MESO_NO_INDEX ? IS_OPEN : 0;
+        count += c->marks[h];
     }
-    return open;
+    return count;
 }
 
 /* The open half-edge that goes on where one ends: around the vertex, through the triangles. */
 static uint32_t go_on(const Closer *c, uint32_t h)
 {
     uint32_t next = next_of(h);
-    for (uint32_t guard = 0; c->twins[next] != MESO_NO_INDEX && guard < c->half_edge_count; guard++)
-        next = next_of(c->twins[next]);
+    for (uint32_t guard = 0; !(c->marks[next] & IS_OPEN) && guard < c->half_edge_count; guard++)
+        next = next_of(twin_of(c, next));
     return next;
 }
 
@@ -126,7 +133,7 @@ static bool has_chord_twice(const Closer *c, const uint32_t *corners, uint32_t c
     for (uint32_t h = 0; h < 3 * count; h++) {
         uint32_t a = corners[h], b = corners[next_of(h)];
         uint32_t along = edge_between(c, a, b), against = edge_between(c, b, a);
-        if (along != MESO_NO_INDEX || (against != MESO_NO_INDEX && c->twins[against] != MESO_NO_INDEX))
+        if (along != MESO_NO_INDEX || (against != MESO_NO_INDEX && !(c->marks[against] & IS_OPEN)))
             return true;
     }
     return false;
@@ -208,11 +215,11 @@ static MesoStatus take_loop(Closer *c, uint32_t from, MesoError *error)
 static MesoStatus walk(Closer *c, uint32_t first, MesoError *error)
 {
     MesoStatus status = MESO_OK;
-    for (uint32_t h = first; !status && !c->walked[h]; h = go_on(c, h)) {
+    for (uint32_t h = first; !status && !(c->marks[h] & IS_WALKED); h = go_on(c, h)) {
         uint32_t vertex = c->work->corners[h];
         if (c->stack_places[vertex] != MESO_NO_INDEX)
             status = take_loop(c, c->stack_places[vertex], error);
-        c->walked[h] = 1;
+        c->marks[h] |= IS_WALKED;
         c->stack_places[vertex] = c->stack_count;
         c->stack[c->stack_count++] = h;
     }
@@ -224,10 +231,9 @@ static MesoStatus make_room(Closer *c, MesoError *error)
     size_t vertices = (size_t)c->work->vertex_count + 2, half_edges = (size_t)c->half_edge_count + 1;
     c->begin = MESO_NEW(&c->scratch, uint32_t, vertices, error);
     c->leaving = MESO_NEW(&c->scratch, uint32_t, half_edges, error);
-    c->twins = MESO_NEW(&c->scratch, uint32_t, half_edges, error);
-    c->walked = MESO_NEW(&c->scratch, uint8_t, half_edges, error);
+    c->marks = MESO_NEW(&c->scratch, uint8_t, half_edges, error);
     c->stack_places = MESO_NEW(&c->scratch, uint32_t, vertices, error);
-    if (!c->begin || !c->leaving || !c->twins || !c->walked || !c->stack_places)
+    if (!c->begin || !c->leaving || !c->marks || !c->stack_places)
         return MESO_ERR_MEMORY;
     memset(c->stack_places, 0xff, vertices * sizeof *c->stack_places);
     return MESO_OK;
@@ -239,7 +245,7 @@ static MesoStatus close_all(Closer *c, MesoError *error)
     if (status)
         return status;
     list_leaving(c);
-    uint32_t open = find_twins(c);
+    uint32_t open = find_open(c);
     c->stack = MESO_NEW(&c->scratch, uint32_t, open, error);
     c->loop = MESO_NEW(&c->scratch, uint32_t, open, error);
     if (!c->stack || !c->loop)
@@ -247,7 +253,7 @@ static MesoStatus close_all(Closer *c, MesoError *error)
     status = meso_finish_reserve(c->work, c->work->vertex_count + (uint64_t)open / 3,
                                  c->work->triangle_count + (uint64_t)open, error);
     for (uint32_t h = 0; !status && h < c->half_edge_count; h++)
-        if (c->twins[h] == MESO_NO_INDEX && !c->walked[h])
+        if (c->marks[h] == IS_OPEN)
             status = walk(c, h, error);
     return status;
 }
