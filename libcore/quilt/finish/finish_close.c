@@ -24,6 +24,7 @@ typedef struct Closer {
     uint32_t stack_count;
     uint32_t *stack;            /* [open half-edges] half-edges of a walk */
     uint32_t *loop;             /* [open half-edges] vertices of a loop */
+    MesoVec3 *points;           /* [vertex_count] where those of a loop are in space */
     MesoArena scratch;
 } Closer;
 
@@ -181,7 +182,7 @@ static MesoStatus close_loop(Closer *c, uint32_t count, uint32_t beside, MesoErr
     uint32_t *corners = MESO_NEW(&c->scratch, uint32_t, 3 * (size_t)count, error);
     if (!corners)
         return MESO_ERR_MEMORY;
-    MesoSection section = {.count = count, .vertices = c->loop, .positions = work->points};
+    MesoSection section = {.count = count, .vertices = c->loop, .positions = c->points};
     bool closed = false;
     MesoStatus status = at_border ? try_strip(&closed, corners, c, &section, error) : MESO_OK;
     if (!status && !closed && count <= EARS_LIMIT) {
@@ -205,6 +206,7 @@ static MesoStatus take_loop(Closer *c, uint32_t from, MesoError *error)
     uint32_t count = c->stack_count - from, beside = c->stack[from] / 3;
     for (uint32_t i = 0; i < count; i++) {
         c->loop[i] = c->work->corners[c->stack[from + i]];
+        c->points[c->loop[i]] = meso_finish_point(c->work, c->work->vertices[c->loop[i]]);
         c->stack_places[c->loop[i]] = MESO_NO_INDEX;
     }
     c->stack_count = from;
@@ -248,7 +250,8 @@ static MesoStatus close_all(Closer *c, MesoError *error)
     uint32_t open = find_open(c);
     c->stack = MESO_NEW(&c->scratch, uint32_t, open, error);
     c->loop = MESO_NEW(&c->scratch, uint32_t, open, error);
-    if (!c->stack || !c->loop)
+    c->points = MESO_NEW(&c->scratch, MesoVec3, open ? c->work->vertex_count : 0, error);
+    if (!c->stack || !c->loop || !c->points)
         return MESO_ERR_MEMORY;
     status = meso_finish_reserve(c->work, c->work->vertex_count + (uint64_t)open / 3,
                                  c->work->triangle_count + (uint64_t)open, error);

@@ -118,8 +118,30 @@ static uint64_t count_crossed(const Cutter *c)
     return crossed;
 }
 
+/* The quilt's own arrays, which may change and be of no use to it then; no vertex is at a border. */
+static MesoStatus take_all(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
+{
+    work->at_border = MESO_NEW(work->arena, uint8_t, quilt->vertex_count, error);
+    work->elements = MESO_NEW(work->arena, uint32_t, quilt->triangle_count, error);
+    if (!work->at_border || !work->elements)
+        return MESO_ERR_MEMORY;
+    work->vertex_count = work->vertex_room = quilt->vertex_count;
+    work->triangle_count = work->triangle_room = quilt->triangle_count;
+    work->vertices = quilt->vertices;
+    work->origins = quilt->origins;
+    work->corners = quilt->corners;
+    work->triangle_origins = quilt->triangle_origins;
+    work->patches = quilt->patches;
+    for (uint32_t e = 0; e < quilt->element_count; e++)
+        for (uint32_t t = quilt->triangle_begin[e]; t < quilt->triangle_begin[e + 1]; t++)
+            work->elements[t] = e;
+    return MESO_OK;
+}
+
 MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
 {
+    if (!work->base->inside)
+        return take_all(work, quilt, error);
     Cutter c = {.work = work, .quilt = quilt};
     meso_arena_init(&c.scratch);
     c.values = MESO_NEW(&c.scratch, float, quilt->vertex_count, error);

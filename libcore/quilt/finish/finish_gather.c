@@ -86,7 +86,8 @@ static MesoStatus sweep_pieces(Gatherer *g, MesoError *error)
         uint32_t piece = piece_of(g, v);
         if (piece == MESO_NO_INDEX)
             continue;
-        float d = meso_vec3_length(meso_vec3_sub(work->points[v], work->points[g->ends[piece]]));
+        MesoVec3 end = meso_finish_point(work, work->vertices[g->ends[piece]]);
+        float d = meso_vec3_length(meso_vec3_sub(meso_finish_point(work, work->vertices[v]), end));
         if (d > g->spans[piece]) {
             g->spans[piece] = d;
             farthest[piece] = v;
@@ -172,10 +173,15 @@ static MesoStatus count_elements(MesoQuilt *quilt, MesoArena *arena, Gatherer *g
     return MESO_OK;
 }
 
-/* Nothing is asked of what was there before but the elements' origins: it makes room for what comes of it. */
-static MesoStatus make_room(MesoQuilt *quilt, const MesoQuilt *before, MesoArena *arena, MesoError *error)
+/*
+ * Nothing is asked of what was there before but the elements' origins: it makes room for what comes of it, where that
+ * does not come from these very arrays.
+ */
+static MesoStatus make_room(MesoQuilt *quilt, const Gatherer *g, MesoArena *arena, MesoError *error)
 {
-    if (quilt->vertex_count <= before->vertex_count && quilt->triangle_count <= before->triangle_count) {
+    const MesoQuilt *before = g->before;
+    if (g->work->vertices != before->vertices && quilt->vertex_count <= before->vertex_count &&
+        quilt->triangle_count <= before->triangle_count) {
         quilt->vertices = before->vertices;
         quilt->origins = before->origins;
         quilt->corners = before->corners;
@@ -232,7 +238,7 @@ static MesoStatus gather(MesoQuilt *quilt, MesoArena *arena, Gatherer *g, MesoEr
         return MESO_ERR_MEMORY;
     status = count_elements(quilt, arena, g, numbers, error);
     if (!status)
-        status = make_room(quilt, g->before, arena, error);
+        status = make_room(quilt, g, arena, error);
     if (!status)
         fill(quilt, g, numbers, places, at);
     return status;

@@ -202,10 +202,8 @@ static MesoStatus level_strands(MesoFinishWork *work, const MesoQuilt *quilt, Me
         return status;
     find_differences(d, &level, work);
     status = solve(s, d, &level, work, error);
-    for (uint32_t v = 0; v < work->vertex_count && !status; v++) {
+    for (uint32_t v = 0; v < work->vertex_count && !status; v++)
         work->vertices[v].height -= (float)s[v];
-        work->points[v] = meso_finish_point(work, work->vertices[v]);
-    }
     return status;
 }
 

@@ -484,7 +484,6 @@ static void move_vertex(MesoFinishWork *work, uint32_t v, MesoVec3 foot, MesoVec
     if (aside.x != 0 || aside.y != 0 || aside.z != 0)
         *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, aside), vertex->height);
     vertex->height += up;
-    work->points[v] = meso_finish_point(work, *vertex);
 }
 
 static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named, MesoError *error)

@@ -15,7 +15,7 @@ MesoStatus meso_finish_reserve(MesoFinishWork *work, uint64_t vertex_count, uint
 #define ENLARGE(array, count, room, width) \
     (work->array = meso_arena_enlarge(work->arena, work->array, (width) * (size_t)(count), (width) * (room), \
                                       sizeof *work->array, error))
-    if (!ENLARGE(vertices, v, vertices, 1) || !ENLARGE(points, v, vertices, 1) || !ENLARGE(origins, v, vertices, 1) ||
+    if (!ENLARGE(vertices, v, vertices, 1) || !ENLARGE(origins, v, vertices, 1) ||
         !ENLARGE(at_border, v, vertices, 1) || !ENLARGE(corners, t, triangles, 3) ||
         !ENLARGE(triangle_origins, t, triangles, 1) || !ENLARGE(patches, t, triangles, 1) ||
         !ENLARGE(elements, t, triangles, 1))
@@ -30,7 +30,6 @@ uint32_t meso_finish_add_vertex(MesoFinishWork *work, MesoQuiltVertex vertex, ui
 {
     uint32_t v = work->vertex_count++;
     work->vertices[v] = vertex;
-    work->points[v] = meso_finish_point(work, vertex);
     work->origins[v] = origin;
     work->at_border[v] = at_border;
     return v;

@@ -10,8 +10,7 @@ typedef struct MesoFinishWork {
     const MesoFinishOptions *options;
     MesoVec3 *normals;          /* [base->mesh.vertex_count] unit */
     uint32_t vertex_count, triangle_count, vertex_room, triangle_room;
-    MesoQuiltVertex *vertices;  /* [vertex_count] over base->mesh */
-    MesoVec3 *points;           /* [vertex_count] where they are in space */
+    MesoQuiltVertex *vertices;  /* [vertex_count] over base->mesh; these and what follows may be the quilt's own */
     uint32_t *origins;          /* [vertex_count] vertex of the swatch */
     uint8_t *at_border;         /* [vertex_count] 1: the border has made it */
     uint32_t *corners;          /* [3 * triangle_count] */
@@ -51,7 +50,7 @@ float meso_finish_inside(const MesoFinishWork *work, MesoQuiltVertex vertex);
  * where the swatch has whole elements. */
 MesoStatus meso_finish_relax(MesoQuilt *quilt, MesoFinishWork *work, MesoError *error);
 
-/* Takes over what a quilt has on this side of the borders. */
+/* Takes over what a quilt has on this side of the borders: its very arrays where there are none. */
 MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error);
 
 /* Closes loops of open edges. */
