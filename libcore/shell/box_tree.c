@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-enum { LEAF = 4 };      /* boxes; looking at four costs less than two more nodes */
+enum { LEAF = MESO_BOX_TREE_LEAF };     /* looking at four boxes costs less than two more nodes */
 
 static bool meet(const MesoBox *a, const MesoBox *b)
 {
@@ -107,29 +107,43 @@ void meso_box_tree_query(const MesoBoxTree *tree, MesoBox box, void (*found)(voi
     }
 }
 
-void meso_box_tree_query_after(const MesoBoxTree *tree, uint32_t place, void (*found)(void *context, uint32_t place),
-                               void *context)
+/* Pairs of boxes of two leaves, the first one not behind the second. */
+static void pair_leaves(const MesoBoxTree *tree, uint32_t first, uint32_t second,
+                        void (*found)(void *context, uint32_t place, uint32_t other), void *context)
+{
+    uint64_t end = (uint64_t)(first + 1) * LEAF, last = (uint64_t)(second + 1) * LEAF;
+    for (uint64_t a = (uint64_t)first * LEAF; a < tree->count && a < end; a++) {
+        const MesoBox *box = &tree->boxes[a];
+        if (!meet(&tree->nodes[tree->leaf_count + second], box))
+            continue;
+        for (uint64_t b = first == second ? a + 1 : (uint64_t)second * LEAF; b < tree->count && b < last; b++)
+            if (meet(&tree->boxes[b], box))
+                found(context, (uint32_t)a, (uint32_t)b);
+    }
+}
+
+void meso_box_tree_query_pairs(const MesoBoxTree *tree, uint32_t begin, uint32_t end,
+                               void (*found)(void *context, uint32_t place, uint32_t other), void *context)
 {
     struct {
         uint32_t node, leaf, leaves;    /* the first of its leaves, and how many */
     } stack[64], at;
-    uint32_t depth = 0;
-    const MesoBox box = tree->boxes[place];
-    at.node = 1, at.leaf = 0, at.leaves = tree->leaf_count;
-    stack[depth++] = at;
-    while (depth > 0) {
-        at = stack[--depth];
-        if ((uint64_t)(at.leaf + at.leaves) * LEAF <= (uint64_t)place + 1 || !meet(&tree->nodes[at.node], &box))
-            continue;
-        if (at.leaves > 1) {
-            uint32_t half = at.leaves / 2;
-            stack[depth].node = 2 * at.node + 1, stack[depth].leaf = at.leaf + half, stack[depth++].leaves = half;
-            stack[depth].node = 2 * at.node, stack[depth].leaf = at.leaf, stack[depth++].leaves = half;
-            continue;
+    for (uint32_t leaf = begin / LEAF; (uint64_t)leaf * LEAF < end; leaf++) {
+        const MesoBox box = tree->nodes[tree->leaf_count + leaf];
+        uint32_t depth = 0;
+        at.node = 1, at.leaf = 0, at.leaves = tree->leaf_count;
+        stack[depth++] = at;
+        while (depth > 0) {
+            at = stack[--depth];
+            if (at.leaf + at.leaves <= leaf || !meet(&tree->nodes[at.node], &box))
+                continue;
+            if (at.leaves > 1) {
+                uint32_t half = at.leaves / 2;
+                stack[depth].node = 2 * at.node + 1, stack[depth].leaf = at.leaf + half, stack[depth++].leaves = half;
+                stack[depth].node = 2 * at.node, stack[depth].leaf = at.leaf, stack[depth++].leaves = half;
+                continue;
+            }
+            pair_leaves(tree, leaf, at.leaf, found, context);
         }
-        uint64_t b = (uint64_t)at.leaf * LEAF, end = b + LEAF;
-        for (b = b > place ? b : (uint64_t)place + 1; b < tree->count && b < end; b++)
-            if (meet(&tree->boxes[b], &box))
-                found(context, (uint32_t)b);
     }
 }

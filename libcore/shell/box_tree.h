@@ -5,6 +5,9 @@
 #include "libcore/base/arena.h"
 #include "libcore/math/box.h"
 
+/* Boxes of a leaf. */
+enum { MESO_BOX_TREE_LEAF = 4 };
+
 typedef struct MesoBoxTree {
     uint32_t count, leaf_count;
     uint32_t *order;        /* [count] boxes along a curve that fills space */
@@ -21,10 +24,11 @@ void meso_box_tree_query(const MesoBoxTree *tree, MesoBox box, void (*found)(voi
                          void *context);
 
 /*
- * Calls `found` with the place in `order` of each box behind place `place` that meets or touches the box there: over
- * all places, once for each pair.
+ * Calls `found` with the places in `order` of each two boxes that meet or touch, of which the first lies from `begin`
+ * to `end`, whole numbers of leaves or the number of boxes, and the other one behind it: over all places, once for each
+ * pair.
  */
-void meso_box_tree_query_after(const MesoBoxTree *tree, uint32_t place, void (*found)(void *context, uint32_t place),
-                               void *context);
+void meso_box_tree_query_pairs(const MesoBoxTree *tree, uint32_t begin, uint32_t end,
+                               void (*found)(void *context, uint32_t place, uint32_t other), void *context);
 
 #endif

@@ -163,15 +163,15 @@ static void test_tree(void)
 }
 
 typedef struct PairHits {
-    uint32_t place;
+    uint32_t begin, end;
     uint8_t seen[500][500];     /* by places in the tree */
 } PairHits;
 
-static void hit_pair(void *context, uint32_t place)
+static void hit_pair(void *context, uint32_t place, uint32_t other)
 {
     PairHits *hits = context;
-    CHECK(place > hits->place && !hits->seen[hits->place][place]);
-    hits->seen[hits->place][place] = 1;
+    CHECK(place >= hits->begin && place < hits->end && other > place && !hits->seen[place][other]);
+    hits->seen[place][other] = 1;
 }
 
 /* Each pair of boxes that meet once. */
@@ -189,8 +189,10 @@ static void test_pairs(void)
             boxes[b] = any_box(&random);
         CHECK(meso_box_tree_build(&tree, &arena, boxes, count, NULL) == MESO_OK);
         hits = (PairHits){0};
-        for (hits.place = 0; hits.place < count; hits.place++)
-            meso_box_tree_query_after(&tree, hits.place, hit_pair, &hits);
+        for (hits.begin = 0; hits.begin < count; hits.begin = hits.end) {
+            hits.end = hits.begin + 9 * MESO_BOX_TREE_LEAF < count ? hits.begin + 9 * MESO_BOX_TREE_LEAF : count;
+            meso_box_tree_query_pairs(&tree, hits.begin, hits.end, hit_pair, &hits);
+        }
         for (uint32_t p = 0; p < count; p++)
             for (uint32_t q = p + 1; q < count; q++)
                 CHECK(hits.seen[p][q] == boxes_meet(boxes[tree.order[p]], boxes[tree.order[q]]));

@@ -146,6 +146,33 @@ void meso_prism_face(MesoPrismLayer *layer)
 
 /* ---- folds ---- */
 
+/* Of the lowest and of the highest height. */
+typedef double Two __attribute__((vector_size(16)));
+typedef int64_t TwoBits __attribute__((vector_size(16)));
+
+typedef struct Side {
+    Two x, y, z;
+} Side;
+
+static inline Side side_of(const MesoPrismLayer *layer, uint32_t from, uint32_t to)
+{
+    const Two heights = {layer->low, layer->high};
+    MesoVec3d flat = meso_vec3d_sub(meso_vec3d(layer->mesh->positions[to]), meso_vec3d(layer->mesh->positions[from]));
+    MesoVec3d more = meso_vec3d_sub(layer->rises[to], layer->rises[from]);
+    return (Side){flat.x + heights * more.x, flat.y + heights * more.y, flat.z + heights * more.z};
+}
+
+/* Whether `rise`, `before` at one height and `after` at one have a determinant of `least` or more, at all heights. */
+static inline bool stands_at(MesoVec3d rise, Side before, Side after, double least)
+{
+    Two x = rise.y * before.z - rise.z * before.y, y = rise.z * before.x - rise.x * before.z;
+    Two z = rise.x * before.y - rise.y * before.x;
+    Two same = x * after.x + y * after.y + z * after.z;
+    x = (Two){x[1], x[0]}, y = (Two){y[1], y[0]}, z = (Two){z[1], z[0]};
+    TwoBits all = (same >= least) & (x * after.x + y * after.y + z * after.z >= least);
+    return all[0] & all[1];
+}
+
 /*
  * At corner b with a before and c after it, a tetrahedron of a split has three of its sides along X_b(h) - X_a(h),
  * X_c(k) - X_b(k) and d_b, for two heights h and k. Their determinant is linear in h and in k, so that it is positive
@@ -156,24 +183,14 @@ bool meso_prism_stands(const MesoPrismLayer *layer, uint32_t triangle, double ma
     if (layer->flat[triangle])
         return true;
     const uint32_t *v = &layer->mesh->corners[3 * (size_t)triangle];
-    MesoVec3d sides[3][2];
-    for (uint32_t k = 0; k < 3; k++) {
-        uint32_t from = v[k], to = v[(k + 1) % 3];
-        MesoVec3d flat = meso_vec3d_sub(meso_vec3d(layer->mesh->positions[to]),
-                                        meso_vec3d(layer->mesh->positions[from]));
-        MesoVec3d more = meso_vec3d_sub(layer->rises[to], layer->rises[from]);
-        sides[k][0] = meso_vec3d_mad(flat, layer->low, more);
-        sides[k][1] = meso_vec3d_mad(flat, layer->high, more);
-    }
+    Side sides[3];
+    for (uint32_t k = 0; k < 3; k++)
+        sides[k] = side_of(layer, v[k], v[(k + 1) % 3]);
     double area = layer->areas[triangle];
     for (uint32_t k = 0; k < 3; k++) {
         MesoVec3d rise = layer->rises[v[k]];
-        double least = margin * area * meso_vec3d_length(rise);
-        for (uint32_t in = 0; in < 2; in++) {
-            MesoVec3d cross = meso_vec3d_cross(rise, sides[(k + 2) % 3][in]);
-            if (!(meso_vec3d_dot(cross, sides[k][0]) >= least && meso_vec3d_dot(cross, sides[k][1]) >= least))
-                return false;
-        }
+        if (!stands_at(rise, sides[(k + 2) % 3], sides[k], margin * area * meso_vec3d_length(rise)))
+            return false;
     }
     return true;
 }

@@ -26,7 +26,6 @@ typedef struct Search {
 /* Pairs of some triangles, by themselves: they are put in one row in the tree's order. */
 typedef struct Block {
     const Search *search;
-    uint32_t asking;        /* place in the tree */
     Pair *pairs;
     uint32_t pair_count, pair_room;
     MesoArena arena;
@@ -34,7 +33,7 @@ typedef struct Block {
     MesoStatus status;
 } Block;
 
-enum { BLOCK = 512 };       /* triangles */
+enum { BLOCK = 128 * MESO_BOX_TREE_LEAF };     /* triangles */
 
 /* ---- neighbours ---- */
 
@@ -129,13 +128,14 @@ static bool are_clear(const Search *search, uint32_t place, uint32_t other)
             meso_prism_walls_clear(a, b, search->size));
 }
 
-static void try_pair(void *context, uint32_t place)
+static void try_pair(void *context, uint32_t first, uint32_t second)
 {
     Block *block = context;
     const Search *search = block->search;
-    uint32_t one = search->tree.order[block->asking], other = search->tree.order[place];
+    uint32_t one = search->tree.order[first], other = search->tree.order[second];
     Pair pair = {one < other ? one : other, one < other ? other : one};
-    if (block->status || search->layer->flat[other] || are_clear(search, block->asking, place) ||
+    const uint8_t *flat = search->layer->flat;
+    if (block->status || flat[one] || flat[other] || are_clear(search, first, second) ||
         !bodies_meet(search, pair.a, pair.b))
         return;
     Pair *pairs = MESO_GROW(&block->arena, block->pairs, block->pair_count, block->pair_room, 256, &block->error);
@@ -172,11 +172,8 @@ static void find_blocks(void *context, uint64_t begin, uint64_t end)
         Block *block = &((Block *)context)[b];
         const Search *search = block->search;
         uint64_t last = (b + 1) * BLOCK, count = search->layer->mesh->triangle_count;
-        for (uint32_t place = (uint32_t)(b * BLOCK); place < (last < count ? last : count); place++) {
-            block->asking = place;
-            if (!search->layer->flat[search->tree.order[place]])
-                meso_box_tree_query_after(&search->tree, place, try_pair, block);
-        }
+        meso_box_tree_query_pairs(&search->tree, (uint32_t)(b * BLOCK), (uint32_t)(last < count ? last : count),
+                                  try_pair, block);
     }
 }
 
