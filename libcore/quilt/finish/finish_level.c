@@ -6,8 +6,10 @@
  *     (T + w L) s = T d,    L the graph's Laplacian,
  *
  * is d without what changes over few edges; heights lose s. Joins stay joined. T trusts vertices that the border has
- * made less: their origins only lie next to them.
+ * made less: their origins only lie next to them. Whole elements between strands come back to their heights as a whole.
  */
+#include <string.h>
+
 #include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_work.h"
 
@@ -15,7 +17,7 @@
  * What is kept changes over less than this share of the swatch's shorter side, in mean edges within these bounds: joins
  * need a few edges, and strands that are off their heights for longer are what one sees, and what others run into.
  */
-#define REACH 0.06
+#define REACH 0.045
 #define EDGES_LEAST 2
 #define EDGES_MOST 24
 
@@ -142,6 +144,8 @@ static MesoStatus solve(double *s, double *d, const Level *level, const MesoFini
     return MESO_OK;
 }
 
+/* ---- strands ---- */
+
 static bool is_strand(const MesoFinishWork *work, const MesoQuilt *quilt, uint32_t triangle)
 {
     return work->swatch->kinds[quilt->element_origins[work->elements[triangle]]] == MESO_ELEMENT_STRAND;
@@ -175,15 +179,20 @@ static MesoStatus connect(Level *level, const MesoQuilt *quilt, const MesoFinish
     return MESO_OK;
 }
 
-/* T d, with d how far vertices of strands are from the heights of their origins. */
-static void find_differences(double *d, const Level *level, const MesoFinishWork *work)
+/* How far a vertex is from the height of its origin. */
+static double rise_of(const MesoFinishWork *work, uint32_t v)
 {
     const MesoFinishOptions *options = work->options;
     double scale = options->height_scale > 0 ? options->height_scale : options->scale;
+    return work->vertices[v].height - options->offset - scale * work->swatch->positions[work->origins[v]].z;
+}
+
+/* T d, of vertices of strands. */
+static void find_differences(double *d, const Level *level, const MesoFinishWork *work)
+{
     for (uint32_t v = 0; v < work->vertex_count; v++)
         if (level->begin[v + 1] > level->begin[v])
-            d[v] = trust_in(level, v) * (work->vertices[v].height - options->offset -
-                                         scale * work->swatch->positions[work->origins[v]].z);
+            d[v] = trust_in(level, v) * rise_of(work, v);
 }
 
 static MesoStatus level_strands(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
@@ -207,10 +216,36 @@ static MesoStatus level_strands(MesoFinishWork *work, const MesoQuilt *quilt, Me
     return status;
 }
 
+/* ---- whole elements ---- */
+
+static MesoStatus level_wholes(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
+{
+    uint32_t *element_of = MESO_NEW(work->arena, uint32_t, work->vertex_count, error);
+    uint32_t *counts = MESO_NEW(work->arena, uint32_t, quilt->element_count, error);
+    double *rises = MESO_NEW(work->arena, double, quilt->element_count, error);
+    if (!element_of || !counts || !rises)
+        return MESO_ERR_MEMORY;
+    memset(element_of, 0xff, work->vertex_count * sizeof *element_of);
+    for (uint32_t c = 0; c < 3 * work->triangle_count; c++)
+        if (!is_strand(work, quilt, c / 3))
+            element_of[work->corners[c]] = work->elements[c / 3];
+    for (uint32_t v = 0; v < work->vertex_count; v++)
+        if (element_of[v] != MESO_NO_INDEX) {
+            rises[element_of[v]] += rise_of(work, v);
+            counts[element_of[v]]++;
+        }
+    for (uint32_t v = 0; v < work->vertex_count; v++)
+        if (element_of[v] != MESO_NO_INDEX)
+            work->vertices[v].height -= (float)(rises[element_of[v]] / counts[element_of[v]]);
+    return MESO_OK;
+}
+
 MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(work->arena);
     MesoStatus status = level_strands(work, quilt, error);
+    if (!status)
+        status = level_wholes(work, quilt, error);
     meso_arena_rewind(work->arena, mark);
     return status;
 }

@@ -4,7 +4,7 @@
  * strands move along the surface, all at once, so that each has the others of its patch around it as in the swatch,
  * turned as suits them best ("As-rigid-as-possible surface modeling", Sorkine and Alexa 2007, in the surface); and so
  * that what goes on in another patch, along strands and beside them, does so as in the swatch. Which strands are joined
- * stays as it is.
+ * stays as it is. Each ring then is one of the swatch again, of its own width and height, turned as the swatch is there.
  */
 #include <string.h>
 
@@ -72,10 +72,14 @@ static void measure_nodes(MesoRelaxing *r, const uint32_t *node_of, const uint32
                            .next = {MESO_NO_INDEX, MESO_NO_INDEX}};
         node->foot = meso_vec3_add(node->foot, meso_finish_foot(work, quilt->vertices[v]));
         node->normal = meso_vec3_add(node->normal, normal_under(work, quilt->vertices[v].triangle));
+        node->origin = meso_vec3_add(node->origin, r->swatch->positions[quilt->origins[v]]);
+        node->height += quilt->vertices[v].height;
     }
     for (uint32_t i = 0; i < r->node_count; i++) {
         MesoRelaxNode *node = &r->nodes[i];
         node->foot = meso_vec3_scale(node->foot, 1 / (float)node->count);
+        node->origin = meso_vec3_scale(node->origin, 1 / (float)node->count);
+        node->height /= (float)node->count;
         node->normal = meso_vec3_direction(node->normal, (MesoVec3){0, 0, 1});
         MesoVec3 axis = fabsf(node->normal.x) < 0.6f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
         node->x = meso_vec3_direction(meso_relax_along(axis, node->normal), axis);
@@ -109,20 +113,38 @@ static MesoStatus index_nodes(MesoRelaxing *r, MesoError *error)
 
 /* ---- the quilt ---- */
 
+/* Rings in pieces, and such as a cut has gone through, keep the section that they have. */
 static void move_vertex(MesoQuilt *quilt, const MesoFinishWork *work, uint32_t v, const MesoRelaxing *r, uint32_t node)
 {
+    const MesoRelaxNode *ring = &r->nodes[node];
     const double *m = &r->moves[3 * (size_t)node];
     MesoQuiltVertex *vertex = &quilt->vertices[v];
-    MesoVec3 move = meso_relax_along((MesoVec3){(float)m[0], (float)m[1], (float)m[2]}, r->nodes[node].normal);
-    *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(meso_finish_foot(work, *vertex), move),
-                                 vertex->height);
+    MesoVec3 foot = meso_finish_foot(work, *vertex);
+    float height = vertex->height;
+    if (ring->count == r->rings->sizes[ring->name]) {
+        MesoVec3 beside = meso_vec3_sub(r->swatch->positions[quilt->origins[v]], ring->origin);
+        foot = meso_vec3_add(ring->foot, meso_relax_turned(r, node, r->scale * beside.x, r->scale * beside.y));
+        height = ring->height + r->height_scale * beside.z;
+    }
+    MesoVec3 move = meso_relax_along((MesoVec3){(float)m[0], (float)m[1], (float)m[2]}, ring->normal);
+    *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, move), height);
+}
+
+/* Whole elements would not follow. */
+static bool may_move(const MesoSwatch *swatch)
+{
+    bool may = true;
+    for (uint32_t e = 0; e < swatch->element_count; e++)
+        may &= swatch->kinds[e] == MESO_ELEMENT_STRAND;
+    return may;
 }
 
 static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrandRings *rings, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
-    float scale = work->options->scale;
+    float scale = work->options->scale, height_scale = work->options->height_scale;
     MesoRelaxing r = {.swatch = swatch, .rings = rings, .scale = scale, .arena = work->arena,
+                      .height_scale = height_scale > 0 ? height_scale : scale,
                       .side = scale * fminf(swatch->size.x, swatch->size.y)};
     uint32_t *patches = MESO_NEW(r.arena, uint32_t, quilt->vertex_count, error);
     uint32_t *node_of = MESO_NEW(r.arena, uint32_t, quilt->vertex_count, error);
@@ -142,7 +164,7 @@ static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrand
     if (!status)
         status = meso_relax_find_pairs(&r, error);
     if (!status)
-        status = meso_relax_fit(&any, &r, error);
+        status = meso_relax_fit(&any, &r, may_move(swatch), error);
     for (uint32_t v = 0; v < quilt->vertex_count && !status && any; v++)
         if (node_of[v] != MESO_NO_INDEX)
             move_vertex(quilt, work, v, &r, node_of[v]);
@@ -153,9 +175,6 @@ MesoStatus meso_finish_relax(MesoQuilt *quilt, MesoFinishWork *work, MesoError *
 {
     MesoArenaMark mark = meso_arena_mark(work->arena);
     MesoStrandRings rings;
-    for (uint32_t e = 0; e < work->swatch->element_count; e++)
-        if (work->swatch->kinds[e] != MESO_ELEMENT_STRAND)
-            return MESO_OK;
     MesoStatus status = meso_strands_find_rings(&rings, work->swatch, work->arena, error);
     if (!status && rings.count && quilt->triangle_count)
         status = relax(quilt, work, &rings, error);

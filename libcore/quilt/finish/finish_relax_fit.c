@@ -176,8 +176,7 @@ static void solve(MesoRelaxing *r, Gradients *g)
     }
 }
 
-/* `any`: something has moved. */
-MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, MesoError *error)
+MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, bool may_move, MesoError *error)
 {
     size_t size = 3 * (size_t)r->node_count;
     r->cosines = MESO_NEW(r->arena, double, r->node_count, error);
@@ -194,13 +193,13 @@ MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, MesoError *error)
     fit_turns(r);
     *any = judge_pairs(r);
     MesoStatus status = MESO_OK;
-    for (int i = 0; i < FITS && *any && !status; i++) {
-        fit_turns(r);
+    for (int i = 0; i < FITS && may_move && *any && !status; i++) {
         if (i >= SURE_FITS)
             status = meso_relax_guess(r, error);
         sum_weights(r);
         if (!status)
             solve(r, &g);
+        fit_turns(r);
     }
     return status;
 }

@@ -108,6 +108,28 @@ static double strain(const Cloth *cloth)
     return sqrt(sum / count);
 }
 
+/* The same of vertices of one ring, which are near each other. */
+static double section_strain(Cloth *cloth)
+{
+    MesoError error;
+    MesoStrandRings rings;
+    double sum = 0;
+    uint32_t count = 0;
+    CHECK(meso_strands_find_rings(&rings, &cloth->swatch, &cloth->arena, &error) == MESO_OK);
+    for (uint32_t v = 0; v < cloth->swatch.vertex_count; v++)
+        for (uint32_t w = v > 8 ? v - 8 : 0; w < v; w++) {
+            if (rings.of_vertex[v] != rings.of_vertex[w])
+                continue;
+            MesoVec3 there = meso_vec3_sub(cloth->swatch.positions[w], cloth->swatch.positions[v]);
+            MesoVec3 here = meso_vec3_sub(point_of(cloth, w), point_of(cloth, v));
+            double off = (double)(meso_vec3_length(here) - meso_vec3_length(there));
+            sum += off * off;
+            count++;
+        }
+    CHECK(count > cloth->swatch.vertex_count);
+    return sqrt(sum / count);
+}
+
 static void test_bent(void)
 {
     Cloth cloth;
@@ -116,6 +138,20 @@ static void test_bent(void)
     relax(&cloth);
     CHECK(before > 0.05);
     CHECK(strain(&cloth) < 0.4 * before);
+    release(&cloth);
+}
+
+/* Strands that have been made wider, narrower and askew have the sections of the swatch again. */
+static void test_sections(void)
+{
+    Cloth cloth;
+    init(&cloth, 0.12f);
+    for (uint32_t v = 0; v < cloth.quilt.vertex_count; v++)
+        cloth.quilt.vertices[v].height *= 1.2f;
+    double before = section_strain(&cloth);
+    relax(&cloth);
+    CHECK(before > 0.02);
+    CHECK(section_strain(&cloth) < 1e-3 * before);
     release(&cloth);
 }
 
@@ -137,6 +173,7 @@ static void test_straight(void)
 int main(void)
 {
     test_bent();
+    test_sections();
     test_straight();
     return 0;
 }

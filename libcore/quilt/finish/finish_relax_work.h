@@ -13,6 +13,8 @@ enum { MESO_RELAX_DIRECTIONS = 6, MESO_RELAX_NEAR = 2 * MESO_RELAX_DIRECTIONS + 
 
 typedef struct MesoRelaxNode {
     MesoVec3 foot, normal;      /* its middle on the surface, up */
+    MesoVec3 origin;            /* its middle in the swatch */
+    float height;               /* of its middle */
     MesoVec3 x, y;              /* along the surface */
     uint32_t name, patch;       /* ring of the swatch, and which copy of that */
     uint32_t count;             /* vertices */
@@ -37,7 +39,8 @@ typedef struct MesoRelaxing {
     const MesoSwatch *swatch;
     const MesoStrandRings *rings;       /* of the swatch */
     uint32_t *near;             /* [MESO_RELAX_NEAR * rings->count] rings around each, or MESO_NO_INDEX */
-    float scale, side;          /* the swatch's, its shorter side in the surface's units */
+    float scale, height_scale;  /* of the swatch */
+    float side;                 /* its shorter side in the surface's units */
     uint32_t node_count;
     MesoRelaxNode *nodes;
     uint32_t *table, mask;      /* nodes hashed by patch and name */
@@ -82,7 +85,7 @@ MesoStatus meso_relax_find_pairs(MesoRelaxing *r, MesoError *error);
 /* Strands of other patches where a node should have one that its patch has not, as nodes have moved. */
 MesoStatus meso_relax_guess(MesoRelaxing *r, MesoError *error);
 
-/* Finds moves; `any`: there are such. */
-MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, MesoError *error);
+/* Finds turns and, where nodes may move, moves; `any`: some pair is not as it should be. */
+MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, bool may_move, MesoError *error);
 
 #endif

@@ -46,8 +46,8 @@ float meso_finish_inside(const MesoFinishWork *work, MesoQuiltVertex vertex);
 
 /* ---- steps ---- */
 
-/* Moves strands along the surface to where they lie around each other as in the swatch, as far as joins allow. Nothing,
- * where the swatch has whole elements. */
+/* Moves strands along the surface to where they lie around each other as in the swatch, as far as joins allow, but not
+ * where the swatch has whole elements; and gives strands the sections that they have in the swatch. */
 MesoStatus meso_finish_relax(MesoQuilt *quilt, MesoFinishWork *work, MesoError *error);
 
 /* Takes over what a quilt has on this side of the borders: its very arrays where there are none. */
@@ -56,7 +56,8 @@ MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoErr
 /* Closes loops of open edges. */
 MesoStatus meso_finish_close(MesoFinishWork *work, MesoError *error);
 
-/* Takes slow drifts of height out of strands, before they are closed. `quilt`: what it was before. */
+/* Takes slow drifts of height out of strands, and all of them out of whole elements, before strands are closed.
+ * `quilt`: what it was before. */
 MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error);
 
 /* Parts strands that run through each other where they cross, by their heights. */

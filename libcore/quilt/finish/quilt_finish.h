@@ -22,14 +22,15 @@ typedef struct MesoFinishOptions {
  * where any of this changes it:
  *
  * - Strands move along the surface to where they lie around each other as in the swatch, as far as that and their joins
- *   allow; not where the swatch has whole elements, which would not follow.
+ *   allow; not where the swatch has whole elements, which would not follow. Their sections are those of the swatch.
  * - Strands are cut where base->inside is 0, whole elements that reach further beyond than `overhang` are left out.
  * - Loops of open edges, wherever they come from, are closed by caps: long ones along a border by strips that follow
  *   it, flat ones by the ears of the loop, others, and those whose chords are edges already, around a point in their
  *   middle. So no edge is open on a closed surface, and with open_borders only those along borders.
  * - Pieces of strands no longer than about one and a half times the reach of their section are left out: those whose
  *   points are nowhere further apart than 2.5 times the largest reach of their swatch element's open ends.
- * - Strands come back to the heights that the swatch has them at, but for what joins need of them.
+ * - Strands come back to the heights that the swatch has them at, but for what joins need of them; whole elements beside
+ *   them, all the way.
  * - Where they run through each other, strands that cross go over and under, and others lie side by side: as far as their
  *   sections need, and not where strands of the swatch lie in each other.
  * - Vertices have triangles and weights of the original that `base` comes from.

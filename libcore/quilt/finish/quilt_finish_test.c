@@ -307,6 +307,33 @@ static void test_level(void)
     meso_arena_release(&arena);
 }
 
+/* An element that stands too high beside a bar comes down as it is. */
+static void test_whole_level(void)
+{
+    MesoArena arena;
+    MesoError error = {0};
+    meso_arena_init(&arena);
+    MesoSwatch swatch = make_swatch(&arena);
+    MesoTriangulation plane = meso_fixture_sheet(2, 2, 4);
+    MesoQuiltBase base;
+    CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
+    const MesoVec3 move = {-2 - swatch.positions[0].x, 1.3f - swatch.positions[0].y, 0};
+    const Copy copies[2] = {{0, RINGS - 1, move}, {0, 0, move}};
+    MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, copies, 2);
+    const float middle = swatch.centres[1].z;
+    for (uint32_t v = q.vertex_begin[1]; v < q.vertex_count; v++)
+        q.vertices[v].height += 0.2f + 0.1f * (swatch.positions[q.origins[v]].z - middle);
+    CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &(MesoFinishOptions){.scale = 1}, &error) == MESO_OK);
+    CHECK(q.element_count == 2);
+    for (uint32_t v = q.vertex_begin[1]; v < q.vertex_count; v++) {
+        float above = swatch.positions[q.origins[v]].z - middle;
+        CHECK(fabsf(q.vertices[v].height - middle - 1.1f * above) < 1e-5f);
+    }
+    meso_quilt_base_release(&base);
+    meso_triangulation_release(&plane);
+    meso_arena_release(&arena);
+}
+
 /* The mean place of an element's vertices within a distance of a point. */
 static MesoVec3 middle_near(const MesoQuilt *q, const MesoTriangulation *plane, uint32_t element, MesoVec3 near,
                             float most)
@@ -369,6 +396,7 @@ int main(void)
 {
     test_along_border();
     test_level();
+    test_whole_level();
     test_part();
     test_plane(false);
     test_plane(true);
