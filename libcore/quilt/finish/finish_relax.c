@@ -4,7 +4,8 @@
  * strands move along the surface, all at once, so that each has the others of its patch around it as in the swatch,
  * turned as suits them best ("As-rigid-as-possible surface modeling", Sorkine and Alexa 2007, in the surface); and so
  * that what goes on in another patch, along strands and beside them, does so as in the swatch. Which strands are joined
- * stays as it is. Each ring then is one of the swatch again, of its own width and height, turned as the swatch is there.
+ * stays as it is. Each ring then is one of the swatch again, of its own width and height, turned as the swatch is
+ * there; whole elements that grow from strands go with them.
  */
 #include <string.h>
 
@@ -113,30 +114,31 @@ static MesoStatus index_nodes(MesoRelaxing *r, MesoError *error)
 
 /* ---- the quilt ---- */
 
-/* Rings in pieces, and such as a cut has gone through, keep the section that they have. */
-static void move_vertex(MesoQuilt *quilt, const MesoFinishWork *work, uint32_t v, const MesoRelaxing *r, uint32_t node)
+static MesoVec3 move_of(const MesoRelaxing *r, uint32_t node)
 {
-    const MesoRelaxNode *ring = &r->nodes[node];
     const double *m = &r->moves[3 * (size_t)node];
-    MesoQuiltVertex *vertex = &quilt->vertices[v];
-    MesoVec3 foot = meso_finish_foot(work, *vertex);
-    float height = vertex->height;
-    if (ring->count == r->rings->sizes[ring->name]) {
-        MesoVec3 beside = meso_vec3_sub(r->swatch->positions[quilt->origins[v]], ring->origin);
-        foot = meso_vec3_add(ring->foot, meso_relax_turned(r, node, r->scale * beside.x, r->scale * beside.y));
-        height = ring->height + r->height_scale * beside.z;
-    }
-    MesoVec3 move = meso_relax_along((MesoVec3){(float)m[0], (float)m[1], (float)m[2]}, ring->normal);
-    *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, move), height);
+    return meso_relax_along((MesoVec3){(float)m[0], (float)m[1], (float)m[2]}, r->nodes[node].normal);
 }
 
-/* Whole elements would not follow. */
-static bool may_move(const MesoSwatch *swatch)
+MesoQuiltVertex meso_relax_put(const MesoRelaxing *r, const MesoFinishWork *work, uint32_t node, uint32_t triangle,
+                               uint32_t origin)
 {
-    bool may = true;
-    for (uint32_t e = 0; e < swatch->element_count; e++)
-        may &= swatch->kinds[e] == MESO_ELEMENT_STRAND;
-    return may;
+    const MesoRelaxNode *ring = &r->nodes[node];
+    MesoVec3 beside = meso_vec3_sub(r->swatch->positions[origin], ring->origin);
+    MesoVec3 foot = meso_vec3_add(ring->foot, meso_relax_turned(r, node, r->scale * beside.x, r->scale * beside.y));
+    return meso_finish_locate(work, triangle, meso_vec3_add(foot, move_of(r, node)),
+                              ring->height + r->height_scale * beside.z);
+}
+
+/* Rings in pieces keep the section that they have. */
+static void move_vertex(MesoQuilt *quilt, const MesoFinishWork *work, uint32_t v, const MesoRelaxing *r, uint32_t node)
+{
+    MesoQuiltVertex *vertex = &quilt->vertices[v];
+    MesoVec3 foot = meso_finish_foot(work, *vertex);
+    if (r->nodes[node].count == r->rings->sizes[r->nodes[node].name])
+        *vertex = meso_relax_put(r, work, node, vertex->triangle, quilt->origins[v]);
+    else
+        *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, move_of(r, node)), vertex->height);
 }
 
 static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrandRings *rings, MesoError *error)
@@ -157,14 +159,18 @@ static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrand
     if (!r.nodes)
         return MESO_ERR_MEMORY;
     measure_nodes(&r, node_of, patches, work, quilt);
-    bool any = false;
-    MesoStatus status = meso_relax_look_around(&r, error);
+    bool any = false, may_move = false;
+    MesoStatus status = meso_relax_find_carriers(&may_move, &r, error);
+    if (!status)
+        status = meso_relax_look_around(&r, error);
     if (!status)
         status = index_nodes(&r, error);
     if (!status)
         status = meso_relax_find_pairs(&r, error);
     if (!status)
-        status = meso_relax_fit(&any, &r, may_move(swatch), error);
+        status = meso_relax_fit(&any, &r, may_move, error);
+    if (!status && any)
+        meso_relax_carry(quilt, &r, work);
     for (uint32_t v = 0; v < quilt->vertex_count && !status && any; v++)
         if (node_of[v] != MESO_NO_INDEX)
             move_vertex(quilt, work, v, &r, node_of[v]);

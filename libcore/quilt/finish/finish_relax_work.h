@@ -52,6 +52,7 @@ typedef struct MesoRelaxing {
     double *cosines, *sines;    /* [node_count] the swatch's turn there */
     double *weights;            /* [node_count] of all pairs of each, either way */
     double *moves;              /* [3 * node_count] */
+    uint32_t *carriers;         /* [swatch->element_count] ring that a whole element grows from, or MESO_NO_INDEX */
     MesoArena *arena;
 } MesoRelaxing;
 
@@ -75,6 +76,16 @@ static inline MesoVec3 meso_relax_turned(const MesoRelaxing *r, uint32_t node, f
 
 /* The entry of a ring of a patch: a node, or MESO_NO_INDEX. Of rings in pieces, the first is there. */
 uint32_t *meso_relax_entry(const MesoRelaxing *r, uint32_t patch, uint32_t name);
+
+/* Where a vertex of the swatch is if it lies as there around a node that has moved; the way begins at a triangle. */
+MesoQuiltVertex meso_relax_put(const MesoRelaxing *r, const MesoFinishWork *work, uint32_t node, uint32_t triangle,
+                               uint32_t origin);
+
+/* Rings that whole elements grow from; `all`: each of these has one. */
+MesoStatus meso_relax_find_carriers(bool *all, MesoRelaxing *r, MesoError *error);
+
+/* Whole elements stand as in the swatch on the strands that carry them. */
+void meso_relax_carry(MesoQuilt *quilt, const MesoRelaxing *r, const MesoFinishWork *work);
 
 /* Rings around each of the swatch's. */
 MesoStatus meso_relax_look_around(MesoRelaxing *r, MesoError *error);

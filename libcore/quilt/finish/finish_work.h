@@ -47,7 +47,7 @@ float meso_finish_inside(const MesoFinishWork *work, MesoQuiltVertex vertex);
 /* ---- steps ---- */
 
 /* Moves strands along the surface to where they lie around each other as in the swatch, as far as joins allow, but not
- * where the swatch has whole elements; and gives strands the sections that they have in the swatch. */
+ * where the swatch has whole elements that grow from none; gives strands the sections that they have in the swatch. */
 MesoStatus meso_finish_relax(MesoQuilt *quilt, MesoFinishWork *work, MesoError *error);
 
 /* Takes over what a quilt has on this side of the borders: its very arrays where there are none. */

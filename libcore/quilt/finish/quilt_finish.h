@@ -22,7 +22,8 @@ typedef struct MesoFinishOptions {
  * where any of this changes it:
  *
  * - Strands move along the surface to where they lie around each other as in the swatch, as far as that and their joins
- *   allow; not where the swatch has whole elements, which would not follow. Their sections are those of the swatch.
+ *   allow; not where the swatch has whole elements that grow from none of them, and so would not follow. Their sections
+ *   are those of the swatch.
  * - Strands are cut where base->inside is 0, whole elements that reach further beyond than `overhang` are left out.
  * - Loops of open edges, wherever they come from, are closed by caps: long ones along a border by strips that follow
  *   it, flat ones by the ears of the loop, others, and those whose chords are edges already, around a point in their
