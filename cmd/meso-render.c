@@ -348,6 +348,7 @@ static MesoStatus draw(Work *work, Drawing *d, MesoArena *arena, const MesoRende
         .color_ids = channel == MESO_NO_INDEX ? 0 : channel + 1,
         .band_rows = a->band_rows,
         .find_covered = tight(a),
+        .full_detail = strcmp(a->detail, "full") == 0,
     }, .numbered = work->frames.numbered};
     if (a->extras & MESO_EXTRA_MOTION)
         look_ahead(work, frame, &d->options);
@@ -480,8 +481,9 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
 
 int main(int argc, char **argv)
 {
-    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto", .devices = "/dev",
-                         .ground = "none", .data_window = "full", .rate = {24, 1}, .light = "camera",
+    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
+                         .devices = "/dev", .ground = "none", .data_window = "full", .detail = "picture", .rate = {24, 1},
+                         .light = "camera",
                          .light_strength = 1, .tone = "shoulder", .stored_sweeps = STORED_SWEEPS};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
@@ -517,6 +519,8 @@ int main(int argc, char **argv)
                     "(default) to 1", &a.vary, 0, 1),
         MESO_CHOICE(0, "visibility", "MAKER", "of what is seen: tiles, by this program, gl, or auto (default): a GPU "
                     "where there is one, tiles otherwise", &a.visibility, "auto|tiles|gl"),
+        MESO_CHOICE(0, "detail", "HOW", "columns and rings of sweeps: as many as the picture and its light need "
+                    "(picture, default), or all (full)", &a.detail, "picture|full"),
         MESO_TEXT(0, "aov", "LIST", "more variables in the EXR: position, uv, occlusion, material, cryptomatte, "
                   "motion, or all, which is without motion",
                   &a.aov),

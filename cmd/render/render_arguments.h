@@ -24,6 +24,7 @@ typedef struct MesoRenderArguments {
     float vary;                 /* --vary */
     bool multipart;             /* --multipart */
     const char *data_window;    /* --data-window */
+    const char *detail;         /* --detail */
     const char *fps_text;       /* --fps */
     uint32_t rate[2];           /* frames in so many seconds */
     uint32_t band_rows;         /* --band-rows: for tests, and hidden */

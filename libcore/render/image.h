@@ -50,7 +50,7 @@ typedef struct MesoRenderOptions {
     MesoCamera next_camera;     /* of the next frame, for motion */
     const MesoScene *next_scene;    /* alike (picture/motion.h); NULL: the same */
     bool find_covered;          /* fill in `covered` of the image */
-    bool full_detail;           /* every column and ring of the kinds, however small on the picture */
+    bool full_detail;           /* every column and ring of the kinds, however small, to the eye and the light */
 } MesoRenderOptions;
 
 /* MESO_ERR_LIMIT or MESO_ERR_USAGE for options that no picture has. */

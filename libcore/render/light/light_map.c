@@ -17,7 +17,7 @@ MesoStatus meso_light_maps_init(MesoLightMaps *maps, MesoArena *arena, const Mes
                                 MesoVec3 middle, float radius, uint32_t size, MesoError *error)
 {
     float focal = (float)(size - 4) / (2 * radius);
-    *maps = (MesoLightMaps){.count = count, .size = size, .texel = 1 / focal};
+    *maps = (MesoLightMaps){.count = count, .size = size, .texel = 1 / focal, .tolerance = 0.5f / focal};
     size_t texels = (size_t)size * size;
     maps->maps = MESO_NEW(arena, MesoLightMap, count, error);
     maps->nearness = MESO_NEW(arena, float, count * texels, error);

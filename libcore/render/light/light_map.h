@@ -19,6 +19,7 @@ typedef struct MesoLightMaps {
     MesoLightMap *maps;         /* [count] */
     uint32_t count, size;       /* texels a side, a multiple of 4 */
     float texel;                /* scene units */
+    float tolerance;            /* how far what is drawn may lie from shapes: half a texel, or 0 */
     float *rows[9];             /* [count] coordinates of `toward`, and of what is right and down in the maps */
     float *nearness;            /* [count * size * size] */
 } MesoLightMaps;
@@ -28,7 +29,7 @@ MesoStatus meso_light_maps_init(MesoLightMaps *maps, MesoArena *arena, const Mes
                                 MesoVec3 middle, float radius, uint32_t size, MesoError *error);
 
 /*
- * Draws all shapes into all maps of sets of them, the finest last, each as fine as half a texel of the set. The same on
+ * Draws all shapes into all maps of sets of them, the finest last, each within the tolerance of the set. The same on
  * any number of threads. O(shapes' vertices * maps). MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_light_maps_draw(MesoLightMaps *const *sets, uint32_t set_count, const MesoShapes *shapes,

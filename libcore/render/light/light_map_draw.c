@@ -26,7 +26,6 @@ typedef struct Range {
 /* What a batch is for maps of one size. */
 typedef struct Batch {
     MesoLightMaps *maps;
-    float tolerance;
     Range ranges[BATCH];
     uint64_t *wanted;           /* [BATCH * maps] a bit for each shape of a range that reaches a texel's middle there */
 } Batch;
@@ -204,7 +203,7 @@ static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoSha
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
         if (i < RANGE && any >> i & 1 &&
-            !(meso_shape_make_bundled(d->shapes, bundle, i, batch->tolerance, MESO_SHAPE_SHADOW, mesh) &&
+            !(meso_shape_make_bundled(d->shapes, bundle, i, batch->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
               add_mesh(range, mesh)))
             return false;
     }
@@ -330,7 +329,6 @@ static void release(Drawing *d, uint32_t workers)
 static bool begin_batch(Batch *batch, MesoLightMaps *maps)
 {
     batch->maps = maps;
-    batch->tolerance = 0.5f * maps->texel;
     batch->wanted = calloc((size_t)BATCH * maps->count, sizeof *batch->wanted);
     for (size_t i = 0; i < (size_t)maps->count * maps->size * maps->size; i++)
         maps->nearness[i] = -INFINITY;

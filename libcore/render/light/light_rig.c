@@ -19,8 +19,9 @@ static const float KEY_EXTENT = 0.07f;
 
 MesoLightQuality meso_light_quality(uint32_t samples)
 {
-    return samples == 1 ? (MesoLightQuality){12, 192, 1, 1024} : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024}
-                                                                               : (MesoLightQuality){64, 288, 16, 768};
+    return samples == 1 ? (MesoLightQuality){12, 192, 1, 1024, false}
+         : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024, false}
+                        : (MesoLightQuality){64, 288, 16, 768, false};
 }
 
 static float smoothstep(float low, float high, float x)
@@ -190,6 +191,8 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
     MesoStatus status = make_sky(rig, arena, quality, error);
     if (!status)
         status = make_key(rig, arena, view, quality, error);
+    if (quality->full_detail)
+        rig->sky.tolerance = rig->key.tolerance = 0;
     MesoLightMaps *const sets[] = {&rig->sky, &rig->key};
     return status ? status : meso_light_maps_draw(sets, rig->key.count ? 2 : 1, shapes, thread_count, error);
 }

@@ -410,6 +410,7 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
     p->view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
     status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, p->thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
+    quality.full_detail = options->full_detail;
     if (!status)
         status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view,
                                      meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p->view.up)),
