@@ -53,17 +53,51 @@ static bool may_skip(const MesoSweepColumn *columns, uint32_t first, uint32_t la
     return true;
 }
 
+/* Of a run, to its end, as far as each goes; returns how many. */
+static uint32_t keep_run(const MesoSweepColumn *columns, uint32_t begin, uint32_t end, float tolerance, float cosine,
+                         uint32_t *kept)
+{
+    uint32_t kept_count = 0;
+    for (uint32_t i = begin; i < end;) {
+        kept[kept_count++] = i;
+        uint32_t next = i + 1;
+        while (next + 1 < end && next + 1 - i <= MAX_SKIP && may_skip(columns, i, next + 1, tolerance, cosine))
+            next++;
+        i = next;
+    }
+    return kept_count;
+}
+
+/* As many, evenly: what is left for the last of them is no less than for others. As they were, where that is too far. */
+static void keep_evenly(const MesoSweepColumn *columns, float tolerance, float cosine, uint32_t *kept, uint32_t count)
+{
+    uint32_t steps = count - 1, first = kept[0], width = kept[steps] - first;
+    for (uint32_t k = 0; k < steps; k++) {
+        uint32_t from = first + (2 * k * width + steps) / (2 * steps);
+        uint32_t to = first + (2 * (k + 1) * width + steps) / (2 * steps);
+        if (to > from + 1 && !may_skip(columns, from, to, tolerance, cosine))
+            return;
+    }
+    for (uint32_t k = 1; k < steps; k++)
+        kept[k] = first + (2 * k * width + steps) / (2 * steps);
+}
+
 static uint32_t keep_columns(const MesoSweepColumn *columns, uint32_t count, float tolerance, float cosine,
                              uint32_t *kept)
 {
     uint32_t kept_count = 0;
-    for (uint32_t i = 0; i < count;) {
-        kept[kept_count++] = i;
-        uint32_t next = i + 1;
-        while (tolerance > 0 && columns[i].joins_next && next + 1 < count && columns[next].joins_next
-               && next + 1 - i <= MAX_SKIP && may_skip(columns, i, next + 1, tolerance, cosine))
-            next++;
-        i = next;
+    if (!(tolerance > 0)) {
+        for (uint32_t i = 0; i < count; i++)
+            kept[i] = i;
+        return count;
+    }
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin + 1; end < count && columns[end - 1].joins_next;)
+            end++;
+        uint32_t *of_run = kept + kept_count, run = keep_run(columns, begin, end, tolerance, cosine, of_run);
+        if (run > 2)
+            keep_evenly(columns, tolerance, cosine, of_run, run);
+        kept_count += run;
     }
     return kept_count;
 }

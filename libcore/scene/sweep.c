@@ -299,6 +299,11 @@ float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKi
     return most > -MITRE_BACKWARDS ? best : 0;
 }
 
+static inline const MesoSweepColumn *grid_column(const MesoSweepColumn *columns, const MesoSweepGrid *grid, uint32_t c)
+{
+    return grid->stand_ins ? &grid->stand_ins[c] : &columns[grid->columns ? grid->columns[c] : c];
+}
+
 /* A ring of a grid without what is not wanted; its vertices are where they are without that. */
 static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
                                        const MesoSweepGrid *grid, const uint8_t *wanted, MesoMeshVertex *out)
@@ -306,7 +311,7 @@ static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const Track *trac
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
     for (uint32_t c = 0; c < grid->column_count; c++)
         if (wanted[c])
-            out[c] = tube_vertex(scene, track, ring, &columns[grid->columns ? grid->columns[c] : c]);
+            out[c] = tube_vertex(scene, track, ring, grid_column(columns, grid, c));
     return out + grid->column_count;
 }
 
@@ -333,7 +338,7 @@ static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track,
         return out;
     }
     for (uint32_t c = 0; c < grid->column_count; c++) {
-        const MesoSweepColumn *column = &columns[grid->columns ? grid->columns[c] : c];
+        const MesoSweepColumn *column = grid_column(columns, grid, c);
         if (column->absent & absent)
             continue;
         if (grid->bare)
@@ -480,12 +485,12 @@ static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind 
         MesoSweepPlane plane = cap_plane(scene, cap, v);
         float radius = 1 - v * v * v * v;
         for (uint32_t c = 0; c < grid->column_count && grid->bare; c++) {
-            MesoVec2 at = cap_place(scene, cap, &columns[grid->columns ? grid->columns[c] : c], v);
+            MesoVec2 at = cap_place(scene, cap, grid_column(columns, grid, c), v);
             MesoVec3 across = in_plane(&plane, (MesoVec2){radius * at.x, radius * at.y});
             out++->position = meso_vec3_mad(plane.origin, scene->section_scale, across);
         }
         for (uint32_t c = 0; c < grid->column_count && !grid->bare; c++)
-            *out++ = cap_vertex(scene, cap, &plane, &columns[grid->columns ? grid->columns[c] : c], v);
+            *out++ = cap_vertex(scene, cap, &plane, grid_column(columns, grid, c), v);
     }
     return out;
 }

@@ -29,6 +29,7 @@ float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep
 /* Which columns of a kind, and how many rings, as a level of detail has them (detail.h). */
 typedef struct MesoSweepGrid {
     const uint32_t *columns;    /* [column_count] columns of the kind; NULL: all of them */
+    const MesoSweepColumn *stand_ins;   /* [column_count] what is there in their place, or NULL */
     uint32_t column_count, ring_count;
     bool own;                   /* rings as files have them: paced, bowed, without what is absent; else even, whole */
     bool bare;                  /* positions alone: the rest of the vertices is left as it was */

@@ -6,11 +6,16 @@
 typedef struct Choice {
     const MesoSweepColumn *columns;
     uint32_t *kept, count;
+    MesoSweepColumn *stand_ins; /* [count] */
+    bool moved;                 /* some stand-in is not the column itself */
     MesoColumnSide *sides;
     uint32_t side_count;
     bool closed;
     bool banded;
 } Choice;
+
+/* Of columns that lie in one place, where that is no corner. */
+static const float SMOOTH_COSINE = 0.9f;
 
 static bool is_met(const MesoSweepColumn *a, const MesoSweepColumn *b)
 {
@@ -42,6 +47,83 @@ static Loop next_loop(const MesoSweepColumn *columns, const uint32_t *kept, uint
     return loop;
 }
 
+/* ---- stand-ins ---- */
+
+/*
+ * How far columns between two lie outside of the chord, in the mean, at the start (x) and at the end (y): the area
+ * between, by its length. They run clockwise.
+ */
+static MesoVec2 bulge_of(const MesoSweepColumn *columns, uint32_t first, uint32_t last)
+{
+    const MesoSweepColumn *a = &columns[first], *b = &columns[last];
+    float start = 0, end = 0;
+    for (uint32_t i = first + 1; i < last; i++) {
+        const MesoSweepColumn *c = &columns[i], *d = &columns[i + 1];
+        start += meso_vec2_cross(meso_vec2_sub(d->start, a->start), meso_vec2_sub(c->start, a->start));
+        end += meso_vec2_cross(meso_vec2_sub(d->end, a->end), meso_vec2_sub(c->end, a->end));
+    }
+    float start_chord = meso_vec2_length(meso_vec2_sub(b->start, a->start));
+    float end_chord = meso_vec2_length(meso_vec2_sub(b->end, a->end));
+    return (MesoVec2){start_chord > 0 ? 0.5f * start / start_chord : 0, end_chord > 0 ? 0.5f * end / end_chord : 0};
+}
+
+static bool is_smooth(const MesoSweepColumn *a, const MesoSweepColumn *b)
+{
+    float together = meso_vec2_length(a->start_normal) * meso_vec2_length(b->start_normal);
+    return a->start_normal.x * b->start_normal.x + a->start_normal.y * b->start_normal.y > SMOOTH_COSINE * together;
+}
+
+static MesoVec2 move_out(MesoVec2 p, MesoVec2 normal, float distance)
+{
+    float length = meso_vec2_length(normal);
+    return length > 0 ? meso_vec2_add(p, meso_vec2_scale(normal, distance / length)) : p;
+}
+
+/* Of a loop's columns number i in `kept`: the one before, or MESO_NO_INDEX at a corner and an end. */
+static uint32_t before(const Choice *c, const uint32_t *kept, const Loop *loop, uint32_t i)
+{
+    if (i > loop->begin && c->columns[kept[i - 1]].joins_next)
+        return i - 1;
+    uint32_t met = i > loop->begin ? i - 1 : loop->closed ? loop->end - 1 : i;
+    return met > loop->begin && met != i && is_smooth(&c->columns[kept[met]], &c->columns[kept[i]]) ? met - 1
+                                                                                                    : MESO_NO_INDEX;
+}
+
+/* What follows it. */
+static uint32_t after(const Choice *c, const uint32_t *kept, const Loop *loop, uint32_t i)
+{
+    if (i + 1 < loop->end && c->columns[kept[i]].joins_next)
+        return i + 1;
+    uint32_t met = i + 1 < loop->end ? i + 1 : loop->closed ? loop->begin : i;
+    return met + 1 < loop->end && met != i && is_smooth(&c->columns[kept[met]], &c->columns[kept[i]]) ? met + 1
+                                                                                                      : MESO_NO_INDEX;
+}
+
+/*
+ * Chords of a bend lie within it, and so a section of few is too thin. Moved by half of what bends are off their chords
+ * in the mean, columns make a regular one as wide as its circle, seen from all sides in the mean, to a hundredth.
+ */
+static MesoSweepColumn stand_in(Choice *c, const uint32_t *kept, const Loop *loop, uint32_t i)
+{
+    MesoSweepColumn column = c->columns[kept[i]];
+    uint32_t last = before(c, kept, loop, i), next = after(c, kept, loop, i);
+    if (last == MESO_NO_INDEX || next == MESO_NO_INDEX)
+        return column;
+    MesoVec2 a = bulge_of(c->columns, kept[last], kept[last + 1]), b = bulge_of(c->columns, kept[next - 1], kept[next]);
+    if (a.x == 0 && a.y == 0 && b.x == 0 && b.y == 0)
+        return column;
+    c->moved = true;
+    column.start = move_out(column.start, column.start_normal, 0.25f * (a.x + b.x));
+    column.end = move_out(column.end, column.end_normal, 0.25f * (a.y + b.y));
+    return column;
+}
+
+static void add_column(Choice *c, uint32_t column, MesoSweepColumn stand_in)
+{
+    c->stand_ins[c->count] = stand_in;
+    c->kept[c->count++] = column;
+}
+
 /* All of its columns; `merged`: those alone that lie where no other does. */
 static void add_loop(Choice *c, const uint32_t *kept, const Loop *loop, bool merged)
 {
@@ -53,7 +135,7 @@ static void add_loop(Choice *c, const uint32_t *kept, const Loop *loop, bool mer
         if (joined)
             c->sides[c->side_count++] = (MesoColumnSide){c->count - 1, around ? first : c->count};
         if (!again && !around)
-            c->kept[c->count++] = kept[i];
+            add_column(c, kept[i], stand_in(c, kept, loop, i));
     }
     c->closed = c->closed && loop->closed;
 }
@@ -108,8 +190,8 @@ static void find_farthest(const Choice *c, const uint32_t *kept, const Loop *loo
 static void add_band(Choice *c, const uint32_t ends[2])
 {
     c->sides[c->side_count++] = (MesoColumnSide){c->count, c->count + 1};
-    c->kept[c->count++] = ends[0];
-    c->kept[c->count++] = ends[1];
+    add_column(c, ends[0], c->columns[ends[0]]);
+    add_column(c, ends[1], c->columns[ends[1]]);
 }
 
 /*
@@ -150,12 +232,14 @@ MesoStatus meso_shape_columns(MesoShapeColumns *out, MesoArena *arena, const Mes
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     uint32_t *detail = MESO_NEW(arena, uint32_t, 2 * (size_t)kind->column_count + 4, error);
     MesoColumnSide *sides = MESO_NEW(arena, MesoColumnSide, (size_t)kind->column_count + 2, error);
-    if (!detail || !sides)
+    MesoSweepColumn *stand_ins = MESO_NEW(arena, MesoSweepColumn, (size_t)kind->column_count + 4, error);
+    if (!detail || !sides || !stand_ins)
         return MESO_ERR_MEMORY;
     float size = scale > 0 ? tolerance / scale : 0;     /* in units of the profiles */
     uint32_t count = (use == MESO_SHAPE_SHADOW ? meso_detail_silhouette : meso_detail_columns)(
         columns, kind->column_count, size, detail);
-    Choice choice = {.columns = columns, .kept = detail + kind->column_count, .sides = sides, .closed = true};
+    Choice choice = {.columns = columns, .kept = detail + kind->column_count, .stand_ins = stand_ins,
+                     .sides = sides, .closed = true};
     for (Loop loop = {0}; loop.end < count;) {
         loop = next_loop(columns, detail, count, loop.end);
         bool bands = use == MESO_SHAPE_SHADOW && loop.closed && loop.side_count >= FEW_SIDES - 1 &&
@@ -165,7 +249,7 @@ MesoStatus meso_shape_columns(MesoShapeColumns *out, MesoArena *arena, const Mes
         else
             add_loop(&choice, detail, &loop, use != MESO_SHAPE_WHOLE);
     }
-    *out = (MesoShapeColumns){choice.count, choice.side_count, choice.kept, sides, choice.closed,
-                              choice.banded ? tolerance : 0};
+    *out = (MesoShapeColumns){choice.count, choice.side_count, choice.kept, sides,
+                              choice.moved ? stand_ins : NULL, choice.closed, choice.banded ? tolerance : 0};
     return MESO_OK;
 }
