@@ -19,12 +19,13 @@ typedef struct MesoLightMaps {
     MesoLightMap *maps;         /* [count] */
     uint32_t count, size;       /* texels a side, a multiple of 4 */
     float texel;                /* scene units */
-    float tolerance;            /* how far what is drawn may lie from shapes: half a texel, or 0 */
+    float tolerance;            /* how far what is drawn may lie from shapes: 0: all of them is drawn */
     float *rows[9];             /* [count] coordinates of `toward`, and of what is right and down in the maps */
     float *nearness;            /* [count * size * size] */
 } MesoLightMaps;
 
-/* Along `towards` [count] around a sphere; they live in `arena`. MESO_ERR_MEMORY alone. */
+/* Along `towards` [count] around a sphere, with a tolerance of half a texel; they live in `arena`. MESO_ERR_MEMORY
+ * alone. */
 MesoStatus meso_light_maps_init(MesoLightMaps *maps, MesoArena *arena, const MesoVec3 *towards, uint32_t count,
                                 MesoVec3 middle, float radius, uint32_t size, MesoError *error);
 

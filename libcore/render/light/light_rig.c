@@ -19,9 +19,9 @@ static const float KEY_EXTENT = 0.07f;
 
 MesoLightQuality meso_light_quality(uint32_t samples)
 {
-    return samples == 1 ? (MesoLightQuality){12, 192, 1, 1024, false}
-         : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024, false}
-                        : (MesoLightQuality){64, 288, 16, 768, false};
+    return samples == 1 ? (MesoLightQuality){12, 192, 1, 1024, 0.5f}
+         : samples == 4 ? (MesoLightQuality){40, 320, 8, 1024, 0.125f}
+                        : (MesoLightQuality){64, 288, 16, 768, 0.125f};
 }
 
 static float smoothstep(float low, float high, float x)
@@ -191,8 +191,8 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
     MesoStatus status = make_sky(rig, arena, quality, error);
     if (!status)
         status = make_key(rig, arena, view, quality, error);
-    if (quality->full_detail)
-        rig->sky.tolerance = rig->key.tolerance = 0;
+    rig->sky.tolerance = quality->tolerance * rig->sky.texel;
+    rig->key.tolerance = quality->tolerance * rig->key.texel;
     MesoLightMaps *const sets[] = {&rig->sky, &rig->key};
     return status ? status : meso_light_maps_draw(sets, rig->key.count ? 2 : 1, shapes, thread_count, error);
 }

@@ -32,7 +32,7 @@ enum { MESO_SKY_MOST = 256, MESO_KEY_MOST = 64 };
 typedef struct MesoLightQuality {
     uint32_t sky_count, sky_size;       /* directions, and texels a side of their maps */
     uint32_t key_count, key_size;
-    bool full_detail;                   /* of shapes, in the maps */
+    float tolerance;                    /* texels that what is drawn may lie from shapes; 0: all of them */
 } MesoLightQuality;
 
 /* What a picture of so many samples a pixel deserves. */

@@ -70,7 +70,7 @@ static MesoEnvironment make_environment(MesoVec3 toward, float cosine, float dis
 
 static MesoLightRig make_rig(const Ball *b, const MesoEnvironment *e, MesoVec3 eye)
 {
-    static const MesoLightQuality quality = {128, 192, 16, 256};
+    static const MesoLightQuality quality = {128, 192, 16, 256, 0.5f};
     const MesoCamera camera = {eye, {0, 0, 0}, {0, 1, 0}, 40, 0};
     MesoView view;
     MesoLightRig rig;

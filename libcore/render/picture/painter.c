@@ -9,8 +9,11 @@
 #include "libcore/render/raster/raster_tiles.h"
 #include "libcore/scene/id_color.h"
 
-/* How far thinned geometry may lie from its own, in pixels. */
-static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.125f;
+/*
+ * How far thinned geometry may lie from its own, in pixels. Of few samples each shows one thing or another, whatever is
+ * moved; of many, a picture is to be within a step of 8 bits of what it is without thinning, in the mean of squares.
+ */
+static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.025f;
 
 enum { MOST_SAMPLES = 16 };
 
@@ -410,7 +413,8 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
     p->view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
     status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, p->thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
-    quality.full_detail = options->full_detail;
+    if (options->full_detail)
+        quality.tolerance = 0;
     if (!status)
         status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view,
                                      meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p->view.up)),

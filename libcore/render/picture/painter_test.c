@@ -360,7 +360,7 @@ static void test_light(void)
     MesoRenderOptions options = look((MesoVec3){0, 0, 0}, (MesoVec3){0, 0, 5}, 16);
     CHECK(meso_view_build(&view, &options.camera, &error) == MESO_OK);
     CHECK(meso_shapes_init(&shapes, &arena, &b.scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
-    const MesoLightQuality quality = {256, 256, 16, 512};
+    const MesoLightQuality quality = {256, 256, 16, 512, 0.5f};
     CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, options.camera.up, NULL, &quality, 2,
                               &error) == MESO_OK);
     const MesoVec3 ways[3] = {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}};
@@ -386,7 +386,7 @@ static void make_furnace(MesoLightRig *rig, Bundle *b, MesoShapes *shapes)
 {
     MesoView view;
     MesoRenderOptions options = look((MesoVec3){0, 0, 0}, (MesoVec3){0, 0, 5}, 16);
-    const MesoLightQuality quality = {256, 256, 16, 512};
+    const MesoLightQuality quality = {256, 256, 16, 512, 0.5f};
     make_bundle(b, (MesoVec3){0, 0, 0});
     make_ball(b, (MesoVec3){0, 0, 0}, 0.5f);
     b->scene.sweep_count = b->scene.kind_count = 0;
