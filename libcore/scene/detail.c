@@ -68,7 +68,7 @@ static uint32_t keep_run(const MesoSweepColumn *columns, uint32_t begin, uint32_
     return kept_count;
 }
 
-/* As many, evenly: what is left for the last of them is no less than for others. As they were, where that is too far. */
+/* As many, evenly: what is left for the last is no less than for others. As they were, where that is too far. */
 static void keep_evenly(const MesoSweepColumn *columns, float tolerance, float cosine, uint32_t *kept, uint32_t count)
 {
     uint32_t steps = count - 1, first = kept[0], width = kept[steps] - first;

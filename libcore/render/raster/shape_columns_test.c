@@ -4,6 +4,8 @@
  */
 #include "libcore/render/raster/shape_columns.h"
 
+#include <string.h>
+
 #include "libcore/base/check.h"
 
 enum { SIDES = 32 };
@@ -104,6 +106,43 @@ static void test_circle(void)
         CHECK(width(&small, 0.1 * i) > 0.7f * 2 * SIZE && width(&small, 0.1 * i) < 2.01f * SIZE);
 }
 
+/* Seen from all sides, in the mean; of those kept, wherever they have been moved to. */
+static double mean_width(const MesoShapeColumns *chosen)
+{
+    enum { WAYS = 90 };
+    double sum = 0;
+    for (uint32_t i = 0; i < WAYS; i++) {
+        double angle = MESO_PI * i / WAYS, low = INFINITY, high = -INFINITY;
+        for (uint32_t k = 0; k < chosen->count; k++) {
+            MesoVec2 p = chosen->stand_ins ? chosen->stand_ins[k].start : columns[chosen->kept[k]].start;
+            double place = p.x * cos(angle) + p.y * sin(angle);
+            low = fmin(low, place);
+            high = fmax(high, place);
+        }
+        sum += (high - low) / WAYS;
+    }
+    return sum;
+}
+
+/* However few sides there are, and evenly as long; corners stay where they are. */
+static void test_stand_ins(void)
+{
+    kind = (MesoSweptKind){0};
+    make_circle();
+    MesoShapeColumns all = choose(0, MESO_SHAPE_SEEN);
+    CHECK(!all.stand_ins);
+    for (float tolerance = 0.02f; tolerance < 2; tolerance *= 1.5f) {
+        MesoShapeColumns few = choose(tolerance, MESO_SHAPE_SEEN), whole = choose(tolerance, MESO_SHAPE_WHOLE);
+        CHECK(few.side_count < SIDES && fabs(mean_width(&few) / mean_width(&all) - 1) < 0.005);
+        CHECK(memcmp(few.stand_ins, whole.stand_ins, few.count * sizeof *few.stand_ins) == 0);
+        for (uint32_t s = 0; s + 1 < few.side_count; s++)
+            CHECK(few.kept[s + 1] - few.kept[s] <= SIDES / few.side_count + 1);
+    }
+    kind = (MesoSweptKind){0};
+    make_square((MesoVec2){0, 0});
+    CHECK(!choose(SIZE, MESO_SHAPE_WHOLE).stand_ins);
+}
+
 /* Two loops are two times two bands; what is open stays as it is. */
 static void test_others(void)
 {
@@ -129,6 +168,7 @@ int main(void)
     meso_arena_init(&arena);
     test_square();
     test_circle();
+    test_stand_ins();
     test_others();
     meso_arena_release(&arena);
     return 0;

@@ -10,6 +10,26 @@
 
 /* ---- levels of detail ---- */
 
+static bool same_columns(const MesoShapeColumns *a, const MesoShapeColumns *b)
+{
+    return a->count == b->count && a->side_count == b->side_count && a->closed == b->closed &&
+           !a->stand_ins == !b->stand_ins && memcmp(a->kept, b->kept, a->count * sizeof *a->kept) == 0 &&
+           memcmp(a->sides, b->sides, a->side_count * sizeof *a->sides) == 0 &&
+           (!a->stand_ins || memcmp(a->stand_ins, b->stand_ins, a->count * sizeof *a->stand_ins) == 0);
+}
+
+/* Takes a finer level's arrays where they are the same. */
+static void share_columns(MesoShapeColumns *columns, const MesoShapeColumns *finer, MesoArena *arena,
+                          MesoArenaMark mark)
+{
+    float reach = columns->reach;
+    if (!same_columns(columns, finer))
+        return;
+    *columns = *finer;
+    columns->reach = reach;
+    meso_arena_rewind(arena, mark);
+}
+
 static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *error)
 {
     const MesoScene *scene = shapes->scene;
@@ -26,8 +46,11 @@ static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *e
         for (uint32_t i = 0; i < MESO_SHAPE_LEVELS * MESO_SHAPE_USES && !status; i++) {
             uint32_t level = i / MESO_SHAPE_USES;
             float tolerance = level == 0 ? 0 : shapes->finest * exp2f(0.5f * (float)level);
-            status = meso_shape_columns(&shapes->columns[(size_t)k * MESO_SHAPE_LEVELS * MESO_SHAPE_USES + i], arena,
-                                        scene, kind, scale, tolerance, i % MESO_SHAPE_USES, error);
+            MesoShapeColumns *at = &shapes->columns[(size_t)k * MESO_SHAPE_LEVELS * MESO_SHAPE_USES + i];
+            MesoArenaMark mark = meso_arena_mark(arena);
+            status = meso_shape_columns(at, arena, scene, kind, scale, tolerance, i % MESO_SHAPE_USES, error);
+            if (!status && level > 0)
+                share_columns(at, at - MESO_SHAPE_USES, arena, mark);
         }
     }
     return status;
@@ -455,8 +478,8 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, co
     mesh->reach = columns->reach;
     if (seen)
         find_wanted(mesh, seen);
-    const MesoSweepGrid grid = {.columns = columns->kept, .stand_ins = columns->stand_ins, .column_count = columns->count, .ring_count = rings,
-                                .bare = use != MESO_SHAPE_WHOLE, .wanted = seen ? mesh->wanted : NULL};
+    const MesoSweepGrid grid = {.columns = columns->kept, .stand_ins = columns->stand_ins,
+                                .column_count = columns->count, .ring_count = rings, .bare = use != MESO_SHAPE_WHOLE, .wanted = seen ? mesh->wanted : NULL};
     meso_sweep_grid(scene, kind, &instance, &grid, mesh->vertices);
     return true;
 }
