@@ -443,7 +443,8 @@ static MesoStatus render(Work *work, MesoError *error)
     if (!status && (work->frames.numbered || work->a->resume)) {
         json_object_set_new(tool->report, "frames_drawn", json_integer(work->drawn));
         json_object_set_new(tool->report, "frames_skipped", json_integer(work->skipped));
-        meso_tool_say(tool, "%u frame%s drawn, %u done before", work->drawn, work->drawn == 1 ? "" : "s", work->skipped);
+        meso_tool_say(tool, "%u frame%s drawn, %u done before", work->drawn, work->drawn == 1 ? "" : "s",
+                      work->skipped);
     }
     return status;
 }
@@ -481,10 +482,10 @@ static MesoStatus run(MesoRenderArguments *a, MesoError *error)
 
 int main(int argc, char **argv)
 {
-    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa", .visibility = "auto",
-                         .devices = "/dev", .ground = "none", .data_window = "full", .detail = "picture", .rate = {24, 1},
-                         .light = "camera",
-                         .light_strength = 1, .tone = "shoulder", .stored_sweeps = STORED_SWEEPS};
+    MesoRenderArguments a = {.camera = MESO_CAMERA_DEFAULTS, .samples_text = "4", .context = "osmesa",
+                         .visibility = "auto", .devices = "/dev", .ground = "none", .data_window = "full",
+                         .detail = "picture", .rate = {24, 1}, .light = "camera", .light_strength = 1,
+                         .tone = "shoulder", .stored_sweeps = STORED_SWEEPS};
     const MesoOption options[] = {
         MESO_CHOICE(0, "to", "KIND", "kind of the product (default: the extension of the output)", &a.to,
                     "exr|png", .more = MESO_OPTION_OUTWARD),

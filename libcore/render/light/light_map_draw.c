@@ -7,7 +7,7 @@
 #include "libcore/render/light/light_order.h"
 
 /* Shapes are made a batch at a time, by ranges, and each batch is drawn into the maps that have a texel for it. */
-enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 128, MOST = 12 };       /* shapes, ranges, shapes */
+enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 96, MOST = 12 };       /* shapes, ranges, shapes */
 
 /* Where what a shape has begins in its range. */
 typedef struct Piece {
