@@ -184,7 +184,8 @@ MesoSweepBend meso_detail_bend(const MesoSweptKind *kind, const MesoKindDetail *
     if (kind->cap)
         return (MesoSweepBend){0, 0};
     float spread = fabsf(kind->turn) + fabsf(instance->twist);
-    float turn = turn_of(instance) + 1.5f * spread;
+    float hurry = instance->mitre < MESO_CREASED ? 1 : 2;       /* rings turn within less than the whole, and change */
+    float turn = hurry * (turn_of(instance) + 1.5f * spread);
     float second = bend_of(instance, detail) + 6 * detail->change +
                    detail->radius * (size_change(instance) + turn * turn + 6 * spread);
     return (MesoSweepBend){second, turn};

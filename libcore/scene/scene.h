@@ -7,7 +7,8 @@
  * A point of an instance of a swept kind, at column c and v in [0,1]:
  *
  *     B(v)    cubic Bezier over p[0..3] (MesoGen, section 3.5)
- *     T(v)    unit lerp(unit B'(v), E(v), mitre); at the ends exactly direction[0], direction[1]
+ *     T(v)    unit lerp(unit B'(u), E(u), m); at the ends exactly direction[0], direction[1]; u is v, and m the mitre,
+ *             but for creases
  *     X(v)    by the scene's rule of frames, across T             Y(v) = cross(T, X)
  *     w(v)    v v (3 - 2 v)
  *     R(a)    turns by the angle a, from X to Y
@@ -33,6 +34,21 @@
  * over 120 degrees apart. Where there is one, the normal between the ends lies across the line along the sweep, which
  * is not always that of T: dot(T, P'(v)) n - dot(n, B'(v) + section_scale s'(v)) T made unit.
  *
+ * A crease keeps a tube from folding that no mitre does, as its ends lie within each other's sections, or as its frame
+ * would flip. Its mitre is MESO_CREASED k + m, with k 1, 2 or 3 and m in [0,1]:
+ *
+ *     u(v)    v + 2^(1-k) (w(v) - v): with k 1 rings do not turn at the ends
+ *     E(u)    also by way of p[3] - p[0] where that is over 90 degrees from an end's direction; in any case it is there
+ *             after the part |p[1] - p[0]| of |p[1] - p[0]| + |p[3] - p[2]| of the length, a tenth at least
+ *     X(v)    as unit cross(up[0], T), and turned no more than it has to be, in MESO_FRAME_STEPS equal steps straight
+ *             from one T to the next, the last one cut off at v, whatever the rule; twist is what is then left
+ *     b(v)    section_scale (dot(X, T'), dot(Y, T')) / dot(B', T); rings meet where dot(s, b) is 1
+ *
+ * and what of s lies inwards, where dot(s, b) > 0, keeps of its length along b only a part: such that the furthest of
+ * the section, R from its trajectory, stays at 0.2 + 0.55 t / (1 + t) of that way, where it were at R |b|, which is
+ * 0.2 + 0.55 t; all of it where that is below 0.2, and at the ends, which are the neighbours', too. The normal is that
+ * of a mitre, frames that turn about T counted in.
+ *
  * A cap has the straight axis T = direction[0], X and Y from up[0], s = size[0] start, and
  *
  *     P(v) = p[0] + section_scale * ((1 - v^4) (s.x X + s.y Y) + MESO_CAP_RISE size[0] v T)
@@ -57,6 +73,9 @@
 
 /* Steps of the rule of frames that turns least. */
 enum { MESO_FRAME_STEPS = 8 };
+
+/* A sweep whose mitre is no less has a crease. */
+#define MESO_CREASED 2.0f
 
 /*
  * What tells the parts of a scene apart: "slot" and "tile", "region", "element". Each part has one id in every
@@ -121,7 +140,8 @@ typedef struct MesoSweepInstance {
     uint32_t ids;               /* row of the scene's ids */
     float size[2];              /* factor on the profiles at both ends */
     float twist;                /* of the frame along the sweep, in radians; see the rules of frames */
-    float mitre;                /* in [0,1]: 0, rings lie across the trajectory; 1, they turn evenly from end to end */
+    float mitre;                /* in [0,1]: 0, rings lie across the trajectory; 1, they turn evenly from end to end;
+                                 * or a crease */
     uint32_t cage;              /* that its cell is bent into, where sections deform */
     uint16_t pace[MESO_PACE_PARTS - 1];     /* v at each part of the steps, of 65536; all 0: even */
 } MesoSweepInstance;

@@ -2,39 +2,7 @@
 
 #include "libcore/math/bezier.h"
 #include "libcore/scene/cell.h"
-#include "libcore/scene/sweep_plane.h"
-
-/* An angle, by its cosine and sine. */
-typedef struct Angle {
-    float c, s;
-} Angle;
-
-static Angle make_angle(float angle)
-{
-    return angle == 0 ? (Angle){1, 0} : (Angle){cosf(angle), sinf(angle)};
-}
-
-static MesoVec2 turned(MesoVec2 p, Angle angle)
-{
-    return (MesoVec2){angle.c * p.x - angle.s * p.y, angle.s * p.x + angle.c * p.y};
-}
-
-/* What the rings of one sweep share. */
-typedef struct Track {
-    const MesoSweptKind *kind;
-    const MesoSweepInstance *sweep;
-    MesoSweepFrames frames;
-    Angle back;             /* R(-turn) */
-    MesoVec2 middle[2];     /* a', b' */
-} Track;
-
-static Track make_track(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
-{
-    return (Track){.kind = kind, .sweep = sweep, .frames = meso_sweep_frames(scene->frame_rule, sweep),
-                   .back = make_angle(-kind->turn),
-                   .middle = {meso_vec2_scale(kind->middle[0], sweep->size[0]),
-                              meso_vec2_scale(kind->middle[1], sweep->size[1])}};
-}
+#include "libcore/scene/sweep_section.h"
 
 static inline MesoVec3 in_plane(const MesoSweepPlane *plane, MesoVec2 n)
 {
@@ -51,88 +19,108 @@ static inline MesoMeshVertex sweep_vertex(const MesoSweepPlane *plane, MesoVec2 
 
 /* ---- tubes ---- */
 
-/* A ring: how far along, and how far turned. */
+/* A ring: its plane and its section. */
 typedef struct Ring {
     MesoSweepPlane plane;
-    MesoSweepPlaneChange change;     /* where it is mitred */
-    bool mitred;
-    float v, w, tilt_scale;
-    bool turns;
+    MesoSweepPlaneChange change;    /* where it is mitred */
+    bool mitred, creased;
+    MesoSweepBlend blend, beside[2];    /* here, and close by before and behind where it is creased */
+    float tilt_scale;
     bool on_side;           /* of a cell, where points lie on the grain */
-    Angle turn, twist;
 } Ring;
 
-static Ring ring_at(const MesoScene *scene, const Track *track, float v)
+/* To both sides, for differences of sections. */
+static const float BESIDE = 1.0f / 128;
+
+static void crease_ring(Ring *ring, const MesoSweepTrack *track)
 {
-    Ring ring = {.plane = meso_sweep_plane(&track->frames, v), .v = v, .w = v * v * (3 - 2 * v)};
+    float v = ring->blend.v;
+    ring->creased = true;
+    meso_sweep_crease(&ring->blend, track, &ring->plane);
+    for (uint32_t side = 0; side < 2; side++) {
+        float at = side ? fminf(v + BESIDE, 1) : fmaxf(v - BESIDE, 0);
+        MesoSweepPlane plane = meso_sweep_plane(&track->frames, at);
+        ring->beside[side] = meso_sweep_blend(track, at);
+        meso_sweep_crease(&ring->beside[side], track, &plane);
+    }
+}
+
+static Ring ring_at(const MesoScene *scene, const MesoSweepTrack *track, float v)
+{
+    Ring ring = {.plane = meso_sweep_plane(&track->frames, v), .blend = meso_sweep_blend(track, v)};
     float speed = ring.plane.speed;
     ring.tilt_scale = speed > 0 ? scene->section_scale * 6 * v * (1 - v) / speed : 0;
-    ring.turns = (track->kind->turn != 0 || track->sweep->twist != 0) && v > 0 && v < 1;
     ring.on_side = scene->deform == MESO_SWEEP_SHAPE && (v == 0 || v == 1);
     ring.mitred = track->sweep->mitre > 0 && v > 0 && v < 1;
     if (ring.mitred)
         ring.change = meso_sweep_plane_change(&track->frames, v);
-    if (ring.turns) {
-        ring.turn = make_angle(track->kind->turn * ring.w);
-        ring.twist = make_angle(track->sweep->twist * ring.w);
-    }
+    if (ring.mitred && track->sweep->mitre >= MESO_CREASED)
+        crease_ring(&ring, track);
     return ring;
 }
 
-/* Where a ring meets a column, in its plane: s, n, and dot(n, s') without w'. */
-typedef struct Meeting {
-    MesoVec2 at, normal;
-    float slope;
-} Meeting;
-
-static inline Meeting meet(const Ring *ring, MesoVec2 start, MesoVec2 end, MesoVec2 start_normal, MesoVec2 end_normal)
-{
-    MesoVec2 at = ring->v == 0 ? start : ring->v == 1 ? end : meso_vec2_lerp(start, end, ring->w);
-    MesoVec2 n = meso_vec2_lerp(start_normal, end_normal, ring->w), change = meso_vec2_sub(end, start);
-    return (Meeting){at, n, change.x * n.x + change.y * n.y};
-}
-
-static Meeting meet_turned(const Track *track, const Ring *ring, MesoVec2 start, MesoVec2 end, MesoVec2 start_normal,
-                           MesoVec2 end_normal)
-{
-    const MesoVec2 *middle = track->middle;
-    MesoVec2 q0 = meso_vec2_sub(start, middle[0]), q1 = turned(meso_vec2_sub(end, middle[1]), track->back);
-    MesoVec2 q = turned(meso_vec2_lerp(q0, q1, ring->w), ring->turn);
-    MesoVec2 n = turned(meso_vec2_lerp(start_normal, turned(end_normal, track->back), ring->w), ring->turn);
-    MesoVec2 change = meso_vec2_add(meso_vec2_sub(middle[1], middle[0]), turned(meso_vec2_sub(q1, q0), ring->turn));
-    MesoVec2 at = meso_vec2_add(meso_vec2_lerp(middle[0], middle[1], ring->w), q);
-    float slope = change.x * n.x + change.y * n.y + track->kind->turn * meso_vec2_cross(q, n) +
-                  track->sweep->twist * meso_vec2_cross(at, n);
-    return (Meeting){turned(at, ring->twist), turned(n, ring->twist), slope};
-}
-
 static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column,
-                                          Meeting m)
+                                          MesoSweepMeeting m)
 {
     MesoVec3 normal = meso_vec3_mad(in_plane(&ring->plane, m.normal), -ring->tilt_scale * m.slope, ring->plane.tangent);
-    return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
+    return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->blend.v);
 }
 
 /* Of the trajectory's speed: a line that is slower, or runs backwards, has ever more n for its normal. */
 static const float LEAST_FORWARDS = 0.05f;
 
-/*
- * The normal lies across the ring's line, as n does, and across the way of the point along the sweep. That frames turn
- * about the trajectory is left out, as it is elsewhere: so that normals go on at the ends, which are the neighbours',
- * too.
- */
-static MesoMeshVertex place_mitred(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column, Meeting m)
+/* How far from an end frames are taken to turn about T as they do; nearer, ever less. */
+static const float SPIN_FROM = 0.125f;
+
+/* How fast they do where there is a crease: not at the ends, so that normals go on there, which the neighbours have. */
+static float spin_of(const Ring *ring)
 {
-    float speed = ring->plane.speed, change = 6 * ring->v * (1 - ring->v);
-    MesoVec3 n = in_plane(&ring->plane, m.normal);
+    if (!ring->creased)
+        return 0;
+    float nearer = fminf(ring->blend.v, 1 - ring->blend.v);
+    return fminf(nearer / SPIN_FROM, 1) * meso_vec3_dot(ring->change.x, ring->plane.y);
+}
+
+/*
+ * The normal lies across the ring's line, as n does, and across the way of the point along the sweep; the slope of `m`
+ * times `change` is dot(n, s').
+ */
+static MesoMeshVertex place_on_way(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column,
+                                   MesoSweepMeeting m, float change)
+{
     const MesoSweepPlaneChange *plane = &ring->change;
+    MesoVec3 n = in_plane(&ring->plane, m.normal);
     MesoVec3 turn = meso_vec3_mad(meso_vec3_scale(plane->x, m.at.x), m.at.y, plane->y);
     MesoVec3 way = meso_vec3_mad(plane->origin, scene->section_scale, turn);
     float forwards = meso_vec3_dot(way, ring->plane.tangent);
-    float across = meso_vec3_dot(plane->origin, n) + scene->section_scale * change * m.slope;
-    float least = LEAST_FORWARDS * speed, tilt = forwards < least ? fmaxf(forwards, 0) / least : 1;
+    float slope = m.slope + spin_of(ring) * meso_vec2_cross(m.at, m.normal);
+    float across = meso_vec3_dot(plane->origin, n) + scene->section_scale * change * slope;
+    float least = LEAST_FORWARDS * ring->plane.speed, tilt = forwards < least ? fmaxf(forwards, 0) / least : 1;
     MesoVec3 normal = meso_vec3_mad(meso_vec3_scale(n, fmaxf(forwards, least)), -tilt * across, ring->plane.tangent);
-    return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->v);
+    return sweep_vertex(&ring->plane, m.at, normal, scene->section_scale, column->u, ring->blend.v);
+}
+
+/* The normal of what a crease makes of a line with the normal n there. */
+static MesoVec2 creased_normal(const MesoSweepBlend *blend, MesoVec2 s, MesoVec2 n)
+{
+    MesoVec2 b = blend->inwards;
+    if (!meso_sweep_is_creased_at(blend, s))
+        return n;
+    return meso_vec2_add(meso_vec2_scale(n, blend->kept),
+                         meso_vec2_scale(b, (1 - blend->kept) * (n.x * b.x + n.y * b.y)));
+}
+
+/* As that of a mitre, of the creased section, which changes as the crease does, too. */
+static MesoMeshVertex place_creased(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+                                    const MesoSweepColumn *column, const MesoSweepLine *line, MesoSweepMeeting m)
+{
+    const MesoSweepBlend *beside = ring->beside;
+    MesoVec2 before = meso_sweep_creased(&beside[0], meso_sweep_meet(track, &beside[0], line).at);
+    MesoVec2 after = meso_sweep_creased(&beside[1], meso_sweep_meet(track, &beside[1], line).at);
+    MesoVec2 at = meso_sweep_creased(&ring->blend, m.at), n = creased_normal(&ring->blend, m.at, m.normal);
+    MesoVec2 change = meso_vec2_scale(meso_vec2_sub(after, before), 1 / (beside[1].v - beside[0].v));
+    float slope = change.x * n.x + change.y * n.y;
+    return place_on_way(scene, ring, column, (MesoSweepMeeting){at, n, slope}, 1);
 }
 
 static MesoVec2 on_grain(MesoVec2 p)
@@ -140,163 +128,32 @@ static MesoVec2 on_grain(MesoVec2 p)
     return (MesoVec2){meso_cell_round(p.x), meso_cell_round(p.y)};
 }
 
-static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const Track *track, const Ring *ring,
-                                  const MesoSweepColumn *column)
+static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+                                         const MesoSweepColumn *column)
 {
-    const float *size = track->sweep->size;
-    MesoVec2 start = meso_vec2_scale(column->start, size[0]), end = meso_vec2_scale(column->end, size[1]);
-    MesoVec2 start_normal = meso_vec2_scale(column->start_normal, size[0]);
-    MesoVec2 end_normal = meso_vec2_scale(column->end_normal, size[1]);
-    Meeting m = ring->turns ? meet_turned(track, ring, start, end, start_normal, end_normal)
-                            : meet(ring, start, end, start_normal, end_normal);
+    MesoSweepLine line = meso_sweep_line(track->sweep, column);
+    MesoSweepMeeting m = meso_sweep_meet(track, &ring->blend, &line);
     if (ring->on_side)
         m.at = on_grain(m.at);
-    return ring->mitred ? place_mitred(scene, ring, column, m) : place_vertex(scene, ring, column, m);
+    if (ring->creased)
+        return place_creased(scene, track, ring, column, &line, m);
+    return ring->mitred ? place_on_way(scene, ring, column, m, 6 * ring->blend.v * (1 - ring->blend.v))
+                        : place_vertex(scene, ring, column, m);
 }
 
-static inline MesoVec2 section_point(const Track *track, const Ring *ring, const MesoSweepColumn *column)
+static inline MesoVec2 section_point(const MesoSweepTrack *track, const Ring *ring, const MesoSweepColumn *column)
 {
     const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]), none = {0, 0};
     const MesoVec2 end = meso_vec2_scale(column->end, track->sweep->size[1]);
-    Meeting m = ring->turns ? meet_turned(track, ring, start, end, none, none) : meet(ring, start, end, none, none);
-    return ring->on_side ? on_grain(m.at) : m.at;
+    MesoVec2 at = meso_sweep_meet(track, &ring->blend, &(MesoSweepLine){start, end, none, none}).at;
+    return ring->on_side ? on_grain(at) : meso_sweep_creased(&ring->blend, at);
 }
 
-static inline MesoVec3 tube_point(const MesoScene *scene, const Track *track, const Ring *ring,
+static inline MesoVec3 tube_point(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
                                   const MesoSweepColumn *column)
 {
     MesoVec2 at = section_point(track, ring, column);
     return meso_vec3_mad(ring->plane.origin, scene->section_scale, in_plane(&ring->plane, at));
-}
-
-/* ---- which mitre ---- */
-
-enum { MITRE_PLACES = 16, MITRE_COLUMNS = 32, MITRE_LEVELS = 8 };
-
-/* Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards. */
-static const float MITRE_FORWARDS = 0.1f;
-
-/* The same backwards: what is left of a line that all but stands still between two places. */
-static const float MITRE_BACKWARDS = 0.01f;
-
-MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
-{
-    float start = 0, end = 0;
-    for (uint32_t c = 0; c < kind->column_count; c++) {
-        const MesoSweepColumn *column = &scene->columns[kind->column_begin + c];
-        float from = column->start.x * column->start.x + column->start.y * column->start.y;
-        float to = column->end.x * column->end.x + column->end.y * column->end.y;
-        start = from > start ? from : start;
-        end = to > end ? to : end;
-    }
-    return (MesoKindReach){sqrtf(start), sqrtf(end)};
-}
-
-/*
- * Whether all bends are wider than that, as most sweeps' are, by the control points: no place is slower than the
- * slowest span along the way from end to end, and none bends more than the sharpest of their corners.
- */
-static bool is_wide(const MesoSweepInstance *sweep, float radius)
-{
-    const float rounding = 0.99f;
-    const MesoVec3 *p = sweep->p;
-    MesoVec3 d0 = meso_vec3_sub(p[1], p[0]), d1 = meso_vec3_sub(p[2], p[1]), d2 = meso_vec3_sub(p[3], p[2]);
-    MesoVec3 along = meso_vec3_unit(meso_vec3_sub(p[3], p[0]), (MesoVec3){0, 0, 0});
-    MesoVec3 c0 = meso_vec3_sub(d1, d0), c1 = meso_vec3_sub(d2, d1);
-    float bend = fmaxf(meso_vec3_dot(c0, c0), meso_vec3_dot(c1, c1));
-    float slowest = fminf(fminf(meso_vec3_dot(d0, along), meso_vec3_dot(d1, along)), meso_vec3_dot(d2, along));
-    return slowest > 0 && radius * 6 * sqrtf(bend) < rounding * 9 * slowest * slowest;
-}
-
-/* Whether some bend is narrower than the section reaches. */
-static bool is_narrow(const MesoSweepInstance *sweep, float radius)
-{
-    for (uint32_t i = 0; i <= MITRE_PLACES; i++) {
-        float v = (float)i / MITRE_PLACES;
-        MesoVec3 first = meso_bezier_derivative(sweep->p, v);
-        MesoVec3 bend = meso_vec3_cross(first, meso_bezier_second_derivative(sweep->p, v));
-        float square = meso_vec3_dot(first, first);
-        if (!(radius * radius * meso_vec3_dot(bend, bend) < square * square * square))
-            return true;
-    }
-    return false;
-}
-
-/* Points of some lines along a sweep, in the planes of its rings, which a mitre turns and leaves what they are. */
-typedef struct MitreLines {
-    uint32_t count;
-    MesoVec2 at[MITRE_PLACES + 1][MITRE_COLUMNS];
-} MitreLines;
-
-static MitreLines take_lines(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
-{
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    uint32_t step = (kind->column_count + MITRE_COLUMNS - 1) / MITRE_COLUMNS;
-    Track track = make_track(scene, kind, sweep);
-    MitreLines lines = {0};
-    for (uint32_t i = 0; i <= MITRE_PLACES; i++) {
-        Ring ring = ring_at(scene, &track, (float)i / MITRE_PLACES);
-        lines.count = 0;
-        for (uint32_t c = 0; c < kind->column_count; c += step)
-            lines.at[i][lines.count++] = meso_vec2_scale(section_point(&track, &ring, &columns[c]),
-                                                         scene->section_scale);
-    }
-    return lines;
-}
-
-/* Along a direction, from a point of one plane to one of another. */
-typedef struct MitreStep {
-    float origin, before_x, before_y, after_x, after_y;
-} MitreStep;
-
-static MitreStep step_between(const MesoSweepPlane *before, const MesoSweepPlane *after)
-{
-    MesoVec3 along = meso_vec3_unit(meso_vec3_add(before->tangent, after->tangent), before->tangent);
-    return (MitreStep){meso_vec3_dot(meso_vec3_sub(after->origin, before->origin), along),
-                       meso_vec3_dot(before->x, along), meso_vec3_dot(before->y, along),
-                       meso_vec3_dot(after->x, along), meso_vec3_dot(after->y, along)};
-}
-
-/* How far lines go forwards at least, in parts of what the trajectory does; or less than `enough`, if it is that. */
-static float least_forwards(const MesoScene *scene, const MesoSweepInstance *sweep, const MitreLines *lines,
-                            float enough)
-{
-    float least = INFINITY;
-    MesoSweepFrames frames = meso_sweep_frames(scene->frame_rule, sweep);
-    MesoSweepPlane plane = meso_sweep_plane(&frames, 0);
-    for (uint32_t i = 1; i <= MITRE_PLACES && least > enough; i++) {
-        MesoSweepPlane next = meso_sweep_plane(&frames, (float)i / MITRE_PLACES);
-        float length = meso_vec3_length(meso_vec3_sub(next.origin, plane.origin)), shortest = INFINITY;
-        MitreStep step = step_between(&plane, &next);
-        const MesoVec2 *before = lines->at[i - 1], *after = lines->at[i];
-        for (uint32_t c = 0; c < lines->count; c++)
-            shortest = fminf(shortest, step.origin + after[c].x * step.after_x + after[c].y * step.after_y -
-                                           before[c].x * step.before_x - before[c].y * step.before_y);
-        least = fminf(least, shortest / length);
-        plane = next;
-    }
-    return least;
-}
-
-float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
-                       const MesoSweepInstance *sweep)
-{
-    float radius = scene->section_scale * fmaxf(sweep->size[0] * reach.start, sweep->size[1] * reach.end);
-    if (is_wide(sweep, radius) || !is_narrow(sweep, radius))
-        return 0;
-    MesoSweepInstance trial = *sweep;
-    trial.mitre = 0;
-    MitreLines lines = take_lines(scene, kind, &trial);
-    float best = 0, most = least_forwards(scene, &trial, &lines, -INFINITY);
-    for (uint32_t i = 1; i <= MITRE_LEVELS && most < (best > 0 ? MITRE_FORWARDS : 0); i++) {
-        trial.mitre = (float)i / MITRE_LEVELS;
-        float least = least_forwards(scene, &trial, &lines, most);
-        if (least > most) {
-            most = least;
-            best = trial.mitre;
-        }
-    }
-    return most > -MITRE_BACKWARDS ? best : 0;
 }
 
 static inline const MesoSweepColumn *grid_column(const MesoSweepColumn *columns, const MesoSweepGrid *grid, uint32_t c)
@@ -305,7 +162,7 @@ static inline const MesoSweepColumn *grid_column(const MesoSweepColumn *columns,
 }
 
 /* A ring of a grid without what is not wanted; its vertices are where they are without that. */
-static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
+static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
                                        const MesoSweepGrid *grid, const uint8_t *wanted, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
@@ -324,17 +181,19 @@ static bool any_wanted(const uint8_t *wanted, uint32_t count)
 }
 
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
-static MesoMeshVertex *ring_vertices(const MesoScene *scene, const Track *track, const Ring *ring,
+static MesoMeshVertex *ring_vertices(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
-    bool plain = !ring->turns && !ring->on_side && !ring->mitred && track->sweep->size[0] == 1 &&
+    bool plain = !ring->blend.turns && !ring->on_side && !ring->mitred && track->sweep->size[0] == 1 &&
                  track->sweep->size[1] == 1;
     if (plain && !absent && !grid->columns && !grid->bare) {
         for (uint32_t c = 0; c < grid->column_count; c++)   /* most are so: nothing to decide in the loop */
             *out++ = place_vertex(scene, ring, &columns[c],
-                                  meet(ring, columns[c].start, columns[c].end, columns[c].start_normal,
-                                       columns[c].end_normal));
+                                  meso_sweep_meet_straight(&ring->blend,
+                                                           &(MesoSweepLine){columns[c].start, columns[c].end,
+                                                                            columns[c].start_normal,
+                                                                            columns[c].end_normal}));
         return out;
     }
     for (uint32_t c = 0; c < grid->column_count; c++) {
@@ -376,7 +235,7 @@ static uint32_t absent_on(const MesoSweptKind *kind, const MesoSweepGrid *grid, 
 static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                                      const MesoSweepGrid *grid, MesoMeshVertex *out)
 {
-    Track track = make_track(scene, kind, sweep);
+    MesoSweepTrack track = meso_sweep_track(scene, kind, sweep);
     for (uint32_t r = 0; r < grid->ring_count; r++) {
         const uint8_t *wanted = grid->wanted ? grid->wanted + (size_t)r * grid->column_count : NULL;
         if (wanted && !any_wanted(wanted, grid->column_count)) {
@@ -397,13 +256,13 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
 /* The whole ring at an end, of which the kind has no vertices for some columns. */
 typedef struct EndRing {
     const MesoScene *scene;
-    Track track;
+    MesoSweepTrack track;
     Ring ring;
 } EndRing;
 
 static EndRing end_ring(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep, float v)
 {
-    EndRing end = {.scene = scene, .track = make_track(scene, kind, sweep)};
+    EndRing end = {.scene = scene, .track = meso_sweep_track(scene, kind, sweep)};
     end.ring = ring_at(scene, &end.track, v);
     return end;
 }
@@ -504,7 +363,7 @@ static MesoVec3 cap_point(const MesoScene *scene, const MesoSweepInstance *cap, 
 static MesoVec3 single_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                              const MesoSweepColumn *column, float v)
 {
-    Track track = make_track(scene, kind, sweep);
+    MesoSweepTrack track = meso_sweep_track(scene, kind, sweep);
     Ring ring = ring_at(scene, &track, v);
     return tube_vertex(scene, &track, &ring, column).position;
 }

@@ -15,13 +15,13 @@ typedef struct MesoKindReach {
 MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind);
 
 /*
- * The mitre of a sweep that has all but that, of a kind whose columns reach so far: the least, in eighths, with which no line along it runs backwards, but a
- * tenth as fast as the trajectory at least, or as near to that as can be; 0 where none runs backwards anyway, and where
- * some does with any, as its ends lie within each other. O(1) where no bend is
- * narrower than the section, else O(columns).
+ * Gives a sweep that has all but that its mitre: the least, in eighths, with which no line along it runs backwards, but
+ * a tenth as fast as the trajectory at least, or as near to that as can be; 0 where none runs backwards anyway; and
+ * where some does with any, or its frame would flip, a crease, with the twist that it asks for. Columns of the kind reach
+ * so far. O(1) where no bend is narrower than the section, and no frame flips, else O(columns).
  */
-float meso_sweep_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
-                       const MesoSweepInstance *sweep);
+void meso_sweep_add_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
+                          MesoSweepInstance *sweep);
 
 /* v of ring `ring` of a sweep. */
 float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t ring);

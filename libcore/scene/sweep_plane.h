@@ -24,6 +24,7 @@ typedef struct MesoSweepFrames {
     const MesoSweepInstance *sweep;
     MesoFrameRule rule;
     float length;           /* of the trajectory, where there is a mitre */
+    float lean, ease;       /* m, and how much of the way from v to w(v) u goes */
     MesoSweepStation stations[MESO_FRAME_STEPS + 1];    /* of the rule that needs them */
 } MesoSweepFrames;
 
@@ -33,6 +34,12 @@ MesoSweepPlane meso_sweep_plane(const MesoSweepFrames *frames, float v);
 
 /* By differences of planes close by. */
 MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, float v);
+
+/*
+ * b of a crease over section_scale, in `plane`, which is that at v: rings meet where its product with the place in the
+ * plane is 1. (0, 0) at the ends, and where there is no crease. T' is taken by differences.
+ */
+MesoVec2 meso_sweep_bend(const MesoSweepFrames *frames, const MesoSweepPlane *plane, float v);
 
 /* The plane across `tangent`, X across `up`. */
 MesoSweepPlane meso_sweep_plane_across(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed);

@@ -24,7 +24,8 @@ report meso-solve vase.tiles.json none.obj -o x.slots
 report meso-solve vase.tiles.json vase.obj -o none/x.slots
 report meso-solve --nonsense
 report meso-check --fast --max-faults 99999 vase.meso
-report meso-check --fast vase.meso
+meso-map -q --bends drawn vase.meso -o drawn.meso
+report meso-check --fast drawn.meso
 report meso-suggest gap.tiles.json gap.json -o x.tiles.json
 report meso-suggest vase.tiles.json --surface vase.obj -o x.json
 report meso-tile import basket.json -o x.tiles.json

@@ -16,7 +16,7 @@ static const uint64_t MAX_ELEMENTS = INT32_MAX;
 static const uint32_t MAX_CAGES = 1 << 20;
 
 /* Uniforms of the sweeps by the locations that their shader gives them. */
-enum {SECTION_SCALE = 2, CAP_RISE, TURN = 8, LEAST_TURN, MIDDLE};
+enum {SECTION_SCALE = 2, CAP_RISE, TURN = 8, LEAST_TURN, MIDDLE, REACH};
 
 typedef struct PatternVertex {
     MesoVec2 start, end, start_normal, end_normal;
@@ -199,6 +199,7 @@ static MesoStatus upload_sweeps(MesoDrawLists *lists, MesoArena *arena, const Pl
 
         draw->kind = k;
         draw->reach = kind_reach(scene, kind);
+        draw->profiles = meso_sweep_kind_reach(scene, kind);
         draw->base_vertex = vertex;
         draw->index_begin = index;
         fill_vertices(&vertices[vertex], columns, kept, kept_count, ring_count);
@@ -337,22 +338,33 @@ void meso_draw_lists_release(MesoDrawLists *lists)
     *lists = (MesoDrawLists){0};
 }
 
+static bool has_creases(const MesoScene *scene)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < scene->sweep_count && !any; i++)
+        any = scene->sweeps[i].mitre >= MESO_CREASED;
+    return any;
+}
+
 MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, const MesoScene *scene, bool detailed,
                                    MesoError *error)
 {
 #define BENT "#define BENT\n"
 #define CAP "#define CAP\n"
 #define DETAILED "#define DETAILED\n"
-    /* Sweeps and caps, and those that are bent; and with details. */
-    static const char *const defines[2][4] = {
-        {"", CAP, BENT, BENT CAP}, {DETAILED, DETAILED CAP, DETAILED BENT, DETAILED BENT CAP}};
+#define CREASED "#define CREASED\n"
+    /* Sweeps, those with creases, caps, and all these when they are bent; and with details. */
+    static const char *const defines[2][6] = {
+        {"", CREASED, CAP, BENT, BENT CREASED, BENT CAP},
+        {DETAILED, DETAILED CREASED, DETAILED CAP, DETAILED BENT, DETAILED BENT CREASED, DETAILED BENT CAP},
+    };
     const char *const *text = defines[detailed];
     const char *sweep = meso_shader_sweep_vertex, *fragment = meso_shader_seen_fragment;
-    uint32_t bent = scene->deform == MESO_SWEEP_SHAPE ? 2 : 0;
-    *programs = (MesoDrawPrograms){0};
-    MesoStatus status = meso_gl_program(&programs->sweep, gl, text[bent], sweep, fragment, error);
+    uint32_t bent = scene->deform == MESO_SWEEP_SHAPE ? 3 : 0;
+    *programs = (MesoDrawPrograms){.creased = has_creases(scene)};
+    MesoStatus status = meso_gl_program(&programs->sweep, gl, text[bent + programs->creased], sweep, fragment, error);
     if (!status)
-        status = meso_gl_program(&programs->cap, gl, text[bent + 1], sweep, fragment, error);
+        status = meso_gl_program(&programs->cap, gl, text[bent + 2], sweep, fragment, error);
     if (!status)
         status = meso_gl_placed_program(&programs->body, gl, detailed, error);
     if (status)
@@ -445,17 +457,20 @@ static const void *index_offset(uint32_t index)
     return (const void *)(sizeof(uint32_t) * (uintptr_t)index);
 }
 
-static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, GLuint program)
+static void draw_sweep(const MesoDrawLists *lists, const MesoDrawSweep *draw, const MesoDrawPrograms *programs)
 {
     const MesoGl *gl = lists->gl;
     const MesoSweptKind *kind = &lists->shapes->scene->kinds[draw->kind];
     if (draw->index_count == 0 || draw->instance_count == 0)
         return;
+    GLuint program = kind->cap ? programs->cap : programs->sweep;
     if (!kind->cap) {
         gl->ProgramUniform1f(program, TURN, kind->turn);
         gl->ProgramUniform4f(program, MIDDLE, kind->middle[0].x, kind->middle[0].y, kind->middle[1].x,
                              kind->middle[1].y);
     }
+    if (!kind->cap && programs->creased)
+        gl->ProgramUniform4f(program, REACH, draw->profiles.start, draw->profiles.end, 0, 0);
     gl->UseProgram(program);
     gl->DrawElementsInstancedBaseVertexBaseInstance(
         GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT, index_offset(draw->index_begin),
@@ -481,10 +496,8 @@ void meso_draw_lists_draw(const MesoDrawLists *lists, const MesoDrawPrograms *pr
     gl->BindVertexArray(lists->sweep_array);
     if (lists->cages)
         gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, lists->cages);
-    for (uint32_t i = 0; i < lists->sweep_count; i++) {
-        bool cap = scene->kinds[lists->sweeps[i].kind].cap;
-        draw_sweep(lists, &lists->sweeps[i], cap ? programs->cap : programs->sweep);
-    }
+    for (uint32_t i = 0; i < lists->sweep_count; i++)
+        draw_sweep(lists, &lists->sweeps[i], programs);
     if (!lists->body_array)
         return;
     gl->BindVertexArray(lists->body_array);

@@ -7,6 +7,7 @@
 #include "libcore/render/gl/gl_functions.h"
 #include "libcore/render/projection.h"
 #include "libcore/render/raster/shapes.h"
+#include "libcore/scene/sweep.h"
 
 /* Instances of one kind share a pattern of columns and rings. */
 typedef struct MesoDrawSweep {
@@ -14,6 +15,7 @@ typedef struct MesoDrawSweep {
     uint32_t base_vertex, index_begin, index_count;
     uint32_t instance_begin, instance_count;    /* of those selected */
     float reach;            /* how far the kind's surface lies from its control points, as of meso_sweep_hull() */
+    MesoKindReach profiles;
 } MesoDrawSweep;
 
 typedef struct MesoDrawLists {
@@ -29,6 +31,7 @@ typedef struct MesoDrawLists {
 /* Programs that draw the three sorts of geometry. */
 typedef struct MesoDrawPrograms {
     GLuint sweep, cap, body;
+    bool creased;               /* the first of them knows creases */
 } MesoDrawPrograms;
 
 /*
@@ -39,7 +42,7 @@ MesoStatus meso_draw_lists_init(MesoDrawLists *lists, MesoArena *arena, const Me
                                 const MesoView *view, uint32_t height, float tolerance_pixels, MesoError *error);
 void meso_draw_lists_release(MesoDrawLists *lists);
 
-/* For what `scene` has: sections that deform. `detailed`: fragments have uv and colour too. */
+/* For what `scene` has: sections that deform, creases. `detailed`: fragments have uv and colour too. */
 MesoStatus meso_draw_programs_init(MesoDrawPrograms *programs, const MesoGl *gl, const MesoScene *scene, bool detailed,
                                    MesoError *error);
 void meso_draw_programs_release(MesoDrawPrograms *programs, const MesoGl *gl);

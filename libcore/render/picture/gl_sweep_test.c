@@ -156,6 +156,9 @@ int main(void)
     test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0, false);
     test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0.75f, false);
     test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0.25f, true);
+    test_rule(&arena, MESO_FRAME_PAPER, 1.2f, MESO_CREASED, false);
+    test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 2 * MESO_CREASED + 0.75f, false);
+    test_rule(&arena, MESO_FRAME_PAPER, -1.2f, MESO_CREASED + 0.25f, true);
     meso_arena_release(&arena);
     return 0;
 }

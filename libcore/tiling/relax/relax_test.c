@@ -1,4 +1,7 @@
-/* Relaxation on small surfaces: what is straight stays, zigzags straighten, strands part in order, joints are whole. */
+/*
+ * Relaxation on small surfaces: what is straight stays, zigzags straighten, strands part in order, hollow ones as they
+ * are meant to, planes at their ends do not cross, joints are whole.
+ */
 #include "libcore/tiling/relax/relax.h"
 
 #include <math.h>
@@ -9,7 +12,7 @@
 /* ---- grids of one tile: a strand each way, the one along x lower by `rise` halves of the wall ---- */
 
 typedef struct Weave {
-    MesoCsgNode csg[2];
+    MesoCsgNode csg[4];
     MesoSection sections[2];
     MesoInterface interfaces[2];
     MesoSweep sweeps[2];
@@ -152,6 +155,99 @@ static void test_crossing(MesoArena *arena)
     CHECK(report.intersections[0] == 0 && report.move_most == 0);
 }
 
+/*
+ * The one along x is hollow, a tenth wider than its hole. Where it only grazes the other one as drawn, it gets out of
+ * it; where it lies deep in it, it is meant to, and stays.
+ */
+static void test_hollow(MesoArena *arena)
+{
+    static const float widths[2] = {0.2f, 0.3f}, rises[2] = {0.22f, 0.05f};
+    for (uint32_t i = 0; i < 2; i++) {
+        Weave w;
+        make_weave(&w, widths[i], rises[i], 2);
+        w.csg[2] = w.csg[3] = w.csg[1];
+        w.csg[2].size = (MesoVec2){0.2f, 0.2f};
+        w.csg[1].size = (MesoVec2){0.3f, 0.3f};
+        w.csg[3] = (MesoCsgNode){MESO_CSG_DIFFERENCE, 1, 2, {0, 0}, {0, 0}, 0};
+        w.sections[1].csg_root = 3;
+        w.model.tile_set.csg_count = 4;
+        lay(&w, arena, 5, 0);
+        MesoRelaxReport report = relax(&w.model, arena, 40, 1);
+        CHECK(report.intersections[0] == (i == 0 ? 25 : 0) && report.intersections[1] == 0);
+        CHECK((report.move_most > 0.01f) == (i == 0));
+    }
+}
+
+/* How well the planes at the ends of a link lie behind each other, as relax_bends.c has it. */
+static float order_of(const MesoRelaxWork *work, const MesoRelaxLink *link)
+{
+    const MesoRelaxNode *start = &work->nodes[link->node[0]], *end = &work->nodes[link->node[1]];
+    MesoVec3 from = meso_vec3_scale(start->tangent, link->sign[0]), to = meso_vec3_scale(end->tangent, -link->sign[1]);
+    return meso_vec3_dot(meso_vec3_sub(end->point, start->point), meso_vec3_add(from, to)) / link->bound -
+           2 * meso_vec3_length(meso_vec3_cross(from, to));
+}
+
+static float least_order(const MesoRelaxWork *work, uint32_t n)
+{
+    float least = INFINITY;
+    for (uint32_t i = work->end_begin[n]; i < work->end_begin[n + 1]; i++)
+        least = fminf(least, order_of(work, &work->links[work->ends[i] / 2]));
+    return least;
+}
+
+static float random_in(uint32_t *state, float most)
+{
+    *state = *state * 1664525 + 1013904223;
+    return most * ((float)(*state >> 8) / (1 << 23) - 1);
+}
+
+/* Pushes and turns the end of a link by any vector. */
+static void ask(MesoRelaxLink *link, uint32_t end, uint32_t *state)
+{
+    for (uint32_t k = 0; k < 2; k++) {
+        float most = k ? 1 : 0.3f;
+        MesoVec3 asked = {random_in(state, most), random_in(state, most), random_in(state, most)};
+        (k ? link->turn : link->push)[end] = asked;
+        (k ? link->turn_weight : link->push_weight)[end] = 1;
+    }
+}
+
+/* Whatever contacts ask of a joint of elbows as wide as their slots: planes at their ends do not come to cross. */
+static void test_order(MesoArena *arena)
+{
+    Weave w;
+    uint32_t state = 1, moved = 0;
+    make_weave(&w, 1, 0, 2);
+    w.sections[1].csg_root = 0;
+    w.sweeps[0] = (MesoSweep){.from_side = 3, .to_side = 0, .from_section = 1, .to_section = 0};
+    w.sweeps[1] = (MesoSweep){.from_side = 2, .to_side = 1, .from_section = 0, .to_section = 1};
+    lay(&w, arena, 5, 0.6f);
+    MesoRelaxWork work = {.model = &w.model, .options = meso_map_options_resolve(w.model.options, 1)};
+    CHECK(meso_relax_build(&work, arena, NULL) == MESO_OK);
+    for (uint32_t i = 0; i < work.link_count; i++) {
+        meso_relax_trace(&work.links[i], work.nodes);
+        work.links[i].room = work.links[i].clear = 10;
+    }
+    meso_relax_bound_bends(&work, 0, work.joint_count);
+    for (uint32_t trial = 0; trial < 4000; trial++) {
+        uint32_t n = trial % work.joint_count, end = work.ends[work.end_begin[n]];
+        MesoRelaxLink before = work.links[end / 2];
+        MesoRelaxNode node = work.nodes[n];
+        float least = fminf(least_order(&work, n), 0.25f);
+        if (!node.free)
+            continue;
+        ask(&work.links[end / 2], end % 2, &state);
+        meso_relax_part(&work, n, n + 1);
+        moved += memcmp(&work.next[n], &node.move, sizeof node.move) != 0;
+        work.nodes[n].move = work.next[n];
+        meso_relax_place(&work.nodes[n]);
+        CHECK(least_order(&work, n) > least - 1e-4f);
+        work.nodes[n] = node;
+        work.links[end / 2] = before;
+    }
+    CHECK(moved > 500);
+}
+
 /* Both slots of an edge end their sweeps on the same floats, in the same or the opposite direction. */
 static void test_joints(MesoArena *arena)
 {
@@ -199,6 +295,8 @@ int main(void)
     test_zigzag(&arena);
     test_stairs(&arena);
     test_crossing(&arena);
+    test_hollow(&arena);
+    test_order(&arena);
     test_joints(&arena);
     test_threads(&arena);
     meso_arena_release(&arena);

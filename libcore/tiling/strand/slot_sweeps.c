@@ -122,7 +122,7 @@ static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint3
     if (s->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
     if (s->options.bends == MESO_BENDS_MITRED)
-        out->mitre = meso_sweep_mitre(&s->scene, &s->scene.kinds[kind], s->reaches[kind], out);
+        meso_sweep_add_mitre(&s->scene, &s->scene.kinds[kind], s->reaches[kind], out);
     return MESO_OK;
 }
 

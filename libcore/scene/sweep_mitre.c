@@ -1,0 +1,326 @@
+/* Sections that mitres and creases keep from folding, and which of these a sweep needs. */
+#include "libcore/math/bezier.h"
+#include "libcore/scene/sweep.h"
+#include "libcore/scene/sweep_section.h"
+
+/* ---- sections ---- */
+
+MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    float start = 0, end = 0;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        const MesoSweepColumn *column = &scene->columns[kind->column_begin + c];
+        float from = column->start.x * column->start.x + column->start.y * column->start.y;
+        float to = column->end.x * column->end.x + column->end.y * column->end.y;
+        start = from > start ? from : start;
+        end = to > end ? to : end;
+    }
+    return (MesoKindReach){sqrtf(start), sqrtf(end)};
+}
+
+static float sweep_reach(const MesoScene *scene, const MesoSweepInstance *sweep, MesoKindReach reach)
+{
+    return scene->section_scale * fmaxf(sweep->size[0] * reach.start, sweep->size[1] * reach.end);
+}
+
+MesoSweepTrack meso_sweep_track(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    bool creased = sweep->mitre >= MESO_CREASED;
+    float reach = creased ? sweep_reach(scene, sweep, meso_sweep_kind_reach(scene, kind)) : 0;
+    return (MesoSweepTrack){.kind = kind, .sweep = sweep, .frames = meso_sweep_frames(scene->frame_rule, sweep),
+                            .back = meso_sweep_angle(-kind->turn),
+                            .middle = {meso_vec2_scale(kind->middle[0], sweep->size[0]),
+                                       meso_vec2_scale(kind->middle[1], sweep->size[1])},
+                            .reach = reach};
+}
+
+MesoSweepMeeting meso_sweep_meet_turned(const MesoSweepTrack *track, const MesoSweepBlend *blend,
+                                        const MesoSweepLine *line)
+{
+    const MesoVec2 *middle = track->middle;
+    MesoVec2 q0 = meso_vec2_sub(line->start, middle[0]);
+    MesoVec2 q1 = meso_sweep_turned(meso_vec2_sub(line->end, middle[1]), track->back);
+    MesoVec2 q = meso_sweep_turned(meso_vec2_lerp(q0, q1, blend->w), blend->turn);
+    MesoVec2 end_normal = meso_sweep_turned(line->end_normal, track->back);
+    MesoVec2 n = meso_sweep_turned(meso_vec2_lerp(line->start_normal, end_normal, blend->w), blend->turn);
+    MesoVec2 change = meso_vec2_add(meso_vec2_sub(middle[1], middle[0]),
+                                    meso_sweep_turned(meso_vec2_sub(q1, q0), blend->turn));
+    MesoVec2 at = meso_vec2_add(meso_vec2_lerp(middle[0], middle[1], blend->w), q);
+    float slope = change.x * n.x + change.y * n.y + track->kind->turn * meso_vec2_cross(q, n) +
+                  track->sweep->twist * meso_vec2_cross(at, n);
+    return (MesoSweepMeeting){meso_sweep_turned(at, blend->twist), meso_sweep_turned(n, blend->twist), slope};
+}
+
+/* Of the way to where rings meet: up to where sections may reach as they are, and what they never do. */
+static const float CREASE_FROM = 0.2f, CREASE_TO = 0.75f;
+
+void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, const MesoSweepPlane *plane)
+{
+    const float room = CREASE_TO - CREASE_FROM;
+    MesoVec2 bend = meso_sweep_bend(&track->frames, plane, blend->v);
+    float length = meso_vec2_length(bend), reach = length * track->reach, over = (reach - CREASE_FROM) / room;
+    blend->kept = 1;
+    if (!(over > 0))
+        return;
+    blend->inwards = meso_vec2_scale(bend, 1 / length);
+    blend->kept = (CREASE_FROM + room * over / (1 + over)) / reach;
+}
+
+/* ---- which folds there are ---- */
+
+enum { PLACES = 16, MOST_LINES = 32, LEVELS = 8, EASES = 3 };
+
+/*
+ * Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards; and along a creased one, where
+ * sections are steeper to them, and the normals of small faces off, the slower that is.
+ */
+static const float FORWARDS = 0.1f, CREASED_FORWARDS = 0.2f;
+
+/*
+ * Whether all bends are wider than that, as most sweeps' are, by the control points: no place is slower than the
+ * slowest span along the way from end to end, and none bends more than the sharpest of their corners.
+ */
+static bool is_wide(const MesoSweepInstance *sweep, float reach)
+{
+    const float rounding = 0.99f;
+    const MesoVec3 *p = sweep->p;
+    MesoVec3 d0 = meso_vec3_sub(p[1], p[0]), d1 = meso_vec3_sub(p[2], p[1]), d2 = meso_vec3_sub(p[3], p[2]);
+    MesoVec3 along = meso_vec3_unit(meso_vec3_sub(p[3], p[0]), (MesoVec3){0, 0, 0});
+    MesoVec3 c0 = meso_vec3_sub(d1, d0), c1 = meso_vec3_sub(d2, d1);
+    float bend = fmaxf(meso_vec3_dot(c0, c0), meso_vec3_dot(c1, c1));
+    float slowest = fminf(fminf(meso_vec3_dot(d0, along), meso_vec3_dot(d1, along)), meso_vec3_dot(d2, along));
+    return slowest > 0 && reach * 6 * sqrtf(bend) < rounding * 9 * slowest * slowest;
+}
+
+/* X as the paper has it, but of any length. */
+static MesoVec3 paper_x(const MesoSweepInstance *sweep, float v, MesoVec3 along)
+{
+    return meso_vec3_cross(meso_vec3_lerp(sweep->up[0], sweep->up[1], v), along);
+}
+
+/* Whether frames turn by over 30 degrees from one place to the next. */
+static bool is_flip(MesoVec3 x, MesoVec3 next)
+{
+    float dot = meso_vec3_dot(x, next);
+    return !(dot > 0 && 4 * dot * dot > 3 * meso_vec3_dot(x, x) * meso_vec3_dot(next, next));
+}
+
+/*
+ * Whether frames cannot flip, as most sweeps' do not, by the control points of X, which is a cubic as the paper has it:
+ * from one place to the next it goes no further than their longest step allows, and nowhere is it shorter than they all
+ * are along the way that they point to.
+ */
+static bool is_steady(const MesoScene *scene, const MesoSweepInstance *sweep)
+{
+    if (scene->frame_rule != MESO_FRAME_PAPER)
+        return true;
+    const MesoVec3 *p = sweep->p, *up = sweep->up;
+    MesoVec3 d0 = meso_vec3_sub(p[1], p[0]), d1 = meso_vec3_sub(p[2], p[1]), d2 = meso_vec3_sub(p[3], p[2]);
+    MesoVec3 cross1 = meso_vec3_mad(meso_vec3_cross(up[1], d0), 2, meso_vec3_cross(up[0], d1));
+    MesoVec3 cross2 = meso_vec3_mad(meso_vec3_cross(up[0], d2), 2, meso_vec3_cross(up[1], d1));
+    MesoVec3 x[4] = {meso_vec3_cross(up[0], d0), meso_vec3_scale(cross1, 1.0f / 3), meso_vec3_scale(cross2, 1.0f / 3),
+                     meso_vec3_cross(up[1], d2)};
+    MesoVec3 along = meso_vec3_unit(meso_vec3_add(x[0], x[3]), (MesoVec3){0, 0, 0});
+    float shortest = meso_vec3_dot(x[0], along), step = 0;
+    for (uint32_t i = 1; i < 4; i++) {
+        MesoVec3 way = meso_vec3_sub(x[i], x[i - 1]);
+        shortest = fminf(shortest, meso_vec3_dot(x[i], along));
+        step = fmaxf(step, meso_vec3_dot(way, way));
+    }
+    const float rounding = 0.99f, least_sine = 0.5f;
+    return shortest > 0 && 3 * sqrtf(step) < rounding * least_sine * PLACES * shortest;
+}
+
+/* Whether some bend is narrower than the section reaches, or the frame flips in some. */
+static bool is_narrow(const MesoScene *scene, const MesoSweepInstance *sweep, float reach)
+{
+    bool may_flip = scene->frame_rule == MESO_FRAME_PAPER;
+    MesoVec3 x = {0, 0, 0};
+    for (uint32_t i = 0; i <= PLACES; i++) {
+        float v = (float)i / PLACES;
+        MesoVec3 first = meso_bezier_derivative(sweep->p, v);
+        MesoVec3 bend = meso_vec3_cross(first, meso_bezier_second_derivative(sweep->p, v));
+        MesoVec3 next = paper_x(sweep, v, first);
+        float square = meso_vec3_dot(first, first);
+        if (!(reach * reach * meso_vec3_dot(bend, bend) < square * square * square))
+            return true;
+        if (may_flip && i > 0 && is_flip(x, next))
+            return true;
+        x = next;
+    }
+    return false;
+}
+
+/* How far the rim of a section goes aside as frames turn that are mitred, in parts of what the trajectory goes on. */
+static const float ASIDE = 0.3f;
+
+/* Whether frames flip, or turn by more than the normals of mitres, which leave that out, can bear. */
+static bool flips(const MesoScene *scene, const MesoSweepInstance *sweep, float reach)
+{
+    if (scene->frame_rule != MESO_FRAME_PAPER)
+        return false;
+    MesoSweepFrames frames = meso_sweep_frames(scene->frame_rule, sweep);
+    bool any = false;
+    MesoSweepPlane plane = meso_sweep_plane(&frames, 0);
+    for (uint32_t i = 1; i <= PLACES && !any; i++) {
+        MesoSweepPlane next = meso_sweep_plane(&frames, (float)i / PLACES);
+        float aside = reach * fabsf(meso_vec3_dot(next.x, plane.y));
+        any = is_flip(plane.x, next.x) ||
+              (sweep->mitre > 0 && aside > ASIDE * meso_vec3_length(meso_vec3_sub(next.origin, plane.origin)));
+        plane = next;
+    }
+    return any;
+}
+
+/* Points of some lines along a sweep, in the planes of its rings, which a mitre turns and leaves what they are. */
+typedef struct Lines {
+    uint32_t count;
+    MesoVec2 at[PLACES + 1][MOST_LINES];
+} Lines;
+
+static void take_lines(Lines *lines, const MesoScene *scene, const MesoSweepTrack *track)
+{
+    const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
+    uint32_t count = track->kind->column_count, step = (count + MOST_LINES - 1) / MOST_LINES;
+    for (uint32_t i = 0; i <= PLACES; i++) {
+        MesoSweepBlend blend = meso_sweep_blend(track, (float)i / PLACES);
+        lines->count = 0;
+        for (uint32_t c = 0; c < count; c += step) {
+            MesoSweepLine line = meso_sweep_line(track->sweep, &columns[c]);
+            lines->at[i][lines->count++] = meso_vec2_scale(meso_sweep_meet(track, &blend, &line).at,
+                                                           scene->section_scale);
+        }
+    }
+}
+
+/* Along a direction, from a point of one plane to one of another. */
+typedef struct Step {
+    float origin, before_x, before_y, after_x, after_y;
+} Step;
+
+static Step step_along(const MesoSweepPlane *before, const MesoSweepPlane *after, MesoVec3 along)
+{
+    return (Step){meso_vec3_dot(meso_vec3_sub(after->origin, before->origin), along),
+                  meso_vec3_dot(before->x, along), meso_vec3_dot(before->y, along),
+                  meso_vec3_dot(after->x, along), meso_vec3_dot(after->y, along)};
+}
+
+static float shortest_step(const Step *step, const MesoVec2 *before, const MesoVec2 *after, uint32_t count)
+{
+    float shortest = INFINITY;
+    for (uint32_t c = 0; c < count; c++)
+        shortest = fminf(shortest, step->origin + after[c].x * step->after_x + after[c].y * step->after_y -
+                                       before[c].x * step->before_x - before[c].y * step->before_y);
+    return shortest;
+}
+
+/* How far lines go forwards at least, in parts of what the trajectory does; or less than `enough`, if it is that. */
+static float least_forwards(const MesoSweepTrack *track, const Lines *lines, float enough)
+{
+    float least = INFINITY;
+    MesoSweepPlane plane = meso_sweep_plane(&track->frames, 0);
+    for (uint32_t i = 1; i <= PLACES && least > enough; i++) {
+        MesoSweepPlane next = meso_sweep_plane(&track->frames, (float)i / PLACES);
+        MesoVec3 along = meso_vec3_unit(meso_vec3_add(plane.tangent, next.tangent), plane.tangent);
+        float length = meso_vec3_length(meso_vec3_sub(next.origin, plane.origin));
+        Step step = step_along(&plane, &next, along);
+        least = fminf(least, shortest_step(&step, lines->at[i - 1], lines->at[i], lines->count) / length);
+        plane = next;
+    }
+    return least;
+}
+
+/* The points of one place, creased. */
+static void crease_points(MesoVec2 *out, const Lines *lines, const MesoSweepTrack *track, const MesoSweepPlane *plane,
+                          uint32_t place)
+{
+    MesoSweepBlend blend = meso_sweep_blend(track, (float)place / PLACES);
+    meso_sweep_crease(&blend, track, plane);
+    for (uint32_t c = 0; c < lines->count; c++)
+        out[c] = meso_sweep_creased(&blend, lines->at[place][c]);
+}
+
+enum { SPANS = 2 };
+
+/*
+ * The same where there is a crease: off both rings that lines go between, as the triangles have a side on either; and
+ * between rings further apart, too.
+ */
+static float least_creased(const MesoSweepTrack *track, const Lines *lines, float enough)
+{
+    float least = INFINITY;
+    MesoVec2 points[PLACES + 1][MOST_LINES];
+    MesoSweepPlane planes[PLACES + 1];
+    for (uint32_t i = 0; i <= PLACES && least > enough; i++) {
+        planes[i] = meso_sweep_plane(&track->frames, (float)i / PLACES);
+        crease_points(points[i], lines, track, &planes[i], i);
+        for (uint32_t k = i < SPANS ? 0 : i - SPANS; k < i; k++) {
+            float length = meso_vec3_length(meso_vec3_sub(planes[i].origin, planes[k].origin));
+            Step off = step_along(&planes[k], &planes[i], planes[k].tangent);
+            Step onto = step_along(&planes[k], &planes[i], planes[i].tangent);
+            least = fminf(least, shortest_step(&off, points[k], points[i], lines->count) / length);
+            least = fminf(least, shortest_step(&onto, points[k], points[i], lines->count) / length);
+        }
+    }
+    return least;
+}
+
+/* ---- which mitre ---- */
+
+/* The twist of a crease; of two that end alike, that with which a section that turns by half at most does so least. */
+static float creased_twist(const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    float half = (float)MESO_PI, twist = meso_sweep_twist(sweep), sum = twist + kind->turn;
+    return fabsf(kind->turn) > half || fabsf(sum) <= half ? twist : sum > 0 ? twist - 2 * half : twist + 2 * half;
+}
+
+/*
+ * The first crease whose lines run forwards as fast as they are to, or else that whose lines run fastest; of those
+ * whose rings turn next to the ends, too, only where no other does as well as a mitre has to.
+ */
+static void add_crease(const MesoScene *scene, const MesoSweptKind *kind, MesoSweepInstance *sweep)
+{
+    MesoSweepInstance trial = *sweep;
+    Lines lines;
+    float most = -INFINITY;
+    for (uint32_t i = 0; i < EASES * LEVELS && most < (i < LEVELS ? CREASED_FORWARDS : FORWARDS); i++) {
+        trial.mitre = MESO_CREASED * (float)(1 + i / LEVELS) + (float)(i % LEVELS) / (LEVELS - 1);
+        trial.twist = creased_twist(kind, &trial);
+        MesoSweepTrack track = meso_sweep_track(scene, kind, &trial);
+        take_lines(&lines, scene, &track);
+        float least = least_creased(&track, &lines, most);
+        if (least > most) {
+            most = least;
+            sweep->mitre = trial.mitre;
+            sweep->twist = trial.twist;
+        }
+    }
+}
+
+/* The least mitre whose lines run forwards as fast as they are to; false if there is none. */
+static bool add_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoSweepInstance *sweep)
+{
+    MesoSweepTrack track = meso_sweep_track(scene, kind, sweep);
+    Lines lines;
+    take_lines(&lines, scene, &track);
+    if (least_forwards(&track, &lines, -INFINITY) >= 0)
+        return true;
+    for (uint32_t i = 1; i <= LEVELS; i++) {
+        sweep->mitre = (float)i / LEVELS;
+        track.frames = meso_sweep_frames(scene->frame_rule, sweep);
+        if (least_forwards(&track, &lines, FORWARDS) >= FORWARDS)
+            return true;
+    }
+    return false;
+}
+
+void meso_sweep_add_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
+                          MesoSweepInstance *sweep)
+{
+    float radius = sweep_reach(scene, sweep, reach);
+    sweep->mitre = 0;
+    if ((is_wide(sweep, radius) && is_steady(scene, sweep)) || !is_narrow(scene, sweep, radius))
+        return;
+    if (!add_mitre(scene, kind, sweep) || flips(scene, sweep, radius))
+        add_crease(scene, kind, sweep);
+}

@@ -1,0 +1,108 @@
+/* Sections along a sweep, each in the plane of its ring: blended, turned and creased, by the formulas of scene.h. */
+#ifndef MESO_SWEEP_SECTION_H
+#define MESO_SWEEP_SECTION_H
+
+#include "libcore/scene/sweep_plane.h"
+
+/* An angle, by its cosine and sine. */
+typedef struct MesoSweepAngle {
+    float c, s;
+} MesoSweepAngle;
+
+static inline MesoSweepAngle meso_sweep_angle(float angle)
+{
+    return angle == 0 ? (MesoSweepAngle){1, 0} : (MesoSweepAngle){cosf(angle), sinf(angle)};
+}
+
+static inline MesoVec2 meso_sweep_turned(MesoVec2 p, MesoSweepAngle angle)
+{
+    return (MesoVec2){angle.c * p.x - angle.s * p.y, angle.s * p.x + angle.c * p.y};
+}
+
+/* What the sections of one sweep share. */
+typedef struct MesoSweepTrack {
+    const MesoSweptKind *kind;
+    const MesoSweepInstance *sweep;
+    MesoSweepFrames frames;
+    MesoSweepAngle back;    /* R(-turn) */
+    MesoVec2 middle[2];     /* a', b' */
+    float reach;            /* section_scale R, where there is a crease */
+} MesoSweepTrack;
+
+MesoSweepTrack meso_sweep_track(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep);
+
+/* The section at v: how far it is blended, turned, and creased. */
+typedef struct MesoSweepBlend {
+    float v, w;
+    bool turns;
+    MesoSweepAngle turn, twist;
+    MesoVec2 inwards;       /* the direction of b, */
+    float kept;             /* and what is kept along it; 1: all */
+} MesoSweepBlend;
+
+/* Without a crease. */
+static inline MesoSweepBlend meso_sweep_blend(const MesoSweepTrack *track, float v)
+{
+    MesoSweepBlend blend = {.v = v, .w = v * v * (3 - 2 * v), .kept = 1};
+    blend.turns = (track->kind->turn != 0 || track->sweep->twist != 0) && v > 0 && v < 1;
+    if (blend.turns) {
+        blend.turn = meso_sweep_angle(track->kind->turn * blend.w);
+        blend.twist = meso_sweep_angle(track->sweep->twist * blend.w);
+    }
+    return blend;
+}
+
+/* Gives it the crease of its sweep, which has one, in `plane`, that of its ring. */
+void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, const MesoSweepPlane *plane);
+
+/* A column at the ends of one sweep: a, b, and their normals. */
+typedef struct MesoSweepLine {
+    MesoVec2 start, end, start_normal, end_normal;
+} MesoSweepLine;
+
+static inline MesoSweepLine meso_sweep_line(const MesoSweepInstance *sweep, const MesoSweepColumn *column)
+{
+    const float *size = sweep->size;
+    return (MesoSweepLine){meso_vec2_scale(column->start, size[0]), meso_vec2_scale(column->end, size[1]),
+                           meso_vec2_scale(column->start_normal, size[0]),
+                           meso_vec2_scale(column->end_normal, size[1])};
+}
+
+/* Where a section meets a column: s, n, and dot(n, s') without w', all without a crease. */
+typedef struct MesoSweepMeeting {
+    MesoVec2 at, normal;
+    float slope;
+} MesoSweepMeeting;
+
+static inline MesoSweepMeeting meso_sweep_meet_straight(const MesoSweepBlend *blend, const MesoSweepLine *line)
+{
+    MesoVec2 start = line->start, end = line->end, change = meso_vec2_sub(end, start);
+    MesoVec2 at = blend->v == 0 ? start : blend->v == 1 ? end : meso_vec2_lerp(start, end, blend->w);
+    MesoVec2 n = meso_vec2_lerp(line->start_normal, line->end_normal, blend->w);
+    return (MesoSweepMeeting){at, n, change.x * n.x + change.y * n.y};
+}
+
+MesoSweepMeeting meso_sweep_meet_turned(const MesoSweepTrack *track, const MesoSweepBlend *blend,
+                                        const MesoSweepLine *line);
+
+static inline MesoSweepMeeting meso_sweep_meet(const MesoSweepTrack *track, const MesoSweepBlend *blend,
+                                               const MesoSweepLine *line)
+{
+    return blend->turns ? meso_sweep_meet_turned(track, blend, line) : meso_sweep_meet_straight(blend, line);
+}
+
+static inline bool meso_sweep_is_creased_at(const MesoSweepBlend *blend, MesoVec2 s)
+{
+    return blend->kept != 1 && s.x * blend->inwards.x + s.y * blend->inwards.y > 0;
+}
+
+/* C(s). */
+static inline MesoVec2 meso_sweep_creased(const MesoSweepBlend *blend, MesoVec2 s)
+{
+    MesoVec2 b = blend->inwards;
+    if (!meso_sweep_is_creased_at(blend, s))
+        return s;
+    return meso_vec2_add(s, meso_vec2_scale(b, (blend->kept - 1) * (s.x * b.x + s.y * b.y)));
+}
+
+#endif
