@@ -29,19 +29,15 @@ typedef struct Ring {
     bool on_side;           /* of a cell, where points lie on the grain */
 } Ring;
 
-/* To both sides, for differences of sections. */
-static const float BESIDE = 1.0f / 128;
-
-static void crease_ring(Ring *ring, const MesoSweepTrack *track)
+static void crease_ring(Ring *ring, const MesoSweepTrack *track, const MesoSweepBeside *beside)
 {
-    float v = ring->blend.v;
     ring->creased = true;
-    meso_sweep_crease(&ring->blend, track, &ring->plane);
+    meso_sweep_crease(&ring->blend, track,
+                      meso_sweep_bend_between(&track->frames, &ring->plane, beside, ring->blend.v));
     for (uint32_t side = 0; side < 2; side++) {
-        float at = side ? fminf(v + BESIDE, 1) : fmaxf(v - BESIDE, 0);
-        MesoSweepPlane plane = meso_sweep_plane(&track->frames, at);
-        ring->beside[side] = meso_sweep_blend(track, at);
-        meso_sweep_crease(&ring->beside[side], track, &plane);
+        ring->beside[side] = meso_sweep_blend(track, beside->v[side]);
+        meso_sweep_crease(&ring->beside[side], track,
+                          meso_sweep_bend(&track->frames, &beside->planes[side], beside->v[side]));
     }
 }
 
@@ -52,10 +48,12 @@ static Ring ring_at(const MesoScene *scene, const MesoSweepTrack *track, float v
     ring.tilt_scale = speed > 0 ? scene->section_scale * 6 * v * (1 - v) / speed : 0;
     ring.on_side = scene->deform == MESO_SWEEP_SHAPE && (v == 0 || v == 1);
     ring.mitred = track->sweep->mitre > 0 && v > 0 && v < 1;
-    if (ring.mitred)
-        ring.change = meso_sweep_plane_change(&track->frames, v);
-    if (ring.mitred && track->sweep->mitre >= MESO_CREASED)
-        crease_ring(&ring, track);
+    if (!ring.mitred)
+        return ring;
+    MesoSweepBeside beside = meso_sweep_beside(&track->frames, v);
+    ring.change = meso_sweep_plane_change(&track->frames, &beside, v);
+    if (track->sweep->mitre >= MESO_CREASED)
+        crease_ring(&ring, track, &beside);
     return ring;
 }
 

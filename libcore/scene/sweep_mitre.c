@@ -54,10 +54,9 @@ MesoSweepMeeting meso_sweep_meet_turned(const MesoSweepTrack *track, const MesoS
 /* Of the way to where rings meet: up to where sections may reach as they are, and what they never do. */
 static const float CREASE_FROM = 0.2f, CREASE_TO = 0.75f;
 
-void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, const MesoSweepPlane *plane)
+void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, MesoVec2 bend)
 {
     const float room = CREASE_TO - CREASE_FROM;
-    MesoVec2 bend = meso_sweep_bend(&track->frames, plane, blend->v);
     float length = meso_vec2_length(bend), reach = length * track->reach, over = (reach - CREASE_FROM) / room;
     blend->kept = 1;
     if (!(over > 0))
@@ -207,10 +206,12 @@ static Step step_along(const MesoSweepPlane *before, const MesoSweepPlane *after
 
 static float shortest_step(const Step *step, const MesoVec2 *before, const MesoVec2 *after, uint32_t count)
 {
-    float shortest = INFINITY;
+    float shortest = INFINITY, lengths[MOST_LINES];
     for (uint32_t c = 0; c < count; c++)
-        shortest = fminf(shortest, step->origin + after[c].x * step->after_x + after[c].y * step->after_y -
-                                       before[c].x * step->before_x - before[c].y * step->before_y);
+        lengths[c] = step->origin + after[c].x * step->after_x + after[c].y * step->after_y -
+                     before[c].x * step->before_x - before[c].y * step->before_y;
+    for (uint32_t c = 0; c < count; c++)
+        shortest = lengths[c] < shortest ? lengths[c] : shortest;
     return shortest;
 }
 
@@ -235,7 +236,7 @@ static void crease_points(MesoVec2 *out, const Lines *lines, const MesoSweepTrac
                           uint32_t place)
 {
     MesoSweepBlend blend = meso_sweep_blend(track, (float)place / PLACES);
-    meso_sweep_crease(&blend, track, plane);
+    meso_sweep_crease(&blend, track, meso_sweep_bend(&track->frames, plane, blend.v));
     for (uint32_t c = 0; c < lines->count; c++)
         out[c] = meso_sweep_creased(&blend, lines->at[place][c]);
 }

@@ -182,17 +182,31 @@ MesoSweepPlane meso_sweep_plane(const MesoSweepFrames *frames, float v)
     return (MesoSweepPlane){point, x, meso_vec3_cross(tangent, x), tangent, speed};
 }
 
-MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, float v)
+MesoSweepBeside meso_sweep_beside(const MesoSweepFrames *frames, float v)
 {
-    float low = fmaxf(v - CHANGE_STEP, 0), high = fminf(v + CHANGE_STEP, 1), scale = 1 / (high - low);
-    MesoSweepPlane before = meso_sweep_plane(frames, low), after = meso_sweep_plane(frames, high);
+    float low = fmaxf(v - CHANGE_STEP, 0), high = fminf(v + CHANGE_STEP, 1);
+    return (MesoSweepBeside){{low, high}, {meso_sweep_plane(frames, low), meso_sweep_plane(frames, high)}};
+}
+
+MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, const MesoSweepBeside *beside, float v)
+{
+    const MesoSweepPlane *planes = beside->planes;
+    float scale = 1 / (beside->v[1] - beside->v[0]);
     return (MesoSweepPlaneChange){meso_bezier_derivative(frames->sweep->p, v),
-                                  meso_vec3_scale(meso_vec3_sub(after.x, before.x), scale),
-                                  meso_vec3_scale(meso_vec3_sub(after.y, before.y), scale)};
+                                  meso_vec3_scale(meso_vec3_sub(planes[1].x, planes[0].x), scale),
+                                  meso_vec3_scale(meso_vec3_sub(planes[1].y, planes[0].y), scale)};
 }
 
 /* How slow a ring is taken to be at least, in parts of the trajectory's speed: one that runs backwards has no b. */
 static const float LEAST_AHEAD = 0.01f;
+
+/* `turn` is by how much T changes within `wide`. */
+static MesoVec2 bend_of(const MesoSweepFrames *frames, const MesoSweepPlane *plane, float v, MesoVec3 turn, float wide)
+{
+    float ahead = meso_vec3_dot(meso_bezier_derivative(frames->sweep->p, v), plane->tangent);
+    float scale = 1 / (wide * fmaxf(ahead, LEAST_AHEAD * plane->speed));
+    return (MesoVec2){scale * meso_vec3_dot(turn, plane->x), scale * meso_vec3_dot(turn, plane->y)};
+}
 
 MesoVec2 meso_sweep_bend(const MesoSweepFrames *frames, const MesoSweepPlane *plane, float v)
 {
@@ -200,7 +214,12 @@ MesoVec2 meso_sweep_bend(const MesoSweepFrames *frames, const MesoSweepPlane *pl
         return (MesoVec2){0, 0};
     float low = fmaxf(v - CHANGE_STEP, 0), high = fminf(v + CHANGE_STEP, 1);
     MesoVec3 turn = meso_vec3_sub(ring_tangent(frames, high), ring_tangent(frames, low));
-    float ahead = meso_vec3_dot(meso_bezier_derivative(frames->sweep->p, v), plane->tangent);
-    float scale = 1 / ((high - low) * fmaxf(ahead, LEAST_AHEAD * plane->speed));
-    return (MesoVec2){scale * meso_vec3_dot(turn, plane->x), scale * meso_vec3_dot(turn, plane->y)};
+    return bend_of(frames, plane, v, turn, high - low);
+}
+
+MesoVec2 meso_sweep_bend_between(const MesoSweepFrames *frames, const MesoSweepPlane *plane,
+                                 const MesoSweepBeside *beside, float v)
+{
+    MesoVec3 turn = meso_vec3_sub(beside->planes[1].tangent, beside->planes[0].tangent);
+    return bend_of(frames, plane, v, turn, beside->v[1] - beside->v[0]);
 }

@@ -9,6 +9,12 @@ typedef struct MesoSweepPlane {
     float speed;    /* |B'| */
 } MesoSweepPlane;
 
+/* Planes close by before and behind one, for differences. */
+typedef struct MesoSweepBeside {
+    float v[2];
+    MesoSweepPlane planes[2];
+} MesoSweepBeside;
+
 /* By how much B, X and Y change with v. */
 typedef struct MesoSweepPlaneChange {
     MesoVec3 origin, x, y;
@@ -32,14 +38,20 @@ MesoSweepFrames meso_sweep_frames(MesoFrameRule rule, const MesoSweepInstance *s
 
 MesoSweepPlane meso_sweep_plane(const MesoSweepFrames *frames, float v);
 
-/* By differences of planes close by. */
-MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, float v);
+MesoSweepBeside meso_sweep_beside(const MesoSweepFrames *frames, float v);
+
+/* At v, which `beside` is of. */
+MesoSweepPlaneChange meso_sweep_plane_change(const MesoSweepFrames *frames, const MesoSweepBeside *beside, float v);
 
 /*
  * b of a crease over section_scale, in `plane`, which is that at v: rings meet where its product with the place in the
  * plane is 1. (0, 0) at the ends, and where there is no crease. T' is taken by differences.
  */
 MesoVec2 meso_sweep_bend(const MesoSweepFrames *frames, const MesoSweepPlane *plane, float v);
+
+/* The same of those of `beside`, where planes close by are known. */
+MesoVec2 meso_sweep_bend_between(const MesoSweepFrames *frames, const MesoSweepPlane *plane,
+                                 const MesoSweepBeside *beside, float v);
 
 /* The plane across `tangent`, X across `up`. */
 MesoSweepPlane meso_sweep_plane_across(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed);

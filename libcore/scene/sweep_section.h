@@ -52,8 +52,8 @@ static inline MesoSweepBlend meso_sweep_blend(const MesoSweepTrack *track, float
     return blend;
 }
 
-/* Gives it the crease of its sweep, which has one, in `plane`, that of its ring. */
-void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, const MesoSweepPlane *plane);
+/* Gives it the crease of its sweep, which has one, whose ring bends by `bend`. */
+void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, MesoVec2 bend);
 
 /* A column at the ends of one sweep: a, b, and their normals. */
 typedef struct MesoSweepLine {
