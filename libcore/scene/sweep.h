@@ -17,8 +17,8 @@ MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind 
 /*
  * Gives a sweep that has all but that its mitre: the least, in eighths, with which no line along it runs backwards, but
  * a tenth as fast as the trajectory at least, or as near to that as can be; 0 where none runs backwards anyway; and
- * where some does with any, or its frame would flip, a crease, with the twist that it asks for. Columns of the kind reach
- * so far. O(1) where no bend is narrower than the section, and no frame flips, else O(columns).
+ * where some does with any, or its frame would flip, a crease, with the twist that it asks for. Columns of the kind
+ * reach so far. O(1) where no bend is narrower than the section, and no frame flips, else O(columns).
  */
 void meso_sweep_add_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoKindReach reach,
                           MesoSweepInstance *sweep);

@@ -130,24 +130,32 @@ static bool is_steady(const MesoScene *scene, const MesoSweepInstance *sweep)
     return shortest > 0 && 3 * sqrtf(step) < rounding * least_sine * PLACES * shortest;
 }
 
-/* Whether some bend is narrower than the section reaches, or the frame flips in some. */
-static bool is_narrow(const MesoScene *scene, const MesoSweepInstance *sweep, float reach)
+/* Whether some bend is narrower than the section reaches. */
+static bool is_narrow(const MesoSweepInstance *sweep, float reach)
 {
-    bool may_flip = scene->frame_rule == MESO_FRAME_PAPER;
-    MesoVec3 x = {0, 0, 0};
     for (uint32_t i = 0; i <= PLACES; i++) {
         float v = (float)i / PLACES;
         MesoVec3 first = meso_bezier_derivative(sweep->p, v);
         MesoVec3 bend = meso_vec3_cross(first, meso_bezier_second_derivative(sweep->p, v));
-        MesoVec3 next = paper_x(sweep, v, first);
         float square = meso_vec3_dot(first, first);
         if (!(reach * reach * meso_vec3_dot(bend, bend) < square * square * square))
             return true;
-        if (may_flip && i > 0 && is_flip(x, next))
-            return true;
-        x = next;
     }
     return false;
+}
+
+/* Whether the frame flips as drawn. */
+static bool flips_drawn(const MesoSweepInstance *sweep)
+{
+    bool any = false;
+    MesoVec3 x = paper_x(sweep, 0, meso_bezier_derivative(sweep->p, 0));
+    for (uint32_t i = 1; i <= PLACES && !any; i++) {
+        float v = (float)i / PLACES;
+        MesoVec3 next = paper_x(sweep, v, meso_bezier_derivative(sweep->p, v));
+        any = is_flip(x, next);
+        x = next;
+    }
+    return any;
 }
 
 /* How far the rim of a section goes aside as frames turn that are mitred, in parts of what the trajectory goes on. */
@@ -320,8 +328,9 @@ void meso_sweep_add_mitre(const MesoScene *scene, const MesoSweptKind *kind, Mes
 {
     float radius = sweep_reach(scene, sweep, reach);
     sweep->mitre = 0;
-    if ((is_wide(sweep, radius) && is_steady(scene, sweep)) || !is_narrow(scene, sweep, radius))
+    bool flip = !is_steady(scene, sweep) && flips_drawn(sweep);
+    if (!flip && (is_wide(sweep, radius) || !is_narrow(sweep, radius)))
         return;
-    if (!add_mitre(scene, kind, sweep) || flips(scene, sweep, radius))
+    if (flip || !add_mitre(scene, kind, sweep) || flips(scene, sweep, radius))
         add_crease(scene, kind, sweep);
 }
