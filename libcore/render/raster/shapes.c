@@ -8,66 +8,18 @@
 #include "libcore/scene/placed.h"
 #include "libcore/scene/sweep.h"
 
-/* ---- levels of detail ---- */
-
-static bool same_columns(const MesoShapeColumns *a, const MesoShapeColumns *b)
-{
-    return a->count == b->count && a->side_count == b->side_count && a->closed == b->closed &&
-           !a->stand_ins == !b->stand_ins && memcmp(a->kept, b->kept, a->count * sizeof *a->kept) == 0 &&
-           memcmp(a->sides, b->sides, a->side_count * sizeof *a->sides) == 0 &&
-           (!a->stand_ins || memcmp(a->stand_ins, b->stand_ins, a->count * sizeof *a->stand_ins) == 0);
-}
-
-/* Takes a finer level's arrays where they are the same. */
-static void share_columns(MesoShapeColumns *columns, const MesoShapeColumns *finer, MesoArena *arena,
-                          MesoArenaMark mark)
-{
-    float reach = columns->reach;
-    if (!same_columns(columns, finer))
-        return;
-    *columns = *finer;
-    columns->reach = reach;
-    meso_arena_rewind(arena, mark);
-}
+/* ---- sweeps ---- */
 
 static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *error)
 {
     const MesoScene *scene = shapes->scene;
-    MesoStatus status = MESO_OK;
-    size_t count = (size_t)scene->kind_count * MESO_SHAPE_LEVELS;
     shapes->details = MESO_NEW(arena, MesoKindDetail, scene->kind_count, error);
-    shapes->columns = MESO_NEW(arena, MesoShapeColumns, count * MESO_SHAPE_USES, error);
-    if (!shapes->details || !shapes->columns)
+    if (!shapes->details)
         return MESO_ERR_MEMORY;
-    for (uint32_t k = 0; k < scene->kind_count && !status; k++) {
-        const MesoSweptKind *kind = &scene->kinds[k];
-        shapes->details[k] = meso_kind_detail(scene, kind);
-        float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * shapes->details[k].stretch.most;
-        for (uint32_t i = 0; i < MESO_SHAPE_LEVELS * MESO_SHAPE_USES && !status; i++) {
-            uint32_t level = i / MESO_SHAPE_USES;
-            float tolerance = level == 0 ? 0 : shapes->finest * exp2f(0.5f * (float)level);
-            MesoShapeColumns *at = &shapes->columns[(size_t)k * MESO_SHAPE_LEVELS * MESO_SHAPE_USES + i];
-            MesoArenaMark mark = meso_arena_mark(arena);
-            status = meso_shape_columns(at, arena, scene, kind, scale, tolerance, i % MESO_SHAPE_USES, error);
-            if (!status && level > 0)
-                share_columns(at, at - MESO_SHAPE_USES, arena, mark);
-        }
-    }
-    return status;
-}
-
-static uint32_t level_for(const MesoShapes *shapes, float tolerance)
-{
-    if (!(tolerance > shapes->finest))
-        return 0;
-    float level = floorf(2 * log2f(tolerance / shapes->finest));
-    return level < MESO_SHAPE_LEVELS - 1 ? (uint32_t)level : MESO_SHAPE_LEVELS - 1;
-}
-
-static const MesoShapeColumns *columns_for(const MesoShapes *shapes, uint32_t kind, float tolerance, MesoShapeUse use)
-{
-    size_t level = (size_t)kind * MESO_SHAPE_LEVELS + level_for(shapes, tolerance);
-    return &shapes->columns[level * MESO_SHAPE_USES + use];
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        shapes->details[k] = meso_kind_detail(scene, &scene->kinds[k]);
+    shapes->columns = meso_shape_levels(arena, scene, shapes->details, shapes->finest, error);
+    return shapes->columns ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* ---- bodies ---- */
@@ -467,7 +419,7 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, co
 {
     const MesoScene *scene = &shapes->near;
     const MesoSweptKind *kind = &scene->kinds[k];
-    const MesoShapeColumns *columns = columns_for(shapes, k, tolerance, use);
+    const MesoShapeColumns *columns = meso_shape_level(shapes->columns, shapes->finest, k, tolerance, use);
     MesoSweepInstance instance = anchored(shapes, *sweep);
     MesoSweepBend bend = shapes->bends ? shapes->bends[number] : meso_detail_bend(kind, &shapes->details[k], &instance);
     uint32_t rings = meso_detail_bend_rings(kind, &shapes->details[k], bend, tolerance, use != MESO_SHAPE_SHADOW);
@@ -561,7 +513,7 @@ static void sweep_corners(const MesoShapes *shapes, uint32_t sweep, float tolera
 {
     static const uint32_t sides[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};   /* of ring and column */
     uint32_t k = kind_of(shapes, sweep), quad = triangle / 2;
-    const MesoShapeColumns *columns = columns_for(shapes, k, tolerance, MESO_SHAPE_SEEN);
+    const MesoShapeColumns *columns = meso_shape_level(shapes->columns, shapes->finest, k, tolerance, MESO_SHAPE_SEEN);
     MesoSweepInstance instance = anchored(shapes, meso_scene_sweep(shapes->scene, sweep));
     uint32_t rings = meso_detail_instance_rings(&shapes->scene->kinds[k], &shapes->details[k], &instance, tolerance,
                                                 true);

@@ -7,8 +7,7 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/render/raster/raster_view.h"
-#include "libcore/render/raster/shape_columns.h"
-#include "libcore/scene/detail.h"
+#include "libcore/render/raster/shape_levels.h"
 #include "libcore/scene/sweep_maker.h"
 
 enum { MESO_SHAPE_FACES = 128 };        /* of a body, at most */
@@ -18,9 +17,6 @@ typedef struct MesoShapeRun {
     uint32_t placed, face_begin, face_count;
     MesoBox box;
 } MesoShapeRun;
-
-/* Levels of detail: level l stays within finest * 2^(l / 2) of the kinds' own surfaces; 0 is all that there is. */
-enum { MESO_SHAPE_LEVELS = 40 };
 
 typedef struct MesoShapes {
     const MesoScene *scene;
