@@ -4,6 +4,65 @@
 #include "libcore/scene/cell.h"
 #include "libcore/scene/sweep_section.h"
 
+/* ---- sections ---- */
+
+MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind)
+{
+    float start = 0, end = 0;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        const MesoSweepColumn *column = &scene->columns[kind->column_begin + c];
+        float from = column->start.x * column->start.x + column->start.y * column->start.y;
+        float to = column->end.x * column->end.x + column->end.y * column->end.y;
+        start = from > start ? from : start;
+        end = to > end ? to : end;
+    }
+    return (MesoKindReach){sqrtf(start), sqrtf(end)};
+}
+
+MesoSweepTrack meso_sweep_track(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+{
+    bool creased = sweep->mitre >= MESO_CREASED;
+    float reach = creased ? meso_sweep_reach(scene, sweep, meso_sweep_kind_reach(scene, kind)) : 0;
+    return (MesoSweepTrack){.kind = kind, .sweep = sweep, .frames = meso_sweep_frames(scene->frame_rule, sweep),
+                            .back = meso_sweep_angle(-kind->turn),
+                            .middle = {meso_vec2_scale(kind->middle[0], sweep->size[0]),
+                                       meso_vec2_scale(kind->middle[1], sweep->size[1])},
+                            .reach = reach};
+}
+
+MesoSweepMeeting meso_sweep_meet_turned(const MesoSweepTrack *track, const MesoSweepBlend *blend,
+                                        const MesoSweepLine *line)
+{
+    const MesoVec2 *middle = track->middle;
+    MesoVec2 q0 = meso_vec2_sub(line->start, middle[0]);
+    MesoVec2 q1 = meso_sweep_turned(meso_vec2_sub(line->end, middle[1]), track->back);
+    MesoVec2 q = meso_sweep_turned(meso_vec2_lerp(q0, q1, blend->w), blend->turn);
+    MesoVec2 end_normal = meso_sweep_turned(line->end_normal, track->back);
+    MesoVec2 n = meso_sweep_turned(meso_vec2_lerp(line->start_normal, end_normal, blend->w), blend->turn);
+    MesoVec2 change = meso_vec2_add(meso_vec2_sub(middle[1], middle[0]),
+                                    meso_sweep_turned(meso_vec2_sub(q1, q0), blend->turn));
+    MesoVec2 at = meso_vec2_add(meso_vec2_lerp(middle[0], middle[1], blend->w), q);
+    float slope = change.x * n.x + change.y * n.y + track->kind->turn * meso_vec2_cross(q, n) +
+                  track->sweep->twist * meso_vec2_cross(at, n);
+    return (MesoSweepMeeting){meso_sweep_turned(at, blend->twist), meso_sweep_turned(n, blend->twist), slope};
+}
+
+/* Of the way to where rings meet: up to where sections may reach as they are, and what they never do. */
+static const float CREASE_FROM = 0.2f, CREASE_TO = 0.75f;
+
+void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, MesoVec2 bend)
+{
+    const float room = CREASE_TO - CREASE_FROM;
+    float length = meso_vec2_length(bend), reach = length * track->reach, over = (reach - CREASE_FROM) / room;
+    blend->kept = 1;
+    if (!(over > 0))
+        return;
+    blend->inwards = meso_vec2_scale(bend, 1 / length);
+    blend->kept = (CREASE_FROM + room * over / (1 + over)) / reach;
+}
+
+/* ---- vertices ---- */
+
 static inline MesoVec3 in_plane(const MesoSweepPlane *plane, MesoVec2 n)
 {
     return (MesoVec3){n.x * plane->x.x + n.y * plane->y.x, n.x * plane->x.y + n.y * plane->y.y,

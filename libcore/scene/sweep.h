@@ -3,16 +3,11 @@
 #define MESO_SWEEP_H
 
 #include "libcore/scene/scene.h"
+#include "libcore/scene/sweep_section.h"
 
 /* P of an instance of a swept kind, a cap too, at one of its columns, or one like them, and v in [0,1]. */
 MesoVec3 meso_sweep_point(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                           const MesoSweepColumn *column, float v);
-
-/* How far the columns of a kind lie from the trajectory at its ends, in units of the profiles. O(columns). */
-typedef struct MesoKindReach {
-    float start, end;
-} MesoKindReach;
-MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind);
 
 /*
  * Gives a sweep that has all but that its mitre: the least, in eighths, with which no line along it runs backwards, but

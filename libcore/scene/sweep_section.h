@@ -19,6 +19,18 @@ static inline MesoVec2 meso_sweep_turned(MesoVec2 p, MesoSweepAngle angle)
     return (MesoVec2){angle.c * p.x - angle.s * p.y, angle.s * p.x + angle.c * p.y};
 }
 
+/* How far the columns of a kind lie from the trajectory at its ends, in units of the profiles. O(columns). */
+typedef struct MesoKindReach {
+    float start, end;
+} MesoKindReach;
+MesoKindReach meso_sweep_kind_reach(const MesoScene *scene, const MesoSweptKind *kind);
+
+/* How far the sections of a sweep lie from its trajectory, whose kind reaches so far: section_scale R. */
+static inline float meso_sweep_reach(const MesoScene *scene, const MesoSweepInstance *sweep, MesoKindReach reach)
+{
+    return scene->section_scale * fmaxf(sweep->size[0] * reach.start, sweep->size[1] * reach.end);
+}
+
 /* What the sections of one sweep share. */
 typedef struct MesoSweepTrack {
     const MesoSweptKind *kind;

@@ -238,7 +238,7 @@ MesoStatus meso_mesh_turn(MesoPolygonMesh *mesh, MesoArena *arena, MesoArena *sc
         status = meso_mesh_copies_build(mesh, arena, from, &copies, error);
     for (uint32_t a = 0; !status && a < mesh->attribute_count; a++)
         if (is_normal(&mesh->attributes[a]))
-            status = turn_normals(mesh, &mesh->attributes[a], turning->faces, turning->vertex_count > from->vertex_count,
-                                  arena, scratch, error);
+            status = turn_normals(mesh, &mesh->attributes[a], turning->faces,
+                                  turning->vertex_count > from->vertex_count, arena, scratch, error);
     return status;
 }

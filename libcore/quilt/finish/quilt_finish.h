@@ -30,8 +30,8 @@ typedef struct MesoFinishOptions {
  *   middle. So no edge is open on a closed surface, and with open_borders only those along borders.
  * - Pieces of strands no longer than about one and a half times the reach of their section are left out: those whose
  *   points are nowhere further apart than 2.5 times the largest reach of their swatch element's open ends.
- * - Strands come back to the heights that the swatch has them at, but for what joins need of them; whole elements beside
- *   them, all the way.
+ * - Strands come back to the heights that the swatch has them at, but for what joins need of them; whole elements
+ *   beside them, all the way.
  * - Where they run through each other, strands that cross go over and under, and others lie side by side: as far as their
  *   sections need, and not where strands of the swatch lie in each other.
  * - Vertices have triangles and weights of the original that `base` comes from.

@@ -29,9 +29,10 @@ typedef struct MesoShapeColumns {
 /*
  * Columns within `tolerance` (scene units; 0: all) of the kind's own, with `scale` scene units to a unit of the
  * profiles. To be seen and to be looked at there are the same sides, but columns that lie where others do, as at
- * corners, are kept to be looked at alone. Columns that stand for others are moved out of the bend, so that a section is
- * as wide as the kind's, seen from any side, in the mean. A loop that is not larger than the tolerance throws its shadow as two or
- * three bands across it. Lives in `arena`. O(columns * those that a column may stand for). MESO_ERR_MEMORY alone.
+ * corners, are kept to be looked at alone. Columns that stand for others are moved out of the bend, so that a section
+ * is as wide as the kind's, seen from any side, in the mean. A loop that is not larger than the tolerance throws its
+ * shadow as two or three bands across it. Lives in `arena`. O(columns * those that a column may stand for).
+ * MESO_ERR_MEMORY alone.
  */
 MesoStatus meso_shape_columns(MesoShapeColumns *columns, MesoArena *arena, const MesoScene *scene,
                               const MesoSweptKind *kind, float scale, float tolerance, MesoShapeUse use,

@@ -431,7 +431,8 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, co
     if (seen)
         find_wanted(mesh, seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .stand_ins = columns->stand_ins,
-                                .column_count = columns->count, .ring_count = rings, .bare = use != MESO_SHAPE_WHOLE, .wanted = seen ? mesh->wanted : NULL};
+                                .column_count = columns->count, .ring_count = rings, .bare = use != MESO_SHAPE_WHOLE,
+                                .wanted = seen ? mesh->wanted : NULL};
     meso_sweep_grid(scene, kind, &instance, &grid, mesh->vertices);
     return true;
 }

@@ -97,7 +97,7 @@ bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, 
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh);
 
-/* Makes it to be looked at, but for vertices of no triangle of which `seen` [triangles] is not 0: those are anything. */
+/* Makes it to be looked at; vertices of no triangle of which `seen` [triangles] is not 0 are anything. */
 bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolerance, const uint8_t *seen,
                           MesoShapeMesh *mesh);
 void meso_shape_mesh_release(MesoShapeMesh *mesh);
