@@ -1,6 +1,6 @@
 # Pictures that come in bands of rows have the bytes of the whole, whatever the bands' height; also by way of standard
 # output, and where a band has half of a tile's rows.
-render() { meso-render -q --size 40x90 "$@" "$fixtures/vase.meso"; }
+render() { meso-render -q --visibility tiles --size 40x90 "$@" "$fixtures/vase.meso"; }
 for samples in 1 4; do
     render --samples $samples --aov all --ground shadow -o p.exr --png p.png
     mv p.exr whole.exr

@@ -7,7 +7,7 @@ cat >vase.camera.json <<END
   {"frame": 5, "eye": [3, 1, 3], "fov": 50},
   {"frame": 9, "eye": [4, 1, 0]}]}
 END
-small='--size 40x30 --samples 1'
+small='--visibility tiles --size 40x30 --samples 1'
 meso-render $small --turntable 4 vase.meso -o turn-%04d.png
 ls turn-*.png
 meso-render -q $small --turntable 4 --frames 3 vase.meso -o one-%d.png

@@ -1,6 +1,6 @@
 # A model whose sweeps are made when they are wanted has the picture of the one that is read whole, on any number of
 # threads: with all that is in it, from within, and with motion.
-render() { meso-render -q --size 32x20 "$@" -o p.exr; }
+render() { meso-render -q --visibility tiles --size 32x20 "$@" -o p.exr; }
 # same THREADS OPTIONS...
 same() {
     threads=$1
@@ -22,7 +22,7 @@ for number in 1 2; do
         -o swell-$number.meso
 done
 for stored in 0 1; do
-    meso-render -q --size 32x20 --samples 1 --aov motion --frames 1 --stored-sweeps $stored swell-%d.meso \
-        -o swell-%d-$stored.exr
+    meso-render -q --visibility tiles --size 32x20 --samples 1 --aov motion --frames 1 --stored-sweeps $stored \
+        swell-%d.meso -o swell-%d-$stored.exr
 done
 cmp swell-1-0.exr swell-1-1.exr

@@ -1,6 +1,6 @@
 # Pictures under little memory: the right bytes, or one line and status 33. Nothing else, and nothing left behind.
 cp "$fixtures/vase.meso" .
-meso-render -q --threads 2 --size 160x120 vase.meso -o x.png
+meso-render -q --visibility tiles --threads 2 --size 160x120 vase.meso -o x.png
 mv x.png plain.png
 
 # try KIND MEGABYTES: under that limit, of v (addresses) or d (data).
@@ -10,7 +10,7 @@ try() (
     # Where the libraries do not fit, or a sanitizer's own memory, there is no tool.
     meso-render --version >/dev/null 2>&1 || exit 0
     status=0
-    timeout 60 meso-render -q --threads 2 --size 160x120 vase.meso -o x.png 2>said || status=$?
+    timeout 60 meso-render -q --visibility tiles --threads 2 --size 160x120 vase.meso -o x.png 2>said || status=$?
     case $status in
     0) cmp plain.png x.png ;;
     33) [ "$(wc -l <said)" = 1 ] && grep -q memory said && [ ! -e x.png ] ;;

@@ -4,9 +4,9 @@ render() { meso-render -q --size 240x300 --samples 1 "$@" "$model"; }
 # field CHANNEL KEY
 field() { tr -d ' \n' <beside.json | sed 's/{"name"/\n&/g' | sed -n "s/^{\"name\":\"$1\".*\"$2\":\([^,}]*\).*/\1/p"; }
 
-render -o tiles.exr
+render --visibility tiles -o tiles.exr
 render --visibility gl -o gl.exr
-render --eye 0,2,9 -o other.exr
+render --visibility tiles --eye 0,2,9 -o other.exr
 
 echo "== itself"
 meso-info --compare tiles.exr tiles.exr | grep -c '"differing": 0,'

@@ -1,6 +1,6 @@
 # EXRs of several parts, and with a data window of what is there, as other programs read them; numbers of frames.
 cp "$fixtures/vase.meso" .
-render() { meso-render -q --size 60x50 --samples 1 --aov all "$@"; }
+render() { meso-render -q --visibility tiles --size 60x50 --samples 1 --aov all "$@"; }
 render vase.meso -o full.exr
 render --multipart vase.meso -o parts.exr
 render --data-window tight vase.meso -o tight.exr
@@ -35,9 +35,11 @@ cmp ground.exr whole.exr
 render --data-window tight --eye 0,0,9 --target 0,0,19 vase.meso -o none.exr 2>/dev/null
 exrheader none.exr | grep '^dataWindow'
 
-meso-render -q --size 32x32 --samples 1 --turntable 4 --frames 3 --fps 30000/1001 --multipart vase.meso -o f-%d.exr
+meso-render -q --visibility tiles --size 32x32 --samples 1 --turntable 4 --frames 3 --fps 30000/1001 --multipart vase.meso \
+    -o f-%d.exr
 exrheader f-3.exr | grep -E 'imageCounter|framesPerSecond' | sort | uniq -c | sed 's/^ *//'
-meso-render --size 32x32 --samples 1 --turntable 4 --frames 3 --fps 30000/1001 --multipart --resume vase.meso -o f-%d.exr
+meso-render --visibility tiles --size 32x32 --samples 1 --turntable 4 --frames 3 --fps 30000/1001 --multipart --resume \
+    vase.meso -o f-%d.exr
 exrheader full.exr | grep -c -E 'imageCounter|framesPerSecond'
 for fps in 0 x 24/ 24/0 24/1/2 -1; do
     meso-render --fps $fps vase.meso -o no.exr || echo "status $?"

@@ -8,7 +8,7 @@ mkdir one two
     for kind in ply obj drc glb; do
         meso-map -q --divisions 5 vase.meso -o mesh.$kind
     done
-    meso-render -q --size 40x30 vase.meso -o vase.exr --png vase.png
+    meso-render -q --visibility tiles --size 40x30 vase.meso -o vase.exr --png vase.png
 )
 (
     cd two
@@ -30,7 +30,8 @@ mkdir one two
         # Without a name there is no file of materials to go with it.
         [ $kind != obj ] || meso-map -q ../two/vase.meso --divisions 5 -o ./mesh.obj
     done
-    meso-render -q ./vase.meso --fov 30 --samples 4 --ground none --size 40x30 --to exr -o - --png vase.png >vase.exr
+    meso-render -q --visibility tiles ./vase.meso --fov 30 --samples 4 --ground none --size 40x30 --to exr \
+        -o - --png vase.png >vase.exr
     grep '"command"' out/*.json
     rm -r out
 )

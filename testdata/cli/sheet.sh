@@ -1,6 +1,6 @@
 # A sheet of a tile set has every tile, its interfaces and names on it; what is refused.
 cp "$fixtures/vase.tiles.json" "$fixtures/vase.obj" .
-meso-render --size 200x130 --samples 1 --aov cryptomatte --tiles vase.tiles.json -o sheet.exr --png sheet.png --json=said
+meso-render --visibility tiles --size 200x130 --samples 1 --aov cryptomatte --tiles vase.tiles.json -o sheet.exr --png sheet.png --json=said
 exrheader sheet.exr | grep 'manifest.*plain"' | tr ',{}' '\n' | sed -n 's/^"\(.*\)":.*/\1/p'
 grep -c '"tiles"' said
 meso-render -q --size 200x130 --samples 1 --turntable 4 --frames 2 --tiles vase.tiles.json -o turn-%d.png
