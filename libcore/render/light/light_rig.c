@@ -6,11 +6,6 @@ static const MesoLightColors COLORS = {.key = {3.3f, 3, 2.58f}, .rim = {0.62f, 0
                                        .sky = {0.4f, 0.47f, 0.56f}, .ground = {0.23f, 0.2f, 0.17f},
                                        .window = {0.8f, 0.74f, 0.65f}};
 
-/* Places around one of the ground at which the sky's light is asked for, and the key light's: how far out, in radii of
- * the scene. */
-enum { GROUND_TAPS = 6 };
-static const float GROUND_SPREAD = 0.035f, GROUND_KEY_SPREAD = 0.012f;
-
 /* How fast light of a map fades to directions around it: the one next to it gets a fifth. */
 static const float SKY_SHARPNESS = 3;
 
@@ -331,37 +326,4 @@ void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *s, float radia
     }
     if (openness)
         *openness = open;
-}
-
-/* ---- the ground ---- */
-
-static float luminance(const float color[3])
-{
-    return 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
-}
-
-float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p)
-{
-    MesoVec3 from = meso_vec3_sub(p, rig->middle);
-    float far = meso_vec3_length(from) / rig->radius, fade = 1 - smoothstep(2, 4, far);
-    if (fade == 0)
-        return 0;
-    float sky[3] = {0}, key = 0, facing = fmaxf(meso_vec3_dot(rig->up, rig->to_key), 0);
-    MesoVec3 across = fabsf(rig->up.x) < 0.9f ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 0, 1};
-    MesoVec3 x = meso_vec3_unit(meso_vec3_cross(across, rig->up), across), y = meso_vec3_cross(rig->up, x);
-    /* Steps of light that a strand hides, and a plane shows, are spread over a few texels. */
-    for (uint32_t i = 0; i < GROUND_TAPS; i++) {
-        float part[3], r = rig->radius * sqrtf(((float)i + 0.5f) / GROUND_TAPS), a = GOLDEN_ANGLE * (float)i;
-        MesoVec3 aside = meso_vec3_mad(meso_vec3_scale(x, r * cosf(a)), r * sinf(a), y);
-        const MesoLitSurface for_sky = {.position = meso_vec3_mad(p, GROUND_SPREAD, aside), .normal = rig->up};
-        const MesoLitSurface for_key = {.position = meso_vec3_mad(p, GROUND_KEY_SPREAD, aside), .normal = rig->up};
-        sky_light(rig, &for_sky, part, NULL);
-        key += key_light(rig, &for_key) / GROUND_TAPS;
-        for (int c = 0; c < 3; c++)
-            sky[c] += part[c] / GROUND_TAPS;
-    }
-
-    float from_key = luminance(rig->colors.key) / PI * facing;
-    float whole = from_key + luminance(rig->open_sky), left = from_key * key + luminance(sky);
-    return whole > 0 ? fade * fmaxf(1 - left / whole, 0) : 0;
 }

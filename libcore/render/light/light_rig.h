@@ -75,7 +75,4 @@ typedef struct MesoLitSurface {
 /* Radiance to the eye; `openness`, which may be NULL, gets the share of the sky that is seen. */
 void meso_light_on(const MesoLightRig *rig, const MesoLitSurface *surface, float radiance[3], float *openness);
 
-/* Share of the light on the ground at `p` that what stands on it takes away; 0 far from it. */
-float meso_light_ground_shadow(const MesoLightRig *rig, MesoVec3 p);
-
 #endif

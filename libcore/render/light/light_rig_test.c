@@ -3,7 +3,7 @@
  * lights what faces it as the formula says, casts its shadow, and turns with the map; the sky's directions have the
  * map's colours.
  */
-#include "libcore/render/light/light_rig.h"
+#include "libcore/render/light/ground_shadow.h"
 
 #include "libcore/base/check.h"
 
@@ -131,8 +131,10 @@ static void test_bright(const Ball *b)
     }
     /* on the ground its shadow lies on the other side */
     MesoVec3 foot = meso_vec3_scale(toward, -0.5f / toward.y);
-    CHECK(meso_light_ground_shadow(&rig, foot) > 0.8f);
-    CHECK(meso_light_ground_shadow(&rig, (MesoVec3){-1, -0.5f, 0.5f}) < 0.05f);
+    MesoGroundShadow shadow;
+    CHECK(meso_ground_shadow_init(&shadow, &arena, &rig, 1, &error) == MESO_OK);
+    CHECK(meso_ground_shadow_at(&shadow, foot) > 0.8f);
+    CHECK(meso_ground_shadow_at(&shadow, (MesoVec3){-1, -0.5f, 0.5f}) < 0.05f);
 
     /* Turned, it is elsewhere; seen from elsewhere, it is not. */
     MesoEnvironment turned = make_environment(toward, cosine, 200, 1e-4f, 90);

@@ -2,7 +2,7 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/render/gl/gl_visibility.h"
-#include "libcore/render/light/light_rig.h"
+#include "libcore/render/light/ground_shadow.h"
 #include "libcore/render/light/vary.h"
 #include "libcore/render/picture/covered.h"
 #include "libcore/render/picture/motion.h"
@@ -30,6 +30,7 @@ struct MesoPainter {
     MesoView view;
     MesoRasterView raster;
     MesoLightRig rig;
+    MesoGroundShadow ground;    /* where one is asked for */
     uint32_t varied;            /* channel whose things differ in colour, or MESO_NO_INDEX */
     MesoRasterJob job;
     MesoRasterBins *bins;
@@ -146,7 +147,7 @@ static void shade_ground(const Picture *p, float x, float y, float share, float 
     float height = meso_vec3_dot(ray.origin, p->rig.up) - p->rig.ground, fall = meso_vec3_dot(ray.direction, p->rig.up);
     if (!(height > 0 && fall < 0))
         return;
-    color[3] += share * meso_light_ground_shadow(&p->rig, meso_vec3_mad(ray.origin, -height / fall, ray.direction));
+    color[3] += share * meso_ground_shadow_at(&p->ground, meso_vec3_mad(ray.origin, -height / fall, ray.direction));
 }
 
 /* The variables of the pixel's middle. */
@@ -419,6 +420,8 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
         status = meso_light_rig_init(&p->rig, arena, &p->shapes, &p->view,
                                      meso_vec3_unit(options->up, meso_vec3_unit(options->camera.up, p->view.up)),
                                      options->environment, &quality, p->thread_count, error);
+    if (!status && options->ground)
+        status = meso_ground_shadow_init(&p->ground, arena, &p->rig, p->thread_count, error);
     p->raster = meso_raster_view(&p->view, options->width, options->height, near_depth_of(&p->view, &scene->box));
     p->job = (MesoRasterJob){
         .shapes = &p->shapes, .view = p->raster, .width = options->width, .height = options->height,
