@@ -15,13 +15,13 @@ enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
  * Blocks of that size come from the system, and go back to it: malloc() would keep what it once had, in pieces that
  * nothing else fits into.
  */
-enum { MAPPED_SIZE = 1 << 21 };
+enum { MAPPED_SIZE = 1 << 19 };
 
 /*
- * Pages of large blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. Of so many
- * pages on a block is whole ones: then Linux lays it along them, and none at its ends are small.
+ * Pages of such blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. A block is
+ * whole ones: then Linux lays it along them, and none at its ends are small. What is left of the last is room for more.
  */
-enum { LARGE_PAGE = 1 << 21, WHOLE_PAGES = 16 };
+enum { LARGE_PAGE = 1 << 21 };
 
 struct MesoArenaBlock {
     MesoArenaBlock *previous;
@@ -57,7 +57,7 @@ static MesoArenaBlock *take_room(size_t size)
 {
     if (size < MAPPED_SIZE)
         return calloc(1, size);
-    if (size >= (size_t)WHOLE_PAGES * LARGE_PAGE && size <= SIZE_MAX - LARGE_PAGE)
+    if (size <= SIZE_MAX - LARGE_PAGE)
         size = (size + LARGE_PAGE - 1) & ~(size_t)(LARGE_PAGE - 1);
     MesoArenaBlock *block = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (block == MAP_FAILED)
@@ -76,7 +76,7 @@ static MesoArenaBlock *new_block(size_t size)
     if (!block)
         return NULL;
     block->data = (unsigned char *)round_up((uintptr_t)block + header);
-    block->size = size;
+    block->size = block->mapped ? block->mapped - header - ALIGNMENT : size;
     return block;
 }
 

@@ -69,6 +69,19 @@ static void test_arena_clear(void)
     CHECK(arena.head == NULL && arena.used == 0);
 }
 
+/* What is left of a large block's last page is room for more. */
+static void test_arena_pages(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    unsigned char *first = MESO_NEW(&arena, unsigned char, 1 << 20, NULL);
+    MesoArenaBlock *block = arena.head;
+    unsigned char *second = MESO_NEW(&arena, unsigned char, 1 << 19, NULL);
+    CHECK(first && second == first + (1 << 20) && arena.head == block && second[(1 << 19) - 1] == 0);
+    CHECK(MESO_NEW(&arena, unsigned char, 1 << 20, NULL) && arena.head != block);
+    meso_arena_release(&arena);
+}
+
 static void test_error(void)
 {
     MesoError error;
@@ -198,6 +211,7 @@ int main(void)
 {
     test_arena();
     test_arena_clear();
+    test_arena_pages();
     test_error();
     test_random();
     test_bits();
