@@ -74,7 +74,7 @@ static void grow(const MesoGrammar *grammar)
 {
     double state[MESO_STATE_COUNT] = {0};
     Nowhere nowhere = {grammar, 0};
-    const MesoGrowthHost host = {&nowhere, state, look_nowhere};
+    const MesoGrowthHost host = {.context = &nowhere, .state = state, .look = look_nowhere};
     double *registers = malloc(grammar->register_count * sizeof *registers);
     check(registers && grammar->seed_count > 0);
     memset(registers, 0xff, grammar->register_count * sizeof *registers);

@@ -43,7 +43,7 @@ static void begin_branches(MesoGrowthWork *work, const MesoGrowthWindow *window,
         const MesoGrowthShoot *shoot = &batch->shoots[turn->shoot_begin + i];
         uint32_t branch = turn->branch_begin + i, since = branch - window->first_branch;
         MesoGrowthTip *tip = &work->tips[window->first_tip + since];
-        *tip = *parent;
+        memmove(tip, parent, sizeof *tip);  /* by a call: what compilers make of an assignment is slow to begin */
         tip->at = shoot->at;
         meso_growth_restart(&tip->run, shoot->entry, shoot->key);
         tip->state[MESO_STATE_DEPTH]++;
@@ -174,6 +174,36 @@ static void begin_rule(const MesoGrowthWork *work, uint32_t number, const MesoGr
     tip->rests = true;
 }
 
+static void end_turn(const MesoGrowthWork *work, uint32_t number, const MesoGrowthCommand *command)
+{
+    if (command->order == MESO_GROWTH_RULE)
+        begin_rule(work, number, command);
+    else if (command->order == MESO_GROWTH_END)
+        work->tips[number].ended = true;
+}
+
+/*
+ * The next turn of a branch, as soon as the last is done, where all it comes to is the end of the rule: nothing depends
+ * on when that is, and so there is no turn to it. Anything else is left to the turn.
+ */
+static void end_rule_early(const MesoGrowthWork *work, uint32_t number, MesoGrowthCommand *command)
+{
+    MesoGrowthTip *tip = &work->tips[number];
+    uint32_t at = tip->run.stepped && !tip->done ? tip->run.refused : tip->run.at;
+    if (!work->ahead || tip->rests || tip->ended || (at != MESO_NO_INDEX && work->ahead[at] != MESO_AHEAD_END))
+        return;
+    double registers[MESO_GRAMMAR_REGISTERS];
+    uint32_t width = work->grammar->local_count;
+    const MesoGrowthHost host = {.state = tip->state};
+    MesoGrowthRun run = tip->run;
+    meso_copy_registers(registers, work->registers + (size_t)number * width, width);
+    meso_growth_resume(command, work->grammar, &run, registers, &host, tip->done);
+    if (command->order != MESO_GROWTH_RULE && command->order != MESO_GROWTH_END)
+        return;
+    tip->done = true;
+    end_turn(work, number, command);
+}
+
 static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t number,
                         const MesoGrowthTurn *turn)
 {
@@ -189,17 +219,16 @@ static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, ui
     else if (turn->outcome == MESO_GROWTH_REFUSED)
         tip->done = false;
     tell(work, tip, turn);
-    if (turn->command.order == MESO_GROWTH_RULE)
-        begin_rule(work, number, &turn->command);
-    else if (turn->command.order == MESO_GROWTH_END)
-        tip->ended = true;
+    end_turn(work, number, &turn->command);
 }
 
 void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t begin, uint32_t end)
 {
+    MesoGrowthCommand command = {0};
     for (uint32_t i = begin; i < end; i++) {
         uint32_t at = window->begin + i, number = work->active[at];
         accept_turn(work, window, number, &window->turns[i]);
+        end_rule_early(work, number, &command);
         work->goes_on[at] = !work->tips[number].rests && !work->tips[number].ended;
     }
 }

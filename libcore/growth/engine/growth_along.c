@@ -32,7 +32,7 @@ static bool holds_at(Along *along, const MesoTip *at, double length)
     state[MESO_STATE_Y] = position.y;
     state[MESO_STATE_Z] = position.z;
     MesoGrowthAsking asking = {along->work, along->batch, along->tip, along->turn, at};
-    const MesoGrowthHost host = {&asking, state, meso_growth_look};
+    const MesoGrowthHost host = {.context = &asking, .state = state, .look = meso_growth_look};
     return meso_growth_value(along->work->grammar, &along->tip->run, along->turn->command.condition, along->registers,
                              &host) != 0;
 }

@@ -76,21 +76,45 @@ bool meso_growth_rules_look(const MesoGrammar *grammar)
     return false;
 }
 
-static bool is_true(const MesoGrammar *grammar, uint16_t operand)
-{
-    return operand & MESO_CONSTANT_OPERAND && operand != MESO_NO_REGISTER &&
-           grammar->constants[operand & (MESO_CONSTANT_OPERAND - 1)] != 0;
-}
-
 bool meso_growth_steps_clear(const MesoGrammar *grammar)
 {
     for (uint32_t i = 0; i < grammar->code_count; i++) {
         const MesoGrammarInstruction *code = &grammar->code[i];
-        bool gives = code->operation == MESO_OP_VALUE || code->operation == MESO_OP_VALUE_PRODUCT;
+        bool gives = code->operation == MESO_OP_VALUE || code->operation == MESO_OP_VALUE_CONSTANT ||
+                     code->operation == MESO_OP_VALUE_PRODUCT;
         if (gives && code->to == MESO_GROWTH_CLEAR)
             return true;
     }
     return false;
+}
+
+/* Where code can come to from an instruction, as far as it is known from where those lead that may be next. */
+static uint8_t leads_to(const MesoGrammar *grammar, uint32_t at, const uint8_t *ahead)
+{
+    const MesoGrammarInstruction *code = &grammar->code[at];
+    uint8_t next = at + 1 < grammar->code_count ? ahead[at + 1] : 0;
+    switch (code->operation) {
+    case MESO_OP_RULE: case MESO_OP_END: return MESO_AHEAD_END;
+    case MESO_OP_LOOK: return MESO_AHEAD_LOOK;
+    case MESO_OP_JUMP: return ahead[code->target];
+    case MESO_OP_JUMP_UNLESS: case MESO_OP_JUMP_UNLESS_LESS: case MESO_OP_JUMP_IF: case MESO_OP_LOOP:
+        return next | ahead[code->target];
+    case MESO_OP_RESULT: case MESO_OP_STEP: case MESO_OP_MOVE: case MESO_OP_TURN: case MESO_OP_FACE:
+    case MESO_OP_PLACE: case MESO_OP_BRANCH: return 0;
+    default: return next;
+    }
+}
+
+void meso_growth_look_ahead(const MesoGrammar *grammar, uint8_t *ahead)
+{
+    for (bool found = true; found;) {
+        found = false;
+        for (uint32_t i = grammar->code_count; i-- > 0;) {
+            uint8_t leads = leads_to(grammar, i, ahead);
+            found |= leads != ahead[i];
+            ahead[i] = leads;
+        }
+    }
 }
 
 bool meso_growth_steps_avoid(const MesoGrammar *grammar)
@@ -98,8 +122,8 @@ bool meso_growth_steps_avoid(const MesoGrammar *grammar)
     bool crosses = false;
     for (uint32_t i = 0; i < grammar->code_count; i++) {
         const MesoGrammarInstruction *code = &grammar->code[i];
-        if (code->operation == MESO_OP_VALUE && code->to == MESO_GROWTH_CROSS)
-            crosses = is_true(grammar, code->a);
+        if (code->operation == MESO_OP_VALUE_CONSTANT && code->to == MESO_GROWTH_CROSS)
+            crosses = grammar->constants[code->target] != 0;
         if (code->operation == MESO_OP_STEP && !crosses)
             return true;
         if (code->operation >= MESO_OP_STEP)

@@ -69,6 +69,9 @@ static MesoStatus begin(MesoGrowthWork *work)
     for (uint32_t i = 0; i < (work->team ? 2 : 1); i++)
         begin_window(work, &work->windows[i]);
     work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);
+    work->ahead = options->event ? NULL : allocate(work, work->grammar->code_count, sizeof *work->ahead);
+    if (work->ahead)
+        meso_growth_look_ahead(work->grammar, work->ahead);
     if (!work->status && work->uses_space)
         work->status = meso_growth_space_init(&work->space, work->ground, work->error);
     for (uint32_t i = 0; !work->status && i < options->starts->count; i++)
@@ -99,7 +102,8 @@ static void release_window(const MesoGrowthWork *work, MesoGrowthWindow *window)
 void meso_growth_release(MesoGrowthWork *work)
 {
     void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->balls, work->joints,
-                            work->points, work->elements, work->branches, work->rules, work->goes_on};
+                            work->points, work->elements, work->branches, work->rules, work->goes_on,
+                            work->ahead};
     meso_team_end(work->team);
     for (uint32_t i = 0; i < 2; i++)
         release_window(work, &work->windows[i]);

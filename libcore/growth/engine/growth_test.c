@@ -1,9 +1,10 @@
 /*
- * Growth by what it promises: joints, threads, edits, limits, conditions, and meshes that are none.
+ * Growth by what it promises: joints, threads, ends of rules, edits, limits, conditions, and meshes that are none.
  *
  *   growth_test [MESHES]    so many broken meshes alone
  */
 #include "libcore/growth/engine/growth_fixture.h"
+#include "libcore/growth/engine/growth_work.h"
 
 static const char ivy[] =
     "meso-grow 1\nparam lean = 12 deg\nshape cord = tube\nshape dot = bead\nlimit elements 4000\n"
@@ -79,6 +80,82 @@ static void test_windows(void)
     CHECK(one.generation_count > 1 && one.rules[0].steps > 2048 && one.rules[0].branches > 1000);
     CHECK(one.rules[1].placed > 50 && are_same(&one, &two));
     meso_scenery_release(&scenery);
+}
+
+/* ---- ends of rules ---- */
+
+/* What is ahead where the code for a line begins, and after its first command. */
+static void test_ahead(void)
+{
+    MesoGrowthScenery scenery;
+    uint8_t ahead[100] = {0};
+    prepare(&scenery, meso_fixture_sheet(4, 4, 1),
+            "meso-grow 1\nmap m1 = attribute(\"a\")\nseed A() on vertices\n"
+            "rule A() -> {\n"
+            "  if chance(0.5) { B() }\n"
+            "  step(1 m)\n"
+            "  if m1 > 0.5 { move(1 m) }\n"
+            "}\nrule B() -> step(1 m)\n", 1);
+    const MesoGrammar *grammar = &scenery.grammar;
+    CHECK(grammar->code_count <= 100);
+    meso_growth_look_ahead(grammar, ahead);
+    bool seen[10] = {false};
+    for (uint32_t i = 0; i < grammar->code_count; i++) {
+        uint32_t line = grammar->lines[i];
+        if (line == 5 && !seen[5])
+            CHECK(ahead[i] == MESO_AHEAD_END);
+        if (line == 6 && !seen[6])
+            CHECK(ahead[i] == 0);
+        if (line == 7 && !seen[7])
+            CHECK(ahead[i] == MESO_AHEAD_LOOK);
+        seen[line] = true;
+    }
+    CHECK(seen[5] && seen[6] && seen[7] && ahead[grammar->code_count - 1] == MESO_AHEAD_END);
+    meso_scenery_release(&scenery);
+}
+
+/* Rules that end, begin another or are refused right after a walk, or after a draw, a look or a turn, as when told. */
+static void test_early_ends(void)
+{
+    MesoGrowthScenery scenery;
+    prepare(&scenery, meso_fixture_bumpy_torus(60, 30),
+            "meso-grow 1\nmap m1 = attribute(\"a\")\nlimit elements 3000\nseed A(1) on vertices\n"
+            "rule A(n) -> { turn(normal(0, 20 deg)) step(4 cm, width: 2 mm) else B(n)\n"
+            " choose { 6: A(n + 1) 1: { branch { turn(50 deg) A(1) } A(0.5*n) } 1: B(n) 1: stop } }\n"
+            "rule B(n) -> { move(1 mm) turn(80 deg) step(2 cm, width: 1 mm, cross: true)\n"
+            " if n > 3 and m1 > 0.5 and chance(0.7) { turn(80 deg) A(n) } }\n", 400);
+    MesoGrown one = meso_scenery_grow(&scenery, &scenery.arena, 1);
+    MesoGrown two = meso_scenery_grow(&scenery, &scenery.arena, 2);
+    uint32_t counts[MESO_GROWTH_FAULT + 1] = {0};
+    MesoGrown told;
+    MesoGrowthOptions options = meso_scenery_options(&scenery, 1);
+    options.event = count_event;
+    options.context = counts;
+    CHECK(!meso_grow(&told, &scenery.arena, &options, NULL));
+    CHECK(one.element_count > 2900 && one.rules[0].refused > 100 && one.rules[1].steps > 100);
+    CHECK(are_same(&one, &told) && are_same(&two, &told));
+    CHECK(memcmp(one.rules, told.rules, 2 * sizeof *one.rules) == 0);
+    meso_scenery_release(&scenery);
+}
+
+/* ---- memory ---- */
+
+/* What is in an array stays in it as it moves; large ones are whole pages. */
+static void test_room(void)
+{
+    uint64_t *array = NULL;
+    uint32_t room = 0, moves = 0;
+    for (uint32_t i = 0; i < 3000000; i++) {
+        uint32_t before = room;
+        CHECK(meso_make_room((void **)&array, &room, (uint64_t)i + 1, sizeof *array) && room > i);
+        moves += room != before;
+        CHECK(room == before || room < 50000 || (room * sizeof *array) % (1 << 21) == 0);
+        array[i] = i;
+    }
+    for (uint32_t i = 0; i < 3000000; i++)
+        CHECK(array[i] == i);
+    CHECK(moves < 6);
+    free(array);
 }
 
 /* ---- joints ---- */
@@ -368,6 +445,9 @@ int main(int argc, char **argv)
     }
     test_threads();
     test_windows();
+    test_ahead();
+    test_early_ends();
+    test_room();
     test_joints();
     test_tangents();
     test_depth("tube", 1, 0.03f, true);

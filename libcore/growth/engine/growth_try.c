@@ -23,6 +23,18 @@ static void face(const MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrowt
     meso_growth_face(work->options->contexts, command->field, command->values[MESO_GROWTH_AMOUNT], draw, &tip->at);
 }
 
+/* A rule under way. */
+typedef struct Running {
+    MesoGrowthAsking asking;    /* first: it is what look-ups have as their context */
+    MesoTip *at;
+} Running;
+
+static void turn_tip(void *context, double angle)
+{
+    const Running *running = context;
+    meso_tip_turn(running->at, angle);
+}
+
 /* A branch that begins, with a copy of the registers. */
 static void shoot(const MesoGrowthWork *work, MesoGrowthBatch *batch, const MesoGrowthTip *tip,
                   const double *registers, MesoGrowthTurn *turn)
@@ -45,8 +57,8 @@ static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGro
                      MesoGrowthTurn *turn)
 {
     double registers[MESO_GRAMMAR_REGISTERS];
-    MesoGrowthAsking asking = {work, batch, tip, turn, &tip->at};
-    const MesoGrowthHost host = {&asking, tip->state, meso_growth_look};
+    Running running = {{work, batch, tip, turn, &tip->at}, &tip->at};
+    const MesoGrowthHost host = {&running, tip->state, meso_growth_look, work->options->event ? NULL : turn_tip};
     MesoGrowthCommand *command = &turn->command;
     meso_copy_registers(registers, stored, work->grammar->local_count);
     turn->rule = tip->rule;
@@ -119,15 +131,26 @@ static void fetch_ahead(const MesoGrowthWork *work, const MesoGrowthBatch *batch
         }
 }
 
+/* Memory of a tip that comes soon. */
+static inline void fetch_tip(const MesoGrowthWork *work, uint32_t number)
+{
+    const char *tip = (const char *)&work->tips[number];
+    for (size_t line = 0; line < sizeof(MesoGrowthTip); line += 64)
+        __builtin_prefetch(tip + line);
+    __builtin_prefetch(registers_of(work, number));
+}
+
 /* Rules of the window's turns; returns how many are about to walk. */
 static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
                           uint32_t end)
 {
+    enum { AHEAD = 4 };
     const uint32_t *active = work->active + window->begin;
     uint32_t count = 0;
     for (uint32_t i = begin; i < end; i++) {
         MesoGrowthTurn *turn = &window->turns[i];
         MesoGrowthTip *tip = &work->tips[active[i]];
+        fetch_tip(work, active[i + AHEAD < end ? i + AHEAD : i]);
         if (work->looks) {
             window->befores[i] = *tip;
             memcpy(window->register_befores + (size_t)i * work->grammar->local_count, registers_of(work, active[i]),

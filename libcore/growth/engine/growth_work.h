@@ -143,6 +143,7 @@ typedef struct MesoGrowthWork {
     bool uses_space;            /* something asks for what has grown */
     bool looks;                 /* a rule does */
     bool clears;                /* a step must be clear of it */
+    uint8_t *ahead;             /* [code_count] of the grammar: see meso_growth_look_ahead(); NULL: nobody asks */
     uint32_t thread_count;
     MesoTeam *team;
     double element_limit, length_limit;
@@ -253,6 +254,12 @@ double meso_growth_look(void *asking, MesoGrowthLook look, uint32_t map, double 
 bool meso_growth_rules_look(const MesoGrammar *grammar);
 bool meso_growth_steps_clear(const MesoGrammar *grammar);
 bool meso_growth_steps_avoid(const MesoGrammar *grammar);
+
+/* What code may come to next, before any other command: the end of its rule, a look at something. */
+enum { MESO_AHEAD_END = 1, MESO_AHEAD_LOOK = 2 };
+
+/* Sets `ahead` [code_count], which is 0, for every place in the code. */
+void meso_growth_look_ahead(const MesoGrammar *grammar, uint8_t *ahead);
 
 /* ---- growth_joints.c ---- */
 

@@ -26,7 +26,7 @@ double meso_place_value(const MesoSeedWork *work, uint32_t code, const MesoTip *
 {
     double registers[MESO_GRAMMAR_REGISTERS], state[MESO_STATE_COUNT] = {0};
     Asker asker = {work->contexts, tip};
-    const MesoGrowthHost host = {&asker, state, look};
+    const MesoGrowthHost host = {.context = &asker, .state = state, .look = look};
     MesoGrowthRun run = meso_growth_begin(code, key);
     meso_tip_position(work->contexts->ground->mesh, tip, &state[MESO_STATE_X]);
     return meso_growth_value(work->grammar, &run, code, registers, &host);

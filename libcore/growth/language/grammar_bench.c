@@ -19,7 +19,7 @@ static void time_rules(const char *name, const char *text)
     MesoGrammar grammar;
     MesoError error;
     double best = INFINITY, state[MESO_STATE_COUNT] = {0}, registers[MESO_GRAMMAR_REGISTERS];
-    const MesoGrowthHost host = {NULL, state, look_nowhere};
+    const MesoGrowthHost host = {.state = state, .look = look_nowhere};
     uint32_t commands = 0, rules = 0;
     meso_arena_init(&arena);
     CHECK(meso_grammar_read(&grammar, &arena, name, text, strlen(text), NULL, &error) == MESO_OK);

@@ -1,5 +1,7 @@
 #include "libcore/growth/language/grammar_compile.h"
 
+#include <math.h>
+
 #include "libcore/base/grow.h"
 #include "libcore/growth/language/grammar_parser.h"
 #include "libcore/growth/language/grammar_run.h"
@@ -135,9 +137,26 @@ static uint16_t value_of(Compiler *c, const MesoExpression *e)
     return to;
 }
 
+static bool is_constant(uint16_t operand)
+{
+    return operand & MESO_CONSTANT_OPERAND && operand != MESO_NO_REGISTER;
+}
+
+/* What is not finite is found when it is run. */
 static void emit_value(Compiler *c, uint32_t value, uint16_t a)
 {
-    emit(c, (MesoGrammarInstruction){.operation = MESO_OP_VALUE, .to = (uint16_t)value, .a = a});
+    MesoGrammarInstruction set = {.operation = MESO_OP_VALUE, .to = (uint16_t)value, .a = a};
+    uint32_t number = a & (MESO_CONSTANT_OPERAND - 1);
+    if (is_constant(a) && meso_parsing(c->parser)) {
+        if (isfinite(c->grammar->constants[number])) {
+            set = (MesoGrammarInstruction){
+                .operation = MESO_OP_VALUE_CONSTANT, .to = (uint16_t)value, .target = number};
+        } else {
+            set.a = push(c);
+            emit(c, (MesoGrammarInstruction){.operation = MESO_OP_CONSTANT, .to = set.a, .target = number});
+        }
+    }
+    emit(c, set);
 }
 
 static void compile_value(Compiler *c, uint32_t value, const MesoExpression *e)

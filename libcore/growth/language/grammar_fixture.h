@@ -157,7 +157,7 @@ static inline void fixture_note(FixtureHost *host, const MesoGrammar *grammar, c
 /* Runs a tip until its rule is done; what comes of it is queued. */
 static inline void fixture_run(const MesoGrammar *grammar, FixtureHost *host, FixtureQueue *queue, uint32_t index)
 {
-    const MesoGrowthHost look = {host, host->state, fixture_look};
+    const MesoGrowthHost look = {.context = host, .state = host->state, .look = fixture_look};
     FixtureTip tip = queue->tips[index];
     MesoGrowthCommand command = {0};
     bool done = true;

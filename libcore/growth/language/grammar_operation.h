@@ -29,7 +29,8 @@ typedef enum MesoGrammarOperation {
     MESO_OP_LOOP,           /* register `to` counts turns from -1, `a` is how many, `b` the salt; out to `target` */
     MESO_OP_SALT,           /* that with which the turns of a loop begin, within one with the salt a */
     MESO_OP_RESULT,         /* a is the value of this code */
-    MESO_OP_VALUE,          /* a is value `to` of the next command */
+    MESO_OP_VALUE,          /* register a is value `to` of the next command */
+    MESO_OP_VALUE_CONSTANT, /* so is constants[target], which is finite */
     MESO_OP_VALUE_PRODUCT,  /* so is a times b */
     MESO_OP_WHILE,          /* the code at `target` is the next command's condition */
     MESO_OP_STEP,           /* on to `target` where it was refused; `a`: what to do before that */

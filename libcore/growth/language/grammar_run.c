@@ -10,10 +10,12 @@ uint64_t meso_growth_seed_key(uint64_t job, uint64_t site, uint64_t number)
     return meso_draw_key(meso_draw_mix(job), site, number);
 }
 
-static void clear_command(MesoGrowthCommand *command)
+static inline void clear_command(MesoGrowthCommand *command)
 {
-    for (; command->given; command->given &= command->given - 1)
-        command->values[__builtin_ctz(command->given)] = 0;
+    enum { FEW = MESO_GROWTH_VALUES / 2 };
+    command->given = 0;
+    memset(command->values, 0, FEW * sizeof(double));   /* in halves, which compilers write without a call or a loop */
+    memset(command->values + FEW, 0, sizeof command->values - FEW * sizeof(double));
     command->shape = command->field = command->rule = command->entry = command->condition = MESO_NO_INDEX;
     command->join = false;
     command->key = 0;
@@ -110,9 +112,13 @@ static inline __attribute__((always_inline)) void execute(MesoGrowthCommand *com
             command->values[0] = A;
             end_with(command, MESO_GROWTH_END, NULL);
             break;
+        case MESO_OP_VALUE_CONSTANT:
+            command->values[i->to] = grammar->constants[i->target];
+            given |= 1u << i->to;
+            continue;
         case MESO_OP_VALUE:
         case MESO_OP_VALUE_PRODUCT: {
-            double value = i->operation == MESO_OP_VALUE ? A : A * B;
+            double value = i->operation == MESO_OP_VALUE ? r[i->a] : A * B;
             command->values[i->to] = value;
             given |= 1u << i->to;
             if (isfinite(value))
@@ -128,7 +134,15 @@ static inline __attribute__((always_inline)) void execute(MesoGrowthCommand *com
             run->refused = i->target;
             break;
         case MESO_OP_MOVE: command->order = MESO_GROWTH_MOVE; break;
-        case MESO_OP_TURN: command->order = MESO_GROWTH_TURN; break;
+        case MESO_OP_TURN:
+            if (host->turn) {
+                host->turn(host->context, command->values[MESO_GROWTH_AMOUNT]);
+                command->values[MESO_GROWTH_AMOUNT] = 0;
+                given = 0;
+                continue;
+            }
+            command->order = MESO_GROWTH_TURN;
+            break;
         case MESO_OP_FACE:
             command->order = MESO_GROWTH_FACE;
             command->field = i->more;
@@ -149,6 +163,7 @@ static inline __attribute__((always_inline)) void execute(MesoGrowthCommand *com
             break;
         case MESO_OP_AND: case MESO_OP_OR: case MESO_OP_RANDOM: case MESO_OP_CHANCE:
         case MESO_OP_END: command->order = MESO_GROWTH_END; break;
+        default: __builtin_unreachable();
         }
         break;
     }

@@ -37,6 +37,7 @@ typedef struct MesoGrowthHost {
     const double *state;        /* [MESO_STATE_COUNT] */
     /* `map` is MESO_NO_INDEX where the look-up is not of a map. A truth is 1 or 0. */
     double (*look)(void *context, MesoGrowthLook look, uint32_t map, double a, double b);
+    void (*turn)(void *context, double angle);  /* turns the branch, and its rule goes on; NULL: turns are commands */
 } MesoGrowthHost;
 
 /* Values of steps and placed shapes, in this order; a rule's arguments begin at 0. */

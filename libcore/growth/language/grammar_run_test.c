@@ -41,7 +41,7 @@ static double value(const char *expression, const char *unit)
     char text[512];
     FixtureLog log = {0};
     FixtureHost host = {.log = &log, .map = 0.25, .state = {3, 2, 0.5, 0.1, 1, 2, 3}};
-    const MesoGrowthHost look = {&host, host.state, fixture_look};
+    const MesoGrowthHost look = {.context = &host, .state = host.state, .look = fixture_look};
     double registers[MESO_GRAMMAR_REGISTERS];
     MesoGrowthCommand command = {0};
     snprintf(text, sizeof text, HEAD "unit m map m1 = attribute(\"a\") seed A(2) on vertices\n"
@@ -158,7 +158,7 @@ static void test_forgetting(void)
 {
     FixtureLog log = {0};
     FixtureHost host = {.log = &log};
-    const MesoGrowthHost look = {&host, host.state, fixture_look};
+    const MesoGrowthHost look = {.context = &host, .state = host.state, .look = fixture_look};
     double registers[MESO_GRAMMAR_REGISTERS];
     MesoGrowthCommand command = {0};
     read(HEAD "seed A(2) on vertices rule A(n) -> { step(n * 1 cm, width: n * 2 cm, cross: true) turn(3 rad) A(n) }");
@@ -192,7 +192,7 @@ static void test_seed_code(void)
 {
     FixtureLog log = {0};
     FixtureHost host = {.log = &log, .map = 0.5};
-    const MesoGrowthHost look = {&host, host.state, fixture_look};
+    const MesoGrowthHost look = {.context = &host, .state = host.state, .look = fixture_look};
     double registers[MESO_GRAMMAR_REGISTERS];
     MesoGrowthRun run = meso_growth_begin(0, 1);
     read(HEAD "unit mm map m1 = attribute(\"a\") seed A() on poisson(12 mm * m1) where m1 > 0.4 count 3\n"
@@ -204,12 +204,43 @@ static void test_seed_code(void)
     CHECK(isinf(grammar.seeds[1].count) && grammar.seeds[0].count == 3);
 }
 
+static void add_turn(void *context, double angle)
+{
+    double *turned = context;
+    *turned += angle;
+}
+
+static double no_look(void *context, MesoGrowthLook look, uint32_t map, double a, double b)
+{
+    (void)context, (void)look, (void)map, (void)a, (void)b;
+    return 0;
+}
+
+/* A host that turns itself gets all turns on the way to the next command, which is none the wiser. */
+static void test_turning_host(void)
+{
+    double turned = 0, state[MESO_STATE_COUNT] = {0}, registers[MESO_GRAMMAR_REGISTERS];
+    const MesoGrowthHost host = {&turned, state, no_look, add_turn};
+    MesoGrowthCommand command = {0};
+    read(HEAD "unit m seed A() on vertices rule A() -> { turn(2 rad) repeat 3 { turn(0.25 rad) } move(3 m) turn(1 rad) "
+         "branch { turn(9 rad) } stop }");
+    MesoGrowthRun run = meso_growth_begin(grammar.rules[0].entry, 7);
+    meso_growth_resume(&command, &grammar, &run, registers, &host, true);
+    CHECK(command.order == MESO_GROWTH_MOVE && command.values[MESO_GROWTH_AMOUNT] == 3 && command.given == 1);
+    CHECK(turned == 2.75);
+    meso_growth_resume(&command, &grammar, &run, registers, &host, true);
+    CHECK(command.order == MESO_GROWTH_BRANCH && command.given == 0 && command.values[MESO_GROWTH_AMOUNT] == 0);
+    CHECK(turned == 3.75);
+    meso_growth_resume(&command, &grammar, &run, registers, &host, true);
+    CHECK(command.order == MESO_GROWTH_END && turned == 3.75);
+}
+
 /* All that the rule A makes, for many keys: a turn for each. */
 static void draws(const char *text, double *turns, uint32_t count)
 {
     FixtureLog log = {0};
     FixtureHost host = {.log = &log, .map = 0.5};
-    const MesoGrowthHost look = {&host, host.state, fixture_look};
+    const MesoGrowthHost look = {.context = &host, .state = host.state, .look = fixture_look};
     double registers[MESO_GRAMMAR_REGISTERS];
     read(text);
     for (uint32_t i = 0; i < count; i++) {
@@ -276,7 +307,7 @@ static void test_streams(void)
     draws(HEAD "seed A() on vertices rule A() -> { repeat 2 { repeat 2 { turn(rand(0 rad, 1 rad)) } } }", turns, 1);
     FixtureLog log = {0};
     FixtureHost host = {.log = &log};
-    const MesoGrowthHost look = {&host, host.state, fixture_look};
+    const MesoGrowthHost look = {.context = &host, .state = host.state, .look = fixture_look};
     for (uint32_t round = 0; round < 2; round++) {
         double registers[MESO_GRAMMAR_REGISTERS], seen[4];
         MesoGrowthRun run = meso_growth_begin(grammar.rules[0].entry, meso_growth_seed_key(5, grammar.seeds[0].site, 0));
@@ -315,6 +346,7 @@ int main(void)
     test_forgetting();
     test_examples();
     test_seed_code();
+    test_turning_host();
     test_statistics();
     test_streams();
     test_settings();
