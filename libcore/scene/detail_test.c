@@ -16,7 +16,7 @@ static void make_circle(void)
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
         MesoVec2 s = {RADIUS * n.x, RADIUS * n.y};
-        columns[i] = (MesoSweepColumn){s, s, n, n, 0, i < SIDES, 0};
+        columns[i] = (MesoSweepColumn){s, s, n, n, 0, i < SIDES, .absent = 0};
     }
 }
 

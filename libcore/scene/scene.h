@@ -20,7 +20,8 @@
  * Shapes are blended where they are not turned, and turned then: a section that turns keeps its width. Where nothing
  * turns, s is lerp(a, b, w); at v 1 it is b, in the plane of the end's own up. The normal is n.x X + n.y Y - tilt T
  * made unit, where n is turned like s from the 2D normal that is interpolated like q, and tilt is
- * section_scale / |B'| times dot(n, s'(v)).
+ * section_scale / |B'| times dot(n, s'(v)). Where a chord of a section that turns is reversed on the way, its columns'
+ * own normals are interpolated between the ends: they stay across it, which those do not that are round at the ends.
  *
  * The rules of frames:
  *
@@ -98,6 +99,8 @@ typedef struct MesoSweepColumn {
     float u;                            /* around, in [0,1] */
     uint32_t joins_next;                /* 1 if quads lie between this column and the next */
     uint32_t absent;                    /* bits MESO_ABSENT_*: it has no vertex on such rings */
+    uint32_t own;                       /* 1 if it has, between the ends, in place of the normals above, */
+    MesoVec2 own_normals[2];            /* the normals at v 0 and 1 of the one chord that it speaks for */
 } MesoSweepColumn;
 
 /*

@@ -56,8 +56,8 @@ static void make_case(Case *c)
     c->placed[0] = (MesoPlacedBody){.body = 0, .material = 1, .ids = 1};
     c->placed[1] = (MesoPlacedBody){.body = 0, .ids = 2, .place = MESO_PLACED_IN_FRAME};
     c->placed[2] = (MesoPlacedBody){.body = 1, .ids = 3, .frame = 1, .place = MESO_PLACED_IN_CAGE, .turn = 1};
-    c->columns[0] = (MesoSweepColumn){{1, 0}, {1, 0}, {1, 0}, {1, 0}, 0, 1, 0};
-    c->columns[1] = (MesoSweepColumn){{0, 1}, {0, 1}, {0, 1}, {0, 1}, 1, 0, 0};
+    c->columns[0] = (MesoSweepColumn){{1, 0}, {1, 0}, {1, 0}, {1, 0}, 0, 1, .absent = 0};
+    c->columns[1] = (MesoSweepColumn){{0, 1}, {0, 1}, {0, 1}, {0, 1}, 1, 0, .absent = 0};
     c->kind = (MesoSweptKind){.column_count = 2, .joint_count = 1, .division_count = 3, .instance_count = 1};
     c->sweep = (MesoSweepInstance){{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}}, {{0, 1, 0}, {0, 1, 0}},
                                    {{0, 0, 1}, {0, 0, 1}}, 0, {1, 1}, 0, 0, 0, {0}};

@@ -188,7 +188,7 @@ static MesoVec2 on_grain(MesoVec2 p)
 static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
                                          const MesoSweepColumn *column)
 {
-    MesoSweepLine line = meso_sweep_line(track->sweep, column);
+    MesoSweepLine line = meso_sweep_line(track->sweep, column, ring->blend.turns);
     MesoSweepMeeting m = meso_sweep_meet(track, &ring->blend, &line);
     if (ring->on_side)
         m.at = on_grain(m.at);

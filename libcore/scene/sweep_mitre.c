@@ -131,7 +131,7 @@ static void take_lines(Lines *lines, const MesoScene *scene, const MesoSweepTrac
         MesoSweepBlend blend = meso_sweep_blend(track, (float)i / PLACES);
         lines->count = 0;
         for (uint32_t c = 0; c < count; c += step) {
-            MesoSweepLine line = meso_sweep_line(track->sweep, &columns[c]);
+            MesoSweepLine line = meso_sweep_line(track->sweep, &columns[c], blend.turns);
             lines->at[i][lines->count++] = meso_vec2_scale(meso_sweep_meet(track, &blend, &line).at,
                                                            scene->section_scale);
         }

@@ -67,17 +67,18 @@ static inline MesoSweepBlend meso_sweep_blend(const MesoSweepTrack *track, float
 /* Gives it the crease of its sweep, which has one, whose ring bends by `bend`. */
 void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, MesoVec2 bend);
 
-/* A column at the ends of one sweep: a, b, and their normals. */
+/* A column at the ends of one sweep: a, b, and their normals, on a ring whose section turns or not. */
 typedef struct MesoSweepLine {
     MesoVec2 start, end, start_normal, end_normal;
 } MesoSweepLine;
 
-static inline MesoSweepLine meso_sweep_line(const MesoSweepInstance *sweep, const MesoSweepColumn *column)
+static inline MesoSweepLine meso_sweep_line(const MesoSweepInstance *sweep, const MesoSweepColumn *column, bool turns)
 {
     const float *size = sweep->size;
+    bool own = turns && column->own;
     return (MesoSweepLine){meso_vec2_scale(column->start, size[0]), meso_vec2_scale(column->end, size[1]),
-                           meso_vec2_scale(column->start_normal, size[0]),
-                           meso_vec2_scale(column->end_normal, size[1])};
+                           meso_vec2_scale(own ? column->own_normals[0] : column->start_normal, size[0]),
+                           meso_vec2_scale(own ? column->own_normals[1] : column->end_normal, size[1])};
 }
 
 /* Where a section meets a column: s, n, and dot(n, s') without w', all without a crease. */

@@ -109,8 +109,11 @@ static void fill_vertices(PatternVertex *out, const MesoSweepColumn *columns, co
     for (uint32_t r = 0; r < ring_count; r++)
         for (uint32_t c = 0; c < kept_count; c++) {
             const MesoSweepColumn *column = &columns[kept[c]];
-            *out++ = (PatternVertex){column->start, column->end, column->start_normal,
-                                     column->end_normal, (float)r / (float)(ring_count - 1), column->u};
+            bool own = column->own && r > 0 && r + 1 < ring_count;
+            *out++ = (PatternVertex){column->start, column->end,
+                                     own ? column->own_normals[0] : column->start_normal,
+                                     own ? column->own_normals[1] : column->end_normal,
+                                     (float)r / (float)(ring_count - 1), column->u};
         }
 }
 

@@ -26,7 +26,7 @@ static void make_circle(MesoSweepColumn *out, uint32_t sides)
     for (uint32_t i = 0; i <= sides; i++) {
         double angle = -2 * MESO_PI * (i % sides) / sides;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
-        out[i] = (MesoSweepColumn){n, n, n, n, (float)i / (float)sides, i < sides, 0};
+        out[i] = (MesoSweepColumn){n, n, n, n, (float)i / (float)sides, i < sides, .absent = 0};
     }
 }
 

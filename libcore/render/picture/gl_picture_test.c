@@ -38,7 +38,7 @@ static void make_bar(Bar *bar)
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)};
         MesoVec2 s = {RADIUS * n.x, RADIUS * n.y};
-        bar->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, 0};
+        bar->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, .absent = 0};
     }
     bar->kinds[0] = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES,
         .division_count = 9, .instance_count = 1, .start_material = 0, .end_material = 1};

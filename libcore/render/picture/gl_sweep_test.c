@@ -38,7 +38,7 @@ static void make_sweeps(Case *c)
         double angle = -2 * MESO_PI * (i % SIDES) / SIDES;
         MesoVec2 s = {0.3f * (float)cos(angle), 0.1f * (float)sin(angle)};
         MesoVec2 n = {0.1f * (float)cos(angle), 0.3f * (float)sin(angle)};
-        c->columns[i] = (MesoSweepColumn){s, {-s.x, -s.y}, n, {-n.x, -n.y}, (float)i / SIDES, i < SIDES, 0};
+        c->columns[i] = (MesoSweepColumn){s, {-s.x, -s.y}, n, {-n.x, -n.y}, (float)i / SIDES, i < SIDES, .absent = 0};
     }
     c->kind = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES, .division_count = RINGS,
                               .instance_count = SWEEPS, .turn = (float)(3 * MESO_PI),

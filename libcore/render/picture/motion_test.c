@@ -90,7 +90,7 @@ static void make_bundle(Bundle *b, Turn turn)
     for (uint32_t i = 0; i <= SIDES; i++) {
         double angle = -2 * 3.14159265358979 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)}, s = {0.12f * n.x, 0.12f * n.y};
-        b->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, 0};
+        b->columns[i] = (MesoSweepColumn){s, s, n, n, (float)i / SIDES, i < SIDES, .absent = 0};
     }
     MesoSweptKind kind = {.column_count = SIDES + 1, .joint_count = SIDES, .division_count = 16,
                           .instance_count = TUBES};

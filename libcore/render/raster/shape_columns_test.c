@@ -20,7 +20,7 @@ static const MesoScene scene = {.columns = columns};
 
 static void add_column(MesoVec2 at, MesoVec2 normal, bool joins_next)
 {
-    columns[kind.column_count++] = (MesoSweepColumn){at, at, normal, normal, 0, joins_next, 0};
+    columns[kind.column_count++] = (MesoSweepColumn){at, at, normal, normal, 0, joins_next, .absent = 0};
 }
 
 /* Four sides, each with columns of its own at its ends. */

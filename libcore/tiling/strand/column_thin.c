@@ -414,7 +414,7 @@ static void put_column(const Thinning *t, MesoProfileSet *out, const Row *row, c
     out->columns[out->column_count++] = (MesoSweepColumn){
         meso_vec2_add(from->start, post_shift(t, row, post, false)),
         meso_vec2_add(to->end, post_shift(t, row, post, true)), from->start_normal, to->end_normal, u, joins,
-        post->absent};
+        post->absent, from->own & to->own, {from->own_normals[0], to->own_normals[1]}};
 }
 
 /* From the first column on and around to it. What is on one ring alone has the normals of both sides at most. */

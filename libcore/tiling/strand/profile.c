@@ -215,6 +215,12 @@ static Turn add_turns(Turn turn, const MesoSweep *sweep, bool mirrored, const Wa
 /* Which neighbours a column takes its normal from. */
 typedef enum Facing { BOTH, PREVIOUS, NEXT } Facing;
 
+static MesoVec2 own_normal(const Walk *walk, uint32_t k, Facing facing)
+{
+    uint32_t count = walk->ring->count;
+    return walk_normal(walk, facing == NEXT ? k : k + count - 1, facing == PREVIOUS ? k : k + 1);
+}
+
 /*
  * An end is round where its own ring is, so that it meets its neighbour's, and as long as the chord that it speaks for,
  * so that the blend keeps to the chords. One in a point goes by the other end.
@@ -222,7 +228,7 @@ typedef enum Facing { BOTH, PREVIOUS, NEXT } Facing;
 static MesoVec2 end_normal(const Walk *walk, uint32_t k, Facing facing)
 {
     uint32_t count = walk->ring->count;
-    MesoVec2 own = walk_normal(walk, facing == NEXT ? k : k + count - 1, facing == PREVIOUS ? k : k + 1);
+    MesoVec2 own = own_normal(walk, k, facing);
     if (facing == BOTH || walk_creased(walk, k))
         return own;
     MesoVec2 both = walk_normal(walk, k + count - 1, k + 1);
@@ -230,12 +236,34 @@ static MesoVec2 end_normal(const Walk *walk, uint32_t k, Facing facing)
     return length > 0 ? meso_vec2_scale(both, meso_vec2_length(own) / length) : own;
 }
 
-static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t k, uint32_t count,
-                                   Facing facing, bool joins)
+/*
+ * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns
+ * along. It turns inside out where its neighbours may not, and has normals of its own.
+ */
+static bool is_reversed(const Walk *start, const Walk *end, uint32_t k, float angle)
 {
-    return (MesoSweepColumn){walk_point(start, k), walk_point(end, k),
-                             end_normal(start->ring ? start : end, k, facing),
-                             end_normal(end->ring ? end : start, k, facing), (float)k / (float)count, joins, 0};
+    if (angle == 0)
+        return false;
+    MesoVec2 a = walk_normal(start, k, k + 1), b = walk_normal(end, k, k + 1);
+    float c = cosf(angle), s = sinf(angle);
+    return a.x * (c * b.x + s * b.y) + a.y * (c * b.y - s * b.x) <= 0;
+}
+
+/* One of a reversed chord alone lies across it between the ends, however round these are. */
+static MesoSweepColumn make_column(const Walk *start, const Walk *end, uint32_t k, uint32_t count, Facing facing,
+                                   float angle)
+{
+    MesoSweepColumn column = {.start = walk_point(start, k), .end = walk_point(end, k),
+                              .start_normal = end_normal(start->ring ? start : end, k, facing),
+                              .end_normal = end_normal(end->ring ? end : start, k, facing),
+                              .u = (float)k / (float)count, .joins_next = facing != PREVIOUS && k < count};
+    if (facing != BOTH && start->ring && end->ring &&
+        is_reversed(start, end, facing == NEXT ? k : k + count - 1, angle)) {
+        column.own = 1;
+        column.own_normals[0] = own_normal(start, k, facing);
+        column.own_normals[1] = own_normal(end, k, facing);
+    }
+    return column;
 }
 
 static uint32_t place_of(const Builder *b, const Walk *walk, uint32_t k)
@@ -256,19 +284,6 @@ static MesoStatus push_column(Builder *b, MesoSweepColumn column, MesoColumnPlac
     return MESO_OK;
 }
 
-/*
- * Of a section that turns: whether the chord from point k on is reversed on the way, seen in the frame that turns
- * along. It turns inside out where its neighbours may not, and has normals of its own.
- */
-static bool is_reversed(const Walk *start, const Walk *end, uint32_t k, float angle)
-{
-    if (angle == 0)
-        return false;
-    MesoVec2 a = walk_normal(start, k, k + 1), b = walk_normal(end, k, k + 1);
-    float c = cosf(angle), s = sinf(angle);
-    return a.x * (c * b.x + s * b.y) + a.y * (c * b.y - s * b.x) <= 0;
-}
-
 static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count, float angle, MesoError *error)
 {
     for (uint32_t k = 0; k <= count; k++) {
@@ -279,10 +294,9 @@ static MesoStatus push_columns(Builder *b, Walk start, Walk end, uint32_t count,
                                  {start.x_sign, end.x_sign}, doubled};
         MesoStatus status = MESO_OK;
         if (doubled && k > 0)
-            status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, false), place, error);
+            status = push_column(b, make_column(&start, &end, k, count, PREVIOUS, angle), place, error);
         if (!status && (k < count || !doubled))
-            status = push_column(b, make_column(&start, &end, k, count, doubled ? NEXT : BOTH, k < count), place,
-                                 error);
+            status = push_column(b, make_column(&start, &end, k, count, doubled ? NEXT : BOTH, angle), place, error);
         if (status)
             return status;
     }

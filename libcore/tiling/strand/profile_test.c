@@ -106,7 +106,10 @@ static MesoVec2 turned_back(MesoVec2 p, float angle)
 /* At a blend between the ends: a column's normal, in the frame that turns along. */
 static MesoVec2 normal_at(const MesoSweptKind *kind, const MesoSweepColumn *column, float w)
 {
-    MesoVec2 n = meso_vec2_lerp(column->start_normal, turned_back(column->end_normal, kind->turn), w);
+    bool own = column->own && w > 0 && w < 1;
+    MesoVec2 start = own ? column->own_normals[0] : column->start_normal;
+    MesoVec2 end = own ? column->own_normals[1] : column->end_normal;
+    MesoVec2 n = meso_vec2_lerp(start, turned_back(end, kind->turn), w);
     float length = meso_vec2_length(n);
     return meso_vec2_scale(n, length > 0 ? 1 / length : 0);
 }
@@ -122,7 +125,17 @@ static float along(MesoVec2 a, MesoVec2 b)
     return a.x * b.x + a.y * b.y;
 }
 
-/* Joints against which the sum of both columns' normals is, somewhere on the way; and those that are reversed then. */
+/* Whether each normal lies across the joint, where that is no point. */
+static bool are_across(MesoVec2 n, MesoVec2 normal, MesoVec2 other)
+{
+    float length = meso_vec2_length(n);
+    return length < 1e-3f || fminf(along(n, normal), along(n, other)) > 0.999f * length;
+}
+
+/*
+ * Joints against which the sum of both columns' normals is, somewhere on the way, or which are reversed then and have a
+ * normal between the ends that is not across them; and those that are reversed.
+ */
 static uint32_t count_inverted(const MesoProfileSet *profiles, uint32_t kind, uint32_t *reversed)
 {
     const MesoSweptKind *swept = &profiles->kinds[kind];
@@ -136,7 +149,9 @@ static uint32_t count_inverted(const MesoProfileSet *profiles, uint32_t kind, ui
         for (uint32_t step = 0; step <= 32 && a->joins_next; step++) {
             float w = (float)step / 32;
             MesoVec2 chord = meso_vec2_lerp(first, last, w), n = {-chord.y, chord.x};
-            against |= along(n, normal_at(swept, a, w)) + along(n, normal_at(swept, b, w)) < -1e-6f * along(n, n);
+            MesoVec2 normal = normal_at(swept, a, w), other = normal_at(swept, b, w);
+            against |= along(n, normal) + along(n, other) < -1e-6f * along(n, n);
+            against |= along(first, last) < 0 && step > 0 && step < 32 && !are_across(n, normal, other);
         }
         inverted += against;
         *reversed += a->joins_next && along(first, last) < 0;
