@@ -30,7 +30,10 @@ typedef struct Case {
     MesoScene swept, bodies;
 } Case;
 
-/* Flat ellipses that turn, on trajectories that bend in space, larger at their ends: one above the other. */
+/*
+ * Flat ellipses that turn, on trajectories that bend in space, larger at their ends: one above the other. Some columns
+ * have normals of their own between the ends.
+ */
 static void make_sweeps(Case *c)
 {
     *c = (Case){.material = {{0.75f, 0.25f, 0.125f}, 0.5f, 0}};
@@ -39,6 +42,11 @@ static void make_sweeps(Case *c)
         MesoVec2 s = {0.3f * (float)cos(angle), 0.1f * (float)sin(angle)};
         MesoVec2 n = {0.1f * (float)cos(angle), 0.3f * (float)sin(angle)};
         c->columns[i] = (MesoSweepColumn){s, {-s.x, -s.y}, n, {-n.x, -n.y}, (float)i / SIDES, i < SIDES, .absent = 0};
+        if (i % 8 == 3) {
+            c->columns[i].own = 1;
+            c->columns[i].own_normals[0] = (MesoVec2){n.x - 0.4f * n.y, n.y + 0.4f * n.x};
+            c->columns[i].own_normals[1] = (MesoVec2){-n.x - 0.2f * n.y, -n.y + 0.2f * n.x};
+        }
     }
     c->kind = (MesoSweptKind){.column_count = SIDES + 1, .joint_count = SIDES, .division_count = RINGS,
                               .instance_count = SWEEPS, .turn = (float)(3 * MESO_PI),
