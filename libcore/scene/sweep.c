@@ -172,8 +172,8 @@ static MesoMeshVertex place_creased(const MesoScene *scene, const MesoSweepTrack
                                     const MesoSweepColumn *column, const MesoSweepLine *line, MesoSweepMeeting m)
 {
     const MesoSweepBlend *beside = ring->beside;
-    MesoVec2 before = meso_sweep_creased(&beside[0], meso_sweep_meet(track, &beside[0], line).at);
-    MesoVec2 after = meso_sweep_creased(&beside[1], meso_sweep_meet(track, &beside[1], line).at);
+    MesoVec2 before = meso_sweep_creased(&beside[0], meso_sweep_place_on(track, &beside[0], line->start, line->end));
+    MesoVec2 after = meso_sweep_creased(&beside[1], meso_sweep_place_on(track, &beside[1], line->start, line->end));
     MesoVec2 at = meso_sweep_creased(&ring->blend, m.at), n = creased_normal(&ring->blend, m.at, m.normal);
     MesoVec2 change = meso_vec2_scale(meso_vec2_sub(after, before), 1 / (beside[1].v - beside[0].v));
     float slope = change.x * n.x + change.y * n.y;
@@ -200,9 +200,9 @@ static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const MesoSweep
 
 static inline MesoVec2 section_point(const MesoSweepTrack *track, const Ring *ring, const MesoSweepColumn *column)
 {
-    const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]), none = {0, 0};
+    const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]);
     const MesoVec2 end = meso_vec2_scale(column->end, track->sweep->size[1]);
-    MesoVec2 at = meso_sweep_meet(track, &ring->blend, &(MesoSweepLine){start, end, none, none}).at;
+    MesoVec2 at = meso_sweep_place_on(track, &ring->blend, start, end);
     return ring->on_side ? on_grain(at) : meso_sweep_creased(&ring->blend, at);
 }
 

@@ -131,8 +131,9 @@ static void take_lines(Lines *lines, const MesoScene *scene, const MesoSweepTrac
         MesoSweepBlend blend = meso_sweep_blend(track, (float)i / PLACES);
         lines->count = 0;
         for (uint32_t c = 0; c < count; c += step) {
-            MesoSweepLine line = meso_sweep_line(track->sweep, &columns[c], blend.turns);
-            lines->at[i][lines->count++] = meso_vec2_scale(meso_sweep_meet(track, &blend, &line).at,
+            MesoVec2 start = meso_vec2_scale(columns[c].start, track->sweep->size[0]);
+            MesoVec2 end = meso_vec2_scale(columns[c].end, track->sweep->size[1]);
+            lines->at[i][lines->count++] = meso_vec2_scale(meso_sweep_place_on(track, &blend, start, end),
                                                            scene->section_scale);
         }
     }

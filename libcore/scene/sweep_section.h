@@ -104,6 +104,19 @@ static inline MesoSweepMeeting meso_sweep_meet(const MesoSweepTrack *track, cons
     return blend->turns ? meso_sweep_meet_turned(track, blend, line) : meso_sweep_meet_straight(blend, line);
 }
 
+/* s alone. */
+static inline MesoVec2 meso_sweep_place_on(const MesoSweepTrack *track, const MesoSweepBlend *blend, MesoVec2 start,
+                                           MesoVec2 end)
+{
+    const MesoVec2 *middle = track->middle;
+    if (!blend->turns)
+        return blend->v == 0 ? start : blend->v == 1 ? end : meso_vec2_lerp(start, end, blend->w);
+    MesoVec2 q0 = meso_vec2_sub(start, middle[0]);
+    MesoVec2 q1 = meso_sweep_turned(meso_vec2_sub(end, middle[1]), track->back);
+    MesoVec2 q = meso_sweep_turned(meso_vec2_lerp(q0, q1, blend->w), blend->turn);
+    return meso_sweep_turned(meso_vec2_add(meso_vec2_lerp(middle[0], middle[1], blend->w), q), blend->twist);
+}
+
 static inline bool meso_sweep_is_creased_at(const MesoSweepBlend *blend, MesoVec2 s)
 {
     return blend->kept != 1 && s.x * blend->inwards.x + s.y * blend->inwards.y > 0;
