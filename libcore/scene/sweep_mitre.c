@@ -9,9 +9,9 @@ enum { PLACES = 16, MOST_LINES = 32, LEVELS = 8, EASES = 3 };
 
 /*
  * Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards; and along a creased one, where
- * sections are steeper to them, and the normals of small faces off, the slower that is.
+ * sections are steeper to them, and the normals of small faces off, the slower that is: at least, and better.
  */
-static const float FORWARDS = 0.1f, CREASED_FORWARDS = 0.2f;
+static const float FORWARDS = 0.1f, CREASED_BETTER = 0.2f;
 
 /*
  * Whether all bends are wider than that, as most sweeps' are, by the control points: no place is slower than the
@@ -178,14 +178,15 @@ static float least_forwards(const MesoSweepTrack *track, const Lines *lines, flo
     return least;
 }
 
-/* The points of one place, creased. */
+/* The points of one place, which the lines have as they are without a twist, with that of the track, and creased. */
 static void crease_points(MesoVec2 *out, const Lines *lines, const MesoSweepTrack *track, const MesoSweepPlane *plane,
                           uint32_t place)
 {
     MesoSweepBlend blend = meso_sweep_blend(track, (float)place / PLACES);
     meso_sweep_crease(&blend, track, meso_sweep_bend(&track->frames, plane, blend.v));
+    MesoSweepAngle twist = blend.turns ? blend.twist : meso_sweep_angle(0);
     for (uint32_t c = 0; c < lines->count; c++)
-        out[c] = meso_sweep_creased(&blend, lines->at[place][c]);
+        out[c] = meso_sweep_creased(&blend, meso_sweep_turned(lines->at[place][c], twist));
 }
 
 enum { SPANS = 2 };
@@ -216,26 +217,29 @@ static float least_creased(const MesoSweepTrack *track, const Lines *lines, floa
 /* ---- which mitre ---- */
 
 /* The twist of a crease; of two that end alike, that with which a section that turns by half at most does so least. */
-static float creased_twist(const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+static float creased_twist(const MesoSweptKind *kind, const MesoSweepFrames *frames)
 {
-    float half = (float)MESO_PI, twist = meso_sweep_twist(sweep), sum = twist + kind->turn;
+    float half = (float)MESO_PI, twist = meso_sweep_frames_twist(frames), sum = twist + kind->turn;
     return fabsf(kind->turn) > half || fabsf(sum) <= half ? twist : sum > 0 ? twist - 2 * half : twist + 2 * half;
 }
 
 /*
- * The first crease whose lines run forwards as fast as they are to, or else that whose lines run fastest; of those
- * whose rings turn next to the ends, too, only where no other does as well as a mitre has to.
+ * The first crease whose lines run forwards as fast as is better, or else that whose lines run fastest; of those whose
+ * rings turn next to the ends, too, the first that is as fast as it has to be, where no other is.
  */
 static void add_crease(const MesoScene *scene, const MesoSweptKind *kind, MesoSweepInstance *sweep)
 {
     MesoSweepInstance trial = *sweep;
     Lines lines;
     float most = -INFINITY;
-    for (uint32_t i = 0; i < EASES * LEVELS && most < (i < LEVELS ? CREASED_FORWARDS : FORWARDS); i++) {
+    trial.mitre = MESO_CREASED;
+    trial.twist = 0;
+    MesoSweepTrack track = meso_sweep_track(scene, kind, &trial);
+    take_lines(&lines, scene, &track);
+    for (uint32_t i = 0; i < EASES * LEVELS && most < (i < LEVELS ? CREASED_BETTER : FORWARDS); i++) {
         trial.mitre = MESO_CREASED * (float)(1 + i / LEVELS) + (float)(i % LEVELS) / (LEVELS - 1);
-        trial.twist = creased_twist(kind, &trial);
-        MesoSweepTrack track = meso_sweep_track(scene, kind, &trial);
-        take_lines(&lines, scene, &track);
+        track.frames = meso_sweep_frames(scene->frame_rule, &trial);
+        trial.twist = creased_twist(kind, &track.frames);
         float least = least_creased(&track, &lines, most);
         if (least > most) {
             most = least;

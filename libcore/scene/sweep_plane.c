@@ -132,13 +132,19 @@ static void make_stations(MesoSweepFrames *frames)
         frames->stations[i + 1] = step_to(frames, &frames->stations[i], (float)(i + 1) / MESO_FRAME_STEPS);
 }
 
-float meso_sweep_twist(const MesoSweepInstance *sweep)
+float meso_sweep_frames_twist(const MesoSweepFrames *frames)
 {
-    MesoSweepFrames frames = meso_sweep_frames(MESO_FRAME_MINIMAL, sweep);
-    const MesoSweepStation *last = &frames.stations[MESO_FRAME_STEPS];
+    const MesoSweepInstance *sweep = frames->sweep;
+    const MesoSweepStation *last = &frames->stations[MESO_FRAME_STEPS];
     MesoSweepPlane end = meso_sweep_plane_across(sweep->p[3], sweep->up[1], sweep->direction[1], 0);
     MesoVec3 y = meso_vec3_cross(last->tangent, last->x);
     return atan2f(meso_vec3_dot(end.x, y), meso_vec3_dot(end.x, last->x));
+}
+
+float meso_sweep_twist(const MesoSweepInstance *sweep)
+{
+    MesoSweepFrames frames = meso_sweep_frames(MESO_FRAME_MINIMAL, sweep);
+    return meso_sweep_frames_twist(&frames);
 }
 
 static MesoVec3 least_turned_x(const MesoSweepFrames *frames, float v)

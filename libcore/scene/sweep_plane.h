@@ -56,7 +56,8 @@ MesoVec2 meso_sweep_bend_between(const MesoSweepFrames *frames, const MesoSweepP
 /* The plane across `tangent`, X across `up`. */
 MesoSweepPlane meso_sweep_plane_across(MesoVec3 origin, MesoVec3 up, MesoVec3 tangent, float speed);
 
-/* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]. */
+/* The twist of a sweep under MESO_FRAME_MINIMAL, in [-pi, pi]; the same by its frames, of that rule or of a crease. */
 float meso_sweep_twist(const MesoSweepInstance *sweep);
+float meso_sweep_frames_twist(const MesoSweepFrames *frames);
 
 #endif

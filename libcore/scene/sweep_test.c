@@ -31,7 +31,8 @@ static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, u
         uint32_t k = i % count, l = (i + shift) % count;
         MesoVec2 start = meso_vec2_sub(a[(k + 1) % count], a[(k + count - 1) % count]);
         MesoVec2 end = meso_vec2_sub(b[(l + 1) % count], b[(l + count - 1) % count]);
-        tube.columns[i] = (MesoSweepColumn){a[k], b[l], {-start.y, start.x}, {-end.y, end.x}, 0, i < count, .absent = 0};
+        tube.columns[i] = (MesoSweepColumn){a[k], b[l], {-start.y, start.x}, {-end.y, end.x}, 0, i < count,
+                                            .absent = 0};
     }
     tube.kind = (MesoSweptKind){.column_count = count + 1, .joint_count = count, .division_count = rings,
                                 .instance_count = 1};
