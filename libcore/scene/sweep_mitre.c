@@ -9,9 +9,9 @@ enum { PLACES = 16, MOST_LINES = 32, LEVELS = 8, EASES = 3 };
 
 /*
  * Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards; and along a creased one, where
- * sections are steeper to them, and the normals of small faces off, the slower that is: at least, and better.
+ * sections are steeper to them, and the normals of small faces off, the slower that is.
  */
-static const float FORWARDS = 0.1f, CREASED_BETTER = 0.2f;
+static const float FORWARDS = 0.1f, CREASED_FORWARDS = 0.2f;
 
 /*
  * Whether all bends are wider than that, as most sweeps' are, by the control points: no place is slower than the
@@ -224,8 +224,8 @@ static float creased_twist(const MesoSweptKind *kind, const MesoSweepFrames *fra
 }
 
 /*
- * The first crease whose lines run forwards as fast as is better, or else that whose lines run fastest; of those whose
- * rings turn next to the ends, too, the first that is as fast as it has to be, where no other is.
+ * The first crease whose lines run forwards as fast as they are to, or else that whose lines run fastest; those whose
+ * rings turn next to the ends, too, come last.
  */
 static void add_crease(const MesoScene *scene, const MesoSweptKind *kind, MesoSweepInstance *sweep)
 {
@@ -236,7 +236,7 @@ static void add_crease(const MesoScene *scene, const MesoSweptKind *kind, MesoSw
     trial.twist = 0;
     MesoSweepTrack track = meso_sweep_track(scene, kind, &trial);
     take_lines(&lines, scene, &track);
-    for (uint32_t i = 0; i < EASES * LEVELS && most < (i < LEVELS ? CREASED_BETTER : FORWARDS); i++) {
+    for (uint32_t i = 0; i < EASES * LEVELS && most < CREASED_FORWARDS; i++) {
         trial.mitre = MESO_CREASED * (float)(1 + i / LEVELS) + (float)(i % LEVELS) / (LEVELS - 1);
         track.frames = meso_sweep_frames(scene->frame_rule, &trial);
         trial.twist = creased_twist(kind, &track.frames);
