@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "libcore/base/check.h"
+#include "libcore/base/random.h"
+#include "libcore/math/bezier.h"
 
 enum { MOST_COLUMNS = 256, MOST_RINGS = 512 };
 
@@ -352,6 +354,57 @@ static void test_creases(void)
     }
 }
 
+/* The largest angle that the paper's X turns by from one sixteenth to the next, in radians. */
+static double largest_turn(const MesoSweepInstance *sweep)
+{
+    double largest = 0;
+    MesoVec3 before = {0, 0, 0};
+    for (uint32_t i = 0; i <= 16; i++) {
+        float v = (float)i / 16;
+        MesoVec3 up = meso_vec3_lerp(sweep->up[0], sweep->up[1], v);
+        MesoVec3 x = meso_vec3_direction(meso_vec3_cross(up, meso_bezier_derivative(sweep->p, v)), (MesoVec3){0, 0, 0});
+        double sine = (double)meso_vec3_length(meso_vec3_cross(before, x)), cosine = (double)meso_vec3_dot(before, x);
+        largest = i ? fmax(largest, atan2(sine, cosine)) : 0;
+        before = x;
+    }
+    return largest;
+}
+
+static MesoVec3 random_direction(MesoRandom *random)
+{
+    float c[3];
+    for (uint32_t i = 0; i < 3; i++)
+        c[i] = (float)meso_random_below(random, 2001) / 1000 - 1;
+    return (MesoVec3){c[0], c[1], c[2]};
+}
+
+/* A thread, whose bends are wide, has a crease where its frame turns by over 30 degrees a sixteenth, else nothing. */
+static void test_flips(void)
+{
+    MesoVec2 disc[8];
+    MesoRandom random;
+    uint32_t flips = 0, width = make_disc(disc, 8, 1e-5f), trials = 20000;
+    meso_random_init(&random, 3, 0);
+    make_tube(disc, width, 0, 9);
+    for (uint32_t i = 0; i < trials; i++) {
+        MesoSweepInstance *sweep = &tube.sweep;
+        for (uint32_t k = 0; k < 2; k++) {
+            sweep->p[1 + k] = meso_vec3_mad((MesoVec3){(float)(1 + k) / 3, 0, 0}, 0.1f, random_direction(&random));
+            sweep->up[k] = random_direction(&random);
+        }
+        for (uint32_t end = 0; end < 2; end++)
+            sweep->direction[end] = meso_vec3_direction(meso_vec3_sub(sweep->p[1 + 2 * end], sweep->p[2 * end]),
+                                                        (MesoVec3){0, 0, 0});
+        double turn = largest_turn(sweep) * 180 / MESO_PI;
+        if (fabs(turn - 30) < 0.1)
+            continue;   /* either */
+        add_mitre();
+        CHECK(turn > 30 ? sweep->mitre >= MESO_CREASED : sweep->mitre == 0);
+        flips += turn > 30;
+    }
+    CHECK(flips > trials / 20 && flips < trials / 2);
+}
+
 /* Bare vertices have the places of whole ones: turned, of two sizes, bent into a cage or not. */
 static void test_bare(void)
 {
@@ -454,6 +507,7 @@ int main(void)
     test_frames();
     test_mitres();
     test_creases();
+    test_flips();
     test_bare();
     test_bowed();
     test_pace();
