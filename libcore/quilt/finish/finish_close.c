@@ -140,12 +140,23 @@ static bool has_chord_twice(const Closer *c, const uint32_t *corners, uint32_t c
     return false;
 }
 
+/*
+ * Each triangle of a cap is of the patch that it lies beside, so that patches meet where they did before: a cap may be as
+ * long as a whole border. Those that touch none are as the one before; the first: as `beside`.
+ */
 static void add_cap(Closer *c, const uint32_t *corners, uint32_t count, uint32_t beside)
 {
     MesoFinishWork *work = c->work;
-    for (uint32_t t = 0; t < count; t++)
-        meso_finish_add_triangle(work, &corners[3 * (size_t)t], work->triangle_origins[beside], work->patches[beside],
+    for (uint32_t t = 0; t < count; t++) {
+        const uint32_t *corner = &corners[3 * (size_t)t];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t across = edge_between(c, corner[next_of(k)], corner[k]);
+            if (across != MESO_NO_INDEX && c->marks[across] & IS_OPEN)
+                beside = across / 3;
+        }
+        meso_finish_add_triangle(work, corner, work->triangle_origins[beside], work->patches[beside],
                                  work->elements[beside]);
+    }
 }
 
 static MesoStatus close_around(Closer *c, uint32_t count, uint32_t beside)
