@@ -244,6 +244,19 @@ static void bend_borders(MesoTriangulation *mesh)
     }
 }
 
+/* Edges between triangles of different patches. */
+static uint32_t count_seams(const MesoQuilt *q)
+{
+    uint32_t count = 0;
+    for (uint32_t h = 0; h < 3 * q->triangle_count; h++)
+        for (uint32_t g = 0; g < h; g++) {
+            uint32_t h_next = h % 3 == 2 ? h - 2 : h + 1, g_next = g % 3 == 2 ? g - 2 : g + 1;
+            count += q->corners[h] == q->corners[g_next] && q->corners[h_next] == q->corners[g] &&
+                     q->patches[h / 3] != q->patches[g / 3];
+        }
+    return count;
+}
+
 /* A bar that lies along a border, half of it outside: what is left has a cap that follows the border. */
 static void test_along_border(void)
 {
@@ -256,10 +269,14 @@ static void test_along_border(void)
     CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
     const Copy bar = {0, RINGS - 1, {-2 - swatch.positions[0].x, 3.9f - swatch.positions[0].y, 0}};
     MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, &bar, 1);
+    for (uint32_t t = 0; t < q.triangle_count; t++)     /* of three patches, one after the other */
+        q.patches[t] = 3 * t / q.triangle_count;
+    uint32_t seams = count_seams(&q);
     bend_borders(&plane);
     bend_borders(&base.mesh);
     CHECK(meso_quilt_finish(&q, &arena, &base, &swatch, &(MesoFinishOptions){0}, &error) == MESO_OK);
     CHECK(q.element_count == 1 && count_open(&q) == 0);
+    CHECK(seams > 0 && count_seams(&q) <= seams + 4);   /* the cap goes on as the bar does */
     double volume, area = area_of(&q, &plane, 0, &volume), length = 0;
     for (uint32_t i = 0; i < 16; i++)
         length += hypot(0.25, 0.2 * (pow(0.25 * i - 1.75, 2) - pow(0.25 * i - 2, 2)));
