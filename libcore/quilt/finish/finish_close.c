@@ -141,8 +141,8 @@ static bool has_chord_twice(const Closer *c, const uint32_t *corners, uint32_t c
 }
 
 /*
- * Each triangle of a cap is of the patch that it lies beside, so that patches meet where they did before: a cap may be as
- * long as a whole border. Those that touch none are as the one before; the first: as `beside`.
+ * Each triangle of a cap is of the patch that it lies beside, so that patches meet where they did before: a cap may be
+ * as long as a whole border. Those that touch none are as the one before; the first: as `beside`.
  */
 static void add_cap(Closer *c, const uint32_t *corners, uint32_t count, uint32_t beside)
 {
