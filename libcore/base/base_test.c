@@ -207,6 +207,25 @@ static void test_team_that_stays(void)
     }
 }
 
+static void test_team_that_counts(void)
+{
+    for (uint32_t threads = 1; threads <= 4; threads++) {
+        MesoTeam *team = meso_team_begin(threads);
+        CHECK(meso_team_size(team) >= 1 && meso_team_size(team) <= threads);
+        for (uint32_t loop = 0; loop < 500; loop++) {
+            Team work = {{0}, {0}};
+            meso_team_work(team, 1003, 10, add_range_alone, &work);
+            for (uint32_t i = 0; i < 1003; i++)
+                CHECK(work.touched[i] == 1);
+        }
+        Team one = {{0}, {1, 1, 1, 1}};
+        one.busy[0] = 0;
+        meso_team_work(team, 10, 10, add_range_alone, &one);       /* a single range is the caller's, who is the first */
+        meso_team_work(team, 0, 1, add_range_alone, NULL);
+        meso_team_end(team);
+    }
+}
+
 int main(void)
 {
     test_arena();
@@ -218,6 +237,7 @@ int main(void)
     test_index_map();
     test_parallel();
     test_team_that_stays();
+    test_team_that_counts();
     test_team();
     return 0;
 }

@@ -13,7 +13,7 @@ enum { LOOKS = 400, MOST_THREADS = 1024 };
 
 typedef struct Loop {
     uint64_t count, grain;
-    void (*body)(void *context, uint64_t begin, uint64_t end);
+    void (*body)(void *context, uint32_t worker, uint64_t begin, uint64_t end);
     void *context;
 } Loop;
 
@@ -23,6 +23,7 @@ struct MesoTeam {
     Loop loop;
     atomic_uint_fast64_t next;      /* range of it that nobody has taken yet */
     atomic_uint_fast64_t loops;     /* begun so far */
+    atomic_uint_fast32_t numbers;   /* of threads that have come into being; the caller is number 0 */
     uint32_t working;               /* threads beside the caller that are in the loop */
     bool open;                      /* threads may come to it */
     bool over;
@@ -37,7 +38,7 @@ static void relax(void)
 #endif
 }
 
-static void take_ranges(MesoTeam *team)
+static void take_ranges(MesoTeam *team, uint32_t worker)
 {
     const Loop *loop = &team->loop;
     for (;;) {
@@ -45,13 +46,14 @@ static void take_ranges(MesoTeam *team)
         if (begin >= loop->count)
             return;
         uint64_t rest = loop->count - begin;
-        loop->body(loop->context, begin, begin + (rest < loop->grain ? rest : loop->grain));
+        loop->body(loop->context, worker, begin, begin + (rest < loop->grain ? rest : loop->grain));
     }
 }
 
 static void *serve(void *argument)
 {
     MesoTeam *team = argument;
+    uint32_t worker = (uint32_t)atomic_fetch_add(&team->numbers, 1) + 1;
     uint64_t seen = 0;
     for (;;) {
         for (int i = 0; i < LOOKS && atomic_load_explicit(&team->loops, memory_order_relaxed) == seen; i++)
@@ -65,7 +67,7 @@ static void *serve(void *argument)
         pthread_mutex_unlock(&team->lock);
         if (over)
             return NULL;
-        take_ranges(team);
+        take_ranges(team, worker);
         pthread_mutex_lock(&team->lock);
         if (--team->working == 0)
             pthread_cond_signal(&team->ends);
@@ -87,6 +89,11 @@ MesoTeam *meso_team_begin(uint32_t thread_count)
            pthread_create(&team->threads[team->thread_count], NULL, serve, team) == 0)
         team->thread_count++;
     return team;
+}
+
+uint32_t meso_team_size(const MesoTeam *team)
+{
+    return team ? team->thread_count + 1 : 1;
 }
 
 void meso_team_end(MesoTeam *team)
@@ -126,16 +133,36 @@ static void close_loop(MesoTeam *team)
     pthread_mutex_unlock(&team->lock);
 }
 
-void meso_team_for(MesoTeam *team, uint64_t count, uint64_t grain,
-                   void (*body)(void *context, uint64_t begin, uint64_t end), void *context)
+void meso_team_work(MesoTeam *team, uint64_t count, uint64_t grain,
+                    void (*body)(void *context, uint32_t worker, uint64_t begin, uint64_t end), void *context)
 {
     assert(grain > 0);
     if (!team || count <= grain) {
         for (uint64_t begin = 0; begin < count; begin += grain)
-            body(context, begin, begin + (count - begin < grain ? count - begin : grain));
+            body(context, 0, begin, begin + (count - begin < grain ? count - begin : grain));
         return;
     }
     open_loop(team, (Loop){count, grain, body, context});
-    take_ranges(team);
+    take_ranges(team, 0);
     close_loop(team);
+}
+
+/* A loop whose body does not ask who runs it. */
+typedef struct PlainLoop {
+    void (*body)(void *context, uint64_t begin, uint64_t end);
+    void *context;
+} PlainLoop;
+
+static void run_plain(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+{
+    const PlainLoop *loop = context;
+    (void)worker;
+    loop->body(loop->context, begin, end);
+}
+
+void meso_team_for(MesoTeam *team, uint64_t count, uint64_t grain,
+                   void (*body)(void *context, uint64_t begin, uint64_t end), void *context)
+{
+    PlainLoop loop = {body, context};
+    meso_team_work(team, count, grain, run_plain, &loop);
 }

@@ -12,6 +12,9 @@ typedef struct MesoTeam MesoTeam;
  */
 MesoTeam *meso_team_begin(uint32_t thread_count);
 
+/* Threads that it has, the caller among them: at least one, and no more than were wanted. */
+uint32_t meso_team_size(const MesoTeam *team);
+
 /* Ends the threads; nothing where it is NULL. */
 void meso_team_end(MesoTeam *team);
 
@@ -21,5 +24,9 @@ void meso_team_end(MesoTeam *team);
  */
 void meso_team_for(MesoTeam *team, uint64_t count, uint64_t grain,
                    void (*body)(void *context, uint64_t begin, uint64_t end), void *context);
+
+/* The same, and says which of the team's threads runs the range, as meso_parallel_team() does. */
+void meso_team_work(MesoTeam *team, uint64_t count, uint64_t grain,
+                    void (*body)(void *context, uint32_t worker, uint64_t begin, uint64_t end), void *context);
 
 #endif

@@ -3,11 +3,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcore/base/parallel.h"
+#include "libcore/base/team.h"
 #include "libcore/render/light/light_order.h"
 
-/* Shapes are made a batch at a time, by ranges, and each batch is drawn into the maps that have a texel for it. */
-enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 96, MOST = 12 };       /* shapes, ranges, shapes */
+/*
+ * Shapes are made a batch at a time, by ranges, and each batch is drawn into the maps that have a texel for it. Where
+ * nothing is left out for what has been drawn before, the next batch is made while one is drawn: who has done with the
+ * maps, of which some take long, makes ranges.
+ */
+enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 32, MOST = 12 };       /* shapes, ranges, shapes */
+
+/* Elements that an array begins with: all that most ranges have. */
+enum { LEAST_ROOM = 4096 };
 
 /* Where what a shape has begins in its range. */
 typedef struct Piece {
@@ -24,19 +31,26 @@ typedef struct Range {
 } Range;
 
 /* What a batch is for maps of one size. */
-typedef struct Batch {
+typedef struct Part {
     MesoLightMaps *maps;
     Range ranges[BATCH];
     uint64_t *wanted;           /* [BATCH * maps] a bit for each shape of a range that reaches a texel's middle there */
+} Part;
+
+typedef struct Batch {
+    uint64_t first;             /* bundle */
+    uint32_t range_count;
+    Part *parts;                /* [set_count] */
 } Batch;
 
 typedef struct Drawing {
     const MesoShapes *shapes;
     MesoRasterLanes lanes;
     uint32_t *order;            /* of bundles, where they are made */
-    uint64_t first;             /* bundle */
-    uint32_t range_count, set_count, map_count;
-    Batch *sets;                /* [set_count] */
+    uint32_t set_count, map_count;
+    Batch batches[2];           /* the one that is drawn, and the next one; where there is an order, one alone */
+    uint32_t turn;              /* which of them is drawn */
+    MesoTeam *team;
     MesoShapeMesh *meshes;      /* one a worker */
     MesoRasterVertex **projected;
     uint64_t *projected_room;
@@ -52,11 +66,12 @@ static bool grow(void **array, uint64_t *room, uint64_t count, size_t size)
 {
     if (count <= *room)
         return true;
-    void *grown = realloc(*array, 2 * count * size);
+    uint64_t wanted = 2 * count > LEAST_ROOM ? 2 * count : LEAST_ROOM;
+    void *grown = realloc(*array, wanted * size);
     if (!grown)
         return false;
     *array = grown;
-    *room = 2 * count;
+    *room = wanted;
     return true;
 }
 
@@ -169,23 +184,23 @@ static uint64_t before(const MesoShapes *shapes, const MesoLightMaps *maps, uint
 }
 
 /* Where sweeps are made, nothing of a bundle is that all maps hide; false for such a one. */
-static bool make_bundle(const Drawing *d, uint32_t r, MesoShapeBundle *bundle)
+static bool make_bundle(const Drawing *d, const Batch *batch, uint32_t r, MesoShapeBundle *bundle)
 {
-    uint32_t number = (uint32_t)(d->first + r);
+    uint32_t number = (uint32_t)(batch->first + r);
     bool seen = !d->order;
     number = d->order ? d->order[number] : number;
     for (uint32_t s = 0; s < d->set_count && !seen; s++)
-        seen = !meso_light_maps_hide(d->sets[s].maps, &d->shapes->bundle_bounds[number]);
+        seen = !meso_light_maps_hide(batch->parts[s].maps, &d->shapes->bundle_bounds[number]);
     if (seen)
         meso_shape_bundle(d->shapes, number, bundle);
     return seen;
 }
 
 /* Returns what any map wants. */
-static uint64_t look_at(const Drawing *d, Batch *batch, uint32_t r, const MesoShapeBundle *bundle, const Boxes *boxes)
+static uint64_t look_at(const Drawing *d, Part *part, uint32_t r, const MesoShapeBundle *bundle, const Boxes *boxes)
 {
-    const MesoLightMaps *maps = batch->maps;
-    uint64_t any = 0, *wanted = &batch->wanted[r * maps->count];
+    const MesoLightMaps *maps = part->maps;
+    uint64_t any = 0, *wanted = &part->wanted[r * maps->count];
     for (uint32_t m = 0; m < maps->count; m++) {
         wanted[m] = wanted_of(&maps->maps[m].view, boxes, bundle->count);
         any |= wanted[m] = d->order ? before(d->shapes, maps, m, bundle, wanted[m]) : wanted[m];
@@ -194,46 +209,43 @@ static uint64_t look_at(const Drawing *d, Batch *batch, uint32_t r, const MesoSh
 }
 
 /* Makes what some map wants of a range; false where memory is out. */
-static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoShapeBundle *bundle, uint64_t any,
+static bool make_range(const Drawing *d, Part *part, uint32_t r, const MesoShapeBundle *bundle, uint64_t any,
                        MesoShapeMesh *mesh)
 {
-    Range *range = &batch->ranges[r];
+    Range *range = &part->ranges[r];
     range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
     range->reach = INFINITY;
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
         if (i < RANGE && any >> i & 1 &&
-            !(meso_shape_make_bundled(d->shapes, bundle, i, batch->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
+            !(meso_shape_make_bundled(d->shapes, bundle, i, part->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
               add_mesh(range, mesh)))
             return false;
     }
     return true;
 }
 
-static void want_nothing(const Drawing *d, uint32_t r)
+static void want_nothing(const Drawing *d, const Batch *batch, uint32_t r)
 {
     for (uint32_t s = 0; s < d->set_count; s++) {
-        uint32_t count = d->sets[s].maps->count;
-        memset(&d->sets[s].wanted[r * count], 0, count * sizeof *d->sets[s].wanted);
-        d->sets[s].ranges[r].point_count = 0;
+        Part *part = &batch->parts[s];
+        memset(&part->wanted[r * part->maps->count], 0, part->maps->count * sizeof *part->wanted);
+        part->ranges[r].point_count = 0;
     }
 }
 
-static void make_ranges(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+static void make_ranges(Drawing *d, uint32_t worker, const Batch *batch, uint32_t r)
 {
-    Drawing *d = context;
     MesoShapeBundle bundle;
-    for (uint64_t r = begin; r < end; r++) {
-        if (!make_bundle(d, (uint32_t)r, &bundle)) {
-            want_nothing(d, (uint32_t)r);
-            continue;
-        }
-        Boxes boxes = boxes_of(&bundle);
-        for (uint32_t s = 0; s < d->set_count; s++) {
-            uint64_t any = look_at(d, &d->sets[s], (uint32_t)r, &bundle, &boxes);
-            if (!make_range(d, &d->sets[s], (uint32_t)r, &bundle, any, &d->meshes[worker]))
-                fail(d);
-        }
+    if (!make_bundle(d, batch, r, &bundle)) {
+        want_nothing(d, batch, r);
+        return;
+    }
+    Boxes boxes = boxes_of(&bundle);
+    for (uint32_t s = 0; s < d->set_count; s++) {
+        uint64_t any = look_at(d, &batch->parts[s], r, &bundle, &boxes);
+        if (!make_range(d, &batch->parts[s], r, &bundle, any, &d->meshes[worker]))
+            fail(d);
     }
 }
 
@@ -269,101 +281,135 @@ static void draw_range(const MesoRasterTarget *target, const MesoRasterView *vie
     }
 }
 
-static void draw_map(Drawing *d, uint32_t worker, const Batch *batch, uint32_t m)
+static void draw_map(Drawing *d, uint32_t worker, const Part *part, uint32_t range_count, uint32_t m)
 {
-    const MesoLightMap *map = &batch->maps->maps[m];
-    int32_t cells = (int32_t)batch->maps->size / 4;
+    const MesoLightMap *map = &part->maps->maps[m];
+    int32_t cells = (int32_t)part->maps->size / 4;
     const MesoRasterTarget target = {&d->lanes, cells, cells, map->nearness, NULL};
-    for (uint32_t r = 0; r < d->range_count; r++) {
-        const Range *range = &batch->ranges[r];
+    for (uint32_t r = 0; r < range_count; r++) {
+        const Range *range = &part->ranges[r];
         if (!grow((void **)&d->projected[worker], &d->projected_room[worker], range->point_count,
                   sizeof **d->projected)) {
             fail(d);
             return;
         }
-        draw_range(&target, &map->view, range, batch->wanted[r * batch->maps->count + m], d->projected[worker]);
+        draw_range(&target, &map->view, range, part->wanted[r * part->maps->count + m], d->projected[worker]);
     }
 }
 
 /* Maps of all sets are numbered through, from the last set on: nobody waits for the finest, which take longest. */
-static void draw_maps(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+static void draw_one(Drawing *d, uint32_t worker, const Batch *batch, uint32_t m)
+{
+    uint32_t set = d->set_count - 1;
+    while (m >= batch->parts[set].maps->count)
+        m -= batch->parts[set--].maps->count;
+    draw_map(d, worker, &batch->parts[set], batch->range_count, m);
+}
+
+/* The maps of one batch, then the ranges of the next one. */
+static void work(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Drawing *d = context;
-    for (uint64_t i = begin; i < end; i++) {
-        uint32_t set = d->set_count - 1, m = (uint32_t)i;
-        while (m >= d->sets[set].maps->count)
-            m -= d->sets[set--].maps->count;
-        draw_map(d, worker, &d->sets[set], m);
-    }
+    const Batch *drawn = &d->batches[d->turn], *made = &d->batches[!d->turn];
+    uint32_t maps = drawn->range_count ? d->map_count : 0;
+    for (uint64_t i = begin; i < end; i++)
+        if (i < maps)
+            draw_one(d, worker, drawn, (uint32_t)i);
+        else
+            make_ranges(d, worker, made, (uint32_t)(i - maps));
 }
 
-static void release_batch(Batch *batch)
+/* Draws what has been made, and makes the batch that begins with bundle `first`. */
+static void take_turn(Drawing *d, uint64_t first)
+{
+    Batch *drawn = &d->batches[d->turn], *made = &d->batches[!d->turn];
+    uint64_t left = d->shapes->bundle_count - first;
+    made->first = first;
+    made->range_count = left < BATCH ? (uint32_t)left : BATCH;
+    meso_team_work(d->team, (drawn->range_count ? d->map_count : 0) + made->range_count, 1, work, d);
+    drawn->range_count = 0;
+    d->turn = !d->turn;
+}
+static void release_part(Part *part)
 {
     for (uint32_t r = 0; r < BATCH; r++) {
-        free(batch->ranges[r].x);
-        free(batch->ranges[r].y);
-        free(batch->ranges[r].z);
-        free(batch->ranges[r].corners[0]);
-        free(batch->ranges[r].corners[1]);
+        free(part->ranges[r].x);
+        free(part->ranges[r].y);
+        free(part->ranges[r].z);
+        free(part->ranges[r].corners[0]);
+        free(part->ranges[r].corners[1]);
     }
-    free(batch->wanted);
+    free(part->wanted);
 }
 
-static void release(Drawing *d, uint32_t workers)
+static void release(Drawing *d)
 {
-    for (uint32_t w = 0; w < workers; w++) {
+    for (uint32_t w = 0; w < meso_team_size(d->team); w++) {
         if (d->meshes)
             meso_shape_mesh_release(&d->meshes[w]);
         if (d->projected)
             free(d->projected[w]);
     }
-    for (uint32_t s = 0; d->sets && s < d->set_count; s++)
-        release_batch(&d->sets[s]);
-    free(d->sets);
+    for (int b = 0; b < 2; b++) {
+        for (uint32_t s = 0; d->batches[b].parts && s < d->set_count; s++)
+            release_part(&d->batches[b].parts[s]);
+        free(d->batches[b].parts);
+    }
     free(d->order);
     free(d->meshes);
     free(d->projected);
     free(d->projected_room);
+    meso_team_end(d->team);
 }
 
-static bool begin_batch(Batch *batch, MesoLightMaps *maps)
+static bool begin_batch(Batch *batch, MesoLightMaps *const *sets, uint32_t set_count)
 {
-    batch->maps = maps;
-    batch->wanted = calloc((size_t)BATCH * maps->count, sizeof *batch->wanted);
+    batch->parts = calloc(set_count, sizeof *batch->parts);
+    bool begun = batch->parts != NULL;
+    for (uint32_t s = 0; s < set_count && begun; s++) {
+        batch->parts[s].maps = sets[s];
+        batch->parts[s].wanted = calloc((size_t)BATCH * sets[s]->count, sizeof *batch->parts[s].wanted);
+        begun = batch->parts[s].wanted != NULL;
+    }
+    return begun;
+}
+
+static void clear(MesoLightMaps *maps)
+{
     for (size_t i = 0; i < (size_t)maps->count * maps->size * maps->size; i++)
         maps->nearness[i] = -INFINITY;
-    return batch->wanted != NULL;
 }
 
 /* False where memory is out. */
 static bool begin(Drawing *d, MesoLightMaps *const *sets)
 {
-    bool begun = d->sets && d->meshes && d->projected && d->projected_room;
-    for (uint32_t s = 0; s < d->set_count && begun; s++) {
-        begun = begin_batch(&d->sets[s], sets[s]);
+    uint32_t workers = meso_team_size(d->team);
+    bool failed = false;
+    d->meshes = calloc(workers, sizeof *d->meshes);
+    d->projected = calloc(workers, sizeof *d->projected);
+    d->projected_room = calloc(workers, sizeof *d->projected_room);
+    for (uint32_t s = 0; s < d->set_count; s++) {
         d->map_count += sets[s]->count;
+        clear(sets[s]);
     }
-    return begun;
+    d->order = meso_light_order(sets[d->set_count - 1], d->shapes, &failed);    /* the last of them are the finest */
+    return !failed && d->meshes && d->projected && d->projected_room && begin_batch(&d->batches[0], sets, d->set_count) &&
+           begin_batch(&d->batches[1], sets, d->set_count);
 }
 
 MesoStatus meso_light_maps_draw(MesoLightMaps *const *sets, uint32_t set_count, const MesoShapes *shapes,
                                 uint32_t thread_count, MesoError *error)
 {
-    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
     Drawing d = {.shapes = shapes, .lanes = meso_raster_lanes(1), .set_count = set_count,
-                 .sets = calloc(set_count, sizeof *d.sets), .meshes = calloc(workers, sizeof *d.meshes),
-                 .projected = calloc(workers, sizeof *d.projected),
-                 .projected_room = calloc(workers, sizeof *d.projected_room)};
+                 .team = meso_team_begin(thread_count)};
     d.failed = !begin(&d, sets);
-    if (!d.failed)              /* the last of them are the finest */
-        d.order = meso_light_order(sets[set_count - 1], shapes, &d.failed);
-    for (d.first = 0; d.first < shapes->bundle_count && !d.failed; d.first += BATCH) {
-        uint64_t left = shapes->bundle_count - d.first;
-        d.range_count = left < BATCH ? (uint32_t)left : BATCH;
-        meso_parallel_team(workers, d.range_count, 1, make_ranges, &d);
-        if (!d.failed)
-            meso_parallel_team(workers, d.map_count, 1, draw_maps, &d);
+    for (uint64_t first = 0; first < shapes->bundle_count && !d.failed; first += BATCH) {
+        take_turn(&d, first);
+        if (d.order && !d.failed)
+            take_turn(&d, shapes->bundle_count);
     }
-    release(&d, workers);
+    if (!d.failed)
+        take_turn(&d, shapes->bundle_count);
+    release(&d);
     return d.failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the light") : MESO_OK;
 }

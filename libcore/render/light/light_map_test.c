@@ -1,8 +1,10 @@
 /*
  * Places looked up in many light maps at once against each map's texels one by one, for any number of maps, in the
- * sphere and far beside it.
+ * sphere and far beside it. And of thousands of squares each one is in the maps, as high as it is, whoever drew it.
  */
 #include "libcore/render/light/light_map.h"
+
+#include <string.h>
 
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
@@ -82,6 +84,83 @@ static void test_maps(uint32_t count, MesoRandom *random)
     CHECK(shades > 20 * (float)count);
 }
 
+/* ---- drawn ---- */
+
+enum { SIDE = 90, SQUARES = SIDE * SIDE, FINE = 512 };
+
+/* Squares beside each other over the plane, each a body of its own; higher ones after lower ones, and not. */
+typedef struct Squares {
+    MesoVec3 positions[4], normals[4];
+    uint32_t corners[4], ids;
+    MesoMaterial material;
+    MesoBody body;
+    MesoFrame frames[SQUARES];
+    MesoPlacedBody placed[SQUARES];
+    MesoScene scene;
+    MesoShapes shapes;
+} Squares;
+
+static MesoVec3 middle_of(uint32_t square)
+{
+    float height = (float)(square * 37 % 101) / 101;
+    return (MesoVec3){(float)(square % SIDE) / SIDE - 0.5f, (float)(square / SIDE) / SIDE - 0.5f, height};
+}
+
+static void make_squares(Squares *s)
+{
+    const float half = 0.45f / SIDE;
+    *s = (Squares){0};
+    for (uint32_t k = 0; k < 4; k++) {
+        s->positions[k] = (MesoVec3){k == 1 || k == 2 ? half : -half, k >= 2 ? half : -half, 0};
+        s->normals[k] = (MesoVec3){0, 0, 1};
+        s->corners[k] = k;
+    }
+    s->body = (MesoBody){4, 1, 4, s->positions, s->normals, NULL, NULL, s->corners};
+    for (uint32_t i = 0; i < SQUARES; i++) {
+        MesoVec3 at = middle_of(i);
+        s->frames[i] = (MesoFrame){{1, 0, 0, at.x, 0, 1, 0, at.y, 0, 0, 1, at.z}};
+        s->placed[i] = (MesoPlacedBody){.frame = i, .place = MESO_PLACED_IN_FRAME};
+    }
+    s->scene = (MesoScene){.material_count = 1, .materials = &s->material, .id_row_count = 1, .ids = &s->ids,
+                           .section_scale = 1, .body_count = 1, .bodies = &s->body, .placed_count = SQUARES,
+                           .placed = s->placed, .frame_count = SQUARES, .frames = s->frames};
+    meso_scene_measure(&s->scene);
+    CHECK(meso_shapes_init(&s->shapes, &arena, &s->scene, (MesoVec3){0, 0, 0}, 1, &error) == MESO_OK);
+}
+
+static float nearness_at(const MesoLightMaps *maps, uint32_t m, MesoVec3 p)
+{
+    const MesoLightMap *map = &maps->maps[m];
+    MesoVec3 q = meso_raster_from_eye(&map->view, p);
+    uint32_t x = (uint32_t)(map->view.middle_x + map->view.focal * q.x);
+    uint32_t y = (uint32_t)(map->view.middle_y + map->view.focal * q.y);
+    return map->nearness[16 * ((size_t)(y / 4) * (maps->size / 4) + x / 4) + y % 4 * 4 + x % 4];
+}
+
+static void test_drawn(void)
+{
+    static Squares squares;
+    static const MesoVec3 up = {0, 0, 1}, middle = {0, 0, 0.5f};
+    const MesoVec3 towards[3] = {up, meso_vec3_unit((MesoVec3){0.1f, 0, 1}, up), {0, 1, 0}};
+    MesoLightMaps first[2] = {{0}};
+    make_squares(&squares);
+    for (uint32_t threads = 1; threads <= 5; threads += 2) {
+        MesoLightMaps maps[2], *const sets[2] = {&maps[0], &maps[1]};
+        CHECK(meso_light_maps_init(&maps[0], &arena, towards, 3, middle, 1, 64, &error) == MESO_OK);
+        CHECK(meso_light_maps_init(&maps[1], &arena, towards, 1, middle, 1, FINE, &error) == MESO_OK);
+        CHECK(meso_light_maps_draw(sets, 2, &squares.shapes, threads, &error) == MESO_OK);
+        for (uint32_t i = 0; i < SQUARES; i++) {
+            MesoVec3 at = middle_of(i);
+            CHECK(fabsf(nearness_at(&maps[1], 0, at) - (at.z - middle.z)) < 1e-4f);
+        }
+        if (threads == 1)
+            memcpy(first, maps, sizeof first);
+        for (uint32_t s = 0; s < 2; s++)
+            CHECK(memcmp(first[s].nearness, maps[s].nearness,
+                         (size_t)maps[s].count * maps[s].size * maps[s].size * sizeof(float)) == 0);
+    }
+}
+
 int main(void)
 {
     MesoRandom random;
@@ -91,6 +170,7 @@ int main(void)
     test_maps(12, &random);
     test_maps(32, &random);
     test_maps(MOST, &random);
+    test_drawn();
     meso_arena_release(&arena);
     return 0;
 }
