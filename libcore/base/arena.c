@@ -1,4 +1,3 @@
-#define _DEFAULT_SOURCE     /* madvise() */
 #include "libcore/base/arena.h"
 
 #include <assert.h>
@@ -7,7 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
+
+#include "libcore/base/large_pages.h"
 
 enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
 
@@ -15,13 +15,7 @@ enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
  * Blocks of that size come from the system, and go back to it: malloc() would keep what it once had, in pieces that
  * nothing else fits into.
  */
-enum { MAPPED_SIZE = 1 << 19 };
-
-/*
- * Pages of such blocks: 2 MiB on x86-64. Fewer of them, fewer misses of the table of pages, and faults. A block is
- * whole ones: then Linux lays it along them, and none at its ends are small. What is left of the last is room for more.
- */
-enum { LARGE_PAGE = 1 << 21 };
+enum { MAPPED_SIZE = 3 << 19 };
 
 struct MesoArenaBlock {
     MesoArenaBlock *previous;
@@ -38,32 +32,14 @@ static size_t round_up(size_t size)
     return (size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
 }
 
-/* Of the large pages that lie wholly inside; where the system has none, nothing changes. */
-static void ask_for_large_pages(void *data, size_t size)
-{
-#ifdef MADV_HUGEPAGE
-    uintptr_t begin = ((uintptr_t)data + LARGE_PAGE - 1) & ~(uintptr_t)(LARGE_PAGE - 1);
-    uintptr_t end = ((uintptr_t)data + size) & ~(uintptr_t)(LARGE_PAGE - 1);
-    if (begin < end)
-        madvise((void *)begin, end - begin, MADV_HUGEPAGE);
-#else
-    (void)data;
-    (void)size;
-#endif
-}
-
 /* Zero; by calloc(), or in fresh pages. */
 static MesoArenaBlock *take_room(size_t size)
 {
     if (size < MAPPED_SIZE)
         return calloc(1, size);
-    if (size <= SIZE_MAX - LARGE_PAGE)
-        size = (size + LARGE_PAGE - 1) & ~(size_t)(LARGE_PAGE - 1);
-    MesoArenaBlock *block = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (block == MAP_FAILED)
-        return NULL;
-    ask_for_large_pages(block, size);
-    block->mapped = size;
+    MesoArenaBlock *block = meso_large_take(&size);
+    if (block)
+        block->mapped = size;
     return block;
 }
 
@@ -84,7 +60,7 @@ static void free_block(MesoArenaBlock *block)
 {
     free(block->adopted);
     if (block->mapped)
-        munmap(block, block->mapped);
+        meso_large_give(block, block->mapped);
     else
         free(block);
 }

@@ -6,6 +6,7 @@
 #include "libcore/base/bits.h"
 #include "libcore/base/check.h"
 #include "libcore/base/index_map.h"
+#include "libcore/base/large_pages.h"
 #include "libcore/base/parallel.h"
 #include "libcore/base/random.h"
 #include "libcore/base/team.h"
@@ -74,12 +75,33 @@ static void test_arena_pages(void)
 {
     MesoArena arena;
     meso_arena_init(&arena);
-    unsigned char *first = MESO_NEW(&arena, unsigned char, 1 << 20, NULL);
+    unsigned char *first = MESO_NEW(&arena, unsigned char, 13 << 17, NULL);
     MesoArenaBlock *block = arena.head;
-    unsigned char *second = MESO_NEW(&arena, unsigned char, 1 << 19, NULL);
-    CHECK(first && second == first + (1 << 20) && arena.head == block && second[(1 << 19) - 1] == 0);
+    unsigned char *second = MESO_NEW(&arena, unsigned char, 1 << 18, NULL);
+    CHECK(first && second == first + (13 << 17) && arena.head == block && second[(1 << 18) - 1] == 0);
     CHECK(MESO_NEW(&arena, unsigned char, 1 << 20, NULL) && arena.head != block);
     meso_arena_release(&arena);
+}
+
+/* Whole large pages where that is nearly all of them, and never less than is asked for; zeros, and all can be used. */
+static void test_large_pages(void)
+{
+    enum { LARGE = 1 << 21 };
+    static const struct {
+        size_t wanted, given;
+    } sizes[] = {{1, 4096}, {4096, 4096}, {1 << 20, 1 << 20}, {3 << 19, LARGE}, {LARGE, LARGE}, {LARGE + 1, LARGE + 4096},
+                 {3 << 20, 2 * LARGE}, {10 * LARGE + 1, 11 * LARGE}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        size_t size = sizes[i].wanted;
+        unsigned char *memory = meso_large_take(&size);
+        CHECK(memory && size == sizes[i].given && (size < LARGE || (uintptr_t)memory % LARGE == 0));
+        CHECK(memory[0] == 0 && memory[size / 2] == 0 && memory[size - 1] == 0);
+        memset(memory, 1, size);
+        meso_large_give(memory, size);
+    }
+    size_t most = SIZE_MAX - 5;
+    CHECK(meso_large_take(&most) == NULL);
+    meso_large_give(NULL, 0);
 }
 
 static void test_error(void)
@@ -220,7 +242,7 @@ static void test_team_that_counts(void)
         }
         Team one = {{0}, {1, 1, 1, 1}};
         one.busy[0] = 0;
-        meso_team_work(team, 10, 10, add_range_alone, &one);       /* a single range is the caller's, who is the first */
+        meso_team_work(team, 10, 10, add_range_alone, &one);    /* a single range is the caller's, who is the first */
         meso_team_work(team, 0, 1, add_range_alone, NULL);
         meso_team_end(team);
     }
@@ -231,6 +253,7 @@ int main(void)
     test_arena();
     test_arena_clear();
     test_arena_pages();
+    test_large_pages();
     test_error();
     test_random();
     test_bits();

@@ -393,8 +393,10 @@ static bool begin(Drawing *d, MesoLightMaps *const *sets)
         clear(sets[s]);
     }
     d->order = meso_light_order(sets[d->set_count - 1], d->shapes, &failed);    /* the last of them are the finest */
-    return !failed && d->meshes && d->projected && d->projected_room && begin_batch(&d->batches[0], sets, d->set_count) &&
-           begin_batch(&d->batches[1], sets, d->set_count);
+    bool begun = !failed && d->meshes && d->projected && d->projected_room;
+    for (int b = 0; b < 2 && begun; b++)
+        begun = begin_batch(&d->batches[b], sets, d->set_count);
+    return begun;
 }
 
 MesoStatus meso_light_maps_draw(MesoLightMaps *const *sets, uint32_t set_count, const MesoShapes *shapes,
