@@ -1,5 +1,6 @@
 #include "formats/image/exr_deflate.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,24 +48,51 @@ static unsigned char *make_room(exr_encode_pipeline_t *pipeline, size_t size)
     return pipeline->compressed_buffer;
 }
 
-exr_result_t meso_exr_deflate(exr_encode_pipeline_t *pipeline)
+static exr_result_t compress(exr_encode_pipeline_t *pipeline)
 {
-    size_t size = pipeline->packed_bytes;
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);
-    unsigned char *scratch = malloc(size + 1);
-    size_t room = compressor && scratch ? libdeflate_zlib_compress_bound(compressor, size) : 0;
-    unsigned char *out = room ? make_room(pipeline, room > size ? room : size) : NULL;
-    if (out) {
-        split_bytes(scratch, pipeline->packed_buffer, size);
-        take_differences(scratch, size);
-        size_t packed = libdeflate_zlib_compress(compressor, scratch, size, out, room);
-        if (packed == 0 || packed >= size) {
-            memcpy(out, pipeline->packed_buffer, size);
-            packed = size;
-        }
-        pipeline->compressed_bytes = packed;
+    MesoExrRoom *room = pipeline->encoding_user_data;
+    size_t size = pipeline->packed_bytes, bound = libdeflate_zlib_compress_bound(room->compressor, size);
+    unsigned char *out = make_room(pipeline, bound > size ? bound : size);
+    if (!out)
+        return EXR_ERR_OUT_OF_MEMORY;
+    assert(size <= room->size);
+    split_bytes(room->split, pipeline->packed_buffer, size);
+    take_differences(room->split, size);
+    size_t packed = libdeflate_zlib_compress(room->compressor, room->split, size, out, bound);
+    if (packed == 0 || packed >= size) {
+        memcpy(out, pipeline->packed_buffer, size);
+        packed = size;
     }
-    free(scratch);
-    libdeflate_free_compressor(compressor);
-    return out ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
+    pipeline->compressed_bytes = packed;
+    return EXR_ERR_SUCCESS;
+}
+
+bool meso_exr_room_init(MesoExrRoom *room, MesoArena *arena, size_t size)
+{
+    unsigned char *bytes = MESO_NEW(arena, unsigned char, 2 * size, NULL);
+    *room = (MesoExrRoom){.size = size, .packed = bytes, .split = bytes ? bytes + size : NULL,
+                          .compressor = libdeflate_alloc_compressor(LEVEL)};
+    return bytes && room->compressor;
+}
+
+void meso_exr_room_release(MesoExrRoom *room)
+{
+    libdeflate_free_compressor(room->compressor);
+    *room = (MesoExrRoom){0};
+}
+
+exr_result_t meso_exr_deflate(exr_const_context_t context, int part, exr_encode_pipeline_t *pipeline,
+                              MesoExrRoom *room)
+{
+    pipeline->compress_fn = compress;
+    pipeline->encoding_user_data = room;
+    pipeline->packed_buffer = room->packed;
+    pipeline->packed_alloc_size = room->size;
+    exr_result_t result = exr_encoding_run(context, part, pipeline);
+    /* The library, which would free it, must not have it any longer; another that it made is its own. */
+    if (pipeline->packed_buffer == room->packed) {
+        pipeline->packed_buffer = NULL;
+        pipeline->packed_alloc_size = 0;
+    }
+    return result;
 }

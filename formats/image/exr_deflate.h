@@ -4,7 +4,27 @@
 
 #include <OpenEXR/openexr.h>
 
-/* A compressor of the Core library's pipelines: EXR_ERR_OUT_OF_MEMORY alone. What does not shrink stays as it is. */
-exr_result_t meso_exr_deflate(exr_encode_pipeline_t *pipeline);
+#include "libcore/base/arena.h"
+
+struct libdeflate_compressor;
+
+/* What a thread packs and compresses chunks in, one after the other. */
+typedef struct MesoExrRoom {
+    size_t size;                /* bytes of a chunk, at most */
+    unsigned char *packed, *split;      /* [size] */
+    struct libdeflate_compressor *compressor;
+} MesoExrRoom;
+
+/* For chunks of up to `size` bytes; its memory is in `arena`, and takes room once it is used. False: out of memory. */
+bool meso_exr_room_init(MesoExrRoom *room, MesoArena *arena, size_t size);
+void meso_exr_room_release(MesoExrRoom *room);
+
+/*
+ * Runs a pipeline of the Core library that has all but its compressor, for which `room` stands in: packed bytes go
+ * there, and what is compressed stays with the pipeline. What does not shrink stays as it is. What the library returns,
+ * or EXR_ERR_OUT_OF_MEMORY.
+ */
+exr_result_t meso_exr_deflate(exr_const_context_t context, int part, exr_encode_pipeline_t *pipeline,
+                              MesoExrRoom *room);
 
 #endif

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/image/exr_deflate.h"
 #include "formats/image/exr_writer.h"
 #include "libcore/base/parallel.h"
 
@@ -84,7 +83,7 @@ static void drop_pipeline(MesoExrWriter *writer, uint32_t slot)
     writer->ready[slot] = false;
 }
 
-static exr_result_t encode_chunk(MesoExrWriter *writer, uint32_t slot)
+static exr_result_t encode_chunk(MesoExrWriter *writer, MesoExrRoom *room, uint32_t slot)
 {
     exr_encode_pipeline_t *pipeline = &writer->pipelines[slot];
     const exr_chunk_info_t *chunk = &writer->chunks[slot];
@@ -98,17 +97,16 @@ static exr_result_t encode_chunk(MesoExrWriter *writer, uint32_t slot)
     result = connect(writer, &writer->parts[part], pipeline, (uint32_t)chunk->start_y - writer->next_row);
     if (!result)
         result = exr_encoding_choose_default_routines(writer->context, part, pipeline);
-    pipeline->compress_fn = meso_exr_deflate;
     pipeline->yield_until_ready_fn = write_later;
     pipeline->write_fn = write_later;
-    return result ? result : exr_encoding_run(writer->context, part, pipeline);
+    return result ? result : meso_exr_deflate(writer->context, part, pipeline, room);
 }
 
-static void encode_range(void *user, uint64_t begin, uint64_t end)
+static void encode_range(void *user, uint32_t worker, uint64_t begin, uint64_t end)
 {
     MesoExrWriter *writer = user;
     for (uint64_t i = begin; i < end; i++)
-        writer->results[i] = encode_chunk(writer, (uint32_t)i);
+        writer->results[i] = encode_chunk(writer, &writer->rooms[worker], (uint32_t)i);
 }
 
 /* Pipelines are of one part. */
@@ -162,7 +160,7 @@ static exr_result_t write_chunk(MesoExrWriter *writer, uint32_t slot)
 static exr_result_t write_batch(MesoExrWriter *writer, uint32_t count)
 {
     exr_result_t result = EXR_ERR_SUCCESS;
-    meso_parallel_for(writer->thread_count, count, 1, encode_range, writer);
+    meso_parallel_team(writer->room_count, count, 1, encode_range, writer);
     for (uint32_t i = 0; i < count && !result; i++)
         result = writer->results[i] ? writer->results[i] : write_chunk(writer, i);
     return result;
@@ -191,6 +189,16 @@ static exr_result_t write_rows(MesoExrWriter *writer, uint32_t rows)
 
 /* ---- files ---- */
 
+static exr_result_t make_rooms(MesoExrWriter *writer, size_t size)
+{
+    uint32_t threads = writer->thread_count ? writer->thread_count : meso_parallel_cores();
+    uint32_t count = threads < writer->batch ? threads : writer->batch;
+    for (uint32_t i = 0; i < count; i++, writer->room_count++)
+        if (!meso_exr_room_init(&writer->rooms[i], &writer->arena, size))
+            return EXR_ERR_OUT_OF_MEMORY;
+    return EXR_ERR_SUCCESS;
+}
+
 /* Chunks at once: what they are packed and compressed in is to stay small beside a band. */
 static exr_result_t plan_batch(MesoExrWriter *writer)
 {
@@ -203,7 +211,7 @@ static exr_result_t plan_batch(MesoExrWriter *writer)
     }
     uint64_t count = BATCH_BYTES / most;
     writer->batch = count < 1 ? 1 : count > BATCH ? BATCH : (uint32_t)count;
-    return result;
+    return result ? result : make_rooms(writer, (size_t)most);
 }
 
 static uint32_t chunk_count(const MesoExrWriter *writer)
@@ -323,6 +331,8 @@ MesoStatus meso_exr_end(MesoExrWriter *writer, MesoStatus status, MesoError *err
         status = status_of(writer, write_tables(writer), error);
     for (uint32_t i = 0; i < BATCH; i++)
         drop_pipeline(writer, i);
+    for (uint32_t i = 0; i < BATCH; i++)
+        meso_exr_room_release(&writer->rooms[i]);
     /* The library does not know of chunks that it did not write, and takes the file for broken. */
     exr_result_t finished = writer->context ? exr_finish(&writer->context) : EXR_ERR_SUCCESS;
     if (!status && !own)

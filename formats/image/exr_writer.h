@@ -4,6 +4,7 @@
 
 #include <OpenEXR/openexr.h>
 
+#include "formats/image/exr_deflate.h"
 #include "formats/image/image_file.h"
 
 enum {
@@ -61,6 +62,8 @@ struct MesoExrWriter {
     uint32_t part_of[MESO_EXR_BATCH];
     exr_chunk_info_t chunks[MESO_EXR_BATCH];
     exr_result_t results[MESO_EXR_BATCH];
+    uint32_t room_count;                /* threads that work at once */
+    MesoExrRoom rooms[MESO_EXR_BATCH];
 };
 
 /* A part begins, of which the channels that follow are; without --multipart all are of the first. */

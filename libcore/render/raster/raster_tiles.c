@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/large_pages.h"
 #include "libcore/base/parallel.h"
 
 enum { LANES = MESO_RASTER_LANES, CELLS = MESO_TILE_CELLS, PLACES = LANES * CELLS * CELLS };
@@ -45,6 +46,7 @@ struct MesoRasterTile {
     MesoRasterVertex *projected;
     uint32_t vertex_room;
     SeenTriangle *seen;         /* [PLACES] */
+    size_t seen_size;           /* of it, from the system */
     bool failed, drawn;
     float nearness[PLACES];
     uint32_t ids[PLACES];       /* of triangles, 0: none; at last the numbers of those seen, from 1 */
@@ -523,7 +525,7 @@ static void release(MesoRasterTile *tile)
     free(tile->drawn_shapes);
     free(tile->first_ids);
     free(tile->tolerances);
-    free(tile->seen);
+    meso_large_give(tile->seen, tile->seen_size);
     free(tile->coordinates);
     free(tile->is_seen);
     free(tile->numbers);
@@ -535,14 +537,15 @@ static void release(MesoRasterTile *tile)
 static MesoRasterTile *make_tile(const MesoRasterBins *bins)
 {
     MesoRasterTile *tile = calloc(1, sizeof *tile);
-    SeenTriangle *seen = malloc(PLACES * sizeof *seen);
-    if (!tile || !seen) {
+    if (!tile)
+        return NULL;
+    tile->bins = bins;
+    tile->seen_size = PLACES * sizeof *tile->seen;
+    tile->seen = meso_large_take(&tile->seen_size);
+    if (!tile->seen) {
         free(tile);
-        free(seen);
         return NULL;
     }
-    tile->bins = bins;
-    tile->seen = seen;
     tile->target = (MesoRasterTarget){&bins->lanes, CELLS, CELLS, tile->nearness, tile->ids};
     return tile;
 }
