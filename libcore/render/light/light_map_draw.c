@@ -11,10 +11,10 @@
  * nothing is left out for what has been drawn before, the next batch is made while one is drawn: who has done with the
  * maps, of which some take long, makes ranges.
  */
-enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 32, MOST = 12 };       /* shapes, ranges, shapes */
+enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 20, MOST = 12 };       /* shapes, ranges, shapes */
 
 /* Elements that an array begins with: all that most ranges have. */
-enum { LEAST_ROOM = 4096 };
+enum { LEAST_ROOM = 16384 };
 
 /* Where what a shape has begins in its range. */
 typedef struct Piece {
