@@ -15,6 +15,7 @@
 #include "formats/json/json_text.h"
 #include "libcore/base/clock.h"
 #include "libcore/base/index.h"
+#include "libcore/base/kept_memory.h"
 #include "libcore/render/picture/apart.h"
 #include "libcore/render/picture/motion.h"
 #include "libcore/render/picture/painter.h"

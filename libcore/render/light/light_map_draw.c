@@ -31,25 +31,26 @@ typedef struct Range {
 } Range;
 
 /* What a batch is for maps of one size. */
-typedef struct Part {
+typedef struct Batch {
     MesoLightMaps *maps;
     Range ranges[BATCH];
     uint64_t *wanted;           /* [BATCH * maps] a bit for each shape of a range that reaches a texel's middle there */
-} Part;
+} Batch;
 
-typedef struct Batch {
+/* What is drawn, or made, at once. */
+typedef struct Turn {
     uint64_t first;             /* bundle */
     uint32_t range_count;
-    Part *parts;                /* [set_count] */
-} Batch;
+    Batch *sets;                /* [set_count] */
+} Turn;
 
 typedef struct Drawing {
     const MesoShapes *shapes;
     MesoRasterLanes lanes;
     uint32_t *order;            /* of bundles, where they are made */
     uint32_t set_count, map_count;
-    Batch batches[2];           /* the one that is drawn, and the next one; where there is an order, one alone */
-    uint32_t turn;              /* which of them is drawn */
+    Turn turns[2];              /* the one that is drawn, and the next one; where there is an order, one alone */
+    uint32_t now;               /* which of them is drawn */
     MesoTeam *team;
     MesoShapeMesh *meshes;      /* one a worker */
     MesoRasterVertex **projected;
@@ -184,23 +185,23 @@ static uint64_t before(const MesoShapes *shapes, const MesoLightMaps *maps, uint
 }
 
 /* Where sweeps are made, nothing of a bundle is that all maps hide; false for such a one. */
-static bool make_bundle(const Drawing *d, const Batch *batch, uint32_t r, MesoShapeBundle *bundle)
+static bool make_bundle(const Drawing *d, const Turn *turn, uint32_t r, MesoShapeBundle *bundle)
 {
-    uint32_t number = (uint32_t)(batch->first + r);
+    uint32_t number = (uint32_t)(turn->first + r);
     bool seen = !d->order;
     number = d->order ? d->order[number] : number;
     for (uint32_t s = 0; s < d->set_count && !seen; s++)
-        seen = !meso_light_maps_hide(batch->parts[s].maps, &d->shapes->bundle_bounds[number]);
+        seen = !meso_light_maps_hide(turn->sets[s].maps, &d->shapes->bundle_bounds[number]);
     if (seen)
         meso_shape_bundle(d->shapes, number, bundle);
     return seen;
 }
 
 /* Returns what any map wants. */
-static uint64_t look_at(const Drawing *d, Part *part, uint32_t r, const MesoShapeBundle *bundle, const Boxes *boxes)
+static uint64_t look_at(const Drawing *d, Batch *batch, uint32_t r, const MesoShapeBundle *bundle, const Boxes *boxes)
 {
-    const MesoLightMaps *maps = part->maps;
-    uint64_t any = 0, *wanted = &part->wanted[r * maps->count];
+    const MesoLightMaps *maps = batch->maps;
+    uint64_t any = 0, *wanted = &batch->wanted[r * maps->count];
     for (uint32_t m = 0; m < maps->count; m++) {
         wanted[m] = wanted_of(&maps->maps[m].view, boxes, bundle->count);
         any |= wanted[m] = d->order ? before(d->shapes, maps, m, bundle, wanted[m]) : wanted[m];
@@ -209,42 +210,42 @@ static uint64_t look_at(const Drawing *d, Part *part, uint32_t r, const MesoShap
 }
 
 /* Makes what some map wants of a range; false where memory is out. */
-static bool make_range(const Drawing *d, Part *part, uint32_t r, const MesoShapeBundle *bundle, uint64_t any,
+static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoShapeBundle *bundle, uint64_t any,
                        MesoShapeMesh *mesh)
 {
-    Range *range = &part->ranges[r];
+    Range *range = &batch->ranges[r];
     range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
     range->reach = INFINITY;
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
         if (i < RANGE && any >> i & 1 &&
-            !(meso_shape_make_bundled(d->shapes, bundle, i, part->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
+            !(meso_shape_make_bundled(d->shapes, bundle, i, batch->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
               add_mesh(range, mesh)))
             return false;
     }
     return true;
 }
 
-static void want_nothing(const Drawing *d, const Batch *batch, uint32_t r)
+static void want_nothing(const Drawing *d, const Turn *turn, uint32_t r)
 {
     for (uint32_t s = 0; s < d->set_count; s++) {
-        Part *part = &batch->parts[s];
-        memset(&part->wanted[r * part->maps->count], 0, part->maps->count * sizeof *part->wanted);
-        part->ranges[r].point_count = 0;
+        Batch *batch = &turn->sets[s];
+        memset(&batch->wanted[r * batch->maps->count], 0, batch->maps->count * sizeof *batch->wanted);
+        batch->ranges[r].point_count = 0;
     }
 }
 
-static void make_ranges(Drawing *d, uint32_t worker, const Batch *batch, uint32_t r)
+static void make_ranges(Drawing *d, uint32_t worker, const Turn *turn, uint32_t r)
 {
     MesoShapeBundle bundle;
-    if (!make_bundle(d, batch, r, &bundle)) {
-        want_nothing(d, batch, r);
+    if (!make_bundle(d, turn, r, &bundle)) {
+        want_nothing(d, turn, r);
         return;
     }
     Boxes boxes = boxes_of(&bundle);
     for (uint32_t s = 0; s < d->set_count; s++) {
-        uint64_t any = look_at(d, &batch->parts[s], r, &bundle, &boxes);
-        if (!make_range(d, &batch->parts[s], r, &bundle, any, &d->meshes[worker]))
+        uint64_t any = look_at(d, &turn->sets[s], r, &bundle, &boxes);
+        if (!make_range(d, &turn->sets[s], r, &bundle, any, &d->meshes[worker]))
             fail(d);
     }
 }
@@ -281,36 +282,36 @@ static void draw_range(const MesoRasterTarget *target, const MesoRasterView *vie
     }
 }
 
-static void draw_map(Drawing *d, uint32_t worker, const Part *part, uint32_t range_count, uint32_t m)
+static void draw_map(Drawing *d, uint32_t worker, const Batch *batch, uint32_t range_count, uint32_t m)
 {
-    const MesoLightMap *map = &part->maps->maps[m];
-    int32_t cells = (int32_t)part->maps->size / 4;
+    const MesoLightMap *map = &batch->maps->maps[m];
+    int32_t cells = (int32_t)batch->maps->size / 4;
     const MesoRasterTarget target = {&d->lanes, cells, cells, map->nearness, NULL};
     for (uint32_t r = 0; r < range_count; r++) {
-        const Range *range = &part->ranges[r];
+        const Range *range = &batch->ranges[r];
         if (!grow((void **)&d->projected[worker], &d->projected_room[worker], range->point_count,
                   sizeof **d->projected)) {
             fail(d);
             return;
         }
-        draw_range(&target, &map->view, range, part->wanted[r * part->maps->count + m], d->projected[worker]);
+        draw_range(&target, &map->view, range, batch->wanted[r * batch->maps->count + m], d->projected[worker]);
     }
 }
 
 /* Maps of all sets are numbered through, from the last set on: nobody waits for the finest, which take longest. */
-static void draw_one(Drawing *d, uint32_t worker, const Batch *batch, uint32_t m)
+static void draw_one(Drawing *d, uint32_t worker, const Turn *turn, uint32_t m)
 {
     uint32_t set = d->set_count - 1;
-    while (m >= batch->parts[set].maps->count)
-        m -= batch->parts[set--].maps->count;
-    draw_map(d, worker, &batch->parts[set], batch->range_count, m);
+    while (m >= turn->sets[set].maps->count)
+        m -= turn->sets[set--].maps->count;
+    draw_map(d, worker, &turn->sets[set], turn->range_count, m);
 }
 
 /* The maps of one batch, then the ranges of the next one. */
 static void work(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     Drawing *d = context;
-    const Batch *drawn = &d->batches[d->turn], *made = &d->batches[!d->turn];
+    const Turn *drawn = &d->turns[d->now], *made = &d->turns[!d->now];
     uint32_t maps = drawn->range_count ? d->map_count : 0;
     for (uint64_t i = begin; i < end; i++)
         if (i < maps)
@@ -322,24 +323,25 @@ static void work(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 /* Draws what has been made, and makes the batch that begins with bundle `first`. */
 static void take_turn(Drawing *d, uint64_t first)
 {
-    Batch *drawn = &d->batches[d->turn], *made = &d->batches[!d->turn];
+    Turn *drawn = &d->turns[d->now], *made = &d->turns[!d->now];
     uint64_t left = d->shapes->bundle_count - first;
     made->first = first;
     made->range_count = left < BATCH ? (uint32_t)left : BATCH;
     meso_team_work(d->team, (drawn->range_count ? d->map_count : 0) + made->range_count, 1, work, d);
     drawn->range_count = 0;
-    d->turn = !d->turn;
+    d->now = !d->now;
 }
-static void release_part(Part *part)
+
+static void release_batch(Batch *batch)
 {
     for (uint32_t r = 0; r < BATCH; r++) {
-        free(part->ranges[r].x);
-        free(part->ranges[r].y);
-        free(part->ranges[r].z);
-        free(part->ranges[r].corners[0]);
-        free(part->ranges[r].corners[1]);
+        free(batch->ranges[r].x);
+        free(batch->ranges[r].y);
+        free(batch->ranges[r].z);
+        free(batch->ranges[r].corners[0]);
+        free(batch->ranges[r].corners[1]);
     }
-    free(part->wanted);
+    free(batch->wanted);
 }
 
 static void release(Drawing *d)
@@ -351,9 +353,9 @@ static void release(Drawing *d)
             free(d->projected[w]);
     }
     for (int b = 0; b < 2; b++) {
-        for (uint32_t s = 0; d->batches[b].parts && s < d->set_count; s++)
-            release_part(&d->batches[b].parts[s]);
-        free(d->batches[b].parts);
+        for (uint32_t s = 0; d->turns[b].sets && s < d->set_count; s++)
+            release_batch(&d->turns[b].sets[s]);
+        free(d->turns[b].sets);
     }
     free(d->order);
     free(d->meshes);
@@ -362,14 +364,14 @@ static void release(Drawing *d)
     meso_team_end(d->team);
 }
 
-static bool begin_batch(Batch *batch, MesoLightMaps *const *sets, uint32_t set_count)
+static bool begin_turn(Turn *turn, MesoLightMaps *const *sets, uint32_t set_count)
 {
-    batch->parts = calloc(set_count, sizeof *batch->parts);
-    bool begun = batch->parts != NULL;
+    turn->sets = calloc(set_count, sizeof *turn->sets);
+    bool begun = turn->sets != NULL;
     for (uint32_t s = 0; s < set_count && begun; s++) {
-        batch->parts[s].maps = sets[s];
-        batch->parts[s].wanted = calloc((size_t)BATCH * sets[s]->count, sizeof *batch->parts[s].wanted);
-        begun = batch->parts[s].wanted != NULL;
+        turn->sets[s].maps = sets[s];
+        turn->sets[s].wanted = calloc((size_t)BATCH * sets[s]->count, sizeof *turn->sets[s].wanted);
+        begun = turn->sets[s].wanted != NULL;
     }
     return begun;
 }
@@ -395,7 +397,7 @@ static bool begin(Drawing *d, MesoLightMaps *const *sets)
     d->order = meso_light_order(sets[d->set_count - 1], d->shapes, &failed);    /* the last of them are the finest */
     bool begun = !failed && d->meshes && d->projected && d->projected_room;
     for (int b = 0; b < 2 && begun; b++)
-        begun = begin_batch(&d->batches[b], sets, d->set_count);
+        begun = begin_turn(&d->turns[b], sets, d->set_count);
     return begun;
 }
 
