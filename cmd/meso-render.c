@@ -546,6 +546,7 @@ int main(int argc, char **argv)
         MESO_TOOL_OPTIONS(a.tool),
         {0},
     };
+    meso_kept_memory();
     if (!meso_tool_start(&a.tool, &RENDER_TOOL, options, argc, argv))
         return meso_tool_finish(&a.tool);
     a.tool.status = run(&a, &a.tool.error);
