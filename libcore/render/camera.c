@@ -160,7 +160,7 @@ static void bundle_reaches(const Frame *frame, const MesoScene *scene, uint32_t 
 static void add_bundle(Frame *frame, const MesoScene *scene, uint32_t bundle)
 {
     MesoMadeSweep made[MESO_BUNDLE_SWEEPS];
-    uint32_t count = scene->maker->make_bundle(scene->maker->context, bundle, made);
+    uint32_t count = scene->maker->make_hulls(scene->maker->context, bundle, made);
     for (uint32_t i = 0; i < count; i++)
         add_sweep(frame, scene, &scene->kinds[made[i].kind], &made[i].instance,
                   scene->maker->kind_radii[made[i].kind]);

@@ -167,6 +167,8 @@ typedef struct MesoSweepMaker {
     MesoBox *bundle_boxes;                  /* [bundle_count] around each bundle, from meso_scene_measure() */
     /* Makes a bundle, by numbers in any order, each sweep in one bundle; returns how many. */
     uint32_t (*make_bundle)(void *context, uint32_t bundle, MesoMadeSweep *out);
+    /* The same without what turns sections and rings: twists and mitres are 0. */
+    uint32_t (*make_hulls)(void *context, uint32_t bundle, MesoMadeSweep *out);
     void (*make)(void *context, uint32_t sweep, MesoSweepInstance *out);
     uint32_t (*ids)(void *context, uint32_t sweep);   /* row of its ids */
 } MesoSweepMaker;

@@ -8,12 +8,12 @@ typedef struct Bundles {
     void (*body)(void *context, uint32_t worker, uint32_t bundle, const MesoMadeSweep *made, uint32_t count);
 } Bundles;
 
-static void make_bundles(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+static void make_all_hulls(void *context, uint32_t worker, uint64_t begin, uint64_t end)
 {
     const Bundles *b = context;
     MesoMadeSweep made[MESO_BUNDLE_SWEEPS];
     for (uint64_t bundle = begin; bundle < end; bundle++) {
-        uint32_t count = b->maker->make_bundle(b->maker->context, (uint32_t)bundle, made);
+        uint32_t count = b->maker->make_hulls(b->maker->context, (uint32_t)bundle, made);
         b->body(b->context, worker, (uint32_t)bundle, made, count);
     }
 }
@@ -26,5 +26,5 @@ void meso_scene_each_bundle(const MesoScene *scene, void *context,
     uint32_t workers = maker->thread_count ? maker->thread_count : meso_parallel_cores();
     Bundles bundles = {maker, context, body};
     workers = workers < MESO_BUNDLE_WORKERS ? workers : MESO_BUNDLE_WORKERS;
-    meso_parallel_team(workers, maker->bundle_count, 256, make_bundles, &bundles);
+    meso_parallel_team(workers, maker->bundle_count, 256, make_all_hulls, &bundles);
 }

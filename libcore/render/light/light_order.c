@@ -1,20 +1,39 @@
 #include "libcore/render/light/light_order.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- order ---- */
 
+/* A bundle, and a number that is the less, the nearer it is. */
 typedef struct Place {
-    float nearness;
-    uint32_t bundle;
+    uint32_t key, bundle;
 } Place;
 
-static int by_nearness(const void *a, const void *b)
+/* Floats as integers in their order, and turned around; 0 is one number. */
+static uint32_t key_of(float nearness)
 {
-    const Place *x = a, *y = b;
-    if (x->nearness != y->nearness)
-        return x->nearness > y->nearness ? -1 : 1;
-    return x->bundle < y->bundle ? -1 : x->bundle > y->bundle;
+    uint32_t bits;
+    nearness += 0.0f;
+    memcpy(&bits, &nearness, sizeof bits);
+    return bits >> 31 ? bits : ~bits & 0x7fffffff;
+}
+
+/* By their keys, and where these are one by bundles; byte by byte, from the lowest. `other` [count] is scratch. */
+static void sort_places(Place *places, Place *other, uint32_t count)
+{
+    for (uint32_t shift = 0; shift < 32; shift += 8) {
+        uint32_t begin[257] = {0};
+        for (uint32_t i = 0; i < count; i++)
+            begin[(places[i].key >> shift & 255) + 1]++;
+        for (uint32_t k = 0; k < 256; k++)
+            begin[k + 1] += begin[k];
+        for (uint32_t i = 0; i < count; i++)
+            other[begin[places[i].key >> shift & 255]++] = places[i];
+        Place *sorted = other;
+        other = places;
+        places = sorted;
+    }
 }
 
 /* What lights of all directions share is how far out it is; where they are alike, their direction counts. */
@@ -31,15 +50,15 @@ uint32_t *meso_light_order(const MesoLightMaps *maps, const MesoShapes *shapes, 
     uint32_t count = shapes->bundle_count;
     if (!shapes->bundle_bounds || count == 0)
         return NULL;
-    Place *places = malloc(count * sizeof *places);
+    Place *places = malloc(2 * (size_t)count * sizeof *places);
     uint32_t *order = malloc(count * sizeof *order);
     *failed = *failed || !places || !order;
     for (uint32_t m = 0; m < maps->count; m++)
         mean = meso_vec3_mad(mean, 1 / (float)maps->count, maps->maps[m].toward);
     for (uint32_t b = 0; b < count && places; b++)
-        places[b] = (Place){nearness_of(maps, mean, &shapes->bundle_bounds[b]), b};
+        places[b] = (Place){key_of(nearness_of(maps, mean, &shapes->bundle_bounds[b])), b};
     if (places)
-        qsort(places, count, sizeof *places, by_nearness);
+        sort_places(places, places + count, count);
     for (uint32_t b = 0; b < count && places && order; b++)
         order[b] = places[b].bundle;
     free(places);

@@ -1,5 +1,6 @@
 #include "libcore/tiling/strand/slot_sweeps.h"
 
+#include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
 #include "libcore/scene/sweep_plane.h"
 #include "libcore/tiling/strand/trajectory.h"
@@ -103,6 +104,7 @@ static MesoStatus make_cap(const MesoSlotSweeps *s, MesoSlotWalls *walls, const 
     return MESO_OK;
 }
 
+/* But for its twist and its mitre. */
 static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint32_t kind, uint32_t slot,
                             MesoSweepInstance *out, MesoError *error)
 {
@@ -119,18 +121,24 @@ static MesoStatus make_tube(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint3
                                .size = {port_size(s, slot, origin->start_side), port_size(s, slot, origin->end_side)},
                                .cage = slot};
     meso_trajectory(&start, &end, origin->start_side == origin->end_side, tangent_scale(s, origin), out->p);
+    return MESO_OK;
+}
+
+static MesoStatus make_hull(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint32_t kind, uint32_t slot,
+                            MesoSweepInstance *out, MesoError *error)
+{
+    return s->scene.kinds[kind].cap ? make_cap(s, walls, &s->origins[kind], slot, out, error)
+                                    : make_tube(s, walls, kind, slot, out, error);
+}
+
+static void add_turns(const MesoSlotSweeps *s, uint32_t kind, MesoSweepInstance *out)
+{
+    if (s->scene.kinds[kind].cap)
+        return;
     if (s->options.frame == MESO_FRAME_MINIMAL)
         out->twist = meso_sweep_twist(out);
     if (s->options.bends == MESO_BENDS_MITRED)
         meso_sweep_add_mitre(&s->scene, &s->scene.kinds[kind], s->reaches[kind], out);
-    return MESO_OK;
-}
-
-static MesoStatus make_on(const MesoSlotSweeps *s, MesoSlotWalls *walls, uint32_t kind, uint32_t slot,
-                          MesoSweepInstance *out, MesoError *error)
-{
-    return s->scene.kinds[kind].cap ? make_cap(s, walls, &s->origins[kind], slot, out, error)
-                                    : make_tube(s, walls, kind, slot, out, error);
 }
 
 static uint32_t slot_of(const MesoSlotSweeps *s, uint32_t kind, uint32_t i)
@@ -142,7 +150,10 @@ static uint32_t slot_of(const MesoSlotSweeps *s, uint32_t kind, uint32_t i)
 MesoStatus meso_slot_sweep(const MesoSlotSweeps *s, uint32_t kind, uint32_t i, MesoSweepInstance *out, MesoError *error)
 {
     MesoSlotWalls walls = {.made = {false}};
-    return make_on(s, &walls, kind, slot_of(s, kind, i), out, error);
+    MesoStatus status = make_hull(s, &walls, kind, slot_of(s, kind, i), out, error);
+    if (!status)
+        add_turns(s, kind, out);
+    return status;
 }
 
 void meso_slot_sweeps_note(MesoSlotSweeps *s, uint64_t sweep)
@@ -166,7 +177,7 @@ static SlotKinds kinds_of(const MesoSlotSweeps *s, uint32_t slot)
 }
 
 /* Slots of a bundle, and the first of each one's kinds: a slot of many has several bundles. */
-static uint32_t make_bundle(void *context, uint32_t bundle, MesoMadeSweep *out)
+static uint32_t make_hulls(void *context, uint32_t bundle, MesoMadeSweep *out)
 {
     MesoSlotSweeps *s = context;
     uint64_t slot = (uint64_t)(bundle / s->bundles_a_slot) * s->slots_a_bundle;
@@ -177,10 +188,20 @@ static uint32_t make_bundle(void *context, uint32_t bundle, MesoMadeSweep *out)
         for (uint32_t k = kinds.begin + first; k < kinds.end && count < MESO_BUNDLE_SWEEPS; k++, count++) {
             out[count].sweep = s->scene.kinds[k].instance_begin + s->rank[slot];
             out[count].kind = k;
-            if (make_on(s, &walls, k, (uint32_t)slot, &out[count].instance, NULL))
+            if (make_hull(s, &walls, k, (uint32_t)slot, &out[count].instance, NULL)) {
+                out[count].instance = (MesoSweepInstance){0};
                 meso_slot_sweeps_note(s, out[count].sweep);
+            }
         }
     }
+    return count;
+}
+
+static uint32_t make_bundle(void *context, uint32_t bundle, MesoMadeSweep *out)
+{
+    uint32_t count = make_hulls(context, bundle, out);
+    for (uint32_t i = 0; i < count; i++)
+        add_turns(context, out[i].kind, &out[i].instance);
     return count;
 }
 
@@ -217,6 +238,7 @@ static MesoStatus index_slots(MesoSlotSweeps *s, MesoArena *arena, MesoError *er
     return MESO_OK;
 }
 
+/* By all slots of the kind's tile. */
 static float largest_size(const MesoSlotSweeps *s, uint32_t kind)
 {
     const MesoKindOrigin *origin = &s->origins[kind];
@@ -230,6 +252,13 @@ static float largest_size(const MesoSlotSweeps *s, uint32_t kind)
     return size;
 }
 
+static void find_sizes(void *context, uint64_t begin, uint64_t end)
+{
+    MesoSlotSweeps *s = context;
+    for (uint64_t k = begin; k < end; k++)
+        s->kind_sizes[k] = largest_size(s, (uint32_t)k);
+}
+
 MesoStatus meso_slot_sweeps_maker(MesoSlotSweeps *s, MesoScene *scene, MesoArena *arena, uint32_t thread_count,
                                   MesoError *error)
 {
@@ -240,12 +269,11 @@ MesoStatus meso_slot_sweeps_maker(MesoSlotSweeps *s, MesoScene *scene, MesoArena
     uint64_t bundles = (slots + s->slots_a_bundle - 1) / s->slots_a_bundle * s->bundles_a_slot;
     if (bundles > UINT32_MAX)
         return meso_fail(error, MESO_ERR_LIMIT, "over 2^32 bundles of sweeps; split the surface");
-    for (uint32_t k = 0; k < scene->kind_count; k++)
-        s->kind_sizes[k] = largest_size(s, k);
+    meso_parallel_for(thread_count, scene->kind_count, 1, find_sizes, s);
     atomic_store(&s->failed, UINT64_MAX);
     s->maker = (MesoSweepMaker){.context = s, .thread_count = thread_count, .bundle_count = (uint32_t)bundles,
-                                .kind_sizes = s->kind_sizes, .make_bundle = make_bundle, .make = make_one,
-                                .ids = ids_of};
+                                .kind_sizes = s->kind_sizes, .make_bundle = make_bundle,
+                                .make_hulls = make_hulls, .make = make_one, .ids = ids_of};
     scene->maker = &s->maker;
     for (uint32_t k = 0; k < scene->kind_count; k++)
         s->kind_sizes[scene->kind_count + k] = meso_scene_kind_radius(scene, &scene->kinds[k]);
