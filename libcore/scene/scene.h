@@ -165,10 +165,12 @@ typedef struct MesoSweepMaker {
     uint32_t bundle_count, thread_count;    /* threads that may make bundles; 0: all cores */
     const float *kind_sizes, *kind_radii;   /* [kind_count] as of meso_scene_kind_size(), meso_scene_kind_radius() */
     MesoBox *bundle_boxes;                  /* [bundle_count] around each bundle, from meso_scene_measure() */
-    /* Makes a bundle, by numbers in any order, each sweep in one bundle; returns how many. */
-    uint32_t (*make_bundle)(void *context, uint32_t bundle, MesoMadeSweep *out);
-    /* The same without what turns sections and rings: twists and mitres are 0. */
+    /*
+     * Makes a bundle, by numbers in any order, each sweep in one bundle; returns how many. Twists and mitres, which turn
+     * sections and rings within what these are hulls of, are 0, until add_turns() finds those of a sweep.
+     */
     uint32_t (*make_hulls)(void *context, uint32_t bundle, MesoMadeSweep *out);
+    void (*add_turns)(void *context, MesoMadeSweep *sweep);
     void (*make)(void *context, uint32_t sweep, MesoSweepInstance *out);
     uint32_t (*ids)(void *context, uint32_t sweep);   /* row of its ids */
 } MesoSweepMaker;

@@ -221,7 +221,7 @@ void meso_shape_bundle(const MesoShapes *shapes, uint32_t bundle, MesoShapeBundl
     uint32_t made = made_bundles(shapes);
     out->made = bundle < made;
     if (out->made) {
-        out->count = maker->make_bundle(maker->context, bundle, out->sweeps);
+        out->count = maker->make_hulls(maker->context, bundle, out->sweeps);
         for (uint32_t i = 0; i < out->count; i++) {
             out->shapes[i] = out->sweeps[i].sweep;
             out->bounds[i] = sweep_box(shapes, out->sweeps[i].kind, &out->sweeps[i].instance);
@@ -492,9 +492,12 @@ bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, 
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh)
 {
-    const MesoMadeSweep *made = &bundle->sweeps[i];
-    return bundle->made ? make_sweep(shapes, made->sweep, made->kind, &made->instance, tolerance, use, NULL, mesh)
-                        : meso_shape_make(shapes, bundle->shapes[i], tolerance, use, mesh);
+    if (!bundle->made)
+        return meso_shape_make(shapes, bundle->shapes[i], tolerance, use, mesh);
+    const MesoSweepMaker *maker = shapes->scene->maker;
+    MesoMadeSweep made = bundle->sweeps[i];
+    maker->add_turns(maker->context, &made);
+    return make_sweep(shapes, made.sweep, made.kind, &made.instance, tolerance, use, NULL, mesh);
 }
 
 bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolerance, const uint8_t *seen,

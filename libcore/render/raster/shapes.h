@@ -58,7 +58,7 @@ typedef struct MesoShapeBundle {
     uint32_t shapes[MESO_SHAPE_BUNDLE];
     MesoBox bounds[MESO_SHAPE_BUNDLE];
     bool made;
-    MesoMadeSweep sweeps[MESO_SHAPE_BUNDLE];    /* where they are made */
+    MesoMadeSweep sweeps[MESO_SHAPE_BUNDLE];    /* where they are made: their hulls; most are soon out of sight */
 } MesoShapeBundle;
 void meso_shape_bundle(const MesoShapes *shapes, uint32_t bundle, MesoShapeBundle *out);
 

@@ -197,12 +197,9 @@ static uint32_t make_hulls(void *context, uint32_t bundle, MesoMadeSweep *out)
     return count;
 }
 
-static uint32_t make_bundle(void *context, uint32_t bundle, MesoMadeSweep *out)
+static void turn_hull(void *context, MesoMadeSweep *sweep)
 {
-    uint32_t count = make_hulls(context, bundle, out);
-    for (uint32_t i = 0; i < count; i++)
-        add_turns(context, out[i].kind, &out[i].instance);
-    return count;
+    add_turns(context, sweep->kind, &sweep->instance);
 }
 
 static void make_one(void *context, uint32_t sweep, MesoSweepInstance *out)
@@ -272,8 +269,8 @@ MesoStatus meso_slot_sweeps_maker(MesoSlotSweeps *s, MesoScene *scene, MesoArena
     meso_parallel_for(thread_count, scene->kind_count, 1, find_sizes, s);
     atomic_store(&s->failed, UINT64_MAX);
     s->maker = (MesoSweepMaker){.context = s, .thread_count = thread_count, .bundle_count = (uint32_t)bundles,
-                                .kind_sizes = s->kind_sizes, .make_bundle = make_bundle,
-                                .make_hulls = make_hulls, .make = make_one, .ids = ids_of};
+                                .kind_sizes = s->kind_sizes, .make_hulls = make_hulls,
+                                .add_turns = turn_hull, .make = make_one, .ids = ids_of};
     scene->maker = &s->maker;
     for (uint32_t k = 0; k < scene->kind_count; k++)
         s->kind_sizes[scene->kind_count + k] = meso_scene_kind_radius(scene, &scene->kinds[k]);

@@ -21,20 +21,13 @@ static void check_sweep(const MesoScene *stored, const MesoScene *made, const Me
     CHECK(meso_scene_sweep_ids(made, sweep->sweep) == there->ids);
 }
 
-/* The same but for what turns; returns how many sweeps that changes. */
-static uint32_t check_hulls(const MesoScene *made, uint32_t bundle, const MesoMadeSweep *sweeps, uint32_t count)
+/* What makes hulls to sweeps; returns whether that changes anything. */
+static bool turn(const MesoScene *made, MesoMadeSweep *sweep)
 {
-    MesoMadeSweep hulls[MESO_BUNDLE_SWEEPS];
-    uint32_t turned = 0;
-    CHECK(made->maker->make_hulls(made->maker->context, bundle, hulls) == count);
-    for (uint32_t i = 0; i < count; i++) {
-        MesoSweepInstance bare = sweeps[i].instance;
-        turned += bare.twist != 0 || bare.mitre != 0;
-        bare.twist = bare.mitre = 0;
-        CHECK(hulls[i].sweep == sweeps[i].sweep && hulls[i].kind == sweeps[i].kind);
-        CHECK(memcmp(&hulls[i].instance, &bare, sizeof bare) == 0);
-    }
-    return turned;
+    const MesoMadeSweep hull = *sweep;
+    CHECK(hull.instance.twist == 0 && hull.instance.mitre == 0);
+    made->maker->add_turns(made->maker->context, sweep);
+    return memcmp(sweep, &hull, sizeof hull) != 0;
 }
 
 /* Within what a bundle is said to lie in, too. */
@@ -44,12 +37,12 @@ static uint32_t check_bundles(const MesoScene *stored, const MesoScene *made, Me
     bool *seen = MESO_NEW(arena, bool, stored->sweep_count, NULL);
     uint32_t count = 0, turned = 0;
     for (uint32_t b = 0; b < made->maker->bundle_count; b++) {
-        uint32_t here = made->maker->make_bundle(made->maker->context, b, sweeps);
+        uint32_t here = made->maker->make_hulls(made->maker->context, b, sweeps);
         MesoBox box = meso_scene_bundle_box(made, b);
         CHECK(here <= MESO_BUNDLE_SWEEPS);
         count += here;
-        turned += check_hulls(made, b, sweeps, here);
         for (uint32_t i = 0; i < here; i++) {
+            turned += turn(made, &sweeps[i]);
             check_sweep(stored, made, &sweeps[i], seen);
             MesoBox own = meso_box_of(sweeps[i].instance.p, 4);
             own = meso_box_wider(own, meso_made_reach(made, sweeps[i].kind, &sweeps[i].instance));
