@@ -89,8 +89,8 @@ static void test_large_pages(void)
     enum { LARGE = 1 << 21 };
     static const struct {
         size_t wanted, given;
-    } sizes[] = {{1, 4096}, {4096, 4096}, {1 << 20, 1 << 20}, {3 << 19, LARGE}, {LARGE, LARGE}, {LARGE + 1, LARGE + 4096},
-                 {3 << 20, 2 * LARGE}, {10 * LARGE + 1, 11 * LARGE}};
+    } sizes[] = {{1, 4096}, {4096, 4096}, {1 << 20, 1 << 20}, {3 << 19, LARGE}, {LARGE, LARGE},
+                 {LARGE + 1, LARGE + 4096}, {3 << 20, 2 * LARGE}, {10 * LARGE + 1, 11 * LARGE}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         size_t size = sizes[i].wanted;
         unsigned char *memory = meso_large_take(&size);

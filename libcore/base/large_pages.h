@@ -1,6 +1,6 @@
 /*
- * Memory from the system for large arrays, in its large pages where it has them: few faults, and few misses of the table
- * of pages. On x86-64 a large page has 2 MiB; Linux takes some milliseconds to hand over as much in small ones.
+ * Memory from the system for large arrays, in its large pages where it has them: few faults, and few misses of the
+ * table of pages. On x86-64 a large page has 2 MiB; Linux takes some milliseconds to hand over as much in small ones.
  */
 #ifndef MESO_LARGE_PAGES_H
 #define MESO_LARGE_PAGES_H

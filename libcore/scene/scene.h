@@ -166,8 +166,8 @@ typedef struct MesoSweepMaker {
     const float *kind_sizes, *kind_radii;   /* [kind_count] as of meso_scene_kind_size(), meso_scene_kind_radius() */
     MesoBox *bundle_boxes;                  /* [bundle_count] around each bundle, from meso_scene_measure() */
     /*
-     * Makes a bundle, by numbers in any order, each sweep in one bundle; returns how many. Twists and mitres, which turn
-     * sections and rings within what these are hulls of, are 0, until add_turns() finds those of a sweep.
+     * Makes a bundle, by numbers in any order, each sweep in one bundle; returns how many. Twists and mitres, which
+     * turn sections and rings within what these are hulls of, are 0, until add_turns() finds those of a sweep.
      */
     uint32_t (*make_hulls)(void *context, uint32_t bundle, MesoMadeSweep *out);
     void (*add_turns)(void *context, MesoMadeSweep *sweep);

@@ -39,8 +39,8 @@ static inline MesoBox meso_scene_bundle_box(const MesoScene *scene, uint32_t bun
 enum { MESO_BUNDLE_WORKERS = 64 };
 
 /*
- * Makes the hulls of all bundles of a scene that has a maker, on its threads, and calls `body` with each; no two at once
- * with the same worker, below MESO_BUNDLE_WORKERS.
+ * Makes the hulls of all bundles of a scene that has a maker, on its threads, and calls `body` with each; no two at
+ * once with the same worker, below MESO_BUNDLE_WORKERS.
  */
 void meso_scene_each_bundle(const MesoScene *scene, void *context,
                             void (*body)(void *context, uint32_t worker, uint32_t bundle, const MesoMadeSweep *made,
