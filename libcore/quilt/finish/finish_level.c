@@ -243,7 +243,7 @@ static MesoStatus level_wholes(MesoFinishWork *work, const MesoQuilt *quilt, Mes
 MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(work->arena);
-    MesoStatus status = level_strands(work, quilt, error);
+    MesoStatus status = work->levelled ? MESO_OK : level_strands(work, quilt, error);
     if (!status)
         status = level_wholes(work, quilt, error);
     meso_arena_rewind(work->arena, mark);

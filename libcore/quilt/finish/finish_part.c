@@ -4,66 +4,29 @@
  * other one down, as far as their sections need; of two side by side each gives way. What is next to it along the strand
  * follows. Rings move as wholes.
  */
-#include "libcore/base/disjoint_sets.h"
-#include "libcore/base/grow.h"
-#include "libcore/quilt/finish/finish_work.h"
-#include "libcore/quilt/quilt_work.h"
-
 #include <string.h>
 
-/* Strands cross where the cosine between them is at most this; normals of one side of the surface have at least that. */
-#define CROSS_MOST 0.7f
-#define SIDE_LEAST 0.5f
+#include "libcore/base/disjoint_sets.h"
+#include "libcore/quilt/finish/finish_part_work.h"
+#include "libcore/quilt/quilt_work.h"
 
-/* How far strands are looked for beside each other, in sums of their half widths; they give way by one at most. */
-#define BESIDE_MOST 1.5f
-
-/* Of a ring's step: how far along a strand it stands for it. */
-#define ALONG_MOST 0.55f
-
-/* Sections need a little more than they have. */
-#define ROOM 1.03f
+/* Courses are no steeper than this says. */
+#define COSINE_LEAST 0.5f
 
 /* What of their sections strands of the swatch may lie in each other before they are left as they are. */
 #define SWATCH_MOST 0.2f
 
-/* Rings to both sides that say which strand is the higher one; steps of parting, each with one of smoothing. */
-enum { AROUND = 5, STEPS = 32 };
+/* Steps of parting; each but the last ones is smoothed after, less and less, so that none is given back in the end. */
+enum { STEPS = 32, SMOOTH_STEPS = 24 };
 
-typedef struct Ring {
-    MesoVec3 foot, axis, normal;        /* its middle on the surface, along the strand, up */
-    float height, half_width, half_height, step;
-    uint32_t next[2];                   /* along the strand, or MESO_NO_INDEX */
-    uint32_t count, first, links;       /* vertices, the first of them, edges to other rings */
-    bool held;                          /* stays where it is on the surface */
-    float low, high;                    /* of its heights */
-    int32_t cell[3];
-    uint32_t next_in_cell;
-} Ring;
-
-/* A ring's middle over or under another strand, or beside it, at the nearest of its rings. */
-typedef struct Contact {
-    uint32_t ring, other;
-    bool beside;
-    float gap;                          /* between the middles of such as cross, at the least */
-    float sign;                         /* 1: the ring is the higher one, -1 */
-} Contact;
+/* Of what is before and after a ring, at first. */
+#define SMOOTH 0.25f
 
 /* What becomes of rings. */
 typedef struct Moves {
     MesoVec3 *asides;                   /* [ring_count] along the surface */
     float *heights;                     /* [ring_count] */
 } Moves;
-
-typedef struct Strands {
-    uint32_t ring_count, contact_count, contact_room;
-    Ring *rings;
-    uint32_t *heads, head_mask;         /* of rings by their cell, hashed */
-    float cell;
-    Contact *contacts;                  /* by ring */
-    uint32_t *begin;                    /* [ring_count + 1] into the contacts */
-    MesoArena *arena;
-} Strands;
 
 /* What rings are made of. */
 typedef struct Tubes {
@@ -76,10 +39,10 @@ typedef struct Tubes {
 
 /* ---- rings ---- */
 
-static void link_rings(Ring *rings, uint32_t a, uint32_t b)
+static void link_rings(MesoPartRing *rings, uint32_t a, uint32_t b)
 {
     MesoVec3 d = meso_vec3_sub(rings[b].foot, rings[a].foot);
-    Ring *ring = &rings[a];
+    MesoPartRing *ring = &rings[a];
     ring->step += meso_vec3_length(d);
     ring->links++;
     float side = meso_vec3_dot(ring->axis, d) < 0 ? -1 : 1;
@@ -90,14 +53,24 @@ static void link_rings(Ring *rings, uint32_t a, uint32_t b)
         ring->next[1] = b;
 }
 
-static void measure_rings(Ring *rings, uint32_t count, const Tubes *tubes)
+/* Of a strand's course against the surface. */
+static float cosine_of(const MesoPartRing *rings, uint32_t r)
+{
+    const MesoPartRing *a = &rings[rings[r].next[0] == MESO_NO_INDEX ? r : rings[r].next[0]];
+    const MesoPartRing *b = &rings[rings[r].next[1] == MESO_NO_INDEX ? r : rings[r].next[1]];
+    float way = meso_vec3_length(meso_vec3_sub(b->foot, a->foot)), rise = b->height - a->height;
+    float length = sqrtf(way * way + rise * rise);
+    return length > 0 ? fmaxf(way / length, COSINE_LEAST) : 1;
+}
+
+static void measure_rings(MesoPartRing *rings, uint32_t count, const Tubes *tubes)
 {
     for (uint32_t r = 0; r < count; r++)
-        rings[r] = (Ring){.next = {MESO_NO_INDEX, MESO_NO_INDEX}, .low = INFINITY, .high = -INFINITY};
+        rings[r] = (MesoPartRing){.next = {MESO_NO_INDEX, MESO_NO_INDEX}, .low = INFINITY, .high = -INFINITY};
     for (uint32_t v = 0; v < tubes->vertex_count; v++) {
         if (tubes->of_vertex[v] == MESO_NO_INDEX)
             continue;
-        Ring *ring = &rings[tubes->of_vertex[v]];
+        MesoPartRing *ring = &rings[tubes->of_vertex[v]];
         ring->first = ring->count++ ? ring->first : v;
         ring->foot = meso_vec3_add(ring->foot, tubes->feet[v]);
         ring->height += tubes->heights[v];
@@ -120,155 +93,22 @@ static void measure_rings(Ring *rings, uint32_t count, const Tubes *tubes)
         rings[r].axis = meso_vec3_direction(rings[r].axis, (MesoVec3){0, 0, 0});
         rings[r].step = rings[r].links ? rings[r].step / (float)rings[r].links : 0;
     }
+    for (uint32_t r = 0; r < count; r++)
+        rings[r].thickness = rings[r].half_height / cosine_of(rings, r);
     for (uint32_t v = 0; v < tubes->vertex_count; v++) {
         if (tubes->of_vertex[v] == MESO_NO_INDEX)
             continue;
-        Ring *ring = &rings[tubes->of_vertex[v]];
+        MesoPartRing *ring = &rings[tubes->of_vertex[v]];
         MesoVec3 off = meso_vec3_sub(tubes->feet[v], ring->foot);
+        ring->side = meso_vec3_dot(off, off) > meso_vec3_dot(ring->side, ring->side) ? off : ring->side;
         off = meso_vec3_mad(off, -meso_vec3_dot(off, ring->axis), ring->axis);
         ring->half_width = fmaxf(ring->half_width, meso_vec3_length(off));
     }
 }
 
-/* ---- rings by place ---- */
-
-static uint32_t *head_of(const Strands *s, const int32_t cell[3])
+static MesoStatus build(MesoParting *s, MesoArena *arena, const Tubes *tubes, uint32_t ring_count, MesoError *error)
 {
-    uint32_t key = (uint32_t)cell[0] * 73856093u ^ (uint32_t)cell[1] * 19349663u ^ (uint32_t)cell[2] * 83492791u;
-    return &s->heads[(key ^ key >> 15) & s->head_mask];
-}
-
-static MesoStatus sort_rings(Strands *s, MesoError *error)
-{
-    uint32_t size = 16;
-    while (size < 2 * s->ring_count)
-        size *= 2;
-    s->heads = MESO_NEW(s->arena, uint32_t, size, error);
-    if (!s->heads)
-        return MESO_ERR_MEMORY;
-    memset(s->heads, 0xff, size * sizeof *s->heads);
-    s->head_mask = size - 1;
-    for (uint32_t r = 0; r < s->ring_count; r++)
-        s->cell = fmaxf(s->cell, 2 * BESIDE_MOST * s->rings[r].half_width + s->rings[r].step);
-    for (uint32_t r = 0; r < s->ring_count && s->cell > 0; r++) {
-        Ring *ring = &s->rings[r];
-        const float place[3] = {ring->foot.x, ring->foot.y, ring->foot.z};
-        for (int k = 0; k < 3; k++)
-            ring->cell[k] = (int32_t)fmaxf(fminf(floorf(place[k] / s->cell), 1e9f), -1e9f);
-        uint32_t *head = head_of(s, ring->cell);
-        ring->next_in_cell = *head;
-        *head = r;
-    }
-    return MESO_OK;
-}
-
-/* ---- contacts ---- */
-
-static bool touches(Contact *contact, const Ring *ring, const Ring *other)
-{
-    float cosine = meso_vec3_dot(ring->axis, other->axis);
-    MesoVec3 d = meso_vec3_sub(other->foot, ring->foot);
-    float along = meso_vec3_dot(d, other->axis), side = meso_vec3_dot(d, d) - along * along;
-    float width = other->half_width * other->half_width, widths = BESIDE_MOST * (ring->half_width + other->half_width);
-    contact->beside = fabsf(cosine) > CROSS_MOST;
-    if (fabsf(along) > ALONG_MOST * other->step || !(side < (contact->beside ? widths * widths : width)) ||
-        meso_vec3_dot(ring->normal, other->normal) < SIDE_LEAST)
-        return false;
-    if (contact->beside)
-        return true;
-    contact->gap = ROOM * (ring->half_height + other->half_height * sqrtf(1 - fmaxf(side, 0) / width));
-    return true;
-}
-
-static MesoStatus add_contact(Strands *s, Contact contact, MesoError *error)
-{
-    if (s->contact_count == s->contact_room) {
-        uint32_t room = s->contact_room ? 2 * s->contact_room : 1024;
-        s->contacts = meso_arena_enlarge(s->arena, s->contacts, s->contact_count, room, sizeof *s->contacts, error);
-        if (!s->contacts)
-            return MESO_ERR_MEMORY;
-        s->contact_room = room;
-    }
-    s->contacts[s->contact_count++] = contact;
-    return MESO_OK;
-}
-
-static MesoStatus meet(Strands *s, uint32_t r, MesoError *error)
-{
-    const Ring *ring = &s->rings[r];
-    for (int32_t i = 0; i < 27; i++) {
-        const int32_t cell[3] = {ring->cell[0] + i % 3 - 1, ring->cell[1] + i / 3 % 3 - 1, ring->cell[2] + i / 9 - 1};
-        for (uint32_t q = *head_of(s, cell); q != MESO_NO_INDEX; q = s->rings[q].next_in_cell) {
-            Contact contact = {.ring = r, .other = q};
-            if (q != r && q != ring->next[0] && q != ring->next[1] && memcmp(s->rings[q].cell, cell, sizeof cell) == 0 && touches(&contact, ring, &s->rings[q]) &&
-                add_contact(s, contact, error))
-                return MESO_ERR_MEMORY;
-        }
-    }
-    return MESO_OK;
-}
-
-static MesoStatus find_contacts(Strands *s, MesoError *error)
-{
-    s->begin = MESO_NEW(s->arena, uint32_t, (size_t)s->ring_count + 1, error);
-    MesoStatus status = s->begin ? sort_rings(s, error) : MESO_ERR_MEMORY;
-    for (uint32_t r = 0; r < s->ring_count && !status && s->cell > 0; r++) {
-        status = meet(s, r, error);
-        s->begin[r + 1] = s->contact_count;
-    }
-    return status;
-}
-
-/* ---- which one is higher ---- */
-
-/* The rings around one, along its strand, itself among them; how many there are. */
-static uint32_t list_around(uint32_t list[2 * AROUND + 1], const Ring *rings, uint32_t ring)
-{
-    uint32_t count = 0;
-    list[count++] = ring;
-    for (int side = 0; side < 2; side++) {
-        uint32_t before = ring, at = rings[ring].next[side];
-        for (int i = 0; i < AROUND && at != MESO_NO_INDEX; i++) {
-            list[count++] = at;
-            uint32_t next = rings[at].next[rings[at].next[0] == before];
-            before = at;
-            at = next;
-        }
-    }
-    return count;
-}
-
-/* By how much rings of one list are higher than those of the other that they are in contact with. */
-static float height_between(const Strands *s, const uint32_t *list, uint32_t count, const uint32_t *others,
-                            uint32_t other_count)
-{
-    float sum = 0;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t k = s->begin[list[i]]; k < s->begin[list[i] + 1]; k++)
-            for (uint32_t j = 0; j < other_count; j++)
-                if (s->contacts[k].other == others[j] && !s->contacts[k].beside)
-                    sum += s->rings[list[i]].height - s->rings[others[j]].height;
-    return sum;
-}
-
-static void find_signs(Strands *s)
-{
-    uint32_t list[2 * AROUND + 1], others[2 * AROUND + 1];
-    for (uint32_t k = 0; k < s->contact_count; k++) {
-        Contact *contact = &s->contacts[k];
-        if (contact->beside)
-            continue;
-        uint32_t count = list_around(list, s->rings, contact->ring);
-        uint32_t other_count = list_around(others, s->rings, contact->other);
-        float higher = height_between(s, list, count, others, other_count) -
-                       height_between(s, others, other_count, list, count);
-        contact->sign = higher > 0 || (!(higher < 0) && contact->ring < contact->other) ? 1 : -1;
-    }
-}
-
-static MesoStatus build(Strands *s, MesoArena *arena, const Tubes *tubes, uint32_t ring_count, MesoError *error)
-{
-    *s = (Strands){.ring_count = ring_count, .arena = arena, .rings = MESO_NEW(arena, Ring, ring_count, error)};
+    *s = (MesoParting){.ring_count = ring_count, .arena = arena, .rings = MESO_NEW(arena, MesoPartRing, ring_count, error)};
     if (!s->rings)
         return MESO_ERR_MEMORY;
     measure_rings(s->rings, ring_count, tubes);
@@ -278,7 +118,7 @@ static MesoStatus build(Strands *s, MesoArena *arena, const Tubes *tubes, uint32
 /* ---- parting ---- */
 
 /* Of two that cross, by how much they are nearer to each other than their sections need. */
-static float lacking(const Strands *s, const Contact *contact, const Moves *moves)
+static float lacking(const MesoParting *s, const MesoPartContact *contact, const Moves *moves)
 {
     float apart = s->rings[contact->ring].height - s->rings[contact->other].height;
     if (moves)
@@ -287,9 +127,9 @@ static float lacking(const Strands *s, const Contact *contact, const Moves *move
 }
 
 /* The same of two side by side, whose sections are ellipses; `way`: to the ring, along the surface. */
-static float lacking_beside(MesoVec3 *way, const Strands *s, const Contact *contact, const Moves *moves)
+static float lacking_beside(MesoVec3 *way, const MesoParting *s, const MesoPartContact *contact, const Moves *moves)
 {
-    const Ring *a = &s->rings[contact->ring], *b = &s->rings[contact->other];
+    const MesoPartRing *a = &s->rings[contact->ring], *b = &s->rings[contact->other];
     MesoVec3 d = meso_vec3_sub(a->foot, b->foot);
     float up = a->height - b->height, high = a->half_height + b->half_height;
     if (moves) {
@@ -301,10 +141,10 @@ static float lacking_beside(MesoVec3 *way, const Strands *s, const Contact *cont
     d = meso_vec3_mad(d, -meso_vec3_dot(d, b->axis), b->axis);
     d = meso_vec3_mad(d, -meso_vec3_dot(d, a->normal), a->normal);
     *way = meso_vec3_direction(d, meso_vec3_cross(a->normal, b->axis));
-    return ROOM * (a->half_width + b->half_width) * sqrtf(1 - up * up / (high * high)) - meso_vec3_length(d);
+    return MESO_PART_ROOM * (a->half_width + b->half_width) * sqrtf(1 - up * up / (high * high)) - meso_vec3_length(d);
 }
 
-static void push_apart(const Strands *s, MesoVec3 *pushes, const Contact *contact, const Moves *moves)
+static void push_apart(const MesoParting *s, MesoVec3 *pushes, const MesoPartContact *contact, const Moves *moves)
 {
     MesoVec3 way;
     float lack = lacking_beside(&way, s, contact, moves);
@@ -327,7 +167,7 @@ typedef struct Pushes {
 } Pushes;
 
 /* Each of two that cross does half of it; where there is no room in the layer, the other one does the rest. */
-static void push_over(const Strands *s, Pushes *pushes, const Contact *contact, const Moves *moves, Bounds bounds)
+static void push_over(const MesoParting *s, Pushes *pushes, const MesoPartContact *contact, const Moves *moves, Bounds bounds)
 {
     float lack = lacking(s, contact, moves);
     uint32_t upper = contact->sign > 0 ? contact->ring : contact->other;
@@ -339,13 +179,13 @@ static void push_over(const Strands *s, Pushes *pushes, const Contact *contact, 
     pushes->downs[lower] = fmaxf(pushes->downs[lower], down);
 }
 
-static void push(const Strands *s, Moves *moves, Pushes *pushes, Bounds bounds)
+static void push(const MesoParting *s, Moves *moves, Pushes *pushes, Bounds bounds)
 {
     memset(pushes->ups, 0, s->ring_count * sizeof *pushes->ups);
     memset(pushes->downs, 0, s->ring_count * sizeof *pushes->downs);
     memset(pushes->asides, 0, s->ring_count * sizeof *pushes->asides);
     for (uint32_t k = 0; k < s->contact_count; k++) {
-        const Contact *contact = &s->contacts[k];
+        const MesoPartContact *contact = &s->contacts[k];
         if (contact->beside)
             push_apart(s, pushes->asides, contact, moves);
         else
@@ -358,7 +198,7 @@ static void push(const Strands *s, Moves *moves, Pushes *pushes, Bounds bounds)
 }
 
 /* Rings do not leave the layer, and go aside no further than they are wide. */
-static void bound(Moves *moves, const Ring *ring, uint32_t r, Bounds bounds)
+static void bound(Moves *moves, const MesoPartRing *ring, uint32_t r, Bounds bounds)
 {
     moves->heights[r] = fmaxf(moves->heights[r], fminf(0, bounds.low - ring->low));
     moves->heights[r] = fminf(moves->heights[r], fmaxf(0, bounds.high - ring->high));
@@ -369,29 +209,29 @@ static void bound(Moves *moves, const Ring *ring, uint32_t r, Bounds bounds)
         moves->asides[r] = meso_vec3_scale(moves->asides[r], ring->half_width / length);
 }
 
-/* What is before and after a ring has a quarter each; `before` is scratch. */
-static void smooth(const Strands *s, Moves *moves, Pushes *before, Bounds bounds)
+/* What is before and after a ring has that share each, a quarter for ways aside; `before` is scratch. */
+static void smooth(const MesoParting *s, Moves *moves, Pushes *before, Bounds bounds, float share)
 {
     memcpy(before->ups, moves->heights, s->ring_count * sizeof *before->ups);
     memcpy(before->asides, moves->asides, s->ring_count * sizeof *before->asides);
     for (uint32_t r = 0; r < s->ring_count; r++) {
         const uint32_t *next = s->rings[r].next;
         uint32_t a = next[0] == MESO_NO_INDEX ? r : next[0], b = next[1] == MESO_NO_INDEX ? r : next[1];
-        moves->heights[r] = before->ups[r] / 2 + (before->ups[a] + before->ups[b]) / 4;
+        moves->heights[r] = before->ups[r] * (1 - 2 * share) + (before->ups[a] + before->ups[b]) * share;
         moves->asides[r] = meso_vec3_mad(meso_vec3_scale(before->asides[r], 0.5f), 0.25f,
                                          meso_vec3_add(before->asides[a], before->asides[b]));
         bound(moves, &s->rings[r], r, bounds);
     }
 }
 
-static bool is_lacking(const Strands *s, const Contact *contact)
+static bool is_lacking(const MesoParting *s, const MesoPartContact *contact)
 {
     MesoVec3 way;
     return (contact->beside ? lacking_beside(&way, s, contact, NULL) : lacking(s, contact, NULL)) > 0;
 }
 
 /* `any`: something lies in something else. */
-static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, Bounds bounds, MesoError *error)
+static MesoStatus find_moves(Moves *moves, bool *any, const MesoParting *s, Bounds bounds, MesoError *error)
 {
     *any = false;
     for (uint32_t k = 0; k < s->contact_count && !*any; k++)
@@ -406,7 +246,7 @@ static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, Bounds b
         return MESO_ERR_MEMORY;
     for (int step = 0; step < STEPS; step++) {
         push(s, moves, &pushes, bounds);
-        smooth(s, moves, &pushes, bounds);
+        smooth(s, moves, &pushes, bounds, SMOOTH * fmaxf(0, 1 - (float)step / SMOOTH_STEPS));
     }
     return MESO_OK;
 }
@@ -417,7 +257,7 @@ static MesoStatus find_moves(Moves *moves, bool *any, const Strands *s, Bounds b
 static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, const MesoSwatch *swatch, MesoArena *arena,
                                  MesoError *error)
 {
-    Strands s;
+    MesoParting s;
     MesoVec3 *feet = MESO_NEW(arena, MesoVec3, swatch->vertex_count, error);
     float *heights = MESO_NEW(arena, float, swatch->vertex_count, error);
     if (!feet || !heights)
@@ -431,10 +271,9 @@ static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, con
     for (uint32_t r = 0; r < named->count && !status; r++)
         s.rings[r].normal = (MesoVec3){0, 0, 1};
     if (!status)
-        status = find_contacts(&s, error);
+        status = meso_part_find_contacts(&s, error);
     if (status)
         return status;
-    find_signs(&s);
     *parted = true;
     for (uint32_t k = 0; k < s.contact_count && *parted; k++)
         *parted = s.contacts[k].beside || lacking(&s, &s.contacts[k], NULL) <= SWATCH_MOST * s.contacts[k].gap;
@@ -471,7 +310,7 @@ static MesoVec3 normal_under(const MesoFinishWork *work, uint32_t vertex)
 }
 
 /* Borders have made some of a ring: it stays where they are. */
-static void hold_borders(Strands *s, const Tubes *tubes, const MesoFinishWork *work)
+static void hold_borders(MesoParting *s, const Tubes *tubes, const MesoFinishWork *work)
 {
     for (uint32_t v = 0; v < tubes->vertex_count; v++)
         if (work->at_border[v] && tubes->of_vertex[v] != MESO_NO_INDEX)
@@ -500,7 +339,7 @@ static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named,
         feet[v] = meso_finish_foot(work, work->vertices[v]);
         heights[v] = work->vertices[v].height;
     }
-    Strands s;
+    MesoParting s;
     Moves moves;
     bool any;
     const Tubes tubes = {n, work->triangle_count, feet, heights, work->corners, of_vertex};
@@ -508,10 +347,9 @@ static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named,
     for (uint32_t r = 0; r < count && !status; r++)
         s.rings[r].normal = normal_under(work, s.rings[r].first);
     if (!status)
-        status = find_contacts(&s, error);
+        status = meso_part_find_contacts(&s, error);
     if (status)
         return status;
-    find_signs(&s);
     hold_borders(&s, &tubes, work);
     const MesoFinishOptions *o = work->options;
     float top = o->offset + (o->height_scale > 0 ? o->height_scale : o->scale) * work->swatch->size.z;

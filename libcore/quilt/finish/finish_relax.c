@@ -4,8 +4,8 @@
  * strands move along the surface, all at once, so that each has the others of its patch around it as in the swatch,
  * turned as suits them best ("As-rigid-as-possible surface modeling", Sorkine and Alexa 2007, in the surface); and so
  * that what goes on in another patch, along strands and beside them, does so as in the swatch. Which strands are joined
- * stays as it is. Each ring then is one of the swatch again, of its own width and height, turned as the swatch is
- * there; whole elements that grow from strands go with them.
+ * stays as it is. Each ring then is one of the swatch again, of its own width, as high up as there, and turned as the
+ * swatch is; whole elements that grow from strands go with them.
  */
 #include <string.h>
 
@@ -138,7 +138,8 @@ static void move_vertex(MesoQuilt *quilt, const MesoFinishWork *work, uint32_t v
     if (r->nodes[node].count == r->rings->sizes[r->nodes[node].name])
         *vertex = meso_relax_put(r, work, node, vertex->triangle, quilt->origins[v]);
     else
-        *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, move_of(r, node)), vertex->height);
+        *vertex = meso_finish_locate(work, vertex->triangle, meso_vec3_add(foot, move_of(r, node)),
+                                      vertex->height + r->nodes[node].rise);
 }
 
 static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrandRings *rings, MesoError *error)
@@ -170,10 +171,13 @@ static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrand
     if (!status)
         status = meso_relax_fit(&any, &r, may_move, error);
     if (!status && any)
+        status = meso_relax_heights(&r, work->options->offset, error);
+    if (!status && any)
         meso_relax_carry(quilt, &r, work);
     for (uint32_t v = 0; v < quilt->vertex_count && !status && any; v++)
         if (node_of[v] != MESO_NO_INDEX)
             move_vertex(quilt, work, v, &r, node_of[v]);
+    work->levelled = any;
     return status;
 }
 

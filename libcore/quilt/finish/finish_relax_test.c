@@ -160,6 +160,28 @@ static void test_sections(void)
     release(&cloth);
 }
 
+/* Strands that have drifted up and down, each patch its own way, rise and fall as in the swatch again. */
+static void test_heights(void)
+{
+    Cloth cloth;
+    double before = 0, after = 0;
+    init(&cloth, "weave", 0.12f);
+    const MesoSwatch *s = &cloth.swatch;
+    for (uint32_t c = 0; c < 3 * s->triangle_count; c++) {
+        uint32_t v = s->corners[c];
+        if (cloth.quilt.patches[c / 3])
+            cloth.quilt.vertices[v].height = s->positions[v].z + 0.3f + 0.1f * s->positions[v].y;
+    }
+    for (uint32_t v = 0; v < s->vertex_count; v++)
+        before = fmax(before, fabs((double)(cloth.quilt.vertices[v].height - s->positions[v].z)));
+    relax(&cloth);
+    for (uint32_t v = 0; v < s->vertex_count; v++)
+        after = fmax(after, fabs((double)(cloth.quilt.vertices[v].height - s->positions[v].z)));
+    CHECK(before > 0.3);
+    CHECK(after < 0.03);
+    release(&cloth);
+}
+
 /* What lies as in the swatch stays, to the bit. */
 static void test_straight(void)
 {
@@ -217,6 +239,7 @@ int main(void)
     test_bent();
     test_sections();
     test_carried();
+    test_heights();
     test_straight();
     return 0;
 }

@@ -14,7 +14,7 @@ enum { MESO_RELAX_DIRECTIONS = 6, MESO_RELAX_NEAR = 2 * MESO_RELAX_DIRECTIONS + 
 typedef struct MesoRelaxNode {
     MesoVec3 foot, normal;      /* its middle on the surface, up */
     MesoVec3 origin;            /* its middle in the swatch */
-    float height;               /* of its middle */
+    float height, rise;         /* of its middle; by which that has changed */
     MesoVec3 x, y;              /* along the surface */
     uint32_t name, patch;       /* ring of the swatch, and which copy of that */
     uint32_t count;             /* vertices */
@@ -98,5 +98,8 @@ MesoStatus meso_relax_guess(MesoRelaxing *r, MesoError *error);
 
 /* Finds turns and, where nodes may move, moves; `any`: some pair is not as it should be. */
 MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, bool may_move, MesoError *error);
+
+/* Rings rise and fall along strands as in the swatch, which lies at `offset`. */
+MesoStatus meso_relax_heights(MesoRelaxing *r, float offset, MesoError *error);
 
 #endif

@@ -8,6 +8,7 @@ typedef struct MesoFinishWork {
     const MesoQuiltBase *base;
     const MesoSwatch *swatch;
     const MesoFinishOptions *options;
+    bool levelled;              /* strands are at the heights of the swatch, but for what joins need */
     MesoVec3 *normals;          /* [base->mesh.vertex_count] unit */
     uint32_t vertex_count, triangle_count, vertex_room, triangle_room;
     MesoQuiltVertex *vertices;  /* [vertex_count] over base->mesh; these and what follows may be the quilt's own */
@@ -47,7 +48,8 @@ float meso_finish_inside(const MesoFinishWork *work, MesoQuiltVertex vertex);
 /* ---- steps ---- */
 
 /* Moves strands along the surface to where they lie around each other as in the swatch, as far as joins allow, but not
- * where the swatch has whole elements that grow from none; gives strands the sections that they have in the swatch. */
+ * where the swatch has whole elements that grow from none; gives strands the sections that they have in the swatch, and
+ * its heights, but for what joins need. Nothing moves where all is as it should be along the surface. */
 MesoStatus meso_finish_relax(MesoQuilt *quilt, MesoFinishWork *work, MesoError *error);
 
 /* Takes over what a quilt has on this side of the borders: its very arrays where there are none. */
@@ -56,8 +58,8 @@ MesoStatus meso_finish_cut(MesoFinishWork *work, const MesoQuilt *quilt, MesoErr
 /* Closes loops of open edges. */
 MesoStatus meso_finish_close(MesoFinishWork *work, MesoError *error);
 
-/* Takes slow drifts of height out of strands, and all of them out of whole elements, before strands are closed.
- * `quilt`: what it was before. */
+/* Takes slow drifts of height out of strands that are not levelled yet, and all of them out of whole elements, before
+ * strands are closed. `quilt`: what it was before. */
 MesoStatus meso_finish_level(MesoFinishWork *work, const MesoQuilt *quilt, MesoError *error);
 
 /* Parts strands that run through each other where they cross, by their heights. */

@@ -1,4 +1,4 @@
-#include "libcore/quilt/finish/quilt_finish.h"
+#include "libcore/quilt/finish/finish_work.h"
 
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
@@ -409,12 +409,60 @@ static void test_part(void)
     meso_arena_release(&arena);
 }
 
+/*
+ * A bar that rises under another one, whose middle is clear of it:
+ *
+ *        +---+
+ *        |   |/      the side of the upper one is not, and comes to be
+ *        +---/
+ *           /
+ */
+static void test_part_sides(void)
+{
+    MesoArena arena;
+    MesoError error = {0};
+    meso_arena_init(&arena);
+    MesoSwatch swatch = make_swatch(&arena);
+    MesoTriangulation plane = meso_fixture_sheet(2, 2, 4);
+    MesoQuiltBase base;
+    CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
+    MesoVec3 at = meso_vec3_add(swatch.positions[0], (MesoVec3){0, BAR_SIDE / 2, BAR_SIDE / 2});
+    const MesoVec3 middle = {2, 2, 0}, beside = {2, 2.1f, 0}, move = {-2 - at.x, 2 - at.y, -0.7f};
+    const Copy across[] = {{0, RINGS - 1, move}, {0, RINGS - 1, move}};
+    MesoQuilt q = lay_out(&arena, &swatch, &base.mesh, across, 2);
+    turn(&q, &base.mesh, 1, middle);
+    for (uint32_t v = 0; v < q.vertex_begin[1]; v++)
+        q.vertices[v].height += 0.25f;
+    for (uint32_t v = q.vertex_begin[1]; v < q.vertex_count; v++) {     /* with rings nearer to each other */
+        MesoVec3 p = point_of(&base.mesh, q.vertices[v]);
+        p.y = 2 + 0.25f * (p.y - 2);
+        p.z += fmaxf(fminf(1.5f * (p.y - 2), 0.2f), -0.2f);
+        q.vertices[v] = place_at(&base.mesh, p);
+    }
+    const MesoFinishOptions options = {.scale = 1, .offset = -1};
+    MesoFinishWork work = {.base = &base, .swatch = &swatch, .options = &options, .arena = &arena,
+                           .vertex_count = q.vertex_count, .triangle_count = q.triangle_count, .vertices = q.vertices,
+                           .origins = q.origins, .corners = q.corners,
+                           .at_border = MESO_NEW(&arena, uint8_t, q.vertex_count, &error)};
+    float upper = middle_near(&q, &base.mesh, 0, middle, 0.25f).z;
+    float lower = middle_near(&q, &base.mesh, 1, beside, 0.14f).z;
+    CHECK(upper - lower > 0 && upper - lower < 0.12f);
+    CHECK(work.at_border && meso_finish_part(&work, &error) == MESO_OK);
+    upper = middle_near(&q, &base.mesh, 0, middle, 0.25f).z;
+    lower = middle_near(&q, &base.mesh, 1, beside, 0.14f).z;
+    CHECK(upper - lower > 0.15f);
+    meso_quilt_base_release(&base);
+    meso_triangulation_release(&plane);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     test_along_border();
     test_level();
     test_whole_level();
     test_part();
+    test_part_sides();
     test_plane(false);
     test_plane(true);
     test_wholes();
