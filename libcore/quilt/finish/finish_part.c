@@ -1,8 +1,8 @@
 /*
  * Strands that run through each other, parted. Where patches do not fit, a strand may come to cross another at its own
  * height, or to lie in one beside it. Of two that cross, the one that lies higher there on the whole goes up and the
- * other one down, as far as their sections need; of two side by side each gives way. What is next to it along the strand
- * follows. Rings move as wholes.
+ * other one down, as far as their sections need; of two side by side each gives way. What is next to it along the
+ * strand follows. Rings move as wholes.
  */
 #include <string.h>
 
@@ -108,7 +108,8 @@ static void measure_rings(MesoPartRing *rings, uint32_t count, const Tubes *tube
 
 static MesoStatus build(MesoParting *s, MesoArena *arena, const Tubes *tubes, uint32_t ring_count, MesoError *error)
 {
-    *s = (MesoParting){.ring_count = ring_count, .arena = arena, .rings = MESO_NEW(arena, MesoPartRing, ring_count, error)};
+    *s = (MesoParting){.ring_count = ring_count, .arena = arena};
+    s->rings = MESO_NEW(arena, MesoPartRing, ring_count, error);
     if (!s->rings)
         return MESO_ERR_MEMORY;
     measure_rings(s->rings, ring_count, tubes);
@@ -167,7 +168,8 @@ typedef struct Pushes {
 } Pushes;
 
 /* Each of two that cross does half of it; where there is no room in the layer, the other one does the rest. */
-static void push_over(const MesoParting *s, Pushes *pushes, const MesoPartContact *contact, const Moves *moves, Bounds bounds)
+static void push_over(const MesoParting *s, Pushes *pushes, const MesoPartContact *contact, const Moves *moves,
+                      Bounds bounds)
 {
     float lack = lacking(s, contact, moves);
     uint32_t upper = contact->sign > 0 ? contact->ring : contact->other;

@@ -1,8 +1,8 @@
 /*
- * Where rings of strands are in contact. Of strands that cross, not only middles meet: what lies to the side of one, where
- * the other one rises or falls, is as near to it. So each ring is looked at in several places across its strand, and what
- * is as thick there as its section, all around, is to stay outside of the other strand's section: within an ellipse that
- * is larger by so much.
+ * Where rings of strands are in contact. Of strands that cross, not only middles meet: what lies to the side of one,
+ * where the other one rises or falls, is as near to it. So each ring is looked at in several places across its strand,
+ * and what is as thick there as its section, all around, is to stay outside of the other strand's section, of
+ * an ellipse that is larger by so much.
  */
 #include <string.h>
 
@@ -10,7 +10,8 @@
 #include "libcore/base/grow.h"
 #include "libcore/quilt/finish/finish_part_work.h"
 
-/* Strands cross where the cosine between them is at most this; normals of one side of the surface have at least that. */
+/* Strands cross where the cosine between them is at most this; normals of one side of the surface have at least
+ * that. */
 #define CROSS_MOST 0.7f
 #define SIDE_LEAST 0.5f
 
