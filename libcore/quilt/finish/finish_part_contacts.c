@@ -1,8 +1,8 @@
 /*
  * Where rings of strands are in contact. Of strands that cross, not only middles meet: what lies to the side of one,
  * where the other one rises or falls, is as near to it. So each ring is looked at in several places across its strand,
- * and what is as thick there as its section, all around, is to stay outside of the other strand's section, of
- * an ellipse that is larger by so much.
+ * and what is as thick there as its section, all around, is to stay outside of the other strand's section: its middle
+ * outside of an ellipse that is larger by so much.
  */
 #include <string.h>
 
