@@ -16,6 +16,31 @@ static bool stop_at(MesoGrowthWork *work, MesoGrowthEnd end)
 
 /* ---- turns that others may have changed ---- */
 
+static inline uint32_t mark_of(uint32_t triangle)
+{
+    return (triangle * 2654435769u) / (UINT32_MAX / MESO_GROWTH_MARKS + 1);
+}
+
+/* Whether the window may have grown in a triangle that a turn's way goes through; where not, the two do not meet. */
+static bool may_meet_new(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
+{
+    const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin;
+    for (uint32_t i = 0; i < turn->piece_count; i++) {
+        uint32_t mark = mark_of(pieces[i].triangle);
+        if (work->grown_in[mark / 64] >> mark % 64 & 1)
+            return true;
+    }
+    return false;
+}
+
+static void mark_new(MesoGrowthWork *work, const MesoGrowthPiece *pieces, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t mark = mark_of(pieces[i].triangle);
+        work->grown_in[mark / 64] |= (uint64_t)1 << mark % 64;
+    }
+}
+
 /* Whether what the window has grown lies where a turn looked. */
 static bool is_near_new(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
 {
@@ -41,7 +66,8 @@ static void bring_up_to_date(MesoGrowthWork *work, MesoGrowthWindow *window, uin
         if (is_near_new(work, turn))
             meso_growth_try_again(work, window, number);
     } else if (steps || (turn->outcome == MESO_GROWTH_REFUSED && turn->command.join)) {
-        bool may_be_near = !(turn->command.values[MESO_GROWTH_CLEAR] > 0) || is_near_new(work, turn);
+        bool clears = turn->command.values[MESO_GROWTH_CLEAR] > 0;
+        bool may_be_near = clears ? is_near_new(work, turn) : !steps || may_meet_new(work, turn);
         if (!may_be_near || (steps && !meso_growth_collides(work, batch, tip, turn, work->since)))
             return;
         meso_growth_judge_again(work, batch, tip, work->registers + (size_t)active * work->grammar->local_count, turn,
@@ -85,7 +111,9 @@ static bool occupy(MesoGrowthWork *work, uint32_t active, const MesoGrowthTurn *
     bool placed = turn->outcome == MESO_GROWTH_PLACES;
     float begin = (float)tip->state[MESO_STATE_LENGTH];
     MesoGrowthKin kin = {tip->node, tip->moved, placed, begin, placed ? begin : begin + (float)turn->length};
-    return meso_growth_space_add(&work->space, kin, turn->batch->pieces + turn->piece_begin, turn->piece_count) &&
+    const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin;
+    mark_new(work, pieces, turn->piece_count);
+    return meso_growth_space_add(&work->space, kin, pieces, turn->piece_count) &&
            add_ball(work, tip->foot.position, turn->length);
 }
 

@@ -94,7 +94,7 @@ static bool begin_block(MesoGrowthCells *cells, uint32_t slot)
     MesoGrowthBlock *block = &cells->blocks[number];
     uint16_t chain = head == MESO_NO_INDEX ? 0 : cells->blocks[head].chain;
     block->from = block->to = (MesoFourBits){0, 0, 0, 0};
-    block->count = 0;
+    block->count = block->placed = 0;
     block->chain = chain < UINT16_MAX ? (uint16_t)(chain + 1) : chain;
     block->next = head;
     cells->heads[slot] = number;
@@ -110,7 +110,7 @@ static inline int32_t on_grid(MesoComplex at, double scale)
     return (int32_t)(column | row << 16);
 }
 
-static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, uint32_t piece)
+static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, uint32_t piece, bool placed)
 {
     uint32_t head = cells->heads[slot];
     if ((head == MESO_NO_INDEX || cells->blocks[head].count == MESO_GROWTH_LANES) && !begin_block(cells, slot))
@@ -122,6 +122,7 @@ static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, ui
     block->from[lane] = on_grid(ends[0], scale);
     block->to[lane] = on_grid(ends[1], scale);
     block->piece[lane] = piece;
+    block->placed = (uint8_t)(block->placed | placed << lane);
     return true;
 }
 
@@ -154,7 +155,7 @@ static uint32_t reversed(MesoGrowthCells *cells, uint32_t head)
     return before;
 }
 
-static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece);
+static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece, bool placed);
 
 static bool quarter(MesoGrowthCells *cells, const Place *place)
 {
@@ -171,7 +172,7 @@ static bool quarter(MesoGrowthCells *cells, const Place *place)
         cells->unused = at;
         at = block.next;
         for (uint32_t lane = 0; lane < block.count; lane++)
-            if (!add_to(cells, place, block.piece[lane]))
+            if (!add_to(cells, place, block.piece[lane], block.placed >> lane & 1))
                 return false;
     }
     return true;
@@ -184,7 +185,7 @@ static bool is_due(const MesoGrowthCells *cells, uint32_t head)
     return block->count == MESO_GROWTH_LANES && block->chain >= MANY && (block->chain & (block->chain - 1)) == 0;
 }
 
-static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece)
+static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece, bool placed)
 {
     uint32_t head = cells->heads[place->slot];
     if (head < MESO_GROWTH_QUARTERED && is_due(cells, head) && place->depth < MESO_GROWTH_QUARTERINGS &&
@@ -192,18 +193,18 @@ static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece)
         return false;
     head = cells->heads[place->slot];
     if (!meso_growth_is_quartered(head))
-        return append(cells, place->slot, place->size, piece);
+        return append(cells, place->slot, place->size, piece, placed);
     double half = half_of(place->size, place->depth);
     for (uint32_t k = 0; k < 4; k++) {
         Place part = quarter_of(place, head & ~MESO_GROWTH_QUARTERED, k);
         if (goes_through_quarter(cells->ends[piece], place->middle, half, place->size, k) &&
-            !add_to(cells, &part, piece))
+            !add_to(cells, &part, piece, placed))
             return false;
     }
     return true;
 }
 
-bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element)
+bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element, bool placed)
 {
     uint32_t number = cells->piece_count, head = cells->heads[piece->triangle];
     double size = cells->ground->lengths[piece->triangle];
@@ -216,9 +217,9 @@ bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece,
     cells->elements[number] = element;
     cells->piece_count++;
     if (head == MESO_NO_INDEX || (head < MESO_GROWTH_QUARTERED && !is_due(cells, head)))
-        return append(cells, piece->triangle, size, number);
+        return append(cells, piece->triangle, size, number, placed);
     const Place place = {piece->triangle, 0, middle_of(size), size};
-    return add_to(cells, &place, number);
+    return add_to(cells, &place, number, placed);
 }
 
 /* ---- memory ---- */

@@ -27,7 +27,8 @@ typedef struct MesoGrowthBlock {
     MesoFourBits from, to;      /* ends: x, and y above it; of the lanes beyond `count`, no matter what */
     uint32_t piece[MESO_GROWTH_LANES];
     uint32_t next;              /* older ones of the same cell */
-    uint16_t count;
+    uint8_t count;
+    uint8_t placed;             /* bit i: piece i is of a placed shape, which may be crossed */
     uint16_t chain;             /* blocks of the cell up to this one; no more are counted than fit */
 } MesoGrowthBlock;
 
@@ -64,7 +65,7 @@ MesoStatus meso_growth_cells_init(MesoGrowthCells *cells, const MesoWalkGround *
 void meso_growth_cells_release(MesoGrowthCells *cells);
 
 /* False where memory is out. */
-bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element);
+bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece, uint32_t element, bool placed);
 
 /* Asks for the memory of a piece; nothing where there is none of that number. */
 static inline void meso_growth_fetch_piece(const MesoGrowthCells *cells, uint32_t piece)

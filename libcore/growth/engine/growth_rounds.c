@@ -168,6 +168,8 @@ static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t 
     window->first_branch = work->branch_count;
     window->first_tip = work->tip_count;
     window->first_shoot = work->shoot_count;
+    if (work->space.cells.piece_count > work->since)
+        memset(work->grown_in, 0, sizeof work->grown_in);
     work->since = work->space.cells.piece_count;
     work->ball_count = 0;
     again->piece_count = again->shoot_count = again->middle_count = 0;

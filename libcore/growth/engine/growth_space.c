@@ -24,7 +24,7 @@ bool meso_growth_space_add(MesoGrowthSpace *space, MesoGrowthKin kin, const Meso
     uint32_t element = space->kin_count;
     space->kin[space->kin_count++] = kin;
     for (uint32_t i = 0; i < count; i++)
-        if (!meso_growth_cells_add(&space->cells, &pieces[i], element))
+        if (!meso_growth_cells_add(&space->cells, &pieces[i], element, kin.placed))
             return false;
     return true;
 }
@@ -183,19 +183,33 @@ static inline MesoFourBits both_beyond(MesoFour a, MesoFour b, MesoFour low, Mes
     return ((a > high) & (b > high)) | ((a < low) & (b < low));
 }
 
-/* Lanes of pieces that may meet a segment: where no line along or across one of the two has the other on one side. */
-static inline MesoFourBits lanes_near(const Rough *s, const MesoGrowthBlock *block)
+/* Lanes of two numbers of which one is above a limit, and the other below another. */
+static inline MesoFourBits parted(MesoFour a, MesoFour b, MesoFour low, MesoFour high)
+{
+    return ((a > high) & (b < low)) | ((a < low) & (b > high));
+}
+
+/* What is told of the pieces of a block, a bit each. */
+typedef struct Lanes {
+    uint32_t near;              /* they may meet a segment: no line along or across one of the two has the other aside */
+    uint32_t across;            /* they do so surely: each has the other's ends on both sides, and far enough from it */
+} Lanes;
+
+static inline Lanes look_at(const Rough *s, const MesoGrowthBlock *block)
 {
     MesoFour x0 = column_of(block->from) - s->x, y0 = row_of(block->from) - s->y;
     MesoFour x1 = column_of(block->to) - s->x, y1 = row_of(block->to) - s->y;
-    MesoFourBits apart = both_beyond(s->along_x * y0 - s->along_y * x0, s->along_x * y1 - s->along_y * x1, -s->slack,
-                                     s->slack);
-    apart |= both_beyond(s->along_x * x0 + s->along_y * y0, s->along_x * x1 + s->along_y * y1, -s->slack, s->end);
+    MesoFour from = s->along_x * y0 - s->along_y * x0, to = s->along_x * y1 - s->along_y * x1;
     MesoFour x = x1 - x0, y = y1 - y0;
     MesoFour slack = meso_four_all(slack_of_rough) * (meso_four_absolute(x) + meso_four_absolute(y) +
                                                       meso_four_absolute(x0) + meso_four_absolute(y0) + s->size);
-    apart |= both_beyond(y * x0 - x * y0, x * (s->along_y - y0) - y * (s->along_x - x0), -slack, slack);
-    return ~apart;
+    MesoFour begin = y * x0 - x * y0, end = x * (s->along_y - y0) - y * (s->along_x - x0);
+    MesoFourBits apart = both_beyond(from, to, -s->slack, s->slack) | both_beyond(begin, end, -slack, slack) |
+                         both_beyond(s->along_x * x0 + s->along_y * y0, s->along_x * x1 + s->along_y * y1, -s->slack,
+                                     s->end);
+    MesoFourBits across = parted(from, to, -s->slack, s->slack) & parted(begin, end, -slack, slack);
+    uint32_t all = (1u << block->count) - 1;
+    return (Lanes){~meso_four_mask(apart) & all, meso_four_mask(across) & all};
 }
 
 /* ---- pieces ---- */
@@ -241,9 +255,12 @@ static void take_nearer(const Probe *probe, uint32_t number, MesoGrowthMeeting *
 /* The nearest meeting in a block, where it is nearer than `first`; where that is NULL, any. */
 static bool meets_in_block(const Probe *probe, const MesoGrowthBlock *block, MesoGrowthMeeting *first)
 {
-    uint32_t left = meso_four_mask(lanes_near(&probe->rough, block)) & ((1u << block->count) - 1);
+    Lanes lanes = look_at(&probe->rough, block);
+    uint32_t across = lanes.across & ~(uint32_t)block->placed;
     bool meets = false;
-    for (; left; left &= left - 1) {
+    if (across && !first && block->piece[31 - __builtin_clz(across)] >= probe->asker->since)
+        return true;
+    for (uint32_t left = lanes.near; left; left &= left - 1) {
         uint32_t number = block->piece[__builtin_ctz(left)];
         if (number < probe->asker->since || !meets_piece(probe, number))
             continue;

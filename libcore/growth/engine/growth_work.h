@@ -17,6 +17,9 @@
 /* Branches that one thread tries at a time. */
 enum { MESO_GROWTH_BATCH = 256 };
 
+/* Marks of triangles, which few triangles share: many times the pieces of a window. */
+enum { MESO_GROWTH_MARKS = 1 << 15 };
+
 /* Sides that a step may cross: where a mesh has no area walks may stand still. */
 enum { MESO_GROWTH_CROSSINGS = 1 << 14 };
 
@@ -160,6 +163,7 @@ typedef struct MesoGrowthWork {
     MesoGrowthWindow windows[2];        /* what one has grown is written down while the next is tried */
     uint32_t window_size, batch_count;
     uint32_t since;             /* the first piece that the window under way has grown */
+    uint64_t grown_in[MESO_GROWTH_MARKS / 64];  /* bits: marks of the triangles that those pieces lie in */
     float *balls;               /* [4 * ball_room] of the elements of that: x, y, z, radius in turn */
     uint32_t ball_count, ball_room;
 
