@@ -88,14 +88,47 @@ static bool fits(MesoGrowthWork *work, const MesoGrowthTurn *turn)
     return true;
 }
 
+/* ---- memory ---- */
+
+static const MesoGrowthTurn *turn_at(const MesoGrowthWindow *window, uint32_t number, uint32_t count)
+{
+    return &window->turns[number < count ? number : count - 1];
+}
+
+/*
+ * What turns have come to, which other threads may have done, comes from their memory while those before them are
+ * admitted: the turns, from those where their pieces are, from these their cells, and from these the newest blocks.
+ */
+void meso_growth_fetch_turns(const MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t number,
+                             uint32_t count)
+{
+    enum { TURNS = 16, PIECES = 10, HEADS = 6, BLOCKS = 3 };
+    const char *turn = (const char *)turn_at(window, number + TURNS, count);
+    for (uint32_t i = 0; i < MESO_GROWTH_TURN_LINES; i++)
+        __builtin_prefetch(turn + i * MESO_GROWTH_TURN_LINE, 1);
+    if (!work->uses_space)
+        return;
+    const MesoGrowthTurn *soon = turn_at(window, number + PIECES, count);
+    const char *pieces = (const char *)(soon->batch->pieces + soon->piece_begin);
+    if (soon->piece_count) {
+        __builtin_prefetch(pieces);
+        __builtin_prefetch(pieces + MESO_GROWTH_TURN_LINE);
+    }
+    soon = turn_at(window, number + HEADS, count);
+    meso_growth_cells_fetch_heads(&work->space.cells, soon->batch->pieces + soon->piece_begin, soon->piece_count);
+    soon = turn_at(window, number + BLOCKS, count);
+    meso_growth_cells_fetch_newest(&work->space.cells, soon->batch->pieces + soon->piece_begin, soon->piece_count);
+}
+
 /* ---- what has grown, by number ---- */
 
 /* The ball around all of a way: it stays within its length of where it begins. */
-static bool add_ball(MesoGrowthWork *work, MesoFour center, double radius)
+static bool add_ball(MesoGrowthWork *work, uint32_t active, double radius)
 {
-    float ball[4] = {center[0], center[1], center[2], (float)(radius * 1.0001)};
     if (!work->looks && !work->clears)
         return true;
+    MesoFour center = work->tips[work->active[active]].foot.position;
+    float ball[4] = {center[0], center[1], center[2], (float)(radius * 1.0001)};
     if (!meso_make_room((void **)&work->balls, &work->ball_room, (uint64_t)work->ball_count + 1, sizeof ball))
         return false;
     for (uint32_t i = 0; i < 4; i++)
@@ -107,14 +140,12 @@ static bool add_ball(MesoGrowthWork *work, MesoFour center, double radius)
 /* Turns that come later see it. */
 static bool occupy(MesoGrowthWork *work, uint32_t active, const MesoGrowthTurn *turn)
 {
-    const MesoGrowthTip *tip = &work->tips[work->active[active]];
-    bool placed = turn->outcome == MESO_GROWTH_PLACES;
-    float begin = (float)tip->state[MESO_STATE_LENGTH];
-    MesoGrowthKin kin = {tip->node, tip->moved, placed, begin, placed ? begin : begin + (float)turn->length};
     const MesoGrowthPiece *pieces = turn->batch->pieces + turn->piece_begin;
+    MesoGrowthKin kin = turn->kin;
+    kin.placed = turn->outcome == MESO_GROWTH_PLACES;
+    kin.end = kin.placed ? kin.begin : kin.begin + (float)turn->length;
     mark_new(work, pieces, turn->piece_count);
-    return meso_growth_space_add(&work->space, kin, pieces, turn->piece_count) &&
-           add_ball(work, tip->foot.position, turn->length);
+    return meso_growth_space_add(&work->space, kin, pieces, turn->piece_count) && add_ball(work, active, turn->length);
 }
 
 /* Joints that are new: a step that does not go on from the joint that it has begins at one of its own. */

@@ -36,33 +36,35 @@ static MesoComplex middle_of(double size)
     return (MesoComplex){0.5 * size, 0.5 * size};
 }
 
-static double half_of(double size, uint32_t depth)
-{
-    return ldexp(size, -1 - (int)depth);
-}
-
 static MesoComplex middle_of_quarter(MesoComplex middle, double half, uint32_t k)
 {
     double by = 0.5 * half;
     return (MesoComplex){middle.re + (k & 1 ? by : -by), middle.im + (k & 2 ? by : -by)};
 }
 
-/* Whether a segment goes through a square, or may do so. */
-static bool goes_through(const MesoComplex ends[2], MesoComplex middle, double half)
+/* Bits: on which sides of the middle, that of less and that of more, a stretch from a to b is, or may be. */
+static inline uint32_t sides_of(double a, double b, double half, double slack)
 {
-    double x0 = ends[0].re - middle.re, y0 = ends[0].im - middle.im;
-    double x1 = ends[1].re - middle.re, y1 = ends[1].im - middle.im;
-    if ((x0 > half && x1 > half) || (x0 < -half && x1 < -half))
-        return false;
-    if ((y0 > half && y1 > half) || (y0 < -half && y1 < -half))
-        return false;
-    double x = x1 - x0, y = y1 - y0;
-    return fabs(x * y0 - y * x0) <= (fabs(x) + fabs(y)) * half;
+    double least = a < b ? a : b, most = a < b ? b : a;
+    uint32_t less = (least <= slack) & (most >= -half - slack), more = (most >= -slack) & (least <= half + slack);
+    return less | more << 1;
 }
 
-static bool goes_through_quarter(const MesoComplex ends[2], MesoComplex middle, double half, double size, uint32_t k)
+/*
+ * Bit k: a segment goes through quarter k of a square, or may do so. Its box reaches the quarter's, and the quarter's
+ * middle lies no farther from its line than a corner of the quarter may.
+ */
+static inline uint32_t quarters_through(const MesoComplex ends[2], MesoComplex middle, double half, double size)
 {
-    return goes_through(ends, middle_of_quarter(middle, half, k), 0.5 * half + beyond * size);
+    static const uint8_t of_columns[4] = {0, 0x5, 0xa, 0xf}, of_rows[4] = {0, 0x3, 0xc, 0xf};
+    double x0 = ends[0].re - middle.re, y0 = ends[0].im - middle.im;
+    double x1 = ends[1].re - middle.re, y1 = ends[1].im - middle.im;
+    double slack = beyond * size, by = 0.5 * half, x = x1 - x0, y = y1 - y0;
+    double turn = x * y0 - y * x0, reach = (fabs(x) + fabs(y)) * (by + slack);
+    double rises = (x - y) * by, falls = (x + y) * by;
+    uint32_t near = (uint32_t)(fabs(turn + rises) <= reach) | (uint32_t)(fabs(turn + falls) <= reach) << 1 |
+                    (uint32_t)(fabs(turn - falls) <= reach) << 2 | (uint32_t)(fabs(turn - rises) <= reach) << 3;
+    return near & of_columns[sides_of(x0, x1, half, slack)] & of_rows[sides_of(y0, y1, half, slack)];
 }
 
 /* ---- growing ---- */
@@ -71,13 +73,14 @@ static bool goes_through_quarter(const MesoComplex ends[2], MesoComplex middle, 
 typedef struct Place {
     uint32_t slot, depth;
     MesoComplex middle;
+    double half;                /* of its side */
     double size;                /* of the triangle */
 } Place;
 
 static Place quarter_of(const Place *place, uint32_t first, uint32_t k)
 {
-    double half = half_of(place->size, place->depth);
-    return (Place){first + k, place->depth + 1, middle_of_quarter(place->middle, half, k), place->size};
+    return (Place){first + k, place->depth + 1, middle_of_quarter(place->middle, place->half, k), 0.5 * place->half,
+                   place->size};
 }
 
 /* False where memory is out. */
@@ -130,13 +133,12 @@ static inline bool append(MesoGrowthCells *cells, uint32_t slot, double size, ui
 static bool is_worth_it(const MesoGrowthCells *cells, const Place *place)
 {
     uint32_t pieces = 0, parts = 0;
-    double half = half_of(place->size, place->depth);
     for (uint32_t i = cells->heads[place->slot]; i != MESO_NO_INDEX; i = cells->blocks[i].next) {
         const MesoGrowthBlock *block = &cells->blocks[i];
         for (uint32_t lane = 0; lane < block->count; lane++) {
+            const MesoComplex *ends = cells->ends[block->piece[lane]];
             pieces++;
-            for (uint32_t k = 0; k < 4; k++)
-                parts += goes_through_quarter(cells->ends[block->piece[lane]], place->middle, half, place->size, k);
+            parts += (uint32_t)__builtin_popcount(quarters_through(ends, place->middle, place->half, place->size));
         }
     }
     return 2 * parts <= 3 * pieces;
@@ -194,11 +196,10 @@ static bool add_to(MesoGrowthCells *cells, const Place *place, uint32_t piece, b
     head = cells->heads[place->slot];
     if (!meso_growth_is_quartered(head))
         return append(cells, place->slot, place->size, piece, placed);
-    double half = half_of(place->size, place->depth);
-    for (uint32_t k = 0; k < 4; k++) {
-        Place part = quarter_of(place, head & ~MESO_GROWTH_QUARTERED, k);
-        if (goes_through_quarter(cells->ends[piece], place->middle, half, place->size, k) &&
-            !add_to(cells, &part, piece, placed))
+    uint32_t left = quarters_through(cells->ends[piece], place->middle, place->half, place->size);
+    for (; left; left &= left - 1) {
+        Place part = quarter_of(place, head & ~MESO_GROWTH_QUARTERED, (uint32_t)__builtin_ctz(left));
+        if (!add_to(cells, &part, piece, placed))
             return false;
     }
     return true;
@@ -218,7 +219,7 @@ bool meso_growth_cells_add(MesoGrowthCells *cells, const MesoGrowthPiece *piece,
     cells->piece_count++;
     if (head == MESO_NO_INDEX || (head < MESO_GROWTH_QUARTERED && !is_due(cells, head)))
         return append(cells, piece->triangle, size, number, placed);
-    const Place place = {piece->triangle, 0, middle_of(size), size};
+    const Place place = {piece->triangle, 0, middle_of(size), 0.5 * size, size};
     return add_to(cells, &place, number, placed);
 }
 
@@ -265,6 +266,21 @@ void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece
         fetch_together(cells, pieces + i, count - i < TOGETHER ? count - i : TOGETHER);
 }
 
+void meso_growth_cells_fetch_heads(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        __builtin_prefetch(&cells->heads[pieces[i].triangle], 1);
+}
+
+void meso_growth_cells_fetch_newest(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t head = cells->heads[pieces[i].triangle];
+        if (head < MESO_GROWTH_QUARTERED)
+            __builtin_prefetch(&cells->blocks[head], 1);
+    }
+}
+
 /* ---- looking ---- */
 
 void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
@@ -276,7 +292,7 @@ void meso_growth_sight(MesoGrowthSight *sight, const MesoGrowthCells *cells, uin
     sight->radius = INFINITY;
     sight->size = cells->ground->lengths[triangle];
     sight->count = 1;
-    sight->stack[0] = (MesoGrowthCell){cells->heads[triangle], 0, middle_of(sight->size)};
+    sight->stack[0] = (MesoGrowthCell){cells->heads[triangle], 0.5 * sight->size, middle_of(sight->size)};
 }
 
 void meso_growth_sight_around(MesoGrowthSight *sight, const MesoGrowthCells *cells, uint32_t triangle,
@@ -295,12 +311,16 @@ static bool reaches(const MesoGrowthSight *sight, MesoComplex middle, double hal
     return x * x + y * y <= sight->radius * sight->radius;
 }
 
-/* Whether what is looked for may lie in quarter k of a square. */
-static bool is_in_sight(const MesoGrowthSight *sight, MesoComplex middle, double half, uint32_t k)
+/* Bit k: what is looked for may lie in quarter k of a square. */
+static uint32_t quarters_in_sight(const MesoGrowthSight *sight, MesoComplex middle, double half)
 {
+    uint32_t quarters = 0;
     if (sight->ends)
-        return goes_through_quarter(sight->ends, middle, half, sight->size, k);
-    return reaches(sight, middle_of_quarter(middle, half, k), 0.5 * half + beyond * sight->size);
+        return quarters_through(sight->ends, middle, half, sight->size);
+    for (uint32_t k = 0; k < 4; k++)
+        quarters |= (uint32_t)reaches(sight, middle_of_quarter(middle, half, k), 0.5 * half + beyond * sight->size)
+                    << k;
+    return quarters;
 }
 
 uint32_t meso_growth_next_cell(MesoGrowthSight *sight)
@@ -312,12 +332,13 @@ uint32_t meso_growth_next_cell(MesoGrowthSight *sight)
                 return cell.head;
             continue;
         }
-        double half = half_of(sight->size, cell.depth);
-        for (uint32_t k = 0; k < 4; k++) {
-            uint32_t head = sight->cells->heads[(cell.head & ~MESO_GROWTH_QUARTERED) + k];
-            if (head != MESO_NO_INDEX && is_in_sight(sight, cell.middle, half, k))
+        const uint32_t *heads = &sight->cells->heads[cell.head & ~MESO_GROWTH_QUARTERED];
+        uint32_t left = quarters_in_sight(sight, cell.middle, cell.half);
+        for (; left; left &= left - 1) {
+            uint32_t k = (uint32_t)__builtin_ctz(left);
+            if (heads[k] != MESO_NO_INDEX)
                 sight->stack[sight->count++] =
-                    (MesoGrowthCell){head, cell.depth + 1, middle_of_quarter(cell.middle, half, k)};
+                    (MesoGrowthCell){heads[k], 0.5 * cell.half, middle_of_quarter(cell.middle, cell.half, k)};
         }
     }
     return MESO_NO_INDEX;

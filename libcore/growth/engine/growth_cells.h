@@ -79,13 +79,18 @@ static inline void meso_growth_fetch_piece(const MesoGrowthCells *cells, uint32_
 /* Asks for the memory of what lies where pieces do. */
 void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
 
+/* The same, to write to, of pieces that are added soon: first of heads, and then of the blocks that these name. */
+void meso_growth_cells_fetch_heads(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
+void meso_growth_cells_fetch_newest(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
+
 /* ---- looking ---- */
 
 /* Quarters, which are squares, that are still to be looked at: three of each size, and four of the last. */
 enum { MESO_GROWTH_QUARTERINGS = 16, MESO_GROWTH_CELL_STACK = 3 * MESO_GROWTH_QUARTERINGS + 1 };
 
 typedef struct MesoGrowthCell {
-    uint32_t head, depth;
+    uint32_t head;
+    double half;                /* of the square's side */
     MesoComplex middle;
 } MesoGrowthCell;
 

@@ -147,15 +147,11 @@ static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try
                   run_batch, &loop);
 }
 
-/* Those turns that are next, which another thread may have tried, come from its memory meanwhile. */
 static void admit_all(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t count)
 {
-    enum { AHEAD = 6 };
-    do {
-        const char *next = (const char *)&window->turns[window->count + AHEAD < count ? window->count + AHEAD : 0];
-        __builtin_prefetch(next);
-        __builtin_prefetch(next + 64);
-    } while (meso_growth_admit(work, window, window->count) && ++window->count < count);
+    do
+        meso_growth_fetch_turns(work, window, window->count, count);
+    while (meso_growth_admit(work, window, window->count) && ++window->count < count);
 }
 
 /* Turns active[begin_at..begin_at + count), while what those before them have grown is written down. */

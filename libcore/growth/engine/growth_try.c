@@ -69,6 +69,7 @@ static void run_rule(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoGro
     turn->batch = batch;
     turn->shoot_begin = batch->shoot_count;
     turn->shoot_count = turn->piece_count = 0;
+    turn->kin = (MesoGrowthKin){.node = tip->node, .moved = tip->moved, .begin = (float)tip->state[MESO_STATE_LENGTH]};
     for (bool goes_on = true; goes_on && !batch->failed;) {
         meso_growth_resume(command, work->grammar, &tip->run, registers, &host, tip->done);
         tip->done = true;

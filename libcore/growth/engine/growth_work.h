@@ -65,9 +65,11 @@ typedef enum MesoGrowthOutcome {
 
 struct MesoGrowthBatch;
 
+enum { MESO_GROWTH_TURN_LINE = 64, MESO_GROWTH_TURN_LINES = 3 };
+
 /* What comes of a turn. */
 typedef struct MesoGrowthTurn {
-    /* all that is asked when it is admitted, as a rule, in two lines of memory */
+    /* all that is asked when it is admitted, as a rule, in MESO_GROWTH_TURN_LINES lines of memory */
     struct MesoGrowthBatch *batch;      /* that its pieces, registers and shoots lie in */
     double length;              /* of the way */
     uint32_t rule;              /* that it ran; MESO_NO_INDEX: a seed's */
@@ -81,12 +83,13 @@ typedef struct MesoGrowthTurn {
     bool looked;                /* the rule asked for what has grown, within the ball */
     /* numbers of what it has grown: the first of new joints, elements and branches, its own node, and newest piece */
     uint32_t joint_begin, element_begin, branch_begin, node, piece;
+    uint32_t piece_begin, piece_count;  /* of the batch's */
+    MesoGrowthKin kin;          /* but for `placed` and `end` */
     MesoGrowthCommand command;
     MesoTip end;
     double rest;                /* what of the way lies beyond a border */
     uint32_t try;               /* that was taken: 0, the first */
     float ball[4];              /* center and radius of all that the turn depends on */
-    uint32_t piece_begin, piece_count;
     MesoGrowthFooting foot;     /* of `end` */
     MesoFour arrive;
     MesoGrowthSeat from, to;
@@ -285,6 +288,9 @@ void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, M
 
 /* Brings turn number `turn` of the window up to date, and gives it numbers; false where growth stops before it. */
 bool meso_growth_admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t turn);
+
+/* Asks for the memory of turns, of `count`, that are admitted soon after turn number `turn`. */
+void meso_growth_fetch_turns(const MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t turn, uint32_t count);
 
 /* Makes room for all that has numbers, and for the tips of the branches that have begun since. */
 bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t begun);
