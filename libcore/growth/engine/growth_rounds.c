@@ -10,9 +10,6 @@
 #include "libcore/base/parallel.h"
 #include "libcore/growth/engine/growth_work.h"
 
-/* Batches of a window, for each thread of several: few, so that what one thread has tried is still near the other. */
-enum { BATCHES = 4 };
-
 static void march_straight(const void *context, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options)
 {
     meso_walks(context, walks, count, options);
@@ -33,12 +30,15 @@ static void *allocate(MesoGrowthWork *work, size_t count, size_t size)
     return array;
 }
 
-/* Where every turn is told, turns are taken one by one, so that they are told as they are. */
+/*
+ * A batch for each thread: what turns have come to is still near when they are admitted and written down. Where every
+ * turn is told, turns are taken one by one, so that they are told as they are.
+ */
 static void size_window(MesoGrowthWork *work)
 {
     uint32_t threads = work->options->thread_count ? work->options->thread_count : meso_parallel_cores();
     work->thread_count = work->options->event ? 1 : threads;
-    work->batch_count = work->thread_count == 1 ? 1 : BATCHES * work->thread_count;
+    work->batch_count = work->thread_count;
     work->window_size = work->options->event ? 1 : work->batch_count * MESO_GROWTH_BATCH;
 }
 
@@ -123,28 +123,23 @@ typedef struct Loop {
     uint32_t try_count;                 /* of turns */
 } Loop;
 
-static uint32_t round_up(uint32_t count)
-{
-    return (count + MESO_GROWTH_BATCH - 1) / MESO_GROWTH_BATCH * MESO_GROWTH_BATCH;
-}
-
-/* Tries come first, which take longer. */
+/* A thread that tries turns writes down what they have grown, too, as a rule: they are in its memory. */
 static void run_batch(void *context, uint64_t begin_at, uint64_t end)
 {
     const Loop *loop = context;
-    uint32_t tries = round_up(loop->try_count), first = (uint32_t)begin_at, last = (uint32_t)end;
-    if (first < tries)
+    uint32_t first = (uint32_t)begin_at, last = (uint32_t)end, accepted = loop->accepted ? loop->accepted->count : 0;
+    if (first < loop->try_count)
         meso_growth_try(loop->work, loop->tried, first, last < loop->try_count ? last : loop->try_count);
-    else
-        meso_growth_accept(loop->work, loop->accepted, first - tries, last - tries);
+    if (first < accepted)
+        meso_growth_accept(loop->work, loop->accepted, first, last < accepted ? last : accepted);
 }
 
 static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try_count,
                      const MesoGrowthWindow *accepted)
 {
     Loop loop = {work, tried, accepted, try_count};
-    meso_team_for(work->team, (uint64_t)round_up(try_count) + (accepted ? accepted->count : 0), MESO_GROWTH_BATCH,
-                  run_batch, &loop);
+    uint32_t count = accepted && accepted->count > try_count ? accepted->count : try_count;
+    meso_team_for(work->team, count, MESO_GROWTH_BATCH, run_batch, &loop);
 }
 
 static void admit_all(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t count)
@@ -202,15 +197,25 @@ static bool gather_active(MesoGrowthWork *work)
     return true;
 }
 
+/* Turns of a window, where as few windows as can be are about alike. */
+static uint32_t even_window(const MesoGrowthWork *work)
+{
+    uint32_t size = work->window_size, windows = (work->active_count + size - 1) / size;
+    uint32_t each = windows ? (work->active_count + windows - 1) / windows : 0;
+    each = (each + MESO_GROWTH_BATCH - 1) / MESO_GROWTH_BATCH * MESO_GROWTH_BATCH;
+    return each < size ? each : size;
+}
+
 /* A turn of each that is active. */
 static bool run_each(MesoGrowthWork *work)
 {
     const MesoGrowthWindow *before = NULL;
     bool goes_on = true;
-    for (uint32_t i = 0, k = 0; i < work->active_count && goes_on; i += work->window_size, k ^= 1) {
+    uint32_t size = even_window(work);
+    for (uint32_t i = 0, k = 0; i < work->active_count && goes_on; i += size, k ^= 1) {
         MesoGrowthWindow *window = &work->windows[work->team ? k : 0];
         uint32_t rest = work->active_count - i;
-        goes_on = run_window(work, window, i, rest < work->window_size ? rest : work->window_size, before);
+        goes_on = run_window(work, window, i, rest < size ? rest : size, before);
         before = window;
         if (!work->team) {
             run_loop(work, NULL, 0, before);

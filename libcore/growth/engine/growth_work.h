@@ -15,9 +15,9 @@
 #include "libcore/growth/engine/growth_space.h"
 
 /* Branches that one thread tries at a time. */
-enum { MESO_GROWTH_BATCH = 256 };
+enum { MESO_GROWTH_BATCH = 128 };
 
-/* Marks of triangles, which few triangles share: many times the pieces of a window. */
+/* Marks of triangles: as a rule many more than there are pieces of a window, so that few triangles share one. */
 enum { MESO_GROWTH_MARKS = 1 << 15 };
 
 /* Sides that a step may cross: where a mesh has no area walks may stand still. */
