@@ -5,6 +5,8 @@
 
 #include "libcore/base/team.h"
 #include "libcore/render/light/light_order.h"
+#include "libcore/render/raster/raster_draw.h"
+#include "libcore/render/raster/shape_points.h"
 
 /*
  * Shapes are made a batch at a time, by ranges, and each batch is drawn into the maps that have a texel for it. Where
@@ -16,17 +18,20 @@ enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 20, MOST = 12 };       /* shapes, rang
 /* Elements that an array begins with: all that most ranges have. */
 enum { LEAST_ROOM = 16384 };
 
-/* Where what a shape has begins in its range. */
+/* What a shape has in its range. */
 typedef struct Piece {
-    uint32_t point, corner[2];
+    uint32_t point, corner;     /* where its points begin, and the corners of its triangles, if it is no sweep */
+    uint32_t width;             /* of a sweep's rings; of others 0 */
+    bool closed;
 } Piece;
 
 typedef struct Range {
     Piece pieces[RANGE + 1];
     float *x, *y, *z;
-    uint32_t *corners[2];       /* of triangles that have two sides, and of closed shapes */
-    uint32_t point_count, corner_count[2];
-    uint64_t room[3], corner_room[2];
+    uint8_t *joined;            /* which points have sides (shapes.h) */
+    uint32_t *corners;          /* of a shape's triangles, from its first point on */
+    uint32_t point_count, corner_count;
+    uint64_t room[4], corner_room;
     float reach;                /* towards the light of what stands for a surface: the least of its shapes */
 } Range;
 
@@ -44,6 +49,12 @@ typedef struct Turn {
     Batch *sets;                /* [set_count] */
 } Turn;
 
+/* Points in a map. */
+typedef struct Projected {
+    MesoRasterPoints points;
+    uint64_t room[3];
+} Projected;
+
 typedef struct Drawing {
     const MesoShapes *shapes;
     MesoRasterLanes lanes;
@@ -53,8 +64,7 @@ typedef struct Drawing {
     uint32_t now;               /* which of them is drawn */
     MesoTeam *team;
     MesoShapeMesh *meshes;      /* one a worker */
-    MesoRasterVertex **projected;
-    uint64_t *projected_room;
+    Projected *projected;       /* one a worker */
     bool failed;
 } Drawing;
 
@@ -76,26 +86,28 @@ static bool grow(void **array, uint64_t *room, uint64_t count, size_t size)
     return true;
 }
 
-static bool add_mesh(Range *range, const MesoShapeMesh *mesh)
+static bool add_mesh(Range *range, const MesoShapeMesh *mesh, Piece *piece)
 {
-    bool closed = mesh->closed;
-    uint64_t points = (uint64_t)range->point_count + mesh->vertex_count, first = range->corner_count[closed];
-    uint64_t corners = first + 3 * (uint64_t)mesh->triangle_count;
-    if (corners > UINT32_MAX || !grow((void **)&range->x, &range->room[0], points, sizeof *range->x) ||
+    const MesoShapeColumns *columns = mesh->columns;
+    uint64_t points = range->point_count + meso_shape_point_count(mesh);
+    uint64_t corners = range->corner_count + (columns ? 0 : 3 * (uint64_t)mesh->triangle_count);
+    if (points > UINT32_MAX - MESO_RASTER_SPARE || corners > UINT32_MAX ||
+        !grow((void **)&range->x, &range->room[0], points, sizeof *range->x) ||
         !grow((void **)&range->y, &range->room[1], points, sizeof *range->y) ||
         !grow((void **)&range->z, &range->room[2], points, sizeof *range->z) ||
-        !grow((void **)&range->corners[closed], &range->corner_room[closed], corners, sizeof **range->corners))
+        !grow((void **)&range->joined, &range->room[3], points + MESO_RASTER_SPARE, sizeof *range->joined) ||
+        !grow((void **)&range->corners, &range->corner_room, corners, sizeof *range->corners))
         return false;
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        range->x[range->point_count + v] = mesh->vertices[v].position.x;
-        range->y[range->point_count + v] = mesh->vertices[v].position.y;
-        range->z[range->point_count + v] = mesh->vertices[v].position.z;
-    }
-    for (uint32_t c = 0; c < 3 * mesh->triangle_count; c++)
-        range->corners[closed][first + c] = range->point_count + mesh->corners[c];
+    uint32_t first = range->point_count;
+    meso_shape_points(mesh, range->x + first, range->y + first, range->z + first, range->joined + first);
+    piece->closed = mesh->closed;
+    piece->width = columns ? columns->place_count : 0;
+    if (corners > range->corner_count)
+        memcpy(range->corners + range->corner_count, mesh->corners,
+               (corners - range->corner_count) * sizeof *mesh->corners);
     range->reach = fminf(range->reach, mesh->reach);
     range->point_count = (uint32_t)points;
-    range->corner_count[closed] = (uint32_t)corners;
+    range->corner_count = (uint32_t)corners;
     return true;
 }
 
@@ -214,13 +226,13 @@ static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoSha
                        MesoShapeMesh *mesh)
 {
     Range *range = &batch->ranges[r];
-    range->point_count = range->corner_count[0] = range->corner_count[1] = 0;
+    range->point_count = range->corner_count = 0;
     range->reach = INFINITY;
     for (uint32_t i = 0; i <= RANGE; i++) {
-        range->pieces[i] = (Piece){range->point_count, {range->corner_count[0], range->corner_count[1]}};
+        range->pieces[i] = (Piece){.point = range->point_count, .corner = range->corner_count};
         if (i < RANGE && any >> i & 1 &&
             !(meso_shape_make_bundled(d->shapes, bundle, i, batch->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
-              add_mesh(range, mesh)))
+              add_mesh(range, mesh, &range->pieces[i])))
             return false;
     }
     return true;
@@ -250,20 +262,39 @@ static void make_ranges(Drawing *d, uint32_t worker, const Turn *turn, uint32_t 
     }
 }
 
+/* Draws one shape, or, of sweeps alike, all that follow up to `last`; returns the next one. */
+static const Piece *draw_alike(MesoRasterQueue *queue, const Range *range, const Piece *begin, const Piece *last,
+                               const MesoRasterPoints *projected)
+{
+    const Piece *end = begin + 1;
+    MesoRasterPoints points = meso_raster_points_from(projected, begin->point);
+    if (!begin->width) {
+        meso_raster_add(queue, &points, range->corners + begin->corner, (end->corner - begin->corner) / 3, 0,
+                        begin->closed);
+        return end;
+    }
+    while (end < last && end->width == begin->width && end->closed == begin->closed)
+        end++;
+    const MesoRasterRings rings = {.count = end->point - begin->point - begin->width, .width = begin->width,
+                                   .joined = range->joined + begin->point};
+    meso_raster_add_rings(queue, &points, &rings, 0, begin->closed);
+    return end;
+}
+
 /* Draws shapes `first` to `last`, which is not one of them, of a range. */
-static void draw_pieces(const MesoRasterTarget *target, const MesoRasterView *view, const Range *range, uint32_t first,
-                        uint32_t last, MesoRasterVertex *projected)
+static void draw_pieces(MesoRasterQueue *queue, const MesoRasterView *view, const Range *range, uint32_t first,
+                        uint32_t last, const MesoRasterPoints *projected)
 {
     const Piece *begin = &range->pieces[first], *end = &range->pieces[last];
     uint32_t p = begin->point;
-    meso_raster_project(view, range->x + p, range->y + p, range->z + p, end->point - p, 0, 0, projected + p);
-    for (int closed = 0; closed < 2; closed++)
-        meso_raster_draw(target, projected, range->corners[closed] + begin->corner[closed],
-                         (end->corner[closed] - begin->corner[closed]) / 3, 0, closed);
+    MesoRasterPoints points = meso_raster_points_from(projected, p);
+    meso_raster_project(view, range->x + p, range->y + p, range->z + p, end->point - p, 0, 0, &points);
+    while (begin < end)
+        begin = draw_alike(queue, range, begin, end, projected);
 }
 
-static void draw_range(const MesoRasterTarget *target, const MesoRasterView *view, const Range *range, uint64_t wanted,
-                       MesoRasterVertex *projected)
+static void draw_range(MesoRasterQueue *queue, const MesoRasterView *view, const Range *range, uint64_t wanted,
+                       const MesoRasterPoints *projected)
 {
     if (__builtin_popcountll(wanted) > MOST)        /* rather a few for nothing than many calls */
         wanted = UINT64_MAX;
@@ -276,7 +307,7 @@ static void draw_range(const MesoRasterTarget *target, const MesoRasterView *vie
         first += skipped;
         wanted >>= skipped;
         uint32_t run = ~wanted ? (uint32_t)__builtin_ctzll(~wanted) : RANGE;
-        draw_pieces(target, &nearer, range, first, first + run, projected);
+        draw_pieces(queue, &nearer, range, first, first + run, projected);
         first += run;
         wanted = run < RANGE ? wanted >> run : 0;
     }
@@ -286,16 +317,23 @@ static void draw_map(Drawing *d, uint32_t worker, const Batch *batch, uint32_t r
 {
     const MesoLightMap *map = &batch->maps->maps[m];
     int32_t cells = (int32_t)batch->maps->size / 4;
-    const MesoRasterTarget target = {&d->lanes, cells, cells, map->nearness, NULL};
+    const MesoRasterTarget target = {&d->lanes, cells, cells, map->nearness, NULL, NULL};
+    Projected *projected = &d->projected[worker];
+    MesoRasterPoints *points = &projected->points;
+    MesoRasterQueue queue;
+    meso_raster_begin(&queue, &target);
     for (uint32_t r = 0; r < range_count; r++) {
         const Range *range = &batch->ranges[r];
-        if (!grow((void **)&d->projected[worker], &d->projected_room[worker], range->point_count,
-                  sizeof **d->projected)) {
+        uint64_t count = (uint64_t)range->point_count + MESO_RASTER_SPARE;
+        if (!grow((void **)&points->x, &projected->room[0], count, sizeof *points->x) ||
+            !grow((void **)&points->y, &projected->room[1], count, sizeof *points->y) ||
+            !grow((void **)&points->nearness, &projected->room[2], count, sizeof *points->nearness)) {
             fail(d);
             return;
         }
-        draw_range(&target, &map->view, range, batch->wanted[r * batch->maps->count + m], d->projected[worker]);
+        draw_range(&queue, &map->view, range, batch->wanted[r * batch->maps->count + m], points);
     }
+    meso_raster_flush(&queue);
 }
 
 /* Maps of all sets are numbered through, from the last set on: nobody waits for the finest, which take longest. */
@@ -338,8 +376,8 @@ static void release_batch(Batch *batch)
         free(batch->ranges[r].x);
         free(batch->ranges[r].y);
         free(batch->ranges[r].z);
-        free(batch->ranges[r].corners[0]);
-        free(batch->ranges[r].corners[1]);
+        free(batch->ranges[r].joined);
+        free(batch->ranges[r].corners);
     }
     free(batch->wanted);
 }
@@ -349,8 +387,11 @@ static void release(Drawing *d)
     for (uint32_t w = 0; w < meso_team_size(d->team); w++) {
         if (d->meshes)
             meso_shape_mesh_release(&d->meshes[w]);
-        if (d->projected)
-            free(d->projected[w]);
+        if (!d->projected)
+            continue;
+        free(d->projected[w].points.x);
+        free(d->projected[w].points.y);
+        free(d->projected[w].points.nearness);
     }
     for (int b = 0; b < 2; b++) {
         for (uint32_t s = 0; d->turns[b].sets && s < d->set_count; s++)
@@ -360,7 +401,6 @@ static void release(Drawing *d)
     free(d->order);
     free(d->meshes);
     free(d->projected);
-    free(d->projected_room);
     meso_team_end(d->team);
 }
 
@@ -389,13 +429,12 @@ static bool begin(Drawing *d, MesoLightMaps *const *sets)
     bool failed = false;
     d->meshes = calloc(workers, sizeof *d->meshes);
     d->projected = calloc(workers, sizeof *d->projected);
-    d->projected_room = calloc(workers, sizeof *d->projected_room);
     for (uint32_t s = 0; s < d->set_count; s++) {
         d->map_count += sets[s]->count;
         clear(sets[s]);
     }
     d->order = meso_light_order(sets[d->set_count - 1], d->shapes, &failed);    /* the last of them are the finest */
-    bool begun = !failed && d->meshes && d->projected && d->projected_room;
+    bool begun = !failed && d->meshes && d->projected;
     for (int b = 0; b < 2 && begun; b++)
         begun = begin_turn(&d->turns[b], sets, d->set_count);
     return begun;

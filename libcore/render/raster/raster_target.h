@@ -1,7 +1,6 @@
 /*
- * Targets that triangles are drawn to, without a driver: cells of sixteen places each, which are one pixel with sixteen
- * samples, four with four, or sixteen with one. Edges are whole numbers, so that neighbours leave no gap and share no
- * place, and the nearest triangle, of equals the first, wins whatever the machine.
+ * Targets that triangles are drawn to (raster_draw.h), without a driver: cells of sixteen places each, which are one
+ * pixel with sixteen samples, four with four, or sixteen with one.
  */
 #ifndef MESO_RASTER_TARGET_H
 #define MESO_RASTER_TARGET_H
@@ -31,6 +30,7 @@ typedef struct MesoRasterTarget {
     int32_t cells_x, cells_y;
     float *nearness;            /* [16 * cells_x * cells_y] the larger the nearer */
     uint32_t *ids;              /* of triangles, or NULL */
+    float *farthest;            /* [cells_x * cells_y] at most the least nearness in each cell; of few samples NULL */
 } MesoRasterTarget;
 
 /* Nothing there: nearness -inf, or 0 where it is the inverse of a depth; ids 0. */
@@ -42,15 +42,28 @@ typedef struct MesoRasterVertex {
     float nearness;
 } MesoRasterVertex;
 
-/*
- * Triangles by three vertices each; triangle t has the id first_id + t. `one_sided`: those that are clockwise in the
- * target, whose rows run down, are left out. O(triangles + cells of their boxes).
- */
-void meso_raster_draw(const MesoRasterTarget *target, const MesoRasterVertex *vertices, const uint32_t *corners,
-                      uint32_t triangle_count, uint32_t first_id, bool one_sided);
+/* Many of them. */
+typedef struct MesoRasterPoints {
+    int32_t *x, *y;
+    float *nearness;
+} MesoRasterPoints;
 
-/* The same without wide vectors, for tests. */
-void meso_raster_draw_plain(const MesoRasterTarget *target, const MesoRasterVertex *vertices, const uint32_t *corners,
-                            uint32_t triangle_count, uint32_t first_id, bool one_sided);
+static inline MesoRasterVertex meso_raster_point(const MesoRasterPoints *points, uint32_t i)
+{
+    return (MesoRasterVertex){points->x[i], points->y[i], points->nearness[i]};
+}
+
+static inline void meso_raster_put_point(const MesoRasterPoints *points, uint32_t i, MesoRasterVertex vertex)
+{
+    points->x[i] = vertex.x;
+    points->y[i] = vertex.y;
+    points->nearness[i] = vertex.nearness;
+}
+
+/* The points from number `first` on. */
+static inline MesoRasterPoints meso_raster_points_from(const MesoRasterPoints *points, uint32_t first)
+{
+    return (MesoRasterPoints){points->x + first, points->y + first, points->nearness + first};
+}
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "libcore/base/large_pages.h"
 #include "libcore/base/parallel.h"
+#include "libcore/render/raster/raster_draw.h"
+#include "libcore/render/raster/shape_points.h"
 
 enum { LANES = MESO_RASTER_LANES, CELLS = MESO_TILE_CELLS, PLACES = LANES * CELLS * CELLS };
 
@@ -27,6 +29,7 @@ typedef struct BundleAt {
 struct MesoRasterTile {
     const MesoRasterBins *bins;
     MesoRasterTarget target;
+    MesoRasterQueue queue;
     MesoWindow window;
     const uint32_t *shapes;     /* [shape_count] of the tile */
     uint32_t shape_count;
@@ -41,14 +44,15 @@ struct MesoRasterTile {
     uint32_t *numbers;          /* and then which of those seen it is */
     uint64_t triangle_room;
     MesoShapeMesh mesh;
-    float *coordinates;         /* of all vertices along x, then y, then z */
+    float *coordinates;         /* of all points along x, then y, then z */
+    uint8_t *joined;            /* which of them have sides */
     MesoVec3 *from_eye;         /* where some lie behind the near plane */
-    MesoRasterVertex *projected;
-    uint32_t vertex_room;
+    MesoRasterPoints projected;
+    uint32_t point_room;
     SeenTriangle *seen;         /* [PLACES] */
     size_t seen_size;           /* of it, from the system */
     bool failed, drawn;
-    float nearness[PLACES];
+    float nearness[PLACES], farthest[CELLS * CELLS];
     uint32_t ids[PLACES];       /* of triangles, 0: none; at last the numbers of those seen, from 1 */
 };
 
@@ -87,22 +91,25 @@ static void draw_cut(MesoRasterTile *tile, const uint32_t *corners, uint32_t id)
 {
     static const uint32_t fans[6] = {0, 1, 2, 0, 2, 3};
     const MesoRasterView *view = &tile->bins->job.view;
-    MesoRasterVertex vertices[4];
+    int32_t x[4], y[4];
+    float nearness[4];
+    const MesoRasterPoints points = {x, y, nearness};
+    float left = (float)tile->window.x, top = (float)tile->window.y;
     uint32_t count = 0;
     for (uint32_t k = 0; k < 3; k++) {
         MesoVec3 a = tile->from_eye[corners[k]], b = tile->from_eye[corners[(k + 1) % 3]];
         bool a_before = a.z >= view->near_depth, b_before = b.z >= view->near_depth;
         if (a_before)
-            vertices[count++] = meso_raster_vertex(view, a, (float)tile->window.x, (float)tile->window.y);
+            meso_raster_put_point(&points, count++, meso_raster_vertex(view, a, left, top));
         if (a_before != b_before)
-            vertices[count++] = meso_raster_vertex(view, cut(a, b, view->near_depth), (float)tile->window.x,
-                                                   (float)tile->window.y);
+            meso_raster_put_point(&points, count++,
+                                  meso_raster_vertex(view, cut(a, b, view->near_depth), left, top));
     }
     for (uint32_t i = 0; i + 2 < count; i++)
-        meso_raster_draw(&tile->target, vertices, fans + 3 * i, 1, id, false);
+        meso_raster_add(&tile->queue, &points, fans + 3 * i, 1, id, false);
 }
 
-/* One by one; false where some of them lie behind the near plane. */
+/* Vertex by vertex; false where some of them lie behind the near plane. */
 static bool project_each(MesoRasterTile *tile)
 {
     const MesoRasterView *view = &tile->bins->job.view;
@@ -112,37 +119,20 @@ static bool project_each(MesoRasterTile *tile)
         MesoVec3 q = meso_raster_from_eye(view, tile->mesh.vertices[v].position);
         tile->from_eye[v] = q;
         if (q.z >= view->near_depth)
-            tile->projected[v] = meso_raster_vertex(view, q, left, top);
+            meso_raster_put_point(&tile->projected, v, meso_raster_vertex(view, q, left, top));
         else
             before = false;
     }
     return before;
 }
 
-/* Projects the mesh; false where some of it lies behind the near plane. */
-static bool project(MesoRasterTile *tile)
-{
-    const MesoRasterView *view = &tile->bins->job.view;
-    const MesoShapeMesh *mesh = &tile->mesh;
-    uint32_t count = mesh->vertex_count;
-    float *x = tile->coordinates, *y = x + count, *z = y + count;
-    if (view->parallel)
-        return project_each(tile);
-    for (uint32_t v = 0; v < count; v++) {
-        x[v] = mesh->vertices[v].position.x;
-        y[v] = mesh->vertices[v].position.y;
-        z[v] = mesh->vertices[v].position.z;
-    }
-    return meso_raster_project(view, x, y, z, count, (float)tile->window.x, (float)tile->window.y, tile->projected) ||
-           project_each(tile);
-}
-
-static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
+/* Triangle by triangle, as some lie behind the near plane, or may. */
+static void draw_each(MesoRasterTile *tile, uint32_t first_id)
 {
     const MesoShapeMesh *mesh = &tile->mesh;
     float near_depth = tile->bins->job.view.near_depth;
-    if (project(tile)) {
-        meso_raster_draw(&tile->target, tile->projected, mesh->corners, mesh->triangle_count, first_id, false);
+    if (project_each(tile)) {
+        meso_raster_add(&tile->queue, &tile->projected, mesh->corners, mesh->triangle_count, first_id, false);
         return;
     }
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
@@ -151,23 +141,53 @@ static void draw_mesh(MesoRasterTile *tile, uint32_t first_id)
         for (uint32_t k = 0; k < 3; k++)
             whole = whole && tile->from_eye[c[k]].z >= near_depth;
         if (whole)
-            meso_raster_draw(&tile->target, tile->projected, c, 1, first_id + t, false);
+            meso_raster_add(&tile->queue, &tile->projected, c, 1, first_id + t, false);
         else
             draw_cut(tile, c, first_id + t);
     }
 }
 
+static void draw_mesh(MesoRasterTile *tile, uint32_t count, uint32_t first_id)
+{
+    const MesoRasterView *view = &tile->bins->job.view;
+    const MesoShapeMesh *mesh = &tile->mesh;
+    float *x = tile->coordinates, *y = x + count, *z = y + count;
+    if (!view->parallel)
+        meso_shape_points(mesh, x, y, z, tile->joined);
+    if (view->parallel || !meso_raster_project(view, x, y, z, count, (float)tile->window.x, (float)tile->window.y,
+                                               &tile->projected)) {
+        draw_each(tile, first_id);
+        return;
+    }
+    if (!mesh->columns) {
+        meso_raster_add(&tile->queue, &tile->projected, mesh->corners, mesh->triangle_count, first_id, false);
+        return;
+    }
+    uint32_t width = mesh->columns->place_count;
+    const MesoRasterRings rings = {(mesh->ring_count - 1) * width, width, tile->joined, mesh->columns->place_sides,
+                                   mesh->columns->side_count};
+    meso_raster_add_rings(&tile->queue, &tile->projected, &rings, first_id, false);
+}
+
+/* Its triangles are in the queue. */
 static bool draw_made(MesoRasterTile *tile, uint32_t first_id)
 {
-    if (tile->mesh.vertex_count > tile->vertex_room) {
-        uint64_t room = 2 * (uint64_t)tile->mesh.vertex_count;
+    uint64_t count = meso_shape_point_count(&tile->mesh), vertices = tile->mesh.vertex_count;
+    uint64_t most = (count > vertices ? count : vertices) + MESO_RASTER_SPARE;
+    if (most > UINT32_MAX / 2)
+        return false;
+    if (most > tile->point_room) {
+        uint64_t room = 2 * most;
         if (!grow((void **)&tile->coordinates, 3 * room, sizeof *tile->coordinates) ||
+            !grow((void **)&tile->joined, room, sizeof *tile->joined) ||
             !grow((void **)&tile->from_eye, room, sizeof *tile->from_eye) ||
-            !grow((void **)&tile->projected, room, sizeof *tile->projected))
+            !grow((void **)&tile->projected.x, room, sizeof *tile->projected.x) ||
+            !grow((void **)&tile->projected.y, room, sizeof *tile->projected.y) ||
+            !grow((void **)&tile->projected.nearness, room, sizeof *tile->projected.nearness))
             return false;
-        tile->vertex_room = (uint32_t)room;
+        tile->point_room = (uint32_t)room;
     }
-    draw_mesh(tile, first_id);
+    draw_mesh(tile, (uint32_t)count, first_id);
     return true;
 }
 
@@ -404,8 +424,10 @@ static bool draw_tile(MesoRasterTile *tile, uint64_t number)
     if (!tile->drawn)
         return true;
     meso_raster_clear(&tile->target, bins->job.view.parallel ? -INFINITY : 0);
+    meso_raster_begin(&tile->queue, &tile->target);
     if (!(bins->bundled ? draw_bundles : draw_shapes)(tile))
         return false;
+    meso_raster_flush(&tile->queue);
     return keep_seen(tile);
 }
 
@@ -529,8 +551,11 @@ static void release(MesoRasterTile *tile)
     free(tile->coordinates);
     free(tile->is_seen);
     free(tile->numbers);
+    free(tile->joined);
     free(tile->from_eye);
-    free(tile->projected);
+    free(tile->projected.x);
+    free(tile->projected.y);
+    free(tile->projected.nearness);
     free(tile);
 }
 
@@ -546,7 +571,8 @@ static MesoRasterTile *make_tile(const MesoRasterBins *bins)
         free(tile);
         return NULL;
     }
-    tile->target = (MesoRasterTarget){&bins->lanes, CELLS, CELLS, tile->nearness, tile->ids};
+    tile->target = (MesoRasterTarget){&bins->lanes, CELLS, CELLS, tile->nearness, tile->ids,
+                                     bins->job.samples > 1 ? tile->farthest : NULL};
     return tile;
 }
 

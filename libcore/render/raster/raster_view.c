@@ -53,19 +53,15 @@ MesoRasterRect meso_raster_rect_around(const MesoRasterView *view, const MesoVec
 
 /* ---- many points ---- */
 
-enum { BLOCK = 64 };
-
-typedef struct Block {
-    int32_t x[BLOCK], y[BLOCK];
-    float nearness[BLOCK];
-} Block;
-
 /* As meso_raster_from_eye() and meso_raster_vertex(), without a branch. Whether some lie before the near plane. */
 __attribute__((always_inline)) static inline bool project(const MesoRasterView *view, const float *x, const float *y,
                                                           const float *z, uint32_t count, bool parallel,
-                                                          int32_t corner_x, int32_t corner_y, Block *out)
+                                                          int32_t corner_x, int32_t corner_y,
+                                                          const MesoRasterPoints *out)
 {
     const MesoRasterView v = *view;
+    int32_t *restrict out_x = out->x, *restrict out_y = out->y;
+    float *restrict nearness = out->nearness;
     const float unit = MESO_RASTER_UNIT, far = 1 << 28, nearest = parallel ? -INFINITY : v.near_depth;
     uint32_t before = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -79,44 +75,33 @@ __attribute__((always_inline)) static inline bool project(const MesoRasterView *
         float px = (v.middle_x + scale * right) * unit, py = (v.middle_y + scale * down) * unit;
         px = px > far ? far : px < -far ? -far : px;
         py = py > far ? far : py < -far ? -far : py;
-        out->x[i] = (int32_t)rintf(px) - corner_x;
-        out->y[i] = (int32_t)rintf(py) - corner_y;
-        out->nearness[i] = parallel ? -depth : inverse;
+        out_x[i] = (int32_t)rintf(px) - corner_x;
+        out_y[i] = (int32_t)rintf(py) - corner_y;
+        nearness[i] = parallel ? -depth : inverse;
     }
     return before;
 }
 
 __attribute__((always_inline)) static inline bool project_all(const MesoRasterView *view, const float *x,
                                                               const float *y, const float *z, uint32_t count,
-                                                              float left, float top, MesoRasterVertex *out)
+                                                              float left, float top, const MesoRasterPoints *out)
 {
     int32_t corner_x = (int32_t)left * MESO_RASTER_UNIT, corner_y = (int32_t)top * MESO_RASTER_UNIT;
-    bool before = false;
-    Block block;
-    for (uint32_t begin = 0; begin < count; begin += BLOCK) {
-        uint32_t size = count - begin < BLOCK ? count - begin : BLOCK;
-        const float *px = x + begin, *py = y + begin, *pz = z + begin;
-        if (view->parallel)
-            project(view, px, py, pz, size, true, corner_x, corner_y, &block);
-        else
-            before |= project(view, px, py, pz, size, false, corner_x, corner_y, &block);
-        for (uint32_t i = 0; i < size; i++)
-            out[begin + i] = (MesoRasterVertex){block.x[i], block.y[i], block.nearness[i]};
-    }
-    return !before;
+    return !(view->parallel ? project(view, x, y, z, count, true, corner_x, corner_y, out)
+                            : project(view, x, y, z, count, false, corner_x, corner_y, out));
 }
 
 #if defined(__x86_64__)
 __attribute__((target("avx2"))) static bool project_avx2(const MesoRasterView *view, const float *x, const float *y,
                                                          const float *z, uint32_t count, float left, float top,
-                                                         MesoRasterVertex *out)
+                                                         const MesoRasterPoints *out)
 {
     return project_all(view, x, y, z, count, left, top, out);
 }
 #endif
 
 bool meso_raster_project(const MesoRasterView *view, const float *x, const float *y, const float *z, uint32_t count,
-                         float left, float top, MesoRasterVertex *out)
+                         float left, float top, const MesoRasterPoints *out)
 {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2"))

@@ -43,7 +43,7 @@ static inline MesoRasterVertex meso_raster_vertex(const MesoRasterView *view, Me
  * plane are taken for ones on it; returns whether there were none.
  */
 bool meso_raster_project(const MesoRasterView *view, const float *x, const float *y, const float *z, uint32_t count,
-                         float left, float top, MesoRasterVertex *out);
+                         float left, float top, const MesoRasterPoints *out);
 
 /* The ray through a place of the picture, in units of depth, from depth 0. */
 typedef struct MesoRasterRay {

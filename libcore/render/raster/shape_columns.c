@@ -223,6 +223,31 @@ static void add_bands(Choice *c, const uint32_t *kept, const Loop *loop)
     c->banded = true;
 }
 
+/* ---- places ---- */
+
+/* Sides that follow one another share a place; others have both of theirs. */
+static MesoStatus put_places(MesoShapeColumns *out, MesoArena *arena, MesoError *error)
+{
+    uint32_t *places = MESO_NEW(arena, uint32_t, 2 * (size_t)out->side_count, error), count = 0;
+    uint32_t *sides = MESO_NEW(arena, uint32_t, 2 * (size_t)out->side_count, error);
+    uint8_t *joined = MESO_NEW(arena, uint8_t, 2 * (size_t)out->side_count, error);
+    if (!places || !sides || !joined)
+        return MESO_ERR_MEMORY;
+    for (uint32_t s = 0; s < out->side_count; s++) {
+        if (count == 0 || places[count - 1] != out->sides[s].from)
+            places[count++] = out->sides[s].from;
+        sides[count - 1] = s;
+        joined[count - 1] = 1;
+        sides[count] = joined[count] = 0;
+        places[count++] = out->sides[s].to;
+    }
+    out->place_count = count;
+    out->places = places;
+    out->place_sides = sides;
+    out->joined = joined;
+    return MESO_OK;
+}
+
 /* ---- all of them ---- */
 
 MesoStatus meso_shape_columns(MesoShapeColumns *out, MesoArena *arena, const MesoScene *scene,
@@ -249,7 +274,7 @@ MesoStatus meso_shape_columns(MesoShapeColumns *out, MesoArena *arena, const Mes
         else
             add_loop(&choice, detail, &loop, use != MESO_SHAPE_WHOLE);
     }
-    *out = (MesoShapeColumns){choice.count, choice.side_count, choice.kept, sides,
-                              choice.moved ? stand_ins : NULL, choice.closed, choice.banded ? tolerance : 0};
-    return MESO_OK;
+    *out = (MesoShapeColumns){choice.count, choice.side_count, choice.kept, sides, choice.moved ? stand_ins : NULL,
+                              choice.closed, choice.banded ? tolerance : 0, 0, NULL, NULL, NULL};
+    return put_places(out, arena, error);
 }

@@ -24,6 +24,10 @@ typedef struct MesoShapeColumns {
     const MesoSweepColumn *stand_ins;   /* [count] what is drawn in place of those kept; NULL: they are */
     bool closed;                    /* sections are loops of sides: what looks away is behind what does not */
     float reach;                    /* the surface may lie so far before bands that stand for it; 0: it is there */
+    uint32_t place_count;
+    const uint32_t *places;         /* [place_count] of `kept`, some of them twice: each side is between two in a row, */
+    const uint32_t *place_sides;    /* its number where the first is, */
+    const uint8_t *joined;          /* and 1; where there is none, 0 */
 } MesoShapeColumns;
 
 /*

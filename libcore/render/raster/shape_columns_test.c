@@ -1,6 +1,6 @@
 /*
- * Sections as each use of a shape needs them: the same sides to be seen and to be looked at; bands in place of a small
- * loop, which seen from any side are as wide as it is.
+ * Sections as each use of a shape needs them: the same sides to be seen and to be looked at, in a row; bands in place of
+ * a small loop, which seen from any side are as wide as it is.
  */
 #include "libcore/render/raster/shape_columns.h"
 
@@ -43,12 +43,28 @@ static void make_circle(void)
     }
 }
 
+/* Each side is between two places in a row. */
+static void check_places(const MesoShapeColumns *chosen)
+{
+    uint32_t next = 0;
+    for (uint32_t k = 0; k < chosen->place_count; k++) {
+        CHECK(chosen->joined[k] < 2 && (!chosen->joined[k] || chosen->place_sides[k] == next));
+        if (!chosen->joined[k])
+            continue;
+        CHECK(k + 1 < chosen->place_count && chosen->sides[next].from == chosen->places[k] &&
+              chosen->sides[next].to == chosen->places[k + 1]);
+        next++;
+    }
+    CHECK(next == chosen->side_count);
+}
+
 static MesoShapeColumns choose(float tolerance, MesoShapeUse use)
 {
     MesoShapeColumns chosen;
     CHECK(meso_shape_columns(&chosen, &arena, &scene, &kind, 2, tolerance, use, &error) == MESO_OK);
     for (uint32_t s = 0; s < chosen.side_count; s++)
         CHECK(chosen.sides[s].from < chosen.count && chosen.sides[s].to < chosen.count);
+    check_places(&chosen);
     return chosen;
 }
 

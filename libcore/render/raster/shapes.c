@@ -428,6 +428,8 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, co
         return false;
     mesh->closed = columns->closed;
     mesh->reach = columns->reach;
+    mesh->columns = columns;
+    mesh->ring_count = rings;
     if (seen)
         find_wanted(mesh, seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .stand_ins = columns->stand_ins,
@@ -463,6 +465,7 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
     mesh->colors = body->colors ? mesh->color_room : NULL;
     mesh->closed = false;
     mesh->reach = 0;
+    mesh->columns = NULL;
     uint32_t vertex = 0;
     for (uint32_t f = 0; f < run->face_count; f++) {
         uint32_t sides, *corners = mesh->run_corners + 6 * (size_t)f;

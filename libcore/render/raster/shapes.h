@@ -81,6 +81,8 @@ typedef struct MesoShapeMesh {
     MesoMeshColor *colors;      /* [vertex_count] of a body that has some; NULL: white */
     const uint32_t *corners;    /* [3 * triangle_count] counter-clockwise from outside */
     bool closed;                /* nothing of its inside is seen, but for its ends */
+    const MesoShapeColumns *columns;    /* of a sweep: its vertices are rings of these; NULL: of a run */
+    uint32_t ring_count;
     float reach;                /* of the surface before what was made for its shadow */
     uint32_t vertex_room, run_room;
     uint8_t *wanted;            /* [vertex_room] */

@@ -161,15 +161,16 @@ __attribute__((always_inline)) static inline uint32_t samples_of(const Frame *fr
 }
 
 /* Of each triangle; returns whether any is seen at all. */
-__attribute__((always_inline)) static inline bool sift_all(const Frame *frame, const MesoRasterVertex *vertices,
+__attribute__((always_inline)) static inline bool sift_all(const Frame *frame, const MesoRasterPoints *points,
                                                            const uint32_t *corners, uint32_t count, uint16_t *samples)
 {
     uint32_t any = 0;
     bool single = frame->lanes->samples == 1;
     for (uint32_t t = 0; t < count; t++) {
         const uint32_t *k = corners + 3 * (size_t)t;
-        const MesoRasterVertex *a = &vertices[k[0]], *b = &vertices[k[1]], *c = &vertices[k[2]];
-        uint32_t seen = single ? middle_of(frame, a, b, c) : samples_of(frame, a, b, c);
+        MesoRasterVertex a = meso_raster_point(points, k[0]), b = meso_raster_point(points, k[1]);
+        MesoRasterVertex c = meso_raster_point(points, k[2]);
+        uint32_t seen = single ? middle_of(frame, &a, &b, &c) : samples_of(frame, &a, &b, &c);
         samples[t] = (uint16_t)seen;
         any |= seen;
     }
@@ -177,21 +178,21 @@ __attribute__((always_inline)) static inline bool sift_all(const Frame *frame, c
 }
 
 #if defined(__x86_64__)
-__attribute__((target("avx2"))) static bool sift_avx2(const Frame *frame, const MesoRasterVertex *vertices,
+__attribute__((target("avx2"))) static bool sift_avx2(const Frame *frame, const MesoRasterPoints *points,
                                                       const uint32_t *corners, uint32_t count, uint16_t *samples)
 {
-    return sift_all(frame, vertices, corners, count, samples);
+    return sift_all(frame, points, corners, count, samples);
 }
 #endif
 
-static bool sift_triangles(const Frame *frame, const MesoRasterVertex *vertices, const uint32_t *corners,
+static bool sift_triangles(const Frame *frame, const MesoRasterPoints *points, const uint32_t *corners,
                            uint32_t count, uint16_t *samples)
 {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2"))
-        return sift_avx2(frame, vertices, corners, count, samples);
+        return sift_avx2(frame, points, corners, count, samples);
 #endif
-    return sift_all(frame, vertices, corners, count, samples);
+    return sift_all(frame, points, corners, count, samples);
 }
 
 /* ---- a shape ---- */
@@ -202,7 +203,7 @@ typedef struct Worker {
     MesoShapeMesh mesh;
     uint32_t vertex_room, triangle_room, number_room;
     float *coordinates;         /* of all vertices along x, then y, then z */
-    MesoRasterVertex *projected;
+    MesoRasterPoints projected;
     uint32_t *numbers;          /* [number_room] of vertices in the batch, + 1; 0: not there yet */
     uint16_t *samples;          /* [triangle_room] */
     uint8_t *seen;              /* [triangle_room] */
@@ -232,7 +233,9 @@ static bool make_room(Worker *w)
     if (w->mesh.vertex_count > w->vertex_room) {
         uint64_t room = 2 * (uint64_t)w->mesh.vertex_count;
         if (!grow((void **)&w->coordinates, 3 * room, sizeof *w->coordinates) ||
-            !grow((void **)&w->projected, room, sizeof *w->projected))
+            !grow((void **)&w->projected.x, room, sizeof *w->projected.x) ||
+            !grow((void **)&w->projected.y, room, sizeof *w->projected.y) ||
+            !grow((void **)&w->projected.nearness, room, sizeof *w->projected.nearness))
             return false;
         w->vertex_room = (uint32_t)room;
     }
@@ -258,9 +261,9 @@ static bool look_at_mesh(const Work *work, Worker *w)
         z[v] = mesh->vertices[v].position.z;
     }
     bool before = meso_raster_project(&work->job->view, x, y, z, count, (float)work->window.x, (float)work->window.y,
-                                      w->projected);
+                                      &w->projected);
     if (before)
-        return sift_triangles(&work->frame, w->projected, mesh->corners, mesh->triangle_count, w->samples);
+        return sift_triangles(&work->frame, &w->projected, mesh->corners, mesh->triangle_count, w->samples);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         w->samples[t] = (uint16_t)((1u << work->lanes.samples) - 1);
     return true;
@@ -412,7 +415,9 @@ static void release_worker(Worker *w)
 {
     meso_shape_mesh_release(&w->mesh);
     free(w->coordinates);
-    free(w->projected);
+    free(w->projected.x);
+    free(w->projected.y);
+    free(w->projected.nearness);
     free(w->numbers);
     free(w->samples);
     free(w->seen);
