@@ -11,7 +11,7 @@
 #include "libcore/base/check.h"
 #include "libcore/base/random.h"
 
-enum { CELLS = 8, PLACES = MESO_RASTER_LANES * CELLS * CELLS, ROOM = 4096 };
+enum { CELLS = 8, PLACES = MESO_RASTER_LANES * CELLS * CELLS, ROOM = 4096, POINTS = 3 * ROOM };
 
 typedef struct Picture {
     MesoRasterLanes lanes;
@@ -30,8 +30,8 @@ static MesoRasterTarget clear(Picture *picture, uint32_t samples)
 
 /* Vertices as points, and what may be read behind them. */
 typedef struct Points {
-    int32_t x[ROOM + MESO_RASTER_SPARE], y[ROOM + MESO_RASTER_SPARE];
-    float nearness[ROOM + MESO_RASTER_SPARE];
+    int32_t x[POINTS + MESO_RASTER_SPARE], y[POINTS + MESO_RASTER_SPARE];
+    float nearness[POINTS + MESO_RASTER_SPARE];
 } Points;
 
 static MesoRasterPoints points_of(Points *points, const MesoRasterVertex *v, uint32_t count)
@@ -230,8 +230,8 @@ static void test_rings(uint32_t samples, int32_t size, bool one_sided, MesoRando
     }
 }
 
-/* Steep triangles over one another many times: nothing is left out that is nearer somewhere, and no cell is told to be
- * nearer than it is. */
+/* Steep triangles over one another many times, and behind a plane that they touch: nothing is left out that is nearer
+ * somewhere, as it is rounded, and no cell is told to be nearer than it is. */
 static void test_farthest(uint32_t samples, MesoRandom *random)
 {
     enum { COUNT = 3000, STEEPEST = 100000 };
@@ -239,6 +239,8 @@ static void test_farthest(uint32_t samples, MesoRandom *random)
     static uint32_t corners[3 * COUNT];
     static Picture picture, without;
     int32_t extent = CELLS * meso_raster_lanes(samples).cell;
+    const MesoRasterVertex plane[3] = {{-extent, -extent, 200}, {4 * extent, -extent, 200}, {-extent, 4 * extent, 200}};
+    const uint32_t whole[3] = {0, 1, 2};
     for (uint32_t t = 0; t < COUNT; t++) {
         int32_t x = (int32_t)meso_random_below(random, (uint32_t)extent), steep = t % 3 ? 10 : STEEPEST;
         int32_t y = (int32_t)meso_random_below(random, (uint32_t)extent), size = t % 7 ? 300 : 2000;
@@ -254,6 +256,20 @@ static void test_farthest(uint32_t samples, MesoRandom *random)
         draw(&target, v + 3 * first, 3000, corners, 1000, first + 1, false);
         draw(&other, v + 3 * first, 3000, corners, 1000, first + 1, false);
     }
+    check_same(&picture, &without);
+    draw(&target, plane, 3, whole, 1, COUNT + 1, false);
+    draw(&other, plane, 3, whole, 1, COUNT + 1, false);
+    for (uint32_t t = 0; t < COUNT; t++) {
+        int64_t px, py;
+        place_at(&picture, t % PLACES, &px, &py);
+        v[3 * t] = (MesoRasterVertex){(int32_t)px, (int32_t)py, 200};
+    }
+    draw(&target, v, 3 * COUNT, corners, COUNT, COUNT + 2, false);
+    draw(&other, v, 3 * COUNT, corners, COUNT, COUNT + 2, false);
+    uint32_t rounded = 0;
+    for (uint32_t place = 0; place < PLACES; place++)
+        rounded += picture.nearness[place] > 200;
+    CHECK(samples == 1 || rounded > 0);
     check_same(&picture, &without);
     uint32_t known = 0;
     for (uint32_t place = 0; place < PLACES; place++) {
