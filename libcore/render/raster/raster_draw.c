@@ -1,13 +1,19 @@
 #include "libcore/render/raster/raster_draw.h"
 
+#include <string.h>
+
 #include "libcore/render/raster/raster_fill_wide.h"
 
 /* ---- a step ---- */
 
+static inline size_t place_of(const MesoRasterTarget *target, int32_t px, int32_t py)
+{
+    return (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) + (size_t)((py & 3) * 4 + (px & 3));
+}
+
 static inline void put(const MesoRasterTarget *target, int32_t px, int32_t py, float nearness, uint32_t id)
 {
-    size_t place = (size_t)LANES * (size_t)((py >> 2) * target->cells_x + (px >> 2)) +
-                   (size_t)((py & 3) * 4 + (px & 3));
+    size_t place = place_of(target, px, py);
     if (!(nearness > target->nearness[place]))
         return;
     target->nearness[place] = nearness;
@@ -45,8 +51,12 @@ MESO_RASTER_INLINE void draw_lane(const MesoRasterQueue *q, uint32_t l)
 MESO_RASTER_INLINE void draw_single(const MesoRasterQueue *q)
 {
     Middles middles;
-    sift_middles(&middles, q);
-    for (uint32_t left = bits_of(middles.kept); left; left &= left - 1) {
+    uint32_t kept = sift_middles(&middles, q);
+    for (uint32_t left = kept; left; left &= left - 1) {       /* maps are larger than caches */
+        uint32_t l = (uint32_t)__builtin_ctz(left);
+        __builtin_prefetch(&q->target.nearness[place_of(&q->target, middles.first_x[l], middles.first_y[l])]);
+    }
+    for (uint32_t left = kept; left; left &= left - 1) {
         uint32_t l = (uint32_t)__builtin_ctz(left);
         if (middles.covered[l])
             draw_middles(q, &middles, l);
@@ -59,8 +69,7 @@ MESO_RASTER_INLINE void draw_single(const MesoRasterQueue *q)
 MESO_RASTER_INLINE void draw_several(const MesoRasterQueue *q, FillCells *fill)
 {
     Cells cells;
-    find_cells(&cells, q);
-    uint32_t kept = bits_of(cells.kept), large = bits_of(cells.large);
+    uint32_t bits = find_cells(&cells, q), kept = bits & 0xffff, large = bits >> 16;
     for (; large; large &= large - 1) {
         uint32_t before = (large & -large) - 1;
         fill(q, &cells, kept & before);
@@ -158,23 +167,36 @@ MESO_RASTER_INLINE int32_t may_show(const Gauge *g, int32_t low_x, int32_t high_
     return (left <= right) & (top <= bottom) & (large | (area < 0) | ((area > 0) & g->two_sided));
 }
 
-/* Of the two triangles at each of sixteen points. */
-MESO_RASTER_INLINE void look_at(const int32_t *x, const int32_t *y, const uint8_t *joined, uint32_t width,
-                                const Gauge *gauge, uint8_t *first, uint8_t *second)
+/* Of the two triangles at each of sixteen points: bits of the first ones, and from bit 16 on of the second ones. */
+MESO_RASTER_INLINE uint32_t look_at(const int32_t *x, const int32_t *y, uint32_t width, const Gauge *gauge)
 {
     const Gauge g = *gauge;
-    for (uint32_t i = 0; i < STEP; i++) {
-        int32_t ax = x[i], ay = y[i], bx = x[i + 1], by = y[i + 1], cx = x[i + width], cy = y[i + width];
-        int32_t dx = x[i + width + 1], dy = y[i + width + 1];
+    const int32_t *behind_x = x + width, *behind_y = y + width;
+    uint32_t bits = 0;
+    for (int i = 0; i < STEP; i++) {
+        int32_t ax = x[i], ay = y[i], bx = x[i + 1], by = y[i + 1];
+        int32_t cx = behind_x[i], cy = behind_y[i], dx = behind_x[i + 1], dy = behind_y[i + 1];
         int32_t low_x = least(ax, dx), high_x = most(ax, dx), low_y = least(ay, dy), high_y = most(ay, dy);
         int32_t ad_x = minus(dx, ax), ad_y = minus(dy, ay);
         int32_t acd = area_of(minus(cx, ax), minus(cy, ay), ad_x, ad_y);
         int32_t adb = area_of(ad_x, ad_y, minus(bx, ax), minus(by, ay));
-        first[i] = (uint8_t)(joined[i] & may_show(&g, least(low_x, cx), most(high_x, cx), least(low_y, cy),
-                                                  most(high_y, cy), acd));
-        second[i] = (uint8_t)(joined[i] & may_show(&g, least(low_x, bx), most(high_x, bx), least(low_y, by),
-                                                   most(high_y, by), adb));
+        int32_t first = may_show(&g, least(low_x, cx), most(high_x, cx), least(low_y, cy), most(high_y, cy), acd);
+        int32_t second = may_show(&g, least(low_x, bx), most(high_x, bx), least(low_y, by), most(high_y, by), adb);
+        bits |= ((uint32_t)first | (uint32_t)second << 16) << i;
     }
+    return bits;
+}
+
+/* Bits of bytes that are 1, of others that are 0. */
+static inline uint32_t bits_of_bytes(const uint8_t *lanes)
+{
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < STEP; i += 8) {        /* eight are carried to the top by one factor */
+        uint64_t bytes;
+        memcpy(&bytes, lanes + i, sizeof bytes);
+        bits |= (uint32_t)(bytes * 0x0102040810204080u >> 56) << i;
+    }
+    return bits;
 }
 
 MESO_RASTER_INLINE void add_rings(MesoRasterQueue *q, DrawStep *draw, const MesoRasterPoints *points,
@@ -183,10 +205,10 @@ MESO_RASTER_INLINE void add_rings(MesoRasterQueue *q, DrawStep *draw, const Meso
     const Gauge gauge = gauge_of(&q->target, one_sided);
     uint32_t width = rings->width, count = rings->count;
     for (uint32_t begin = 0; begin < count; begin += STEP) {
-        uint8_t first[STEP], second[STEP];
-        look_at(points->x + begin, points->y + begin, rings->joined + begin, width, &gauge, first, second);
-        uint32_t inside = count - begin < STEP ? (1u << (count - begin)) - 1 : (1u << STEP) - 1;
-        uint32_t in_first = bits_of(first) & inside, in_second = bits_of(second) & inside;
+        uint32_t bits = look_at(points->x + begin, points->y + begin, width, &gauge);
+        uint32_t joined = count - begin < STEP ? (1u << (count - begin)) - 1 : (1u << STEP) - 1;
+        joined &= bits_of_bytes(rings->joined + begin);
+        uint32_t in_first = bits & joined, in_second = bits >> 16 & joined;
         for (uint32_t left = in_first | in_second; left; left &= left - 1) {
             uint32_t lane = (uint32_t)__builtin_ctz(left), here = begin + lane, ahead = here + width, id = first_id;
             if (rings->sides)

@@ -1,11 +1,9 @@
 /*
  * Sixteen triangles at once: which of them reach a place, and what it takes to fill their cells. All is written so that
- * a compiler makes wide vectors of it. For raster_draw.c alone.
+ * a compiler makes wide vectors of it: without branches, and of numbers of one size. For raster_draw.c alone.
  */
 #ifndef MESO_RASTER_STEP_H
 #define MESO_RASTER_STEP_H
-
-#include <string.h>
 
 #include "libcore/render/raster/raster_fill.h"
 
@@ -19,7 +17,6 @@ enum { FEW = 16 };              /* pixels whose middles are tried one by one */
 typedef struct Middles {
     int32_t first_x[STEP], first_y[STEP], wide[STEP];       /* of the pixels whose middles are in its box */
     int32_t covered[STEP];      /* bits of those in the triangle, row by row, where they are few */
-    uint8_t kept[STEP];         /* 1 where any is, or may be of many */
 } Middles;
 
 /* An edge of the triangles of a step. */
@@ -64,9 +61,9 @@ MESO_RASTER_INLINE void cover(Middles *step, EdgeLanes edges[3], const int32_t *
 
 /*
  * Those that look away, have no area, or are around no pixel's middle are left out. Without a branch, so that many are
- * looked at at once.
+ * looked at at once. Returns bits of the others.
  */
-MESO_RASTER_INLINE void sift_middles(Middles *step, const MesoRasterQueue *q)
+MESO_RASTER_INLINE uint32_t sift_middles(Middles *step, const MesoRasterQueue *q)
 {
     int32_t right = 4 * q->target.cells_x - 1, bottom = 4 * q->target.cells_y - 1, count[STEP], drawn[STEP];
     EdgeLanes edges[3];
@@ -93,8 +90,10 @@ MESO_RASTER_INLINE void sift_middles(Middles *step, const MesoRasterQueue *q)
         drawn[l] = kept & (few ^ 1);
     }
     cover(step, edges, count);
-    for (uint32_t l = 0; l < STEP; l++)
-        step->kept[l] = (uint8_t)(drawn[l] | (step->covered[l] != 0));
+    uint32_t kept = 0;
+    for (int l = 0; l < STEP; l++)
+        kept |= (uint32_t)(drawn[l] | (step->covered[l] != 0)) << l;
+    return kept;
 }
 
 /* ---- several ---- */
@@ -106,11 +105,10 @@ typedef struct Cells {
     int32_t at_corner[3][STEP];     /* at the corner of the first cell, less 1 where an edge owns no place on it */
     float nearness[STEP], slope_x[STEP], slope_y[STEP];     /* there, and its change a unit */
     float nearest[STEP];            /* at most so near, as rounded, in any of the cells' places in it */
-    uint8_t kept[STEP], large[STEP];
 } Cells;
 
 /* Edge e of lane l, from (ax, ay) to (bx, by). */
-MESO_RASTER_INLINE void put_cell_edge(Cells *cells, int e, uint32_t l, int32_t ax, int32_t ay, int32_t bx, int32_t by,
+MESO_RASTER_INLINE void put_cell_edge(Cells *cells, int e, int l, int32_t ax, int32_t ay, int32_t bx, int32_t by,
                                       int32_t corner_x, int32_t corner_y)
 {
     uint32_t dx = (uint32_t)bx - (uint32_t)ax, dy = (uint32_t)by - (uint32_t)ay;
@@ -156,12 +154,14 @@ MESO_RASTER_INLINE void find_planes(Cells *cells, const MesoRasterQueue *q, cons
     }
 }
 
-/* Those that look away, have no area, or lie beside the target are left out. */
-MESO_RASTER_INLINE void find_cells(Cells *cells, const MesoRasterQueue *q)
+/* Those that look away, have no area, or lie beside the target are left out. Returns bits of the others, of those too
+ * large for this from bit 16 on. */
+MESO_RASTER_INLINE uint32_t find_cells(Cells *cells, const MesoRasterQueue *q)
 {
     int32_t cell = q->target.lanes->cell, shift = __builtin_ctz((unsigned)cell);
     int32_t last_x = q->target.cells_x - 1, last_y = q->target.cells_y - 1, turned[STEP], areas[STEP];
-    for (uint32_t l = 0; l < STEP; l++) {
+    uint32_t bits = 0;
+    for (int l = 0; l < STEP; l++) {
         int32_t ax = q->x[0][l], ay = q->y[0][l], px = q->x[1][l], py = q->y[1][l], rx = q->x[2][l], ry = q->y[2][l];
         int32_t low_x = least(ax, least(px, rx)), high_x = most(ax, most(px, rx));
         int32_t low_y = least(ay, least(py, ry)), high_y = most(ay, most(py, ry));
@@ -179,23 +179,11 @@ MESO_RASTER_INLINE void find_cells(Cells *cells, const MesoRasterQueue *q)
         cells->right[l] = right;
         cells->top[l] = top;
         cells->bottom[l] = bottom;
-        cells->kept[l] = (uint8_t)(reached & (large ^ 1));
-        cells->large[l] = (uint8_t)(reached & large);
+        bits |= (uint32_t)reached << (large ? l + 16 : l);
         turned[l] = area < 0;
         areas[l] = area < 0 ? (int32_t)(0u - (uint32_t)area) : area;
     }
     find_planes(cells, q, turned, areas, cell);
-}
-
-/* Bits of the lanes that are not 0. */
-static inline uint32_t bits_of(const uint8_t *lanes)
-{
-    uint32_t bits = 0;
-    for (uint32_t i = 0; i < STEP; i += 8) {        /* each of eight 0 or 1 is carried to the top by one factor */
-        uint64_t bytes;
-        memcpy(&bytes, lanes + i, sizeof bytes);
-        bits |= (uint32_t)(bytes * 0x0102040810204080u >> 56) << i;
-    }
     return bits;
 }
 
