@@ -41,9 +41,9 @@ MesoStatus meso_light_maps_init(MesoLightMaps *maps, MesoArena *arena, const Mes
 
 enum { LANES = 32 };            /* maps at once */
 
-/* Where a place lies in each map: the texel at its upper left, how far it is on to the next, and how near. */
+/* Where a place lies in each map: the texel at its upper left, from there to the next ones, and how near. */
 typedef struct Places {
-    int32_t x[LANES], y[LANES];
+    int32_t texel[LANES], right[LANES], down[LANES];
     float share_x[LANES], share_y[LANES], nearness[LANES], facing[LANES];
     float lit[4][LANES];        /* 1 at those of the four texels around where nothing is nearer */
 } Places;
@@ -64,15 +64,18 @@ __attribute__((always_inline)) static inline void find_places(const MesoLightMap
     MesoVec3 eye = maps->maps[0].view.eye;
     float middle = maps->maps[0].view.middle_x, focal = maps->maps[0].view.focal, texel = maps->texel;
     float last = (float)(maps->size - 2);
+    int32_t cells = (int32_t)maps->size / 4;
     for (uint32_t i = 0; i < count; i++) {
         float facing = n.x * tx[i] + n.y * ty[i] + n.z * tz[i], lift = texel * (1 + 2 * (1 - facing));
         float qx = p.x + lift * n.x - eye.x, qy = p.y + lift * n.y - eye.y, qz = p.z + lift * n.z - eye.z;
         float x = within(middle + focal * (qx * rx[i] + qy * ry[i] + qz * rz[i]) - 0.5f, last);
         float y = within(middle + focal * (qx * dx[i] + qy * dy[i] + qz * dz[i]) - 0.5f, last);
-        out->x[i] = (int32_t)x;
-        out->y[i] = (int32_t)y;
-        out->share_x[i] = x - (float)out->x[i];
-        out->share_y[i] = y - (float)out->y[i];
+        int32_t left = (int32_t)x, top = (int32_t)y;
+        out->texel[i] = ((top >> 2) * cells + (left >> 2)) * 16 + (top & 3) * 4 + (left & 3);
+        out->right[i] = (left & 3) == 3 ? 16 - 3 : 1;
+        out->down[i] = (top & 3) == 3 ? 16 * cells - 12 : 4;
+        out->share_x[i] = x - (float)left;
+        out->share_y[i] = y - (float)top;
         out->nearness[i] = texel + (qx * tx[i] + qy * ty[i] + qz * tz[i]);
         out->facing[i] = facing > 0 ? facing : 0;
     }
@@ -80,14 +83,15 @@ __attribute__((always_inline)) static inline void find_places(const MesoLightMap
 
 static inline void look_around(const MesoLightMaps *maps, uint32_t begin, uint32_t count, Places *places)
 {
-    int32_t cells = (int32_t)maps->size / 4;
-    for (uint32_t i = 0; i < count; i++) {
-        if (places->facing[i] == 0)
-            continue;
-        const float *map = maps->maps[begin + i].nearness;
-        int32_t x = places->x[i], y = places->y[i], right = (x >> 2 < (x + 1) >> 2 ? 16 - 3 : 1);
-        int32_t down = y >> 2 < (y + 1) >> 2 ? 16 * cells - 12 : 4;
-        const float *at = map + (size_t)(((y >> 2) * cells + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3));
+    uint32_t which[LANES], faced = 0;
+    for (uint32_t i = 0; i < count; i++) {      /* about every other: nobody could guess */
+        which[faced] = i;
+        faced += places->facing[i] > 0;
+    }
+    for (uint32_t k = 0; k < faced; k++) {
+        uint32_t i = which[k];
+        const float *at = maps->maps[begin + i].nearness + places->texel[i];
+        int32_t right = places->right[i], down = places->down[i];
         float mine = places->nearness[i];
         places->lit[0][i] = mine >= at[0];
         places->lit[1][i] = mine >= at[right];

@@ -246,7 +246,13 @@ static float sky_light(const MesoLightRig *rig, const MesoLitSurface *s, float l
     light[0] = light[1] = light[2] = 0;
     for (int c = 0; c < 3 && open; c++)
         open[c] = 0;
-    for (uint32_t i = 0; i < rig->sky.count; i++) {
+    uint32_t which[MESO_SKY_MOST], faced = 0;
+    for (uint32_t i = 0; i < rig->sky.count; i++) {     /* the others add nothing */
+        which[faced] = i;
+        faced += facing[i] > 0;
+    }
+    for (uint32_t k = 0; k < faced; k++) {
+        uint32_t i = which[k];
         float share = facing[i] * lit[i];
         whole += facing[i];
         seen += share;
