@@ -108,7 +108,11 @@ static void fill_cells(const MesoRasterQueue *q, const Cells *cells, uint32_t ke
 /* ---- two times eight ---- */
 
 #define MESO_RASTER_AVX2_CODE __attribute__((target("avx2")))
+#ifdef __clang__
+#define MESO_RASTER_AVX512_CODE __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#else       /* which would rather use half of it */
 #define MESO_RASTER_AVX512_CODE __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#endif
 
 /* What a triangle has at eight places of a cell, wherever it is. */
 typedef struct Eight {
