@@ -32,7 +32,8 @@ static void make_field(Field *field, MesoArena *arena)
     for (uint32_t i = 0; i <= SIDES; i++) {
         double angle = -2 * 3.14159265358979323846 * (i % SIDES) / SIDES;
         MesoVec2 n = {(float)cos(angle), (float)sin(angle)}, s = {0.3f * n.x, 0.3f * n.y};
-        field->columns[i] = (MesoSweepColumn){{s.x, s.y}, {s.x, s.y}, {n.x, n.y}, {n.x, n.y}, 0, i < SIDES};
+        field->columns[i] = (MesoSweepColumn){.start = s, .end = s, .start_normal = n, .end_normal = n,
+                                              .joins_next = i < SIDES};
     }
     MesoSweepInstance *instances = MESO_NEW(arena, MesoSweepInstance, count, &error);
     CHECK(instances);
