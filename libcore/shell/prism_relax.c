@@ -13,7 +13,6 @@ typedef struct Relaxation {
     double lengths[3];      /* integrals of 1, h and h squared from low to high */
     double (*flats)[4];     /* [triangle_count] area, and the products of gradients of corners 1,2  2,0  0,1 */
     double slope;           /* s */
-    double stretch;         /* E^3 / V^2, for the directions that s is of; the sixth power of a stretch */
 } Relaxation;
 
 /* Product of the gradients of the weights of two corners; those of one corner follow, as all add up to 0. */
@@ -42,7 +41,7 @@ static MesoStatus init(Relaxation *relax, MesoPrismLayer *layer, MesoArena *scra
 {
     double low = layer->low, high = layer->high;
     *relax = (Relaxation){layer, {high - low, (high * high - low * low) / 2,
-                                  (high * high * high - low * low * low) / 3}, NULL, 2, INFINITY};
+                                  (high * high * high - low * low * low) / 3}, NULL, 2};
     relax->flats = meso_arena_alloc(scratch, layer->mesh->triangle_count, sizeof *relax->flats, error);
     if (!relax->flats)
         return MESO_ERR_MEMORY;
@@ -103,8 +102,8 @@ static inline __attribute__((always_inline)) MesoVec3d volume_derivative(const R
     return meso_vec3d_scale(meso_vec3d_add(sum, meso_vec3d_cross(across, mean_rise(prism))), 0.5);
 }
 
-/* s, and the stretch, for the directions as they are. */
-static void find_slope(Relaxation *relax)
+/* s for the directions as they are. */
+static double slope_of(const Relaxation *relax)
 {
     const MesoPrismLayer *layer = relax->layer;
     double energy = 0, volume = 0;
@@ -120,8 +119,7 @@ static void find_slope(Relaxation *relax)
                 energy += rise_weight(relax, flat, i, j) * meso_vec3d_dot(prism.rises[i], prism.rises[j]) +
                           2 * place_weight(relax, flat, i, j) * meso_vec3d_dot(prism.rises[i], prism.places[j]);
     }
-    relax->slope = volume > 0 ? 2.0 / 3 * energy / volume : 2;
-    relax->stretch = volume > 0 ? energy * energy * energy / (volume * volume) : INFINITY;
+    return volume > 0 ? 2.0 / 3 * energy / volume : 2;
 }
 
 /* With the height along the normal that is wanted, or, where folds have lowered it, one between that and what it is. */
@@ -185,7 +183,7 @@ MesoStatus meso_prism_solve(MesoPrismLayer *layer, MesoArena *scratch, MesoError
     uint8_t *met = MESO_NEW(scratch, uint8_t, mesh->vertex_count, error);
     if (status || !triplets || !right || !met)
         return MESO_ERR_MEMORY;
-    find_slope(&relax);
+    relax.slope = slope_of(&relax);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (!layer->flat[t])
             add_terms(&relax, t, triplets, &count, right);
@@ -251,17 +249,13 @@ static void move_vertex(Relaxation *relax, uint32_t vertex)
 MesoStatus meso_prism_relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
 {
     enum { SWEEPS = 8 };
-    const double little = 6 * 2e-5;     /* gains of a sweep that are not worth another, a 50000th of the stretch */
     const MesoTriangulation *mesh = layer->mesh;
     MesoArenaMark mark = meso_arena_mark(scratch);
     Relaxation relax;
     if (init(&relax, layer, scratch, error))
         return MESO_ERR_MEMORY;
     for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
-        double before = relax.stretch;
-        find_slope(&relax);
-        if (relax.stretch > (1 - little) * before)
-            break;
+        relax.slope = slope_of(&relax);
         for (uint32_t v = 0; v < mesh->vertex_count; v++)
             if (mesh->vertex_corner[v] != MESO_NO_INDEX && meso_vec3d_dot(layer->normals[v], layer->normals[v]) > 0)
                 move_vertex(&relax, v);
