@@ -13,7 +13,8 @@
  * How far thinned geometry may lie from its own, in pixels. Of few samples each shows one thing or another, whatever is
  * moved; of many, a picture is to be within a step of 8 bits of what it is without thinning, in the mean of squares.
  */
-static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.025f;
+static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.01f, LEAST_TOLERANCE = 0.002f;
+static const float USUAL_PIXELS = 1280.f * 720;
 
 enum { MOST_SAMPLES = 16 };
 
@@ -403,6 +404,16 @@ static MesoStatus look_through(MesoPainter *p, MesoImage *band, MesoError *error
     return status;
 }
 
+/* In pixels. Of many samples few may see one thread in another's place, so that in a small picture, which shows more
+ * threads a pixel, they stay where they are in a large one. */
+static float tolerance_of(const MesoRenderOptions *options)
+{
+    if (options->full_detail || options->samples <= 4)
+        return options->full_detail ? 0 : TOLERANCE_PIXELS;
+    float smaller = sqrtf((float)options->width * (float)options->height / USUAL_PIXELS);
+    return fminf(fmaxf(TOLERANCE_OF_MANY * smaller, LEAST_TOLERANCE), TOLERANCE_OF_MANY);
+}
+
 /* Of what is seen, and of light. */
 static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
 {
@@ -426,7 +437,7 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
     p->job = (MesoRasterJob){
         .shapes = &p->shapes, .view = p->raster, .width = options->width, .height = options->height,
         .samples = options->samples,
-        .tolerance = options->full_detail ? 0 : options->samples > 4 ? TOLERANCE_OF_MANY : TOLERANCE_PIXELS};
+        .tolerance = tolerance_of(options)};
     return status;
 }
 
