@@ -268,7 +268,8 @@ static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, con
         feet[v] = (MesoVec3){swatch->positions[v].x, swatch->positions[v].y, 0};
         heights[v] = swatch->positions[v].z;
     }
-    const Tubes tubes = {swatch->vertex_count, swatch->triangle_count, feet, heights, swatch->corners, named->of_vertex};
+    const Tubes tubes = {swatch->vertex_count, swatch->triangle_count, feet,
+                         heights, swatch->corners, named->of_vertex};
     MesoStatus status = build(&s, arena, &tubes, named->count, error);
     for (uint32_t r = 0; r < named->count && !status; r++)
         s.rings[r].normal = (MesoVec3){0, 0, 1};

@@ -32,8 +32,8 @@ typedef struct MesoFinishOptions {
  *   points are nowhere further apart than 2.5 times the largest reach of their swatch element's open ends.
  * - Strands come back to the heights that the swatch has them at, but for what joins need of them; whole elements
  *   beside them, all the way.
- * - Where they run through each other, strands that cross go over and under, and others lie side by side: as far as their
- *   sections need, and not where strands of the swatch lie in each other.
+ * - Where they run through each other, strands that cross go over and under, and others lie side by side: as far as
+ *   their sections need, and not where strands of the swatch lie in each other.
  * - Vertices have triangles and weights of the original that `base` comes from.
  * - Elements are what hangs together, in the order in which they were, pieces of one by their first triangle.
  *

@@ -110,5 +110,6 @@ int main(void)
     test_sky(&ball, 16, 0.065f, 0.024f, 0.03f);
     test_key(&ball);
     test_places(&ball);
+    meso_arena_release(&arena);
     return 0;
 }
