@@ -73,7 +73,7 @@ MesoStatus meso_prism_lower_overlaps(MesoPrismLayer *layer, bool *lowered, MesoA
  */
 MesoStatus meso_prism_solve(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error);
 
-/* Turns directions for less stretch, until that gains little; all prisms stand before and after. */
+/* Turns directions for less stretch; all prisms stand before and after. */
 MesoStatus meso_prism_relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error);
 
 #define MESO_PRISM_MARGIN 0.02  /* far above what rounding to floats can do */
