@@ -187,14 +187,14 @@ MESO_RASTER_INLINE uint32_t look_at(const int32_t *x, const int32_t *y, uint32_t
     return bits;
 }
 
-/* Bits of bytes that are 1, of others that are 0. */
+/* The lowest bits of bytes; nothing else of them: those behind the last are anything. */
 static inline uint32_t bits_of_bytes(const uint8_t *lanes)
 {
     uint32_t bits = 0;
     for (uint32_t i = 0; i < STEP; i += 8) {        /* eight are carried to the top by one factor */
         uint64_t bytes;
         memcpy(&bytes, lanes + i, sizeof bytes);
-        bits |= (uint32_t)(bytes * 0x0102040810204080u >> 56) << i;
+        bits |= (uint32_t)((bytes & 0x0101010101010101u) * 0x0102040810204080u >> 56) << i;
     }
     return bits;
 }

@@ -215,6 +215,8 @@ static void test_rings(uint32_t samples, int32_t size, bool one_sided, MesoRando
             memcpy(corners + 3 * count, quad, sizeof quad);
         count += 2 * joined[i];
     }
+    for (uint32_t i = COUNT - WIDTH; i < COUNT + MESO_RASTER_SPARE; i++)   /* may be anything */
+        joined[i] = (uint8_t)meso_random_below(random, 256);
     MesoRasterTarget target = clear(&one, samples);
     draw_by(MESO_RASTER_PLAIN, &target, v, COUNT, corners, count, 5, one_sided);
     MesoRasterPoints points = points_of(&room, v, COUNT);
