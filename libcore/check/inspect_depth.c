@@ -98,12 +98,13 @@ static double distance_to(void *context, uint32_t item)
 /* How far below the surface a point is; 0 above it. */
 static double depth_at(Against *against, MesoVec3d point)
 {
+    MesoInspectAsking asking = {point, against->thing, MESO_NO_INDEX, 0};
     double square = INFINITY;
     against->point = point;
     against->square = INFINITY;
     against->steepness = 0;
     against->behind = false;
-    meso_inspect_tree_nearest(&against->work->tree, point, against->thing, &square, distance_to, against);
+    meso_inspect_tree_nearest(&against->work->tree, &asking, &square, distance_to, against);
     return against->behind && against->steepness > STRAIGHT_COSINE ? sqrt(square) : 0;
 }
 

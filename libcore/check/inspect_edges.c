@@ -49,6 +49,8 @@ typedef struct EdgeEntry {
 
 typedef struct Edges {
     MesoInspectWork *work;
+    uint32_t *last_edge;    /* [part_count] number of the last crowded edge that a part was met at */
+    uint32_t crowded;       /* edges so far */
     uint64_t *begin;        /* [place_count + 1] */
     EdgeEntry *entries;
 } Edges;
@@ -151,27 +153,29 @@ static void note_edges(MesoInspectWork *work)
 }
 
 /* Whether the triangles of an edge are ends of as many parts of one slot or two: where sweeps share a cross-section. */
-static bool is_branch(const MesoInspectWork *work, const EdgeEntry *run, uint64_t count)
+static bool is_branch(Edges *edges, const EdgeEntry *run, uint64_t count)
 {
+    const MesoInspectWork *work = edges->work;
     const uint32_t *slots = work->mesh->slots;
-    uint32_t others = MESO_NO_INDEX;
+    uint32_t others = MESO_NO_INDEX, edge = ++edges->crowded;
     for (uint64_t i = 0; slots && i < count; i++) {
         uint32_t t = run[i].half / 3;
         if (slots[t] != slots[run[0].half / 3] && others == MESO_NO_INDEX)
             others = slots[t];
         if (slots[t] != slots[run[0].half / 3] && slots[t] != others)
             return false;
-        for (uint64_t k = 0; k < i; k++)
-            if (work->parts[t] == work->parts[run[k].half / 3])
-                return false;
+        if (edges->last_edge[work->parts[t]] == edge)
+            return false;
+        edges->last_edge[work->parts[t]] = edge;
     }
     return slots != NULL;
 }
 
 /* An edge counts once, with all of its triangles marked. */
-static void note_run(MesoInspectWork *work, const EdgeEntry *run, uint64_t count)
+static void note_run(Edges *edges, const EdgeEntry *run, uint64_t count)
 {
-    MesoFault fault = is_branch(work, run, count) ? MESO_FAULT_BRANCH : MESO_FAULT_EDGE;
+    MesoInspectWork *work = edges->work;
+    MesoFault fault = is_branch(edges, run, count) ? MESO_FAULT_BRANCH : MESO_FAULT_EDGE;
     meso_inspect_note(work, fault, run[0].half / 3, 0);
     for (uint64_t i = 1; i < count; i++) {
         work->result->marks[run[i].half / 3] |= 1u << fault;
@@ -181,16 +185,16 @@ static void note_run(MesoInspectWork *work, const EdgeEntry *run, uint64_t count
 }
 
 /* Entries stand edge by edge. */
-static void note_crowded(MesoInspectWork *work, const Edges *edges)
+static void note_crowded(Edges *edges)
 {
-    for (uint32_t p = 0; p < work->place_count; p++) {
+    for (uint32_t p = 0; p < edges->work->place_count; p++) {
         const EdgeEntry *entries = &edges->entries[edges->begin[p]];
         uint64_t count = edges->begin[p + 1] - edges->begin[p];
         for (uint64_t first = 0, next; first < count; first = next) {
             for (next = first + 1; next < count && entries[next].higher == entries[first].higher;)
                 next++;
             if (next - first > 2)
-                note_run(work, &entries[first], next - first);
+                note_run(edges, &entries[first], next - first);
         }
     }
 }
@@ -256,12 +260,13 @@ MesoStatus meso_inspect_edges(MesoInspectWork *work, MesoError *error)
     Edges edges = {.work = work};
     edges.begin = MESO_NEW(work->scratch, uint64_t, (size_t)work->place_count + 1, error);
     edges.entries = MESO_NEW(work->scratch, EdgeEntry, 3 * (size_t)work->mesh->triangle_count, error);
-    if (!edges.begin || !edges.entries)
+    edges.last_edge = MESO_NEW(work->scratch, uint32_t, work->part_count, error);
+    if (!edges.begin || !edges.entries || !edges.last_edge)
         return MESO_ERR_MEMORY;
     fill_edges(&edges);
     meso_parallel_for(work->options->thread_count, work->place_count, GRAIN, join_range, &edges);
     note_edges(work);
-    note_crowded(work, &edges);
+    note_crowded(&edges);
     status = join_all(work, &edges, error);
     meso_arena_rewind(work->scratch, mark);
     return status;

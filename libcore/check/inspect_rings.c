@@ -19,6 +19,9 @@
 /* A point is on a line that passes it by less than this share of its length. */
 #define ON_LINE 1e-5
 
+/* Leaves of rings that are asked for the one that a ring faces: where more are nearer, there is no telling. */
+enum { MOST_FACING = 64 };
+
 typedef struct Ring {
     uint32_t slot, first, count;    /* first of the open half-edges */
     MesoVec3d middle;               /* of the corners; a sum at first */
@@ -271,14 +274,16 @@ static MesoStatus pair_rings(Rings *rings, MesoError *error)
 {
     MesoInspectTree tree;
     MesoBox *boxes = MESO_NEW(rings->work->scratch, MesoBox, rings->count, error);
-    uint32_t *nearest = boxes ? MESO_NEW(rings->work->scratch, uint32_t, rings->count, error) : NULL;
-    if (!nearest)
+    uint32_t *nearest = MESO_NEW(rings->work->scratch, uint32_t, rings->count, error);
+    uint32_t *slots = MESO_NEW(rings->work->scratch, uint32_t, rings->count, error);
+    if (!boxes || !nearest || !slots)
         return MESO_ERR_MEMORY;
     for (uint32_t r = 0; r < rings->count; r++) {
         MesoVec3 middle = meso_vec3d_narrow(rings->rings[r].middle);
         boxes[r] = (MesoBox){middle, middle};
+        slots[r] = rings->rings[r].slot;
     }
-    MesoStatus status = meso_inspect_tree_build(&tree, rings->work->scratch, boxes, NULL, rings->count, error);
+    MesoStatus status = meso_inspect_tree_build(&tree, rings->work->scratch, boxes, slots, rings->count, error);
     if (status)
         return status;
     for (uint32_t r = 0; r < rings->count; r++) {
@@ -286,9 +291,9 @@ static MesoStatus pair_rings(Rings *rings, MesoError *error)
         if (rings->rings[r].end != MESO_END_INSIDE)
             continue;
         Facing facing = {rings, &rings->rings[r]};
+        MesoInspectAsking asking = {rings->rings[r].middle, MESO_NO_INDEX, slots[r], MOST_FACING};
         double square = rings->rings[r].reach;
-        nearest[r] = meso_inspect_tree_nearest(&tree, rings->rings[r].middle, MESO_NO_INDEX, &square,
-                                               facing_distance, &facing);
+        nearest[r] = meso_inspect_tree_nearest(&tree, &asking, &square, facing_distance, &facing);
     }
     for (uint32_t r = 0; r < rings->count; r++)
         if (nearest[r] != MESO_NO_INDEX && nearest[nearest[r]] == r)
@@ -308,7 +313,8 @@ static MesoStatus build_lines(Rings *rings, MesoError *error)
         meso_box_add(&boxes[i], meso_inspect_corner(rings->work->mesh, rings->halves[i]));
         meso_box_add(&boxes[i], meso_inspect_corner(rings->work->mesh, meso_half_next(rings->halves[i])));
     }
-    return meso_inspect_tree_build(&rings->lines, rings->work->scratch, boxes, NULL, rings->half_count, error);
+    return meso_inspect_tree_build(&rings->lines, rings->work->scratch, boxes, rings->ring_of, rings->half_count,
+                                   error);
 }
 
 /* Where along an open half-edge, in [0,1], it is nearest to a point; and the square of how near that is. */
@@ -324,21 +330,19 @@ static double nearest_along(const Rings *rings, uint32_t open, MesoVec3d p, doub
     return t;
 }
 
-typedef struct Asking {
+typedef struct ToRing {
     const Rings *rings;
     uint32_t ring;          /* whose lines are asked */
-    uint32_t place;         /* of the point */
     MesoVec3d point;
-    bool on_line;
-} Asking;
+} ToRing;
 
 static double line_distance(void *context, uint32_t item)
 {
-    const Asking *asking = context;
+    const ToRing *to = context;
     double square;
-    if (asking->rings->ring_of[item] != asking->ring)
+    if (to->rings->ring_of[item] != to->ring)
         return INFINITY;
-    nearest_along(asking->rings, item, asking->point, &square);
+    nearest_along(to->rings, item, to->point, &square);
     return square;
 }
 
@@ -346,10 +350,10 @@ static double line_distance(void *context, uint32_t item)
 static void measure_end(Rings *rings, uint32_t open, uint32_t corner)
 {
     uint32_t ring = rings->ring_of[open], facing = rings->rings[ring].facing;
-    Asking asking = {.rings = rings, .ring = facing, .point = at(rings, corner)};
+    ToRing to = {rings, facing, at(rings, corner)};
+    MesoInspectAsking asking = {to.point, facing, MESO_NO_INDEX, 0};
     double square = INFINITY;
-    uint32_t line = meso_inspect_tree_nearest(&rings->lines, asking.point, MESO_NO_INDEX, &square,
-                                              line_distance, &asking);
+    uint32_t line = meso_inspect_tree_nearest(&rings->lines, &asking, &square, line_distance, &to);
     if (line == MESO_NO_INDEX)
         return;
     MesoFinding *gap = &rings->work->result->findings[MESO_FAULT_GAP];
@@ -374,34 +378,53 @@ static void measure_gaps(Rings *rings)
     }
 }
 
+typedef struct OnLines {
+    const Rings *rings;
+    uint32_t place;         /* of the point */
+    MesoVec3d point;
+    bool found;
+} OnLines;
+
 /* Within a line, off its ends, and not more than rounding away from it. */
 static void visit_lines(void *context, uint32_t leaf)
 {
-    Asking *asking = context;
-    const Rings *rings = asking->rings;
+    OnLines *on = context;
+    const Rings *rings = on->rings;
     for (uint32_t i = MESO_INSPECT_LEAF * leaf; i < meso_inspect_leaf_end(&rings->lines, leaf); i++) {
         uint32_t open = rings->lines.order[i], half = rings->halves[open];
         MesoVec3d along = meso_vec3d_sub(at(rings, meso_half_next(half)), at(rings, half));
-        double square, t = nearest_along(rings, open, asking->point, &square);
-        bool apart = rings->work->places[half] != asking->place &&
-                     rings->work->places[meso_half_next(half)] != asking->place;
-        asking->on_line |= apart && t > 0 && t < 1 && square <= ON_LINE * ON_LINE * meso_vec3d_dot(along, along);
+        double square, t = nearest_along(rings, open, on->point, &square);
+        bool apart = rings->work->places[half] != on->place &&
+                     rings->work->places[meso_half_next(half)] != on->place;
+        on->found |= apart && t > 0 && t < 1 && square <= ON_LINE * ON_LINE * meso_vec3d_dot(along, along);
     }
 }
 
-static void find_t_joints(Rings *rings)
+static bool is_within_line(const Rings *rings, uint32_t half, float reach)
 {
+    OnLines on = {.rings = rings, .place = rings->work->places[half], .point = at(rings, half)};
+    MesoBox around = meso_box_empty();
+    meso_box_add_around(&around, meso_inspect_corner(rings->work->mesh, half), reach);
+    meso_inspect_tree_meet(&rings->lines, around, MESO_NO_INDEX, 0, visit_lines, &on);
+    return on.found;
+}
+
+/* Any number of lines may end at a place: it is asked for once. */
+static MesoStatus find_t_joints(Rings *rings, MesoError *error)
+{
+    enum { UNTOLD, APART, WITHIN };
     const MesoBox *all = &rings->work->result->box;
     float wide = fmaxf(all->high.x - all->low.x, fmaxf(all->high.y - all->low.y, all->high.z - all->low.z));
-    for (uint32_t i = 0; i < rings->half_count; i++) {
+    uint8_t *told = MESO_NEW(rings->work->scratch, uint8_t, rings->work->place_count, error);
+    for (uint32_t i = 0; told && i < rings->half_count; i++) {
         uint32_t half = rings->halves[i];
-        Asking asking = {.rings = rings, .place = rings->work->places[half], .point = at(rings, half)};
-        MesoBox around = meso_box_empty();
-        meso_box_add_around(&around, meso_inspect_corner(rings->work->mesh, half), (float)ON_LINE * wide);
-        meso_inspect_tree_meet(&rings->lines, around, MESO_NO_INDEX, 0, visit_lines, &asking);
-        if (asking.on_line)
+        uint8_t *place = &told[rings->work->places[half]];
+        if (*place == UNTOLD)
+            *place = is_within_line(rings, half, (float)ON_LINE * wide) ? WITHIN : APART;
+        if (*place == WITHIN)
             meso_inspect_note(rings->work, MESO_FAULT_T_JOINT, half / 3, 0);
     }
+    return told ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 MesoStatus meso_inspect_rings(MesoInspectWork *work, MesoError *error)
@@ -421,7 +444,7 @@ MesoStatus meso_inspect_rings(MesoInspectWork *work, MesoError *error)
     if (status)
         return status;
     measure_gaps(&rings);
-    find_t_joints(&rings);
+    status = find_t_joints(&rings, error);
     meso_arena_rewind(work->scratch, mark);
-    return MESO_OK;
+    return status;
 }

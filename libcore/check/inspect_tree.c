@@ -145,6 +145,16 @@ MesoStatus meso_inspect_tree_build(MesoInspectTree *tree, MesoArena *arena, cons
 
 /* ---- asking ---- */
 
+static inline bool is_of_others(const MesoInspectTree *tree, uint32_t node, uint32_t only)
+{
+    return only != MESO_NO_INDEX && tree->owners[node] != only && tree->owners[node] != MESO_NO_INDEX;
+}
+
+static inline bool is_of(const MesoInspectTree *tree, uint32_t node, uint32_t owner)
+{
+    return owner != MESO_NO_INDEX && tree->owners[node] == owner;
+}
+
 /* The last leaf below a node. */
 static uint32_t last_leaf(const MesoInspectTree *tree, uint32_t node)
 {
@@ -162,7 +172,7 @@ void meso_inspect_tree_meet(const MesoInspectTree *tree, MesoBox box, uint32_t b
         uint32_t node = stack[--depth];
         if (!meso_boxes_meet(&tree->boxes[node], &box) || last_leaf(tree, node) < first)
             continue;
-        if (but != MESO_NO_INDEX && tree->owners[node] == but)
+        if (is_of(tree, node, but))
             continue;
         if (node >= tree->leaf_room) {
             visit(context, node - tree->leaf_room);
@@ -171,11 +181,6 @@ void meso_inspect_tree_meet(const MesoInspectTree *tree, MesoBox box, uint32_t b
         stack[depth++] = 2 * node + 1;
         stack[depth++] = 2 * node;
     }
-}
-
-static inline bool is_of_others(const MesoInspectTree *tree, uint32_t node, uint32_t only)
-{
-    return only != MESO_NO_INDEX && tree->owners[node] != only && tree->owners[node] != MESO_NO_INDEX;
 }
 
 static inline double outside(double low, double high, double x)
@@ -204,23 +209,26 @@ static void try_leaf(const MesoInspectTree *tree, uint32_t leaf, double *best, u
     }
 }
 
-uint32_t meso_inspect_tree_nearest(const MesoInspectTree *tree, MesoVec3d point, uint32_t only, double *square,
+uint32_t meso_inspect_tree_nearest(const MesoInspectTree *tree, const MesoInspectAsking *asking, double *square,
                                    double (*distance)(void *context, uint32_t item), void *context)
 {
     struct { uint32_t node; double square; } stack[DEEPEST];
-    uint32_t depth = 0, nearest = MESO_NO_INDEX;
+    uint32_t depth = 0, nearest = MESO_NO_INDEX, asked = 0;
     stack[depth].node = 1;
-    stack[depth++].square = square_to_box(&tree->boxes[1], point);
+    stack[depth++].square = square_to_box(&tree->boxes[1], asking->point);
     while (depth > 0) {
         uint32_t node = stack[--depth].node;
-        if (stack[depth].square > *square || stack[depth].square == INFINITY || is_of_others(tree, node, only))
+        if (stack[depth].square > *square || stack[depth].square == INFINITY ||
+            is_of_others(tree, node, asking->only) || is_of(tree, node, asking->but))
             continue;
         if (node >= tree->leaf_room) {
             try_leaf(tree, node - tree->leaf_room, square, &nearest, distance, context);
+            if (++asked == asking->most)
+                break;
             continue;
         }
-        double left = square_to_box(&tree->boxes[2 * node], point);
-        double right = square_to_box(&tree->boxes[2 * node + 1], point);
+        double left = square_to_box(&tree->boxes[2 * node], asking->point);
+        double right = square_to_box(&tree->boxes[2 * node + 1], asking->point);
         uint32_t near = right < left ? 1 : 0;
         stack[depth].node = 2 * node + 1 - near;
         stack[depth++].square = near ? left : right;

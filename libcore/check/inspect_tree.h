@@ -33,14 +33,20 @@ MesoStatus meso_inspect_tree_build(MesoInspectTree *tree, MesoArena *arena, cons
 void meso_inspect_tree_meet(const MesoInspectTree *tree, MesoBox box, uint32_t but, uint32_t first,
                             void (*visit)(void *context, uint32_t leaf), void *context);
 
-/* In both, what is below a node that has another owner than `only` is not asked (MESO_NO_INDEX: all of it is). */
+/* What is asked for what is nearest to it. */
+typedef struct MesoInspectAsking {
+    MesoVec3d point;
+    uint32_t only, but;     /* nodes all of one owner: those of others than `only`, and those of `but`, are not asked;
+                             * MESO_NO_INDEX: any are */
+    uint32_t most;          /* leaves that are asked, near ones sooner; 0: as many as there are */
+} MesoInspectAsking;
 
 /* The item for which `distance` gives the least square, below `*square`, which becomes it; MESO_NO_INDEX: none. All
- * items in leaves that are no further away than that are asked. */
-uint32_t meso_inspect_tree_nearest(const MesoInspectTree *tree, MesoVec3d point, uint32_t only, double *square,
+ * items in leaves that are no further away than that are asked, up to the most. */
+uint32_t meso_inspect_tree_nearest(const MesoInspectTree *tree, const MesoInspectAsking *asking, double *square,
                                    double (*distance)(void *context, uint32_t item), void *context);
 
-/* The item that `hit` gives the least way to, of those whose boxes a ray meets before `*way`, which becomes it. */
+/* What is below a node that has another owner than `only` is not asked (MESO_NO_INDEX: all of it is). The item that `hit` gives the least way to, of those whose boxes a ray meets before `*way`, which becomes it. */
 uint32_t meso_inspect_tree_ray(const MesoInspectTree *tree, MesoVec3d origin, MesoVec3d direction, uint32_t only,
                                double *way, double (*hit)(void *context, uint32_t item), void *context);
 

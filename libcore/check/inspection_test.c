@@ -537,6 +537,25 @@ static void trees_find_what_all_pairs_do(void)
     CHECK(found.findings[MESO_FAULT_OPEN].count == 600 && found.open_edges == 1800);
 }
 
+/* Each of many triangles of its own at one edge ends a part of its slot there; of two that share vertices one does not. */
+static void many_parts_meet_at_an_edge(void)
+{
+    static Model m;
+    for (uint32_t shared = 0; shared < 2; shared++) {
+        memset(&m, 0, sizeof m);
+        for (uint32_t t = 0; t < 40; t++) {
+            float angle = (float)t * 0.15f;
+            model_vertex(&m, (MesoVec3){0, 0, 0}, (MesoVec3){0, 0, 1});
+            model_vertex(&m, (MesoVec3){0, 0, 1}, (MesoVec3){0, 0, 1});
+            model_vertex(&m, (MesoVec3){cosf(angle), sinf(angle), 0.5f}, (MesoVec3){0, 0, 1});
+            uint32_t first = 3 * t, start = shared && t == 39 ? 0 : first;
+            model_triangle(&m, start, first + 1, first + 2, 0, 0);
+        }
+        MesoInspection found = inspect_with(&m, 1, 0);
+        CHECK(found.findings[MESO_FAULT_BRANCH].count == !shared && found.findings[MESO_FAULT_EDGE].count == shared);
+    }
+}
+
 static void nothing_is_no_trouble(void)
 {
     static Model m;
@@ -558,6 +577,7 @@ int main(void)
     long_triangles_have_depths();
     boxes_that_share_a_wall_only_touch();
     trees_find_what_all_pairs_do();
+    many_parts_meet_at_an_edge();
     nothing_is_no_trouble();
     meso_arena_release(&arena);
     return 0;
