@@ -21,8 +21,9 @@ static MesoStatus collect_disk(MesoDisk *disk, MesoChartMaker *maker, const Meso
                                double size, MesoPoint seed[3], MesoError *error)
 {
     const MesoTriangulation *mesh = maker->mesh;
-    MesoFlatTriangle *flat = MESO_NEW(&maker->scratch, MesoFlatTriangle, count, error);
-    uint32_t *border = MESO_NEW(&maker->scratch, uint32_t, 6 * (size_t)count, error);
+    MesoArena *scratch = meso_chart_scratch(maker);
+    MesoFlatTriangle *flat = MESO_NEW(scratch, MesoFlatTriangle, count, error);
+    uint32_t *border = MESO_NEW(scratch, uint32_t, 6 * (size_t)count, error);
     if (!flat || !border)
         return MESO_ERR_MEMORY;
     *disk = (MesoDisk){growth->vertex_ends[count - 1], count, growth->corners, flat, 0, border};
@@ -132,7 +133,7 @@ static MesoStatus find_places(Flattening *flattening, MesoPoint *kept, MesoChart
                               const MesoChartGrowth *growth, const MesoChartOptions *options, double bound,
                               MesoError *error)
 {
-    MesoArena *scratch = &maker->scratch;
+    MesoArena *scratch = meso_chart_scratch(maker);
     MesoPoint *places = MESO_NEW(scratch, MesoPoint, flattening->disk.vertex_count, error);
     if (!places)
         return MESO_ERR_MEMORY;
@@ -182,7 +183,7 @@ static bool has_flips(const Flattening *flattening)
 static MesoStatus flatten_first(Flattening *flattening, MesoChartMaker *maker, const MesoChartGrowth *growth,
                                 uint32_t count, const MesoChartOptions *options, MesoError *error)
 {
-    MesoArena *scratch = &maker->scratch;
+    MesoArena *scratch = meso_chart_scratch(maker);
     double bound = options->largest_ratio > 0 ? options->largest_ratio : 4;
     *flattening = (Flattening){.ratio = 1};
     MesoStatus status = collect_disk(&flattening->disk, maker, growth, count, 1e-6 * options->radius,
@@ -245,15 +246,16 @@ static MesoStatus flatten_most(MesoChart *chart, MesoArena *arena, MesoChartMake
                                const MesoChartGrowth *growth, const MesoChartOptions *options, MesoError *error)
 {
     const double shrinking = 0.8;
+    MesoArena *scratch = meso_chart_scratch(maker);
     double radius = options->radius;
     uint32_t count = growth->triangle_count;
     for (;;) {
         Flattening flattening;
-        MesoArenaMark mark = meso_arena_mark(&maker->scratch);
+        MesoArenaMark mark = meso_arena_mark(scratch);
         MesoStatus status = flatten_first(&flattening, maker, growth, count, options, error);
         if (!status && (flattening.fits || count == 1))
             status = copy_chart(chart, arena, growth, &flattening, radius, error);
-        meso_arena_rewind(&maker->scratch, mark);
+        meso_arena_rewind(scratch, mark);
         if (status || flattening.fits || count == 1)
             return status;
         if (!(growth->reaches[count - 1] > 0) || !isfinite(radius)) {
@@ -270,13 +272,14 @@ MesoStatus meso_chart_grow(MesoChart *chart, MesoArena *arena, MesoChartMaker *m
 {
     MesoError unused;
     MesoChartGrowth growth;
-    MesoArenaMark mark = meso_arena_mark(&maker->scratch);
+    MesoArena *scratch = meso_chart_scratch(maker);
+    MesoArenaMark mark = meso_arena_mark(scratch);
     error = error ? error : &unused;
     MesoStatus status = meso_chart_growth_run(&growth, maker, seed, options->radius, error);
     if (!status)
         status = flatten_most(chart, arena, maker, &growth, options, error);
     meso_chart_growth_forget(&growth, maker);
-    meso_arena_rewind(&maker->scratch, mark);
+    meso_arena_rewind(scratch, mark);
     return status;
 }
 

@@ -256,7 +256,7 @@ MesoStatus meso_chart_growth_run(MesoChartGrowth *growth, MesoChartMaker *maker,
                                  MesoError *error)
 {
     *growth = (MesoChartGrowth){0};
-    Grower grower = {.mesh = maker->mesh, .maker = maker, .growth = growth, .arena = &maker->scratch,
+    Grower grower = {.mesh = maker->mesh, .maker = maker, .growth = growth, .arena = meso_chart_scratch(maker),
                      .radius = radius, .error = error};
     MesoStatus status = flood_vertices(&grower, seed);
     if (!status)

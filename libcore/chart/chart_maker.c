@@ -15,9 +15,9 @@ MesoStatus meso_chart_maker_init(MesoChartMaker *maker, const MesoTriangulation 
 {
     *maker = (MesoChartMaker){.mesh = mesh, .vertex_numbers = new_numbers(mesh->vertex_count),
                               .triangle_numbers = new_numbers(mesh->triangle_count)};
-    meso_arena_init(&maker->scratch);
+    meso_arena_init(&maker->own);
     /* a first block, which rewinding leaves where it is */
-    if (maker->vertex_numbers && maker->triangle_numbers && meso_arena_alloc(&maker->scratch, 1, 1, NULL))
+    if (maker->vertex_numbers && maker->triangle_numbers && meso_arena_alloc(&maker->own, 1, 1, NULL))
         return MESO_OK;
     meso_chart_maker_release(maker);
     return meso_fail(error, MESO_ERR_MEMORY, "out of memory: marks of %u triangles", mesh->triangle_count);
@@ -27,6 +27,6 @@ void meso_chart_maker_release(MesoChartMaker *maker)
 {
     free(maker->vertex_numbers);
     free(maker->triangle_numbers);
-    meso_arena_release(&maker->scratch);
+    meso_arena_release(&maker->own);
     *maker = (MesoChartMaker){0};
 }

@@ -12,8 +12,15 @@ typedef struct MesoChartMaker {
                                    time. The caller's; false at first */
     uint32_t *vertex_numbers;   /* [vertex_count] and [triangle_count]; MESO_NO_INDEX between charts */
     uint32_t *triangle_numbers;
-    MesoArena scratch;
+    MesoArena own;
+    MesoArena *lent;            /* scratch in place of its own, that keeps its room for other uses; NULL: none is. The
+                                   caller's */
 } MesoChartMaker;
+
+static inline MesoArena *meso_chart_scratch(MesoChartMaker *maker)
+{
+    return maker->lent ? maker->lent : &maker->own;
+}
 
 /* The mesh stays the caller's and is not to change while the maker is in use. O(mesh). MESO_ERR_MEMORY alone. */
 MesoStatus meso_chart_maker_init(MesoChartMaker *maker, const MesoTriangulation *mesh, MesoError *error);

@@ -360,7 +360,9 @@ static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *
     MesoChartOptions options = {.radius = step->tightness * work->chart_radius * work->options.scale,
                                 .largest_ratio = 4, .relaxations = 4};
     step->maker->unfolds = true;
+    step->maker->lent = step->beside;
     MesoStatus status = meso_chart_grow(&step->chart, arena, step->maker, step->seed, &options, error);
+    meso_arena_clear(step->beside);     /* in one block: the next chart finds its room there */
     if (status)
         return status;
     step->tally->report.shrunk_count += step->chart.radius < 0.99f * options.radius;
