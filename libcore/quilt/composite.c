@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/base/disjoint_sets.h"
+#include "libcore/base/large_pages.h"
 #include "libcore/quilt/swatch/swatch_elements.h"
 
 /* What has been taken away makes room when there is so much more than at the last packing, and a little. */
@@ -198,59 +199,80 @@ static void pack_vertices(MesoComposite *c)
     c->vertex_count = kept;
 }
 
-/* Moves the triangles that live; `numbers` comes to be where each has gone. */
+/* Caps that live, before their triangles move. */
+static void drop_dead_caps(MesoComposite *c)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < c->cap_count; i++)
+        if (!meso_composite_is_dead(c, c->caps[i]))
+            c->caps[kept++] = c->caps[i];
+    c->cap_count = kept;
+}
+
+/*
+ * Moves the triangles that live. `numbers` comes to be where each has gone, and of a dead one, where the first after it
+ * in its list has that lives: lists go from what is new to what is old, and so to what has moved already.
+ */
 static void pack_triangles(MesoComposite *c, uint32_t *numbers)
 {
     uint32_t kept = 0;
     for (uint32_t t = 0; t < c->triangle_count; t++) {
-        numbers[t] = MESO_NO_INDEX;
+        uint32_t next = c->next[t] == MESO_NO_INDEX ? MESO_NO_INDEX : numbers[c->next[t]];
+        numbers[t] = next;
         if (meso_composite_is_dead(c, t))
             continue;
         for (size_t k = 0; k < 3; k++)
             c->corners[3 * (size_t)kept + k] = c->marks[c->corners[3 * (size_t)t + k]];
         c->triangle_origins[kept] = c->triangle_origins[t];
         c->patches[kept] = c->patches[t];
-        c->next[kept] = c->next[t];
+        c->next[kept] = next;
         numbers[t] = kept++;
     }
     c->triangle_count = kept;
 }
 
-/* Links and caps by the new numbers, once no list has anything that is dead. */
+/* Heads of lists and caps by the new numbers. */
 static void renumber_triangles(MesoComposite *c, const uint32_t *numbers)
 {
-    uint32_t caps = 0;
     for (uint32_t b = 0; b < c->base_count; b++)
         if (c->triangle_head[b] != MESO_NO_INDEX)
             c->triangle_head[b] = numbers[c->triangle_head[b]];
-    for (uint32_t t = 0; t < c->triangle_count; t++)
-        if (c->next[t] != MESO_NO_INDEX)
-            c->next[t] = numbers[c->next[t]];
     for (uint32_t i = 0; i < c->cap_count; i++)
-        if (numbers[c->caps[i]] != MESO_NO_INDEX)
-            c->caps[caps++] = numbers[c->caps[i]];
-    c->cap_count = caps;
+        c->caps[i] = numbers[c->caps[i]];
+}
+
+/* Room that has once been written to is kept for what comes, but for what is far too much. */
+static void fit_rooms(MesoComposite *c)
+{
+    uint32_t vertices = room_for(c->vertex_count), triangles = room_for(c->triangle_count);
+    if (c->vertex_room > vertices + vertices / 4) {
+        c->vertex_room = vertices;
+        shrink(&c->vertices, vertices, sizeof *c->vertices);
+        shrink(&c->vertex_origins, vertices, sizeof *c->vertex_origins);
+        shrink(&c->marks, vertices, sizeof *c->marks);
+    }
+    if (c->triangle_room > triangles + triangles / 4) {
+        c->triangle_room = triangles;
+        shrink(&c->corners, triangles, 3 * sizeof *c->corners);
+        shrink(&c->triangle_origins, triangles, sizeof *c->triangle_origins);
+        shrink(&c->patches, triangles, sizeof *c->patches);
+        shrink(&c->next, triangles, sizeof *c->next);
+    }
 }
 
 static void pack_strands(MesoComposite *c)
 {
-    uint32_t *numbers = malloc(((size_t)c->triangle_count + 1) * sizeof *numbers), marks = c->vertex_count;
+    size_t size = ((size_t)c->triangle_count + 1) * sizeof(uint32_t);
+    uint32_t *numbers = meso_large_take(&size), marks = c->vertex_count;
     if (!numbers)
         return;     /* another time */
     pack_vertices(c);
+    drop_dead_caps(c);
     pack_triangles(c, numbers);
     renumber_triangles(c, numbers);
-    free(numbers);
+    meso_large_give(numbers, size);
     memset(c->marks, 0xff, marks * sizeof *c->marks);
-    c->vertex_room = room_for(c->vertex_count);
-    c->triangle_room = room_for(c->triangle_count);
-    shrink(&c->vertices, c->vertex_room, sizeof *c->vertices);
-    shrink(&c->vertex_origins, c->vertex_room, sizeof *c->vertex_origins);
-    shrink(&c->marks, c->vertex_room, sizeof *c->marks);
-    shrink(&c->corners, c->triangle_room, 3 * sizeof *c->corners);
-    shrink(&c->triangle_origins, c->triangle_room, sizeof *c->triangle_origins);
-    shrink(&c->patches, c->triangle_room, sizeof *c->patches);
-    shrink(&c->next, c->triangle_room, sizeof *c->next);
+    fit_rooms(c);
 }
 
 static void pack_wholes(MesoComposite *c, const MesoSwatch *swatch)
@@ -261,6 +283,8 @@ static void pack_wholes(MesoComposite *c, const MesoSwatch *swatch)
     for (uint32_t w = 0; w < c->whole_count; w++) {
         MesoPlacedWhole whole = c->wholes[w];
         uint32_t count = swatch->vertex_begin[whole.element + 1] - swatch->vertex_begin[whole.element];
+        whole.next = whole.next == MESO_NO_INDEX ? MESO_NO_INDEX : numbers[whole.next];
+        numbers[w] = whole.next;
         if (whole.dead)
             continue;
         memmove(&c->whole_vertices[vertices], &c->whole_vertices[whole.vertex_begin],
@@ -273,9 +297,6 @@ static void pack_wholes(MesoComposite *c, const MesoSwatch *swatch)
     for (uint32_t b = 0; b < c->base_count; b++)
         if (c->whole_head[b] != MESO_NO_INDEX)
             c->whole_head[b] = numbers[c->whole_head[b]];
-    for (uint32_t w = 0; w < kept; w++)
-        if (c->wholes[w].next != MESO_NO_INDEX)
-            c->wholes[w].next = numbers[c->wholes[w].next];
     free(numbers);
     c->whole_count = kept;
     c->whole_vertex_count = vertices;
@@ -293,8 +314,6 @@ void meso_composite_pack(MesoComposite *composite, const MesoSwatch *swatch)
 {
     bool strands = composite->triangle_count > composite->triangle_limit;
     bool wholes = composite->whole_vertex_count > composite->whole_vertex_limit;
-    for (uint32_t b = 0; b < composite->base_count && (strands || wholes); b++)
-        meso_composite_tidy(composite, b);
     if (strands) {
         pack_strands(composite);
         composite->triangle_limit = pack_limit(composite->triangle_count);
