@@ -345,20 +345,25 @@ MesoStatus meso_match_field_build(MesoMatchField *field, MesoArena *arena, const
 
 /* ---- asking ---- */
 
+/* Faces that are remembered: a power of two. */
+enum { TRIED = 64 };
+
 /* The best so far. */
 typedef struct Climb {
     const MesoMatchField *field;
     MesoMatchPoint point;
     uint32_t face;
     float cost;
+    uint32_t tried[TRIED];  /* the last face with each remainder: around a face its neighbours come twice, and again */
 } Climb;
 
-/* Most faces are out by their normals, or by their planes. */
+/* What was tried once is no better than the best since. Most faces are out by their normals, or by their planes. */
 static void try_face(Climb *climb, uint32_t face)
 {
     const MesoMatchField *field = climb->field;
-    if (face == climb->face)
+    if (climb->tried[face % TRIED] == face)
         return;
+    climb->tried[face % TRIED] = face;
     const uint32_t *corners = &field->swatch->corners[3 * (size_t)face];
     const MesoVec3 *p = field->swatch->positions;
     MesoVec3 normal = field->face_normals[face], a = p[corners[0]];
@@ -449,7 +454,8 @@ static void try_table(Climb *climb)
 
 float meso_match_at(const MesoMatchField *field, MesoMatchPoint point, uint32_t *face)
 {
-    Climb climb = {field, point, MESO_NO_INDEX, INFINITY};
+    Climb climb = {.field = field, .point = point, .face = MESO_NO_INDEX, .cost = INFINITY};
+    memset(climb.tried, 0xff, sizeof climb.tried);
     try_table(&climb);
     climb_on(&climb);
     if (face)
