@@ -153,38 +153,66 @@ static uint32_t reach_columns(const MesoCholesky *factor, const Pattern *pattern
     return reached;
 }
 
+/* Writes as well which columns make a bunch. */
 static void count_columns(MesoCholesky *factor, const Pattern *pattern, const uint32_t *parents, uint32_t *columns)
 {
-    size_t total = 0;
+    size_t total = 0, *counts = factor->column_begins;
     memset(factor->marks, 0xff, factor->count * sizeof *factor->marks);
     for (uint32_t k = 0; k < factor->count; k++) {
         uint32_t reached = reach_columns(factor, pattern, parents, k, columns);
-        factor->row_begins[k + 1] = factor->row_begins[k] + reached;
         for (uint32_t c = 0; c < reached; c++)
-            factor->column_begins[columns[c]]++;
+            counts[columns[c]]++;
+    }
+    for (uint32_t k = factor->count; k-- > 0;) {
+        bool goes_on = parents[k] == k + 1 && counts[k] == counts[k + 1] + 1;
+        factor->bunch_ends[k] = goes_on ? factor->bunch_ends[k + 1] : k + 1;
     }
     for (uint32_t k = 0; k <= factor->count; k++) {
-        size_t here = k < factor->count ? factor->column_begins[k] : 0;
+        size_t here = k < factor->count ? counts[k] : 0;
         factor->column_begins[k] = total;
         total += here;
     }
 }
 
-/* Columns in the order of their rows, then rows in that of their columns: each sorts the other. */
+/* The size of all lists together: of each bunch, that of its first column. */
+static size_t place_lists(MesoCholesky *factor)
+{
+    size_t total = 0;
+    for (uint32_t k = 0; k < factor->count;) {
+        uint32_t first = k;
+        for (; k < factor->bunch_ends[first]; k++)
+            factor->column_lists[k] = total + (k - first);
+        total += factor->column_begins[first + 1] - factor->column_begins[first];
+    }
+    return total;
+}
+
+static bool is_first(const MesoCholesky *factor, uint32_t k)
+{
+    return k == 0 || factor->bunch_ends[k - 1] == k;
+}
+
+/* Bunches in the order of their rows, then rows in that of their bunches: each sorts the other. */
 static void list_entries(MesoCholesky *factor, const Pattern *pattern, const uint32_t *parents, uint32_t *columns)
 {
     uint32_t count = factor->count;
-    memcpy(factor->column_ends, factor->column_begins, count * sizeof *factor->column_ends);
+    memcpy(factor->column_ends, factor->column_lists, count * sizeof *factor->column_ends);
     memset(factor->marks, 0xff, count * sizeof *factor->marks);
     for (uint32_t k = 0; k < count; k++) {
         uint32_t reached = reach_columns(factor, pattern, parents, k, columns);
+        factor->row_begins[k + 1] = factor->row_begins[k];
         for (uint32_t c = 0; c < reached; c++)
-            factor->column_rows[factor->column_ends[columns[c]]++] = factor->order[k];
+            if (is_first(factor, columns[c])) {
+                factor->column_rows[factor->column_ends[columns[c]]++] = factor->order[k];
+                factor->row_begins[k + 1]++;
+            }
     }
     memcpy(factor->column_ends, factor->row_begins, count * sizeof *factor->column_ends);
-    for (uint32_t k = 0; k < count; k++)
-        for (size_t e = factor->column_begins[k]; e < factor->column_begins[k + 1]; e++)
-            factor->row_columns[factor->column_ends[factor->places[factor->column_rows[e]]]++] = k;
+    for (uint32_t k = 0; k < count; k = factor->bunch_ends[k])
+        for (size_t e = 0; e < factor->column_begins[k + 1] - factor->column_begins[k]; e++) {
+            uint32_t row = factor->column_rows[factor->column_lists[k] + e];
+            factor->row_bunches[factor->column_ends[factor->places[row]]++] = k;
+        }
 }
 
 /* ---- analysis ---- */
@@ -198,6 +226,8 @@ static MesoStatus allocate(MesoCholesky *factor, MesoArena *arena, size_t triple
         !(factor->marks = MESO_NEW(arena, uint32_t, count, error)) ||
         !(factor->column_begins = MESO_NEW(arena, size_t, count + 1, error)) ||
         !(factor->column_ends = MESO_NEW(arena, size_t, count, error)) ||
+        !(factor->column_lists = MESO_NEW(arena, size_t, count, error)) ||
+        !(factor->bunch_ends = MESO_NEW(arena, uint32_t, count, error)) ||
         !(factor->row_begins = MESO_NEW(arena, size_t, count + 1, error)) ||
         !(factor->triplet_begins = MESO_NEW(arena, size_t, count + 1, error)) ||
         !(factor->triplet_list = MESO_NEW(arena, uint32_t, triplet_count, error)) ||
@@ -209,10 +239,10 @@ static MesoStatus allocate(MesoCholesky *factor, MesoArena *arena, size_t triple
 
 static MesoStatus allocate_entries(MesoCholesky *factor, MesoArena *arena, MesoError *error)
 {
-    size_t entry_count = factor->column_begins[factor->count];
-    if (!(factor->column_rows = MESO_NEW(arena, uint32_t, entry_count, error)) ||
-        !(factor->row_columns = MESO_NEW(arena, uint32_t, entry_count, error)) ||
-        !(factor->values = MESO_NEW(arena, double, entry_count, error)))
+    size_t listed_count = place_lists(factor);
+    if (!(factor->column_rows = MESO_NEW(arena, uint32_t, listed_count, error)) ||
+        !(factor->row_bunches = MESO_NEW(arena, uint32_t, listed_count, error)) ||
+        !(factor->values = MESO_NEW(arena, double, factor->column_begins[factor->count], error)))
         return MESO_ERR_MEMORY;
     return MESO_OK;
 }
@@ -281,7 +311,8 @@ static void sort_triplets(MesoCholesky *factor, const MesoTriplet *triplets, siz
 static bool add_row(MesoCholesky *factor, const MesoTriplet *triplets, uint32_t k, double *diagonal)
 {
     for (size_t e = factor->row_begins[k]; e < factor->row_begins[k + 1]; e++)
-        factor->marks[factor->order[factor->row_columns[e]]] = k;
+        for (uint32_t c = factor->row_bunches[e]; c < factor->bunch_ends[factor->row_bunches[e]] && c < k; c++)
+            factor->marks[factor->order[c]] = k;
     for (size_t t = factor->triplet_begins[k]; t < factor->triplet_begins[k + 1]; t++) {
         const MesoTriplet *triplet = &triplets[factor->triplet_list[t]];
         uint32_t other = triplet->row == factor->order[k] ? triplet->column : triplet->row;
@@ -296,25 +327,13 @@ static bool add_row(MesoCholesky *factor, const MesoTriplet *triplets, uint32_t 
 }
 
 /*
- * Columns that follow each other, the first with all rows of the second and that one itself, are taken together, up to
- * eight: what they are subtracted from is read and written once for all of them, and four rows are done at once. Each
- * number comes by the same operations in the same order as one column at a time.
+ * Columns of a bunch are taken together, up to eight: what they are subtracted from is read and written once for all of
+ * them, and four rows are done at once. Each number comes by the same operations in the same order as one column at a
+ * time.
  */
 enum { TOGETHER = 8 };
 
 typedef double Four __attribute__((vector_size(32)));
-
-/* How many of the columns of a row from `e` on are such, at most `most`. */
-static uint32_t columns_together(const MesoCholesky *factor, size_t e, size_t end, uint32_t most)
-{
-    const size_t *begins = factor->column_begins;
-    uint32_t i = factor->row_columns[e], width = 1;
-    for (; width < most && e + width < end; width++, i++)
-        if (factor->column_rows[begins[i]] != factor->order[i + 1] ||
-            begins[i + 1] - begins[i] != begins[i + 2] - begins[i + 1] + 1)
-            break;
-    return width;
-}
 
 /* Subtracts columns times numbers from the work row, at `count` rows that all of them have. */
 static inline __attribute__((always_inline)) void subtract(double *restrict work, const uint32_t *rows, size_t count,
@@ -354,25 +373,27 @@ static inline __attribute__((always_inline)) double solve_columns(MesoCholesky *
         diagonal -= values[end] * y[c];
     }
     size_t begin = factor->column_begins[first + width - 1], end = factor->column_ends[first + width - 1] - 1;
-    subtract(work, &factor->column_rows[begin], end - begin, below, y, width);
+    subtract(work, &factor->column_rows[factor->column_lists[first + width - 1]], end - begin, below, y, width);
     return diagonal;
 }
 
 /* Row `k` of L solves with the rows above it; returns its pivot. */
 static inline __attribute__((always_inline)) double solve_row(MesoCholesky *factor, uint32_t k, double diagonal)
 {
-    for (size_t e = factor->row_begins[k], end = factor->row_begins[k + 1]; e < end;) {
-        uint32_t width = columns_together(factor, e, end, TOGETHER), first = factor->row_columns[e];
-        width = width == 8 ? 8 : width >= 4 ? 4 : width >= 2 ? 2 : 1;
-        if (width == 8)
-            diagonal = solve_columns(factor, first, diagonal, 8);
-        else if (width == 4)
-            diagonal = solve_columns(factor, first, diagonal, 4);
-        else if (width == 2)
-            diagonal = solve_columns(factor, first, diagonal, 2);
-        else
-            diagonal = solve_columns(factor, first, diagonal, 1);
-        e += width;
+    for (size_t e = factor->row_begins[k]; e < factor->row_begins[k + 1]; e++) {
+        uint32_t c = factor->row_bunches[e], end = factor->bunch_ends[c] < k ? factor->bunch_ends[c] : k;
+        for (; end - c >= TOGETHER; c += TOGETHER)
+            diagonal = solve_columns(factor, c, diagonal, TOGETHER);
+        if (end - c >= 4) {
+            diagonal = solve_columns(factor, c, diagonal, 4);
+            c += 4;
+        }
+        if (end - c >= 2) {
+            diagonal = solve_columns(factor, c, diagonal, 2);
+            c += 2;
+        }
+        if (end - c)
+            diagonal = solve_columns(factor, c, diagonal, 1);
     }
     return diagonal;
 }
@@ -441,21 +462,24 @@ static inline void solve_width(const MesoCholesky *factor, double *restrict x, c
 {
     const size_t *begins = factor->column_begins;
     for (uint32_t k = 0; k < factor->count; k++) {
-        const double *from = x + (size_t)factor->order[k] * width;
-        for (size_t e = begins[k]; e < begins[k + 1]; e++) {
-            double *to = x + (size_t)factor->column_rows[e] * width;
+        const double *from = x + (size_t)factor->order[k] * width, *values = &factor->values[begins[k]];
+        const uint32_t *rows = &factor->column_rows[factor->column_lists[k]];
+        for (size_t e = 0; e < begins[k + 1] - begins[k]; e++) {
+            double *to = x + (size_t)rows[e] * width;
             for (uint32_t c = 0; c < width; c++)
-                to[c] -= factor->values[e] * from[c];
+                to[c] -= values[e] * from[c];
         }
     }
     for (uint32_t k = factor->count; k-- > 0;) {
         double *to = x + (size_t)factor->order[k] * width;
+        const double *values = &factor->values[begins[k]];
+        const uint32_t *rows = &factor->column_rows[factor->column_lists[k]];
         for (uint32_t c = 0; c < width; c++)
             to[c] /= factor->pivots[k];
-        for (size_t e = begins[k]; e < begins[k + 1]; e++) {
-            const double *from = x + (size_t)factor->column_rows[e] * width;
+        for (size_t e = 0; e < begins[k + 1] - begins[k]; e++) {
+            const double *from = x + (size_t)rows[e] * width;
             for (uint32_t c = 0; c < width; c++)
-                to[c] -= factor->values[e] * from[c];
+                to[c] -= values[e] * from[c];
         }
     }
 }

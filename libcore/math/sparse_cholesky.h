@@ -23,11 +23,18 @@ typedef struct MesoCholesky {
     uint32_t *order;        /* [count] the unknown that is eliminated first, second, ... */
     uint32_t *places;       /* [count] when an unknown is eliminated */
     size_t *column_begins;  /* [count + 1] of the columns of L, by place */
-    uint32_t *column_rows;  /* [column_begins[count]] unknowns, in the order of their elimination */
     double *values;         /* [column_begins[count]] of L; its diagonal of ones is not stored */
     double *pivots;         /* [count] D, by place */
+
+    /*
+     * Columns that follow each other, each with all rows of the next one and that one itself, are a bunch: whoever has
+     * one of its columns has those behind it too, and its rows are listed once.
+     */
+    uint32_t *bunch_ends;   /* [count] the place behind the last column of a column's bunch */
+    size_t *column_lists;   /* [count] where the rows of a column begin in: */
+    uint32_t *column_rows;  /* [row_begins[count]] unknowns, in the order of their elimination */
     size_t *row_begins;     /* [count + 1] of the rows of L, by place */
-    uint32_t *row_columns;  /* [row_begins[count]] places, ascending */
+    uint32_t *row_bunches;  /* [row_begins[count]] first places of bunches, ascending */
 
     /* What a factorisation writes to while it runs. */
     double *work;           /* [count] by unknown */
@@ -43,7 +50,7 @@ typedef struct MesoCholesky {
  * the pattern, given or not. Results go to `arena`, with what meso_cholesky_factor() needs.
  *
  * MESO_ERR_INTERNAL for a triplet out of the lower triangle, MESO_ERR_LIMIT for 2^32 triplets or more, MESO_ERR_MEMORY.
- * About 12 bytes an entry of L: on a mesh of n vertices, some 30 n log2(n) of them for a stencil of two rings.
+ * 8 bytes an entry of L, and some more: on a mesh of n vertices, some 30 n log2(n) of them for a stencil of two rings.
  */
 MesoStatus meso_cholesky_analyse(MesoCholesky *factor, MesoArena *arena, uint32_t count, const MesoTriplet *triplets,
                                  size_t triplet_count, MesoError *error);

@@ -97,6 +97,17 @@ static void check_solutions(const MesoCholesky *factor, const Matrix *matrix, Me
     }
 }
 
+/* The next number of column `i`, of which the work row loses its part; what the diagonal loses. */
+static double take_column(const MesoCholesky *factor, uint32_t i, size_t *end, double *work)
+{
+    double y = work[factor->order[i]], value = y / factor->pivots[i];
+    work[factor->order[i]] = 0;
+    for (size_t c = factor->column_begins[i]; c < *end; c++)
+        work[factor->column_rows[factor->column_lists[i] + (c - factor->column_begins[i])]] -= factor->values[c] * y;
+    CHECK(!memcmp(&value, &factor->values[(*end)++], sizeof value));
+    return value * y;
+}
+
 /* Row by row, a column of the rows above after the other: the same bytes. */
 static void check_by_columns(const MesoCholesky *factor, const MesoTriplet *triplets, size_t triplet_count)
 {
@@ -116,15 +127,9 @@ static void check_by_columns(const MesoCholesky *factor, const MesoTriplet *trip
             else
                 work[factor->order[a < b ? a : b]] += triplets[t].value;
         }
-        for (size_t e = factor->row_begins[k]; e < factor->row_begins[k + 1]; e++) {
-            uint32_t i = factor->row_columns[e];
-            double y = work[factor->order[i]], value = y / factor->pivots[i];
-            work[factor->order[i]] = 0;
-            for (size_t c = factor->column_begins[i]; c < ends[i]; c++)
-                work[factor->column_rows[c]] -= factor->values[c] * y;
-            CHECK(!memcmp(&value, &factor->values[ends[i]++], sizeof value));
-            diagonal -= value * y;
-        }
+        for (size_t e = factor->row_begins[k]; e < factor->row_begins[k + 1]; e++)
+            for (uint32_t i = factor->row_bunches[e]; i < k && i < factor->bunch_ends[factor->row_bunches[e]]; i++)
+                diagonal -= take_column(factor, i, &ends[i], work);
         CHECK(!memcmp(&diagonal, &factor->pivots[k], sizeof diagonal));
     }
     free(work);
