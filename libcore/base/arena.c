@@ -89,7 +89,8 @@ void meso_arena_clear(MesoArena *arena)
     arena->most = 0;
 }
 
-void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *error)
+/* Of any content; `stale`: bytes at the front that may not be zero. */
+static unsigned char *take(MesoArena *arena, size_t count, size_t size, size_t *stale, MesoError *error)
 {
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes) || bytes > SIZE_MAX / 2) {
@@ -110,15 +111,33 @@ void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *e
     }
 
     unsigned char *data = block->data + block->used;
-    if (block->used < block->dirty) {
-        size_t stale = block->dirty - block->used;
-        memset(data, 0, stale < bytes ? stale : bytes);
-    }
+    size_t dirty = block->used < block->dirty ? block->dirty - block->used : 0;
+    *stale = dirty < bytes ? dirty : bytes;
     block->used += bytes;
     if (block->used > block->dirty)
         block->dirty = block->used;
     arena->used += bytes;
     arena->most = arena->used > arena->most ? arena->used : arena->most;
+    return data;
+}
+
+void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *error)
+{
+    size_t stale;
+    unsigned char *data = take(arena, count, size, &stale, error);
+    if (data && stale)
+        memset(data, 0, stale);
+    return data;
+}
+
+void *meso_arena_alloc_bare(MesoArena *arena, size_t count, size_t size, MesoError *error)
+{
+    size_t stale;
+    unsigned char *data = take(arena, count, size, &stale, error);
+#ifdef __SANITIZE_ADDRESS__
+    if (data)
+        memset(data, 0xa5, count * size);   /* so that tests fail where it is read too early */
+#endif
     return data;
 }
 

@@ -49,6 +49,13 @@ void *meso_arena_alloc(MesoArena *arena, size_t count, size_t size, MesoError *e
 #define MESO_NEW(arena, type, count, error) \
     ((type *)meso_arena_alloc((arena), (count), sizeof(type), (error)))
 
+/* The same, but of any content: for arrays that are written to before they are read, and are large. O(1). */
+void *meso_arena_alloc_bare(MesoArena *arena, size_t count, size_t size, MesoError *error);
+
+/* `count` elements of `type` that are not set, or NULL with `error` filled. */
+#define MESO_NEW_BARE(arena, type, count, error) \
+    ((type *)meso_arena_alloc_bare((arena), (count), sizeof(type), (error)))
+
 /* Copies `text` with its terminating zero; NULL on failure as above. */
 char *meso_arena_copy_text(MesoArena *arena, const char *text, MesoError *error);
 

@@ -44,6 +44,29 @@ static void test_arena(void)
     CHECK(arena.head == NULL && arena.used == 0);
 }
 
+/* Bare memory stands among zeroed memory, which is zero also where the bare one has been written to. */
+static void test_arena_bare(void)
+{
+    MesoArena arena;
+    meso_arena_init(&arena);
+    for (size_t round = 0; round < 20; round++) {
+        size_t size = 1 + 5000 * round;
+        MesoArenaMark mark = meso_arena_mark(&arena);
+        unsigned char *bare = MESO_NEW_BARE(&arena, unsigned char, size, NULL);
+        CHECK(bare && (uintptr_t)bare % 64 == 0 && arena.used >= size);
+        memset(bare, 0xff, size);
+        unsigned char *zeroed = MESO_NEW(&arena, unsigned char, size, NULL);
+        for (size_t i = 0; i < size; i++)
+            CHECK(zeroed[i] == 0 && bare[i] == 0xff);
+        memset(zeroed, 0xff, size);
+        if (round % 3)
+            meso_arena_rewind(&arena, mark);
+    }
+    MesoError error;
+    CHECK(!MESO_NEW_BARE(&arena, uint64_t, SIZE_MAX / 4, &error) && error.status == MESO_ERR_MEMORY);
+    meso_arena_release(&arena);
+}
+
 /* What comes again after a clear finds one block that has room for all of it, small or from the system; and zeros. */
 static void test_arena_clear(void)
 {
@@ -252,6 +275,7 @@ int main(void)
 {
     test_arena();
     test_arena_clear();
+    test_arena_bare();
     test_arena_pages();
     test_large_pages();
     test_error();

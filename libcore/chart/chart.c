@@ -22,8 +22,8 @@ static MesoStatus collect_disk(MesoDisk *disk, MesoChartMaker *maker, const Meso
 {
     const MesoTriangulation *mesh = maker->mesh;
     MesoArena *scratch = meso_chart_scratch(maker);
-    MesoFlatTriangle *flat = MESO_NEW(scratch, MesoFlatTriangle, count, error);
-    uint32_t *border = MESO_NEW(scratch, uint32_t, 6 * (size_t)count, error);
+    MesoFlatTriangle *flat = MESO_NEW_BARE(scratch, MesoFlatTriangle, count, error);
+    uint32_t *border = MESO_NEW_BARE(scratch, uint32_t, 6 * (size_t)count, error);
     if (!flat || !border)
         return MESO_ERR_MEMORY;
     *disk = (MesoDisk){growth->vertex_ends[count - 1], count, growth->corners, flat, 0, border};

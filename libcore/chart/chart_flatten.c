@@ -158,7 +158,7 @@ MesoStatus meso_flatten_conformal(MesoPoint *places, MesoArena *scratch, const M
     map.unknowns = MESO_NEW(scratch, uint32_t, n, error);
     map.right = MESO_NEW(scratch, double, 2 * (size_t)n, error);
     size_t term_count = 12 * (size_t)disk->triangle_count + 2 * (size_t)disk->border_count;
-    map.equations.triplets = MESO_NEW(scratch, MesoTriplet, term_count, error);
+    map.equations.triplets = MESO_NEW_BARE(scratch, MesoTriplet, term_count, error);
     MesoStatus status = next && map.unknowns && map.right && map.equations.triplets ? MESO_OK : MESO_ERR_MEMORY;
     if (!status) {
         map.held[0] = disk->border[0];
@@ -189,7 +189,7 @@ MesoRigidSteps *meso_rigid_steps_new(MesoArena *arena, const MesoDisk *disk, Mes
 {
     MesoRigidSteps *steps = MESO_NEW(arena, MesoRigidSteps, 1, error);
     MesoPoint *right = MESO_NEW(arena, MesoPoint, disk->vertex_count, error);
-    Equations equations = {0, MESO_NEW(arena, MesoTriplet, 6 * (size_t)disk->triangle_count, error)};
+    Equations equations = {0, MESO_NEW_BARE(arena, MesoTriplet, 6 * (size_t)disk->triangle_count, error)};
     if (!steps || !right || !equations.triplets)
         return NULL;
     for (uint32_t t = 0; t < disk->triangle_count; t++) {

@@ -53,15 +53,15 @@ static MesoStatus allocate(Network *network, MesoArena *scratch, uint32_t edge_c
     if (edge_count > UINT32_MAX / 2)
         return meso_fail(error, MESO_ERR_LIMIT, "%u edges are beyond what can be cut", edge_count);
     if (!(network->begins = MESO_NEW(scratch, uint32_t, count + 1, error)) ||
-        !(network->arcs = MESO_NEW(scratch, Arc, 2 * (size_t)edge_count, error)) ||
-        !(network->excess = MESO_NEW(scratch, uint64_t, count, error)) ||
-        !(network->demands = MESO_NEW(scratch, uint64_t, count, error)) ||
-        !(network->levels = MESO_NEW(scratch, uint32_t, count, error)) ||
-        !(network->next_arcs = MESO_NEW(scratch, uint32_t, count, error)) ||
-        !(network->queue = MESO_NEW(scratch, uint32_t, count, error)) ||
-        !(network->heads = MESO_NEW(scratch, uint32_t, count + 2, error)) ||
-        !(network->following = MESO_NEW(scratch, uint32_t, count, error)) ||
-        !(network->sizes = MESO_NEW(scratch, uint32_t, count + 2, error)))
+        !(network->arcs = MESO_NEW_BARE(scratch, Arc, 2 * (size_t)edge_count, error)) ||
+        !(network->excess = MESO_NEW_BARE(scratch, uint64_t, count, error)) ||
+        !(network->demands = MESO_NEW_BARE(scratch, uint64_t, count, error)) ||
+        !(network->levels = MESO_NEW_BARE(scratch, uint32_t, count, error)) ||
+        !(network->next_arcs = MESO_NEW_BARE(scratch, uint32_t, count, error)) ||
+        !(network->queue = MESO_NEW_BARE(scratch, uint32_t, count, error)) ||
+        !(network->heads = MESO_NEW_BARE(scratch, uint32_t, count + 2, error)) ||
+        !(network->following = MESO_NEW_BARE(scratch, uint32_t, count, error)) ||
+        !(network->sizes = MESO_NEW_BARE(scratch, uint32_t, count + 2, error)))
         return MESO_ERR_MEMORY;
     return MESO_OK;
 }

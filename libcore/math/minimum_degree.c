@@ -322,10 +322,10 @@ static MesoStatus allocate(Quotient *q, MesoArena *scratch, size_t neighbour_cou
             return MESO_ERR_MEMORY;
     }
     q->room = 2 * neighbour_count + 1;
-    q->pool = MESO_NEW(scratch, uint32_t, q->room, error);
-    q->spare = q->pool ? MESO_NEW(scratch, uint32_t, q->room, error) : NULL;
-    q->begins = q->spare ? MESO_NEW(scratch, size_t, count, error) : NULL;
-    q->kinds = q->begins ? MESO_NEW(scratch, uint8_t, count, error) : NULL;
+    q->pool = MESO_NEW_BARE(scratch, uint32_t, q->room, error);
+    q->spare = q->pool ? MESO_NEW_BARE(scratch, uint32_t, q->room, error) : NULL;
+    q->begins = q->spare ? MESO_NEW_BARE(scratch, size_t, count, error) : NULL;
+    q->kinds = q->begins ? MESO_NEW_BARE(scratch, uint8_t, count, error) : NULL;
     return q->kinds ? MESO_OK : MESO_ERR_MEMORY;
 }
 

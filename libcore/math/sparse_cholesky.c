@@ -71,7 +71,7 @@ static MesoStatus read_pattern(Pattern *pattern, MesoArena *arena, uint32_t *mar
                                size_t triplet_count, MesoError *error)
 {
     pattern->begins = MESO_NEW(arena, size_t, (size_t)pattern->count + 1, error);
-    pattern->neighbours = pattern->begins ? MESO_NEW(arena, uint32_t, 2 * triplet_count, error) : NULL;
+    pattern->neighbours = pattern->begins ? MESO_NEW_BARE(arena, uint32_t, 2 * triplet_count, error) : NULL;
     if (!pattern->neighbours)
         return MESO_ERR_MEMORY;
     list_neighbours(pattern, triplets, triplet_count);
@@ -222,17 +222,17 @@ static MesoStatus allocate(MesoCholesky *factor, MesoArena *arena, size_t triple
     size_t count = factor->count;
     factor->triplet_room = triplet_count;
     if (!(factor->order = MESO_NEW(arena, uint32_t, count, error)) ||
-        !(factor->places = MESO_NEW(arena, uint32_t, count, error)) ||
+        !(factor->places = MESO_NEW_BARE(arena, uint32_t, count, error)) ||
         !(factor->marks = MESO_NEW(arena, uint32_t, count, error)) ||
         !(factor->column_begins = MESO_NEW(arena, size_t, count + 1, error)) ||
-        !(factor->column_ends = MESO_NEW(arena, size_t, count, error)) ||
-        !(factor->column_lists = MESO_NEW(arena, size_t, count, error)) ||
-        !(factor->bunch_ends = MESO_NEW(arena, uint32_t, count, error)) ||
+        !(factor->column_ends = MESO_NEW_BARE(arena, size_t, count, error)) ||
+        !(factor->column_lists = MESO_NEW_BARE(arena, size_t, count, error)) ||
+        !(factor->bunch_ends = MESO_NEW_BARE(arena, uint32_t, count, error)) ||
         !(factor->row_begins = MESO_NEW(arena, size_t, count + 1, error)) ||
         !(factor->triplet_begins = MESO_NEW(arena, size_t, count + 1, error)) ||
-        !(factor->triplet_list = MESO_NEW(arena, uint32_t, triplet_count, error)) ||
-        !(factor->pivots = MESO_NEW(arena, double, count, error)) ||
-        !(factor->work = MESO_NEW(arena, double, count, error)))
+        !(factor->triplet_list = MESO_NEW_BARE(arena, uint32_t, triplet_count, error)) ||
+        !(factor->pivots = MESO_NEW_BARE(arena, double, count, error)) ||
+        !(factor->work = MESO_NEW_BARE(arena, double, count, error)))
         return MESO_ERR_MEMORY;
     return MESO_OK;
 }
@@ -240,9 +240,9 @@ static MesoStatus allocate(MesoCholesky *factor, MesoArena *arena, size_t triple
 static MesoStatus allocate_entries(MesoCholesky *factor, MesoArena *arena, MesoError *error)
 {
     size_t listed_count = place_lists(factor);
-    if (!(factor->column_rows = MESO_NEW(arena, uint32_t, listed_count, error)) ||
-        !(factor->row_bunches = MESO_NEW(arena, uint32_t, listed_count, error)) ||
-        !(factor->values = MESO_NEW(arena, double, factor->column_begins[factor->count], error)))
+    if (!(factor->column_rows = MESO_NEW_BARE(arena, uint32_t, listed_count, error)) ||
+        !(factor->row_bunches = MESO_NEW_BARE(arena, uint32_t, listed_count, error)) ||
+        !(factor->values = MESO_NEW_BARE(arena, double, factor->column_begins[factor->count], error)))
         return MESO_ERR_MEMORY;
     return MESO_OK;
 }

@@ -30,7 +30,7 @@ static MesoStatus make_graph(Graph *graph, MesoArena *scratch, size_t cells, con
         graph->nodes[c] = states[c] == MESO_SEAM_FREE ? graph->node_count++ : MESO_NO_INDEX;
     graph->source = MESO_NEW(scratch, uint32_t, graph->node_count, error);
     graph->sink = MESO_NEW(scratch, uint32_t, graph->node_count, error);
-    graph->edges = MESO_NEW(scratch, MesoCutEdge, (size_t)DIRECTIONS * graph->node_count, error);
+    graph->edges = MESO_NEW_BARE(scratch, MesoCutEdge, (size_t)DIRECTIONS * graph->node_count, error);
     return graph->source && graph->sink && graph->edges ? MESO_OK : MESO_ERR_MEMORY;
 }
 

@@ -187,12 +187,12 @@ MesoStatus meso_seam_line_trace(MesoSeamLine *line, MesoArena *arena, const uint
                                 uint32_t rows, MesoError *error)
 {
     size_t cells = (size_t)columns * rows;
-    *line = (MesoSeamLine){.points = MESO_NEW(arena, MesoVec2, 2 * cells, error),
-                           .next = MESO_NEW(arena, uint32_t, 2 * cells, error),
-                           .previous = MESO_NEW(arena, uint32_t, 2 * cells, error)};
+    *line = (MesoSeamLine){.points = MESO_NEW_BARE(arena, MesoVec2, 2 * cells, error),
+                           .next = MESO_NEW_BARE(arena, uint32_t, 2 * cells, error),
+                           .previous = MESO_NEW_BARE(arena, uint32_t, 2 * cells, error)};
     MesoArenaMark mark = meso_arena_mark(arena);
-    Tracer tracer = {sides, columns, rows, line, MESO_NEW(arena, uint32_t, cells, error),
-                     MESO_NEW(arena, uint32_t, cells, error)};
+    Tracer tracer = {sides, columns, rows, line, MESO_NEW_BARE(arena, uint32_t, cells, error),
+                     MESO_NEW_BARE(arena, uint32_t, cells, error)};
     if (!line->points || !line->next || !line->previous || !tracer.along || !tracer.up)
         return MESO_ERR_MEMORY;
     add_points(&tracer);
@@ -290,7 +290,7 @@ MesoStatus meso_seam_line_distances(float *values, MesoArena *scratch, const Mes
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
     size_t count = (size_t)columns * rows;
-    Feet feet = {columns, rows, MESO_NEW(scratch, MesoVec2, count, error), values};
+    Feet feet = {columns, rows, MESO_NEW_BARE(scratch, MesoVec2, count, error), values};
     if (!feet.feet)
         return MESO_ERR_MEMORY;
     for (size_t c = 0; c < count; c++) {
