@@ -35,6 +35,21 @@ typedef struct MesoSweepGrid {
 void meso_sweep_grid(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                      const MesoSweepGrid *grid, MesoMeshVertex *out);
 
+/* Where columns of a kind lie at the ends of a sweep, by coordinates, in units of the profiles: many at once. */
+enum { MESO_SWEEP_LANES = 8 };
+typedef struct MesoSweepPlaces {
+    uint32_t count;
+    const float *start_x, *start_y, *end_x, *end_y;     /* [count, up to a multiple of MESO_SWEEP_LANES] */
+} MesoSweepPlaces;
+
+/*
+ * Points at these on `ring_count` even rings of an instance whose section keeps its shape (MESO_SWEEP_CURVES): the same
+ * as meso_sweep_grid() finds. To `x`, `y` and `z` [count * ring_count + MESO_SWEEP_LANES], by rings; behind the last
+ * one is anything.
+ */
+void meso_sweep_points(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                       const MesoSweepPlaces *places, uint32_t ring_count, float *x, float *y, float *z);
+
 /* Of one instance of a kind; quads are two triangles. */
 uint64_t meso_sweep_vertex_count(const MesoSweptKind *kind);
 uint64_t meso_sweep_face_count(const MesoSweptKind *kind);

@@ -231,7 +231,7 @@ static bool make_range(const Drawing *d, Batch *batch, uint32_t r, const MesoSha
     for (uint32_t i = 0; i <= RANGE; i++) {
         range->pieces[i] = (Piece){.point = range->point_count, .corner = range->corner_count};
         if (i < RANGE && any >> i & 1 &&
-            !(meso_shape_make_bundled(d->shapes, bundle, i, batch->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
+            !(meso_shape_place_bundled(d->shapes, bundle, i, batch->maps->tolerance, MESO_SHAPE_SHADOW, mesh) &&
               add_mesh(range, mesh, &range->pieces[i])))
             return false;
     }

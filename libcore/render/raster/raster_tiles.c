@@ -6,6 +6,7 @@
 #include "libcore/base/large_pages.h"
 #include "libcore/base/parallel.h"
 #include "libcore/render/raster/raster_draw.h"
+#include "libcore/render/raster/raster_hidden.h"
 #include "libcore/render/raster/shape_points.h"
 
 enum { LANES = MESO_RASTER_LANES, CELLS = MESO_TILE_CELLS, PLACES = LANES * CELLS * CELLS };
@@ -147,7 +148,25 @@ static void draw_each(MesoRasterTile *tile, uint32_t first_id)
     }
 }
 
-static void draw_mesh(MesoRasterTile *tile, uint32_t count, uint32_t first_id)
+/* How a shape is made. */
+typedef struct Making {
+    uint32_t shape;
+    const MesoShapeBundle *bundle;      /* that has it as its number `place`; NULL: it is made by itself */
+    uint32_t place;
+    float tolerance;
+} Making;
+
+static bool make_shape(MesoRasterTile *tile, const Making *m, bool placed)
+{
+    const MesoShapes *shapes = tile->bins->job.shapes;
+    if (m->bundle)
+        return (placed ? meso_shape_place_bundled : meso_shape_make_bundled)(shapes, m->bundle, m->place, m->tolerance,
+                                                                             MESO_SHAPE_SEEN, &tile->mesh);
+    return (placed ? meso_shape_place : meso_shape_make)(shapes, m->shape, m->tolerance, MESO_SHAPE_SEEN, &tile->mesh);
+}
+
+/* False where memory is out. */
+static bool draw_mesh(MesoRasterTile *tile, const Making *making, uint32_t count, uint32_t first_id)
 {
     const MesoRasterView *view = &tile->bins->job.view;
     const MesoShapeMesh *mesh = &tile->mesh;
@@ -156,21 +175,24 @@ static void draw_mesh(MesoRasterTile *tile, uint32_t count, uint32_t first_id)
         meso_shape_points(mesh, x, y, z, tile->joined);
     if (view->parallel || !meso_raster_project(view, x, y, z, count, (float)tile->window.x, (float)tile->window.y,
                                                &tile->projected)) {
-        draw_each(tile, first_id);
-        return;
+        bool made = !mesh->placed || make_shape(tile, making, false);
+        if (made)
+            draw_each(tile, first_id);
+        return made;
     }
     if (!mesh->columns) {
         meso_raster_add(&tile->queue, &tile->projected, mesh->corners, mesh->triangle_count, first_id, false);
-        return;
+        return true;
     }
     uint32_t width = mesh->columns->place_count;
     const MesoRasterRings rings = {(mesh->ring_count - 1) * width, width, tile->joined, mesh->columns->place_sides,
                                    mesh->columns->side_count};
     meso_raster_add_rings(&tile->queue, &tile->projected, &rings, first_id, false);
+    return true;
 }
 
 /* Its triangles are in the queue. */
-static bool draw_made(MesoRasterTile *tile, uint32_t first_id)
+static bool draw_made(MesoRasterTile *tile, const Making *making, uint32_t first_id)
 {
     uint64_t count = meso_shape_point_count(&tile->mesh), vertices = tile->mesh.vertex_count;
     uint64_t most = (count > vertices ? count : vertices) + MESO_RASTER_SPARE;
@@ -187,8 +209,15 @@ static bool draw_made(MesoRasterTile *tile, uint32_t first_id)
             return false;
         tile->point_room = (uint32_t)room;
     }
-    draw_mesh(tile, (uint32_t)count, first_id);
-    return true;
+    return draw_mesh(tile, making, (uint32_t)count, first_id);
+}
+
+static bool draw_shape(MesoRasterTile *tile, const Making *making, uint64_t *id)
+{
+    if (!make_shape(tile, making, !tile->bins->job.view.parallel) || !draw_made(tile, making, (uint32_t)*id))
+        return false;
+    *id += tile->mesh.triangle_count;
+    return *id <= UINT32_MAX;
 }
 
 static bool draw_shapes(MesoRasterTile *tile)
@@ -201,11 +230,8 @@ static bool draw_shapes(MesoRasterTile *tile)
         uint32_t shape = tile->shapes[i];
         tile->first_ids[i] = (uint32_t)id;
         tile->tolerances[i] = meso_raster_tolerance(job, shape);
-        if (!meso_shape_make(job->shapes, shape, tile->tolerances[i], MESO_SHAPE_SEEN, &tile->mesh) ||
-            !draw_made(tile, (uint32_t)id))
-            return false;
-        id += tile->mesh.triangle_count;
-        if (id > UINT32_MAX)
+        const Making making = {.shape = shape, .tolerance = tile->tolerances[i]};
+        if (!draw_shape(tile, &making, &id))
             return false;
     }
     tile->first_ids[tile->shape_count] = (uint32_t)id;
@@ -237,64 +263,9 @@ static bool sort_bundles(MesoRasterTile *tile, const uint32_t *binned, uint32_t 
     return true;
 }
 
-/* Pixels of the tile's window in which a rectangle may cover a sample, the last ones included. */
-typedef struct Pixels {
-    int32_t left, top, right, bottom;
-} Pixels;
-
-static int32_t first_pixel(float pixel, uint32_t begin, uint32_t count)
-{
-    float at = pixel - (float)begin;
-    return at > 0 ? at < (float)count ? (int32_t)at : (int32_t)count : 0;
-}
-
-static int32_t last_pixel(float pixel, uint32_t begin, uint32_t count)
-{
-    float at = pixel - (float)begin;
-    return at < (float)(count - 1) ? at >= 0 ? (int32_t)at : -1 : (int32_t)count - 1;
-}
-
-static Pixels pixels_of(const MesoRasterTile *tile, const MesoRasterRect *r)
-{
-    const float slack = 2.f / MESO_RASTER_UNIT;
-    const MesoWindow *w = &tile->window;
-    bool middles = tile->bins->job.samples == 1;
-    float left = middles ? ceilf(r->left + 0.5f - slack) : floorf(r->left + 1 - slack);
-    float top = middles ? ceilf(r->top + 0.5f - slack) : floorf(r->top + 1 - slack);
-    float right = middles ? floorf(r->right - 1.5f + slack) : floorf(r->right - 1 + slack);
-    float bottom = middles ? floorf(r->bottom - 1.5f + slack) : floorf(r->bottom - 1 + slack);
-    return (Pixels){first_pixel(left, w->x, w->width), first_pixel(top, w->y, w->height),
-                    last_pixel(right, w->x, w->width), last_pixel(bottom, w->y, w->height)};
-}
-
-static bool is_covered(const MesoRasterTile *tile, uint32_t x, uint32_t y, float nearest)
-{
-    const MesoRasterLanes *lanes = &tile->bins->lanes;
-    uint32_t lane = ((y % lanes->pixels) * lanes->pixels + x % lanes->pixels) * lanes->samples;
-    const float *there = tile->nearness + (size_t)LANES * ((y / lanes->pixels) * CELLS + x / lanes->pixels) + lane;
-    for (uint32_t i = 0; i < lanes->samples; i++)
-        if (!(there[i] > nearest))
-            return false;
-    return true;
-}
-
-/* Whether nothing of what is in such a rectangle can be seen in the tile: it is beside it, or behind what is there. */
 static bool is_hidden(const MesoRasterTile *tile, const MesoRasterRect *rect)
 {
-    enum { MOST_PIXELS = 1024 };        /* of more, one is soon seen */
-    const MesoRasterView *view = &tile->bins->job.view;
-    Pixels p = pixels_of(tile, rect);
-    if (p.left > p.right || p.top > p.bottom)
-        return true;
-    if ((p.right - p.left + 1) * (p.bottom - p.top + 1) > MOST_PIXELS || !(rect->depth > view->near_depth))
-        return false;
-    /* What triangles are nearer than their corners by rounding is far less. */
-    float nearest = view->parallel ? 0.01f / view->focal - rect->depth : 1.00001f / rect->depth;
-    for (int32_t y = p.top; y <= p.bottom; y++)
-        for (int32_t x = p.left; x <= p.right; x++)
-            if (!is_covered(tile, (uint32_t)x, (uint32_t)y, nearest))
-                return false;
-    return true;
+    return meso_raster_hides(&tile->target, &tile->window, &tile->bins->job.view, rect);
 }
 
 static bool draw_bundle(MesoRasterTile *tile, uint64_t *id)
@@ -312,11 +283,8 @@ static bool draw_bundle(MesoRasterTile *tile, uint64_t *id)
         tile->first_ids[tile->shape_count] = (uint32_t)*id;
         tile->tolerances[tile->shape_count] = tolerance;
         tile->drawn_shapes[tile->shape_count++] = bundle->shapes[i];
-        if (!meso_shape_make_bundled(job->shapes, bundle, i, tolerance, MESO_SHAPE_SEEN, &tile->mesh) ||
-            !draw_made(tile, (uint32_t)*id))
-            return false;
-        *id += tile->mesh.triangle_count;
-        if (*id > UINT32_MAX)
+        const Making making = {bundle->shapes[i], bundle, i, tolerance};
+        if (!draw_shape(tile, &making, id))
             return false;
     }
     return true;

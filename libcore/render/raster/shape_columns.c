@@ -225,8 +225,28 @@ static void add_bands(Choice *c, const uint32_t *kept, const Loop *loop)
 
 /* ---- places ---- */
 
+/* Behind the last, zero. */
+static MesoStatus put_on_ring(MesoShapeColumns *out, const MesoSweepColumn *columns, MesoArena *arena, MesoError *error)
+{
+    size_t room = ((size_t)out->place_count + MESO_SWEEP_LANES - 1) / MESO_SWEEP_LANES * MESO_SWEEP_LANES;
+    float *x = MESO_NEW(arena, float, 4 * room, error), *y = x + room;
+    if (!x)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < out->place_count; i++) {
+        uint32_t k = out->places[i];
+        const MesoSweepColumn *column = out->stand_ins ? &out->stand_ins[k] : &columns[out->kept[k]];
+        x[i] = column->start.x;
+        y[i] = column->start.y;
+        x[2 * room + i] = column->end.x;
+        y[2 * room + i] = column->end.y;
+    }
+    out->on_ring = (MesoSweepPlaces){out->place_count, x, y, x + 2 * room, y + 2 * room};
+    return MESO_OK;
+}
+
 /* Sides that follow one another share a place; others have both of theirs. */
-static MesoStatus put_places(MesoShapeColumns *out, MesoArena *arena, MesoError *error)
+static MesoStatus put_places(MesoShapeColumns *out, const MesoSweepColumn *columns, MesoArena *arena,
+                             MesoError *error)
 {
     uint32_t *places = MESO_NEW(arena, uint32_t, 2 * (size_t)out->side_count, error), count = 0;
     uint32_t *sides = MESO_NEW(arena, uint32_t, 2 * (size_t)out->side_count, error);
@@ -245,7 +265,7 @@ static MesoStatus put_places(MesoShapeColumns *out, MesoArena *arena, MesoError 
     out->places = places;
     out->place_sides = sides;
     out->joined = joined;
-    return MESO_OK;
+    return put_on_ring(out, columns, arena, error);
 }
 
 /* ---- all of them ---- */
@@ -275,6 +295,6 @@ MesoStatus meso_shape_columns(MesoShapeColumns *out, MesoArena *arena, const Mes
             add_loop(&choice, detail, &loop, use != MESO_SHAPE_WHOLE);
     }
     *out = (MesoShapeColumns){choice.count, choice.side_count, choice.kept, sides, choice.moved ? stand_ins : NULL,
-                              choice.closed, choice.banded ? tolerance : 0, 0, NULL, NULL, NULL};
-    return put_places(out, arena, error);
+                              choice.closed, choice.banded ? tolerance : 0, 0, NULL, NULL, NULL, {0}};
+    return put_places(out, columns, arena, error);
 }

@@ -3,7 +3,7 @@
 #define MESO_SHAPE_COLUMNS_H
 
 #include "libcore/base/arena.h"
-#include "libcore/scene/scene.h"
+#include "libcore/scene/sweep.h"
 
 /* What a shape is made for: to throw a shadow, with normals that may be far from its own; to be seen; and to be looked
  * at. Its vertices have more than positions for the last alone. */
@@ -28,6 +28,7 @@ typedef struct MesoShapeColumns {
     const uint32_t *places;         /* [place_count] of `kept`, some of them twice: each side is between two in a row, */
     const uint32_t *place_sides;    /* its number where the first is, */
     const uint8_t *joined;          /* and 1; where there is none, 0 */
+    MesoSweepPlaces on_ring;        /* where these are */
 } MesoShapeColumns;
 
 /*

@@ -27,8 +27,15 @@ void meso_shape_points(const MesoShapeMesh *mesh, float *x, float *y, float *z, 
         return;
     }
     uint32_t width = columns->place_count;
+    if (mesh->placed) {
+        size_t count = (size_t)width * mesh->ring_count;
+        memcpy(x, mesh->points, count * sizeof *x);
+        memcpy(y, mesh->points + mesh->point_room, count * sizeof *y);
+        memcpy(z, mesh->points + 2 * (size_t)mesh->point_room, count * sizeof *z);
+    }
     for (size_t r = 0, at = 0; r < mesh->ring_count; r++, at += width) {
-        put_points(mesh->vertices + r * columns->count, columns->places, width, x + at, y + at, z + at);
+        if (!mesh->placed)
+            put_points(mesh->vertices + r * columns->count, columns->places, width, x + at, y + at, z + at);
         if (r + 1 < mesh->ring_count)
             memcpy(joined + at, columns->joined, width);
         else

@@ -367,6 +367,7 @@ void meso_shape_mesh_release(MesoShapeMesh *mesh)
     free(mesh->color_room);
     free(mesh->wanted);
     free(mesh->run_corners);
+    free(mesh->points);
     for (uint32_t i = 0; i < MESO_SHAPE_CORNERS; i++)
         free(mesh->sets[i].corners);
     *mesh = (MesoShapeMesh){0};
@@ -414,27 +415,57 @@ static void find_wanted(MesoShapeMesh *mesh, const uint8_t *seen)
             mesh->wanted[mesh->corners[3 * (size_t)t + k]] = 1;
 }
 
+/* How a sweep is wanted. */
+typedef struct Wanted {
+    float tolerance;
+    MesoShapeUse use;
+    const uint8_t *seen;        /* triangles; NULL: all */
+    bool placed;
+} Wanted;
+
+static bool place_sweep(const MesoShapes *shapes, const MesoSweptKind *kind, const MesoSweepInstance *instance,
+                        MesoShapeMesh *mesh)
+{
+    const MesoSweepPlaces *places = &mesh->columns->on_ring;
+    uint64_t count = (uint64_t)places->count * mesh->ring_count + MESO_SWEEP_LANES;
+    if (count > UINT32_MAX / 2)
+        return false;
+    if (count > mesh->point_room) {
+        if (!grow((void **)&mesh->points, 3 * (2 * count), sizeof *mesh->points))
+            return false;
+        mesh->point_room = 2 * (uint32_t)count;
+    }
+    float *x = mesh->points, *y = x + mesh->point_room, *z = y + mesh->point_room;
+    meso_sweep_points(&shapes->near, kind, instance, places, mesh->ring_count, x, y, z);
+    return true;
+}
+
 static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, const MesoSweepInstance *sweep,
-                       float tolerance, MesoShapeUse use, const uint8_t *seen, MesoShapeMesh *mesh)
+                       const Wanted *wanted, MesoShapeMesh *mesh)
 {
     const MesoScene *scene = &shapes->near;
     const MesoSweptKind *kind = &scene->kinds[k];
-    const MesoShapeColumns *columns = meso_shape_level(shapes->columns, shapes->finest, k, tolerance, use);
+    float tolerance = wanted->tolerance;
+    const MesoShapeColumns *columns = meso_shape_level(shapes->columns, shapes->finest, k, tolerance, wanted->use);
     MesoSweepInstance instance = anchored(shapes, *sweep);
     MesoSweepBend bend = shapes->bends ? shapes->bends[number] : meso_detail_bend(kind, &shapes->details[k], &instance);
-    uint32_t rings = meso_detail_bend_rings(kind, &shapes->details[k], bend, tolerance, use != MESO_SHAPE_SHADOW);
-    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)) ||
-        !make_corners(shapes, columns, rings, mesh))
+    uint32_t rings = meso_detail_bend_rings(kind, &shapes->details[k], bend, tolerance, wanted->use != MESO_SHAPE_SHADOW);
+    if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)))
         return false;
     mesh->closed = columns->closed;
     mesh->reach = columns->reach;
     mesh->columns = columns;
     mesh->ring_count = rings;
-    if (seen)
-        find_wanted(mesh, seen);
+    mesh->placed = wanted->placed && scene->deform == MESO_SWEEP_CURVES;
+    if (mesh->placed)
+        return place_sweep(shapes, kind, &instance, mesh);
+    if (!make_corners(shapes, columns, rings, mesh))
+        return false;
+    if (wanted->seen)
+        find_wanted(mesh, wanted->seen);
     const MesoSweepGrid grid = {.columns = columns->kept, .stand_ins = columns->stand_ins,
-                                .column_count = columns->count, .ring_count = rings, .bare = use != MESO_SHAPE_WHOLE,
-                                .wanted = seen ? mesh->wanted : NULL};
+                                .column_count = columns->count, .ring_count = rings,
+                                .bare = wanted->use != MESO_SHAPE_WHOLE, .wanted = wanted->seen ? mesh->wanted : NULL};
     meso_sweep_grid(scene, kind, &instance, &grid, mesh->vertices);
     return true;
 }
@@ -463,7 +494,7 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
     }
     mesh->corners = mesh->run_corners;
     mesh->colors = body->colors ? mesh->color_room : NULL;
-    mesh->closed = false;
+    mesh->closed = mesh->placed = false;
     mesh->reach = 0;
     mesh->columns = NULL;
     uint32_t vertex = 0;
@@ -483,34 +514,52 @@ static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShap
     return true;
 }
 
-bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh)
+static bool make(const MesoShapes *shapes, uint32_t shape, const Wanted *wanted, MesoShapeMesh *mesh)
 {
     uint32_t sweeps = shapes->scene->sweep_count;
     if (shape >= sweeps)
         return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
     MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
-    return make_sweep(shapes, shape, kind_of(shapes, shape), &sweep, tolerance, use, NULL, mesh);
+    return make_sweep(shapes, shape, kind_of(shapes, shape), &sweep, wanted, mesh);
+}
+
+static bool make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, const Wanted *wanted,
+                         MesoShapeMesh *mesh)
+{
+    if (!bundle->made)
+        return make(shapes, bundle->shapes[i], wanted, mesh);
+    const MesoSweepMaker *maker = shapes->scene->maker;
+    MesoMadeSweep made = bundle->sweeps[i];
+    maker->add_turns(maker->context, &made);
+    return make_sweep(shapes, made.sweep, made.kind, &made.instance, wanted, mesh);
+}
+
+bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh)
+{
+    return make(shapes, shape, &(Wanted){.tolerance = tolerance, .use = use}, mesh);
 }
 
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh)
 {
-    if (!bundle->made)
-        return meso_shape_make(shapes, bundle->shapes[i], tolerance, use, mesh);
-    const MesoSweepMaker *maker = shapes->scene->maker;
-    MesoMadeSweep made = bundle->sweeps[i];
-    maker->add_turns(maker->context, &made);
-    return make_sweep(shapes, made.sweep, made.kind, &made.instance, tolerance, use, NULL, mesh);
+    return make_bundled(shapes, bundle, i, &(Wanted){.tolerance = tolerance, .use = use}, mesh);
+}
+
+bool meso_shape_place(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh)
+{
+    return make(shapes, shape, &(Wanted){.tolerance = tolerance, .use = use, .placed = true}, mesh);
+}
+
+bool meso_shape_place_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
+                              MesoShapeUse use, MesoShapeMesh *mesh)
+{
+    return make_bundled(shapes, bundle, i, &(Wanted){.tolerance = tolerance, .use = use, .placed = true}, mesh);
 }
 
 bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolerance, const uint8_t *seen,
                           MesoShapeMesh *mesh)
 {
-    uint32_t sweeps = shapes->scene->sweep_count;
-    if (shape >= sweeps)
-        return make_run(shapes, &shapes->runs[shape - sweeps], mesh);
-    MesoSweepInstance sweep = meso_scene_sweep(shapes->scene, shape);
-    return make_sweep(shapes, shape, kind_of(shapes, shape), &sweep, tolerance, MESO_SHAPE_WHOLE, seen, mesh);
+    return make(shapes, shape, &(Wanted){.tolerance = tolerance, .use = MESO_SHAPE_WHOLE, .seen = seen}, mesh);
 }
 
 /* ---- corners ---- */

@@ -84,6 +84,9 @@ typedef struct MesoShapeMesh {
     const MesoShapeColumns *columns;    /* of a sweep: its vertices are rings of these; NULL: of a run */
     uint32_t ring_count;
     float reach;                /* of the surface before what was made for its shadow */
+    bool placed;                /* there are points, and neither vertices nor corners, which are left as they were */
+    float *points;              /* x, then y, then z [3 * point_room] of the places of one ring after the other */
+    uint32_t point_room;
     uint32_t vertex_room, run_room;
     uint8_t *wanted;            /* [vertex_room] */
     MesoMeshColor *color_room;
@@ -98,6 +101,14 @@ typedef struct MesoShapeMesh {
 bool meso_shape_make(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
 bool meso_shape_make_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
                              MesoShapeUse use, MesoShapeMesh *mesh);
+
+/*
+ * The same for meso_shape_points() alone (shape_points.h), the same numbers, which is quicker: a sweep whose section
+ * keeps its shape is placed, others are made.
+ */
+bool meso_shape_place(const MesoShapes *shapes, uint32_t shape, float tolerance, MesoShapeUse use, MesoShapeMesh *mesh);
+bool meso_shape_place_bundled(const MesoShapes *shapes, const MesoShapeBundle *bundle, uint32_t i, float tolerance,
+                              MesoShapeUse use, MesoShapeMesh *mesh);
 
 /* Makes it to be looked at; vertices of no triangle of which `seen` [triangles] is not 0 are anything. */
 bool meso_shape_make_seen(const MesoShapes *shapes, uint32_t shape, float tolerance, const uint8_t *seen,
