@@ -24,6 +24,7 @@ static const MesoVec3 TOWARDS_EYE = {0.5f, 0.45f, 1.0f};
 typedef struct Frame {
     MesoVec3 right, up, back;
     float tan_x, tan_y;
+    float pad_x, pad_y;                                 /* of a ball, over its radius: 1 / cos */
     MesoVec3 world_up, anchor;                          /* what follows is relative to the anchor */
     float left_most, right_most, low_most, high_most;   /* A and B of both axes */
     float deepest, nearest;
@@ -40,6 +41,11 @@ static MesoVec3 towards_eye(MesoVec3 up)
     return meso_vec3_mad(side, TOWARDS_EYE.z, z);
 }
 
+static float pad_of(float tan)
+{
+    return sqrtf(1 + tan * tan);
+}
+
 /* `low` and `high`: the box that the object lies in, to be precise where it is far away. */
 static Frame begin_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_degrees, float aspect)
 {
@@ -52,11 +58,17 @@ static Frame begin_frame(MesoVec3 low, MesoVec3 high, MesoVec3 up, float fov_deg
     }
     float t = view.half_height * (1 - 2 * MARGIN);
     float none = -INFINITY;
-    return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t, up,
-                   meso_box_anchor(low, high), none, none, none, none, INFINITY, none};
+    return (Frame){view.right, view.up, meso_vec3_scale(view.forward, -1), t * aspect, t, pad_of(t * aspect), pad_of(t),
+                   up, meso_box_anchor(low, high), none, none, none, none, INFINITY, none};
 }
 
-static void add_ball(Frame *frame, MesoVec3 center, float radius)
+/* Of two finite numbers; quicker than fmaxf(), which looks for others. */
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static inline void add_ball(Frame *frame, MesoVec3 center, float radius)
 {
     MesoVec3 place = meso_vec3_sub(center, frame->anchor);
     float x = meso_vec3_dot(place, frame->right);
@@ -64,14 +76,13 @@ static void add_ball(Frame *frame, MesoVec3 center, float radius)
     float z = meso_vec3_dot(place, frame->back);
     if (!isfinite(x + y + z + radius))
         return;
-    float pad_x = radius * sqrtf(1 + frame->tan_x * frame->tan_x);
-    float pad_y = radius * sqrtf(1 + frame->tan_y * frame->tan_y);
-    frame->right_most = fmaxf(frame->right_most, frame->tan_x * z + x + pad_x);
-    frame->left_most = fmaxf(frame->left_most, frame->tan_x * z - x + pad_x);
-    frame->high_most = fmaxf(frame->high_most, frame->tan_y * z + y + pad_y);
-    frame->low_most = fmaxf(frame->low_most, frame->tan_y * z - y + pad_y);
-    frame->nearest = fmaxf(frame->nearest, z + radius);
-    frame->deepest = fminf(frame->deepest, z - radius);
+    float pad_x = radius * frame->pad_x, pad_y = radius * frame->pad_y;
+    frame->right_most = larger(frame->right_most, frame->tan_x * z + x + pad_x);
+    frame->left_most = larger(frame->left_most, frame->tan_x * z - x + pad_x);
+    frame->high_most = larger(frame->high_most, frame->tan_y * z + y + pad_y);
+    frame->low_most = larger(frame->low_most, frame->tan_y * z - y + pad_y);
+    frame->nearest = larger(frame->nearest, z + radius);
+    frame->deepest = -larger(-frame->deepest, radius - z);
 }
 
 static MesoCamera end_frame(const Frame *frame, float fov_degrees)
@@ -230,6 +241,7 @@ float meso_camera_fit_height(const MesoScene *scene, const MesoCamera *camera, f
         return 1;
     float none = -INFINITY;
     Frame frame = {.right = view.right, .up = view.up, .back = meso_vec3_scale(view.forward, -1),
+                   .pad_x = 1, .pad_y = 1,
                    .anchor = meso_box_anchor(scene->box.low, scene->box.high), .left_most = none, .right_most = none,
                    .low_most = none, .high_most = none, .deepest = INFINITY, .nearest = none};
     add_scene(&frame, scene);
@@ -246,6 +258,7 @@ MesoCamera meso_camera_frame_scene_parallel(const MesoScene *scene, MesoVec3 up,
     const float usual_fov = 30;
     Frame frame = begin_frame(scene->box.low, scene->box.high, up, usual_fov, aspect);
     frame.tan_x = frame.tan_y = 0;
+    frame.pad_x = frame.pad_y = 1;
     add_scene(&frame, scene);
     if (!(frame.nearest >= frame.deepest))      /* nothing there */
         add_ball(&frame, frame.anchor, 1);

@@ -11,9 +11,10 @@ static void light(MesoLightRig *rig, const Ball *b, uint32_t samples)
 {
     MesoView view;
     MesoCamera camera = {.eye = {0, 0, 5}, .up = {0, 1, 0}, .fov_degrees = 40};
+    MesoShapes shapes = b->shapes;
     const MesoLightQuality quality = meso_light_quality(samples);
     CHECK(meso_view_build(&view, &camera, &error) == MESO_OK);
-    CHECK(meso_light_rig_init(rig, &arena, &b->shapes, &view, camera.up, NULL, &quality, 2, &error) == MESO_OK);
+    CHECK(meso_light_rig_init(rig, &arena, &shapes, &view, camera.up, NULL, &quality, 2, &error) == MESO_OK);
     CHECK(fabsf(rig->ground + RADIUS) < 1e-3f);
 }
 

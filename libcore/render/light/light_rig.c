@@ -174,7 +174,7 @@ static MesoStatus make_key(MesoLightRig *rig, MesoArena *arena, const MesoView *
                                                        size, error);
 }
 
-MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
+MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, MesoShapes *shapes, const MesoView *view,
                                MesoVec3 up, const MesoEnvironment *environment, const MesoLightQuality *quality,
                                uint32_t thread_count, MesoError *error)
 {
@@ -189,7 +189,10 @@ MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoSh
     rig->sky.tolerance = quality->tolerance * rig->sky.texel;
     rig->key.tolerance = quality->tolerance * rig->key.texel;
     MesoLightMaps *const sets[] = {&rig->sky, &rig->key};
-    return status ? status : meso_light_maps_draw(sets, rig->key.count ? 2 : 1, shapes, thread_count, error);
+    uint32_t count = rig->key.count ? 2 : 1;
+    for (uint32_t i = 0; i < count && !status; i++)
+        status = meso_shapes_ready(shapes, arena, MESO_SHAPE_SHADOW, sets[i]->tolerance, sets[i]->tolerance, error);
+    return status ? status : meso_light_maps_draw(sets, count, shapes, thread_count, error);
 }
 
 /* ---- light on a surface ---- */

@@ -62,7 +62,7 @@ typedef struct MesoLightRig {
  * Draws the maps of all lights; they live in `arena`. `view` is the camera's, `up` what is up in the world, unit;
  * `environment`, which may be NULL, has to last. MESO_ERR_MEMORY alone.
  */
-MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, const MesoShapes *shapes, const MesoView *view,
+MesoStatus meso_light_rig_init(MesoLightRig *rig, MesoArena *arena, MesoShapes *shapes, const MesoView *view,
                                MesoVec3 up, const MesoEnvironment *environment, const MesoLightQuality *quality,
                                uint32_t thread_count, MesoError *error);
 

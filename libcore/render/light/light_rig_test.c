@@ -30,7 +30,8 @@ static MesoLightRig make_rig(const Ball *b, const MesoEnvironment *e, MesoVec3 e
     MesoView view;
     MesoLightRig rig;
     CHECK(meso_view_build(&view, &camera, &error) == MESO_OK);
-    CHECK(meso_light_rig_init(&rig, &arena, &b->shapes, &view, camera.up, e, &quality, 2, &error) == MESO_OK);
+    MesoShapes shapes = b->shapes;
+    CHECK(meso_light_rig_init(&rig, &arena, &shapes, &view, camera.up, e, &quality, 2, &error) == MESO_OK);
     return rig;
 }
 

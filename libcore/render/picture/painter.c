@@ -78,9 +78,15 @@ static float smooth_blend(float x)
     return t * t * (3 - 2 * t);
 }
 
-static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sample)
+/* What is to be known of the surface at a sample to light it. */
+typedef struct Look {
+    MesoMaterial material;
+    uint32_t ids;               /* row of the scene's ids */
+} Look;
+
+static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sample, const MesoShapeLook *of)
 {
-    MesoShapeLook look = meso_shape_look(&p->shapes, sample->shape);
+    MesoShapeLook look = *of;
     const MesoMaterial *a = &p->scene->materials[look.start_material], *b = &p->scene->materials[look.end_material];
     float share = look.start_material == look.end_material ? 0 : smooth_blend(sample->along);
     MesoMaterial m;
@@ -93,6 +99,12 @@ static MesoMaterial material_of(const Picture *p, const MesoSurfaceSample *sampl
         m.metallic = 0;
     }
     return m;
+}
+
+static Look look_of(const Picture *p, const MesoSurfaceSample *sample)
+{
+    MesoShapeLook look = meso_shape_look(&p->shapes, sample->shape);
+    return (Look){material_of(p, sample, &look), look.ids};
 }
 
 static bool belongs(const MesoView *view, const Group *group, const MesoSurfaceSample *sample)
@@ -116,17 +128,16 @@ static void add_sample(const MesoView *view, Group *groups, uint32_t *count, con
     groups[g].count++;
 }
 
-/* Returns how open the place is to the sky. */
-static float light_group(const Picture *p, const Group *group, float color[4], float samples)
+/* `look`: that of its sample. Returns how open the place is to the sky. */
+static float light_group(const Picture *p, const Group *group, const Look *look, float color[4], float samples)
 {
-    MesoMaterial m = material_of(p, &group->sample);
+    MesoMaterial m = look->material;
     MesoLitSurface s = {.position = meso_vec3_scale(group->position, 1 / (float)group->count),
                         .normal = meso_vec3_unit(group->normal, group->sample.normal),
                         .albedo = {m.albedo[0], m.albedo[1], m.albedo[2]},
                         .roughness = fminf(fmaxf(m.roughness, 0.08f), 1), .metallic = m.metallic};
     if (p->varied != MESO_NO_INDEX)
-        meso_vary(s.albedo, meso_scene_id(p->scene, meso_shape_look(&p->shapes, group->sample.shape).ids, p->varied),
-                  p->options->vary);
+        meso_vary(s.albedo, meso_scene_id(p->scene, look->ids, p->varied), p->options->vary);
     s.to_eye = p->view.parallel ? meso_vec3_scale(p->view.forward, -1)
                                 : meso_vec3_unit(meso_vec3_sub(p->raster.eye, s.position), p->view.up);
     float radiance[3], openness, weight = (float)group->count / samples;
@@ -152,19 +163,18 @@ static void shade_ground(const Picture *p, float x, float y, float share, float 
 }
 
 /* The variables of the pixel's middle. */
-static void put_middle(const Picture *p, const MesoSurfaceSample *sample, size_t pixel)
+static void put_middle(const Picture *p, const MesoSurfaceSample *sample, const Look *look, size_t pixel)
 {
     MesoImage *image = p->image;
     const float normal[3] = {sample->normal.x, sample->normal.y, sample->normal.z};
-    MesoMaterial m = material_of(p, sample);
+    MesoMaterial m = look->material;
     image->depth[pixel] = sample->depth;
     for (size_t c = 0; c < 3; c++) {
         image->normal[3 * pixel + c] = normal[c];
         image->albedo[3 * pixel + c] = m.albedo[c];
     }
-    uint32_t row = meso_shape_look(&p->shapes, sample->shape).ids;
     for (uint32_t c = 0; c < image->channel_count; c++)
-        image->ids[c][pixel] = meso_scene_id(p->scene, row, c) + 1;
+        image->ids[c][pixel] = meso_scene_id(p->scene, look->ids, c) + 1;
     MesoVec3 at = meso_vec3_add(sample->position, p->shapes.anchor);
     if (image->position) {
         image->position[3 * pixel] = at.x;
@@ -230,15 +240,18 @@ static void take_pixel(const Picture *p, const Seen *from, uint32_t x, uint32_t 
     MesoSurfaceSample sample;
     uint32_t samples = p->options->samples, count = 0, seen = 0, things[MESO_ID_CHANNELS + 1][MOST_SAMPLES];
     MesoWindow window = from->window;
+    Look first;                 /* of the first sample, where it is there: the first group is of it then */
     bool middle = false;
     float *color = p->image->color + 4 * pixel;
     color[0] = color[1] = color[2] = color[3] = 0;
     for (uint32_t i = 0; i < samples; i++) {
         bool there = from->sample(from, x, y, i, &sample);
-        if (i == 0 && there)
-            put_middle(p, &sample, pixel);
-        else if (i == 0)
+        if (i == 0 && there) {
+            first = look_of(p, &sample);
+            put_middle(p, &sample, &first, pixel);
+        } else if (i == 0) {
             put_nothing(p->image, pixel);
+        }
         middle |= i == 0 && there;
         if (p->image->matte_count)
             note_things(p, there ? &sample : NULL, i, things);
@@ -248,7 +261,8 @@ static void take_pixel(const Picture *p, const Seen *from, uint32_t x, uint32_t 
         seen++;
     }
     for (uint32_t g = 0; g < count; g++) {
-        float openness = light_group(p, &groups[g], color, (float)samples);
+        Look look = g == 0 && middle ? first : look_of(p, &groups[g].sample);
+        float openness = light_group(p, &groups[g], &look, color, (float)samples);
         if (p->image->openness && g == 0 && middle)
             p->image->openness[pixel] = openness;
     }
@@ -414,6 +428,17 @@ static float tolerance_of(const MesoRenderOptions *options)
     return fminf(fmaxf(TOLERANCE_OF_MANY * smaller, LEAST_TOLERANCE), TOLERANCE_OF_MANY);
 }
 
+/* For what may be seen: shapes begin between the near plane and what is farthest. */
+static MesoStatus get_shapes_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
+{
+    const MesoRasterView *view = &p->raster;
+    float farthest = meso_raster_from_eye(view, p->rig.middle).z + 1.01f * p->rig.radius;
+    float low = p->job.tolerance * meso_raster_pixel(view, view->near_depth);
+    float high = p->job.tolerance * meso_raster_pixel(view, fmaxf(farthest, view->near_depth));
+    MesoStatus status = meso_shapes_ready(&p->shapes, arena, MESO_SHAPE_SEEN, low, high, error);
+    return status ? status : meso_shapes_ready(&p->shapes, arena, MESO_SHAPE_WHOLE, low, high, error);
+}
+
 /* Of what is seen, and of light. */
 static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
 {
@@ -423,7 +448,7 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
     if (status)
         return status;
     p->view.anchor = meso_box_anchor(scene->box.low, scene->box.high);
-    status = meso_shapes_init(&p->shapes, arena, scene, p->view.anchor, p->thread_count, error);
+    status = meso_shapes_begin(&p->shapes, arena, scene, p->view.anchor, p->thread_count, error);
     MesoLightQuality quality = meso_light_quality(options->samples);
     if (options->full_detail)
         quality.tolerance = 0;
@@ -438,7 +463,7 @@ static MesoStatus get_ready(MesoPainter *p, MesoArena *arena, MesoError *error)
         .shapes = &p->shapes, .view = p->raster, .width = options->width, .height = options->height,
         .samples = options->samples,
         .tolerance = tolerance_of(options)};
-    return status;
+    return status ? status : get_shapes_ready(p, arena, error);
 }
 
 static MesoPainter *new_painter(MesoArena *arena, const MesoScene *scene, const MesoRenderOptions *options,

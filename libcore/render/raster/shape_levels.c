@@ -1,5 +1,7 @@
 #include "libcore/render/raster/shape_levels.h"
 
+#include <assert.h>
+#include <math.h>
 #include <string.h>
 
 static bool same_columns(const MesoShapeColumns *a, const MesoShapeColumns *b)
@@ -22,28 +24,6 @@ static void share_columns(MesoShapeColumns *columns, const MesoShapeColumns *fin
     meso_arena_rewind(arena, mark);
 }
 
-MesoShapeColumns *meso_shape_levels(MesoArena *arena, const MesoScene *scene, const MesoKindDetail *details,
-                                    float finest, MesoError *error)
-{
-    size_t count = (size_t)scene->kind_count * MESO_SHAPE_LEVELS;
-    MesoShapeColumns *levels = MESO_NEW(arena, MesoShapeColumns, count * MESO_SHAPE_USES, error);
-    for (uint32_t k = 0; k < scene->kind_count && levels; k++) {
-        const MesoSweptKind *kind = &scene->kinds[k];
-        float scale = scene->section_scale * meso_scene_kind_size(scene, kind) * details[k].stretch.most;
-        for (uint32_t i = 0; i < MESO_SHAPE_LEVELS * MESO_SHAPE_USES; i++) {
-            uint32_t level = i / MESO_SHAPE_USES;
-            float tolerance = level == 0 ? 0 : finest * exp2f(0.5f * (float)level);
-            MesoShapeColumns *at = &levels[(size_t)k * MESO_SHAPE_LEVELS * MESO_SHAPE_USES + i];
-            MesoArenaMark mark = meso_arena_mark(arena);
-            if (meso_shape_columns(at, arena, scene, kind, scale, tolerance, i % MESO_SHAPE_USES, error) != MESO_OK)
-                return NULL;
-            if (level > 0)
-                share_columns(at, at - MESO_SHAPE_USES, arena, mark);
-        }
-    }
-    return levels;
-}
-
 static uint32_t level_for(float finest, float tolerance)
 {
     if (!(tolerance > finest))
@@ -52,9 +32,30 @@ static uint32_t level_for(float finest, float tolerance)
     return level < MESO_SHAPE_LEVELS - 1 ? (uint32_t)level : MESO_SHAPE_LEVELS - 1;
 }
 
+MesoStatus meso_shape_levels(MesoShapeColumns *levels, MesoArena *arena, const MesoScene *scene, const float *scales,
+                             const MesoLevelRange *range, MesoError *error)
+{
+    uint32_t begin = level_for(range->finest, range->low), end = level_for(range->finest, range->high) + 1;
+    for (uint32_t k = 0; k < scene->kind_count; k++)
+        for (uint32_t level = begin; level < end; level++) {
+            MesoShapeColumns *at = &levels[((size_t)k * MESO_SHAPE_LEVELS + level) * MESO_SHAPE_USES + range->use];
+            float tolerance = level == 0 ? 0 : range->finest * exp2f(0.5f * (float)level);
+            if (at->kept)
+                continue;
+            MesoArenaMark mark = meso_arena_mark(arena);
+            if (meso_shape_columns(at, arena, scene, &scene->kinds[k], scales[k], tolerance, range->use, error))
+                return MESO_ERR_MEMORY;
+            if (level > 0 && at[-MESO_SHAPE_USES].kept)
+                share_columns(at, at - MESO_SHAPE_USES, arena, mark);
+        }
+    return MESO_OK;
+}
+
 const MesoShapeColumns *meso_shape_level(const MesoShapeColumns *levels, float finest, uint32_t kind, float tolerance,
                                          MesoShapeUse use)
 {
     size_t level = (size_t)kind * MESO_SHAPE_LEVELS + level_for(finest, tolerance);
-    return &levels[level * MESO_SHAPE_USES + use];
+    const MesoShapeColumns *columns = &levels[level * MESO_SHAPE_USES + use];
+    assert(columns->kept);
+    return columns;
 }

@@ -5,83 +5,35 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
-#include "libcore/scene/placed.h"
 #include "libcore/scene/sweep.h"
 
 /* ---- sweeps ---- */
 
-static MesoStatus make_levels(MesoShapes *shapes, MesoArena *arena, MesoError *error)
+static MesoStatus measure_kinds(MesoShapes *shapes, MesoArena *arena, MesoError *error)
 {
     const MesoScene *scene = shapes->scene;
     shapes->details = MESO_NEW(arena, MesoKindDetail, scene->kind_count, error);
-    if (!shapes->details)
+    shapes->scales = MESO_NEW(arena, float, scene->kind_count, error);
+    shapes->columns = MESO_NEW(arena, MesoShapeColumns,
+                               (size_t)scene->kind_count * MESO_SHAPE_LEVELS * MESO_SHAPE_USES, error);
+    if (!shapes->details || !shapes->scales || !shapes->columns)
         return MESO_ERR_MEMORY;
-    for (uint32_t k = 0; k < scene->kind_count; k++)
+    for (uint32_t k = 0; k < scene->kind_count; k++) {
         shapes->details[k] = meso_kind_detail(scene, &scene->kinds[k]);
-    shapes->columns = meso_shape_levels(arena, scene, shapes->details, shapes->finest, error);
-    return shapes->columns ? MESO_OK : MESO_ERR_MEMORY;
+        shapes->scales[k] = scene->section_scale * meso_scene_kind_size(scene, &scene->kinds[k]) *
+                            shapes->details[k].stretch.most;
+    }
+    return MESO_OK;
+}
+
+MesoStatus meso_shapes_ready(MesoShapes *shapes, MesoArena *arena, MesoShapeUse use, float low, float high,
+                             MesoError *error)
+{
+    const MesoLevelRange range = {use, low, high, shapes->finest};
+    return meso_shape_levels(shapes->columns, arena, shapes->scene, shapes->scales, &range, error);
 }
 
 /* ---- bodies ---- */
-
-typedef struct Moving {
-    const MesoScene *scene;
-    const uint32_t *which;
-    MesoVec3 **positions, **normals;
-    bool failed;
-} Moving;
-
-static void move_bodies(void *context, uint64_t begin, uint64_t end)
-{
-    Moving *m = context;
-    for (uint64_t i = begin; i < end; i++) {
-        const MesoPlacedBody *placed = &m->scene->placed[m->which[i]];
-        uint32_t count = m->scene->bodies[placed->body].vertex_count;
-        MesoMeshVertex *vertices = malloc((count ? count : 1) * sizeof *vertices);
-        if (!vertices) {
-            __atomic_store_n(&m->failed, true, __ATOMIC_RELAXED);
-            continue;
-        }
-        meso_placed_vertices(m->scene, placed, vertices);
-        for (uint32_t v = 0; v < count; v++) {
-            m->positions[i][v] = vertices[v].position;
-            m->normals[i][v] = vertices[v].normal;
-        }
-        free(vertices);
-    }
-}
-
-static MesoStatus place_bodies(MesoShapes *shapes, MesoArena *arena, uint32_t thread_count, MesoError *error)
-{
-    const MesoScene *scene = shapes->scene;
-    uint32_t *which = MESO_NEW(arena, uint32_t, scene->placed_count, error), moved = 0;
-    MesoVec3 **positions = MESO_NEW(arena, MesoVec3 *, scene->placed_count, error);
-    MesoVec3 **normals = MESO_NEW(arena, MesoVec3 *, scene->placed_count, error);
-    shapes->positions = MESO_NEW(arena, const MesoVec3 *, scene->placed_count, error);
-    shapes->normals = MESO_NEW(arena, const MesoVec3 *, scene->placed_count, error);
-    shapes->mirrored = MESO_NEW(arena, bool, scene->placed_count, error);
-    if (!which || !positions || !normals || !shapes->positions || !shapes->normals || !shapes->mirrored)
-        return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < scene->placed_count; i++) {
-        const MesoPlacedBody *placed = &scene->placed[i];
-        const MesoBody *body = &scene->bodies[placed->body];
-        shapes->positions[i] = body->positions;
-        shapes->normals[i] = body->normals;
-        if (placed->place == MESO_PLACED_HERE)
-            continue;
-        shapes->mirrored[i] = meso_placed_is_mirrored(scene, placed);
-        positions[moved] = MESO_NEW(arena, MesoVec3, body->vertex_count, error);
-        normals[moved] = MESO_NEW(arena, MesoVec3, body->vertex_count, error);
-        if (!positions[moved] || !normals[moved])
-            return MESO_ERR_MEMORY;
-        shapes->positions[i] = positions[moved];
-        shapes->normals[i] = normals[moved];
-        which[moved++] = i;
-    }
-    Moving m = {scene, which, positions, normals, false};
-    meso_parallel_for(thread_count, moved, 16, move_bodies, &m);
-    return m.failed ? meso_fail(error, MESO_ERR_MEMORY, "out of memory for the bodies") : MESO_OK;
-}
 
 static MesoStatus make_runs(MesoShapes *shapes, MesoArena *arena, MesoError *error)
 {
@@ -123,7 +75,7 @@ static MesoBox run_box(const MesoShapes *shapes, const MesoShapeRun *run)
         uint32_t sides;
         const uint32_t *v = face_of(body, f, &sides);
         for (uint32_t k = 0; k < sides; k++)
-            meso_box_add(&box, meso_vec3_sub(shapes->positions[run->placed][v[k]], shapes->anchor));
+            meso_box_add(&box, meso_vec3_sub(shapes->bodies.positions[run->placed][v[k]], shapes->anchor));
     }
     return box;
 }
@@ -314,8 +266,8 @@ MesoBox meso_shapes_box(const MesoShapes *shapes)
     return box;
 }
 
-MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
-                            uint32_t thread_count, MesoError *error)
+MesoStatus meso_shapes_begin(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
+                             uint32_t thread_count, MesoError *error)
 {
     float size = meso_vec3_length(meso_vec3_sub(scene->box.high, scene->box.low));
     *shapes = (MesoShapes){.scene = scene, .near = *scene, .anchor = anchor, .finest = 1e-6f * size,
@@ -326,12 +278,21 @@ MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScen
         status = shapes->near.cages ? MESO_OK : MESO_ERR_MEMORY;
     }
     if (!status)
-        status = place_bodies(shapes, arena, thread_count, error);
+        status = meso_shape_bodies(&shapes->bodies, arena, scene, thread_count, error);
     if (!status)
-        status = make_levels(shapes, arena, error);
+        status = measure_kinds(shapes, arena, error);
     if (!status)
         status = bound_all(shapes, arena, thread_count, error);
     return status ? status : make_bundles(shapes, arena, error);
+}
+
+MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
+                            uint32_t thread_count, MesoError *error)
+{
+    MesoStatus status = meso_shapes_begin(shapes, arena, scene, anchor, thread_count, error);
+    for (int use = 0; use < MESO_SHAPE_USES && !status; use++)
+        status = meso_shapes_ready(shapes, arena, (MesoShapeUse)use, 0, INFINITY, error);
+    return status;
 }
 
 /* ---- meshes ---- */
@@ -449,7 +410,8 @@ static bool make_sweep(const MesoShapes *shapes, uint32_t number, uint32_t k, co
     const MesoShapeColumns *columns = meso_shape_level(shapes->columns, shapes->finest, k, tolerance, wanted->use);
     MesoSweepInstance instance = anchored(shapes, *sweep);
     MesoSweepBend bend = shapes->bends ? shapes->bends[number] : meso_detail_bend(kind, &shapes->details[k], &instance);
-    uint32_t rings = meso_detail_bend_rings(kind, &shapes->details[k], bend, tolerance, wanted->use != MESO_SHAPE_SHADOW);
+    bool seen = wanted->use != MESO_SHAPE_SHADOW;
+    uint32_t rings = meso_detail_bend_rings(kind, &shapes->details[k], bend, tolerance, seen);
     if (!make_room(mesh, (uint64_t)columns->count * rings, 2 * (uint64_t)columns->side_count * (rings - 1)))
         return false;
     mesh->closed = columns->closed;
@@ -483,8 +445,8 @@ static void cut_face(uint32_t corners[6], uint32_t first, uint32_t sides, bool m
 static bool make_run(const MesoShapes *shapes, const MesoShapeRun *run, MesoShapeMesh *mesh)
 {
     const MesoBody *body = &shapes->scene->bodies[shapes->scene->placed[run->placed].body];
-    const MesoVec3 *positions = shapes->positions[run->placed], *normals = shapes->normals[run->placed];
-    bool mirrored = shapes->mirrored[run->placed];
+    const MesoVec3 *positions = shapes->bodies.positions[run->placed], *normals = shapes->bodies.normals[run->placed];
+    bool mirrored = shapes->bodies.mirrored[run->placed];
     if (!make_room(mesh, 4 * (uint64_t)run->face_count, 2 * (uint64_t)run->face_count))
         return false;
     if (run->face_count > mesh->run_room) {
@@ -587,7 +549,7 @@ static void run_corners(const MesoShapes *shapes, const MesoShapeRun *run, uint3
     uint32_t sides, halves[6];
     const MesoBody *body = &shapes->scene->bodies[shapes->scene->placed[run->placed].body];
     const uint32_t *v = face_of(body, run->face_begin + triangle / 2, &sides);
-    cut_face(halves, 0, sides, shapes->mirrored[run->placed]);
+    cut_face(halves, 0, sides, shapes->bodies.mirrored[run->placed]);
     for (uint32_t i = 0; i < 3; i++)
         corners[i] = (MesoShapeCorner){.vertex = v[halves[3 * (triangle % 2) + i]]};
 }
@@ -607,7 +569,7 @@ MesoVec3 meso_shape_corner_at(const MesoShapes *shapes, uint32_t shape, const Me
     const MesoScene *scene = &shapes->near;
     if (shape >= scene->sweep_count) {
         const MesoShapeRun *run = &shapes->runs[shape - scene->sweep_count];
-        return meso_vec3_sub(shapes->positions[run->placed][corner->vertex], shapes->anchor);
+        return meso_vec3_sub(shapes->bodies.positions[run->placed][corner->vertex], shapes->anchor);
     }
     const MesoSweptKind *kind = &scene->kinds[kind_of(shapes, shape)];
     MesoSweepInstance instance = anchored(shapes, meso_scene_sweep(shapes->scene, shape));

@@ -7,7 +7,9 @@
 
 #include "libcore/base/arena.h"
 #include "libcore/render/raster/raster_view.h"
+#include "libcore/render/raster/shape_bodies.h"
 #include "libcore/render/raster/shape_levels.h"
+#include "libcore/scene/detail.h"
 #include "libcore/scene/sweep_maker.h"
 
 enum { MESO_SHAPE_FACES = 128 };        /* of a body, at most */
@@ -24,26 +26,35 @@ typedef struct MesoShapes {
     MesoScene near;             /* the scene, with cages relative to it where sections deform */
     uint32_t count;             /* sweeps first, by their numbers in the scene, then runs */
     MesoShapeRun *runs;         /* [count - sweep_count] */
-    const MesoVec3 **positions, **normals;      /* [placed_count] in the world */
-    bool *mirrored;             /* [placed_count] faces run the other way */
+    MesoShapeBodies bodies;
     uint32_t made;              /* sweeps that the scene's maker makes: all, or none */
     uint32_t *kind_of;          /* [sweep_count], where they are stored */
     MesoKindDetail *details;    /* [kind_count] */
+    float *scales;              /* [kind_count] scene units to a unit of the profiles, at most */
     MesoSweepBend *bends;       /* [sweep_count], where they are stored */
     MesoBox *bounds;            /* [count - made] of the rest, relative to the anchor */
     uint32_t bundle_count;      /* those of the maker, then others, of shapes one after the other */
     MesoBox *bundle_bounds;     /* [bundle_count], where sweeps are made */
     float finest;
-    MesoShapeColumns *columns;  /* [kind_count * MESO_SHAPE_LEVELS * MESO_SHAPE_USES] */
+    MesoShapeColumns *columns;  /* [kind_count * MESO_SHAPE_LEVELS * MESO_SHAPE_USES] those that are ready */
 } MesoShapes;
 
 /*
  * What is there lives in `arena`; of sweeps that the scene has a maker of, nothing does. Bodies that are placed by a
- * frame or in a cage are moved there once: 24 bytes a vertex.
+ * frame or in a cage are moved there once: 24 bytes a vertex. All of it is ready to be made with any tolerance.
  * O(sweeps + columns * levels + vertices + faces). MESO_ERR_MEMORY, or MESO_ERR_LIMIT for more than 2^32 - 2 shapes.
  */
 MesoStatus meso_shapes_init(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
                             uint32_t thread_count, MesoError *error);
+
+/*
+ * The same in two steps: after the first, nothing is ready; the second gets `use` ready for tolerances from `low` to
+ * `high`, scene units, of which pictures need few.
+ */
+MesoStatus meso_shapes_begin(MesoShapes *shapes, MesoArena *arena, const MesoScene *scene, MesoVec3 anchor,
+                             uint32_t thread_count, MesoError *error);
+MesoStatus meso_shapes_ready(MesoShapes *shapes, MesoArena *arena, MesoShapeUse use, float low, float high,
+                             MesoError *error);
 
 /* The box around a shape, relative to the anchor. */
 MesoBox meso_shape_bounds(const MesoShapes *shapes, uint32_t shape);
