@@ -5,7 +5,7 @@
 
 /* ---- which folds there are ---- */
 
-enum { PLACES = 16, MOST_LINES = 32, LEVELS = 8, EASES = 3 };
+enum { PLACES = 16, CLOSE_PLACES = 64, WAYS = 16, MOST_LINES = 3 * WAYS, LEVELS = 8, EASES = 3 };
 
 /*
  * Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards; and along a creased one, where
@@ -13,13 +13,16 @@ enum { PLACES = 16, MOST_LINES = 32, LEVELS = 8, EASES = 3 };
  */
 static const float FORWARDS = 0.1f, CREASED_FORWARDS = 0.2f;
 
+/* And along one whose rings lie across the trajectory, wherever they are looked at close by. */
+static const float PLAIN_FORWARDS = 0.02f;
+
 /*
- * Whether all bends are wider than that, as most sweeps' are, by the control points: no place is slower than the
+ * Whether all bends are wider than the section reaches, as most sweeps' are, by the control points: no place is slower than the
  * slowest span along the way from end to end, and none bends more than the sharpest of their corners.
  */
 static bool is_wide(const MesoSweepInstance *sweep, float reach)
 {
-    const float rounding = 0.99f;
+    const float rounding = 0.99f * (1 - PLAIN_FORWARDS);
     const MesoVec3 *p = sweep->p;
     MesoVec3 d0 = meso_vec3_sub(p[1], p[0]), d1 = meso_vec3_sub(p[2], p[1]), d2 = meso_vec3_sub(p[3], p[2]);
     MesoVec3 along = meso_vec3_unit(meso_vec3_sub(p[3], p[0]), (MesoVec3){0, 0, 0});
@@ -71,12 +74,54 @@ static bool is_steady(const MesoScene *scene, const MesoSweepInstance *sweep)
 /* Whether some bend is narrower than the section reaches. */
 static bool is_narrow(const MesoSweepInstance *sweep, float reach)
 {
-    for (uint32_t i = 0; i <= PLACES; i++) {
-        float v = (float)i / PLACES;
+    const float most = (1 - PLAIN_FORWARDS) * (1 - PLAIN_FORWARDS);
+    for (uint32_t i = 0; i <= CLOSE_PLACES; i++) {
+        float v = (float)i / CLOSE_PLACES;
         MesoVec3 first = meso_bezier_derivative(sweep->p, v);
         MesoVec3 bend = meso_vec3_cross(first, meso_bezier_second_derivative(sweep->p, v));
         float square = meso_vec3_dot(first, first);
-        if (!(reach * reach * meso_vec3_dot(bend, bend) < square * square * square))
+        if (!(reach * reach * meso_vec3_dot(bend, bend) < most * square * square * square))
+            return true;
+    }
+    return false;
+}
+
+/* The curvature of the trajectory, towards the middle of its circle; (0, 0, 0) where it stands still. */
+static MesoVec3 curvature(const MesoSweepInstance *sweep, float v)
+{
+    MesoVec3 first = meso_bezier_derivative(sweep->p, v), second = meso_bezier_second_derivative(sweep->p, v);
+    float square = meso_vec3_dot(first, first);
+    if (!(square > 0))
+        return (MesoVec3){0, 0, 0};
+    MesoVec3 bend = meso_vec3_mad(second, -meso_vec3_dot(second, first) / square, first);
+    return meso_vec3_scale(bend, 1 / square);
+}
+
+/* Whether a section reaches beyond where rings meet that lie across the trajectory, which bends so. */
+static bool meets_at(const MesoScene *scene, const MesoSweepTrack *track, MesoVec3 bend, float v)
+{
+    const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
+    const float *size = track->sweep->size;
+    MesoSweepPlane plane = meso_sweep_plane(&track->frames, v);
+    MesoSweepBlend blend = meso_sweep_blend(track, v);
+    MesoVec2 b = {meso_vec3_dot(bend, plane.x), meso_vec3_dot(bend, plane.y)};
+    float most = 0;
+    for (uint32_t c = 0; c < track->kind->column_count; c++) {
+        MesoVec2 s = meso_sweep_place_on(track, &blend, meso_vec2_scale(columns[c].start, size[0]),
+                                         meso_vec2_scale(columns[c].end, size[1]));
+        most = fmaxf(most, s.x * b.x + s.y * b.y);
+    }
+    return scene->section_scale * most > 1 - PLAIN_FORWARDS;
+}
+
+/* Whether a line along a sweep without a mitre runs backwards, or nearly so, where bends are narrow. */
+static bool runs_backwards(const MesoScene *scene, const MesoSweepTrack *track, float reach)
+{
+    const float narrow = 1 - PLAIN_FORWARDS;
+    for (uint32_t i = 0; i <= CLOSE_PLACES; i++) {
+        float v = (float)i / CLOSE_PLACES;
+        MesoVec3 bend = curvature(track->sweep, v);
+        if (reach * reach * meso_vec3_dot(bend, bend) >= narrow * narrow && meets_at(scene, track, bend, v))
             return true;
     }
     return false;
@@ -123,18 +168,47 @@ typedef struct Lines {
     MesoVec2 at[PLACES + 1][MOST_LINES];
 } Lines;
 
+/*
+ * Columns of which some section reaches furthest in one of several directions: lines between them run no slower than
+ * the slowest of these. Three places will do, as sections between them are blends. All, where these are few.
+ */
+static uint32_t outer_columns(const MesoScene *scene, const MesoSweepTrack *track, uint32_t outer[MOST_LINES])
+{
+    const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
+    uint32_t column_count = track->kind->column_count, count = 0;
+    for (uint32_t c = 0; column_count <= MOST_LINES && c < column_count; c++)
+        outer[count++] = c;
+    for (uint32_t k = 0; column_count > MOST_LINES && k < MOST_LINES; k++) {
+        MesoSweepBlend blend = meso_sweep_blend(track, 0.5f * (float)(k / WAYS));
+        MesoSweepAngle way = meso_sweep_angle((float)(2 * MESO_PI / WAYS) * (float)(k % WAYS));
+        float furthest = -INFINITY;
+        uint32_t column = 0, i = 0;
+        for (uint32_t c = 0; c < column_count; c++) {
+            MesoVec2 s = meso_sweep_place_on(track, &blend, meso_vec2_scale(columns[c].start, track->sweep->size[0]),
+                                             meso_vec2_scale(columns[c].end, track->sweep->size[1]));
+            float far = s.x * way.c + s.y * way.s;
+            column = far > furthest ? c : column;
+            furthest = fmaxf(far, furthest);
+        }
+        while (i < count && outer[i] != column)
+            i++;
+        outer[i] = column;
+        count = i == count ? count + 1 : count;
+    }
+    return count;
+}
+
 static void take_lines(Lines *lines, const MesoScene *scene, const MesoSweepTrack *track)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
-    uint32_t count = track->kind->column_count, step = (count + MOST_LINES - 1) / MOST_LINES;
+    uint32_t outer[MOST_LINES];
+    lines->count = outer_columns(scene, track, outer);
     for (uint32_t i = 0; i <= PLACES; i++) {
         MesoSweepBlend blend = meso_sweep_blend(track, (float)i / PLACES);
-        lines->count = 0;
-        for (uint32_t c = 0; c < count; c += step) {
-            MesoVec2 start = meso_vec2_scale(columns[c].start, track->sweep->size[0]);
-            MesoVec2 end = meso_vec2_scale(columns[c].end, track->sweep->size[1]);
-            lines->at[i][lines->count++] = meso_vec2_scale(meso_sweep_place_on(track, &blend, start, end),
-                                                           scene->section_scale);
+        for (uint32_t k = 0; k < lines->count; k++) {
+            MesoVec2 start = meso_vec2_scale(columns[outer[k]].start, track->sweep->size[0]);
+            MesoVec2 end = meso_vec2_scale(columns[outer[k]].end, track->sweep->size[1]);
+            lines->at[i][k] = meso_vec2_scale(meso_sweep_place_on(track, &blend, start, end), scene->section_scale);
         }
     }
 }
@@ -250,12 +324,12 @@ static void add_crease(const MesoScene *scene, const MesoSweptKind *kind, MesoSw
 }
 
 /* The least mitre whose lines run forwards as fast as they are to; false if there is none. */
-static bool add_mitre(const MesoScene *scene, const MesoSweptKind *kind, MesoSweepInstance *sweep)
+static bool add_mitre(const MesoScene *scene, const MesoSweptKind *kind, float reach, MesoSweepInstance *sweep)
 {
     MesoSweepTrack track = meso_sweep_track(scene, kind, sweep);
     Lines lines;
     take_lines(&lines, scene, &track);
-    if (least_forwards(&track, &lines, -INFINITY) >= 0)
+    if (!runs_backwards(scene, &track, reach) && least_forwards(&track, &lines, -INFINITY) >= 0)
         return true;
     for (uint32_t i = 1; i <= LEVELS; i++) {
         sweep->mitre = (float)i / LEVELS;
@@ -274,6 +348,6 @@ void meso_sweep_add_mitre(const MesoScene *scene, const MesoSweptKind *kind, Mes
     bool flip = !is_steady(scene, sweep) && flips_drawn(sweep);
     if (!flip && (is_wide(sweep, radius) || !is_narrow(sweep, radius)))
         return;
-    if (flip || !add_mitre(scene, kind, sweep) || flips(scene, sweep, radius))
+    if (flip || !add_mitre(scene, kind, radius, sweep) || flips(scene, sweep, radius))
         add_crease(scene, kind, sweep);
 }
