@@ -141,8 +141,9 @@ vec3 ring_tangent(float v)
 #ifdef CREASED
     if (creased()) {
         float k = floor(m / CREASE);
+        float w = v * v * (3.0 - 2.0 * v);
         m -= CREASE * k;
-        u += exp2(1.0 - k) * (v * v * (3.0 - 2.0 * v) - v);
+        u = k < 4.0 ? v + exp2(1.0 - k) * (w - v) : w * w * (3.0 - 2.0 * w);
     }
 #endif
     vec3 tangent = unit(derivative_at(u), u > 0.5 ? direction1 : direction0);
@@ -255,7 +256,8 @@ void crease(float v, vec3 tangent, vec3 x, inout Section section)
     b = normalize(b);
     if (!(dot(section.s, b) > 0.0))
         return;
-    float kept = (from + room * over / (1.0 + over)) / far;
+    float kept = (from + room * over / (1.0 + over)) / far, left = max(1.0 - 16.0 * min(v, 1.0 - v), 0.0);
+    kept += left * left * (1.0 - kept);
     section.s += (kept - 1.0) * dot(section.s, b) * b;
     section.n = kept * section.n + (1.0 - kept) * dot(section.n, b) * b;
 }

@@ -184,7 +184,8 @@ MesoSweepBend meso_detail_bend(const MesoSweptKind *kind, const MesoKindDetail *
     if (kind->cap)
         return (MesoSweepBend){0, 0};
     float spread = fabsf(kind->turn) + fabsf(instance->twist);
-    float hurry = instance->mitre < MESO_CREASED ? 1 : 2;       /* rings turn within less than the whole, and change */
+    float most = MESO_CREASE_EASES * MESO_CREASED;  /* rings of creases turn within less than the whole, and change */
+    float hurry = instance->mitre < MESO_CREASED ? 1 : instance->mitre < most ? 2 : 3;
     float turn = hurry * (turn_of(instance) + 1.5f * spread);
     float second = bend_of(instance, detail) + 6 * detail->change +
                    detail->radius * (size_change(instance) + turn * turn + 6 * spread);

@@ -36,9 +36,9 @@
  * is not always that of T: dot(T, P'(v)) n - dot(n, B'(v) + section_scale s'(v)) T made unit.
  *
  * A crease keeps a tube from folding that no mitre does, as its ends lie within each other's sections, or as its frame
- * would flip. Its mitre is MESO_CREASED k + m, with k 1, 2 or 3 and m in [0,1]:
+ * would flip. Its mitre is MESO_CREASED k + m, with k 1, 2, 3 or 4 and m in [0,1]:
  *
- *     u(v)    v + 2^(1-k) (w(v) - v): with k 1 rings do not turn at the ends
+ *     u(v)    v + 2^(1-k) (w(v) - v): with k 1 rings do not turn at the ends; with k 4 w(w(v)): nor next to them
  *     E(u)    also by way of p[3] - p[0] where that is over 90 degrees from an end's direction; in any case it is there
  *             after the part |p[1] - p[0]| of |p[1] - p[0]| + |p[3] - p[2]| of the length, a tenth at least
  *     X(v)    as unit cross(up[0], T), and turned no more than it has to be, in MESO_FRAME_STEPS equal steps straight
@@ -47,8 +47,9 @@
  *
  * and what of s lies inwards, where dot(s, b) > 0, keeps of its length along b only a part: such that the furthest of
  * the section, R from its trajectory, stays at 0.2 + 0.55 t / (1 + t) of that way, where it were at R |b|, which is
- * 0.2 + 0.55 t; all of it where that is below 0.2, and at the ends, which are the neighbours', too. The normal is that
- * of a mitre, frames that turn about T counted in.
+ * 0.2 + 0.55 t; all of it where that is below 0.2, and at the ends, which are the neighbours', too: nearer to one than
+ * 1/16, of what is not kept the square of the part of that way is. The normal is that of a mitre, frames that turn
+ * about T counted in.
  *
  * A cap has the straight axis T = direction[0], X and Y from up[0], s = size[0] start, and
  *
@@ -77,6 +78,9 @@ enum { MESO_FRAME_STEPS = 8 };
 
 /* A sweep whose mitre is no less has a crease. */
 #define MESO_CREASED 2.0f
+
+/* Its largest k. */
+#define MESO_CREASE_EASES 4
 
 /*
  * What tells the parts of a scene apart: "slot" and "tile", "region", "element". Each part has one id in every

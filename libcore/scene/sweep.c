@@ -52,6 +52,9 @@ MesoSweepMeeting meso_sweep_meet_turned(const MesoSweepTrack *track, const MesoS
 /* Of the way to where rings meet: up to where sections may reach as they are, and what they never do. */
 static const float CREASE_FROM = 0.2f, CREASE_TO = 0.75f;
 
+/* Nearer to an end than that a crease is weaker, and not there at it. */
+static const float CREASE_WITHIN = 1.0f / 16;
+
 void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, MesoVec2 bend)
 {
     const float room = CREASE_TO - CREASE_FROM;
@@ -60,7 +63,9 @@ void meso_sweep_crease(MesoSweepBlend *blend, const MesoSweepTrack *track, MesoV
     if (!(over > 0))
         return;
     blend->inwards = meso_vec2_scale(bend, 1 / length);
-    blend->kept = (CREASE_FROM + room * over / (1 + over)) / reach;
+    float kept = (CREASE_FROM + room * over / (1 + over)) / reach;
+    float left = fmaxf(1 - fminf(blend->v, 1 - blend->v) / CREASE_WITHIN, 0);
+    blend->kept = kept + left * left * (1 - kept);
 }
 
 /* ---- vertices ---- */

@@ -63,6 +63,14 @@ void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
                          MesoMeshVertex *out);
 void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_t base, MesoMeshFace *out);
 
+/*
+ * How many triangles of a sweep, no cap, are against the normals of all their corners, or nearly, with all columns and
+ * even rings, as many as the kind has, but 64 at most, whichever way quads are cut; or a number over `enough`, if they
+ * are more. O(columns * rings).
+ */
+uint32_t meso_sweep_against(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
+                            uint32_t enough);
+
 /* Counts what is absent in the columns of a kind, and what is joined. */
 void meso_sweep_count(MesoSweptKind *kind, const MesoSweepColumn *columns);
 

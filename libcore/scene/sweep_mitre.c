@@ -5,7 +5,7 @@
 
 /* ---- which folds there are ---- */
 
-enum { PLACES = 16, CLOSE_PLACES = 64, WAYS = 16, MOST_LINES = 3 * WAYS, LEVELS = 8, EASES = 3 };
+enum { PLACES = 16, CLOSE_PLACES = 64, WAYS = 16, MOST_LINES = 3 * WAYS, LEVELS = 8, CLOSE_LEVELS = 29 };
 
 /*
  * Of the trajectory's speed: how fast lines along a mitred sweep are to run forwards; and along a creased one, where
@@ -297,28 +297,65 @@ static float creased_twist(const MesoSweptKind *kind, const MesoSweepFrames *fra
     return fabsf(kind->turn) > half || fabsf(sum) <= half ? twist : sum > 0 ? twist - 2 * half : twist + 2 * half;
 }
 
+/* Creases of a sweep that are tried. */
+typedef struct Creases {
+    MesoSweepInstance trial;
+    MesoSweepTrack track;
+    Lines lines;
+    float forwards;             /* of the best so far */
+} Creases;
+
+static void begin_creases(Creases *creases, const MesoScene *scene, const MesoSweptKind *kind,
+                          const MesoSweepInstance *sweep)
+{
+    creases->trial = *sweep;
+    creases->trial.mitre = MESO_CREASED;
+    creases->trial.twist = 0;
+    creases->track = meso_sweep_track(scene, kind, &creases->trial);
+    creases->forwards = -INFINITY;
+    take_lines(&creases->lines, scene, &creases->track);
+}
+
+/* The i-th of so many of each k. */
+static void try_crease(Creases *creases, const MesoScene *scene, const MesoSweptKind *kind, uint32_t i, uint32_t levels)
+{
+    creases->trial.mitre = MESO_CREASED * (float)(1 + i / levels) + (float)(i % levels) / (float)(levels - 1);
+    creases->track.frames = meso_sweep_frames(scene->frame_rule, &creases->trial);
+    creases->trial.twist = creased_twist(kind, &creases->track.frames);
+}
+
+static void take_crease(Creases *creases, float forwards, MesoSweepInstance *sweep)
+{
+    creases->forwards = forwards;
+    sweep->mitre = creases->trial.mitre;
+    sweep->twist = creases->trial.twist;
+}
+
 /*
  * The first crease whose lines run forwards as fast as they are to, or else that whose lines run fastest; those whose
- * rings turn next to the ends, too, come last.
+ * rings turn next to the ends, too, come last. Where faces are against their normals nevertheless, the one of which
+ * fewest are, and of these that whose lines run fastest.
  */
 static void add_crease(const MesoScene *scene, const MesoSweptKind *kind, MesoSweepInstance *sweep)
 {
-    MesoSweepInstance trial = *sweep;
-    Lines lines;
-    float most = -INFINITY;
-    trial.mitre = MESO_CREASED;
-    trial.twist = 0;
-    MesoSweepTrack track = meso_sweep_track(scene, kind, &trial);
-    take_lines(&lines, scene, &track);
-    for (uint32_t i = 0; i < EASES * LEVELS && most < CREASED_FORWARDS; i++) {
-        trial.mitre = MESO_CREASED * (float)(1 + i / LEVELS) + (float)(i % LEVELS) / (LEVELS - 1);
-        track.frames = meso_sweep_frames(scene->frame_rule, &trial);
-        trial.twist = creased_twist(kind, &track.frames);
-        float least = least_creased(&track, &lines, most);
-        if (least > most) {
-            most = least;
-            sweep->mitre = trial.mitre;
-            sweep->twist = trial.twist;
+    Creases creases;
+    begin_creases(&creases, scene, kind, sweep);
+    for (uint32_t i = 0; i < (MESO_CREASE_EASES - 1) * LEVELS && creases.forwards < CREASED_FORWARDS; i++) {
+        try_crease(&creases, scene, kind, i, LEVELS);
+        float forwards = least_creased(&creases.track, &creases.lines, creases.forwards);
+        if (forwards > creases.forwards)
+            take_crease(&creases, forwards, sweep);
+    }
+    uint32_t fewest = meso_sweep_against(scene, kind, sweep, UINT32_MAX);
+    for (uint32_t i = 0, count = fewest > 0 ? MESO_CREASE_EASES * CLOSE_LEVELS : 0; i < count; i++) {
+        try_crease(&creases, scene, kind, i, CLOSE_LEVELS);
+        uint32_t against = meso_sweep_against(scene, kind, &creases.trial, fewest);
+        if (against > fewest)
+            continue;
+        float forwards = least_creased(&creases.track, &creases.lines, -INFINITY);
+        if (against < fewest || forwards > creases.forwards) {
+            fewest = against;
+            take_crease(&creases, forwards, sweep);
         }
     }
 }

@@ -71,11 +71,18 @@ static MesoVec3 even_direction(const MesoSweepFrames *frames, float v)
     return t < way ? turn_to(ends[0], across, t / way) : turn_to(across, ends[1], (t - way) / (1 - way));
 }
 
+/* u. */
+static float eased(const MesoSweepFrames *frames, float v)
+{
+    float w = v * v * (3 - 2 * v);
+    return frames->ease > 1 ? w * w * (3 - 2 * w) : v + frames->ease * (w - v);
+}
+
 /* T. */
 static MesoVec3 ring_tangent(const MesoSweepFrames *frames, float v)
 {
     const MesoSweepInstance *sweep = frames->sweep;
-    float u = v + frames->ease * (v * v * (3 - 2 * v) - v);
+    float u = eased(frames, v);
     MesoVec3 end = sweep->direction[u > 0.5f], tangent = meso_vec3_unit(meso_bezier_derivative(sweep->p, u), end);
     if (frames->lean > 0)
         tangent = meso_vec3_unit(meso_vec3_lerp(tangent, even_direction(frames, u), frames->lean), tangent);
@@ -160,7 +167,8 @@ MesoSweepFrames meso_sweep_frames(MesoFrameRule rule, const MesoSweepInstance *s
     bool creased = sweep->mitre >= MESO_CREASED;
     float k = floorf(sweep->mitre / MESO_CREASED);
     MesoSweepFrames frames = {.sweep = sweep, .rule = creased ? MESO_FRAME_MINIMAL : rule,
-                              .lean = sweep->mitre - MESO_CREASED * k, .ease = creased ? exp2f(1 - k) : 0};
+                              .lean = sweep->mitre - MESO_CREASED * k,
+                              .ease = !creased ? 0 : k < MESO_CREASE_EASES ? exp2f(1 - k) : 2};
     if (sweep->mitre > 0)
         frames.length = length_to(sweep, 1);
     if (frames.rule == MESO_FRAME_MINIMAL)

@@ -30,7 +30,7 @@ typedef struct MesoSweepFrames {
     const MesoSweepInstance *sweep;
     MesoFrameRule rule;
     float length;           /* of the trajectory, where there is a mitre */
-    float lean, ease;       /* m, and how much of the way from v to w(v) u goes */
+    float lean, ease;       /* m, and how much of the way from v to w(v) u goes; over 1: on to w(w(v)) */
     MesoSweepStation stations[MESO_FRAME_STEPS + 1];    /* of the rule that needs them */
 } MesoSweepFrames;
 

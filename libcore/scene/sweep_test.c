@@ -316,6 +316,79 @@ static void test_mitres(void)
     }
 }
 
+static MesoVec3 random_direction(MesoRandom *random)
+{
+    float c[3];
+    for (uint32_t i = 0; i < 3; i++)
+        c[i] = (float)meso_random_below(random, 2001) / 1000 - 1;
+    return (MesoVec3){c[0], c[1], c[2]};
+}
+
+/* From 0 to 1 along x, both handles off by so much. */
+static MesoSweepInstance make_wild_sweep(MesoRandom *random, float off)
+{
+    MesoSweepInstance sweep = {.p = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}}, .size = {1, 1},
+                               .up = {{0, 0, 1}, {0, 0, 1}}};
+    for (uint32_t k = 0; k < 2; k++)
+        sweep.p[1 + k] = meso_vec3_mad((MesoVec3){(float)(1 + k) / 3, 0, 0}, off, random_direction(random));
+    for (uint32_t end = 0; end < 2; end++)
+        sweep.direction[end] = meso_vec3_direction(meso_vec3_sub(sweep.p[1 + 2 * end], sweep.p[2 * end]),
+                                                   (MesoVec3){0, 0, 0});
+    return sweep;
+}
+
+/* The smallest radius of a trajectory's bends, and the place in the plane there, inwards. */
+static double narrowest_bend(const MesoSweepInstance *sweep, float *v)
+{
+    double narrowest = INFINITY;
+    for (uint32_t i = 0; i <= 4096; i++) {
+        MesoVec3 first = meso_bezier_derivative(sweep->p, (float)i / 4096);
+        MesoVec3 across = meso_vec3_cross(first, meso_bezier_second_derivative(sweep->p, (float)i / 4096));
+        double radius = pow((double)meso_vec3_length(first), 3) / (double)meso_vec3_length(across);
+        if (radius < narrowest) {
+            narrowest = radius;
+            *v = (float)i / 4096;
+        }
+    }
+    return narrowest;
+}
+
+/*
+ * Sections that reach a little beyond where rings meet at the narrowest place of a bend, wherever that is: a mitre
+ * keeps them from folding; those that reach nearly as far have none. Also of one column of many.
+ */
+static void test_narrowest_places(void)
+{
+    MesoVec2 profile[MOST_COLUMNS];
+    MesoRandom random;
+    uint32_t count = 100, folded = 0;
+    meso_random_init(&random, 5, 0);
+    for (uint32_t i = 0; i < 400; i++) {
+        float v = 0, reach = i % 2 ? 1.03f : 0.97f;
+        MesoSweepInstance wild = make_wild_sweep(&random, 0.25f);
+        double radius = narrowest_bend(&wild, &v);
+        make_disc(profile, count, (float)radius * (i & 2 ? 0.3f : reach));
+        if (i & 2) {        /* the one that points inwards there */
+            MesoSweepFrames frames = meso_sweep_frames(MESO_FRAME_MINIMAL, &wild);
+            MesoSweepPlane plane = meso_sweep_plane(&frames, v);
+            MesoVec3 bend = meso_bezier_second_derivative(wild.p, v);
+            double angle = atan2((double)meso_vec3_dot(bend, plane.y), (double)meso_vec3_dot(bend, plane.x));
+            uint32_t at = (uint32_t)lround(count * (1 - angle / (2 * MESO_PI))) % count;
+            profile[at] = (MesoVec2){reach * (float)(radius * cos(angle)), reach * (float)(radius * sin(angle))};
+        }
+        make_tube(profile, count, 0, 257);
+        tube.scene.frame_rule = MESO_FRAME_MINIMAL;
+        tube.sweep = wild;
+        sweep();
+        folded += count_folded() > 0;
+        add_mitre();
+        CHECK((tube.sweep.mitre > 0) == (i % 2 == 1));
+        sweep();
+        CHECK(count_folded() == 0);
+    }
+    CHECK(folded > 100);
+}
+
 /*
  * Where no mitre is enough, a crease is: around a corner that is nearer than the section is wide, to where it came from
  * and to an end behind the start, sections turning or not; and where the paper's frame flips, though nothing is narrow.
@@ -354,6 +427,52 @@ static void test_creases(void)
     }
 }
 
+/* Sections of creases go on into those of the ends, whether rings turn there or not. */
+static void test_crease_ends(void)
+{
+    MesoVec2 disc[32];
+    uint32_t width = make_disc(disc, 32, 0.24f) + 1;
+    for (uint32_t k = 1; k <= MESO_CREASE_EASES; k++) {
+        make_tube(disc, width - 1, 0, 401);
+        tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {0.2f, 0, 0}, {0.3f, 0.05f, 0}, {0.3f, 0.25f, 0}},
+                                         {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0,
+                                         MESO_CREASED * (float)k + 0.5f, 0, {0}};
+        sweep();
+        for (uint32_t c = 0; c < width; c++)
+            for (uint32_t r = 0; r < 400; r += 399) {
+                MesoVec3 here = tube.vertices[r * width + c].position;
+                CHECK(meso_vec3_length(meso_vec3_sub(tube.vertices[(r + 1) * width + c].position, here)) < 0.02f);
+            }
+    }
+}
+
+/*
+ * Hundreds of sweeps, of which most ends lie within each other: creases leave no more than a few faces against their
+ * normals, on few rings as on many, and of the sweeps of nine rings those are looked at that files have.
+ */
+static void test_wild_creases(void)
+{
+    static const float off[2] = {0.6f, 0.7f}, radii[2] = {0.24f, 0.15f};
+    MesoVec2 disc[32];
+    for (uint32_t i = 0; i < 2; i++) {
+        MesoRandom random;
+        uint32_t creased = 0, folded = 0, count = i == 0 ? 400 : 200, width = make_disc(disc, 32, radii[i]);
+        meso_random_init(&random, 11, 0);
+        for (uint32_t k = 0; k < count; k++) {
+            make_tube(disc, width, 0, i == 0 ? 9 : 33);
+            tube.sweep = make_wild_sweep(&random, off[i]);
+            for (uint32_t end = 0; end < 2; end++)
+                tube.sweep.up[end] = meso_vec3_mad((MesoVec3){0, 0, 1}, 0.5f, random_direction(&random));
+            add_mitre();
+            sweep();
+            creased += tube.sweep.mitre >= MESO_CREASED;
+            folded += count_folded();
+            CHECK(count_folded() <= meso_sweep_against(&tube.scene, &tube.kind, &tube.sweep, UINT32_MAX));
+        }
+        CHECK(creased > count / 2 && folded < count / 20);
+    }
+}
+
 /* The largest angle that the paper's X turns by from one sixteenth to the next, in radians. */
 static double largest_turn(const MesoSweepInstance *sweep)
 {
@@ -368,14 +487,6 @@ static double largest_turn(const MesoSweepInstance *sweep)
         before = x;
     }
     return largest;
-}
-
-static MesoVec3 random_direction(MesoRandom *random)
-{
-    float c[3];
-    for (uint32_t i = 0; i < 3; i++)
-        c[i] = (float)meso_random_below(random, 2001) / 1000 - 1;
-    return (MesoVec3){c[0], c[1], c[2]};
 }
 
 /* A thread, whose bends are wide, has a crease where its frame turns by over 30 degrees a sixteenth, else nothing. */
@@ -549,7 +660,10 @@ int main(void)
     test_normals();
     test_frames();
     test_mitres();
+    test_narrowest_places();
     test_creases();
+    test_crease_ends();
+    test_wild_creases();
     test_flips();
     test_bare();
     test_points();

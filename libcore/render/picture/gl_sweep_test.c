@@ -185,6 +185,7 @@ int main(void)
     test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, 0.25f, 0, true);
     test_rule(&arena, MESO_FRAME_MINIMAL, 1.2f, MESO_CREASED, 2 * MESO_CREASED + 0.75f, false);
     test_rule(&arena, MESO_FRAME_PAPER, -1.2f, MESO_CREASED + 0.25f, 0.75f, true);
+    test_rule(&arena, MESO_FRAME_PAPER, 0.6f, MESO_CREASE_EASES * MESO_CREASED + 0.5f, 3 * MESO_CREASED, false);
     test_bodies(&arena);
     meso_arena_release(&arena);
     return 0;
