@@ -17,8 +17,8 @@ static const float FORWARDS = 0.1f, CREASED_FORWARDS = 0.2f;
 static const float PLAIN_FORWARDS = 0.02f;
 
 /*
- * Whether all bends are wider than the section reaches, as most sweeps' are, by the control points: no place is slower than the
- * slowest span along the way from end to end, and none bends more than the sharpest of their corners.
+ * Whether all bends are wider than the section reaches, as most sweeps' are, by the control points: no place is slower
+ * than the slowest span along the way from end to end, and none bends more than the sharpest of their corners.
  */
 static bool is_wide(const MesoSweepInstance *sweep, float reach)
 {
