@@ -50,13 +50,6 @@ struct MesoTeam {
     Worker workers[];
 };
 
-static void relax(void)
-{
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#endif
-}
-
 static void take_share(const Loop *loop, Share *share, uint32_t worker)
 {
     while (atomic_load_explicit(&share->next, memory_order_relaxed) < share->end) {
@@ -87,7 +80,7 @@ static void wait_for_loop(MesoTeam *team, uint64_t seen)
     for (int i = 0; i < LOOKS; i++) {
         if (is_called(team, seen))
             return;
-        relax();
+        meso_relax();
     }
     pthread_mutex_lock(&team->lock);
     atomic_fetch_add(&team->sleepers, 1);
@@ -205,7 +198,7 @@ static void close_loop(MesoTeam *team)
 {
     atomic_fetch_and(&team->gate, ~open_bit);
     for (int i = 0; i < LOOKS && atomic_load(&team->gate); i++)
-        relax();
+        meso_relax();
     if (!atomic_load(&team->gate))
         return;
     pthread_mutex_lock(&team->lock);

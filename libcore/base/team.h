@@ -6,6 +6,14 @@
 
 typedef struct MesoTeam MesoTeam;
 
+/* A moment, between looks at what another thread does. */
+static inline void meso_relax(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
 /*
  * A team of `thread_count` threads (0: all cores), of which the one that calls its loops is one; those that the system
  * refuses are done without. NULL, a team of the caller alone, where it has no other.

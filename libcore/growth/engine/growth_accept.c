@@ -10,6 +10,7 @@ static void enter_tip(MesoGrowthWork *work, uint32_t number, uint32_t shoot, con
     uint32_t width = work->grammar->local_count;
     double *own = work->registers + (size_t)number * width;
     work->shoots[shoot] = number;
+    work->ended[number] = 0;
     if (registers)
         meso_copy_registers(own, registers, width);
     else
@@ -26,9 +27,11 @@ bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint3
     tip.state[MESO_STATE_X] = tip.foot.position[0];
     tip.state[MESO_STATE_Y] = tip.foot.position[1];
     tip.state[MESO_STATE_Z] = tip.foot.position[2];
-    work->branch_count++;
-    if (!meso_growth_make_rooms(work, 1))
+    if (!meso_growth_make_rooms(work, 0, 1, 1))
         return false;
+    work->branch_count++;
+    work->tip_count++;
+    work->shoot_count++;
     work->branches[tip.branch] = (MesoGrowthBranch){start->key, MESO_NO_INDEX, start->seed, MESO_NO_INDEX};
     work->tips[work->tip_count - 1] = tip;
     enter_tip(work, work->tip_count - 1, work->shoot_count - 1, NULL);
@@ -53,7 +56,7 @@ static void begin_branches(MesoGrowthWork *work, const MesoGrowthWindow *window,
         tip->raise = 0;
         tip->walks = tip->faces = 0;
         tip->done = true;
-        tip->rests = tip->ended = false;
+        tip->rests_in = 0;
         work->branches[branch] = (MesoGrowthBranch){shoot->key, parent->branch, parent->seed, MESO_NO_INDEX};
         enter_tip(work, window->first_tip + since, window->first_shoot + since,
                   batch->registers + (size_t)(turn->shoot_begin + i) * work->grammar->local_count);
@@ -129,7 +132,6 @@ static void accept_step(MesoGrowthWork *work, MesoGrowthTip *tip, const MesoGrow
     tip->open = !(turn->command.given >> MESO_GROWTH_END_WIDTH & 1);
     tip->moved = false;
     go_to(tip, turn);
-    tip->ended = turn->outcome == MESO_GROWTH_JOINS;
 }
 
 static void accept_place(MesoGrowthWork *work, const MesoGrowthTip *tip, const MesoGrowthTurn *turn)
@@ -160,7 +162,13 @@ static void tell(const MesoGrowthWork *work, const MesoGrowthTip *tip, const Mes
     work->options->event(work->options->context, &event);
 }
 
-static void begin_rule(const MesoGrowthWork *work, uint32_t number, const MesoGrowthCommand *command)
+static bool rests(const MesoGrowthWork *work, const MesoGrowthTip *tip)
+{
+    return tip->rests_in == (uint32_t)work->generation + 1;
+}
+
+static void begin_rule(const MesoGrowthWork *work, const MesoGrowthBatch *batch, uint32_t number,
+                       const MesoGrowthCommand *command)
 {
     MesoGrowthTip *tip = &work->tips[number];
     const MesoGrammarRule *rule = &work->grammar->rules[command->rule];
@@ -171,41 +179,64 @@ static void begin_rule(const MesoGrowthWork *work, uint32_t number, const MesoGr
         tip->state[MESO_STATE_GENERATION]++;
     tip->rule = command->rule;
     tip->walks = tip->faces = 0;
-    tip->rests = true;
+    tip->rests_in = (uint32_t)work->generation + 1;
+    batch->runs[command->rule]++;
 }
 
-static void end_turn(const MesoGrowthWork *work, uint32_t number, const MesoGrowthCommand *command)
+static void end_turn(const MesoGrowthWork *work, const MesoGrowthBatch *batch, uint32_t number,
+                     const MesoGrowthCommand *command)
 {
     if (command->order == MESO_GROWTH_RULE)
-        begin_rule(work, number, command);
+        begin_rule(work, batch, number, command);
     else if (command->order == MESO_GROWTH_END)
-        work->tips[number].ended = true;
+        work->ended[number] = 1;
+}
+
+static void turn_tip(void *context, double angle)
+{
+    meso_tip_turn(context, angle);
 }
 
 /*
- * The next turn of a branch, as soon as the last is done, where all it comes to is the end of the rule: nothing depends
- * on when that is, and so there is no turn to it. Anything else is left to the turn.
+ * The next turn of a branch, as soon as the last is done or it has begun, where all it comes to is the end of the rule:
+ * nothing depends on when that is, and so there is no turn to it. Anything else is left to the turn.
  */
-static void end_rule_early(const MesoGrowthWork *work, uint32_t number, MesoGrowthCommand *command)
+static void end_rule_early(const MesoGrowthWork *work, const MesoGrowthBatch *batch, uint32_t number,
+                           MesoGrowthCommand *command)
 {
     MesoGrowthTip *tip = &work->tips[number];
     uint32_t at = tip->run.stepped && !tip->done ? tip->run.refused : tip->run.at;
-    if (!work->ahead || tip->rests || tip->ended || (at != MESO_NO_INDEX && work->ahead[at] != MESO_AHEAD_END))
+    if (!work->ahead || rests(work, tip) || work->ended[number] ||
+        (at != MESO_NO_INDEX && work->ahead[at] != MESO_AHEAD_END))
         return;
     double registers[MESO_GRAMMAR_REGISTERS];
     uint32_t width = work->grammar->local_count;
-    const MesoGrowthHost host = {.state = tip->state};
+    MesoTip turned = tip->at;
+    const MesoGrowthHost host = {.context = &turned, .state = tip->state, .turn = turn_tip};
     MesoGrowthRun run = tip->run;
     meso_copy_registers(registers, work->registers + (size_t)number * width, width);
     meso_growth_resume(command, work->grammar, &run, registers, &host, tip->done);
     if (command->order != MESO_GROWTH_RULE && command->order != MESO_GROWTH_END)
         return;
+    tip->at = turned;
     tip->done = true;
-    end_turn(work, number, command);
+    end_turn(work, batch, number, command);
 }
 
-static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t number,
-                        const MesoGrowthTurn *turn)
+/* Branches that a turn has begun, of which nothing is left to do. */
+static void end_shoots_early(const MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch,
+                             const MesoGrowthTurn *turn, MesoGrowthCommand *command)
+{
+    for (uint32_t i = 0; i < turn->shoot_count; i++) {
+        uint32_t since = turn->branch_begin + i - window->first_branch, number = window->first_tip + since;
+        end_rule_early(work, batch, number, command);
+        if (rests(work, &work->tips[number]) || work->ended[number])
+            work->shoots[window->first_shoot + since] = MESO_NO_INDEX;
+    }
+}
+
+static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch,
+                        uint32_t number, const MesoGrowthTurn *turn)
 {
     MesoGrowthTip *tip = &work->tips[number];
     if (turn->shoot_count)
@@ -218,17 +249,21 @@ static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, ui
         accept_move(tip, turn);
     else if (turn->outcome == MESO_GROWTH_REFUSED)
         tip->done = false;
+    if (turn->outcome == MESO_GROWTH_JOINS)
+        work->ended[number] = 1;
     tell(work, tip, turn);
-    end_turn(work, number, &turn->command);
+    end_turn(work, batch, number, &turn->command);
 }
 
 void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t begin, uint32_t end)
 {
+    const MesoGrowthBatch *batch = meso_growth_batch(window, begin);
     MesoGrowthCommand command = {0};
     for (uint32_t i = begin; i < end; i++) {
         uint32_t at = window->begin + i, number = work->active[at];
-        accept_turn(work, window, number, &window->turns[i]);
-        end_rule_early(work, number, &command);
-        work->goes_on[at] = !work->tips[number].rests && !work->tips[number].ended;
+        accept_turn(work, window, batch, number, &window->turns[i]);
+        end_rule_early(work, batch, number, &command);
+        end_shoots_early(work, window, batch, &window->turns[i], &command);
+        work->goes_on[at] = !rests(work, &work->tips[number]) && !work->ended[number];
     }
 }

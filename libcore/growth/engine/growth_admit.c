@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "libcore/growth/engine/growth_work.h"
 
 static bool fail_memory(MesoGrowthWork *work)
@@ -58,7 +60,7 @@ static bool is_near_new(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
 static void bring_up_to_date(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
     MesoGrowthTurn *turn = &window->turns[number];
-    MesoGrowthBatch *batch = &window->batches[work->batch_count];
+    MesoGrowthBatch *batch = meso_growth_batch(window, number) + work->batch_count;
     uint32_t active = work->active[window->begin + number];
     MesoGrowthTip *tip = &work->tips[active];
     bool steps = meso_growth_is_step(turn);
@@ -90,33 +92,32 @@ static bool fits(MesoGrowthWork *work, const MesoGrowthTurn *turn)
 
 /* ---- memory ---- */
 
-static const MesoGrowthTurn *turn_at(const MesoGrowthWindow *window, uint32_t number, uint32_t count)
+static const MesoGrowthTurn *turn_at(const MesoGrowthWindow *window, uint32_t number, uint32_t end)
 {
-    return &window->turns[number < count ? number : count - 1];
+    return &window->turns[number < end ? number : end - 1];
 }
 
 /*
  * What turns have come to, which other threads may have done, comes from their memory while those before them are
  * admitted: the turns, from those where their pieces are, from these their cells, and from these the newest blocks.
  */
-void meso_growth_fetch_turns(const MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t number,
-                             uint32_t count)
+static void fetch_turns(const MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t number, uint32_t end)
 {
     enum { TURNS = 16, PIECES = 10, HEADS = 6, BLOCKS = 3 };
-    const char *turn = (const char *)turn_at(window, number + TURNS, count);
+    const char *turn = (const char *)turn_at(window, number + TURNS, end);
     for (uint32_t i = 0; i < MESO_GROWTH_TURN_LINES; i++)
         __builtin_prefetch(turn + i * MESO_GROWTH_TURN_LINE, 1);
     if (!work->uses_space)
         return;
-    const MesoGrowthTurn *soon = turn_at(window, number + PIECES, count);
+    const MesoGrowthTurn *soon = turn_at(window, number + PIECES, end);
     const char *pieces = (const char *)(soon->batch->pieces + soon->piece_begin);
     if (soon->piece_count) {
         __builtin_prefetch(pieces);
         __builtin_prefetch(pieces + MESO_GROWTH_TURN_LINE);
     }
-    soon = turn_at(window, number + HEADS, count);
-    meso_growth_cells_fetch_heads(&work->space.cells, soon->batch->pieces + soon->piece_begin, soon->piece_count);
-    soon = turn_at(window, number + BLOCKS, count);
+    soon = turn_at(window, number + HEADS, end);
+    meso_growth_cells_fetch_heads(&work->space.cells, soon->batch->pieces + soon->piece_begin, soon->piece_count, true);
+    soon = turn_at(window, number + BLOCKS, end);
     meso_growth_cells_fetch_newest(&work->space.cells, soon->batch->pieces + soon->piece_begin, soon->piece_count);
 }
 
@@ -174,7 +175,8 @@ static bool number_elements(MesoGrowthWork *work, uint32_t active, MesoGrowthTur
     return true;
 }
 
-bool meso_growth_admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
+/* Brings a turn up to date, and gives it numbers; false where growth stops before it. */
+static bool admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
     static MesoGrowthRuleCount none;
     MesoGrowthTurn *turn = &window->turns[number];
@@ -198,18 +200,45 @@ bool meso_growth_admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t 
            number_elements(work, window->begin + number, turn, counts);
 }
 
+void meso_growth_begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
+{
+    window->first_branch = work->branch_count;
+    window->first_tip = work->tip_count;
+    window->first_shoot = work->shoot_count;
+    if (work->space.cells.piece_count > work->since)
+        memset(work->grown_in, 0, sizeof work->grown_in);
+    work->since = work->space.cells.piece_count;
+    work->ball_count = 0;
+}
+
+uint32_t meso_growth_admit_range(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end)
+{
+    uint32_t at = begin;
+    do
+        fetch_turns(work, window, at, end);
+    while (admit(work, window, at) && ++at < end);
+    return at;
+}
+
+void meso_growth_end_window(MesoGrowthWork *work, const MesoGrowthWindow *window)
+{
+    uint32_t begun = work->branch_count - window->first_branch;
+    work->tip_count += begun;
+    work->shoot_count += begun;
+}
+
 #define ROOM(array, room, count) meso_make_room((void **)&work->array, &work->room, count, sizeof *work->array)
 
-bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t begun)
+bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips)
 {
-    uint64_t tips = (uint64_t)work->tip_count + begun;
-    bool has = ROOM(joints, joint_room, work->joint_count) && ROOM(points, point_room, work->joint_count) &&
-               ROOM(elements, element_room, work->element_count) && ROOM(branches, branch_room, work->branch_count) &&
-               ROOM(tips, tip_room, tips) && ROOM(registers, register_room, tips * work->grammar->local_count + 1) &&
-               ROOM(shoots, shoot_room, (uint64_t)work->shoot_count + begun);
-    if (!has)
-        return fail_memory(work);
-    work->tip_count = (uint32_t)tips;
-    work->shoot_count += begun;
-    return true;
+    uint64_t joints = (uint64_t)work->joint_count + (uint64_t)turns * (MESO_GROWTH_SPANS + 1);
+    uint64_t elements = (uint64_t)work->element_count + (uint64_t)turns * MESO_GROWTH_SPANS;
+    uint64_t all_tips = (uint64_t)work->tip_count + tips;
+    bool has = ROOM(joints, joint_room, joints) && ROOM(points, point_room, joints) &&
+               ROOM(elements, element_room, elements) &&
+               ROOM(branches, branch_room, (uint64_t)work->branch_count + branches) &&
+               ROOM(tips, tip_room, all_tips) && ROOM(ended, ended_room, all_tips) &&
+               ROOM(registers, register_room, all_tips * work->grammar->local_count + 1) &&
+               ROOM(shoots, shoot_room, (uint64_t)work->shoot_count + tips);
+    return has || fail_memory(work);
 }

@@ -266,10 +266,14 @@ void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece
         fetch_together(cells, pieces + i, count - i < TOGETHER ? count - i : TOGETHER);
 }
 
-void meso_growth_cells_fetch_heads(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count)
+void meso_growth_cells_fetch_heads(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count,
+                                   bool to_write)
 {
     for (uint32_t i = 0; i < count; i++)
-        __builtin_prefetch(&cells->heads[pieces[i].triangle], 1);
+        if (to_write)
+            __builtin_prefetch(&cells->heads[pieces[i].triangle], 1);
+        else
+            __builtin_prefetch(&cells->heads[pieces[i].triangle]);
 }
 
 void meso_growth_cells_fetch_newest(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count)

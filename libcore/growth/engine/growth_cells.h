@@ -79,8 +79,9 @@ static inline void meso_growth_fetch_piece(const MesoGrowthCells *cells, uint32_
 /* Asks for the memory of what lies where pieces do. */
 void meso_growth_cells_fetch(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
 
-/* The same, to write to, of pieces that are added soon: first of heads, and then of the blocks that these name. */
-void meso_growth_cells_fetch_heads(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
+/* The same of heads alone; to write to them where pieces are added soon, and then of the blocks that these name. */
+void meso_growth_cells_fetch_heads(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count,
+                                   bool to_write);
 void meso_growth_cells_fetch_newest(const MesoGrowthCells *cells, const MesoGrowthPiece *pieces, uint32_t count);
 
 /* ---- looking ---- */

@@ -6,7 +6,7 @@
  */
 #include "libcore/growth/engine/growth_work.h"
 
-enum { COARSE = 24, SAMPLES = 64, MOST_SPANS = 8 };
+enum { COARSE = 24, SAMPLES = 64 };
 
 /* Of an element's length; below a hundredth, since what lies between the points, or beside the curve, counts too. */
 static const float tolerance = 0.005f;
@@ -261,7 +261,7 @@ static void bring_up(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoG
     Sample samples[SAMPLES];
     uint32_t count = sample_finely(work, turn, samples);
     turn->depth = depth_of_spans(turn, samples, count);
-    for (uint32_t spans = 2; divides && turn->depth > tolerance && spans <= MOST_SPANS; spans *= 2) {
+    for (uint32_t spans = 2; divides && turn->depth > tolerance && spans <= MESO_GROWTH_SPANS; spans *= 2) {
         if (!make_middles(work, turn, lift, roll, spans - 1))
             return;
         divides = !spans_are_tight(turn);

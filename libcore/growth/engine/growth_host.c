@@ -99,8 +99,8 @@ static uint8_t leads_to(const MesoGrammar *grammar, uint32_t at, const uint8_t *
     case MESO_OP_JUMP: return ahead[code->target];
     case MESO_OP_JUMP_UNLESS: case MESO_OP_JUMP_UNLESS_LESS: case MESO_OP_JUMP_IF: case MESO_OP_LOOP:
         return next | ahead[code->target];
-    case MESO_OP_RESULT: case MESO_OP_STEP: case MESO_OP_MOVE: case MESO_OP_TURN: case MESO_OP_FACE:
-    case MESO_OP_PLACE: case MESO_OP_BRANCH: return 0;
+    case MESO_OP_RESULT: case MESO_OP_STEP: case MESO_OP_MOVE: case MESO_OP_FACE: case MESO_OP_PLACE:
+    case MESO_OP_BRANCH: return 0;
     default: return next;
     }
 }

@@ -10,6 +10,9 @@
 #include "libcore/base/parallel.h"
 #include "libcore/growth/engine/growth_work.h"
 
+/* Turns of a thread below which it takes longer to hand them over. */
+enum { FEW = 16 };
+
 static void march_straight(const void *context, MesoWalk *walks, uint32_t count, const MesoWalkOptions *options)
 {
     meso_walks(context, walks, count, options);
@@ -22,12 +25,14 @@ static double least(double limit, double other)
     return other > 0 && other < limit ? other : limit;
 }
 
+/* Whole lines of memory, and 0: what is next to them, and may be another thread's, is in others. */
 static void *allocate(MesoGrowthWork *work, size_t count, size_t size)
 {
-    void *array = calloc(count ? count : 1, size);
+    size_t bytes = (count * size + MESO_GROWTH_TURN_LINE) / MESO_GROWTH_TURN_LINE * MESO_GROWTH_TURN_LINE;
+    void *array = aligned_alloc(MESO_GROWTH_TURN_LINE, bytes);
     if (!array)
         work->status = meso_fail(work->error, MESO_ERR_MEMORY, "out of memory: %zu items of %zu bytes", count, size);
-    return array;
+    return array ? memset(array, 0, bytes) : NULL;
 }
 
 /*
@@ -45,14 +50,15 @@ static void size_window(MesoGrowthWork *work)
 static void begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
 {
     window->turns = allocate(work, work->window_size, sizeof *window->turns);
-    window->batches = allocate(work, (size_t)work->batch_count + 1, sizeof *window->batches);
+    window->batches = allocate(work, 2 * (size_t)work->batch_count, sizeof *window->batches);
     if (work->looks) {
         window->befores = allocate(work, work->window_size, sizeof *window->befores);
         window->register_befores =
             allocate(work, (size_t)work->window_size * work->grammar->local_count, sizeof(double));
     }
-    for (uint32_t i = 0; window->batches && i <= work->batch_count; i++)
-        window->batches[i].space = work->uses_space ? &work->space : NULL;
+    for (uint32_t i = 0; window->batches && i < work->batch_count; i++)
+        window->batches[i].runs = allocate(work, work->grammar->rule_count, sizeof *window->batches[i].runs);
+    window->each = MESO_GROWTH_BATCH;
 }
 
 static MesoStatus begin(MesoGrowthWork *work)
@@ -86,12 +92,13 @@ static void release_batch(MesoGrowthBatch *batch)
     free(batch->shoots);
     free(batch->middles);
     free(batch->registers);
+    free(batch->runs);
     meso_growth_seen_release(&batch->seen);
 }
 
 static void release_window(const MesoGrowthWork *work, MesoGrowthWindow *window)
 {
-    for (uint32_t i = 0; window->batches && i <= work->batch_count; i++)
+    for (uint32_t i = 0; window->batches && i < 2 * work->batch_count; i++)
         release_batch(&window->batches[i]);
     free(window->batches);
     free(window->turns);
@@ -101,7 +108,7 @@ static void release_window(const MesoGrowthWork *work, MesoGrowthWindow *window)
 
 void meso_growth_release(MesoGrowthWork *work)
 {
-    void *const arrays[] = {work->tips, work->registers, work->active, work->shoots, work->balls, work->joints,
+    void *const arrays[] = {work->tips, work->ended, work->registers, work->active, work->shoots, work->balls, work->joints,
                             work->points, work->elements, work->branches, work->rules, work->goes_on,
                             work->ahead};
     meso_team_end(work->team);
@@ -128,8 +135,10 @@ static void run_batch(void *context, uint64_t begin_at, uint64_t end)
 {
     const Loop *loop = context;
     uint32_t first = (uint32_t)begin_at, last = (uint32_t)end, accepted = loop->accepted ? loop->accepted->count : 0;
-    if (first < loop->try_count)
-        meso_growth_try(loop->work, loop->tried, first, last < loop->try_count ? last : loop->try_count);
+    if (first < loop->try_count) {
+        meso_growth_run_rules(loop->work, loop->tried, first, last < loop->try_count ? last : loop->try_count);
+        meso_growth_judge_walks(loop->work, loop->tried, first);
+    }
     if (first < accepted)
         meso_growth_accept(loop->work, loop->accepted, first, last < accepted ? last : accepted);
 }
@@ -142,32 +151,20 @@ static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try
     meso_team_for(work->team, count, MESO_GROWTH_BATCH, run_batch, &loop);
 }
 
-static void admit_all(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t count)
-{
-    do
-        meso_growth_fetch_turns(work, window, window->count, count);
-    while (meso_growth_admit(work, window, window->count) && ++window->count < count);
-}
 
 /* Turns active[begin_at..begin_at + count), while what those before them have grown is written down. */
 static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin_at, uint32_t count,
                        const MesoGrowthWindow *before)
 {
-    MesoGrowthBatch *again = &window->batches[work->batch_count];
     window->begin = begin_at;
-    window->count = 0;
-    window->first_branch = work->branch_count;
-    window->first_tip = work->tip_count;
-    window->first_shoot = work->shoot_count;
-    if (work->space.cells.piece_count > work->since)
-        memset(work->grown_in, 0, sizeof work->grown_in);
-    work->since = work->space.cells.piece_count;
-    work->ball_count = 0;
-    again->piece_count = again->shoot_count = again->middle_count = 0;
+    window->each = MESO_GROWTH_BATCH;
+    meso_growth_begin_window(work, window);
     run_loop(work, window, count, before);
-    admit_all(work, window, count);
-    if (work->status || !meso_growth_make_rooms(work, work->branch_count - window->first_branch))
+    window->count = meso_growth_admit_range(work, window, 0, count);
+    uint32_t begun = work->branch_count - window->first_branch;
+    if (work->status || !meso_growth_make_rooms(work, 0, 0, begun))
         window->count = 0;
+    meso_growth_end_window(work, window);
     return window->count == count;
 }
 
@@ -190,9 +187,11 @@ static bool gather_active(MesoGrowthWork *work)
     }
     if (!make_active(work, (uint64_t)count + work->shoot_count + 1))
         return false;
-    if (work->shoot_count)
-        memcpy(work->active + count, work->shoots, work->shoot_count * sizeof *work->active);
-    work->active_count = count + work->shoot_count;
+    for (uint32_t i = 0; i < work->shoot_count; i++) {
+        work->active[count] = work->shoots[i];
+        count += work->shoots[i] != MESO_NO_INDEX;
+    }
+    work->active_count = count;
     work->shoot_count = 0;
     return true;
 }
@@ -206,9 +205,11 @@ static uint32_t even_window(const MesoGrowthWork *work)
     return each < size ? each : size;
 }
 
-/* A turn of each that is active. */
+/* A turn of each that is active; of several threads, where they are worth their while. */
 static bool run_each(MesoGrowthWork *work)
 {
+    if (work->team && !work->looks && work->active_count >= FEW * meso_team_size(work->team))
+        return meso_growth_relay(work);
     const MesoGrowthWindow *before = NULL;
     bool goes_on = true;
     uint32_t size = even_window(work);
@@ -236,25 +237,45 @@ static bool run_turns(MesoGrowthWork *work)
     return true;
 }
 
-/* Living branches keep their order; all of them become active. */
-static bool wake(MesoGrowthWork *work)
+/* Of rules that have begun since the last were counted. */
+static void count_runs(MesoGrowthWork *work)
+{
+    for (uint32_t i = 0; i < (work->team ? 2 : 1) * work->batch_count; i++) {
+        uint64_t *runs = work->windows[i / work->batch_count].batches[i % work->batch_count].runs;
+        for (uint32_t k = 0; k < work->grammar->rule_count; k++) {
+            work->rules[k].runs += runs[k];
+            runs[k] = 0;
+        }
+    }
+}
+
+/* Those that have ended go; the others keep their order, and stay where they are as a rule. */
+static void keep_living(MesoGrowthWork *work)
 {
     size_t width = work->grammar->local_count;
     uint32_t count = 0;
     for (uint32_t i = 0; i < work->tip_count; i++) {
-        if (work->tips[i].ended)
+        if (work->ended[i])
             continue;
         if (i != count) {
             work->tips[count] = work->tips[i];
+            work->ended[count] = 0;
             meso_copy_registers(work->registers + count * width, work->registers + i * width, (uint32_t)width);
         }
-        work->tips[count].rests = false;
-        work->rules[work->tips[count++].rule].runs++;
+        count++;
     }
-    work->tip_count = work->active_count = count;
-    if (!make_active(work, count))
+    work->tip_count = count;
+}
+
+/* All living branches become active. */
+static bool wake(MesoGrowthWork *work)
+{
+    count_runs(work);
+    keep_living(work);
+    work->active_count = work->tip_count;
+    if (!make_active(work, work->tip_count))
         return false;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < work->tip_count; i++)
         work->active[i] = i;
     return true;
 }
@@ -264,7 +285,7 @@ static bool goes_on(MesoGrowthWork *work, double generations)
     const MesoGrowthOptions *options = work->options;
     bool lives = false;
     for (uint32_t i = 0; i < work->tip_count && !lives; i++)
-        lives = !work->tips[i].ended;
+        lives = !work->ended[i];
     if (!lives)
         return false;
     if (!((double)work->generation < generations))

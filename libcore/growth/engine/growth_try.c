@@ -163,7 +163,7 @@ static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGr
         meso_growth_set_walk(&batch->walks[count], tip, turn, 0);
         batch->walkers[count++] = i;
         tip->walks++;
-        if (work->uses_space)
+        if (batch->space)
             meso_growth_fetch_piece(&work->space.cells, tip->piece);
     }
     return count;
@@ -189,16 +189,45 @@ static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthWindow *window, 
     return batch->failed ? 0 : left;
 }
 
-void meso_growth_try(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end)
+static void walk_turns(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t count)
 {
-    MesoGrowthBatch *batch = &window->batches[begin / MESO_GROWTH_BATCH];
+    walk_all(work, batch, count);
+    for (uint32_t i = 0; i < count; i++)
+        meso_growth_keep_pieces(batch, &window->turns[batch->walkers[i]], i);
+}
+
+void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end)
+{
+    MesoGrowthBatch *batch = meso_growth_batch(window, begin), *again = batch + work->batch_count;
     batch->piece_count = batch->shoot_count = batch->middle_count = 0;
-    uint32_t count = run_rules(work, window, batch, begin, end);
-    for (uint32_t try = 0; count; try++) {
-        uint32_t first = batch->piece_count;
-        walk_all(work, batch, count);
-        for (uint32_t i = 0; i < count; i++)
-            meso_growth_keep_pieces(batch, &window->turns[batch->walkers[i]], i);
+    again->piece_count = again->shoot_count = again->middle_count = 0;
+    batch->space = work->uses_space && !work->in_relay ? &work->space : NULL;
+    batch->walker_count = run_rules(work, window, batch, begin, end);
+    if (batch->walker_count)
+        walk_turns(work, window, batch, batch->walker_count);
+}
+
+/* What walks may meet, and what they may begin at. */
+static void fetch_space(const MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch)
+{
+    const MesoGrowthCells *cells = &work->space.cells;
+    meso_growth_cells_fetch_heads(cells, batch->pieces, batch->piece_count, false);
+    for (uint32_t i = 0; i < batch->walker_count; i++)
+        meso_growth_fetch_piece(cells, work->tips[work->active[window->begin + batch->walkers[i]]].piece);
+}
+
+void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin)
+{
+    MesoGrowthBatch *batch = meso_growth_batch(window, begin);
+    if (work->uses_space && !batch->space) {
+        batch->space = &work->space;
+        fetch_space(work, window, batch);
+    }
+    for (uint32_t try = 0, count = batch->walker_count, first = 0; count; try++) {
+        if (try > 0) {
+            first = batch->piece_count;
+            walk_turns(work, window, batch, count);
+        }
         fetch_ahead(work, batch, count, first);
         count = judge_all(work, window, batch, count, try);
     }
@@ -207,7 +236,7 @@ void meso_growth_try(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t be
 void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
     uint32_t active = work->active[window->begin + number];
-    MesoGrowthBatch *batch = &window->batches[work->batch_count];
+    MesoGrowthBatch *batch = meso_growth_batch(window, number) + work->batch_count;
     MesoGrowthTurn *turn = &window->turns[number];
     MesoGrowthTip *tip = &work->tips[active];
     double *registers = registers_of(work, active);

@@ -4,7 +4,8 @@
  * turns of a window of branches are tried together, against what had grown before (growth_try.c); then each in turn is
  * admitted, or done again where what the window has grown by then may have changed it (growth_admit.c). That gives
  * numbers to what they have grown, which is written down together, too (growth_accept.c), with the tries of the next
- * window.
+ * window. Threads have a batch of each window, which stays theirs from its rules to what it has grown (growth_rounds.c):
+ * what passes from one to another takes as long as a turn does.
  */
 #ifndef MESO_GROWTH_WORK_H
 #define MESO_GROWTH_WORK_H
@@ -19,6 +20,9 @@ enum { MESO_GROWTH_BATCH = 128 };
 
 /* Marks of triangles: as a rule many more than there are pieces of a window, so that few triangles share one. */
 enum { MESO_GROWTH_MARKS = 1 << 15 };
+
+/* Elements that a step is divided into at most. */
+enum { MESO_GROWTH_SPANS = 8 };
 
 /* Sides that a step may cross: where a mesh has no area walks may stand still. */
 enum { MESO_GROWTH_CROSSINGS = 1 << 14 };
@@ -47,8 +51,7 @@ typedef struct MesoGrowthTip {
     bool moved;                 /* away from its node */
     bool open;                  /* the last step did not say its width at its end */
     bool done;                  /* whether the last command could be */
-    bool rests;                 /* its rule is done for this generation */
-    bool ended;
+    uint32_t rests_in;          /* the generation, and 1, that its rule is done for; what is older is over */
 } MesoGrowthTip;
 
 /* A branch that a turn begins. */
@@ -113,9 +116,9 @@ typedef struct MesoGrowthLinkedPiece {
     uint32_t next;
 } MesoGrowthLinkedPiece;
 
-/* Where turns are tried: memory of a thread's own. */
+/* Where turns are tried: lines of memory of a thread's own. */
 typedef struct MesoGrowthBatch {
-    MesoGrowthPiece *pieces;    /* of turns, each turn's together */
+    _Alignas(MESO_GROWTH_TURN_LINE) MesoGrowthPiece *pieces;    /* of turns, each turn's together */
     MesoGrowthLinkedPiece *linked;      /* of walks under way */
     MesoGrowthShoot *shoots;
     double *registers;          /* [shoot_count * local_count] of shoots */
@@ -124,31 +127,40 @@ typedef struct MesoGrowthBatch {
     uint32_t piece_count, piece_room, linked_count, linked_room, shoot_count, shoot_room, register_room;
     uint32_t first[MESO_GROWTH_BATCH], last[MESO_GROWTH_BATCH];     /* linked pieces of each walk */
     MesoWalk walks[MESO_GROWTH_BATCH];
-    uint32_t walkers[MESO_GROWTH_BATCH];
+    uint32_t walkers[MESO_GROWTH_BATCH];    /* turns that walk */
+    uint32_t walker_count;
     MesoGrowthSeen seen;
-    const MesoGrowthSpace *space;       /* NULL: nobody asks where pieces are */
+    const MesoGrowthSpace *space;       /* NULL: nobody asks where pieces are, or others add some meanwhile */
+    uint64_t *runs;             /* [rule_count] of rules, that begin with the next generation */
     bool failed;                /* out of memory */
 } MesoGrowthBatch;
 
 /* Turns that are tried together. */
 typedef struct MesoGrowthWindow {
     uint32_t begin, count;      /* of the active tips; how many are admitted */
+    uint32_t each;              /* turns of a batch, but for the last, which may have less */
     uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
     MesoGrowthTurn *turns;      /* [window_size] */
     MesoGrowthTip *befores;     /* [window_size] where rules look; before their turns */
     double *register_befores;
-    MesoGrowthBatch *batches;   /* [batch_count] and one for what is done again */
+    MesoGrowthBatch *batches;   /* [batch_count] and as many again, for what is done again of each */
 } MesoGrowthWindow;
 
+static inline MesoGrowthBatch *meso_growth_batch(const MesoGrowthWindow *window, uint32_t turn)
+{
+    return &window->batches[turn / window->each];
+}
+
 typedef struct MesoGrowthWork {
+    /* what turns read */
     const MesoGrowthOptions *options;
     const MesoGrammar *grammar;
     const MesoGrowthGround *ground;
     MesoGrowthMarch march;
-    MesoGrowthSpace space;
     bool uses_space;            /* something asks for what has grown */
     bool looks;                 /* a rule does */
     bool clears;                /* a step must be clear of it */
+    bool in_relay;              /* turns are admitted while rules of others run */
     uint8_t *ahead;             /* [code_count] of the grammar: see meso_growth_look_ahead(); NULL: nobody asks */
     uint32_t thread_count;
     MesoTeam *team;
@@ -156,19 +168,16 @@ typedef struct MesoGrowthWork {
     uint64_t generation;
 
     MesoGrowthTip *tips;        /* in order */
+    uint8_t *ended;             /* [tip_count] whether they have */
     double *registers;          /* [tip_count * local_count] */
-    uint32_t tip_count, tip_room, register_room;
+    uint32_t tip_room, ended_room, register_room;
     uint32_t *active;           /* tips whose rule goes on */
     uint8_t *goes_on;           /* [active_room] whether it does after this turn */
-    uint32_t *shoots;           /* those that have begun since these took their turns */
-    uint32_t active_count, active_room, goes_on_room, shoot_count, shoot_room;
+    uint32_t *shoots;           /* those that have begun since these took their turns; MESO_NO_INDEX: they rest, too */
+    uint32_t active_count, active_room, goes_on_room, shoot_room;
 
     MesoGrowthWindow windows[2];        /* what one has grown is written down while the next is tried */
     uint32_t window_size, batch_count;
-    uint32_t since;             /* the first piece that the window under way has grown */
-    uint64_t grown_in[MESO_GROWTH_MARKS / 64];  /* bits: marks of the triangles that those pieces lie in */
-    float *balls;               /* [4 * ball_room] of the elements of that: x, y, z, radius in turn */
-    uint32_t ball_count, ball_room;
 
     /* what has grown */
     MesoJoint *joints;
@@ -176,7 +185,11 @@ typedef struct MesoGrowthWork {
     MesoGrowthElement *elements;
     MesoGrowthBranch *branches;
     MesoGrowthRuleCount *rules;
-    uint32_t joint_count, joint_room, point_room, element_count, element_room, branch_count, branch_room;
+    uint32_t joint_room, point_room, element_room, branch_room;
+
+    /* what changes when turns are admitted: in other lines of memory, since other threads read those above then */
+    _Alignas(MESO_GROWTH_TURN_LINE) uint32_t joint_count;
+    uint32_t element_count, branch_count, tip_count, shoot_count;
     double length;
     float depth;
     uint64_t divided, raised;
@@ -184,6 +197,11 @@ typedef struct MesoGrowthWork {
     MesoGrowthEnd end;
     MesoStatus status;
     MesoError *error;
+    uint32_t since;             /* the first piece that the window under way has grown */
+    float *balls;               /* [4 * ball_room] of the elements of that: x, y, z, radius in turn */
+    uint32_t ball_count, ball_room;
+    MesoGrowthSpace space;
+    uint64_t grown_in[MESO_GROWTH_MARKS / 64];  /* bits: marks of the triangles that pieces of the window lie in */
 } MesoGrowthWork;
 
 /* ---- growth_rounds.c ---- */
@@ -192,10 +210,19 @@ typedef struct MesoGrowthWork {
 MesoStatus meso_growth_run(MesoGrowthWork *work, const MesoGrowthOptions *options, MesoError *error);
 void meso_growth_release(MesoGrowthWork *work);
 
+/* ---- growth_relay.c ---- */
+
+/* A turn of each that is active, by the threads of the team, where no rule looks; false where growth ends with them. */
+bool meso_growth_relay(MesoGrowthWork *work);
+
 /* ---- growth_try.c: turns ---- */
 
-/* Turns [begin, end) of a window, which are a batch. */
-void meso_growth_try(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end);
+/*
+ * Turns [begin, end) of a window, which are a batch: first their rules, and where these walk to; then what comes of that,
+ * which may ask for what has grown. Rules that look ask, too.
+ */
+void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end);
+void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin);
 
 /* Again, one alone, from before it, against all that has grown. */
 void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t turn);
@@ -262,7 +289,7 @@ bool meso_growth_rules_look(const MesoGrammar *grammar);
 bool meso_growth_steps_clear(const MesoGrammar *grammar);
 bool meso_growth_steps_avoid(const MesoGrammar *grammar);
 
-/* What code may come to next, before any other command: the end of its rule, a look at something. */
+/* What code may come to next, before any other command but turns: the end of its rule, a look at something. */
 enum { MESO_AHEAD_END = 1, MESO_AHEAD_LOOK = 2 };
 
 /* Sets `ahead` [code_count], which is 0, for every place in the code. */
@@ -286,14 +313,20 @@ void meso_growth_surface(const MesoGrowthWork *work, const MesoGrowthTip *tip, M
 
 /* ---- growth_admit.c ---- */
 
-/* Brings turn number `turn` of the window up to date, and gives it numbers; false where growth stops before it. */
-bool meso_growth_admit(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t turn);
+/* Before the first turn of a window is admitted: what grows from here on is what the window has grown. */
+void meso_growth_begin_window(MesoGrowthWork *work, MesoGrowthWindow *window);
 
-/* Asks for the memory of turns, of `count`, that are admitted soon after turn number `turn`. */
-void meso_growth_fetch_turns(const MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t turn, uint32_t count);
+/*
+ * Brings turns [begin, end) of the window up to date, one after another, and gives them numbers. Returns `end`, or the
+ * number of the turn before which growth stops.
+ */
+uint32_t meso_growth_admit_range(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end);
 
-/* Makes room for all that has numbers, and for the tips of the branches that have begun since. */
-bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t begun);
+/* After the last: the branches that the window has begun are there. */
+void meso_growth_end_window(MesoGrowthWork *work, const MesoGrowthWindow *window);
+
+/* Makes room for all that has numbers, and so many turns more, and for the tips of branches that begin. */
+bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips);
 
 /* ---- growth_accept.c ---- */
 
