@@ -17,6 +17,9 @@ enum { ALIGNMENT = 64, BLOCK_SIZE = 1 << 18 };
  */
 enum { MAPPED_SIZE = 3 << 19 };
 
+/* From this size on a large page is sooner had than small ones. */
+enum { RESERVED_SIZE = 48 << 12 };
+
 struct MesoArenaBlock {
     MesoArenaBlock *previous;
     unsigned char *data;    /* aligned, inside the allocation */
@@ -139,6 +142,19 @@ void *meso_arena_alloc_bare(MesoArena *arena, size_t count, size_t size, MesoErr
         memset(data, 0xa5, count * size);   /* so that tests fail where it is read too early */
 #endif
     return data;
+}
+
+void meso_arena_reserve(MesoArena *arena, size_t size)
+{
+    MesoArenaBlock *block = arena->head;
+    if (size < RESERVED_SIZE || (block && block->size - block->used >= size) || size > SIZE_MAX / 2)
+        return;
+    size_t large = size < MAPPED_SIZE ? MAPPED_SIZE : size;
+    block = new_block(large);
+    if (!block)
+        return;
+    block->previous = arena->head;
+    arena->head = block;
 }
 
 bool meso_arena_adopt(MesoArena *arena, void *adopted, MesoError *error)

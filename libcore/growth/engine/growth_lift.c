@@ -234,6 +234,7 @@ MesoStatus meso_growth_lift(MesoGrown *grown, MesoArena *scratch, const MesoGrow
                             uint32_t thread_count, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(scratch);
+    meso_arena_reserve(scratch, grown->element_count * sizeof(float));
     Lifting lifting = {grown, ground, MESO_NEW(scratch, float, grown->element_count, error)};
     MesoStatus status = lifting.depths ? MESO_OK : MESO_ERR_MEMORY;
     if (!status)

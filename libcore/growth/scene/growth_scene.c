@@ -28,55 +28,60 @@ typedef struct Showing {
 
 /* ---- order ---- */
 
-/* Elements by a key below `count`; `begin` [count + 1] says where each key's are. Keeps the order of equal keys. */
-static void sort_by(const uint32_t *order, uint32_t element_count, uint32_t *out, uint32_t *begin, uint32_t count,
-                    const MesoGrown *grown, uint32_t (*key)(const MesoGrowthElement *))
+/* From how many there are of each key, at `begin` + 1, to where each key's begin. */
+static void add_up(uint32_t *begin, uint32_t count)
 {
-    for (uint32_t i = 0; i < element_count; i++)
-        begin[key(&grown->elements[order[i]]) + 1]++;
     for (uint32_t k = 0; k < count; k++)
         begin[k + 1] += begin[k];
+}
+
+/* Elements with shapes by branch; `begin` [branch count + 1], 0, is scratch. Their number. */
+static uint32_t sort_by_branch(Showing *s, uint32_t *begin, uint32_t *out)
+{
+    const MesoGrown *grown = s->grown;
+    for (uint32_t i = 0; i < grown->element_count; i++) {
+        const MesoGrowthElement *element = &grown->elements[i];
+        begin[element->branch + 1] += element->shape != MESO_NO_INDEX;
+        s->tinted |= element->tint != 0;
+    }
+    add_up(begin, grown->branch_count);
+    for (uint32_t i = 0; i < grown->element_count; i++)
+        if (grown->elements[i].shape != MESO_NO_INDEX)
+            out[begin[grown->elements[i].branch]++] = i;
+    return grown->branch_count ? begin[grown->branch_count - 1] : 0;
+}
+
+/* By shape, in the same order otherwise. */
+static void sort_by_shape(Showing *s, const uint32_t *order, uint32_t element_count)
+{
+    const MesoGrowthElement *elements = s->grown->elements;
+    uint32_t count = s->shapes->count, *begin = s->shape_begin;
     for (uint32_t i = 0; i < element_count; i++)
-        out[begin[key(&grown->elements[order[i]])]++] = order[i];
+        begin[elements[order[i]].shape + 1]++;
+    add_up(begin, count);
+    for (uint32_t i = 0; i < element_count; i++)
+        s->order[begin[elements[order[i]].shape]++] = order[i];
     memmove(begin + 1, begin, count * sizeof *begin);
     begin[0] = 0;
-}
-
-static uint32_t branch_of(const MesoGrowthElement *element)
-{
-    return element->branch;
-}
-
-static uint32_t shape_of(const MesoGrowthElement *element)
-{
-    return element->shape;
 }
 
 static MesoStatus put_in_order(Showing *s, MesoArena *arena, MesoArena *scratch, MesoError *error)
 {
     const MesoGrown *grown = s->grown;
-    uint32_t count = 0, shapes = s->shapes->count;
-    uint32_t *shown = MESO_NEW(scratch, uint32_t, grown->element_count, error);
-    uint32_t *by_branch = MESO_NEW(scratch, uint32_t, grown->element_count, error);
-    uint32_t *begin = MESO_NEW(scratch, uint32_t, (size_t)grown->branch_count + 1, error);
+    uint32_t shapes = s->shapes->count, branches = grown->branch_count;
+    uint32_t *begin = MESO_NEW(scratch, uint32_t, (size_t)branches + 1, error);
     s->order = MESO_NEW(scratch, uint32_t, grown->element_count, error);
-    s->shape_begin = MESO_NEW(scratch, uint32_t, (size_t)s->shapes->count + 1, error);
-    s->vertex_begin = MESO_NEW(scratch, size_t, (size_t)s->shapes->count + 1, error);
-    s->patterns = MESO_NEW(arena, MesoBody, s->shapes->count, error);
-    if (!shown || !by_branch || !begin || !s->order || !s->shape_begin || !s->vertex_begin || !s->patterns)
+    uint32_t *by_branch = shapes > 1 ? MESO_NEW(scratch, uint32_t, grown->element_count, error) : s->order;
+    s->shape_begin = MESO_NEW(scratch, uint32_t, (size_t)shapes + 1, error);
+    s->vertex_begin = MESO_NEW(scratch, size_t, (size_t)shapes + 1, error);
+    s->patterns = MESO_NEW(arena, MesoBody, shapes, error);
+    if (!begin || !s->order || !by_branch || !s->shape_begin || !s->vertex_begin || !s->patterns)
         return MESO_ERR_MEMORY;
-    for (uint32_t i = 0; i < grown->element_count; i++) {
-        shown[count] = i;
-        count += grown->elements[i].shape != MESO_NO_INDEX;
-        s->tinted |= grown->elements[i].tint != 0;
-    }
-    if (shapes > 1) {
-        sort_by(shown, count, by_branch, begin, grown->branch_count, grown, branch_of);
-        sort_by(by_branch, count, s->order, s->shape_begin, shapes, grown, shape_of);
-    } else {
-        sort_by(shown, count, s->order, begin, grown->branch_count, grown, branch_of);
+    uint32_t count = sort_by_branch(s, begin, by_branch);
+    if (shapes > 1)
+        sort_by_shape(s, by_branch, count);
+    else
         s->shape_begin[shapes] = count;
-    }
     for (uint32_t k = 0; k < shapes; k++)
         s->vertex_begin[k + 1] = s->vertex_begin[k] + (size_t)(s->shape_begin[k + 1] - s->shape_begin[k]) *
                                                           s->shapes->shapes[k].body.vertex_count;
@@ -88,8 +93,8 @@ static MesoStatus find_runs(Showing *s, MesoArena *scratch, MesoError *error)
     enum { AHEAD = 16 };
     const MesoGrowthElement *elements = s->grown->elements;
     uint32_t count = s->shape_begin[s->shapes->count], shape = MESO_NO_INDEX, branch = MESO_NO_INDEX;
-    s->runs = MESO_NEW(scratch, Run, count, error);
     s->spans = MESO_NEW(scratch, MesoSpan, count, error);
+    s->runs = MESO_NEW(scratch, Run, count, error);
     if (!s->runs || !s->spans)
         return MESO_ERR_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
@@ -264,12 +269,30 @@ static MesoStatus set_materials(MesoScene *scene, const MesoGrowthShapes *shapes
     return MESO_OK;
 }
 
+/* Many arrays of some hundred KiB. */
+static void reserve_order(const MesoGrown *grown, MesoArena *scratch)
+{
+    meso_arena_reserve(scratch, grown->element_count * (2 * sizeof(uint32_t) + sizeof(MesoSpan)) +
+                                    grown->branch_count * (sizeof(uint32_t) + sizeof(Run)));
+}
+
+/* Positions and normals come first: what is a little over shares their last page. */
+static void reserve_bodies(const Showing *s, MesoArena *arena)
+{
+    meso_arena_reserve(arena, s->vertex_begin[s->shapes->count] * (2 * sizeof(MesoVec3) + sizeof(MesoMeshColor)) +
+                                  s->run_count * (sizeof(MesoBody) + sizeof(MesoPlacedBody) +
+                                                  CHANNELS * sizeof(uint32_t)));
+}
+
 static MesoStatus show(MesoScene *scene, Showing *s, MesoArena *arena, MesoArena *scratch, uint32_t thread_count,
                        uint32_t *folds, MesoError *error)
 {
+    reserve_order(s->grown, scratch);
     MesoStatus status = put_in_order(s, arena, scratch, error);
     if (!status)
         status = find_runs(s, scratch, error);
+    if (!status)
+        reserve_bodies(s, arena);
     if (!status)
         status = make_patterns(s, arena, error);
     if (!status)
