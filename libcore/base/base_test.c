@@ -93,6 +93,32 @@ static void test_arena_clear(void)
     CHECK(arena.head == NULL && arena.used == 0);
 }
 
+/* What is reserved is one block, which is kept for what comes next, and goes with a rewind. */
+static void test_arena_reserve(void)
+{
+    enum { SIZE = 300 << 10 };
+    MesoArena arena;
+    meso_arena_init(&arena);
+    meso_arena_reserve(&arena, 1000);
+    CHECK(arena.head == NULL);
+    unsigned char *before = MESO_NEW(&arena, unsigned char, 100, NULL);
+    MesoArenaMark mark = meso_arena_mark(&arena);
+    meso_arena_reserve(&arena, 4 * SIZE);
+    MesoArenaBlock *block = arena.head;
+    unsigned char *first = MESO_NEW(&arena, unsigned char, SIZE, NULL);
+    meso_arena_reserve(&arena, 3 * SIZE);
+    CHECK(before && first && arena.head == block && block != mark.block);
+    for (int i = 1; i < 4; i++) {
+        unsigned char *next = MESO_NEW(&arena, unsigned char, SIZE, NULL);
+        CHECK(next == first + i * SIZE && next[0] == 0 && next[SIZE - 1] == 0);
+        memset(next, 7, SIZE);
+    }
+    meso_arena_rewind(&arena, mark);
+    CHECK(arena.head == mark.block && arena.used == mark.used);
+    meso_arena_reserve(&arena, SIZE_MAX);
+    CHECK(arena.head == mark.block);
+    meso_arena_release(&arena);
+}
 /* What is left of a large block's last page is room for more. */
 static void test_arena_pages(void)
 {
@@ -276,6 +302,7 @@ int main(void)
     test_arena();
     test_arena_clear();
     test_arena_bare();
+    test_arena_reserve();
     test_arena_pages();
     test_large_pages();
     test_error();

@@ -13,7 +13,7 @@
 #include "libcore/base/team.h"
 #include "libcore/growth/engine/growth.h"
 #include "libcore/growth/engine/growth_seat.h"
-#include "libcore/growth/engine/growth_space.h"
+#include "libcore/growth/space/growth_space.h"
 
 /* Branches that one thread tries at a time. */
 enum { MESO_GROWTH_BATCH = 128 };

@@ -1,4 +1,4 @@
-#include "libcore/growth/engine/growth_space.h"
+#include "libcore/growth/space/growth_space.h"
 
 #include <stdlib.h>
 

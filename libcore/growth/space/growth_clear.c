@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcore/growth/engine/growth_space.h"
+#include "libcore/growth/space/growth_space.h"
 
 void meso_growth_seen_release(MesoGrowthSeen *seen)
 {

@@ -1,6 +1,6 @@
 /* Cells against brute force: pieces that are short, long, in a bundle, and on the sides of cells. */
 #include "libcore/growth/engine/growth_fixture.h"
-#include "libcore/growth/engine/growth_space.h"
+#include "libcore/growth/space/growth_space.h"
 
 enum { PIECES = 6000, QUERIES = 1500 };
 

@@ -1,4 +1,4 @@
-#include "libcore/growth/engine/growth_cells.h"
+#include "libcore/growth/space/growth_cells.h"
 
 #include <stdlib.h>
 #include <string.h>

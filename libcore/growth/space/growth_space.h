@@ -9,7 +9,7 @@
 #ifndef MESO_GROWTH_SPACE_H
 #define MESO_GROWTH_SPACE_H
 
-#include "libcore/growth/engine/growth_cells.h"
+#include "libcore/growth/space/growth_cells.h"
 
 /* Nodes that are no element's end: with the number of a seed's place. */
 #define MESO_GROWTH_ROOT 0x80000000u

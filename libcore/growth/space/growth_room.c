@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE     /* madvise() */
-#include "libcore/growth/engine/growth_room.h"
+#include "libcore/growth/space/growth_room.h"
 
 #include <stdlib.h>
 #include <string.h>

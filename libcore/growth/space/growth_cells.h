@@ -6,7 +6,7 @@
 #ifndef MESO_GROWTH_CELLS_H
 #define MESO_GROWTH_CELLS_H
 
-#include "libcore/growth/engine/growth_room.h"
+#include "libcore/growth/space/growth_room.h"
 #include "libcore/growth/ground/growth_ground.h"
 #include "libcore/math/four.h"
 
