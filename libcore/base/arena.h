@@ -38,9 +38,9 @@ void meso_arena_release(MesoArena *arena);
 void meso_arena_clear(MesoArena *arena);
 
 /*
- * What is allocated next, up to `size` bytes with every allocation rounded up to 64, comes from one block in large pages,
- * where there is one: several arrays of some hundred KiB, which would be in small pages each, are sooner had so. Nothing
- * where it is little, or memory is out: allocations tell that.
+ * What is allocated next, up to `size` bytes with every allocation rounded up to 64, comes from one block in large
+ * pages: several arrays of some hundred KiB, which would be in small pages each, are sooner had so. Nothing where it is
+ * little, or memory is out: allocations tell that.
  */
 void meso_arena_reserve(MesoArena *arena, size_t size);
 

@@ -1,12 +1,12 @@
 /*
- * Turns of several threads, where no rule looks for what has grown. A batch stays with one thread, which runs its rules,
- * judges its walks, admits its turns and writes down what they have grown: what comes from the memory of another thread
- * takes as long as a turn does.
+ * Turns of several threads, where no rule looks for what has grown. A batch stays with one thread, which runs its
+ * rules, judges its walks, admits its turns and writes down what they have grown: what comes from the memory of another
+ * thread takes as long as a turn does.
  *
- * Batches are numbered through all windows. They are judged when all of the window before are admitted, and admitted one
- * after another when all of their own are judged: so they are judged by what does not change meanwhile, and what has
- * grown since is known. While others are admitted a thread writes down what its last batch has grown, or runs the rules
- * of its next, which ask for nothing that grows.
+ * Batches are numbered through all windows. They are judged when all of the window before are admitted, and admitted
+ * one after another when all of their own are judged: so they are judged by what does not change meanwhile, and what
+ * has grown since is known. While others are admitted a thread writes down what its last batch has grown, or runs the
+ * rules of its next, which ask for nothing that grows.
  *
  * The batch of one place in its window is one thread's as a rule, whose memory its tips are in then. What a thread does
  * not come to, since the machine has other things to do, is taken over by others.
@@ -221,7 +221,10 @@ static void run(void *context, uint64_t begin, uint64_t end)
     }
 }
 
-/* As many places as threads can run at once: they wait for each other. Batches about alike, where they are few; where they are many always of one length, so that branches stay in them. */
+/*
+ * As many places as threads can run at once: they wait for each other. Batches about alike, where they are few; where
+ * they are many always of one length, so that branches stay in them.
+ */
 static bool plan(Relay *relay, MesoGrowthWork *work)
 {
     uint32_t places = least(meso_team_size(work->team), meso_parallel_cores()), active = work->active_count;

@@ -108,8 +108,8 @@ static void release_window(const MesoGrowthWork *work, MesoGrowthWindow *window)
 
 void meso_growth_release(MesoGrowthWork *work)
 {
-    void *const arrays[] = {work->tips, work->ended, work->registers, work->active, work->shoots, work->balls, work->joints,
-                            work->points, work->elements, work->branches, work->rules, work->goes_on,
+    void *const arrays[] = {work->tips, work->ended, work->registers, work->active, work->shoots, work->balls,
+                            work->joints, work->points, work->elements, work->branches, work->rules, work->goes_on,
                             work->ahead};
     meso_team_end(work->team);
     for (uint32_t i = 0; i < 2; i++)

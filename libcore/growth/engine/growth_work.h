@@ -4,8 +4,8 @@
  * turns of a window of branches are tried together, against what had grown before (growth_try.c); then each in turn is
  * admitted, or done again where what the window has grown by then may have changed it (growth_admit.c). That gives
  * numbers to what they have grown, which is written down together, too (growth_accept.c), with the tries of the next
- * window. Threads have a batch of each window, which stays theirs from its rules to what it has grown (growth_rounds.c):
- * what passes from one to another takes as long as a turn does.
+ * window. Where no rule looks, threads have a batch of each window, which stays theirs from its rules to what it has
+ * grown (growth_relay.c): what passes from one to another takes as long as a turn does.
  */
 #ifndef MESO_GROWTH_WORK_H
 #define MESO_GROWTH_WORK_H
@@ -218,8 +218,8 @@ bool meso_growth_relay(MesoGrowthWork *work);
 /* ---- growth_try.c: turns ---- */
 
 /*
- * Turns [begin, end) of a window, which are a batch: first their rules, and where these walk to; then what comes of that,
- * which may ask for what has grown. Rules that look ask, too.
+ * Turns [begin, end) of a window, which are a batch: first their rules, and where these walk to; then what comes of
+ * that, which may ask for what has grown. Rules that look ask, too.
  */
 void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end);
 void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin);
