@@ -225,6 +225,14 @@ static void place_freely(MesoMatch *match, const MesoQuiltStep *step, const Meso
     float x = (float)meso_random_below(&random, 1 << 20) / (1 << 20) - 0.5f;
     float y = (float)meso_random_below(&random, 1 << 20) / (1 << 20) - 0.5f;
     *match = (MesoMatch){.shift = {0.5f * size.x + x * room.x, 0.5f * size.y + y * room.y}};
+    if (!work->in_phase)
+        return;
+    const double *pitches = work->pitch.pitches;
+    double aside = work->phases.diagonal ? 0.5 : 0;
+    const double offsets[2] = {work->pitch.offsets[0] + aside * pitches[0],
+                               work->pitch.offsets[1] + aside * pitches[1]};
+    match->shift.x = (float)(offsets[0] + pitches[0] * floor(((double)match->shift.x - offsets[0]) / pitches[0] + 0.5));
+    match->shift.y = (float)(offsets[1] + pitches[1] * floor(((double)match->shift.y - offsets[1]) / pitches[1] + 0.5));
 }
 
 /* What must match: that share of the swatch's sides, and as far back as its middle has moved away from what is done. */

@@ -109,11 +109,22 @@ MesoStatus meso_quilt_plane_make(MesoQuiltPlane *plane, MesoArena *arena, const 
     if (!plane->places)
         return MESO_ERR_MEMORY;
     float c = cosf(angle) / scale, s = sinf(angle) / scale;
+    for (uint32_t v = 0; v < chart->vertex_count; v++) {
+        MesoVec2 p = chart->places[v];
+        plane->places[v] = (MesoVec2){c * p.x + s * p.y, c * p.y - s * p.x};
+    }
+    for (uint32_t t = 0; t < chart->triangle_count; t++)
+        chart_triangles[chart->triangles[t]] = t;
+    return meso_quilt_plane_index(plane, arena, error);
+}
+
+MesoStatus meso_quilt_plane_index(MesoQuiltPlane *plane, MesoArena *arena, MesoError *error)
+{
+    const MesoChart *chart = plane->chart;
     plane->low = (MesoVec2){INFINITY, INFINITY};
     plane->high = (MesoVec2){-INFINITY, -INFINITY};
     for (uint32_t v = 0; v < chart->vertex_count; v++) {
-        MesoVec2 p = chart->places[v];
-        MesoVec2 q = plane->places[v] = (MesoVec2){c * p.x + s * p.y, c * p.y - s * p.x};
+        MesoVec2 q = plane->places[v];
         plane->low = (MesoVec2){q.x < plane->low.x ? q.x : plane->low.x, q.y < plane->low.y ? q.y : plane->low.y};
         plane->high = (MesoVec2){q.x > plane->high.x ? q.x : plane->high.x, q.y > plane->high.y ? q.y : plane->high.y};
     }
@@ -123,8 +134,6 @@ MesoStatus meso_quilt_plane_make(MesoQuiltPlane *plane, MesoArena *arena, const 
     plane->cell = plane->cell > least ? plane->cell : least > 0 ? least : 1;
     plane->columns = (uint32_t)(width / plane->cell) + 1;
     plane->rows = (uint32_t)(depth / plane->cell) + 1;
-    for (uint32_t t = 0; t < chart->triangle_count; t++)
-        chart_triangles[chart->triangles[t]] = t;
     measure_free(plane);
     return index_triangles(plane, arena, error);
 }

@@ -27,6 +27,9 @@ MesoStatus meso_quilt_plane_make(MesoQuiltPlane *plane, MesoArena *arena, const 
                                  const MesoChart *chart, uint32_t *chart_triangles, float angle, float scale,
                                  float height_scale, float offset, MesoError *error);
 
+/* Its box, and its grid anew, where its places have moved. To `arena`. O(chart). MESO_ERR_MEMORY. */
+MesoStatus meso_quilt_plane_index(MesoQuiltPlane *plane, MesoArena *arena, MesoError *error);
+
 void meso_quilt_plane_forget(MesoQuiltPlane *plane);
 
 /* Chart triangle at a place, with the weights of corners 1 and 2; MESO_NO_INDEX outside. O(1) on the mean. */

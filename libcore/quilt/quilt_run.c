@@ -21,6 +21,9 @@ enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
  */
 #define SEED_REACH 0.2f
 
+/* Stripes fit a surface where they are off by less, of their distances: no more than patches give way to each other. */
+#define STRAIN_MOST 0.09
+
 /* Triangles that are looked at for seeds of one round. */
 enum { SEED_TRIES = 24 };
 
@@ -388,6 +391,28 @@ static float choose_voxel(const MesoSwatch *swatch)
     return least(voxel, longest / VOXELS_LEAST);
 }
 
+/*
+ * Where strands of a swatch that is woven should lie, so that all patches agree on it. A periodic one lies where it goes
+ * on without any deformation; and where stripes do not fit the surface, patches had better find out by themselves.
+ */
+static MesoStatus find_phases(MesoQuiltWork *work, MesoArena *scratch, MesoError *error)
+{
+    const MesoSwatch *swatch = work->swatch;
+    const MesoQuiltOptions *o = &work->options;
+    MesoWeavePitch *pitch = &work->pitch;
+    uint32_t turns = o->turn_count;
+    if (work->welds || !o->guide || (turns != 1 && turns != 2 && turns != 4) ||
+        !meso_weave_pitch(pitch, work->rings.middles, work->rings.axes, work->rings.count,
+                          (MesoVec2){swatch->size.x, swatch->size.y}) ||
+        (turns == 4 && !pitch->alike))
+        return MESO_OK;
+    const double pitches[2] = {(double)o->scale * pitch->pitches[0], (double)o->scale * pitch->pitches[1]};
+    MesoStatus status = meso_stripe_phases(&work->phases, scratch, work->base, o->guide, turns, pitches,
+                                           pitch->chequered, error);
+    work->in_phase = !status && work->phases.strain < STRAIN_MOST;
+    return status;
+}
+
 static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, MesoError *error)
 {
     size_t count = work->base->triangle_count;
@@ -398,6 +423,8 @@ static MesoStatus set_up(MesoQuiltWork *work, Front *front, MesoArena *scratch, 
                                                choose_voxel(swatch), work->options.thread_count, error);
     if (!status)
         status = meso_strands_find_rings(&work->rings, swatch, scratch, error);
+    if (!status)
+        status = find_phases(work, scratch, error);
     if (!status)
         status = meso_composite_init(&work->composite, work->base->triangle_count, error);
     if (status)

@@ -3,6 +3,7 @@
 
 #include "libcore/base/clock.h"
 #include "libcore/base/parallel.h"
+#include "libcore/quilt/phase/phase_plane.h"
 #include "libcore/quilt/quilt_work.h"
 
 /* How far from each other sections of a placement may lie beside their way. */
@@ -366,9 +367,14 @@ static MesoStatus survey(MesoQuiltPatch *patch, MesoQuiltWork *work, MesoArena *
     if (status)
         return status;
     step->tally->report.shrunk_count += step->chart.radius < 0.99f * options.radius;
-    status = meso_quilt_plane_make(&step->plane, arena, work->base, &step->chart, work->chart_triangles,
-                                   guide_angle(step, work), work->options.scale, work->options.height_scale,
-                                   work->options.offset, error);
+    float angle = guide_angle(step, work);
+    status = meso_quilt_plane_make(&step->plane, arena, work->base, &step->chart, work->chart_triangles, angle,
+                                   work->options.scale, work->options.height_scale, work->options.offset, error);
+    if (!status && work->in_phase)
+        status = meso_phase_plane(step->plane.places, arena, &step->chart, work->chart_triangles, &work->phases,
+                                  work->options.guide, angle, work->options.scale, error);
+    if (!status && work->in_phase)
+        status = meso_quilt_plane_index(&step->plane, arena, error);
     patch->laid_out = true;
     return status ? status : meso_old_geometry_load(step, work, arena, error);
 }

@@ -7,6 +7,8 @@
 #include "libcore/math/thin_plate.h"
 #include "libcore/quilt/composite.h"
 #include "libcore/quilt/match/match_search.h"
+#include "libcore/quilt/phase/stripe_phases.h"
+#include "libcore/quilt/phase/weave_pitch.h"
 #include "libcore/quilt/quilt_plane.h"
 #include "libcore/quilt/seam/clip.h"
 #include "libcore/quilt/seam/seam_cut.h"
@@ -74,6 +76,9 @@ typedef struct MesoQuiltWork {
     MesoQuiltTally tally;       /* of all steps */
     atomic_uint busy_patches;   /* that are being made ready: cores beyond these try placements */
     MesoArenaPool pool;
+    bool in_phase;              /* strands are to lie in phase, at a pitch: */
+    MesoWeavePitch pitch;       /* of the swatch */
+    MesoStripePhases phases;    /* of the base */
     bool welds;                 /* the swatch has strands and is periodic: patches may fit vertex by vertex */
 
     /* lengths in units of the swatch */

@@ -1,0 +1,314 @@
+#include "libcore/quilt/phase/stripe_phases.h"
+
+#include <assert.h>
+
+
+/*
+ * Waves of one height are smoothed and made even again, so often, held the less the more often ("Diffusion generated
+ * motion", Merriman, Bence and Osher 1992, for angles): each time by so many conjugate gradients at most, and until the
+ * error is small against the first.
+ */
+static const double HOLDS[] = {1e-4, 1e-3, 0.01, 0.05};
+enum { ROUNDS = 8, GRADIENTS = 300 };
+#define SMALL 1e-2
+
+/* What a triangle without area is held by, as a share of the mean. */
+#define LEAST 1e-3
+
+/* Parts of two waves after quarter turns: where each comes from, and its sign. */
+static const uint32_t SOURCES[4][4] = {{0, 1, 2, 3}, {2, 3, 0, 1}, {0, 1, 2, 3}, {2, 3, 0, 1}};
+static const double SIGNS[4][4] = {{1, 1, 1, 1}, {1, 1, 1, -1}, {1, -1, 1, -1}, {1, -1, 1, 1}};
+
+void meso_stripe_turn_waves(double to[4], const double from[4], uint32_t quarters)
+{
+    for (int c = 0; c < 4; c++)
+        to[c] = SIGNS[quarters][c] * from[SOURCES[quarters][c]];
+}
+
+void meso_stripe_turn_ways(double to[2], const double from[2], uint32_t quarters)
+{
+    static const double turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const double c = turns[quarters][0], s = turns[quarters][1];
+    to[0] = c * from[0] + s * from[1];
+    to[1] = c * from[1] - s * from[0];
+}
+
+static MesoVec3 centroid(const MesoTriangulation *mesh, uint32_t triangle)
+{
+    const uint32_t *v = &mesh->corners[3 * (size_t)triangle];
+    MesoVec3 sum = meso_vec3_add(meso_vec3_add(mesh->positions[v[0]], mesh->positions[v[1]]), mesh->positions[v[2]]);
+    return meso_vec3_scale(sum, 1.0f / 3);
+}
+
+MesoStripeStep meso_stripe_step(const MesoStripePhases *p, uint32_t half_edge, uint32_t across)
+{
+    const MesoTriangulation *mesh = p->mesh;
+    uint32_t t = half_edge / 3, s = across / 3;
+    MesoComplex here = meso_complex_times(meso_frame_turn(mesh, p->frames, half_edge, across), p->guides[t]);
+    MesoComplex apart = meso_complex_times(here, meso_complex_conjugate(p->guides[s]));
+    int64_t unit = 4 / p->turn_count, turn = llround(atan2(apart.im, apart.re) / (0.5 * MESO_PI * (double)unit));
+    MesoStripeStep step = {.quarters = (uint32_t)(((turn * unit) % 4 + 4) % 4)};
+    MesoVec3 middle = meso_vec3_lerp(mesh->positions[mesh->corners[half_edge]],
+                                     mesh->positions[mesh->corners[meso_next_corner(half_edge)]], 0.5f);
+    MesoComplex out = meso_frame_in(&p->frames[t], meso_vec3_sub(middle, centroid(mesh, t)));
+    MesoComplex in = meso_frame_in(&p->frames[s], meso_vec3_sub(centroid(mesh, s), middle));
+    out = meso_complex_times(out, meso_complex_conjugate(p->guides[t]));
+    in = meso_complex_times(in, meso_complex_conjugate(p->guides[s]));
+    double turned[2];
+    meso_stripe_turn_ways(turned, (const double[2]){in.re, in.im}, step.quarters);
+    step.ways[0] = out.re + turned[0];
+    step.ways[1] = out.im + turned[1];
+    return step;
+}
+
+/* Of a triangle s and one before it, t: |S z_s - e^(i w) z_t|^2 times a weight, S the quarter turns. */
+typedef struct Side {
+    uint32_t from, to;      /* t, s */
+    uint32_t quarters;
+    double weight, cosines[2], sines[2];
+} Side;
+
+/* Waves as numbers [4 * triangle_count], and what conjugate gradients are in need of. */
+void meso_stripe_excess(double more[2], const MesoStripePhases *p, uint32_t half_edge, uint32_t across,
+                        const MesoStripeStep *step)
+{
+    const double *here = p->waves[half_edge / 3];
+    double there[4];
+    meso_stripe_turn_waves(there, p->waves[across / 3], step->quarters);
+    for (int k = 0; k < 2; k++) {
+        double turn = 2 * MESO_PI / p->pitches[k], phase = atan2(there[2 * k + 1], there[2 * k]);
+        phase -= atan2(here[2 * k + 1], here[2 * k]) + turn * step->ways[k];
+        more[k] = remainder(phase, 2 * MESO_PI) / turn;
+    }
+}
+
+typedef struct System {
+    const MesoStripePhases *phases;
+    uint32_t side_count;
+    Side *sides;
+    double *areas;          /* [triangle_count] of the mean, times the mean weight of a triangle's sides */
+    double *sums;           /* [triangle_count] weights of sides */
+    double *left, *way, *pull;
+} System;
+
+static double side_weight(const MesoStripePhases *p, uint32_t half_edge, uint32_t across)
+{
+    const double thinnest = 1e-3;   /* of the side's square: the area that two triangles have at least */
+    MesoVec3 a = p->mesh->positions[p->mesh->corners[half_edge]];
+    MesoVec3 b = meso_vec3_sub(p->mesh->positions[p->mesh->corners[meso_next_corner(half_edge)]], a);
+    double square = (double)meso_vec3_dot(b, b), area = p->frames[half_edge / 3].area + p->frames[across / 3].area;
+    return square > 0 ? 1.5 * square / fmax(area, thinnest * square) : thinnest;
+}
+
+static void list_sides(System *system)
+{
+    const MesoStripePhases *p = system->phases;
+    for (uint32_t h = 0; h < 3 * p->mesh->triangle_count; h++) {
+        uint32_t across = meso_frame_across(p->mesh, h);
+        if (across == MESO_NO_INDEX || across / 3 <= h / 3)
+            continue;
+        MesoStripeStep step = meso_stripe_step(p, h, across);
+        Side *side = &system->sides[system->side_count++];
+        *side = (Side){.from = h / 3, .to = across / 3, .quarters = step.quarters, .weight = side_weight(p, h, across)};
+        for (int k = 0; k < 2; k++) {
+            double angle = 2 * MESO_PI * step.ways[k] / p->pitches[k];
+            side->cosines[k] = cos(angle);
+            side->sines[k] = sin(angle);
+        }
+        system->sums[side->from] += side->weight;
+        system->sums[side->to] += side->weight;
+    }
+}
+
+/* Waves carried over a side. */
+static void carry(double to[4], const double *from, const Side *side)
+{
+    for (int k = 0; k < 2; k++) {
+        to[2 * k] = side->cosines[k] * from[2 * k] - side->sines[k] * from[2 * k + 1];
+        to[2 * k + 1] = side->sines[k] * from[2 * k] + side->cosines[k] * from[2 * k + 1];
+    }
+}
+
+/* And back. */
+static void carry_back(double to[4], const double *from, const Side *side)
+{
+    for (int k = 0; k < 2; k++) {
+        to[2 * k] = side->cosines[k] * from[2 * k] + side->sines[k] * from[2 * k + 1];
+        to[2 * k + 1] = side->cosines[k] * from[2 * k + 1] - side->sines[k] * from[2 * k];
+    }
+}
+
+/* pull = (L + held M) z: what sides pull at waves, and what holds them. */
+static void apply(double *pull, const double *z, const System *system, double held)
+{
+    for (uint32_t t = 0; t < system->phases->mesh->triangle_count; t++)
+        for (size_t c = 0; c < 4; c++)
+            pull[4 * (size_t)t + c] = held * system->areas[t] * z[4 * (size_t)t + c];
+    for (uint32_t i = 0; i < system->side_count; i++) {
+        const Side *side = &system->sides[i];
+        const double *t = &z[4 * (size_t)side->from], *s = &z[4 * (size_t)side->to];
+        double *pull_t = &pull[4 * (size_t)side->from], *pull_s = &pull[4 * (size_t)side->to];
+        double apart[4], here[4], there[4];
+        carry(here, t, side);
+        meso_stripe_turn_waves(there, s, side->quarters);
+        for (int c = 0; c < 4; c++)
+            apart[c] = side->weight * (there[c] - here[c]);
+        meso_stripe_turn_waves(there, apart, (4 - side->quarters) % 4);
+        carry_back(here, apart, side);
+        for (int c = 0; c < 4; c++) {
+            pull_s[c] += there[c];
+            pull_t[c] -= here[c];
+        }
+    }
+}
+
+/* Waves of one height: where they begin. */
+static void make_even(double *z, size_t count)
+{
+    for (size_t i = 0; i < 2 * count; i++) {
+        double height = sqrt(z[2 * i] * z[2 * i] + z[2 * i + 1] * z[2 * i + 1]);
+        for (int c = 0; c < 2 && height > 0; c++)
+            z[2 * i + (size_t)c] /= height;
+    }
+}
+
+/* One step: (L + held M) z = held M z_even, by conjugate gradients from there. */
+static void step(double *z, System *system, double held)
+{
+    size_t count = 4 * (size_t)system->phases->mesh->triangle_count;
+    double before = 0, first = 0;
+    make_even(z, count / 4);
+    apply(system->pull, z, system, held);
+    for (size_t i = 0; i < count; i++)
+        system->left[i] = held * system->areas[i / 4] * z[i] - system->pull[i];
+    for (int round = 0; round < GRADIENTS; round++) {
+        double now = 0, along = 0;
+        for (size_t i = 0; i < count; i++)
+            now += system->left[i] * system->left[i] / (system->sums[i / 4] + held * system->areas[i / 4]);
+        first = round ? first : now;
+        if (!(now > SMALL * SMALL * first))
+            break;
+        for (size_t i = 0; i < count; i++)
+            system->way[i] = system->left[i] / (system->sums[i / 4] + held * system->areas[i / 4]) +
+                             (round ? now / before * system->way[i] : 0);
+        apply(system->pull, system->way, system, held);
+        for (size_t i = 0; i < count; i++)
+            along += system->way[i] * system->pull[i];
+        for (size_t i = 0; i < count && along > 0; i++) {
+            z[i] += now / along * system->way[i];
+            system->left[i] -= now / along * system->pull[i];
+        }
+        before = now;
+    }
+}
+
+/* From triangle to triangle over sides, each part from its first one. */
+static MesoStatus set_start(double *z, const System *system, MesoArena *scratch, MesoError *error)
+{
+    const MesoTriangulation *mesh = system->phases->mesh;
+    uint32_t *queue = MESO_NEW(scratch, uint32_t, mesh->triangle_count, error);
+    uint8_t *seen = MESO_NEW(scratch, uint8_t, mesh->triangle_count, error);
+    if (!queue || !seen)
+        return MESO_ERR_MEMORY;
+    for (uint32_t first = 0; first < mesh->triangle_count; first++) {
+        uint32_t count = 0;
+        if (seen[first])
+            continue;
+        seen[first] = 1;
+        queue[count++] = first;
+        z[4 * (size_t)first] = z[4 * (size_t)first + 2] = 1;
+        for (uint32_t i = 0; i < count; i++)
+            for (uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; h++) {
+                uint32_t across = meso_frame_across(mesh, h);
+                if (across == MESO_NO_INDEX || seen[across / 3])
+                    continue;
+                MesoStripeStep way = meso_stripe_step(system->phases, h, across);
+                Side side = {0};
+                double carried[4];
+                for (int k = 0; k < 2; k++) {
+                    double angle = 2 * MESO_PI * way.ways[k] / system->phases->pitches[k];
+                    side.cosines[k] = cos(angle);
+                    side.sines[k] = sin(angle);
+                }
+                carry(carried, &z[4 * (size_t)queue[i]], &side);
+                meso_stripe_turn_waves(&z[4 * (size_t)(across / 3)], carried, (4 - way.quarters) % 4);
+                seen[across / 3] = 1;
+                queue[count++] = across / 3;
+            }
+    }
+    return MESO_OK;
+}
+
+static MesoStatus solve(MesoStripePhases *p, MesoArena *scratch, MesoError *error)
+{
+    const MesoTriangulation *mesh = p->mesh;
+    size_t count = mesh->triangle_count;
+    System system = {.phases = p, .sides = MESO_NEW(scratch, Side, 3 * count / 2 + 1, error),
+                     .sums = MESO_NEW(scratch, double, count, error), .areas = MESO_NEW(scratch, double, count, error),
+                     .left = MESO_NEW(scratch, double, 4 * count, error),
+                     .way = MESO_NEW(scratch, double, 4 * count, error),
+                     .pull = MESO_NEW(scratch, double, 4 * count, error)};
+    if (!system.sides || !system.sums || !system.areas || !system.left || !system.way || !system.pull)
+        return MESO_ERR_MEMORY;
+    list_sides(&system);
+    double area = 0, weight = 0;
+    for (size_t t = 0; t < count; t++) {
+        area += p->frames[t].area;
+        weight += system.sums[t];
+    }
+    for (size_t t = 0; t < count; t++)
+        system.areas[t] = area > 0 ? p->frames[t].area / area * weight + LEAST * weight / (double)count : 1;
+    double *z = p->waves[0];
+    MesoStatus status = set_start(z, &system, scratch, error);
+    for (size_t i = 0; i < sizeof HOLDS / sizeof *HOLDS && !status; i++)
+        for (int round = 0; round < ROUNDS; round++)
+            step(z, &system, HOLDS[i]);
+    return status;
+}
+
+/* How far phases are from growing as they should, from triangle to triangle: of that, as a share, RMS. */
+static double strain_of(const MesoStripePhases *p)
+{
+    double off = 0, all = 0;
+    for (uint32_t h = 0; h < 3 * p->mesh->triangle_count; h++) {
+        uint32_t across = meso_frame_across(p->mesh, h);
+        if (across == MESO_NO_INDEX || across / 3 <= h / 3)
+            continue;
+        MesoStripeStep way = meso_stripe_step(p, h, across);
+        double more[2];
+        meso_stripe_excess(more, p, h, across, &way);
+        off += more[0] * more[0] + more[1] * more[1];
+        all += way.ways[0] * way.ways[0] + way.ways[1] * way.ways[1];
+    }
+    return all > 0 ? sqrt(off / all) : 0;
+}
+
+MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,
+                              const MesoVec3 *guides, uint32_t turn_count, const double pitches[2], bool diagonal,
+                              MesoError *error)
+{
+    assert(turn_count == 1 || turn_count == 2 || turn_count == 4);
+    *phases = (MesoStripePhases){.mesh = mesh, .turn_count = turn_count, .diagonal = diagonal,
+                                  .pitches = {pitches[0], pitches[1]}};
+    MesoTriangleFrame *frames = MESO_NEW(arena, MesoTriangleFrame, mesh->triangle_count, error);
+    MesoComplex *along = MESO_NEW(arena, MesoComplex, mesh->triangle_count, error);
+    phases->waves = meso_arena_alloc(arena, mesh->triangle_count, sizeof *phases->waves, error);
+    if (!frames || !along || !phases->waves)
+        return MESO_ERR_MEMORY;
+    if (turn_count == 4 || diagonal)
+        phases->pitches[0] = phases->pitches[1] = (diagonal ? sqrt(0.5) : 0.5) * (pitches[0] + pitches[1]);
+    const MesoComplex turn = {diagonal ? sqrt(0.5) : 1, diagonal ? sqrt(0.5) : 0};
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        frames[t] = meso_frame(mesh, t);
+        along[t] = meso_complex_times(meso_complex_unit(meso_frame_in(&frames[t], guides[t])), turn);
+    }
+    phases->frames = frames;
+    phases->guides = along;
+    MesoArena scratch;
+    meso_arena_init(&scratch);
+    MesoStatus status = solve(phases, &scratch, error);
+    if (!status)
+        phases->strain = strain_of(phases);
+    meso_arena_release(&scratch);
+    return status;
+}

@@ -1,0 +1,172 @@
+#include "libcore/mesh/cut/triangulation_fixture.h"
+#include "libcore/quilt/phase/phase_plane.h"
+#include "libcore/quilt/phase/weave_pitch.h"
+
+static double wrapped(double phase)
+{
+    return remainder(phase, 2 * MESO_PI);
+}
+
+static double phase_of(const double wave[2])
+{
+    return atan2(wave[1], wave[0]);
+}
+
+/* Guides that point along x or y, as the triangle's number has it. */
+static MesoVec3 *mixed_guides(MesoArena *arena, const MesoTriangulation *mesh)
+{
+    MesoError error;
+    MesoVec3 *guides = MESO_NEW(arena, MesoVec3, mesh->triangle_count, &error);
+    CHECK(guides);
+    const MesoVec3 ways[4] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        guides[t] = ways[t * 7 % 4];
+    return guides;
+}
+
+/* On a plane stripes fit, whatever turns guides take, and grow by a pitch. */
+static void check_sheet(bool diagonal)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoStripePhases phases;
+    meso_arena_init(&arena);
+    MesoTriangulation mesh = meso_fixture_sheet(24, 20, 0.3f);
+    const double pitches[2] = {1, 1};
+    MesoVec3 *guides = mixed_guides(&arena, &mesh);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, diagonal, &error) == MESO_OK);
+    CHECK(phases.strain < 1e-3);
+    CHECK(fabs(phases.pitches[0] - (diagonal ? sqrt(2) : 1)) < 1e-6);
+    uint32_t turned = 0;
+    for (uint32_t h = 0; h < 3 * mesh.triangle_count; h++) {
+        uint32_t across = meso_frame_across(&mesh, h);
+        if (across == MESO_NO_INDEX)
+            continue;
+        MesoStripeStep step = meso_stripe_step(&phases, h, across);
+        double there[4], more[2];
+        turned += step.quarters != 0;
+        meso_stripe_turn_waves(there, phases.waves[across / 3], step.quarters);
+        meso_stripe_excess(more, &phases, h, across, &step);
+        for (int k = 0; k < 2; k++) {
+            double grown = phase_of(&there[2 * k]) - phase_of(&phases.waves[h / 3][2 * k]);
+            CHECK(fabs(wrapped(grown - 2 * MESO_PI * step.ways[k] / phases.pitches[k])) < 0.02);
+            CHECK(fabs(more[k]) < 0.01);
+        }
+    }
+    CHECK(turned > mesh.triangle_count);
+    meso_triangulation_release(&mesh);
+    meso_arena_release(&arena);
+}
+
+enum { AROUND = 60 };
+
+static MesoVec3 on_cylinder(const MesoFixtureSquares *squares, uint32_t column, uint32_t row)
+{
+    double angle = 2 * MESO_PI * column / AROUND;
+    return (MesoVec3){squares->size[1] * (float)cos(angle), squares->size[1] * (float)sin(angle),
+                      squares->size[0] * (float)row};
+}
+
+/*
+ * Around a cylinder there is room for 10.3 stripes: there are ten, and so phases are off by three parts of ten and
+ * three. A chart of it has stripes that are a pitch apart in its plane, at whole pitches.
+ */
+static void check_cylinder(void)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoStripePhases phases;
+    meso_arena_init(&arena);
+    const float length = 10.3f;
+    MesoTriangulation mesh = meso_fixture_squares(&(MesoFixtureSquares){
+        .columns = AROUND, .rows = 40, .around = MESO_SEAM_JOINED, .size = {length / AROUND, length / (2 * (float)MESO_PI)},
+        .place = on_cylinder});
+    MesoVec3 *guides = MESO_NEW(&arena, MesoVec3, mesh.triangle_count, &error);
+    uint32_t *chart_triangles = MESO_NEW(&arena, uint32_t, mesh.triangle_count, &error);
+    CHECK(guides && chart_triangles);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        guides[t] = (MesoVec3){0, 0, 1};
+        chart_triangles[t] = MESO_NO_INDEX;
+    }
+    const double pitches[2] = {1, 1};
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, &error) == MESO_OK);
+    CHECK(phases.strain > 0.01 && phases.strain < 0.04);
+
+    MesoChartMaker maker;
+    MesoChart chart;
+    CHECK(meso_chart_maker_init(&maker, &mesh, &error) == MESO_OK);
+    CHECK(meso_chart_grow(&chart, &arena, &maker, mesh.triangle_count / 2, &(MesoChartOptions){.radius = 2.5f}, &error) ==
+          MESO_OK);
+    MesoVec2 guide = meso_chart_direction(&chart, &mesh, 0, guides[chart.triangles[0]]);
+    float angle = atan2f(guide.y, guide.x);
+    MesoVec2 *spots = MESO_NEW(&arena, MesoVec2, chart.vertex_count, &error);
+    CHECK(spots);
+    for (uint32_t v = 0; v < chart.vertex_count; v++) {
+        MesoVec2 p = chart.places[v];
+        spots[v] = (MesoVec2){cosf(angle) * p.x + sinf(angle) * p.y, cosf(angle) * p.y - sinf(angle) * p.x};
+    }
+    for (uint32_t t = 0; t < chart.triangle_count; t++)
+        chart_triangles[chart.triangles[t]] = t;
+    CHECK(meso_phase_plane(spots, &arena, &chart, chart_triangles, &phases, guides, angle, 1, &error) == MESO_OK);
+    double largest = 0;
+    for (uint32_t t = 0; t < chart.triangle_count; t++) {
+        MesoVec2 sum = {0, 0};
+        for (uint32_t k = 0; k < 3; k++)
+            sum = meso_vec2_add(sum, spots[chart.corners[3 * (size_t)t + k]]);
+        const double places[2] = {(double)sum.x / 3, (double)sum.y / 3};
+        for (int k = 0; k < 2; k++)
+            largest = fmax(largest, fabs(wrapped(2 * MESO_PI * places[k] -
+                                                 phase_of(&phases.waves[chart.triangles[t]][2 * k]))));
+    }
+    CHECK(largest < 0.05);
+    meso_chart_maker_release(&maker);
+    meso_triangulation_release(&mesh);
+    meso_arena_release(&arena);
+}
+
+/* Strands of a cloth, some off by a few parts of a hundred; floats: crossings that a strand stays above. */
+static uint32_t make_cloth(MesoVec3 *middles, MesoVec3 *axes, uint32_t floats)
+{
+    uint32_t count = 0;
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < 6; i++)
+            for (int k = 0; k < 60; k++) {
+                double along = 0.1 * k, across = 0.4 + i + 0.04 * (i % 3 - 1);
+                double up = cos(MESO_PI * ((along - 0.4) / floats + i + side));
+                middles[count] = side ? (MesoVec3){(float)along, (float)across, (float)up}
+                                      : (MesoVec3){(float)across, (float)along, (float)up};
+                axes[count++] = side ? (MesoVec3){1, 0, 0} : (MesoVec3){0, 1, 0};
+            }
+    return count;
+}
+
+static void check_pitch(void)
+{
+    static MesoVec3 middles[720], axes[720];
+    MesoWeavePitch pitch;
+    uint32_t count = make_cloth(middles, axes, 1);
+    CHECK(meso_weave_pitch(&pitch, middles, axes, count, (MesoVec2){6, 6}));
+    CHECK(pitch.alike && pitch.chequered);
+    for (int k = 0; k < 2; k++) {
+        CHECK(fabs(pitch.pitches[k] - 1) < 0.02);
+        CHECK(fabs(remainder(pitch.offsets[k] - 0.4, 1)) < 0.06);
+    }
+    make_cloth(middles, axes, 2);
+    CHECK(meso_weave_pitch(&pitch, middles, axes, count, (MesoVec2){6, 6}) && !pitch.chequered);
+    for (uint32_t r = 0; r < count; r++)
+        axes[r] = (MesoVec3){0.7f, 0.7f, 0};    /* along neither side */
+    CHECK(!meso_weave_pitch(&pitch, middles, axes, count, (MesoVec2){6, 6}));
+    count = make_cloth(middles, axes, 1);
+    for (uint32_t r = 0; r < count; r++)
+        middles[r].x = fmodf(3.708204f * (float)(r / 60), 6);       /* anywhere */
+    CHECK(!meso_weave_pitch(&pitch, middles, axes, count, (MesoVec2){6, 6}));
+}
+
+int main(void)
+{
+    check_sheet(false);
+    check_sheet(true);
+    check_cylinder();
+    check_pitch();
+    return 0;
+}
