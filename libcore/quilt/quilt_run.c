@@ -21,8 +21,12 @@ enum { TIGHTNESS_COUNT = sizeof TIGHTNESS / sizeof *TIGHTNESS };
  */
 #define SEED_REACH 0.2f
 
-/* Stripes fit a surface where they are off by less, of their distances: no more than patches give way to each other. */
+/*
+ * Stripes fit a surface where they are off by less, of their distances: no more than patches give way to each other.
+ * Where they are off by hardly anything, as on a plane, patches meet without them.
+ */
 #define STRAIN_MOST 0.09
+#define STRAIN_LEAST 0.005
 
 /* Triangles that are looked at for seeds of one round. */
 enum { SEED_TRIES = 24 };
@@ -392,8 +396,8 @@ static float choose_voxel(const MesoSwatch *swatch)
 }
 
 /*
- * Where strands of a swatch that is woven should lie, so that all patches agree on it. A periodic one lies where it goes
- * on without any deformation; and where stripes do not fit the surface, patches had better find out by themselves.
+ * Where strands of a swatch that is woven should lie, so that all patches agree on it. A periodic one lies where it
+ * goes on without any deformation; and where stripes do not fit the surface, patches had better find out by themselves.
  */
 static MesoStatus find_phases(MesoQuiltWork *work, MesoArena *scratch, MesoError *error)
 {
@@ -409,7 +413,7 @@ static MesoStatus find_phases(MesoQuiltWork *work, MesoArena *scratch, MesoError
     const double pitches[2] = {(double)o->scale * pitch->pitches[0], (double)o->scale * pitch->pitches[1]};
     MesoStatus status = meso_stripe_phases(&work->phases, scratch, work->base, o->guide, turns, pitches,
                                            pitch->chequered, error);
-    work->in_phase = !status && work->phases.strain < STRAIN_MOST;
+    work->in_phase = !status && work->phases.strain > STRAIN_LEAST && work->phases.strain < STRAIN_MOST;
     return status;
 }
 

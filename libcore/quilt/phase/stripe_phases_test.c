@@ -79,8 +79,8 @@ static void check_cylinder(void)
     meso_arena_init(&arena);
     const float length = 10.3f;
     MesoTriangulation mesh = meso_fixture_squares(&(MesoFixtureSquares){
-        .columns = AROUND, .rows = 40, .around = MESO_SEAM_JOINED, .size = {length / AROUND, length / (2 * (float)MESO_PI)},
-        .place = on_cylinder});
+        .columns = AROUND, .rows = 40, .around = MESO_SEAM_JOINED, .place = on_cylinder,
+        .size = {length / AROUND, length / (2 * (float)MESO_PI)}});
     MesoVec3 *guides = MESO_NEW(&arena, MesoVec3, mesh.triangle_count, &error);
     uint32_t *chart_triangles = MESO_NEW(&arena, uint32_t, mesh.triangle_count, &error);
     CHECK(guides && chart_triangles);
@@ -95,8 +95,8 @@ static void check_cylinder(void)
     MesoChartMaker maker;
     MesoChart chart;
     CHECK(meso_chart_maker_init(&maker, &mesh, &error) == MESO_OK);
-    CHECK(meso_chart_grow(&chart, &arena, &maker, mesh.triangle_count / 2, &(MesoChartOptions){.radius = 2.5f}, &error) ==
-          MESO_OK);
+    CHECK(meso_chart_grow(&chart, &arena, &maker, mesh.triangle_count / 2, &(MesoChartOptions){.radius = 2.5f},
+                          &error) == MESO_OK);
     MesoVec2 guide = meso_chart_direction(&chart, &mesh, 0, guides[chart.triangles[0]]);
     float angle = atan2f(guide.y, guide.x);
     MesoVec2 *spots = MESO_NEW(&arena, MesoVec2, chart.vertex_count, &error);

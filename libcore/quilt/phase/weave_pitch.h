@@ -16,8 +16,9 @@ typedef struct MesoWeavePitch {
 
 /*
  * Of middles of rings [count] and axes there: those along y by their x, and those along x by their y. The pitch is the
- * largest of which most lie at whole multiples, and fewer of those next to it, |sum e^(2 pi i x / pitch)| / count. False where either are not there, or lie
- * anywhere. `size`: of the swatch. O(count).
+ * largest of which most lie at whole multiples, |sum e^(2 pi i x / pitch)| / count, and fewer of those next to it.
+ * Whether they are chequered is told by their heights z, as |sum z e^(pi i (x / pitch + y / pitch))|. False where
+ * either are not there, lie anywhere, or leave out many multiples. `size`: of the swatch. O(count).
  */
 bool meso_weave_pitch(MesoWeavePitch *pitch, const MesoVec3 *middles, const MesoVec3 *axes, uint32_t count,
                       MesoVec2 size);
