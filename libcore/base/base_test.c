@@ -119,6 +119,7 @@ static void test_arena_reserve(void)
     CHECK(arena.head == mark.block);
     meso_arena_release(&arena);
 }
+
 /* What is left of a large block's last page is room for more. */
 static void test_arena_pages(void)
 {
