@@ -109,7 +109,7 @@ static void test_sweep(void)
 {
     MesoCage cage = draw_cage(0.2f);
     MesoSweepInstance sweep = {{{1, 0.5f, 0.25f}, {0.7f, 0.5f, 0.25f}, {0.4f, 0.3f, 0.3f}, {0.4f, 0, 0.3f}},
-                               {{0, 0, 1}, {0, 0, 1}}, {{-1, 0, 0}, {0, -1, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                               {{0, 0, 1}, {0, 0, 1}}, {{-1, 0, 0}, {0, -1, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     MesoScene scene = {.section_scale = 1, .deform = MESO_SWEEP_SHAPE, .cage_count = 1, .cages = &cage};
     MesoVec3 p[4];
     meso_sweep_trajectory(&scene, &sweep, p);

@@ -64,7 +64,7 @@ static void test_rings(void)
     const float k = 0.5522847f;
     make_circle();
     MesoSweepInstance instance = {{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                  {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                                  {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     MesoSweptKind kind = {.column_count = SIDES + 1, .division_count = 100, .instance_count = 1};
     MesoScene scene = {.kinds = &kind, .columns = columns, .sweeps = &instance, .kind_count = 1,
                        .sweep_count = 1, .section_scale = 1};
@@ -78,7 +78,7 @@ static void test_rings(void)
     CHECK(meso_detail_rings(&scene, &kind, 1e-6f) == 5);
 
     MesoSweepInstance line = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                              {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                              {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     scene.sweeps = &line;
     kind.division_count = 100;
     CHECK(meso_detail_rings(&scene, &kind, 1e-3f) == 2);

@@ -122,7 +122,7 @@ void meso_scene_faces(const MesoSceneParts *parts, uint32_t begin, uint32_t end,
         uint32_t part_base = base + (uint32_t)(parts->vertex_begin[part] - first_vertex);
         MesoMeshFace *to = out + (parts->face_begin[part] - first_face);
         if (part < scene->sweep_count)
-            meso_sweep_faces(scene, kind_of_part(scene, part), part_base, to);
+            meso_sweep_faces(scene, kind_of_part(scene, part), &scene->sweeps[part], part_base, to);
         else
             meso_placed_faces(scene, &scene->placed[part - scene->sweep_count], part_base, to);
     }

@@ -109,8 +109,9 @@ typedef struct MesoSweepColumn {
 
 /*
  * Ring r of n + 1 lies at r / n along its sweep's pace. Bowed, what lies between the ends is moved out of the bends, by
- * (P[r - 1] - 2 P[r] + P[r + 1]) / -16 of a column's points, so that its chords lie as far outside as inside. The ends
- * stay, and those beside them are MESO_END_NEARER of a step nearer.
+ * (P[r] - lerp(P[r - 1], P[r + 1], t)) / 8 of a column's points, of which the middle one lies at t of the way from the
+ * one v to the other, so that its chords lie as far outside as inside. The ends stay, and those beside them are
+ * MESO_END_NEARER of a step nearer.
  *
  * A ring at an end has the points that its own drawing needs, whatever else the sweep needs between: the next ring's
  * vertices of other columns fan out from the last column before that has one there. So do a ring's own towards the
@@ -121,8 +122,14 @@ enum { MESO_ABSENT_START = 1, MESO_ABSENT_END = 2, MESO_ABSENT_BETWEEN = 4 };
 /* 1 - sqrt(3) / 2: then a chord that is moved at one end alone is off as far as the next one. */
 #define MESO_END_NEARER 0.134f
 
+/* Rings of what is bowed are at most this many. */
+enum { MESO_MOST_BOWED = 4096 };
+
 /* Parts of a pace, which runs evenly within each. */
 enum { MESO_PACE_PARTS = 16 };
+
+/* Of bits that say how the quads of a sweep are split. */
+enum { MESO_LEAN_WORDS = 4 };
 
 /* Sweeps that share their columns. The columns run clockwise around the trajectory. */
 typedef struct MesoSweptKind {
@@ -140,6 +147,12 @@ typedef struct MesoSweptKind {
     MesoVec2 middle[2];         /* about which it turns, at the start and at the end, in units of the profiles */
 } MesoSweptKind;
 
+/* How a sweep is cut up; all 0: evenly, with diagonals from quads' first corners. */
+typedef struct MesoSweepSteps {
+    uint16_t pace[MESO_PACE_PARTS - 1];     /* v at each part of the steps, of 65536; all 0: even */
+    uint64_t leans[MESO_LEAN_WORDS];        /* of meso_sweep_leans() (sweep.h) */
+} MesoSweepSteps;
+
 typedef struct MesoSweepInstance {
     MesoVec3 p[4];              /* control points; a cap has p[1..3] along its axis */
     MesoVec3 up[2];             /* of the profile's y direction at both ends; not of unit length */
@@ -150,7 +163,7 @@ typedef struct MesoSweepInstance {
     float mitre;                /* in [0,1]: 0, rings lie across the trajectory; 1, they turn evenly from end to end;
                                  * or a crease */
     uint32_t cage;              /* that its cell is bent into, where sections deform */
-    uint16_t pace[MESO_PACE_PARTS - 1];     /* v at each part of the steps, of 65536; all 0: even */
+    MesoSweepSteps steps;
 } MesoSweepInstance;
 
 /*

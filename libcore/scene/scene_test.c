@@ -60,7 +60,7 @@ static void make_case(Case *c)
     c->columns[1] = (MesoSweepColumn){{0, 1}, {0, 1}, {0, 1}, {0, 1}, 1, 0, .absent = 0};
     c->kind = (MesoSweptKind){.column_count = 2, .joint_count = 1, .division_count = 3, .instance_count = 1};
     c->sweep = (MesoSweepInstance){{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}}, {{0, 1, 0}, {0, 1, 0}},
-                                   {{0, 0, 1}, {0, 0, 1}}, 0, {1, 1}, 0, 0, 0, {0}};
+                                   {{0, 0, 1}, {0, 0, 1}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     c->scene = (MesoScene){.channel_count = 2, .channels = {{"element", 4, NULL}, {"rule", 10, NULL}},
         .material_count = 2, .id_row_count = 4, .ids = c->ids, .section_scale = 2,
         .kind_count = 1, .column_count = 2, .sweep_count = 1, .kinds = &c->kind, .columns = c->columns,

@@ -279,11 +279,11 @@ float meso_sweep_place(const MesoSweptKind *kind, const MesoSweepInstance *sweep
         return ring == last;
     float nearer = kind->bowed ? MESO_END_NEARER : 0;
     float t = ((float)ring - nearer) / ((float)last - 2 * nearer);
-    if (sweep->pace[0] == 0)
+    if (sweep->steps.pace[0] == 0)
         return t;
     uint32_t part = (uint32_t)(t * MESO_PACE_PARTS);
-    float from = part > 0 ? (float)sweep->pace[part - 1] : 0;
-    float to = part + 1 < MESO_PACE_PARTS ? (float)sweep->pace[part] : 65536;
+    float from = part > 0 ? (float)sweep->steps.pace[part - 1] : 0;
+    float to = part + 1 < MESO_PACE_PARTS ? (float)sweep->steps.pace[part] : 65536;
     return (from + (to - from) * (t * MESO_PACE_PARTS - (float)part)) / 65536;
 }
 
@@ -338,15 +338,30 @@ static MesoVec3 end_point(const EndRing *end, const MesoSweepColumn *column)
                                                   : point;
 }
 
-/* Moves what lies between the ends of a column out of its bends. */
-static void bow_column(MesoMeshVertex *first, uint32_t stride, uint32_t count, MesoVec3 before, MesoVec3 last)
+/*
+ * Moves what lies between the ends of a column out of its bends. `parts` [count] says how far along each is from the
+ * ring before to the one behind.
+ */
+static void bow_column(MesoMeshVertex *first, uint32_t stride, uint32_t count, const float *parts, MesoVec3 before,
+                       MesoVec3 last)
 {
     for (uint32_t i = 0; i < count; i++) {
         MesoVec3 *at = &first[(size_t)i * stride].position, here = *at;
         MesoVec3 next = i + 1 < count ? first[(size_t)(i + 1) * stride].position : last;
-        MesoVec3 bend = meso_vec3_mad(meso_vec3_add(before, next), -2, here);
-        *at = meso_vec3_mad(here, -1.0f / 16, bend);
+        MesoVec3 bend = meso_vec3_sub(meso_vec3_lerp(before, next, parts[i]), here);
+        *at = meso_vec3_mad(here, -1.0f / 8, bend);
         before = here;
+    }
+}
+
+static void find_parts(const MesoSweptKind *kind, const MesoSweepInstance *sweep, float *parts)
+{
+    float before = 0, here = meso_sweep_place(kind, sweep, 1);
+    for (uint32_t r = 1; r + 1 < kind->division_count; r++) {
+        float next = meso_sweep_place(kind, sweep, r + 1);
+        parts[r - 1] = next > before ? (here - before) / (next - before) : 0.5f;
+        before = here;
+        here = next;
     }
 }
 
@@ -357,7 +372,10 @@ static void bow_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
     uint32_t width = kind->column_count - kind->absent[2], between = kind->division_count - 2;
     MesoMeshVertex *start = out, *inner = out + kind->column_count - kind->absent[0];
     MesoMeshVertex *end = inner + (size_t)between * width;
+    float parts[MESO_MOST_BOWED];
     EndRing whole[2];
+    assert(kind->division_count <= MESO_MOST_BOWED);
+    find_parts(kind, sweep, parts);
     for (uint32_t k = 0; k < 2; k++)
         if (kind->absent[k])
             whole[k] = end_ring(scene, kind, sweep, (float)k);
@@ -366,7 +384,7 @@ static void bow_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
         MesoMeshVertex *first = absent & MESO_ABSENT_START ? NULL : start++;
         MesoMeshVertex *last = absent & MESO_ABSENT_END ? NULL : end++;
         if (!(absent & MESO_ABSENT_BETWEEN))
-            bow_column(inner++, width, between, first ? first->position : end_point(&whole[0], &columns[c]),
+            bow_column(inner++, width, between, parts, first ? first->position : end_point(&whole[0], &columns[c]),
                        last ? last->position : end_point(&whole[1], &columns[c]));
     }
 }

@@ -61,7 +61,34 @@ uint64_t meso_sweep_triangle_count(const MesoSweptKind *kind);
  */
 void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                          MesoMeshVertex *out);
-void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_t base, MesoMeshFace *out);
+void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t base,
+                      MesoMeshFace *out);
+
+/*
+ * Bits of a sweep's leans: each joint between the ends has one for each of a number of parts of the rows, or a few
+ * joints have one together, where there are very many. Where it is set, a quad's diagonal is the one from its second
+ * corner, not from its first.
+ */
+enum { MESO_LEAN_BITS = 64 * MESO_LEAN_WORDS, MESO_LEAN_PARTS = 16 };
+
+static inline uint32_t meso_sweep_lean_parts(uint32_t joint_count)
+{
+    uint32_t parts = joint_count > 0 ? MESO_LEAN_BITS / joint_count : 1;
+    return parts < 1 ? 1 : parts > MESO_LEAN_PARTS ? MESO_LEAN_PARTS : parts;
+}
+
+static inline uint32_t meso_sweep_lean_bit(uint32_t joint, uint32_t joint_count, uint32_t row, uint32_t row_count)
+{
+    uint32_t parts = meso_sweep_lean_parts(joint_count);
+    if (joint_count > MESO_LEAN_BITS)
+        joint = (uint32_t)((uint64_t)joint * MESO_LEAN_BITS / joint_count);
+    return joint * parts + (row_count <= parts ? row : (uint32_t)((uint64_t)row * parts / row_count));
+}
+
+static inline bool meso_sweep_leans(const MesoSweepInstance *sweep, uint32_t bit)
+{
+    return sweep->steps.leans[bit / 64] >> bit % 64 & 1;
+}
 
 /*
  * How many triangles of a sweep, no cap, are against the normals of all their corners, or nearly, with all columns and

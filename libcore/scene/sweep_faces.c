@@ -1,16 +1,38 @@
 /* Faces of a sweep's grid, how many there are, and which are against their normals. */
 #include "libcore/scene/sweep.h"
 
-/* A row of faces from a ring between the ends to the next. */
-static MesoMeshFace *inner_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t here, bool tip,
-                               MesoMeshFace *out)
+/* A row of quads. */
+typedef struct Row {
+    const MesoSweptKind *kind;
+    const MesoSweepColumn *columns;
+    const MesoSweepInstance *sweep;
+    uint32_t number;
+} Row;
+
+static bool leans(const Row *row, uint32_t joint)
 {
-    uint32_t ahead = here + kind->column_count - kind->absent[2];
+    return meso_sweep_leans(row->sweep, meso_sweep_lean_bit(joint, row->kind->joint_count, row->number,
+                                                            row->kind->division_count - 1));
+}
+
+/* The diagonal of a quad is from its first corner. */
+static MesoMeshFace quad_face(uint32_t a, uint32_t b, uint32_t b_ahead, uint32_t a_ahead, bool lean)
+{
+    return lean ? (MesoMeshFace){{b, b_ahead, a_ahead, a}} : (MesoMeshFace){{a, b, b_ahead, a_ahead}};
+}
+
+/* A row of faces from a ring between the ends to the next. */
+static MesoMeshFace *inner_row(const Row *row, uint32_t here, bool tip, MesoMeshFace *out)
+{
+    const MesoSweptKind *kind = row->kind;
+    const MesoSweepColumn *columns = row->columns;
+    uint32_t ahead = here + kind->column_count - kind->absent[2], joint = 0;
     bool last = false;      /* whether the column before joins this one */
     for (uint32_t c = 0; c < kind->column_count; c++) {
         if (!(columns[c].absent & MESO_ABSENT_BETWEEN)) {
             if (last)
-                *out++ = (MesoMeshFace){{here - 1, ahead - 1, tip ? here : ahead, tip ? MESO_NO_INDEX : here}};
+                *out++ = tip ? (MesoMeshFace){{here - 1, ahead - 1, here, MESO_NO_INDEX}}
+                             : quad_face(here - 1, ahead - 1, ahead, here, leans(row, joint++));
             here++;
             ahead++;
         }
@@ -20,26 +42,29 @@ static MesoMeshFace *inner_row(const MesoSweptKind *kind, const MesoSweepColumn 
 }
 
 /* From a row's one ring at `a` to its other at `b`, and on along both or one. */
-static MesoMeshFace row_face(uint32_t a, uint32_t b, uint32_t b_ahead, uint32_t a_ahead)
+static MesoMeshFace row_face(uint32_t a, uint32_t b, uint32_t b_ahead, uint32_t a_ahead, bool lean)
 {
     if (a_ahead == a)
         return (MesoMeshFace){{a, b, b_ahead, MESO_NO_INDEX}};
     if (b_ahead == b)
         return (MesoMeshFace){{a, b, a_ahead, MESO_NO_INDEX}};
-    return (MesoMeshFace){{a, b, b_ahead, a_ahead}};
+    return quad_face(a, b, b_ahead, a_ahead, lean);
 }
 
 /* A row between the ring at an end, from `ring`, and one between, from `inner`; both walk on by their columns. */
-static MesoMeshFace *end_row(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t ring, uint32_t inner,
-                             bool end, MesoMeshFace *out)
+static MesoMeshFace *end_row(const Row *row, uint32_t ring, uint32_t inner, bool end, MesoMeshFace *out)
 {
-    uint32_t absent = end ? MESO_ABSENT_END : MESO_ABSENT_START;
+    const MesoSweptKind *kind = row->kind;
+    const MesoSweepColumn *columns = row->columns;
+    uint32_t absent = end ? MESO_ABSENT_END : MESO_ABSENT_START, joint = 0;
     for (uint32_t c = 1; c < kind->column_count; c++) {
         uint32_t ring_ahead = ring + !(columns[c].absent & absent);
         uint32_t inner_ahead = inner + !(columns[c].absent & MESO_ABSENT_BETWEEN);
+        bool lean = leans(row, joint);
         if (columns[c - 1].joins_next && (ring_ahead > ring || inner_ahead > inner))
-            *out++ = end ? row_face(inner, ring, ring_ahead, inner_ahead)
-                         : row_face(ring, inner, inner_ahead, ring_ahead);
+            *out++ = end ? row_face(inner, ring, ring_ahead, inner_ahead, lean)
+                         : row_face(ring, inner, inner_ahead, ring_ahead, lean);
+        joint += columns[c - 1].joins_next && inner_ahead > inner;
         ring = ring_ahead;
         inner = inner_ahead;
     }
@@ -52,19 +77,21 @@ static bool row_is_uneven(const MesoSweptKind *kind, bool end)
 }
 
 /* The rings run clockwise around the tangent: along, then around is counter-clockwise from outside. */
-void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, uint32_t base, MesoMeshFace *out)
+void meso_sweep_faces(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t base,
+                      MesoMeshFace *out)
 {
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     uint32_t last = kind->division_count - 1, width = kind->column_count - kind->absent[2];
     uint32_t first = kind->column_count - kind->absent[0];
     for (uint32_t ring = 0; ring < last; ring++) {
+        const Row row = {kind, columns, sweep, ring};
         uint32_t here = ring == 0 ? base : base + first + (ring - 1) * width;
         if (ring == 0 && row_is_uneven(kind, false))
-            out = end_row(kind, columns, base, base + first, false, out);
+            out = end_row(&row, base, base + first, false, out);
         else if (ring + 1 == last && row_is_uneven(kind, true))
-            out = end_row(kind, columns, here + width, here, true, out);
+            out = end_row(&row, here + width, here, true, out);
         else
-            out = inner_row(kind, columns, here, kind->cap && ring + 1 == last, out);
+            out = inner_row(&row, here, kind->cap && ring + 1 == last, out);
     }
 }
 

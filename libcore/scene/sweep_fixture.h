@@ -31,7 +31,7 @@ static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, u
     tube.kind = (MesoSweptKind){.column_count = count + 1, .joint_count = count, .division_count = rings,
                                 .instance_count = 1};
     tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1 / 3.f, 0, 0}, {2 / 3.f, 0, 0}, {1, 0, 0}},
-                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                                     {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     tube.scene = (MesoScene){.section_scale = 1, .kind_count = 1, .column_count = count + 1, .sweep_count = 1,
                              .kinds = &tube.kind, .columns = tube.columns, .sweeps = &tube.sweep};
 }

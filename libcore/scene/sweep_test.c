@@ -26,7 +26,7 @@ static double volume(void)
     const MesoMeshVertex *v = tube.vertices, *last = v + (rings - 1) * width;
     MesoMeshFace *faces = calloc((size_t)width * rings, sizeof *faces);
     CHECK(faces);
-    meso_sweep_faces(&tube.scene, &tube.kind, 0, faces);
+    meso_sweep_faces(&tube.scene, &tube.kind, &tube.sweep, 0, faces);
     for (uint32_t f = 0; f < tube.kind.joint_count * (rings - 1); f++)
         for (uint32_t k = 2; k < 4; k++)
             sum += volume6(v[faces[f].v[0]].position, v[faces[f].v[k - 1]].position, v[faces[f].v[k]].position);
@@ -62,7 +62,7 @@ static void test_quarter(void)
     const float k = (float)(4 * (sqrt(2) - 1) / 3);
     make_tube(disc, make_disc(disc, 64, 0.2f), 0, 128);
     tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     for (uint32_t rule = 0; rule < 2; rule++) {
         tube.scene.frame_rule = (MesoFrameRule)rule;
         tube.sweep.twist = rule ? meso_sweep_twist(&tube.sweep) : 0;
@@ -175,7 +175,8 @@ static void test_frames(void)
     const MesoVec3 ups[2][2] = {{{0, 0, 1}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0.2f}}};
     for (uint32_t i = 0; i < 2; i++) {
         tube.sweep = (MesoSweepInstance){{{0, 0, 0}, {1.5f, 0, 0}, {-0.5f, 0.05f, 1}, {1, 0.05f, 1}},
-                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                                         {ups[i][0], ups[i][1]}, {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0,
+                                         {{0}, {0}}};
         tube.scene.frame_rule = MESO_FRAME_PAPER;
         CHECK(i == 1 || largest_step() > 0.5f);
         tube.scene.frame_rule = MESO_FRAME_MINIMAL;
@@ -190,7 +191,7 @@ static uint32_t count_folded(void)
 {
     static MesoMeshFace faces[MOST_COLUMNS * MOST_RINGS];
     uint32_t folded = 0;
-    meso_sweep_faces(&tube.scene, &tube.kind, 0, faces);
+    meso_sweep_faces(&tube.scene, &tube.kind, &tube.sweep, 0, faces);
     for (uint32_t f = 0; f < tube.kind.joint_count * (tube.kind.division_count - 1); f++)
         for (uint32_t half = 0; half < 2; half++) {
             const MesoMeshVertex *a = &tube.vertices[faces[f].v[0]], *b = &tube.vertices[faces[f].v[1 + half]];
@@ -232,13 +233,13 @@ static void test_mitres(void)
 {
     static const MesoSweepInstance bends[4] = {
         {{{0, 0, 0}, {0.25f, 0, 0}, {0.3f, 0.05f, 0}, {0.3f, 0.3f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
+         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}},
         {{{0, 0, 0}, {0.3f, 0, 0}, {0, 0.4f, 0}, {0.3f, 0.4f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
+         {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}},
         {{{0, 0, 0}, {0.3f, 0, 0}, {0.3f, 0.6f, 0}, {0, 0.6f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
+         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}},
         {{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 0}}, {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1},
-         0, 0, 0, {0}}};
+         0, 0, 0, {{0}, {0}}}};
     MesoVec2 disc[64];
     static MesoMeshVertex ends[2][65];
     uint32_t width = make_disc(disc, 64, 0.24f) + 1;
@@ -341,13 +342,13 @@ static void test_creases(void)
 {
     static const MesoSweepInstance bends[4] = {
         {{{0, 0, 0}, {0.15f, 0, 0}, {0.2f, 0.05f, 0}, {0.2f, 0.2f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
+         {{1, 0, 0}, {0, 1, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}},
         {{{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.35f, 0}, {0, 0.35f, 0}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}},
+         {{1, 0, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}},
         {{{0, 0, 0}, {0.3f, 0, 0}, {0, 0.3f, 0}, {-0.2f, 0.3f, 0.2f}}, {{0, 0, 1}, {0, 1, 1}},
-         {{1, 0, 0}, {-0.7071068f, 0, 0.7071068f}}, 0, {1, 1}, 0, 0, 0, {0}},
+         {{1, 0, 0}, {-0.7071068f, 0, 0.7071068f}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}},
         {{{0, 0, 0}, {1.5f, 0, 0}, {-0.5f, 0.05f, 1}, {1, 0.05f, 1}}, {{0, 0, 1}, {0, 0, 1}},
-         {{1, 0, 0}, {1, 0, 0}}, 0, {0.1f, 0.1f}, 0, 0, 0, {0}}};
+         {{1, 0, 0}, {1, 0, 0}}, 0, {0.1f, 0.1f}, 0, 0, 0, {{0}, {0}}}};
     MesoVec2 disc[64];
     static MesoMeshVertex ends[2][65];
     uint32_t width = make_disc(disc, 64, 0.24f) + 1;
@@ -539,7 +540,7 @@ static void test_bowed(void)
     MesoMeshVertex plain[9];
     make_tube(point, 3, 0, 9);
     tube.sweep = (MesoSweepInstance){{{1, 0, 0}, {1, k, 0}, {k, 1, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}},
-                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+                                     {{0, 1, 0}, {-1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     sweep();
     for (uint32_t r = 0; r < 9; r++)
         plain[r] = tube.vertices[r * tube.kind.column_count];
@@ -558,13 +559,60 @@ static void test_bowed(void)
     CHECK(out > 0.4f * before && out < 0.65f * before && in > 0.4f * before && in < 0.65f * before);
 }
 
+/* What is straight stays, however unlike the steps beside a ring are. */
+static void test_bowed_at_a_pace(void)
+{
+    MesoVec2 box[64];
+    uint32_t count = make_box(box, 4, 0.2f, 0.1f);
+    make_tube(box, count, 0, 9);
+    for (uint32_t i = 0; i + 1 < MESO_PACE_PARTS; i++)
+        tube.sweep.steps.pace[i] = (uint16_t)(200 * (i + 1) * (i + 1));
+    tube.kind.bowed = true;
+    sweep();
+    for (uint32_t v = 0; v < 9 * tube.kind.column_count; v++)
+        CHECK(fabsf(tube.vertices[v].position.x - tube.vertices[v].uv.y) < 1e-6f);
+}
+
+/* Quads whose bits are set are split from their second corner, and no others. */
+static void test_leans(void)
+{
+    MesoVec2 box[64];
+    uint32_t count = make_box(box, 4, 0.2f, 0.1f), leaning = 0;
+    make_tube(box, count, 0, 9);
+    uint32_t joints = tube.kind.joint_count, rows = tube.kind.division_count - 1, width = tube.kind.column_count;
+    MesoMeshFace *straight = calloc((size_t)joints * rows, sizeof *straight);
+    MesoMeshFace *leant = calloc((size_t)joints * rows, sizeof *leant);
+    CHECK(straight && leant);
+    meso_sweep_faces(&tube.scene, &tube.kind, &tube.sweep, 0, straight);
+    for (uint32_t i = 0; i < MESO_LEAN_WORDS; i++)
+        tube.sweep.steps.leans[i] = 0x9249249249249249u >> i;
+    meso_sweep_faces(&tube.scene, &tube.kind, &tube.sweep, 0, leant);
+    for (uint32_t row = 0; row < rows; row++)
+        for (uint32_t joint = 0; joint < joints; joint++) {
+            const uint32_t *a = straight[row * joints + joint].v, *b = leant[row * joints + joint].v;
+            bool leans = meso_sweep_leans(&tube.sweep, meso_sweep_lean_bit(joint, joints, row, rows));
+            leaning += leans;
+            CHECK(a[0] / width == row);
+            for (uint32_t k = 0; k < 4; k++)
+                CHECK(b[k] == a[(k + leans) % 4]);
+        }
+    CHECK(leaning > 0 && leaning < rows * joints);
+    for (uint32_t bit, joint = 0; joint < 300; joint++) {    /* of many, a few have one together */
+        bit = meso_sweep_lean_bit(joint, 300, 39, 40);
+        CHECK(bit < MESO_LEAN_BITS && bit == joint * MESO_LEAN_BITS / 300);
+    }
+    CHECK(meso_sweep_lean_bit(2, 3, 39, 40) == 3 * MESO_LEAN_PARTS - 1);
+    free(straight);
+    free(leant);
+}
+
 /* Rings lie as a pace says: all of the steps but one part in the first tenth. */
 static void test_pace(void)
 {
     MesoSweptKind kind = {.division_count = 2 * MESO_PACE_PARTS + 1};
     MesoSweepInstance hasty = {.size = {1, 1}};
     for (uint32_t i = 0; i + 1 < MESO_PACE_PARTS; i++)
-        hasty.pace[i] = (uint16_t)(6553 * (i + 1) / (MESO_PACE_PARTS - 1));
+        hasty.steps.pace[i] = (uint16_t)(6553 * (i + 1) / (MESO_PACE_PARTS - 1));
     float before = 0;
     for (uint32_t r = 1; r < kind.division_count; r++) {
         float v = meso_sweep_place(&kind, &hasty, r);
@@ -611,6 +659,8 @@ int main(void)
     test_bare();
     test_points();
     test_bowed();
+    test_bowed_at_a_pace();
+    test_leans();
     test_pace();
     test_wanted();
     return 0;

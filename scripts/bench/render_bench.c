@@ -42,7 +42,7 @@ static void make_field(Field *field, MesoArena *arena)
         float lift = (i + i / FIELD) % 2 ? step : -step;
         instances[i] = (MesoSweepInstance){
             {{x, y, 0}, {x + step / 3, y, lift}, {x + 2 * step / 3, y, lift}, {x + step, y, 0}},
-            {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, i, {1, 1}, 0, 0, 0, {0}};
+            {{0, 0, 1}, {0, 0, 1}}, {{1, 0, 0}, {1, 0, 0}}, i, {1, 1}, 0, 0, 0, {{0}, {0}}};
     }
     uint32_t *ids = MESO_NEW(arena, uint32_t, count, &error);
     CHECK(ids);

@@ -53,7 +53,7 @@ static void fill_strand(const Welder *w, uint32_t strand, const Strand *s)
         const MesoSweptKind *kind = kind_of(w->in, piece.sweep);
         uint64_t count = meso_sweep_vertex_count(kind);
         meso_sweep_vertices(w->in, kind, &w->in->sweeps[piece.sweep], vertices);
-        meso_sweep_faces(w->in, kind, (uint32_t)(vertices - s->vertices), faces);
+        meso_sweep_faces(w->in, kind, &w->in->sweeps[piece.sweep], (uint32_t)(vertices - s->vertices), faces);
         for (uint64_t v = 0; v < count; v++)
             vertices[v].uv.y = (float)(i - begin) + (piece.reversed ? 1 - vertices[v].uv.y : vertices[v].uv.y);
         vertices += count;

@@ -46,10 +46,10 @@ static void make_bar(Bar *bar)
         .division_count = 9, .instance_begin = 1, .instance_count = 1, .cap = true};
     bar->instances[0] = (MesoSweepInstance){
         {{-1, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {0}};
+        {{1, 0, 0}, {1, 0, 0}}, 0, {1, 1}, 0, 0, 0, {{0}, {0}}};
     bar->instances[1] = (MesoSweepInstance){
         {{-1, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}, {-1.1f, 0, 0}}, {{0, 1, 0}, {0, 1, 0}},
-        {{-1, 0, 0}, {-1, 0, 0}}, 1, {1, 1}, 0, 0, 0, {0}};
+        {{-1, 0, 0}, {-1, 0, 0}}, 1, {1, 1}, 0, 0, 0, {{0}, {0}}};
     const uint32_t ids[4] = {40, 6, 41, 8};
     memcpy(bar->ids, ids, sizeof ids);
     bar->scene = (MesoScene){.channel_count = 2, .channels = {{"slot", 42, NULL}, {"tile", 9, NULL}},

@@ -55,7 +55,7 @@ static void make_sweeps(Case *c)
         float low = i == 0 ? 0.45f : -1.45f, high = low + 1;
         MesoSweepInstance *sweep = &c->sweeps[i];
         *sweep = (MesoSweepInstance){{{-1.5f, low, 0}, {0, low, 0.5f}, {0, high, -0.5f}, {1.5f, high, 0}},
-                                     {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0, 0, 0, {0}};
+                                     {{0, 1, 0}, {0, 0.3f, 1}}, {{0, 0, 0}, {0, 0, 0}}, 0, {0.8f, 1.3f}, 0, 0, 0, {{0}, {0}}};
         for (uint32_t end = 0; end < 2; end++)
             sweep->direction[end] = meso_vec3_direction(meso_vec3_sub(sweep->p[1 + 2 * end], sweep->p[2 * end]),
                                                         (MesoVec3){0, 0, 0});

@@ -1,7 +1,14 @@
 /*
- * A curve cut into n equal steps of its parameter lies within |C''| / (8 n n) of its chords, where only the part of
- * C'' across the curve counts; and a quad whose corners are D = P11 - P10 - P01 + P00 off a parallelogram, within
- * |D| / 4 of its triangles, where only the part across the quad counts, and D is proportional to 1 / n.
+ * A piece of surface between two columns and two rings, h long, is f = (a x x + 2 c x y + b y y) / 2 seen from the
+ * side, and lies off its edges by the eighth of f's second derivative along them, to the outside where it is convex: A
+ * around, B h h along, and A + B h h - D h / 4 or A + B h h + D h / 4 on the one or the other diagonal, where D h is
+ * what the corners are off a parallelogram. Corners are moved out of the bends by half of A and of B h h. So it is
+ * within e where
+ *
+ *     |A| / 2 + |B| h h / 2 <= e         |A / 2 + B h h / 2 - D h / 4| <= e
+ *
+ * with the diagonal that suits better: warp, which columns that wind around a
+ * tube have much of, costs nothing where the surface is convex, until the diagonals are as bent the other way.
  */
 #include "libcore/tiling/strand/steps.h"
 
@@ -13,11 +20,9 @@
 #include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
 #include "libcore/scene/sweep.h"
+#include "libcore/tiling/strand/column_sample.h"
 
 enum { SWEEPS_A_RANGE = 512, LEAST_INTERVALS = 16, MOST_INTERVALS = 256, LEAST_CAP_STEPS = 3 };
-
-/* Pairs of columns: the outermost, and all around where the shape changes. */
-enum { OUTER_PAIRS = 5, MORE_PAIRS = 27, MOST_PAIRS = OUTER_PAIRS + MORE_PAIRS };
 
 /*
  * What columns are off counts against the tolerance of the steps but for a small part, as both are seldom worst at one
@@ -31,21 +36,11 @@ static const float MARGIN = 1.18f;
 /* Of what a chord is off, where its ends are moved out of the bend (scene.h). */
 static const float BOWED = 0.5f;
 
-/* Of a shape's size: less is none. */
-static const float SMALL_CHANGE = 0.02f;
+/* Of a step, what rounding may take. */
+static const float ENOUGH = 1.02f;
 
 /* What a radian of turn takes in intervals to be seen. */
 static const float INTERVALS_A_RADIAN = 5;
-
-/* Some neighbouring columns of a kind, two by two, as a kind of their own. */
-typedef struct Sample {
-    MesoSweepColumn columns[2 * MOST_PAIRS];
-    uint32_t firsts[MOST_PAIRS];    /* of the kind, of each pair */
-    bool sharp[2 * MOST_PAIRS];     /* a corner, where a column that is off is seen whichever way */
-    MesoSweptKind kind;
-    MesoScene scene;
-    float radius;       /* of a cap */
-} Sample;
 
 typedef struct Chooser {
     const MesoScene *scene;
@@ -55,215 +50,237 @@ typedef struct Chooser {
     atomic_bool failed; /* memory is out */
 } Chooser;
 
-/* ---- what to look at ---- */
-
-/* The column that one joins on rings between the ends; MESO_NO_INDEX: none. */
-static uint32_t next_inner(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
-{
-    if (columns[c].absent & MESO_ABSENT_BETWEEN)
-        return MESO_NO_INDEX;
-    while (c + 1 < kind->column_count && columns[c].joins_next)
-        if (!(columns[++c].absent & MESO_ABSENT_BETWEEN))
-            return c;
-    return MESO_NO_INDEX;
-}
-
-/* How far a column reaches in one of four directions, or how far it is to the next one. */
-static float worth(const MesoSweepColumn *column, const MesoSweepColumn *next, uint32_t what)
-{
-    if (what == 4)
-        return fmaxf(meso_vec2_length(meso_vec2_sub(next->start, column->start)),
-                     meso_vec2_length(meso_vec2_sub(next->end, column->end)));
-    float sign = what & 1 ? -1 : 1;
-    return sign * (what & 2 ? column->start.y + column->end.y : column->start.x + column->end.x);
-}
-
-static bool changes(const MesoSweptKind *kind, const MesoSweepColumn *columns)
-{
-    float change = 0, size = 0;
-    for (uint32_t c = 0; c < kind->column_count; c++) {
-        change = fmaxf(change, meso_vec2_length(meso_vec2_sub(columns[c].end, columns[c].start)));
-        size = fmaxf(size, meso_vec2_length(columns[c].start));
-    }
-    return kind->turn != 0 || change > SMALL_CHANGE * size;
-}
-
-/* Of the two columns at a corner, one does not join the other; at the seam it takes their normals to tell. */
-static bool is_sharp(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
-{
-    const MesoSweepColumn *first = columns, *last = columns + kind->column_count - 1;
-    if (c > 0 && c + 1 < kind->column_count)
-        return !columns[c].joins_next || !columns[c - 1].joins_next;
-    float cross = meso_vec2_cross(first->start_normal, last->start_normal);
-    float dot = first->start_normal.x * last->start_normal.x + first->start_normal.y * last->start_normal.y;
-    return !(fabsf(cross) < SMALL_CHANGE * dot);
-}
-
-static void add_pair(Sample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t first,
-                     uint32_t second)
-{
-    const uint32_t pair[2] = {first, second};
-    for (uint32_t c = 0; c < sample->kind.column_count; c += 2)
-        if (sample->firsts[c / 2] == first)
-            return;     /* it is there */
-    sample->firsts[sample->kind.column_count / 2] = first;
-    for (uint32_t i = 0; i < 2; i++) {
-        uint32_t to = sample->kind.column_count++;
-        sample->columns[to] = columns[pair[i]];
-        sample->columns[to].absent = 0;
-        sample->sharp[to] = is_sharp(kind, columns, pair[i]);
-    }
-}
-
-static void add_outermost(Sample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t what)
-{
-    uint32_t best = MESO_NO_INDEX, best_next = MESO_NO_INDEX;
-    for (uint32_t c = 0; c < kind->column_count; c++) {
-        uint32_t next = next_inner(kind, columns, c);
-        if (next != MESO_NO_INDEX && (best == MESO_NO_INDEX || worth(&columns[c], &columns[next], what) >
-                                                                   worth(&columns[best], &columns[best_next], what))) {
-            best = c;
-            best_next = next;
-        }
-    }
-    if (best != MESO_NO_INDEX)
-        add_pair(sample, kind, columns, best, best_next);
-}
-
-static Sample make_sample(const MesoScene *scene, const MesoSweptKind *kind)
-{
-    Sample sample = {.kind = *kind, .scene = {.section_scale = scene->section_scale, .frame_rule = scene->frame_rule,
-                                                 .deform = scene->deform, .cages = scene->cages}};
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    sample.kind.column_begin = sample.kind.column_count = 0;
-    memset(sample.kind.absent, 0, sizeof sample.kind.absent);
-    for (uint32_t what = 0; what < OUTER_PAIRS; what++)
-        add_outermost(&sample, kind, columns, what);
-    uint32_t stride = 1 + (kind->column_count - kind->absent[2]) / MORE_PAIRS, passed = 0;
-    bool more = scene->deform == MESO_SWEEP_SHAPE || changes(kind, columns);
-    for (uint32_t c = 0; c < kind->column_count && more; c++) {
-        uint32_t next = next_inner(kind, columns, c);
-        if (next != MESO_NO_INDEX && passed++ % stride == 0)
-            add_pair(&sample, kind, columns, c, next);
-    }
-    for (uint32_t c = 0; c < kind->column_count; c++)
-        sample.radius = fmaxf(sample.radius, meso_vec2_length(columns[c].start));
-    return sample;
-}
-
 /* ---- how many it takes ---- */
 
-/* How far off a bend is seen: across the column at a corner, elsewhere across the surface. */
-static float seen(MesoVec3 bend, MesoVec3 along, MesoVec3 normal, bool sharp)
-{
-    float square = meso_vec3_dot(along, along);
-    if (!sharp)
-        return fabsf(meso_vec3_dot(bend, normal));
-    return meso_vec3_length(square > 0 ? meso_vec3_mad(bend, -meso_vec3_dot(bend, along) / square, along) : bend);
-}
+/* How surfaces bend between two columns, of one step from end to end: to the outside where it is above 0. */
+typedef struct PairBend {
+    float along[MOST_INTERVALS + 1];        /* B, of both columns */
+    float edges[MOST_INTERVALS + 1];        /* the larger |B|, and at a corner what is off whichever way */
+    float warp[MOST_INTERVALS + 1];         /* D / 4 */
+    bool convex;                            /* around */
+} PairBend;
+
+/* At each of the places along a sweep: what columns are off, and the steps that it takes, of one from end to end. */
+typedef struct Wants {
+    uint32_t intervals;
+    float off[MOST_INTERVALS + 1];
+    float edges[MOST_INTERVALS + 1];    /* of all pairs, by their edges, */
+    float steps[MOST_INTERVALS + 1];    /* and by diagonals, too, each as suits best */
+} Wants;
+
+/* What the steps of one range of sweeps are found with. */
+typedef struct Work {
+    MesoColumnSample sample;
+    Wants wants;
+    PairBend bend;
+    float diagonals[MESO_MOST_PAIRS][2][MOST_INTERVALS + 1];     /* steps by the one diagonal and the other */
+    MesoMeshVertex vertices[(MOST_INTERVALS + 1) * MESO_MOST_SAMPLED];
+} Work;
 
 static MesoVec3 second_difference(const MesoMeshVertex *v, uint32_t stride)
 {
     return meso_vec3_add(meso_vec3_mad(v[0].position, -2, v[stride].position), v[2 * stride].position);
 }
 
-/*
- * At each of the places along a sweep: how much columns bend, by second differences, and quads are warped, by D; and
- * what columns leave of the tolerance.
- */
-typedef struct Wants {
-    uint32_t intervals;
-    float bend[MOST_INTERVALS + 1];
-    float warp[MOST_INTERVALS + 1];
-    float left[MOST_INTERVALS + 1];
-} Wants;
-
-/*
- * At the ends, where there is no second difference, it goes on as it does beside them, half the way: the first step's
- * own middle is not nearer to the end but where there are many.
- */
-static void add_bend(Wants *wants, const MesoMeshVertex *column, uint32_t stride, bool sharp)
+/* Outward, between two columns at one place: `at` is one of the intervals. */
+static MesoVec3 pair_normal(const MesoMeshVertex *first, const MesoMeshVertex *second, uint32_t stride, uint32_t at)
 {
-    uint32_t n = wants->intervals;
-    MesoVec3 before = {0, 0, 0};
+    const MesoMeshVertex *a = first + at * stride, *b = second + at * stride;
+    MesoVec3 along = meso_vec3_sub(meso_vec3_add(a[stride].position, b[stride].position),
+                                   meso_vec3_add(a->position, b->position));
+    MesoVec3 around = meso_vec3_sub(meso_vec3_add(b->position, b[stride].position),
+                                    meso_vec3_add(a->position, a[stride].position));
+    return meso_vec3_direction(meso_vec3_cross(along, around), (MesoVec3){0, 0, 0});
+}
+
+/* How far a column that bends so is off a chord along it: at a corner across it whichever way, else to the outside. */
+static float seen(MesoVec3 bend, MesoVec3 along, float outside, bool sharp)
+{
+    float square = meso_vec3_dot(along, along);
+    if (!sharp)
+        return fabsf(outside);
+    return meso_vec3_length(square > 0 ? meso_vec3_mad(bend, -meso_vec3_dot(bend, along) / square, along) : bend);
+}
+
+/* At the ends, where there is no second difference, it goes on as it does beside them, half the way: the first step's
+ * own middle is not nearer to the end but where there are many. */
+static void go_on(float *values, uint32_t n)
+{
+    values[0] = 1.5f * values[1] - 0.5f * values[2];
+    values[n] = 1.5f * values[n - 1] - 0.5f * values[n - 2];
+}
+
+/* D of an interval from these on, outward. */
+static float warp_at(const MesoMeshVertex *a, const MesoMeshVertex *b, uint32_t stride, MesoVec3 normal)
+{
+    MesoVec3 here = meso_vec3_sub(b->position, a->position);
+    return meso_vec3_dot(meso_vec3_sub(meso_vec3_sub(b[stride].position, a[stride].position), here), normal);
+}
+
+/* Between two columns. */
+static void find_bend(PairBend *out, const Work *work, const MesoColumnPair *pair)
+{
+    const MesoColumnSample *sample = &work->sample;
+    uint32_t n = work->wants.intervals, stride = sample->kind.column_count;
+    const MesoMeshVertex *columns[2] = {work->vertices + pair->columns[0], work->vertices + pair->columns[1]};
+    float m = (float)n, scale = MARGIN * m * m / 8;
+    MesoVec3 before = pair_normal(columns[0], columns[1], stride, 0);
+    float warp_before = warp_at(columns[0], columns[1], stride, before);
+    out->warp[0] = MARGIN * m / 4 * warp_before;
     for (uint32_t i = 1; i < n; i++) {
-        const MesoMeshVertex *v = column + (i - 1) * stride;
-        MesoVec3 bend = second_difference(v, stride), along = meso_vec3_sub(v[2 * stride].position, v[0].position);
-        MesoVec3 step = meso_vec3_sub(bend, before);
-        wants->bend[i] = fmaxf(wants->bend[i], seen(bend, along, v[stride].normal, sharp));
-        if (i == 2)
-            wants->bend[0] = fmaxf(wants->bend[0],
-                                   seen(meso_vec3_mad(before, -0.5f, step), along, column->normal, sharp));
-        if (i + 1 == n)
-            wants->bend[n] = fmaxf(wants->bend[n],
-                                   seen(meso_vec3_mad(bend, 0.5f, step), along, v[2 * stride].normal, sharp));
-        before = bend;
+        MesoVec3 behind = pair_normal(columns[0], columns[1], stride, i);
+        float warp = warp_at(columns[0] + i * stride, columns[1] + i * stride, stride, behind);
+        out->warp[i] = MARGIN * m / 8 * (warp_before + warp);
+        warp_before = warp;
+        MesoVec3 normal = meso_vec3_scale(meso_vec3_add(before, behind), 0.5f);
+        out->along[i] = out->edges[i] = 0;
+        for (uint32_t k = 0; k < 2; k++) {
+            const MesoMeshVertex *v = columns[k] + (i - 1) * stride;
+            MesoVec3 bend = second_difference(v, stride), along = meso_vec3_sub(v[2 * stride].position, v[0].position);
+            float outside = -meso_vec3_dot(bend, normal);
+            out->along[i] += scale / 2 * outside;
+            out->edges[i] = fmaxf(out->edges[i], scale * seen(bend, along, outside,
+                                                              sample->sharp[pair->columns[k]]));
+        }
+        before = behind;
     }
+    go_on(out->along, n);
+    go_on(out->edges, n);
+    out->warp[n] = MARGIN * m / 4 * warp_before;
+    const MesoSweepColumn *first = &sample->columns[pair->columns[0]], *second = &sample->columns[pair->columns[1]];
+    MesoVec2 chord = meso_vec2_sub(second->start, first->start);
+    MesoVec2 change = meso_vec2_sub(second->start_normal, first->start_normal);
+    out->convex = chord.x * change.x + chord.y * change.y >= 0;
 }
 
-static void add_warp(Wants *wants, const MesoMeshVertex *pair, uint32_t stride)
+/* Where fmaxf() is a call. */
+static float larger(float a, float b)
 {
-    for (uint32_t i = 0; i < wants->intervals; i++) {
-        const MesoMeshVertex *v = pair + i * stride, *next = v + stride;
-        MesoVec3 around = meso_vec3_sub(v[1].position, v[0].position);
-        MesoVec3 beyond = meso_vec3_sub(next[1].position, next[0].position);
-        MesoVec3 along = meso_vec3_sub(next[0].position, v[0].position);
-        MesoVec3 normal = meso_vec3_direction(meso_vec3_cross(around, along), (MesoVec3){0, 0, 0});
-        float warp = fabsf(meso_vec3_dot(meso_vec3_sub(beyond, around), normal));
-        wants->warp[i] = fmaxf(wants->warp[i], warp);
-        wants->warp[i + 1] = fmaxf(wants->warp[i + 1], warp);
+    return a > b ? a : b;
+}
+
+/* The most steps n at which |off + along / (n n) - warp / n| is `tolerance`, which |off| is less than. */
+static float steps_across(float off, float along, float warp, float tolerance)
+{
+    float out = tolerance - off, in = tolerance + off;
+    float above = warp * warp + 4 * out * along, below = warp * warp - 4 * in * along;
+    /* outside: (tolerance - off) n n + warp n - along = 0; inside: (tolerance + off) n n - warp n + along = 0 */
+    float n = above >= 0 ? larger(0, (-warp + sqrtf(above)) / (2 * out)) : 0;
+    return below >= 0 ? larger(n, (warp + sqrtf(below)) / (2 * in)) : n;
+}
+
+/* Of one pair. `part` of what chords are off counts. */
+static void add_pair_steps(Work *work, uint32_t pair, float tolerance, float part)
+{
+    Wants *wants = &work->wants;
+    const PairBend *bend = &work->bend;
+    for (uint32_t i = 0; i <= wants->intervals; i++) {
+        float off = bend->convex ? wants->off[i] : -wants->off[i];
+        float most = part * larger(0, bend->edges[i]), along = part * bend->along[i];
+        float warp = bend->warp[i];     /* chords that are off less, or not at all, are not to be relied on */
+        float first = larger(steps_across(off, along, warp, tolerance), steps_across(0, along, warp, tolerance));
+        float second = larger(steps_across(off, along, -warp, tolerance), steps_across(0, along, -warp, tolerance));
+        work->diagonals[pair][0][i] = first;
+        work->diagonals[pair][1][i] = second;
+        wants->edges[i] = larger(wants->edges[i], sqrtf(most / (tolerance - wants->off[i])));
+        wants->steps[i] = larger(wants->steps[i], larger(wants->edges[i], (first < second ? first : second)));
     }
 }
 
-/* What is wanted somewhere. */
-typedef struct Want {
-    float bend, warp, left;
-} Want;
+static void find_steps(Work *work, float tolerance, float part)
+{
+    const MesoColumnSample *sample = &work->sample;
+    memset(work->wants.edges, 0, sizeof work->wants.edges);
+    memset(work->wants.steps, 0, sizeof work->wants.steps);
+    for (uint32_t p = 0; p < sample->pair_count; p++) {
+        find_bend(&work->bend, work, &sample->pairs[p]);
+        add_pair_steps(work, p, tolerance, part);
+    }
+}
 
-static Want want_at(const Wants *wants, float v)
+/* Steps somewhere, between those at the places. */
+static float steps_near(const Wants *wants, const float *steps, float v)
 {
     float place = v * (float)wants->intervals;
     uint32_t i = (uint32_t)place < wants->intervals ? (uint32_t)place : wants->intervals - 1;
-    float t = place - (float)i;
-    return (Want){wants->bend[i] + t * (wants->bend[i + 1] - wants->bend[i]),
-                  wants->warp[i] + t * (wants->warp[i + 1] - wants->warp[i]),
-                  wants->left[i] + t * (wants->left[i + 1] - wants->left[i])};
+    return steps[i] + (place - (float)i) * (steps[i + 1] - steps[i]);
 }
 
-/* Steps so that the errors, of which one falls with their number and one with its square, add up to what is left;
- * `part` of what chords are off counts. */
-static float steps_for(Want want, float part)
+/* Which pair of a sample a joint is like: the nearest. */
+static uint32_t pair_of(const MesoColumnSample *sample, uint32_t joint)
 {
-    float e = part * want.bend, f = want.warp;
-    return (f + sqrtf(f * f + 4 * want.left * e)) / (2 * want.left);
+    uint32_t best = 0, least = UINT32_MAX;
+    for (uint32_t p = 0; p < sample->pair_count; p++) {
+        uint32_t other = sample->pairs[p].joint, gap = other > joint ? other - joint : joint - other;
+        if (gap < least) {
+            least = gap;
+            best = p;
+        }
+    }
+    return best;
 }
 
-static float steps_at(const Wants *wants, uint32_t i, float part)
+/* Part of all that a row takes: from where to where, and how long it is, by rows whose ends are both moved. */
+typedef struct Stride {
+    float from, to, step;
+} Stride;
+
+static Stride stride_of(const MesoSweptKind *kind, const MesoSweepInstance *sweep, uint32_t row)
 {
-    return steps_for((Want){wants->bend[i], wants->warp[i], wants->left[i]}, part);
+    uint32_t last = kind->division_count - 2;
+    float from = row > 0 ? meso_sweep_place(kind, sweep, row) : 0;
+    float to = row < last ? meso_sweep_place(kind, sweep, row + 1) : 1;
+    return (Stride){from, to, (to - from) / (row == 0 || row == last ? 1 - MESO_END_NEARER : 1)};
 }
 
-/* How far a ring is moved out of the bend, by the steps before and behind it. */
-static float shift_at(const Wants *wants, float before, float here, float next)
+/* Of the steps in a row, on average of a quarter and three, what it has too few: below 1 it has enough. */
+static float lack_of(const Wants *wants, const float *steps, Stride row)
 {
-    return want_at(wants, here).bend * ((here - before) * (here - before) + (next - here) * (next - here)) / 4;
+    float quarter = (row.to - row.from) / 4;
+    return row.step * (steps_near(wants, steps, row.from + quarter) + steps_near(wants, steps, row.to - quarter)) / 2;
 }
 
-/* Whether a sweep with so many rings is off by no more than is left: the middle of each step, whose ends have moved. */
-static bool are_enough(const Wants *wants, const MesoSweptKind *kind, const MesoSweepInstance *sweep)
+/* Whether the ring between two rows moves out of the bend by no more than it may. */
+static bool is_moved_little(const Wants *wants, Stride before, Stride row)
 {
-    uint32_t last = kind->division_count - 1;
-    float from = 0, to = meso_sweep_place(kind, sweep, 1), shift = 0;
-    bool enough = true;
-    for (uint32_t r = 1; r <= last && enough; r++) {
-        float next = r < last ? meso_sweep_place(kind, sweep, r + 1) : 1, step = to - from;
-        float shift_ahead = r < last ? shift_at(wants, from, to, next) : 0;
-        Want want = want_at(wants, (from + to) / 2);
-        float off = want.bend * step * step - (shift + shift_ahead) / 2 + want.warp * step;
-        enough = off <= want.left && shift_ahead <= want.left;
-        from = to;
-        to = next;
-        shift = shift_ahead;
+    float lack = steps_near(wants, wants->edges, row.from);
+    return (before.to - before.from) * (row.to - row.from) * lack * lack <= ENOUGH * ENOUGH;
+}
+
+/*
+ * Chooses diagonals for a sweep with so many rings: of the rows that have theirs together, those that the worst of them
+ * needs. Returns whether it has all steps that it wants then.
+ */
+static bool are_enough(const Work *work, const MesoSweptKind *kind, MesoSweepInstance *sweep)
+{
+    const MesoColumnSample *sample = &work->sample;
+    const Wants *wants = &work->wants;
+    uint32_t rows = kind->division_count - 1, joints = sample->kind.joint_count;
+    uint32_t parts = meso_sweep_lean_parts(joints), parts_used = rows < parts ? rows : parts;
+    float most[MESO_MOST_PAIRS][2];
+    bool leans[MESO_MOST_PAIRS], enough = true;
+    Stride before = {0, 0, 0};
+    memset(sweep->steps.leans, 0, sizeof sweep->steps.leans);
+    for (uint32_t part = 0, row = 0; part < parts_used; part++) {
+        memset(most, 0, sizeof most);
+        uint32_t first = row;
+        for (; row < rows && (rows <= parts ? row : (uint32_t)((uint64_t)row * parts / rows)) == part; row++) {
+            Stride here = stride_of(kind, sweep, row);
+            enough = enough && lack_of(wants, wants->edges, here) <= ENOUGH && is_moved_little(wants, before, here);
+            before = here;
+            for (uint32_t p = 0; p < sample->pair_count; p++)
+                for (uint32_t k = 0; k < 2; k++)
+                    most[p][k] = larger(most[p][k], lack_of(wants, work->diagonals[p][k], here));
+        }
+        for (uint32_t p = 0; p < sample->pair_count; p++) {
+            leans[p] = most[p][1] < most[p][0];
+            enough = enough && most[p][leans[p]] <= ENOUGH;
+        }
+        for (uint32_t joint = 0; joint < joints; joint++) {
+            uint32_t bit = meso_sweep_lean_bit(joint, joints, first, rows);
+            if (leans[pair_of(sample, joint)])
+                sweep->steps.leans[bit / 64] |= (uint64_t)1 << bit % 64;
+        }
     }
     return enough;
 }
@@ -275,12 +292,9 @@ static bool are_enough(const Wants *wants, const MesoSweptKind *kind, const Meso
 static float pace_steps(const Wants *wants, uint16_t pace[MESO_PACE_PARTS - 1])
 {
     uint32_t n = wants->intervals;
-    float sums[MOST_INTERVALS + 1] = {0}, before = steps_at(wants, 0, BOWED);
-    for (uint32_t i = 1; i <= n; i++) {
-        float here = steps_at(wants, i, BOWED);
-        sums[i] = sums[i - 1] + (before + here) / (float)(2 * n);
-        before = here;
-    }
+    float sums[MOST_INTERVALS + 1] = {0};
+    for (uint32_t i = 1; i <= n; i++)
+        sums[i] = sums[i - 1] + (wants->steps[i - 1] + wants->steps[i]) / (float)(2 * n);
     for (uint32_t k = 1, i = 0; k < MESO_PACE_PARTS && sums[n] > 0; k++) {
         float wanted = sums[n] * (float)k / MESO_PACE_PARTS;
         while (sums[i + 1] < wanted)
@@ -296,25 +310,22 @@ static bool is_straight(const Wants *wants)
 {
     bool straight = true;
     for (uint32_t i = 0; i <= wants->intervals && straight; i++)
-        straight = steps_at(wants, i, 1) <= 1;
+        straight = wants->steps[i] <= 1;
     return straight;
 }
 
-/* Of a tolerance that columns use, at one of the blends. */
+/* What columns are off at each of the blends. */
 typedef struct Budget {
-    float left[MESO_KIND_BLENDS];
+    float off[MESO_KIND_BLENDS];
 } Budget;
 
-/* To what one step from end to end would be off, with a margin. Sections are blended by w (scene.h). */
-static void scale_wants(Wants *wants, const Budget *budget)
+/* Sections are blended by w (scene.h). */
+static void spread_budget(Wants *wants, const Budget *budget)
 {
-    float m = (float)wants->intervals;
     for (uint32_t i = 0; i <= wants->intervals; i++) {
-        float v = (float)i / m, place = v * v * (3 - 2 * v) * (MESO_KIND_BLENDS - 1);
+        float v = (float)i / (float)wants->intervals, place = v * v * (3 - 2 * v) * (MESO_KIND_BLENDS - 1);
         uint32_t k = place < MESO_KIND_BLENDS - 1 ? (uint32_t)place : MESO_KIND_BLENDS - 2;
-        wants->bend[i] *= MARGIN * m * m / 8;
-        wants->warp[i] *= MARGIN * m / 4;
-        wants->left[i] = budget->left[k] + (place - (float)k) * (budget->left[k + 1] - budget->left[k]);
+        wants->off[i] = budget->off[k] + (place - (float)k) * (budget->off[k + 1] - budget->off[k]);
     }
 }
 
@@ -324,34 +335,31 @@ static uint32_t intervals_of(const MesoSweptKind *kind, const MesoSweepInstance 
     return wanted < LEAST_INTERVALS ? LEAST_INTERVALS : wanted > MOST_INTERVALS ? MOST_INTERVALS : (uint32_t)wanted;
 }
 
-/* What the steps of one range of sweeps are found with. */
-typedef struct Work {
-    Sample sample;
-    MesoMeshVertex vertices[(MOST_INTERVALS + 1) * 2 * MOST_PAIRS];
-} Work;
-
-/* Steps, and the sweep's pace. */
-static float tube_steps(Work *work, MesoSweepInstance *sweep, const Budget *budget)
+/* Steps, and the sweep's pace and leans. */
+static float tube_steps(Work *work, MesoSweepInstance *sweep, const Budget *budget, float tolerance)
 {
-    Sample *sample = &work->sample;
-    MesoMeshVertex *vertices = work->vertices;
-    uint32_t stride = sample->kind.column_count;
-    Wants wants = {.intervals = intervals_of(&sample->kind, sweep)};
-    sample->kind.division_count = wants.intervals + 1;
+    MesoColumnSample *sample = &work->sample;
+    Wants *wants = &work->wants;
+    wants->intervals = intervals_of(&sample->kind, sweep);
+    const MesoSweepGrid grid = {.column_count = sample->kind.column_count, .ring_count = wants->intervals + 1,
+                                .bare = true};
+    sample->kind.division_count = wants->intervals + 1;
     sample->scene.columns = sample->columns;
-    meso_sweep_vertices(&sample->scene, &sample->kind, sweep, vertices);
-    for (uint32_t c = 0; c < stride; c++)
-        add_bend(&wants, vertices + c, stride, sample->sharp[c]);
-    for (uint32_t c = 0; c < stride; c += 2)
-        add_warp(&wants, vertices + c, stride);
-    scale_wants(&wants, budget);
-    if (is_straight(&wants))
-        return 1;
-    float steps = fmaxf(2, pace_steps(&wants, sweep->pace) + 2 * MESO_END_NEARER);
-    MesoSweptKind kind = {.bowed = true};
+    meso_sweep_grid(&sample->scene, &sample->kind, sweep, &grid, work->vertices);
+    spread_budget(wants, budget);
+    find_steps(work, tolerance, BOWED);
+    MesoSweptKind kind = {.division_count = 2};
+    if (is_straight(wants)) {       /* where nothing is moved chords are off by all that they are */
+        find_steps(work, tolerance, 1);
+        if (is_straight(wants) && are_enough(work, &kind, sweep))
+            return 1;
+        find_steps(work, tolerance, BOWED);
+    }
+    float steps = fmaxf(2, pace_steps(wants, sweep->steps.pace) + 2 * MESO_END_NEARER);
     uint32_t rings = (uint32_t)ceilf(fminf(steps, MESO_MOST_DIVISIONS)) + 1;
-    for (kind.division_count = rings; kind.division_count < rings + 4 + rings / 4; kind.division_count++)
-        if (are_enough(&wants, &kind, sweep))
+    kind.bowed = true;
+    for (kind.division_count = rings; kind.division_count < rings + 4 + rings / 2; kind.division_count++)
+        if (are_enough(work, &kind, sweep))
             break;
     return (float)(kind.division_count - 1);
 }
@@ -364,7 +372,7 @@ static float scale_of(const MesoScene *scene, const MesoSweepInstance *sweep)
 }
 
 /* (1 - v^4) r over a rise of h v: the second derivative 12 r lies across the tangent by h / |(4 r, h)| at the tip. */
-static float cap_steps(const Sample *sample, const MesoSweepInstance *cap, float tolerance)
+static float cap_steps(const MesoColumnSample *sample, const MesoSweepInstance *cap, float tolerance)
 {
     float scale = scale_of(&sample->scene, cap), r = scale * sample->radius, h = scale * MESO_CAP_RISE;
     float tangent = sqrtf(16 * r * r + h * h), part = tangent > 0 ? h / tangent : 0;
@@ -388,7 +396,7 @@ static Budget budget_of(const Chooser *c, uint32_t kind, const MesoSweepInstance
     float scale = scale_of(c->scene, sweep), part = c->scene->kinds[kind].cap ? CAP_OFF_PART : OFF_PART;
     Budget budget;
     for (uint32_t k = 0; k < MESO_KIND_BLENDS; k++)
-        budget.left[k] = fmaxf(LEAST_LEFT * c->tolerance, c->tolerance - part * scale * c->origins[kind].off[k]);
+        budget.off[k] = fminf((1 - LEAST_LEFT) * c->tolerance, part * scale * c->origins[kind].off[k]);
     return budget;
 }
 
@@ -402,19 +410,19 @@ static void choose_range(void *context, uint64_t begin, uint64_t end)
         return;
     }
     uint32_t kind = meso_scene_kind(c->scene, (uint32_t)begin);
-    work->sample = make_sample(c->scene, &kinds[kind]);
+    work->sample = meso_column_sample(c->scene, &kinds[kind]);
     for (uint64_t i = begin; i < end; i++) {
         if (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count) {
             while (i >= (uint64_t)kinds[kind].instance_begin + kinds[kind].instance_count)
                 kind++;
-            work->sample = make_sample(c->scene, &kinds[kind]);
+            work->sample = meso_column_sample(c->scene, &kinds[kind]);
         }
         MesoSweepInstance *sweep = &c->scene->sweeps[i];
         const uint32_t *absent = kinds[kind].absent;
         uint32_t least = absent[0] || absent[1] || absent[2] ? 3 : 2;
         const Budget budget = budget_of(c, kind, sweep);
-        float steps = kinds[kind].cap ? cap_steps(&work->sample, sweep, budget.left[0])
-                                      : tube_steps(work, sweep, &budget);
+        float steps = kinds[kind].cap ? cap_steps(&work->sample, sweep, c->tolerance - budget.off[0])
+                                      : tube_steps(work, sweep, &budget, c->tolerance);
         c->rings[i] = rings_for(least, steps);
     }
     free(work);

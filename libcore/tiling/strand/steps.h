@@ -6,7 +6,7 @@
 #include "libcore/tiling/strand/profile_set.h"
 
 /* The vertices along a sweep are at most this many. */
-enum { MESO_MOST_DIVISIONS = 4096 };
+enum { MESO_MOST_DIVISIONS = MESO_MOST_BOWED };
 
 /*
  * Cuts the scene's kinds up so that each has instances which need about as many vertices along, and sets that number

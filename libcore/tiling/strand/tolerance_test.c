@@ -143,6 +143,27 @@ static void test_error(MesoArena *arena, uint32_t deform)
     CHECK(coarse.parts.triangle_count == triangles);
 }
 
+/* Diagonals lean where that is nearer: with all of them the other way the surface is further off. */
+static void test_diagonals(MesoArena *arena)
+{
+    Case s = {0};
+    Meshed exact, coarse;
+    make_case(&s, arena);
+    s.model.options.tolerance = 1e-4f;
+    mesh(&exact, &s.model, arena);
+    s.model.options.tolerance = 0.02f;
+    mesh(&coarse, &s.model, arena);
+    float chosen = largest_error(&exact, &coarse);
+    uint64_t leaning = 0;
+    for (uint32_t i = 0; i < coarse.scene.sweep_count; i++)
+        for (uint32_t k = 0; k < MESO_LEAN_WORDS; k++) {
+            leaning |= coarse.scene.sweeps[i].steps.leans[k];
+            coarse.scene.sweeps[i].steps.leans[k] = ~coarse.scene.sweeps[i].steps.leans[k];
+        }
+    coarse.vertices = make_polygons(&coarse.scene, arena, &coarse.parts, &coarse.faces);
+    CHECK(leaning != 0 && largest_error(&exact, &coarse) > 1.25f * chosen);
+}
+
 /* The sharp corners of drawings are on every ring, twice, with the normals of both sides. */
 static void test_corners(MesoArena *arena)
 {
@@ -219,6 +240,7 @@ int main(void)
     meso_arena_init(&arena);
     test_error(&arena, MESO_SWEEP_CURVES);
     test_error(&arena, MESO_SWEEP_SHAPE);
+    test_diagonals(&arena);
     test_corners(&arena);
     test_between(&arena);
     test_turned(&arena);
