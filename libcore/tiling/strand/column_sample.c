@@ -51,7 +51,8 @@ static bool is_sharp(const MesoSweptKind *kind, const MesoSweepColumn *columns, 
     return !(fabsf(cross) < SMALL_CHANGE * dot);
 }
 
-static uint32_t add_column(MesoColumnSample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
+static uint32_t add_column(MesoColumnSample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns,
+                           uint32_t c)
 {
     for (uint32_t i = 0; i < sample->kind.column_count; i++)
         if (sample->numbers[i] == c)
@@ -64,8 +65,8 @@ static uint32_t add_column(MesoColumnSample *sample, const MesoSweptKind *kind, 
     return to;
 }
 
-static void add_pair(MesoColumnSample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t first,
-                     uint32_t second)
+static void add_pair(MesoColumnSample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns,
+                     uint32_t first, uint32_t second)
 {
     for (uint32_t p = 0; p < sample->pair_count; p++)
         if (sample->numbers[sample->pairs[p].columns[0]] == first)
@@ -79,7 +80,8 @@ static void add_pair(MesoColumnSample *sample, const MesoSweptKind *kind, const 
     sample->pairs[sample->pair_count++] = pair;
 }
 
-static void add_outermost(MesoColumnSample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t what)
+static void add_outermost(MesoColumnSample *sample, const MesoSweptKind *kind, const MesoSweepColumn *columns,
+                          uint32_t what)
 {
     uint32_t best = MESO_NO_INDEX, best_next = MESO_NO_INDEX;
     for (uint32_t c = 0; c < kind->column_count; c++) {
@@ -96,8 +98,9 @@ static void add_outermost(MesoColumnSample *sample, const MesoSweptKind *kind, c
 
 MesoColumnSample meso_column_sample(const MesoScene *scene, const MesoSweptKind *kind)
 {
-    MesoColumnSample sample = {.kind = *kind, .scene = {.section_scale = scene->section_scale, .frame_rule = scene->frame_rule,
-                                                 .deform = scene->deform, .cages = scene->cages}};
+    MesoColumnSample sample = {.kind = *kind};
+    sample.scene = (MesoScene){.section_scale = scene->section_scale, .frame_rule = scene->frame_rule,
+                               .deform = scene->deform, .cages = scene->cages};
     const MesoSweepColumn *columns = scene->columns + kind->column_begin;
     sample.kind.column_begin = sample.kind.column_count = 0;
     memset(sample.kind.absent, 0, sizeof sample.kind.absent);
