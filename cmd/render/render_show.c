@@ -11,7 +11,7 @@
 #include "formats/tiling/result/slots_file.h"
 #include "formats/tiling/tiles/tiles_file.h"
 #include "libcore/base/index.h"
-#include "libcore/scene/id_color.h"
+#include "libcore/sketch/id_color.h"
 #include "libcore/show/surface_sketch.h"
 
 static const char ID_PREFIX[] = "id:";

@@ -4,7 +4,7 @@
 
 #include "libcore/math/bezier.h"
 #include "libcore/scene/cell.h"
-#include "libcore/scene/sweep_section.h"
+#include "libcore/scene/sweep_ring.h"
 
 /* ---- sections ---- */
 
@@ -85,17 +85,7 @@ static inline MesoMeshVertex sweep_vertex(const MesoSweepPlane *plane, MesoVec2 
 
 /* ---- tubes ---- */
 
-/* A ring: its plane and its section. */
-typedef struct Ring {
-    MesoSweepPlane plane;
-    MesoSweepPlaneChange change;    /* where it is mitred */
-    bool mitred, creased;
-    MesoSweepBlend blend, beside[2];    /* here, and close by before and behind where it is creased */
-    float tilt_scale;
-    bool on_side;           /* of a cell, where points lie on the grain */
-} Ring;
-
-static void crease_ring(Ring *ring, const MesoSweepTrack *track, const MesoSweepBeside *beside)
+static void crease_ring(MesoSweepRing *ring, const MesoSweepTrack *track, const MesoSweepBeside *beside)
 {
     ring->creased = true;
     meso_sweep_crease(&ring->blend, track,
@@ -107,9 +97,9 @@ static void crease_ring(Ring *ring, const MesoSweepTrack *track, const MesoSweep
     }
 }
 
-static Ring ring_at(const MesoScene *scene, const MesoSweepTrack *track, float v)
+MesoSweepRing meso_sweep_ring_at(const MesoScene *scene, const MesoSweepTrack *track, float v)
 {
-    Ring ring = {.plane = meso_sweep_plane(&track->frames, v), .blend = meso_sweep_blend(track, v)};
+    MesoSweepRing ring = {.plane = meso_sweep_plane(&track->frames, v), .blend = meso_sweep_blend(track, v)};
     float speed = ring.plane.speed;
     ring.tilt_scale = speed > 0 ? scene->section_scale * 6 * v * (1 - v) / speed : 0;
     ring.on_side = scene->deform == MESO_SWEEP_SHAPE && (v == 0 || v == 1);
@@ -123,7 +113,7 @@ static Ring ring_at(const MesoScene *scene, const MesoSweepTrack *track, float v
     return ring;
 }
 
-static inline MesoMeshVertex place_vertex(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column,
+static inline MesoMeshVertex place_vertex(const MesoScene *scene, const MesoSweepRing *ring, const MesoSweepColumn *column,
                                           MesoSweepMeeting m)
 {
     MesoVec3 normal = meso_vec3_mad(in_plane(&ring->plane, m.normal), -ring->tilt_scale * m.slope, ring->plane.tangent);
@@ -137,7 +127,7 @@ static const float LEAST_FORWARDS = 0.05f;
 static const float SPIN_FROM = 0.125f;
 
 /* How fast they do where there is a crease: not at the ends, so that normals go on there, which the neighbours have. */
-static float spin_of(const Ring *ring)
+static float spin_of(const MesoSweepRing *ring)
 {
     if (!ring->creased)
         return 0;
@@ -149,7 +139,7 @@ static float spin_of(const Ring *ring)
  * The normal lies across the ring's line, as n does, and across the way of the point along the sweep; the slope of `m`
  * times `change` is dot(n, s').
  */
-static MesoMeshVertex place_on_way(const MesoScene *scene, const Ring *ring, const MesoSweepColumn *column,
+static MesoMeshVertex place_on_way(const MesoScene *scene, const MesoSweepRing *ring, const MesoSweepColumn *column,
                                    MesoSweepMeeting m, float change)
 {
     const MesoSweepPlaneChange *plane = &ring->change;
@@ -175,7 +165,7 @@ static MesoVec2 creased_normal(const MesoSweepBlend *blend, MesoVec2 s, MesoVec2
 }
 
 /* As that of a mitre, of the creased section, which changes as the crease does, too. */
-static MesoMeshVertex place_creased(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+static MesoMeshVertex place_creased(const MesoScene *scene, const MesoSweepTrack *track, const MesoSweepRing *ring,
                                     const MesoSweepColumn *column, const MesoSweepLine *line, MesoSweepMeeting m)
 {
     const MesoSweepBlend *beside = ring->beside;
@@ -192,7 +182,7 @@ static MesoVec2 on_grain(MesoVec2 p)
     return (MesoVec2){meso_cell_round(p.x), meso_cell_round(p.y)};
 }
 
-static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const MesoSweepTrack *track, const MesoSweepRing *ring,
                                          const MesoSweepColumn *column)
 {
     MesoSweepLine line = meso_sweep_line(track->sweep, column, ring->blend.turns);
@@ -205,7 +195,7 @@ static inline MesoMeshVertex tube_vertex(const MesoScene *scene, const MesoSweep
                         : place_vertex(scene, ring, column, m);
 }
 
-static inline MesoVec2 section_point(const MesoSweepTrack *track, const Ring *ring, const MesoSweepColumn *column)
+static inline MesoVec2 section_point(const MesoSweepTrack *track, const MesoSweepRing *ring, const MesoSweepColumn *column)
 {
     const MesoVec2 start = meso_vec2_scale(column->start, track->sweep->size[0]);
     const MesoVec2 end = meso_vec2_scale(column->end, track->sweep->size[1]);
@@ -213,7 +203,7 @@ static inline MesoVec2 section_point(const MesoSweepTrack *track, const Ring *ri
     return ring->on_side ? on_grain(at) : meso_sweep_creased(&ring->blend, at);
 }
 
-static inline MesoVec3 tube_point(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+static inline MesoVec3 tube_point(const MesoScene *scene, const MesoSweepTrack *track, const MesoSweepRing *ring,
                                   const MesoSweepColumn *column)
 {
     MesoVec2 at = section_point(track, ring, column);
@@ -226,7 +216,7 @@ static inline const MesoSweepColumn *grid_column(const MesoSweepColumn *columns,
 }
 
 /* A ring of a grid without what is not wanted; its vertices are where they are without that. */
-static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+static MesoMeshVertex *wanted_vertices(const MesoScene *scene, const MesoSweepTrack *track, const MesoSweepRing *ring,
                                        const MesoSweepGrid *grid, const uint8_t *wanted, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
@@ -245,7 +235,7 @@ static bool any_wanted(const uint8_t *wanted, uint32_t count)
 }
 
 /* A ring of a grid whose columns with one of the bits `absent` have no vertex. */
-static MesoMeshVertex *ring_vertices(const MesoScene *scene, const MesoSweepTrack *track, const Ring *ring,
+static MesoMeshVertex *ring_vertices(const MesoScene *scene, const MesoSweepTrack *track, const MesoSweepRing *ring,
                                      const MesoSweepGrid *grid, uint32_t absent, MesoMeshVertex *out)
 {
     const MesoSweepColumn *columns = scene->columns + track->kind->column_begin;
@@ -307,7 +297,7 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
             continue;
         }
         float v = grid->own ? meso_sweep_place(kind, sweep, r) : (float)r / (float)(grid->ring_count - 1);
-        Ring ring = ring_at(scene, &track, v);
+        MesoSweepRing ring = meso_sweep_ring_at(scene, &track, v);
         if (wanted) {
             out = wanted_vertices(scene, &track, &ring, grid, wanted, out);
             continue;
@@ -321,13 +311,13 @@ static MesoMeshVertex *tube_vertices(const MesoScene *scene, const MesoSweptKind
 typedef struct EndRing {
     const MesoScene *scene;
     MesoSweepTrack track;
-    Ring ring;
+    MesoSweepRing ring;
 } EndRing;
 
 static EndRing end_ring(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep, float v)
 {
     EndRing end = {.scene = scene, .track = meso_sweep_track(scene, kind, sweep)};
-    end.ring = ring_at(scene, &end.track, v);
+    end.ring = meso_sweep_ring_at(scene, &end.track, v);
     return end;
 }
 
@@ -390,7 +380,7 @@ static void bow_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
 }
 
 /* Of the ring at v. */
-static MesoSweepPlane cap_plane(const MesoScene *scene, const MesoSweepInstance *cap, float v)
+MesoSweepPlane meso_sweep_cap_plane(const MesoScene *scene, const MesoSweepInstance *cap, float v)
 {
     MesoSweepPlane plane = meso_sweep_plane_across(cap->p[0], cap->up[0], cap->direction[0], 0);
     float rise = scene->section_scale * (MESO_CAP_RISE * cap->size[0]);
@@ -423,7 +413,7 @@ static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind 
     uint32_t last = grid->ring_count - 1;
     for (uint32_t ring = 0; ring <= last; ring++) {
         float v = (float)ring / (float)last;
-        MesoSweepPlane plane = cap_plane(scene, cap, v);
+        MesoSweepPlane plane = meso_sweep_cap_plane(scene, cap, v);
         float radius = 1 - v * v * v * v;
         for (uint32_t c = 0; c < grid->column_count && grid->bare; c++) {
             MesoVec2 at = cap_place(scene, cap, grid_column(columns, grid, c), v);
@@ -438,7 +428,7 @@ static MesoMeshVertex *cap_vertices(const MesoScene *scene, const MesoSweptKind 
 
 static MesoVec3 cap_point(const MesoScene *scene, const MesoSweepInstance *cap, const MesoSweepColumn *column, float v)
 {
-    MesoSweepPlane plane = cap_plane(scene, cap, v);
+    MesoSweepPlane plane = meso_sweep_cap_plane(scene, cap, v);
     return cap_vertex(scene, cap, &plane, column, v).position;
 }
 
@@ -446,7 +436,7 @@ static MesoVec3 single_point(const MesoScene *scene, const MesoSweptKind *kind, 
                              const MesoSweepColumn *column, float v)
 {
     MesoSweepTrack track = meso_sweep_track(scene, kind, sweep);
-    Ring ring = ring_at(scene, &track, v);
+    MesoSweepRing ring = meso_sweep_ring_at(scene, &track, v);
     return tube_vertex(scene, &track, &ring, column).position;
 }
 
@@ -481,134 +471,4 @@ void meso_sweep_vertices(const MesoScene *scene, const MesoSweptKind *kind, cons
     const MesoSweepGrid whole = {.column_count = kind->column_count, .ring_count = kind->division_count,
                                  .own = true};
     meso_sweep_grid(scene, kind, sweep, &whole, out);
-}
-
-/* ---- points alone, many at once ---- */
-
-enum { LANES = MESO_SWEEP_LANES };
-
-/* What the places of one ring have in common. */
-typedef struct PointRing {
-    MesoVec3 origin, x, y;
-    float scale, sizes[2];
-    MesoVec2 middle[2];
-    MesoSweepAngle back;
-    MesoSweepBlend blend;
-    float radius;           /* of a cap, over that at its end; of a tube 1 */
-} PointRing;
-
-/* Sections, each of a lane: as section_point() and cap_place(). */
-__attribute__((always_inline)) static inline void blend_lanes(const PointRing *ring, const MesoSweepPlaces *places,
-                                                              uint32_t c, bool first, bool last, float *x, float *y)
-{
-    for (uint32_t l = 0; l < LANES; l++) {
-        MesoVec2 start = {places->start_x[c + l] * ring->sizes[0], places->start_y[c + l] * ring->sizes[0]};
-        MesoVec2 end = {places->end_x[c + l] * ring->sizes[1], places->end_y[c + l] * ring->sizes[1]};
-        MesoVec2 at = first ? start : last ? end : meso_vec2_lerp(start, end, ring->blend.w);
-        x[l] = at.x;
-        y[l] = at.y;
-    }
-}
-
-__attribute__((always_inline)) static inline void turn_lanes(const PointRing *ring, const MesoSweepPlaces *places,
-                                                             uint32_t c, float *x, float *y)
-{
-    MesoVec2 axis = meso_vec2_lerp(ring->middle[0], ring->middle[1], ring->blend.w);
-    for (uint32_t l = 0; l < LANES; l++) {
-        MesoVec2 start = {places->start_x[c + l] * ring->sizes[0], places->start_y[c + l] * ring->sizes[0]};
-        MesoVec2 end = {places->end_x[c + l] * ring->sizes[1], places->end_y[c + l] * ring->sizes[1]};
-        MesoVec2 q0 = meso_vec2_sub(start, ring->middle[0]);
-        MesoVec2 q1 = meso_sweep_turned(meso_vec2_sub(end, ring->middle[1]), ring->back);
-        MesoVec2 q = meso_sweep_turned(meso_vec2_lerp(q0, q1, ring->blend.w), ring->blend.turn);
-        MesoVec2 at = meso_sweep_turned(meso_vec2_add(axis, q), ring->blend.twist);
-        x[l] = at.x;
-        y[l] = at.y;
-    }
-}
-
-__attribute__((always_inline)) static inline void crease_lanes(const MesoSweepBlend *blend, float *x, float *y)
-{
-    for (uint32_t l = 0; l < LANES; l++) {
-        MesoVec2 at = meso_sweep_creased(blend, (MesoVec2){x[l], y[l]});
-        x[l] = at.x;
-        y[l] = at.y;
-    }
-}
-
-__attribute__((always_inline)) static inline void put_lanes(const PointRing *ring, const float *at_x,
-                                                            const float *at_y, float *x, float *y, float *z)
-{
-    for (uint32_t l = 0; l < LANES; l++) {
-        float right = ring->radius * at_x[l], up = ring->radius * at_y[l];
-        x[l] = ring->origin.x + ring->scale * (right * ring->x.x + up * ring->y.x);
-        y[l] = ring->origin.y + ring->scale * (right * ring->x.y + up * ring->y.y);
-        z[l] = ring->origin.z + ring->scale * (right * ring->x.z + up * ring->y.z);
-    }
-}
-
-__attribute__((always_inline)) static inline void put_ring(const PointRing *ring, const MesoSweepPlaces *places,
-                                                           float *x, float *y, float *z)
-{
-    const PointRing r = *ring;
-    float at_x[LANES], at_y[LANES];
-    for (uint32_t c = 0; c < places->count; c += LANES) {
-        if (r.blend.turns)
-            turn_lanes(&r, places, c, at_x, at_y);
-        else if (r.blend.v == 0)
-            blend_lanes(&r, places, c, true, false, at_x, at_y);
-        else
-            blend_lanes(&r, places, c, false, r.blend.v == 1, at_x, at_y);
-        if (r.blend.kept != 1)
-            crease_lanes(&r.blend, at_x, at_y);
-        put_lanes(&r, at_x, at_y, x + c, y + c, z + c);
-    }
-}
-
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) static void put_ring_avx2(const PointRing *ring, const MesoSweepPlaces *places,
-                                                          float *x, float *y, float *z)
-{
-    put_ring(ring, places, x, y, z);
-}
-#endif
-
-static void put_ring_plain(const PointRing *ring, const MesoSweepPlaces *places, float *x, float *y, float *z)
-{
-    put_ring(ring, places, x, y, z);
-}
-
-static PointRing point_ring(const MesoScene *scene, const MesoSweepTrack *track, float v)
-{
-    Ring ring = ring_at(scene, track, v);
-    const float *size = track->sweep->size;
-    return (PointRing){.origin = ring.plane.origin, .x = ring.plane.x, .y = ring.plane.y, .scale = scene->section_scale,
-                       .sizes = {size[0], size[1]}, .middle = {track->middle[0], track->middle[1]},
-                       .back = track->back, .blend = ring.blend, .radius = 1};
-}
-
-static PointRing cap_ring(const MesoScene *scene, const MesoSweepInstance *cap, float v)
-{
-    MesoSweepPlane plane = cap_plane(scene, cap, v);
-    return (PointRing){.origin = plane.origin, .x = plane.x, .y = plane.y, .scale = scene->section_scale,
-                       .sizes = {cap->size[0], 0}, .blend = {.kept = 1}, .radius = 1 - v * v * v * v};
-}
-
-void meso_sweep_points(const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
-                       const MesoSweepPlaces *places, uint32_t ring_count, float *x, float *y, float *z)
-{
-    void (*put)(const PointRing *, const MesoSweepPlaces *, float *, float *, float *) = put_ring_plain;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2"))
-        put = put_ring_avx2;
-#endif
-    assert(scene->deform == MESO_SWEEP_CURVES);
-    MesoSweepTrack track;
-    if (!kind->cap)
-        track = meso_sweep_track(scene, kind, sweep);
-    for (uint32_t r = 0; r < ring_count; r++) {
-        float v = (float)r / (float)(ring_count - 1);
-        PointRing ring = kind->cap ? cap_ring(scene, sweep, v) : point_ring(scene, &track, v);
-        size_t at = (size_t)r * places->count;
-        put(&ring, places, x + at, y + at, z + at);
-    }
 }

@@ -18,7 +18,7 @@ typedef struct Tube {
 static Tube tube;
 
 /* Profiles of `count` points, the second shifted by `shift` of them; straight along x from 0 to 1. */
-static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, uint32_t rings)
+static inline void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, uint32_t rings)
 {
     for (uint32_t i = 0; i <= count; i++) {
         const MesoVec2 *a = profile, *b = profile;
@@ -37,7 +37,7 @@ static void make_tube(const MesoVec2 *profile, uint32_t count, uint32_t shift, u
 }
 
 /* Clockwise, as columns are. */
-static uint32_t make_disc(MesoVec2 *profile, uint32_t count, float radius)
+static inline uint32_t make_disc(MesoVec2 *profile, uint32_t count, float radius)
 {
     for (uint32_t i = 0; i < count; i++) {
         double angle = -2 * MESO_PI * i / count;
@@ -47,7 +47,7 @@ static uint32_t make_disc(MesoVec2 *profile, uint32_t count, float radius)
 }
 
 /* The same number of points on each side of a box, which starts in a corner. */
-static uint32_t make_box(MesoVec2 *profile, uint32_t side, float width, float height)
+static inline uint32_t make_box(MesoVec2 *profile, uint32_t side, float width, float height)
 {
     const MesoVec2 corners[4] = {{-width / 2, height / 2}, {width / 2, height / 2}, {width / 2, -height / 2},
                                  {-width / 2, -height / 2}};
@@ -56,10 +56,16 @@ static uint32_t make_box(MesoVec2 *profile, uint32_t side, float width, float he
     return 4 * side;
 }
 
-static void sweep(void)
+static inline void sweep(void)
 {
     CHECK(tube.kind.column_count <= MOST_COLUMNS + 1 && tube.kind.division_count <= MOST_RINGS);
     meso_sweep_vertices(&tube.scene, &tube.kind, &tube.sweep, tube.vertices);
+}
+
+static inline void add_mitre(void)
+{
+    MesoKindReach reach = meso_sweep_kind_reach(&tube.scene, &tube.kind);
+    meso_sweep_add_mitre(&tube.scene, &tube.kind, reach, &tube.sweep);
 }
 
 #endif

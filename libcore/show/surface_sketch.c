@@ -1,7 +1,7 @@
 #include "libcore/show/surface_sketch.h"
 
 #include "libcore/base/index.h"
-#include "libcore/scene/sketch.h"
+#include "libcore/sketch/sketch.h"
 
 /* In mean edge lengths; the length of an arrow in that of its quad. */
 static const float EDGE_RADIUS = 0.016f, BORDER_RADIUS = 0.03f, ARROW_RADIUS = 0.014f, HEAD_RADIUS = 0.05f,

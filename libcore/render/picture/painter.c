@@ -7,7 +7,7 @@
 #include "libcore/render/picture/covered.h"
 #include "libcore/render/picture/motion.h"
 #include "libcore/render/raster/raster_tiles.h"
-#include "libcore/scene/id_color.h"
+#include "libcore/sketch/id_color.h"
 
 /*
  * How far thinned geometry may lie from its own, in pixels. Of few samples each shows one thing or another, whatever is

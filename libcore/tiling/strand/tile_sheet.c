@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "libcore/scene/id_color.h"
-#include "libcore/scene/sketch.h"
-#include "libcore/scene/stroke_font.h"
+#include "libcore/sketch/id_color.h"
+#include "libcore/sketch/sketch.h"
+#include "libcore/sketch/stroke_font.h"
 #include "libcore/tiling/strand/expansion.h"
 
 /* Cells are 1 wide and high. */

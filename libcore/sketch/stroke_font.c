@@ -1,4 +1,4 @@
-#include "libcore/scene/stroke_font.h"
+#include "libcore/sketch/stroke_font.h"
 
 #include <stddef.h>
 

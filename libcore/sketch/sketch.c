@@ -1,10 +1,10 @@
-#include "libcore/scene/sketch.h"
+#include "libcore/sketch/sketch.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "libcore/base/index.h"
-#include "libcore/scene/stroke_font.h"
+#include "libcore/sketch/stroke_font.h"
 
 enum { SIDES = 12, BALL_ROUND = 16, BALL_RINGS = 8, MOST_MATERIALS = UINT16_MAX };
 

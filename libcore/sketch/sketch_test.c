@@ -1,12 +1,12 @@
 /* Sketches alone and in a scene that was there: what their parts are, lie and measure. Letters; colours of ids. */
-#include "libcore/scene/sketch.h"
+#include "libcore/sketch/sketch.h"
 
 #include <string.h>
 
 #include "libcore/base/check.h"
-#include "libcore/scene/id_color.h"
+#include "libcore/sketch/id_color.h"
 #include "libcore/scene/parts.h"
-#include "libcore/scene/stroke_font.h"
+#include "libcore/sketch/stroke_font.h"
 
 static const float RED[3] = {1, 0, 0}, BLUE[3] = {0, 0, 1};
 static const MesoVec3 ORIGIN = {0, 0, 0}, RIGHT = {1, 0, 0}, UP = {0, 1, 0};

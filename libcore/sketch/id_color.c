@@ -1,4 +1,4 @@
-#include "libcore/scene/id_color.h"
+#include "libcore/sketch/id_color.h"
 
 #include <math.h>
 
