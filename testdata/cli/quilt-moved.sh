@@ -10,7 +10,7 @@ torus 0.4 24 12 >torus.obj
 torus 0.35 24 12 >thin.obj
 grep -v '^vt' torus.obj | sed 's|/[0-9]*||g' >bare.obj
 meso-quilt -q --swatch nuts --columns 3 --rows 3 -o nuts.ply
-meso-quilt -q --swatch wire --sides 4 --guide u --scale 0.2 torus.obj -o torus.quilt
+meso-quilt -q --swatch wire --sides 4 --guide u --scale 0.4 torus.obj -o torus.quilt
 
 echo "== moved: the surface that it has is where it was; another one is not; only of the same faces"
 meso-map torus.quilt -o a.ply && meso-map torus.quilt torus.obj -o b.ply
@@ -19,7 +19,7 @@ tail -c 4000 a.ply >a && tail -c 4000 b.ply >b && cmp a b && echo same faces
 meso-info b.ply | grep -o '"face": [0-9]*' >b && meso-info c.ply | grep -o '"face": [0-9]*' | cmp b - && echo as many
 tail -c 7000000 a.ply >a && tail -c 7000000 c.ply | cmp -s - a || echo elsewhere
 sed '$d' torus.obj >hole.obj
-meso-quilt -q --swatch nuts --scale 0.2 bare.obj -o bare.quilt
+meso-quilt -q --swatch nuts --scale 0.4 bare.obj -o bare.quilt
 try meso-map bare.quilt hole.obj -o x.ply
 sed 's|^f 1/1 2/2|f 2/2 1/1|' torus.obj >turned.obj
 try meso-map bare.quilt turned.obj -o x.ply
