@@ -58,7 +58,6 @@ static void begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
     }
     for (uint32_t i = 0; window->batches && i < work->batch_count; i++)
         window->batches[i].runs = allocate(work, work->grammar->rule_count, sizeof *window->batches[i].runs);
-    window->each = MESO_GROWTH_BATCH;
 }
 
 static MesoStatus begin(MesoGrowthWork *work)
@@ -75,6 +74,9 @@ static MesoStatus begin(MesoGrowthWork *work)
     for (uint32_t i = 0; i < (work->team ? 2 : 1); i++)
         begin_window(work, &work->windows[i]);
     work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);
+    work->shares = allocate(work, work->batch_count, sizeof *work->shares);
+    for (uint32_t i = 0; work->shares && i < work->batch_count; i++)
+        work->shares[i] = MESO_GROWTH_BATCH;
     work->ahead = options->event ? NULL : allocate(work, work->grammar->code_count, sizeof *work->ahead);
     if (work->ahead)
         meso_growth_look_ahead(work->grammar, work->ahead);
@@ -110,7 +112,7 @@ void meso_growth_release(MesoGrowthWork *work)
 {
     void *const arrays[] = {work->tips, work->ended, work->registers, work->active, work->shoots, work->balls,
                             work->joints, work->points, work->elements, work->branches, work->rules, work->goes_on,
-                            work->ahead};
+                            work->ahead, work->shares};
     meso_team_end(work->team);
     for (uint32_t i = 0; i < 2; i++)
         release_window(work, &work->windows[i]);
@@ -135,12 +137,16 @@ static void run_batch(void *context, uint64_t begin_at, uint64_t end)
 {
     const Loop *loop = context;
     uint32_t first = (uint32_t)begin_at, last = (uint32_t)end, accepted = loop->accepted ? loop->accepted->count : 0;
+    uint32_t number = first / MESO_GROWTH_BATCH;
     if (first < loop->try_count) {
-        meso_growth_run_rules(loop->work, loop->tried, first, last < loop->try_count ? last : loop->try_count);
-        meso_growth_judge_walks(loop->work, loop->tried, first);
+        MesoGrowthBatch *batch = &loop->tried->batches[number];
+        meso_growth_begin_batch(loop->work, batch, loop->tried->begin);
+        meso_growth_run_rules(loop->work, loop->tried, batch, first, last < loop->try_count ? last : loop->try_count);
+        meso_growth_judge_walks(loop->work, loop->tried, batch);
     }
     if (first < accepted)
-        meso_growth_accept(loop->work, loop->accepted, first, last < accepted ? last : accepted);
+        meso_growth_accept(loop->work, loop->accepted, &loop->accepted->batches[number], first,
+                           last < accepted ? last : accepted);
 }
 
 static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try_count,
@@ -157,7 +163,6 @@ static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t 
                        const MesoGrowthWindow *before)
 {
     window->begin = begin_at;
-    window->each = MESO_GROWTH_BATCH;
     meso_growth_begin_window(work, window);
     run_loop(work, window, count, before);
     window->count = meso_growth_admit_range(work, window, 0, count);
