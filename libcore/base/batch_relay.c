@@ -228,7 +228,7 @@ static void judge_window(Runner *runner, uint32_t window)
     }
 }
 
-/* Until all batches before one are admitted; the next of them is taken over where it is left. False where it is over. */
+/* Until all batches before one are admitted; the next of them is taken over where it is left. False: it is over. */
 static bool wait_for_turn(Runner *runner, uint32_t batch)
 {
     Race *race = runner->race;

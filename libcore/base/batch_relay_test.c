@@ -119,8 +119,10 @@ static uint32_t total_before(uint32_t number, uint32_t places)
 static void check_relay(MesoTeam *team, uint32_t places, uint32_t batches, bool is_read, uint32_t stop, uint32_t fail)
 {
     static Trial trial;
+    static MesoBatchIdle idle[7];
     memset(&trial, 0, sizeof trial);
-    trial.relay = (MesoBatchRelay){&trial, places, batches, is_read, draft, judge, has_room, make_room, admit, write};
+    trial.relay = (MesoBatchRelay){&trial, places, batches, is_read, draft, judge, has_room, make_room, admit, write,
+                                   is_read ? idle : NULL};
     trial.stop = stop;
     trial.fail = fail;
     bool done = meso_batch_relay(team, &trial.relay);

@@ -255,25 +255,11 @@ static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, co
     end_turn(work, batch, number, &turn->command);
 }
 
-/* Memory that a turn's elements go to, which may be in that of another thread, comes while those before are written. */
-static void fetch_room(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
-{
-    if (!meso_growth_is_step(turn))
-        return;
-    const char *joint = (const char *)&work->joints[turn->joint_begin];
-    __builtin_prefetch(joint, 1);
-    __builtin_prefetch(joint + sizeof(MesoJoint), 1);
-    __builtin_prefetch(&work->points[turn->joint_begin], 1);
-    __builtin_prefetch(&work->elements[turn->element_begin], 1);
-}
-
 void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch,
                         uint32_t begin, uint32_t end)
 {
-    enum { AHEAD = 8 };
     MesoGrowthCommand command = {0};
     for (uint32_t i = begin; i < end; i++) {
-        fetch_room(work, &window->turns[i + AHEAD < end ? i + AHEAD : i]);
         uint32_t at = window->begin + i, number = work->active[at];
         accept_turn(work, window, batch, number, &window->turns[i]);
         end_rule_early(work, batch, number, &command);

@@ -4,6 +4,7 @@
  * judged by what windows before theirs have grown, where they ask for it; what has grown since is known, and looked at
  * when their turns are admitted.
  */
+#include <assert.h>
 #include <stdlib.h>
 
 #include "libcore/base/batch_relay.h"
@@ -13,11 +14,13 @@
 /* Windows; and turns whose rules are run at a time, while a thread waits. */
 enum { MANY = 3, PIECE = 32 };
 
-/* Turns of a window that go from thread to thread at a time, and what is left to one. */
-enum { SHIFT = 4, LEAST = 2 * MESO_GROWTH_BATCH - MESO_GROWTH_BATCH_MOST };
+/* Shares of a batch that go from thread to thread at a time, and that are left to one, and given to one, at most. */
+enum { SHIFTS = 32, LEAST = 12, MOST = 52 };
 
 /* By so many looks more another thread must wait for that. */
 enum { MUCH = 32 };
+
+static_assert(MOST * MESO_GROWTH_BATCH_UNSEEN <= SHIFTS * MESO_GROWTH_BATCH_MOST, "batches have no room for that");
 
 typedef struct Relay {
     MesoGrowthWork *work;
@@ -58,7 +61,7 @@ static Part part_of(const Relay *relay, uint32_t number)
 /* Divides a window among its places, by their shares. */
 static void divide(const Relay *relay, uint32_t window)
 {
-    uint64_t all = (uint64_t)relay->place_count * MESO_GROWTH_BATCH, before = 0;
+    uint64_t all = (uint64_t)relay->place_count * relay->work->relay_batch, before = 0;
     uint32_t first = window * relay->window_size;
     uint32_t count = least(relay->window_size, relay->work->active_count - first);
     for (uint32_t i = 0; i < relay->place_count; i++) {
@@ -70,24 +73,24 @@ static void divide(const Relay *relay, uint32_t window)
 /* Turns go from the thread that has waited least to the one that has most, which is faster, or has more to itself. */
 static void weigh(const Relay *relay)
 {
-    uint32_t *shares = relay->work->shares, most = 0, fewest = 0;
+    uint32_t *shares = relay->work->shares, shift = relay->work->relay_batch / SHIFTS, most = 0, fewest = 0;
     uint64_t waits[2] = {0, UINT64_MAX};
     for (uint32_t i = 0; i < relay->place_count; i++) {
         uint64_t looks = atomic_load_explicit(&relay->idle[i].looks, memory_order_relaxed);
         uint64_t wait = looks - relay->idle_before[i];
         relay->idle_before[i] = looks;
-        if (wait >= waits[0] && shares[i] + SHIFT <= MESO_GROWTH_BATCH_MOST) {
+        if (wait >= waits[0] && shares[i] < MOST * shift) {
             waits[0] = wait;
             most = i;
         }
-        if (wait < waits[1] && shares[i] >= LEAST + SHIFT) {
+        if (wait < waits[1] && shares[i] > LEAST * shift) {
             waits[1] = wait;
             fewest = i;
         }
     }
     if (waits[0] > waits[1] && waits[0] - waits[1] > MUCH) {
-        shares[most] += SHIFT;
-        shares[fewest] -= SHIFT;
+        shares[most] += shift;
+        shares[fewest] -= shift;
     }
 }
 
@@ -177,7 +180,7 @@ static void write(void *context, uint32_t number)
 static bool plan(Relay *relay, MesoGrowthWork *work)
 {
     uint32_t places = least(meso_team_size(work->team), meso_parallel_cores()), active = work->active_count;
-    uint32_t most = places * MESO_GROWTH_BATCH, windows = (active + most - 1) / most;
+    uint32_t most = places * work->relay_batch, windows = (active + most - 1) / most;
     uint32_t size = windows < MANY ? (active + windows - 1) / windows : most;
     *relay = (Relay){.work = work, .place_count = places, .window_count = windows, .window_size = size};
     relay->begins = malloc((size_t)places * windows * sizeof *relay->begins);

@@ -45,11 +45,12 @@ static void size_window(MesoGrowthWork *work)
     work->thread_count = work->options->event ? 1 : threads;
     work->batch_count = work->thread_count;
     work->window_size = work->options->event ? 1 : work->batch_count * MESO_GROWTH_BATCH;
+    work->relay_batch = work->uses_space || work->batch_count == 1 ? MESO_GROWTH_BATCH : MESO_GROWTH_BATCH_UNSEEN;
 }
 
 static void begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
 {
-    window->turns = allocate(work, work->window_size, sizeof *window->turns);
+    window->turns = allocate(work, (size_t)work->batch_count * work->relay_batch, sizeof *window->turns);
     window->batches = allocate(work, 2 * (size_t)work->batch_count, sizeof *window->batches);
     if (work->looks) {
         window->befores = allocate(work, work->window_size, sizeof *window->befores);
@@ -76,7 +77,7 @@ static MesoStatus begin(MesoGrowthWork *work)
     work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);
     work->shares = allocate(work, work->batch_count, sizeof *work->shares);
     for (uint32_t i = 0; work->shares && i < work->batch_count; i++)
-        work->shares[i] = MESO_GROWTH_BATCH;
+        work->shares[i] = work->relay_batch;
     work->ahead = options->event ? NULL : allocate(work, work->grammar->code_count, sizeof *work->ahead);
     if (work->ahead)
         meso_growth_look_ahead(work->grammar, work->ahead);

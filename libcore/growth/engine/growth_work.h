@@ -15,8 +15,11 @@
 #include "libcore/growth/engine/growth_seat.h"
 #include "libcore/growth/space/growth_space.h"
 
-/* Branches that one thread tries at a time, and at most, where it is faster than others. */
-enum { MESO_GROWTH_BATCH = 128, MESO_GROWTH_BATCH_MOST = 208 };
+/*
+ * Branches that one thread tries at a time. In a relay where nothing that grows is looked at there are more: nothing is
+ * done again for that, and threads come less often to memory next to each other's. At most, where one is faster.
+ */
+enum { MESO_GROWTH_BATCH = 128, MESO_GROWTH_BATCH_UNSEEN = 256, MESO_GROWTH_BATCH_MOST = 416 };
 
 /* Marks of triangles: as a rule many more than there are pieces of a window, so that few triangles share one. */
 enum { MESO_GROWTH_MARKS = 1 << 15 };
@@ -174,7 +177,8 @@ typedef struct MesoGrowthWork {
 
     MesoGrowthWindow windows[2];        /* what one has grown is written down while the next is tried */
     uint32_t window_size, batch_count;
-    uint32_t *shares;                   /* [batch_count] of a window, in a relay */
+    uint32_t relay_batch;               /* turns of a batch in a relay, on the average */
+    uint32_t *shares;                   /* [batch_count] of a window there */
 
     /* what has grown */
     MesoJoint *joints;
@@ -215,8 +219,8 @@ bool meso_growth_relay(MesoGrowthWork *work);
 /* ---- growth_try.c: turns ---- */
 
 /*
- * A batch of a window that begins at one of the active tips: first the rules of turns [begin, end), and where these walk
- * to, some after others; then what comes of all that, which may ask for what has grown. Rules that look ask, too.
+ * A batch of a window that begins at one of the active tips: first the rules of turns [begin, end), and where these
+ * walk to, some after others; then what comes of all that, which may ask for what has grown. Rules that look ask, too.
  */
 void meso_growth_begin_batch(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t window_begin);
 void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
