@@ -273,16 +273,29 @@ static void keep_living(MesoGrowthWork *work)
     work->tip_count = count;
 }
 
-/* All living branches become active. */
+static uint32_t count_living(const MesoGrowthWork *work)
+{
+    uint32_t ended = 0;
+    for (uint32_t i = 0; i < work->tip_count; i++)
+        ended += work->ended[i];
+    return work->tip_count - ended;
+}
+
+/* All living branches become active. Others keep their places until they are many: to move the rest takes long. */
 static bool wake(MesoGrowthWork *work)
 {
+    enum { MANY_OF = 4 };
     count_runs(work);
-    keep_living(work);
-    work->active_count = work->tip_count;
-    if (!make_active(work, work->tip_count))
+    uint32_t living = count_living(work), count = 0;
+    if (work->tip_count - living > living / MANY_OF)
+        keep_living(work);
+    if (!make_active(work, (uint64_t)living + 1))
         return false;
-    for (uint32_t i = 0; i < work->tip_count; i++)
-        work->active[i] = i;
+    for (uint32_t i = 0; i < work->tip_count; i++) {
+        work->active[count] = i;
+        count += !work->ended[i];
+    }
+    work->active_count = count;
     return true;
 }
 
