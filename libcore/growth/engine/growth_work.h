@@ -336,7 +336,10 @@ uint32_t meso_growth_admit_range(MesoGrowthWork *work, MesoGrowthWindow *window,
 /* After the last: the branches that the window has begun are there. */
 void meso_growth_end_window(MesoGrowthWork *work, const MesoGrowthWindow *window);
 
-/* Makes room for all that has numbers, and so many turns more, and for the tips of branches that begin. */
+/*
+ * Whether there is room for all that has numbers, and so many turns more, and for the tips of branches that begin; or
+ * makes it, and moves arrays for that. False where memory is out.
+ */
 bool meso_growth_has_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips);
 bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips);
 
