@@ -255,9 +255,9 @@ static void accept_turn(MesoGrowthWork *work, const MesoGrowthWindow *window, co
     end_turn(work, batch, number, &turn->command);
 }
 
-void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t begin, uint32_t end)
+void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch,
+                        uint32_t begin, uint32_t end)
 {
-    const MesoGrowthBatch *batch = meso_growth_batch(window, begin);
     MesoGrowthCommand command = {0};
     for (uint32_t i = begin; i < end; i++) {
         uint32_t at = window->begin + i, number = work->active[at];

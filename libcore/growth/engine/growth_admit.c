@@ -60,7 +60,7 @@ static bool is_near_new(const MesoGrowthWork *work, const MesoGrowthTurn *turn)
 static void bring_up_to_date(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
     MesoGrowthTurn *turn = &window->turns[number];
-    MesoGrowthBatch *batch = meso_growth_batch(window, number) + work->batch_count;
+    MesoGrowthBatch *batch = meso_growth_again(work, window, turn);
     uint32_t active = work->active[window->begin + number];
     MesoGrowthTip *tip = &work->tips[active];
     bool steps = meso_growth_is_step(turn);
@@ -227,18 +227,29 @@ void meso_growth_end_window(MesoGrowthWork *work, const MesoGrowthWindow *window
     work->shoot_count += begun;
 }
 
-#define ROOM(array, room, count) meso_make_room((void **)&work->array, &work->room, count, sizeof *work->array)
+#define ROOM(array, room, count) \
+    ((count) <= work->room || \
+     (makes && meso_make_room((void **)&work->array, &work->room, count, sizeof *work->array)))
 
-bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips)
+static bool have_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips, bool makes)
 {
     uint64_t joints = (uint64_t)work->joint_count + (uint64_t)turns * (MESO_GROWTH_SPANS + 1);
     uint64_t elements = (uint64_t)work->element_count + (uint64_t)turns * MESO_GROWTH_SPANS;
     uint64_t all_tips = (uint64_t)work->tip_count + tips;
-    bool has = ROOM(joints, joint_room, joints) && ROOM(points, point_room, joints) &&
+    return ROOM(joints, joint_room, joints) && ROOM(points, point_room, joints) &&
                ROOM(elements, element_room, elements) &&
                ROOM(branches, branch_room, (uint64_t)work->branch_count + branches) &&
                ROOM(tips, tip_room, all_tips) && ROOM(ended, ended_room, all_tips) &&
                ROOM(registers, register_room, all_tips * work->grammar->local_count + 1) &&
                ROOM(shoots, shoot_room, (uint64_t)work->shoot_count + tips);
-    return has || fail_memory(work);
+}
+
+bool meso_growth_has_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips)
+{
+    return have_rooms(work, turns, branches, tips, false);
+}
+
+bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips)
+{
+    return have_rooms(work, turns, branches, tips, true) || fail_memory(work);
 }

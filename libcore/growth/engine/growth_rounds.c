@@ -45,11 +45,12 @@ static void size_window(MesoGrowthWork *work)
     work->thread_count = work->options->event ? 1 : threads;
     work->batch_count = work->thread_count;
     work->window_size = work->options->event ? 1 : work->batch_count * MESO_GROWTH_BATCH;
+    work->relay_batch = work->uses_space || work->batch_count == 1 ? MESO_GROWTH_BATCH : MESO_GROWTH_BATCH_UNSEEN;
 }
 
 static void begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
 {
-    window->turns = allocate(work, work->window_size, sizeof *window->turns);
+    window->turns = allocate(work, (size_t)work->batch_count * work->relay_batch, sizeof *window->turns);
     window->batches = allocate(work, 2 * (size_t)work->batch_count, sizeof *window->batches);
     if (work->looks) {
         window->befores = allocate(work, work->window_size, sizeof *window->befores);
@@ -58,7 +59,6 @@ static void begin_window(MesoGrowthWork *work, MesoGrowthWindow *window)
     }
     for (uint32_t i = 0; window->batches && i < work->batch_count; i++)
         window->batches[i].runs = allocate(work, work->grammar->rule_count, sizeof *window->batches[i].runs);
-    window->each = MESO_GROWTH_BATCH;
 }
 
 static MesoStatus begin(MesoGrowthWork *work)
@@ -75,6 +75,9 @@ static MesoStatus begin(MesoGrowthWork *work)
     for (uint32_t i = 0; i < (work->team ? 2 : 1); i++)
         begin_window(work, &work->windows[i]);
     work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);
+    work->shares = allocate(work, work->batch_count, sizeof *work->shares);
+    for (uint32_t i = 0; work->shares && i < work->batch_count; i++)
+        work->shares[i] = work->relay_batch;
     work->ahead = options->event ? NULL : allocate(work, work->grammar->code_count, sizeof *work->ahead);
     if (work->ahead)
         meso_growth_look_ahead(work->grammar, work->ahead);
@@ -110,7 +113,7 @@ void meso_growth_release(MesoGrowthWork *work)
 {
     void *const arrays[] = {work->tips, work->ended, work->registers, work->active, work->shoots, work->balls,
                             work->joints, work->points, work->elements, work->branches, work->rules, work->goes_on,
-                            work->ahead};
+                            work->ahead, work->shares};
     meso_team_end(work->team);
     for (uint32_t i = 0; i < 2; i++)
         release_window(work, &work->windows[i]);
@@ -135,12 +138,16 @@ static void run_batch(void *context, uint64_t begin_at, uint64_t end)
 {
     const Loop *loop = context;
     uint32_t first = (uint32_t)begin_at, last = (uint32_t)end, accepted = loop->accepted ? loop->accepted->count : 0;
+    uint32_t number = first / MESO_GROWTH_BATCH;
     if (first < loop->try_count) {
-        meso_growth_run_rules(loop->work, loop->tried, first, last < loop->try_count ? last : loop->try_count);
-        meso_growth_judge_walks(loop->work, loop->tried, first);
+        MesoGrowthBatch *batch = &loop->tried->batches[number];
+        meso_growth_begin_batch(loop->work, batch, loop->tried->begin);
+        meso_growth_run_rules(loop->work, loop->tried, batch, first, last < loop->try_count ? last : loop->try_count);
+        meso_growth_judge_walks(loop->work, loop->tried, batch);
     }
     if (first < accepted)
-        meso_growth_accept(loop->work, loop->accepted, first, last < accepted ? last : accepted);
+        meso_growth_accept(loop->work, loop->accepted, &loop->accepted->batches[number], first,
+                           last < accepted ? last : accepted);
 }
 
 static void run_loop(MesoGrowthWork *work, MesoGrowthWindow *tried, uint32_t try_count,
@@ -157,7 +164,6 @@ static bool run_window(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t 
                        const MesoGrowthWindow *before)
 {
     window->begin = begin_at;
-    window->each = MESO_GROWTH_BATCH;
     meso_growth_begin_window(work, window);
     run_loop(work, window, count, before);
     window->count = meso_growth_admit_range(work, window, 0, count);
@@ -267,16 +273,29 @@ static void keep_living(MesoGrowthWork *work)
     work->tip_count = count;
 }
 
-/* All living branches become active. */
+static uint32_t count_living(const MesoGrowthWork *work)
+{
+    uint32_t ended = 0;
+    for (uint32_t i = 0; i < work->tip_count; i++)
+        ended += work->ended[i];
+    return work->tip_count - ended;
+}
+
+/* All living branches become active. Others keep their places until they are many: to move the rest takes long. */
 static bool wake(MesoGrowthWork *work)
 {
+    enum { MANY_OF = 4 };
     count_runs(work);
-    keep_living(work);
-    work->active_count = work->tip_count;
-    if (!make_active(work, work->tip_count))
+    uint32_t living = count_living(work), count = 0;
+    if (work->tip_count - living > living / MANY_OF)
+        keep_living(work);
+    if (!make_active(work, (uint64_t)living + 1))
         return false;
-    for (uint32_t i = 0; i < work->tip_count; i++)
-        work->active[i] = i;
+    for (uint32_t i = 0; i < work->tip_count; i++) {
+        work->active[count] = i;
+        count += !work->ended[i];
+    }
+    work->active_count = count;
     return true;
 }
 

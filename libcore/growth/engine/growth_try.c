@@ -107,13 +107,13 @@ static void join(const MesoGrowthWork *work, const MesoGrowthTip *tip, MesoGrowt
 }
 
 /* Pieces of all walks, each walk's together; they are asked for what lies where they are soon. */
-static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t count)
+static void walk_all(const MesoGrowthWork *work, MesoGrowthBatch *batch, MesoWalk *walks, uint32_t count)
 {
     MesoWalkOptions options = {MESO_GROWTH_CROSSINGS, meso_growth_collect, batch};
     batch->linked_count = 0;
     for (uint32_t i = 0; i < count; i++)
         batch->first[i] = batch->last[i] = MESO_NO_INDEX;
-    work->march.walk(work->march.context, batch->walks, count, &options);
+    work->march.walk(work->march.context, walks, count, &options);
 }
 
 /* Memory of what is read next, of pieces from `first` on, comes while the others are read. */
@@ -141,13 +141,13 @@ static inline void fetch_tip(const MesoGrowthWork *work, uint32_t number)
     __builtin_prefetch(registers_of(work, number));
 }
 
-/* Rules of the window's turns; returns how many are about to walk. */
-static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
-                          uint32_t end)
+/* Rules of turns; those that are about to walk become walkers. */
+static void run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
+                      uint32_t end)
 {
     enum { AHEAD = 4 };
-    const uint32_t *active = work->active + window->begin;
-    uint32_t count = 0;
+    const uint32_t *active = work->active + batch->begin;
+    uint32_t count = batch->walker_count;
     for (uint32_t i = begin; i < end; i++) {
         MesoGrowthTurn *turn = &window->turns[i];
         MesoGrowthTip *tip = &work->tips[active[i]];
@@ -166,14 +166,14 @@ static uint32_t run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGr
         if (batch->space)
             meso_growth_fetch_piece(&work->space.cells, tip->piece);
     }
-    return count;
+    batch->walker_count = count;
 }
 
 /* Judges the walks; returns how many steps have another try, whose walks come to lie at the front. */
 static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t count,
                           uint32_t try)
 {
-    const uint32_t *active = work->active + window->begin;
+    const uint32_t *active = work->active + batch->begin;
     uint32_t left = 0;
     for (uint32_t i = 0; i < count && !batch->failed; i++) {
         uint32_t number = batch->walkers[i], of = active[number];
@@ -189,44 +189,52 @@ static uint32_t judge_all(const MesoGrowthWork *work, MesoGrowthWindow *window, 
     return batch->failed ? 0 : left;
 }
 
-static void walk_turns(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t count)
+/* Those from `first` on. */
+static void walk_turns(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t first,
+                       uint32_t count)
 {
-    walk_all(work, batch, count);
+    walk_all(work, batch, batch->walks + first, count);
     for (uint32_t i = 0; i < count; i++)
-        meso_growth_keep_pieces(batch, &window->turns[batch->walkers[i]], i);
+        meso_growth_keep_pieces(batch, &window->turns[batch->walkers[first + i]], i);
 }
 
-void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end)
+void meso_growth_begin_batch(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t window_begin)
 {
-    MesoGrowthBatch *batch = meso_growth_batch(window, begin), *again = batch + work->batch_count;
-    batch->piece_count = batch->shoot_count = batch->middle_count = 0;
+    MesoGrowthBatch *again = batch + work->batch_count;
+    batch->piece_count = batch->shoot_count = batch->middle_count = batch->walker_count = 0;
     again->piece_count = again->shoot_count = again->middle_count = 0;
     batch->space = work->uses_space && !work->in_relay ? &work->space : NULL;
-    batch->walker_count = run_rules(work, window, batch, begin, end);
-    if (batch->walker_count)
-        walk_turns(work, window, batch, batch->walker_count);
+    batch->begin = window_begin;
+}
+
+void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
+                           uint32_t end)
+{
+    uint32_t before = batch->walker_count;
+    run_rules(work, window, batch, begin, end);
+    if (batch->walker_count > before)
+        walk_turns(work, window, batch, before, batch->walker_count - before);
 }
 
 /* What walks may meet, and what they may begin at. */
-static void fetch_space(const MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch)
+static void fetch_space(const MesoGrowthWork *work, const MesoGrowthBatch *batch)
 {
     const MesoGrowthCells *cells = &work->space.cells;
     meso_growth_cells_fetch_heads(cells, batch->pieces, batch->piece_count, false);
     for (uint32_t i = 0; i < batch->walker_count; i++)
-        meso_growth_fetch_piece(cells, work->tips[work->active[window->begin + batch->walkers[i]]].piece);
+        meso_growth_fetch_piece(cells, work->tips[work->active[batch->begin + batch->walkers[i]]].piece);
 }
 
-void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin)
+void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch)
 {
-    MesoGrowthBatch *batch = meso_growth_batch(window, begin);
     if (work->uses_space && !batch->space) {
         batch->space = &work->space;
-        fetch_space(work, window, batch);
+        fetch_space(work, batch);
     }
     for (uint32_t try = 0, count = batch->walker_count, first = 0; count; try++) {
         if (try > 0) {
             first = batch->piece_count;
-            walk_turns(work, window, batch, count);
+            walk_turns(work, window, batch, 0, count);
         }
         fetch_ahead(work, batch, count, first);
         count = judge_all(work, window, batch, count, try);
@@ -236,8 +244,8 @@ void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *windo
 void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t number)
 {
     uint32_t active = work->active[window->begin + number];
-    MesoGrowthBatch *batch = meso_growth_batch(window, number) + work->batch_count;
     MesoGrowthTurn *turn = &window->turns[number];
+    MesoGrowthBatch *batch = meso_growth_again(work, window, turn);
     MesoGrowthTip *tip = &work->tips[active];
     double *registers = registers_of(work, active);
     *tip = window->befores[number];

@@ -15,8 +15,11 @@
 #include "libcore/growth/engine/growth_seat.h"
 #include "libcore/growth/space/growth_space.h"
 
-/* Branches that one thread tries at a time. */
-enum { MESO_GROWTH_BATCH = 128 };
+/*
+ * Branches that one thread tries at a time. In a relay where nothing that grows is looked at there are more: nothing is
+ * done again for that, and threads come less often to memory next to each other's. At most, where one is faster.
+ */
+enum { MESO_GROWTH_BATCH = 128, MESO_GROWTH_BATCH_UNSEEN = 256, MESO_GROWTH_BATCH_MOST = 416 };
 
 /* Marks of triangles: as a rule many more than there are pieces of a window, so that few triangles share one. */
 enum { MESO_GROWTH_MARKS = 1 << 15 };
@@ -125,10 +128,12 @@ typedef struct MesoGrowthBatch {
     MesoGrowthMiddle *middles;
     uint32_t middle_count, middle_room;
     uint32_t piece_count, piece_room, linked_count, linked_room, shoot_count, shoot_room, register_room;
-    uint32_t first[MESO_GROWTH_BATCH], last[MESO_GROWTH_BATCH];     /* linked pieces of each walk */
-    MesoWalk walks[MESO_GROWTH_BATCH];
-    uint32_t walkers[MESO_GROWTH_BATCH];    /* turns that walk */
+    uint32_t first[MESO_GROWTH_BATCH_MOST], last[MESO_GROWTH_BATCH_MOST];     /* linked pieces of each walk */
+    MesoWalk walks[MESO_GROWTH_BATCH_MOST];
+    uint32_t walkers[MESO_GROWTH_BATCH_MOST];   /* turns that walk */
     uint32_t walker_count;
+    uint32_t begin;             /* of its window, of the active tips */
+    uint32_t number, drafted, admitted;     /* in a relay: which it is; behind its turns that ran, and are admitted */
     MesoGrowthSeen seen;
     const MesoGrowthSpace *space;       /* NULL: nobody asks where pieces are, or others add some meanwhile */
     uint64_t *runs;             /* [rule_count] of rules, that begin with the next generation */
@@ -138,18 +143,12 @@ typedef struct MesoGrowthBatch {
 /* Turns that are tried together. */
 typedef struct MesoGrowthWindow {
     uint32_t begin, count;      /* of the active tips; how many are admitted */
-    uint32_t each;              /* turns of a batch, but for the last, which may have less */
     uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
     MesoGrowthTurn *turns;      /* [window_size] */
     MesoGrowthTip *befores;     /* [window_size] where rules look; before their turns */
     double *register_befores;
     MesoGrowthBatch *batches;   /* [batch_count] and as many again, for what is done again of each */
 } MesoGrowthWindow;
-
-static inline MesoGrowthBatch *meso_growth_batch(const MesoGrowthWindow *window, uint32_t turn)
-{
-    return &window->batches[turn / window->each];
-}
 
 typedef struct MesoGrowthWork {
     /* what turns read */
@@ -178,6 +177,8 @@ typedef struct MesoGrowthWork {
 
     MesoGrowthWindow windows[2];        /* what one has grown is written down while the next is tried */
     uint32_t window_size, batch_count;
+    uint32_t relay_batch;               /* turns of a batch in a relay, on the average */
+    uint32_t *shares;                   /* [batch_count] of a window there */
 
     /* what has grown */
     MesoJoint *joints;
@@ -218,11 +219,21 @@ bool meso_growth_relay(MesoGrowthWork *work);
 /* ---- growth_try.c: turns ---- */
 
 /*
- * Turns [begin, end) of a window, which are a batch: first their rules, and where these walk to; then what comes of
- * that, which may ask for what has grown. Rules that look ask, too.
+ * A batch of a window that begins at one of the active tips: first the rules of turns [begin, end), and where these
+ * walk to, some after others; then what comes of all that, which may ask for what has grown. Rules that look ask, too.
  */
-void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin, uint32_t end);
-void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t begin);
+void meso_growth_begin_batch(const MesoGrowthWork *work, MesoGrowthBatch *batch, uint32_t window_begin);
+void meso_growth_run_rules(MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch, uint32_t begin,
+                           uint32_t end);
+void meso_growth_judge_walks(const MesoGrowthWork *work, MesoGrowthWindow *window, MesoGrowthBatch *batch);
+
+/* The batch for what is done again of a turn. */
+static inline MesoGrowthBatch *meso_growth_again(const MesoGrowthWork *work, const MesoGrowthWindow *window,
+                                                 const MesoGrowthTurn *turn)
+{
+    uint32_t number = (uint32_t)(turn->batch - window->batches);
+    return &window->batches[number < work->batch_count ? number + work->batch_count : number];
+}
 
 /* Again, one alone, from before it, against all that has grown. */
 void meso_growth_try_again(MesoGrowthWork *work, MesoGrowthWindow *window, uint32_t turn);
@@ -325,13 +336,18 @@ uint32_t meso_growth_admit_range(MesoGrowthWork *work, MesoGrowthWindow *window,
 /* After the last: the branches that the window has begun are there. */
 void meso_growth_end_window(MesoGrowthWork *work, const MesoGrowthWindow *window);
 
-/* Makes room for all that has numbers, and so many turns more, and for the tips of branches that begin. */
+/*
+ * Whether there is room for all that has numbers, and so many turns more, and for the tips of branches that begin; or
+ * makes it, and moves arrays for that. False where memory is out.
+ */
+bool meso_growth_has_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips);
 bool meso_growth_make_rooms(MesoGrowthWork *work, uint32_t turns, uint32_t branches, uint32_t tips);
 
 /* ---- growth_accept.c ---- */
 
-/* Writes down what turns [begin, end) of the window, which are admitted, have grown. Apart for each turn. */
-void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, uint32_t begin, uint32_t end);
+/* Writes down what turns [begin, end) of the window, which are of a batch and admitted, have grown. */
+void meso_growth_accept(MesoGrowthWork *work, const MesoGrowthWindow *window, const MesoGrowthBatch *batch,
+                        uint32_t begin, uint32_t end);
 
 /* A branch at a place of its own. False where memory is out. */
 bool meso_growth_plant(MesoGrowthWork *work, const MesoGrowthStart *start, uint32_t number);
