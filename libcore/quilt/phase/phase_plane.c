@@ -220,8 +220,8 @@ static bool keeps_areas(const Bending *b, const MesoVec2 *moves, MesoVec2 mean, 
 }
 
 /*
- * Where a stripe ends, the few triangles around would be turned over: there moves are smoothed, again and again, so that
- * all else is bent as it should be. Corners of such triangles take the mean of the moves around them.
+ * Where a stripe ends, the few triangles around would be turned over: there moves are smoothed, again and again, so
+ * that all else is bent as it should be. Corners of such triangles take the mean of the moves around them.
  */
 static void ease(MesoVec2 *moves, MesoVec2 *sums, float *shares, const Bending *b)
 {

@@ -18,9 +18,10 @@ enum { ROUNDS = 8, GRADIENTS = 300, SURE_HOLD = 2, FEWER_ROUNDS = 4 };
  * Guides are turned to where stripes run, so often, and stripes found anew: by means of the angles over some triangles
  * around, and by no more than that in all. A guide that is off by a makes phases rotate by -a / 2 alone, the other half
  * being stretch, and so it is turned by somewhat less than twice of what they rotate. Triangles whose neighbours are in
- * line tell nothing.
+ * line tell nothing; and where phases are off by more than that, turning does not make them fit, and is left out.
  */
 enum { TURNINGS = 2, SWEEPS = 6 };
+#define TURNING_STRAIN_MOST 0.12
 #define TURN_MOST 0.3
 #define FURTHER 1.8
 #define FLAT_LEAST 1e-3
@@ -368,7 +369,7 @@ static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, MesoArena *scr
         for (size_t i = turning ? SURE_HOLD : 0; i < sizeof HOLDS / sizeof *HOLDS; i++)
             for (int round = 0; round < (turning ? FEWER_ROUNDS : ROUNDS); round++)
                 step(z, &system, HOLDS[i]);
-        if (turning == TURNINGS)
+        if (turning == TURNINGS || strain_of(p) > TURNING_STRAIN_MOST)
             break;
         status = turn_guides(guides, turned, p, scratch, error);
         list_sides(&system);

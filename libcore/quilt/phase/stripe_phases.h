@@ -8,7 +8,8 @@
  * Knoeppel et al. 2015, in triangles, two stripes at once). Where the surface
  * has no room for it, stripes end: there phases are of little weight. Guides
  * that turn otherwise than stripes a pitch apart would are turned to these, by
- * 0.3 at most: stripes need not stretch for it then.
+ * 0.3 at most: stripes need not stretch for it then. Not so where they fit so
+ * badly that it would be of no use.
  */
 #ifndef MESO_STRIPE_PHASES_H
 #define MESO_STRIPE_PHASES_H
