@@ -414,6 +414,8 @@ static MesoStatus find_phases(MesoQuiltWork *work, MesoArena *scratch, MesoError
     MesoStatus status = meso_stripe_phases(&work->phases, scratch, work->base, o->guide, turns, pitches,
                                            pitch->chequered, error);
     work->in_phase = !status && work->phases.strain > STRAIN_LEAST && work->phases.strain < STRAIN_MOST;
+    if (work->in_phase)
+        work->options.guide = work->phases.directions;
     return status;
 }
 

@@ -43,6 +43,7 @@ typedef struct Comparison {
     MesoMatchPoint *sample_points;
     uint32_t *sample_locals;
     MesoWindowSize size;
+    double squares, laid_squares;   /* of distances, summed */
 } Comparison;
 
 /* Where a window is laid on the swatch. */
@@ -352,6 +353,7 @@ static MesoStatus measure_laid_window(MesoLikeness *likeness, Comparison *c, Mes
     if (status || !found)
         return status;
     likeness->laid_distance += distance;
+    c->laid_squares += distance * distance;
     likeness->laid_window_count++;
     return MESO_OK;
 }
@@ -369,6 +371,7 @@ static MesoStatus measure_quilt_window(MesoLikeness *likeness, Comparison *c, Me
     if (status || !found)
         return status;
     likeness->distance += distance;
+    c->squares += distance * distance;
     likeness->largest_distance = fmax(likeness->largest_distance, distance);
     likeness->window_count++;
     return measure_laid_window(likeness, c, &same, homes, error);
@@ -414,6 +417,20 @@ static double ratio_of(const MesoLikeness *likeness, double resolution)
     return (likeness->distance + resolution) / (laid + resolution);
 }
 
+/* Of a mean, squared, as a share of `unit`. */
+static double variance(double squares, double mean, uint32_t count, double unit)
+{
+    return count > 1 ? fmax(squares / count - mean * mean, 0) / (count - 1) / (unit * unit) : 0;
+}
+
+/* Of a quotient of two means: as if they were of different places, which is the most that it can be. */
+static double error_of_ratio(const MesoLikeness *likeness, const Comparison *c, double resolution)
+{
+    const MesoLikeness *k = likeness;
+    double laid = variance(c->laid_squares, k->laid_distance, k->laid_window_count, k->laid_distance + resolution);
+    return k->ratio * sqrt(variance(c->squares, k->distance, k->window_count, k->distance + resolution) + laid);
+}
+
 static MesoStatus measure_all(MesoLikeness *likeness, Comparison *c, MesoError *error)
 {
     MesoStatus status = MESO_OK;
@@ -435,6 +452,7 @@ static MesoStatus measure_all(MesoLikeness *likeness, Comparison *c, MesoError *
     likeness->laid_distance = mean(likeness->laid_distance, likeness->laid_window_count);
     likeness->swatch_distance = mean(likeness->swatch_distance, likeness->swatch_window_count);
     likeness->ratio = ratio_of(likeness, (double)(c->field.voxel * FINEST));
+    likeness->ratio_error = error_of_ratio(likeness, c, (double)(c->field.voxel * FINEST));
     likeness->radius = (double)c->size.radius;
     return status;
 }

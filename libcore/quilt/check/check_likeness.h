@@ -13,6 +13,7 @@ typedef struct MesoLikeness {
     double swatch_distance;             /* the same for windows of the swatch, and places at least a radius away */
     double laid_distance;               /* the same, of such bent over the surface, where the quilt's are */
     double ratio;                       /* of the quilt's distance to that: 1 where it adds nothing to the bending */
+    double ratio_error;                 /* its standard error, as windows differ */
     double radius;                      /* of a window */
 } MesoLikeness;
 

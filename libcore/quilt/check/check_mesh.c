@@ -60,6 +60,7 @@ MesoStatus meso_check_mesh_of_quilt(MesoCheckMesh *mesh, MesoMeshFaults *faults,
         .vertex_count = quilt->vertex_count, .triangle_count = quilt->triangle_count,
         .element_count = quilt->element_count, .positions = positions, .corners = quilt->corners,
         .vertex_begin = quilt->vertex_begin, .triangle_begin = quilt->triangle_begin, .patches = quilt->patches,
+        .origins = quilt->origins,
     };
     MesoPolygonMesh polygons = {
         .vertex_count = quilt->vertex_count, .face_count = quilt->triangle_count,

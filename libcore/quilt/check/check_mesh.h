@@ -19,6 +19,7 @@ typedef struct MesoCheckMesh {
     const uint32_t *corners;
     const uint32_t *vertex_begin, *triangle_begin;  /* [element_count + 1] */
     const uint32_t *patches;    /* [triangle_count] or NULL: one patch */
+    const uint32_t *origins;    /* [vertex_count] vertices of the swatch that they are copies of, or NULL: not known */
     uint32_t *twins;            /* [3 * triangle_count] half-edge across; MESO_NO_INDEX where open or crowded */
     uint32_t *elements;         /* [triangle_count] */
 } MesoCheckMesh;

@@ -61,6 +61,9 @@ static const Row ROWS[] = {
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 
+/* Windows that likeness is measured by: so many that its error is a twentieth or so. */
+enum { WINDOWS = 256 };
+
 /* What a process tells of its row. */
 typedef struct Outcome {
     bool done;
@@ -247,7 +250,7 @@ static void run_row(const Row *row, Outcome *outcome, bool check)
         fill_outcome(&run);
     if (!status && check)
         status = meso_quilt_check(&outcome->check, &run.arena, &run.quilt, &run.swatch, run.positions, &run.surface,
-                                  &(MesoQuiltCheckOptions){.scale = run.scale}, &run.error);
+                                  &(MesoQuiltCheckOptions){.scale = run.scale, .window_count = WINDOWS}, &run.error);
     if (status) {
         outcome->done = false;
         snprintf(outcome->failure, sizeof outcome->failure, "%s", run.error.message);
@@ -333,9 +336,11 @@ static void print_check(const Outcome *o)
     printf("  crossings: %llu between elements, %llu within, %llu of one patch, in %u elements; swatch %.0f\n",
            (unsigned long long)k->crossings.between_count, (unsigned long long)k->crossings.within_count,
            (unsigned long long)k->crossings.one_patch_count, k->crossings.element_count, k->expected_crossings);
-    printf("  likeness: %.4f from the swatch, worst %.4f, within it %.4f, bent %.4f: ratio %.3f; KS at seams: lengths %.3f, "
-           "angles %.3f\n", k->likeness.distance, k->likeness.largest_distance, k->likeness.swatch_distance,
-           k->likeness.laid_distance, k->likeness.ratio, k->seams.length_distance, k->seams.angle_distance);
+    printf("  likeness: %.4f from the swatch, worst %.4f, within it %.4f, bent %.4f: ratio %.3f +- %.3f of %u; ",
+           k->likeness.distance, k->likeness.largest_distance, k->likeness.swatch_distance, k->likeness.laid_distance,
+           k->likeness.ratio, k->likeness.ratio_error, k->likeness.window_count);
+    printf("KS at seams: lengths %.3f, angles %.3f; against the same places: %.3f, %.3f\n", k->seams.length_distance,
+           k->seams.angle_distance, k->seams.placed_length_distance, k->seams.placed_angle_distance);
     printf("  cover: %u of %u places empty, widest %.3f, in the swatch %.3f; check", k->cover.empty_count,
            k->cover.place_count, k->cover.widest, k->cover.swatch_widest);
     for (size_t i = 0; i < sizeof k->seconds / sizeof *k->seconds; i++)

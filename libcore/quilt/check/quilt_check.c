@@ -15,7 +15,7 @@ typedef struct Checking {
     float offset;
     const MesoTriangulation *base;
     double tiles;                   /* tiles of the swatch that the surface's area is */
-    uint32_t thread_count;
+    uint32_t window_count, thread_count;
 } Checking;
 
 static double area_of(const MesoTriangulation *base)
@@ -116,7 +116,8 @@ static MesoStatus check_cover(const Checking *c, MesoError *error)
 
 static MesoStatus check_likeness(const Checking *c, MesoError *error)
 {
-    const MesoLikenessOptions options = {(float)c->scale, (float)c->height_scale, c->offset, 0, c->thread_count};
+    const MesoLikenessOptions options = {(float)c->scale, (float)c->height_scale, c->offset, c->window_count,
+                                          c->thread_count};
     return meso_check_likeness(&c->check->likeness, c->arena, c->quilt, c->swatch, c->mesh.positions, c->base, &options,
                                error);
 }
@@ -146,7 +147,8 @@ MesoStatus meso_quilt_check(MesoQuiltCheck *check, MesoArena *arena, const MesoQ
 {
     *check = (MesoQuiltCheck){0};
     Checking c = {.check = check, .arena = arena, .quilt = quilt, .swatch = swatch, .scale = (double)options->scale,
-                  .base = base, .offset = options->offset, .thread_count = options->thread_count};
+                  .base = base, .offset = options->offset, .window_count = options->window_count,
+                  .thread_count = options->thread_count};
     c.height_scale = options->height_scale > 0 ? (double)options->height_scale : c.scale;
     c.tiles = area_of(base) / (c.scale * c.scale * (double)swatch->size.x * (double)swatch->size.y);
     MesoArenaMark mark = meso_arena_mark(arena);

@@ -16,6 +16,7 @@ typedef struct MesoQuiltCheckOptions {
     float scale;                /* as of MesoQuiltOptions, > 0 */
     float height_scale;         /* 0: as `scale` */
     float offset;
+    uint32_t window_count;      /* of likeness, at most; 0: 32 */
     uint32_t thread_count;      /* 0: all cores */
 } MesoQuiltCheckOptions;
 

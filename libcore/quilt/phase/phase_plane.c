@@ -4,9 +4,9 @@
 enum { STEPS = 200 };
 #define SMALL 1e-4
 
-/* Of its area a triangle keeps so much; halvings of the bending until all do. */
+/* Of its area a triangle keeps so much: rounds of easing where one does not, then halvings of all bending. */
 #define AREA_LEAST 0.25f
-enum { HALVINGS = 5 };
+enum { EASINGS = 32, HALVINGS = 5 };
 
 /* Sides where stripes may end count, but little. */
 #define WEIGHT_LEAST 1e-3
@@ -200,19 +200,60 @@ static void find_moves(MesoVec2 *moves, float *shares, const Bending *b)
                                  : (MesoVec2){0, 0};
 }
 
+/* Whether a triangle is large enough where its corners move by that share, but for the mean. */
+static bool keeps_area(const Bending *b, const MesoVec2 *moves, MesoVec2 mean, float share, uint32_t triangle)
+{
+    MesoVec2 places[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        MesoVec2 bend = meso_vec2_sub(moves[b->chart->corners[3 * (size_t)triangle + k]], mean);
+        places[k] = meso_vec2_add(corner_place(b, triangle, k), meso_vec2_scale(bend, share));
+    }
+    return area_of(places[0], places[1], places[2]) >= AREA_LEAST * (float)b->areas[triangle];
+}
+
 static bool keeps_areas(const Bending *b, const MesoVec2 *moves, MesoVec2 mean, float share)
 {
-    const MesoChart *chart = b->chart;
-    for (uint32_t t = 0; t < b->count; t++) {
-        MesoVec2 places[3];
-        for (uint32_t k = 0; k < 3; k++) {
-            MesoVec2 bend = meso_vec2_sub(moves[chart->corners[3 * (size_t)t + k]], mean);
-            places[k] = meso_vec2_add(corner_place(b, t, k), meso_vec2_scale(bend, share));
-        }
-        if (!(area_of(places[0], places[1], places[2]) >= AREA_LEAST * (float)b->areas[t]))
+    for (uint32_t t = 0; t < b->count; t++)
+        if (!keeps_area(b, moves, mean, share, t))
             return false;
-    }
     return true;
+}
+
+/*
+ * Where a stripe ends, the few triangles around would be turned over: there moves are smoothed, again and again, so
+ * that all else is bent as it should be. Corners of such triangles take the mean of the moves around them.
+ */
+static void ease(MesoVec2 *moves, MesoVec2 *sums, float *shares, const Bending *b)
+{
+    const MesoChart *chart = b->chart;
+    for (int round = 0; round < EASINGS; round++) {
+        bool eased = false;
+        for (uint32_t v = 0; v < chart->vertex_count; v++) {
+            sums[v] = (MesoVec2){0, 0};
+            shares[v] = -1;         /* it stays */
+        }
+        for (uint32_t t = 0; t < b->count; t++) {
+            const uint32_t *v = &chart->corners[3 * (size_t)t];
+            if (keeps_area(b, moves, moves[v[0]], 1, t))
+                continue;
+            eased = true;
+            shares[v[0]] = shares[v[1]] = shares[v[2]] = 0;
+        }
+        if (!eased)
+            return;
+        for (uint32_t h = 0; h < 3 * b->count; h++) {
+            uint32_t v = chart->corners[h];
+            if (shares[v] < 0)
+                continue;
+            MesoVec2 p = moves[chart->corners[meso_next_corner(h)]];
+            MesoVec2 q = moves[chart->corners[meso_next_corner(meso_next_corner(h))]];
+            sums[v] = meso_vec2_add(sums[v], meso_vec2_add(p, q));
+            shares[v] += 2;
+        }
+        for (uint32_t v = 0; v < chart->vertex_count; v++)
+            if (shares[v] > 0)
+                moves[v] = meso_vec2_scale(sums[v], 1 / shares[v]);
+    }
 }
 
 static void move(const Bending *b, const MesoVec2 *moves)
@@ -243,15 +284,17 @@ MesoStatus meso_phase_plane(MesoVec2 *places, MesoArena *scratch, const MesoChar
                  .way = MESO_NEW(scratch, double, size, error), .pull = MESO_NEW(scratch, double, size, error),
                  .weights = MESO_NEW(scratch, double, size, error)};
     MesoVec2 *moves = MESO_NEW(scratch, MesoVec2, chart->vertex_count, error);
+    MesoVec2 *sums = MESO_NEW(scratch, MesoVec2, chart->vertex_count, error);
     float *shares = MESO_NEW(scratch, float, chart->vertex_count, error);
     if (!b.quarters || !b.middles || !b.areas || !b.sides || !b.places || !b.left || !b.way || !b.pull ||
-        !b.weights || !moves || !shares)
+        !b.weights || !moves || !sums || !shares)
         return MESO_ERR_MEMORY;
     look(&b, guides, angle);
     list_sides(&b);
     solve(&b);
     settle(&b);
     find_moves(moves, shares, &b);
+    ease(moves, sums, shares, &b);
     move(&b, moves);
     meso_arena_rewind(scratch, mark);
     return MESO_OK;

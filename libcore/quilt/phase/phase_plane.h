@@ -8,10 +8,11 @@
 /*
  * Moves places of a chart so that in its units the phase along x is 2 pi x / pitch, and across it the same, up to whole
  * turns: by least squares, so that where stripes end inside, both of their sides give way. No triangle is turned over,
- * or comes to have less than a quarter of its area.
+ * or comes to have less than a quarter of its area: where one would, moves are smoothed around it.
  *
  * places           [chart->vertex_count]
  * chart_triangles  [triangle_count of the mesh] of the chart, or MESO_NO_INDEX
+ * guides           [triangle_count of the mesh] as phases->directions
  * angle            of the guide on the whole, in the chart: places are turned back by it
  * scale            of the phases' units in those of the places
  *

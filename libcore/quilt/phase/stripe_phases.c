@@ -2,18 +2,29 @@
 
 #include <assert.h>
 
-
 /*
  * Waves of one height are smoothed and made even again, so often, held the less the more often ("Diffusion generated
  * motion", Merriman, Bence and Osher 1992, for angles): each time by so many conjugate gradients at most, and until the
- * error is small against the first.
+ * error is small against the first. What is found already is held more from the beginning, and less often.
  */
 static const double HOLDS[] = {1e-4, 1e-3, 0.01, 0.05};
-enum { ROUNDS = 8, GRADIENTS = 300 };
+enum { ROUNDS = 8, GRADIENTS = 300, SURE_HOLD = 2, FEWER_ROUNDS = 4 };
 #define SMALL 1e-2
 
 /* What a triangle without area is held by, as a share of the mean. */
 #define LEAST 1e-3
+
+/*
+ * Guides are turned to where stripes run, so often, and stripes found anew: by means of the angles over some triangles
+ * around, and by no more than that in all. A guide that is off by a makes phases rotate by -a / 2 alone, the other half
+ * being stretch, and so it is turned by somewhat less than twice of what they rotate. Triangles whose neighbours are in
+ * line tell nothing; and where phases are off by more than that, turning does not make them fit, and is left out.
+ */
+enum { TURNINGS = 2, SWEEPS = 6 };
+#define TURNING_STRAIN_MOST 0.12
+#define TURN_MOST 0.3
+#define FURTHER 1.8
+#define FLAT_LEAST 1e-3
 
 /* Parts of two waves after quarter turns: where each comes from, and its sign. */
 static const uint32_t SOURCES[4][4] = {{0, 1, 2, 3}, {2, 3, 0, 1}, {0, 1, 2, 3}, {2, 3, 0, 1}};
@@ -103,6 +114,9 @@ static double side_weight(const MesoStripePhases *p, uint32_t half_edge, uint32_
 static void list_sides(System *system)
 {
     const MesoStripePhases *p = system->phases;
+    system->side_count = 0;
+    for (uint32_t t = 0; t < p->mesh->triangle_count; t++)
+        system->sums[t] = 0;
     for (uint32_t h = 0; h < 3 * p->mesh->triangle_count; h++) {
         uint32_t across = meso_frame_across(p->mesh, h);
         if (across == MESO_NO_INDEX || across / 3 <= h / 3)
@@ -239,33 +253,6 @@ static MesoStatus set_start(double *z, const System *system, MesoArena *scratch,
     return MESO_OK;
 }
 
-static MesoStatus solve(MesoStripePhases *p, MesoArena *scratch, MesoError *error)
-{
-    const MesoTriangulation *mesh = p->mesh;
-    size_t count = mesh->triangle_count;
-    System system = {.phases = p, .sides = MESO_NEW(scratch, Side, 3 * count / 2 + 1, error),
-                     .sums = MESO_NEW(scratch, double, count, error), .areas = MESO_NEW(scratch, double, count, error),
-                     .left = MESO_NEW(scratch, double, 4 * count, error),
-                     .way = MESO_NEW(scratch, double, 4 * count, error),
-                     .pull = MESO_NEW(scratch, double, 4 * count, error)};
-    if (!system.sides || !system.sums || !system.areas || !system.left || !system.way || !system.pull)
-        return MESO_ERR_MEMORY;
-    list_sides(&system);
-    double area = 0, weight = 0;
-    for (size_t t = 0; t < count; t++) {
-        area += p->frames[t].area;
-        weight += system.sums[t];
-    }
-    for (size_t t = 0; t < count; t++)
-        system.areas[t] = area > 0 ? p->frames[t].area / area * weight + LEAST * weight / (double)count : 1;
-    double *z = p->waves[0];
-    MesoStatus status = set_start(z, &system, scratch, error);
-    for (size_t i = 0; i < sizeof HOLDS / sizeof *HOLDS && !status; i++)
-        for (int round = 0; round < ROUNDS; round++)
-            step(z, &system, HOLDS[i]);
-    return status;
-}
-
 /* How far phases are from growing as they should, from triangle to triangle: of that, as a share, RMS. */
 static double strain_of(const MesoStripePhases *p)
 {
@@ -283,6 +270,113 @@ static double strain_of(const MesoStripePhases *p)
     return all > 0 ? sqrt(off / all) : 0;
 }
 
+/* ---- guides turned ---- */
+
+/* By how much stripes are turned in a triangle against its guide: half of what their phases rotate; by three sides. */
+static double turn_at(const MesoStripePhases *p, uint32_t triangle)
+{
+    double a = 0, b = 0, d = 0, e[2][2] = {{0, 0}, {0, 0}};     /* sum of w w' and of more w', w ways */
+    for (uint32_t h = 3 * triangle; h < 3 * triangle + 3; h++) {
+        uint32_t across = meso_frame_across(p->mesh, h);
+        if (across == MESO_NO_INDEX)
+            return 0;
+        MesoStripeStep way = meso_stripe_step(p, h, across);
+        double more[2];
+        meso_stripe_excess(more, p, h, across, &way);
+        a += way.ways[0] * way.ways[0];
+        b += way.ways[0] * way.ways[1];
+        d += way.ways[1] * way.ways[1];
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k < 2; k++)
+                e[i][k] += more[i] * way.ways[k];
+    }
+    double determinant = a * d - b * b;
+    if (!(determinant > FLAT_LEAST * (a + d) * (a + d)))
+        return 0;
+    /* of the gradient E = e (w w')^-1 that part which is a rotation */
+    return 0.5 * ((e[0][1] * a - e[0][0] * b) - (e[1][0] * d - e[1][1] * b)) / determinant;
+}
+
+/* How sure phases are of themselves in a triangle: nothing where a stripe ends. */
+static double surety(const MesoStripePhases *p, uint32_t triangle)
+{
+    const double *z = p->waves[triangle];
+    return fmin(z[0] * z[0] + z[1] * z[1], z[2] * z[2] + z[3] * z[3]) * p->frames[triangle].area;
+}
+
+/* Turns guides to where stripes run, on the mean around each triangle, but by no more than is allowed in all. */
+static MesoStatus turn_guides(MesoComplex *guides, double *turned, const MesoStripePhases *p, MesoArena *scratch,
+                              MesoError *error)
+{
+    const uint32_t count = p->mesh->triangle_count;
+    MesoArenaMark mark = meso_arena_mark(scratch);
+    double *turns = MESO_NEW(scratch, double, count, error), *sure = MESO_NEW(scratch, double, count, error);
+    double *means = MESO_NEW(scratch, double, count, error);
+    if (!turns || !sure || !means)
+        return MESO_ERR_MEMORY;
+    for (uint32_t t = 0; t < count; t++) {
+        turns[t] = turn_at(p, t);
+        sure[t] = surety(p, t);
+    }
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        for (uint32_t t = 0; t < count; t++) {
+            double sum = sure[t] * turns[t], all = sure[t];
+            for (uint32_t h = 3 * t; h < 3 * t + 3; h++) {
+                uint32_t across = meso_frame_across(p->mesh, h);
+                sum += across == MESO_NO_INDEX ? 0 : sure[across / 3] * turns[across / 3];
+                all += across == MESO_NO_INDEX ? 0 : sure[across / 3];
+            }
+            means[t] = all > 0 ? sum / all : 0;
+        }
+        double *next = turns;
+        turns = means;
+        means = next;
+    }
+    for (uint32_t t = 0; t < count; t++) {
+        double turn = fmax(-TURN_MOST, fmin(TURN_MOST, turned[t] + FURTHER * turns[t])) - turned[t];
+        turned[t] += turn;
+        guides[t] = meso_complex_times(guides[t], (MesoComplex){cos(turn), sin(turn)});
+    }
+    meso_arena_rewind(scratch, mark);
+    return MESO_OK;
+}
+
+static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, MesoArena *scratch, MesoError *error)
+{
+    const MesoTriangulation *mesh = p->mesh;
+    size_t count = mesh->triangle_count;
+    System system = {.phases = p, .sides = MESO_NEW(scratch, Side, 3 * count / 2 + 1, error),
+                     .sums = MESO_NEW(scratch, double, count, error), .areas = MESO_NEW(scratch, double, count, error),
+                     .left = MESO_NEW(scratch, double, 4 * count, error),
+                     .way = MESO_NEW(scratch, double, 4 * count, error),
+                     .pull = MESO_NEW(scratch, double, 4 * count, error)};
+    if (!system.sides || !system.sums || !system.areas || !system.left || !system.way || !system.pull)
+        return MESO_ERR_MEMORY;
+    double *turned = MESO_NEW(scratch, double, count, error);
+    if (!turned)
+        return MESO_ERR_MEMORY;
+    list_sides(&system);
+    double area = 0, weight = 0;
+    for (size_t t = 0; t < count; t++) {
+        area += p->frames[t].area;
+        weight += system.sums[t];
+    }
+    for (size_t t = 0; t < count; t++)
+        system.areas[t] = area > 0 ? p->frames[t].area / area * weight + LEAST * weight / (double)count : 1;
+    double *z = p->waves[0];
+    MesoStatus status = set_start(z, &system, scratch, error);
+    for (int turning = 0; turning <= TURNINGS && !status; turning++) {
+        for (size_t i = turning ? SURE_HOLD : 0; i < sizeof HOLDS / sizeof *HOLDS; i++)
+            for (int round = 0; round < (turning ? FEWER_ROUNDS : ROUNDS); round++)
+                step(z, &system, HOLDS[i]);
+        if (turning == TURNINGS || strain_of(p) > TURNING_STRAIN_MOST)
+            break;
+        status = turn_guides(guides, turned, p, scratch, error);
+        list_sides(&system);
+    }
+    return status;
+}
+
 MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,
                               const MesoVec3 *guides, uint32_t turn_count, const double pitches[2], bool diagonal,
                               MesoError *error)
@@ -293,7 +387,8 @@ MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const 
     MesoTriangleFrame *frames = MESO_NEW(arena, MesoTriangleFrame, mesh->triangle_count, error);
     MesoComplex *along = MESO_NEW(arena, MesoComplex, mesh->triangle_count, error);
     phases->waves = meso_arena_alloc(arena, mesh->triangle_count, sizeof *phases->waves, error);
-    if (!frames || !along || !phases->waves)
+    phases->directions = MESO_NEW(arena, MesoVec3, mesh->triangle_count, error);
+    if (!frames || !along || !phases->waves || !phases->directions)
         return MESO_ERR_MEMORY;
     if (turn_count == 4 || diagonal)
         phases->pitches[0] = phases->pitches[1] = (diagonal ? sqrt(0.5) : 0.5) * (pitches[0] + pitches[1]);
@@ -306,7 +401,9 @@ MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const 
     phases->guides = along;
     MesoArena scratch;
     meso_arena_init(&scratch);
-    MesoStatus status = solve(phases, &scratch, error);
+    MesoStatus status = solve(phases, along, &scratch, error);
+    for (uint32_t t = 0; t < mesh->triangle_count && !status; t++)
+        phases->directions[t] = meso_frame_out(&frames[t], meso_complex_times(along[t], meso_complex_conjugate(turn)));
     if (!status)
         phases->strain = strain_of(phases);
     meso_arena_release(&scratch);

@@ -6,7 +6,10 @@
  * 2 pi a pitch; from a triangle to the next as the way between them says, and
  * up to the quarter turns that the guide takes ("Stripe Patterns on Surfaces",
  * Knoeppel et al. 2015, in triangles, two stripes at once). Where the surface
- * has no room for it, stripes end: there phases are of little weight.
+ * has no room for it, stripes end: there phases are of little weight. Guides
+ * that turn otherwise than stripes a pitch apart would are turned to these, by
+ * 0.3 at most: stripes need not stretch for it then. Not so where they fit so
+ * badly that it would be of no use.
  */
 #ifndef MESO_STRIPE_PHASES_H
 #define MESO_STRIPE_PHASES_H
@@ -16,7 +19,9 @@
 typedef struct MesoStripePhases {
     const MesoTriangulation *mesh;
     const MesoTriangleFrame *frames;    /* [triangle_count] */
-    const MesoComplex *guides;          /* [triangle_count] of length 1; turned by half a right angle where diagonal */
+    const MesoComplex *guides;          /* [triangle_count] of length 1, as stripes run; turned by half a right angle
+                                           where diagonal */
+    MesoVec3 *directions;       /* [triangle_count] the guides that were given, turned to where stripes run */
     uint32_t turn_count;        /* 1, 2 or 4 */
     bool diagonal;              /* stripes run at half a right angle to the guides that were given */
     double pitches[2];          /* along the guide and across, in the surface's units */
@@ -37,7 +42,7 @@ typedef struct MesoStripeStep {
  * diagonal    stripes along the diagonals, as far apart as crossings are there: these keep apart what is above and what
  *             is below where strands are so by turns, which one strand more or less does not
  *
- * To `arena`. Same arguments, same bytes. O(triangles), times some steps of conjugate gradients.
+ * To `arena`. Same arguments, same bytes. O(triangles), times some hundreds of steps of conjugate gradients.
  * MESO_ERR_MEMORY.
  */
 MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,

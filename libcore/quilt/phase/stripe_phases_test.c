@@ -58,6 +58,34 @@ static void check_sheet(bool diagonal)
     meso_arena_release(&arena);
 }
 
+/* Guides of a plane that swing to and fro: stripes would be bent, and so are not a pitch apart; guides are turned. */
+static void check_turning(void)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoStripePhases phases;
+    meso_arena_init(&arena);
+    MesoTriangulation mesh = meso_fixture_sheet(40, 30, 0.2f);
+    MesoVec3 *guides = MESO_NEW(&arena, MesoVec3, mesh.triangle_count, &error);
+    CHECK(guides);
+    double swing = 0, left = 0;
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        MesoVec3 p = mesh.positions[mesh.corners[3 * (size_t)t]];
+        float angle = 0.12f * sinf(1.5f * p.x) * sinf(1.5f * p.y);
+        guides[t] = (MesoVec3){cosf(angle), sinf(angle), 0};
+        swing += (double)(angle * angle) / mesh.triangle_count;
+    }
+    const double pitches[2] = {1, 1};
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, &error) == MESO_OK);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        double angle = atan2((double)phases.directions[t].y, (double)phases.directions[t].x);
+        left += angle * angle / mesh.triangle_count;
+    }
+    CHECK(left < 0.25 * swing && phases.strain < 0.5 * sqrt(swing));
+    meso_triangulation_release(&mesh);
+    meso_arena_release(&arena);
+}
+
 enum { AROUND = 60 };
 
 static MesoVec3 on_cylinder(const MesoFixtureSquares *squares, uint32_t column, uint32_t row)
@@ -124,6 +152,78 @@ static void check_cylinder(void)
     meso_arena_release(&arena);
 }
 
+/*
+ * Phases of a sheet that sway, and crowd where `steep` so much that triangles there would be turned over. What is a
+ * pitch away from there comes to be in phase all the same.
+ */
+static double largest_miss(bool steep)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoStripePhases phases;
+    MesoChartMaker maker;
+    MesoChart chart;
+    meso_arena_init(&arena);
+    MesoTriangulation mesh = meso_fixture_sheet(30, 30, 0.2f);
+    const uint32_t count = mesh.triangle_count, middle = count / 2 + 30;
+    MesoVec3 *guides = MESO_NEW(&arena, MesoVec3, count, &error);
+    uint32_t *chart_triangles = MESO_NEW(&arena, uint32_t, count, &error);
+    CHECK(guides && chart_triangles);
+    for (uint32_t t = 0; t < count; t++) {
+        guides[t] = (MesoVec3){1, 0, 0};
+        chart_triangles[t] = MESO_NO_INDEX;
+    }
+    const double pitches[2] = {1, 1};
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 1, pitches, false, &error) == MESO_OK);
+    MesoVec3 core = mesh.positions[mesh.corners[3 * middle]];
+    double *away = MESO_NEW(&arena, double, count, &error);
+    CHECK(away);
+    for (uint32_t t = 0; t < count; t++) {
+        const uint32_t *v = &mesh.corners[3 * (size_t)t];
+        MesoVec3 sum = meso_vec3_add(meso_vec3_add(mesh.positions[v[0]], mesh.positions[v[1]]), mesh.positions[v[2]]);
+        double x = (double)(sum.x / 3 - core.x), y = (double)(sum.y / 3 - core.y);
+        away[t] = sqrt(x * x + y * y);
+        double sway = 0.3 * sin(0.7 * y) + (steep ? 0.5 * exp(-away[t] * away[t] / 0.09) : 0);
+        phases.waves[t][0] = cos(2 * MESO_PI * (x + sway));
+        phases.waves[t][1] = sin(2 * MESO_PI * (x + sway));
+        phases.waves[t][2] = cos(2 * MESO_PI * y);
+        phases.waves[t][3] = sin(2 * MESO_PI * y);
+    }
+    CHECK(meso_chart_maker_init(&maker, &mesh, &error) == MESO_OK);
+    CHECK(meso_chart_grow(&chart, &arena, &maker, middle, &(MesoChartOptions){.radius = 2}, &error) == MESO_OK);
+    MesoVec2 guide = meso_chart_direction(&chart, &mesh, 0, guides[chart.triangles[0]]);
+    float angle = atan2f(guide.y, guide.x);
+    MesoVec2 *spots = MESO_NEW(&arena, MesoVec2, chart.vertex_count, &error);
+    CHECK(spots);
+    for (uint32_t v = 0; v < chart.vertex_count; v++) {
+        MesoVec2 p = chart.places[v];
+        spots[v] = (MesoVec2){cosf(angle) * p.x + sinf(angle) * p.y, cosf(angle) * p.y - sinf(angle) * p.x};
+    }
+    for (uint32_t t = 0; t < chart.triangle_count; t++)
+        chart_triangles[chart.triangles[t]] = t;
+    CHECK(meso_phase_plane(spots, &arena, &chart, chart_triangles, &phases, guides, angle, 1, &error) == MESO_OK);
+    double largest = 0;
+    for (uint32_t t = 0; t < chart.triangle_count; t++) {
+        const uint32_t *v = &chart.corners[3 * (size_t)t];
+        MesoVec2 a = meso_vec2_sub(spots[v[1]], spots[v[0]]), b = meso_vec2_sub(spots[v[2]], spots[v[0]]);
+        CHECK(meso_vec2_cross(a, b) > 0);
+        double x = (double)(spots[v[0]].x + spots[v[1]].x + spots[v[2]].x) / 3;
+        const double *wave = phases.waves[chart.triangles[t]];
+        if (away[chart.triangles[t]] > 1 && away[chart.triangles[t]] < 1.8)
+            largest = fmax(largest, fabs(wrapped(2 * MESO_PI * x - phase_of(wave))) / (2 * MESO_PI));
+    }
+    meso_chart_maker_release(&maker);
+    meso_triangulation_release(&mesh);
+    meso_arena_release(&arena);
+    return largest;
+}
+
+static void check_steep(void)
+{
+    double even = largest_miss(false), steep = largest_miss(true);
+    CHECK(even < 0.03 && steep < 0.05);
+}
+
 /* Strands of a cloth, some off by a few parts of a hundred; floats: crossings that a strand stays above. */
 static uint32_t make_cloth(MesoVec3 *middles, MesoVec3 *axes, uint32_t floats)
 {
@@ -166,7 +266,9 @@ int main(void)
 {
     check_sheet(false);
     check_sheet(true);
+    check_turning();
     check_cylinder();
+    check_steep();
     check_pitch();
     return 0;
 }
