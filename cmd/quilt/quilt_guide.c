@@ -13,6 +13,11 @@ static const float HOLD = 100;
 
 static const char *const FIELD = "field=";
 
+float meso_quilt_guide_turn(const MesoQuiltArguments *a)
+{
+    return strcmp(a->guide, "smooth") == 0 || strcmp(a->guide, "auto") == 0 ? 0.3f : 0;
+}
+
 static bool is_word(const char *guide)
 {
     static const char *const words[] = {"smooth", "auto", "u", "v", "none"};

@@ -20,4 +20,7 @@ MesoStatus meso_quilt_guide_add(MesoPolygonMesh *polygons, MesoQuiltArguments *a
 MesoStatus meso_quilt_guide_find(MesoVec3 **guide, const MesoPolygonMesh *polygons, const MesoTriangulation *base,
                                  MesoQuiltArguments *arguments);
 
+/* By how much the swatch may turn away from it, for strands that are woven: not at all where somebody gave it. */
+float meso_quilt_guide_turn(const MesoQuiltArguments *arguments);
+
 #endif

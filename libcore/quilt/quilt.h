@@ -24,8 +24,8 @@ typedef struct MesoQuiltOptions {
     float height_scale;     /* the same across it; 0: as `scale` */
     float offset;           /* height of the swatch's lowest point */
     uint32_t turn_count;    /* rotations that the swatch may take, at least 1 */
-    const MesoVec3 *guide;  /* [triangle_count] the swatch's x axis, by triangle of the base; NULL: any. Where strands
-                               are woven it is turned, by 0.3 at most, so that they lie evenly (stripe_phases.h) */
+    const MesoVec3 *guide;  /* [triangle_count] the swatch's x axis, by triangle of the base; NULL: any */
+    float guide_turn;       /* by how much that may be turned so that woven strands lie evenly (stripe_phases.h) */
     float patch;            /* what must match, as a share of the swatch's sides, in (0,1); 0: 0.55 */
     float lambda;           /* of equation 1, for one mean edge of the swatch; 0: 1 */
     float mu;               /* of equations 5 and 6; 0: 1 */

@@ -412,7 +412,7 @@ static MesoStatus find_phases(MesoQuiltWork *work, MesoArena *scratch, MesoError
         return MESO_OK;
     const double pitches[2] = {(double)o->scale * pitch->pitches[0], (double)o->scale * pitch->pitches[1]};
     MesoStatus status = meso_stripe_phases(&work->phases, scratch, work->base, o->guide, turns, pitches,
-                                           pitch->chequered, error);
+                                           pitch->chequered, (double)o->guide_turn, error);
     work->in_phase = !status && work->phases.strain > STRAIN_LEAST && work->phases.strain < STRAIN_MOST;
     if (work->in_phase)
         work->options.guide = work->phases.directions;

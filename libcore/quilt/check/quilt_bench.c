@@ -174,7 +174,7 @@ static MesoStatus grow(Run *run)
     uint32_t turns = run->row->turns ? run->row->turns : 1;
     MesoStatus status = meso_quilt_grow(&run->quilt, &run->room.arenas[0], &run->base.mesh, &run->swatch,
                                         &(MesoQuiltOptions){.scale = run->scale, .turn_count = turns,
-                                                            .guide = run->base.guide}, &run->error);
+                                                            .guide = run->base.guide, .guide_turn = 0.3f}, &run->error);
     run->outcome->growth = lap(run);
     return status;
 }

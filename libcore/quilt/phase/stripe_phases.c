@@ -22,7 +22,6 @@ enum { ROUNDS = 8, GRADIENTS = 300, SURE_HOLD = 2, FEWER_ROUNDS = 4 };
  */
 enum { TURNINGS = 2, SWEEPS = 6 };
 #define TURNING_STRAIN_MOST 0.12
-#define TURN_MOST 0.3
 #define FURTHER 1.8
 #define FLAT_LEAST 1e-3
 
@@ -305,8 +304,8 @@ static double surety(const MesoStripePhases *p, uint32_t triangle)
 }
 
 /* Turns guides to where stripes run, on the mean around each triangle, but by no more than is allowed in all. */
-static MesoStatus turn_guides(MesoComplex *guides, double *turned, const MesoStripePhases *p, MesoArena *scratch,
-                              MesoError *error)
+static MesoStatus turn_guides(MesoComplex *guides, double *turned, double most, const MesoStripePhases *p,
+                              MesoArena *scratch, MesoError *error)
 {
     const uint32_t count = p->mesh->triangle_count;
     MesoArenaMark mark = meso_arena_mark(scratch);
@@ -333,7 +332,7 @@ static MesoStatus turn_guides(MesoComplex *guides, double *turned, const MesoStr
         means = next;
     }
     for (uint32_t t = 0; t < count; t++) {
-        double turn = fmax(-TURN_MOST, fmin(TURN_MOST, turned[t] + FURTHER * turns[t])) - turned[t];
+        double turn = fmax(-most, fmin(most, turned[t] + FURTHER * turns[t])) - turned[t];
         turned[t] += turn;
         guides[t] = meso_complex_times(guides[t], (MesoComplex){cos(turn), sin(turn)});
     }
@@ -341,7 +340,8 @@ static MesoStatus turn_guides(MesoComplex *guides, double *turned, const MesoStr
     return MESO_OK;
 }
 
-static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, MesoArena *scratch, MesoError *error)
+static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, double turn_most, MesoArena *scratch,
+                        MesoError *error)
 {
     const MesoTriangulation *mesh = p->mesh;
     size_t count = mesh->triangle_count;
@@ -369,9 +369,9 @@ static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, MesoArena *scr
         for (size_t i = turning ? SURE_HOLD : 0; i < sizeof HOLDS / sizeof *HOLDS; i++)
             for (int round = 0; round < (turning ? FEWER_ROUNDS : ROUNDS); round++)
                 step(z, &system, HOLDS[i]);
-        if (turning == TURNINGS || strain_of(p) > TURNING_STRAIN_MOST)
+        if (turning == TURNINGS || turn_most <= 0 || strain_of(p) > TURNING_STRAIN_MOST)
             break;
-        status = turn_guides(guides, turned, p, scratch, error);
+        status = turn_guides(guides, turned, turn_most, p, scratch, error);
         list_sides(&system);
     }
     return status;
@@ -379,7 +379,7 @@ static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, MesoArena *scr
 
 MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,
                               const MesoVec3 *guides, uint32_t turn_count, const double pitches[2], bool diagonal,
-                              MesoError *error)
+                              double turn_most, MesoError *error)
 {
     assert(turn_count == 1 || turn_count == 2 || turn_count == 4);
     *phases = (MesoStripePhases){.mesh = mesh, .turn_count = turn_count, .diagonal = diagonal,
@@ -401,7 +401,7 @@ MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const 
     phases->guides = along;
     MesoArena scratch;
     meso_arena_init(&scratch);
-    MesoStatus status = solve(phases, along, &scratch, error);
+    MesoStatus status = solve(phases, along, turn_most, &scratch, error);
     for (uint32_t t = 0; t < mesh->triangle_count && !status; t++)
         phases->directions[t] = meso_frame_out(&frames[t], meso_complex_times(along[t], meso_complex_conjugate(turn)));
     if (!status)

@@ -7,9 +7,9 @@
  * up to the quarter turns that the guide takes ("Stripe Patterns on Surfaces",
  * Knoeppel et al. 2015, in triangles, two stripes at once). Where the surface
  * has no room for it, stripes end: there phases are of little weight. Guides
- * that turn otherwise than stripes a pitch apart would are turned to these, by
- * 0.3 at most: stripes need not stretch for it then. Not so where they fit so
- * badly that it would be of no use.
+ * that turn otherwise than stripes a pitch apart would are turned to these, as
+ * far as is allowed: stripes need not stretch for it then. Not so where they fit
+ * so badly that it would be of no use.
  */
 #ifndef MESO_STRIPE_PHASES_H
 #define MESO_STRIPE_PHASES_H
@@ -41,13 +41,14 @@ typedef struct MesoStripeStep {
  * pitches     in the surface's units, > 0; their mean where they can take each other's place
  * diagonal    stripes along the diagonals, as far apart as crossings are there: these keep apart what is above and what
  *             is below where strands are so by turns, which one strand more or less does not
+ * turn_most   by how much guides may be turned to where stripes run; 0: they stay as they are
  *
  * To `arena`. Same arguments, same bytes. O(triangles), times some hundreds of steps of conjugate gradients.
  * MESO_ERR_MEMORY.
  */
 MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,
                               const MesoVec3 *guides, uint32_t turn_count, const double pitches[2], bool diagonal,
-                              MesoError *error);
+                              double turn_most, MesoError *error);
 
 MesoStripeStep meso_stripe_step(const MesoStripePhases *phases, uint32_t half_edge, uint32_t across);
 

@@ -34,7 +34,7 @@ static void check_sheet(bool diagonal)
     MesoTriangulation mesh = meso_fixture_sheet(24, 20, 0.3f);
     const double pitches[2] = {1, 1};
     MesoVec3 *guides = mixed_guides(&arena, &mesh);
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, diagonal, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, diagonal, 0.3, &error) == MESO_OK);
     CHECK(phases.strain < 1e-3);
     CHECK(fabs(phases.pitches[0] - (diagonal ? sqrt(2) : 1)) < 1e-6);
     uint32_t turned = 0;
@@ -76,7 +76,7 @@ static void check_turning(void)
         swing += (double)(angle * angle) / mesh.triangle_count;
     }
     const double pitches[2] = {1, 1};
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, 0.3, &error) == MESO_OK);
     for (uint32_t t = 0; t < mesh.triangle_count; t++) {
         double angle = atan2((double)phases.directions[t].y, (double)phases.directions[t].x);
         left += angle * angle / mesh.triangle_count;
@@ -117,7 +117,7 @@ static void check_cylinder(void)
         chart_triangles[t] = MESO_NO_INDEX;
     }
     const double pitches[2] = {1, 1};
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, 0.3, &error) == MESO_OK);
     CHECK(phases.strain > 0.01 && phases.strain < 0.04);
 
     MesoChartMaker maker;
@@ -174,7 +174,7 @@ static double largest_miss(bool steep)
         chart_triangles[t] = MESO_NO_INDEX;
     }
     const double pitches[2] = {1, 1};
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 1, pitches, false, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 1, pitches, false, 0.3, &error) == MESO_OK);
     MesoVec3 core = mesh.positions[mesh.corners[3 * middle]];
     double *away = MESO_NEW(&arena, double, count, &error);
     CHECK(away);
