@@ -39,6 +39,7 @@
     X(ENABLEVERTEXARRAYATTRIB, EnableVertexArrayAttrib)                             \
     X(FRONTFACE, FrontFace)                                                         \
     X(GETERROR, GetError)                                                           \
+    X(GETINTEGERV, GetIntegerv)                                                     \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                         \
     X(GETPROGRAMIV, GetProgramiv)                                                   \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                           \

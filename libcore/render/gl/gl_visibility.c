@@ -8,6 +8,9 @@
 /* What shaders/seen_fragment.glsl writes: a target each, of four words. */
 enum { SEEN, DETAILS, TARGETS, WORDS = 4 };
 
+/* What OpenGL promises. */
+enum { LEAST_SUBPIXEL_BITS = 4 };
+
 /* Pixels a side of the framebuffer at most, in which the window has a place for each sample. */
 enum { FRAME_SIDE = 1024 };
 
@@ -22,6 +25,7 @@ struct MesoGlVisibility {
     MesoDrawBatch batch;
     float end_depth;
     uint32_t target_count, thread_count;
+    uint32_t subpixel_bits;     /* of a pixel, to which the driver rounds corners */
     uint32_t frame_width, frame_height;
     GLuint targets[TARGETS], depth, frame;
     uint32_t *words[TARGETS];   /* [4 * pixels of the window * samples] row by row of the framebuffer */
@@ -95,6 +99,13 @@ static MesoStatus make_frame(MesoGlVisibility *v, MesoError *error)
     return status;
 }
 
+static uint32_t find_subpixel_bits(const MesoGl *gl)
+{
+    GLint bits = 0;
+    gl->GetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    return bits < LEAST_SUBPIXEL_BITS ? LEAST_SUBPIXEL_BITS : (uint32_t)bits;
+}
+
 static void set_state(const MesoGl *gl)
 {
     gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -150,6 +161,7 @@ MesoStatus meso_gl_visibility_init(MesoGlVisibility **out, MesoArena *arena, con
     if (!status)
         status = make_geometry(v, arena, detailed, error);
     set_state(&v->gl);
+    v->subpixel_bits = find_subpixel_bits(&v->gl);
     return status;
 }
 
@@ -253,7 +265,7 @@ MesoStatus meso_gl_visibility_draw(MesoGlVisibility *v, MesoWindow window, MesoE
     if (v->bends)
         draw_lists(v, &clip);
     else
-        status = meso_sift(&v->job, window, v->thread_count, draw_batch, v, error);
+        status = meso_sift(&v->job, window, v->subpixel_bits, v->thread_count, draw_batch, v, error);
     if (!status && !v->empty)
         read_window(v);
     return status ? status : meso_gl_check(&v->gl, "drawing", error);
