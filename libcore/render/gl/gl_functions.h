@@ -37,6 +37,7 @@
     X(DRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCE, DrawElementsInstancedBaseVertexBaseInstance) \
     X(ENABLE, Enable)                                                               \
     X(ENABLEVERTEXARRAYATTRIB, EnableVertexArrayAttrib)                             \
+    X(FLUSH, Flush)                                                                 \
     X(FRONTFACE, FrontFace)                                                         \
     X(GETERROR, GetError)                                                           \
     X(GETINTEGERV, GetIntegerv)                                                     \

@@ -142,8 +142,8 @@ typedef struct Reach {
 } Reach;
 
 /*
- * (bx - ax)(y - ay) - (by - ay)(x - ax) + slack, at least 0 inside, and at least `sure` for certain: as a sum of x and y
- * times these, and a constant.
+ * (bx - ax)(y - ay) - (by - ay)(x - ax) + slack, at least 0 inside, and at least `sure` for certain: as a sum of x and
+ * y times these, and a constant.
  */
 typedef struct Side {
     int32_t along_x, along_y, constant, sure;
@@ -161,7 +161,7 @@ static inline int32_t value_at(const Side *side, const MesoRasterVertex *a, int3
     return side->constant + side->along_x * (x - a->x) + side->along_y * (y - a->y);
 }
 
-/* How near its corners are: what hides the nearest is nearer than the first. What may be cut off hides nothing. */
+/* How near its corners are, and what hides the nearest. What may be cut off hides nothing. */
 typedef struct Nearness {
     float hiding, farthest;
 } Nearness;
