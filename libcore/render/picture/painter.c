@@ -13,8 +13,8 @@
  * How far thinned geometry may lie from its own, in pixels. Of few samples each shows one thing or another, whatever is
  * moved; of many, a picture is to be within a step of 8 bits of what it is without thinning, in the mean of squares.
  */
-static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.01f, LEAST_TOLERANCE = 0.002f;
-static const float USUAL_PIXELS = 1280.f * 720;
+static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.01f, LEAST_TOLERANCE = 5e-5f;
+static const float USUAL_PIXELS = 1280.f * 720, SMALL_SHARE = 0.3f;
 
 enum { MOST_SAMPLES = 16 };
 
@@ -419,13 +419,15 @@ static MesoStatus look_through(MesoPainter *p, MesoImage *band, MesoError *error
 }
 
 /* In pixels. Of many samples few may see one thread in another's place, so that in a small picture, which shows more
- * threads a pixel, they stay where they are in a large one. */
+ * threads a pixel, they stay where they are in a large one; and in one that is smaller yet, where every sample lies
+ * next to a thread's side, nearer still. */
 static float tolerance_of(const MesoRenderOptions *options)
 {
     if (options->full_detail || options->samples <= 4)
         return options->full_detail ? 0 : TOLERANCE_PIXELS;
     float smaller = sqrtf((float)options->width * (float)options->height / USUAL_PIXELS);
-    return fminf(fmaxf(TOLERANCE_OF_MANY * smaller, LEAST_TOLERANCE), TOLERANCE_OF_MANY);
+    float nearer = smaller * fminf(smaller / SMALL_SHARE, 1);
+    return fminf(fmaxf(TOLERANCE_OF_MANY * nearer, LEAST_TOLERANCE), TOLERANCE_OF_MANY);
 }
 
 /* For what may be seen: shapes begin between the near plane and what is farthest. */
