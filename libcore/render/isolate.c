@@ -39,6 +39,16 @@ void meso_shared_free(void *memory, size_t size)
         munmap(memory, size);
 }
 
+void meso_shared_fill(void *memory, size_t size)
+{
+#ifdef MADV_POPULATE_WRITE
+    madvise(memory, size, MADV_POPULATE_WRITE);
+#else
+    (void)memory;
+    (void)size;
+#endif
+}
+
 /* Nothing is touched: only a limit, or a system that promises no more than it has, refuses. */
 static bool is_to_be_had(size_t size)
 {

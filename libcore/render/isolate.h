@@ -14,6 +14,9 @@
 void *meso_shared_new(size_t size, MesoError *error);
 void meso_shared_free(void *memory, size_t size);
 
+/* Has all pages of it there, which one by one, as they are written to, takes ten times as long; nothing is changed. */
+void meso_shared_fill(void *memory, size_t size);
+
 typedef MesoStatus MesoWork(void *context, MesoError *error);
 
 /*

@@ -1,10 +1,12 @@
 /* Work in a child: what comes back, every way to die, and that it does not stay behind. */
+#define _DEFAULT_SOURCE     /* mincore() */
 #include "libcore/render/isolate.h"
 
 #include <signal.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -142,6 +144,19 @@ static void test_orphan(void)
     close(ends[0]);
 }
 
+/* All pages are there, and what has been in them. */
+static void test_fill(void)
+{
+    enum { PAGE = 4096, PAGES = 100 };
+    unsigned char there[PAGES], *memory = meso_shared_new(PAGES * PAGE, NULL);
+    memory[5 * PAGE] = 7;
+    meso_shared_fill(memory, PAGES * PAGE);
+    CHECK(mincore(memory, PAGES * PAGE, there) == 0);
+    for (uint32_t i = 0; i < PAGES; i++)
+        CHECK(there[i] & 1 && memory[i * PAGE] == (i == 5 ? 7 : 0));
+    meso_shared_free(memory, PAGES * PAGE);
+}
+
 int main(void)
 {
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
@@ -149,5 +164,6 @@ int main(void)
     test_deaths();
     test_requests();
     test_orphan();
+    test_fill();
     return 0;
 }

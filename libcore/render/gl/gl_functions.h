@@ -37,8 +37,10 @@
     X(DRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCE, DrawElementsInstancedBaseVertexBaseInstance) \
     X(ENABLE, Enable)                                                               \
     X(ENABLEVERTEXARRAYATTRIB, EnableVertexArrayAttrib)                             \
+    X(FLUSH, Flush)                                                                 \
     X(FRONTFACE, FrontFace)                                                         \
     X(GETERROR, GetError)                                                           \
+    X(GETINTEGERV, GetIntegerv)                                                     \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                         \
     X(GETPROGRAMIV, GetProgramiv)                                                   \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                                           \

@@ -1,18 +1,24 @@
 #include "libcore/render/gl/gl_visibility.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/large_pages.h"
 #include "libcore/render/gl/draw_batch.h"
 #include "libcore/render/gl/draw_lists.h"
 
 /* What shaders/seen_fragment.glsl writes: a target each, of four words. */
 enum { SEEN, DETAILS, TARGETS, WORDS = 4 };
 
+/* What OpenGL promises. */
+enum { LEAST_SUBPIXEL_BITS = 4 };
+
 /* Pixels a side of the framebuffer at most, in which the window has a place for each sample. */
 enum { FRAME_SIDE = 1024 };
 
 struct MesoGlVisibility {
     MesoGl gl;
+    bool loaded;                /* it is */
     MesoRasterJob job;
     MesoRasterLanes lanes;
     MesoView view;
@@ -21,10 +27,13 @@ struct MesoGlVisibility {
     MesoDrawPrograms programs;
     MesoDrawBatch batch;
     float end_depth;
+    bool detailed;
     uint32_t target_count, thread_count;
+    uint32_t subpixel_bits;     /* of a pixel, to which the driver rounds corners */
     uint32_t frame_width, frame_height;
     GLuint targets[TARGETS], depth, frame;
     uint32_t *words[TARGETS];   /* [4 * pixels of the window * samples] row by row of the framebuffer */
+    size_t sizes[TARGETS];      /* of them, from the system */
     MesoWindow window;          /* drawn last */
     MesoMatrix clips[MESO_RASTER_LANES];    /* of its samples */
     bool empty;                 /* nothing is in it */
@@ -95,6 +104,13 @@ static MesoStatus make_frame(MesoGlVisibility *v, MesoError *error)
     return status;
 }
 
+static uint32_t find_subpixel_bits(const MesoGl *gl)
+{
+    GLint bits = 0;
+    gl->GetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    return bits < LEAST_SUBPIXEL_BITS ? LEAST_SUBPIXEL_BITS : (uint32_t)bits;
+}
+
 static void set_state(const MesoGl *gl)
 {
     gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -104,65 +120,106 @@ static void set_state(const MesoGl *gl)
     gl->FrontFace(GL_CW);       /* rows run downwards, which mirrors the picture */
 }
 
-static MesoStatus make_words(MesoGlVisibility *v, MesoArena *arena, MesoError *error)
+static MesoStatus make_words(MesoGlVisibility *v, MesoError *error)
 {
     for (uint32_t i = 0; i < v->target_count; i++) {
-        v->words[i] = MESO_NEW(arena, uint32_t, (size_t)WORDS * v->frame_width * v->frame_height, error);
+        v->sizes[i] = sizeof(uint32_t) * WORDS * v->frame_width * v->frame_height;
+        v->words[i] = meso_large_take(&v->sizes[i]);
         if (!v->words[i])
-            return MESO_ERR_MEMORY;
+            return meso_fail(error, MESO_ERR_MEMORY, "out of memory for drawing");
     }
     return MESO_OK;
 }
 
-/* What draws: lists where shaders bend sweeps, and batches where processors do. */
-static MesoStatus make_geometry(MesoGlVisibility *v, MesoArena *arena, bool detailed, MesoError *error)
+static void clear_window(MesoGlVisibility *v);
+
+/* Draws a triangle of no area with all that batches are drawn with: drivers compile that when they first meet it. */
+static MesoStatus draw_nothing(MesoGlVisibility *v, MesoError *error)
 {
-    const MesoRasterJob *job = &v->job;
-    if (v->bends && job->shapes->scene->maker)
-        return meso_fail(error, MESO_ERR_LIMIT, "a scene whose sweeps are not held is not for a GPU");
-    if (!v->bends)
-        return meso_draw_batch_init(&v->batch, &v->gl, detailed, error);
-    MesoStatus status = meso_draw_programs_init(&v->programs, &v->gl, job->shapes->scene, detailed, error);
-    return status ? status : meso_draw_lists_init(&v->lists, arena, &v->gl, job->shapes, &v->view, job->height,
-                                                  job->tolerance, error);
+    static const MesoMatrix as_it_is = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    static const MesoView no_view;
+    MesoSiftVertex corners[3] = {0};
+    uint32_t indices[3] = {0, 1, 2};
+    const MesoSiftBatch batch = {.vertex_count = 3, .vertices = corners, .index_counts = {3}, .indices = {indices}};
+    clear_window(v);
+    v->gl.Viewport(0, 0, 1, 1);
+    meso_draw_batch_take(&v->batch, &v->gl, &batch);
+    meso_draw_batch_sample(&v->batch, &v->gl, &batch, 0, &as_it_is, &no_view);
+    return meso_gl_check(&v->gl, "drawing", error);
 }
 
-MesoStatus meso_gl_visibility_init(MesoGlVisibility **out, MesoArena *arena, const MesoGlContext *context,
-                                   const MesoRasterJob *job, const MesoView *view, bool detailed,
-                                   uint32_t thread_count, MesoError *error)
+static MesoStatus make_ready(MesoGlVisibility *v, const MesoGlContext *context, MesoError *error)
 {
-    MesoGlVisibility *v = *out = MESO_NEW(arena, MesoGlVisibility, 1, error);
-    if (!v)
-        return MESO_ERR_MEMORY;
-    *v = (MesoGlVisibility){.job = *job, .lanes = meso_raster_lanes(job->samples), .view = *view,
-                            .bends = context->bends, .end_depth = end_depth_of(view, &job->shapes->scene->box),
-                            .target_count = detailed ? TARGETS : 1, .thread_count = thread_count,
-                            .frame_width = frame_side(job->width, job->samples),
-                            .frame_height = frame_side(job->height, job->samples)};
     MesoStatus status = meso_gl_load(&v->gl, context, error);
-    if (status) {
-        *out = NULL;
+    if (status)
         return status;
-    }
-    status = make_words(v, arena, error);
+    v->loaded = true;
+    status = make_words(v, error);
     if (!status)
         status = make_frame(v, error);
-    if (!status)
-        status = make_geometry(v, arena, detailed, error);
+    if (status)
+        return status;
     set_state(&v->gl);
+    v->subpixel_bits = find_subpixel_bits(&v->gl);
+    if (v->bends)
+        return MESO_OK;
+    status = meso_draw_batch_init(&v->batch, &v->gl, v->detailed, error);
+    return status ? status : draw_nothing(v, error);
+}
+
+MesoStatus meso_gl_visibility_init(MesoGlVisibility **out, const MesoGlContext *context, uint32_t width,
+                                   uint32_t height, uint32_t samples, bool detailed, MesoError *error)
+{
+    MesoGlVisibility *v = *out = calloc(1, sizeof *v);
+    if (!v)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory for drawing");
+    *v = (MesoGlVisibility){.bends = context->bends, .detailed = detailed, .target_count = detailed ? TARGETS : 1,
+                            .frame_width = frame_side(width, samples), .frame_height = frame_side(height, samples)};
+    MesoStatus status = make_ready(v, context, error);
+    if (status) {
+        meso_gl_visibility_release(v);
+        *out = NULL;
+    }
     return status;
 }
 
-void meso_gl_visibility_release(MesoGlVisibility *v)
+MesoStatus meso_gl_visibility_begin(MesoGlVisibility *v, MesoArena *arena, const MesoRasterJob *job,
+                                    const MesoView *view, uint32_t thread_count, MesoError *error)
 {
-    if (!v)
-        return;
+    const MesoScene *scene = job->shapes->scene;
+    v->job = *job;
+    v->lanes = meso_raster_lanes(job->samples);
+    v->view = *view;
+    v->end_depth = end_depth_of(view, &scene->box);
+    v->thread_count = thread_count;
+    if (!v->bends)
+        return MESO_OK;
+    if (scene->maker)
+        return meso_fail(error, MESO_ERR_LIMIT, "a scene whose sweeps are not held is not for a GPU");
+    MesoStatus status = meso_draw_programs_init(&v->programs, &v->gl, scene, v->detailed, error);
+    return status ? status : meso_draw_lists_init(&v->lists, arena, &v->gl, job->shapes, view, job->height,
+                                                  job->tolerance, error);
+}
+
+static void release_drawing(MesoGlVisibility *v)
+{
     meso_draw_lists_release(&v->lists);
     meso_draw_programs_release(&v->programs, &v->gl);
     meso_draw_batch_release(&v->batch, &v->gl);
     v->gl.DeleteFramebuffers(1, &v->frame);
     v->gl.DeleteTextures(TARGETS, v->targets);
     v->gl.DeleteTextures(1, &v->depth);
+}
+
+void meso_gl_visibility_release(MesoGlVisibility *v)
+{
+    if (!v)
+        return;
+    if (v->loaded)
+        release_drawing(v);
+    for (uint32_t i = 0; i < TARGETS; i++)
+        meso_large_give(v->words[i], v->sizes[i]);
+    free(v);
 }
 
 /* ---- a window ---- */
@@ -216,6 +273,7 @@ static MesoStatus draw_batch(void *context, const MesoSiftBatch *batch, MesoErro
         look_at_sample(v, i);
         meso_draw_batch_sample(&v->batch, &v->gl, batch, i, &v->clips[i], &v->view);
     }
+    v->gl.Flush();              /* else triangles are held until there are very many, and drawn at last */
     return meso_gl_check(&v->gl, "drawing", error);
 }
 
@@ -253,7 +311,7 @@ MesoStatus meso_gl_visibility_draw(MesoGlVisibility *v, MesoWindow window, MesoE
     if (v->bends)
         draw_lists(v, &clip);
     else
-        status = meso_sift(&v->job, window, v->thread_count, draw_batch, v, error);
+        status = meso_sift(&v->job, window, v->subpixel_bits, v->thread_count, draw_batch, v, error);
     if (!status && !v->empty)
         read_window(v);
     return status ? status : meso_gl_check(&v->gl, "drawing", error);

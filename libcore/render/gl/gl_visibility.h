@@ -12,15 +12,22 @@
 typedef struct MesoGlVisibility MesoGlVisibility;
 
 /*
- * For the job's shapes, which have to last, as the job's view and `view`, which is the same. Where the context's
- * shaders are to bend sweeps, all of them are uploaded; otherwise `thread_count` threads sift what each window may show
- * (sift.h). `detailed`: samples have uv and colour too, which are 0 and white otherwise. Never has triangles or shares
- * of their corners. What is not GL's lives in `arena`. MESO_ERR_LIMIT over the driver's limits, MESO_ERR_INTERNAL with
- * the driver's words where GL fails.
+ * What of such pictures needs nothing but their size, so that shapes may be made ready meanwhile; the driver compiles
+ * what it draws with. `detailed`: samples have uv and colour too, which are 0 and white otherwise. What is not GL's is
+ * from the system. MESO_ERR_LIMIT over the driver's limits, MESO_ERR_INTERNAL with its words where GL fails,
+ * MESO_ERR_MEMORY.
  */
-MesoStatus meso_gl_visibility_init(MesoGlVisibility **visibility, MesoArena *arena, const MesoGlContext *context,
-                                   const MesoRasterJob *job, const MesoView *view, bool detailed,
-                                   uint32_t thread_count, MesoError *error);
+MesoStatus meso_gl_visibility_init(MesoGlVisibility **visibility, const MesoGlContext *context, uint32_t width,
+                                   uint32_t height, uint32_t samples, bool detailed, MesoError *error);
+
+/*
+ * The rest, for the job's shapes, which have to last, as the job's view and `view`, which is the same. Where the
+ * context's shaders are to bend sweeps, all of them are uploaded; otherwise `thread_count` threads sift what each
+ * window may show (sift.h). Samples never have triangles or shares of their corners. What is not GL's lives in
+ * `arena`. The same errors.
+ */
+MesoStatus meso_gl_visibility_begin(MesoGlVisibility *visibility, MesoArena *arena, const MesoRasterJob *job,
+                                    const MesoView *view, uint32_t thread_count, MesoError *error);
 void meso_gl_visibility_release(MesoGlVisibility *visibility);
 
 /* Pixels a side of the windows that are drawn at once; and what those of a picture take, the driver's part and ours. */

@@ -1,8 +1,10 @@
 #include "libcore/render/picture/apart.h"
 
+#include <pthread.h>
 #include <string.h>
 
 #include "libcore/base/clock.h"
+#include "libcore/base/kept_memory.h"
 #include "libcore/render/gl/context.h"
 #include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/isolate.h"
@@ -27,18 +29,57 @@ typedef struct Work {
     const MesoRenderOptions *options;
 } Work;
 
-/* The context is left to the end of the process, which is at hand. */
-static MesoStatus draw(void *pointer, MesoError *error)
+/* What needs no driver, which is made ready beside it. */
+typedef struct Ready {
+    const Work *work;
+    MesoPainter *painter;
+    MesoStatus status;
+    MesoError error;
+} Ready;
+
+static void *get_ready(void *pointer)
 {
-    const Work *work = pointer;
+    Ready *ready = pointer;
+    const Work *work = ready->work;
+    ready->status = meso_gl_painter_init(&ready->painter, work->arena, work->scene, work->options, work->thread_count,
+                                         &ready->error);
+    meso_shared_fill(work->picture, work->picture->size);
+    return NULL;
+}
+
+static MesoStatus make_visibility(MesoGlVisibility **gl, const Work *work, MesoError *error)
+{
     MesoGlContext context;
+    const MesoRenderOptions *options = work->options;
     MesoStatus status = meso_gl_context_init(&context, work->maker, work->thread_count, error);
     if (status)
         return status;
     work->picture->context_made = meso_seconds();
     memcpy(work->picture->renderer, context.renderer, sizeof context.renderer);
-    return meso_gl_picture_placed(&work->picture->image, work->arena, &context, work->scene, work->options,
-                                  work->thread_count, error);
+    return meso_gl_visibility_init(gl, &context, options->width, options->height, options->samples,
+                                   meso_gl_is_detailed(work->scene, options), error);
+}
+
+/* The context, and what is in it, is left to the end of the process, which is at hand. */
+static MesoStatus draw(void *pointer, MesoError *error)
+{
+    const Work *work = pointer;
+    Ready ready = {.work = work};
+    MesoGlVisibility *gl = NULL;
+    pthread_t thread;
+    meso_kept_memory_more();
+    bool beside = pthread_create(&thread, NULL, get_ready, &ready) == 0;
+    MesoStatus status = make_visibility(&gl, work, error);
+    if (beside)
+        pthread_join(thread, NULL);
+    else
+        get_ready(&ready);
+    if (!status && ready.status) {
+        status = ready.status;
+        if (error)
+            *error = ready.error;
+    }
+    return status ? status : meso_gl_paint(ready.painter, &work->picture->image, work->arena, gl, error);
 }
 
 MesoStatus meso_apart_picture_init(MesoApartPicture **picture, MesoArena *arena, const char *maker,

@@ -13,8 +13,8 @@
  * How far thinned geometry may lie from its own, in pixels. Of few samples each shows one thing or another, whatever is
  * moved; of many, a picture is to be within a step of 8 bits of what it is without thinning, in the mean of squares.
  */
-static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.01f, LEAST_TOLERANCE = 0.002f;
-static const float USUAL_PIXELS = 1280.f * 720;
+static const float TOLERANCE_PIXELS = 0.25f, TOLERANCE_OF_MANY = 0.01f, LEAST_TOLERANCE = 5e-5f;
+static const float USUAL_PIXELS = 1280.f * 720, SMALL_SHARE = 0.3f;
 
 enum { MOST_SAMPLES = 16 };
 
@@ -419,13 +419,15 @@ static MesoStatus look_through(MesoPainter *p, MesoImage *band, MesoError *error
 }
 
 /* In pixels. Of many samples few may see one thread in another's place, so that in a small picture, which shows more
- * threads a pixel, they stay where they are in a large one. */
+ * threads a pixel, they stay where they are in a large one; and in one that is smaller yet, where every sample lies
+ * next to a thread's side, nearer still. */
 static float tolerance_of(const MesoRenderOptions *options)
 {
     if (options->full_detail || options->samples <= 4)
         return options->full_detail ? 0 : TOLERANCE_PIXELS;
     float smaller = sqrtf((float)options->width * (float)options->height / USUAL_PIXELS);
-    return fminf(fmaxf(TOLERANCE_OF_MANY * smaller, LEAST_TOLERANCE), TOLERANCE_OF_MANY);
+    float nearer = smaller * fminf(smaller / SMALL_SHARE, 1);
+    return fminf(fmaxf(TOLERANCE_OF_MANY * nearer, LEAST_TOLERANCE), TOLERANCE_OF_MANY);
 }
 
 /* For what may be seen: shapes begin between the near plane and what is farthest. */
@@ -504,31 +506,43 @@ MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene
     return status ? status : meso_paint(painter, image, 0, error);
 }
 
+bool meso_gl_is_detailed(const MesoScene *scene, const MesoRenderOptions *options)
+{
+    return options->extras & MESO_EXTRA_UV || meso_scene_is_colored(scene);
+}
+
+MesoStatus meso_gl_painter_init(MesoPainter **painter, MesoArena *arena, const MesoScene *scene,
+                                const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
+{
+    *painter = NULL;
+    if (options->extras & MESO_EXTRA_MOTION)
+        return meso_fail(error, MESO_ERR_USAGE, "GL finds no motion");
+    MesoPainter *p = *painter = new_painter(arena, scene, options, thread_count, error);
+    return p ? get_ready(p, arena, error) : MESO_ERR_MEMORY;
+}
+
+MesoStatus meso_gl_paint(MesoPainter *p, MesoImage *image, MesoArena *arena, MesoGlVisibility *gl, MesoError *error)
+{
+    p->gl = gl;
+    MesoStatus status = meso_gl_visibility_begin(gl, arena, &p->job, &p->view, p->thread_count, error);
+    return status ? status : meso_paint(p, image, 0, error);
+}
+
 MesoStatus meso_gl_picture(MesoImage *image, MesoArena *arena, const MesoGlContext *context, const MesoScene *scene,
                            const MesoRenderOptions *options, uint32_t thread_count, MesoError *error)
 {
+    MesoPainter *painter;
+    MesoGlVisibility *gl = NULL;
     MesoRenderOptions whole = *options;
     whole.band_rows = options->height;
     MesoStatus status = make_band(image, arena, scene, &whole, error);
-    return status ? status
-                  : meso_gl_picture_placed(image, arena, context, scene, options, thread_count, error);
-}
-
-MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const MesoGlContext *context,
-                                  const MesoScene *scene, const MesoRenderOptions *options, uint32_t thread_count,
-                                  MesoError *error)
-{
-    if (options->extras & MESO_EXTRA_MOTION)
-        return meso_fail(error, MESO_ERR_USAGE, "GL finds no motion");
-    MesoPainter *p = new_painter(arena, scene, options, thread_count, error);
-    if (!p)
-        return MESO_ERR_MEMORY;
-    bool detailed = options->extras & MESO_EXTRA_UV || meso_scene_is_colored(scene);
-    MesoStatus status = get_ready(p, arena, error);
     if (!status)
-        status = meso_gl_visibility_init(&p->gl, arena, context, &p->job, &p->view, detailed, thread_count, error);
+        status = meso_gl_painter_init(&painter, arena, scene, options, thread_count, error);
     if (!status)
-        status = meso_paint(p, image, 0, error);
-    meso_gl_visibility_release(p->gl);
+        status = meso_gl_visibility_init(&gl, context, options->width, options->height, options->samples,
+                                         meso_gl_is_detailed(scene, options), error);
+    if (!status)
+        status = meso_gl_paint(painter, image, arena, gl, error);
+    meso_gl_visibility_release(gl);
     return status;
 }

@@ -2,7 +2,7 @@
 #ifndef MESO_PAINTER_H
 #define MESO_PAINTER_H
 
-#include "libcore/render/gl/gl_context.h"
+#include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/image.h"
 
 /*
@@ -19,11 +19,6 @@ MesoStatus meso_tile_picture(MesoImage *image, MesoArena *arena, const MesoScene
  */
 MesoStatus meso_gl_picture(MesoImage *image, MesoArena *arena, const MesoGlContext *context, const MesoScene *scene,
                            const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
-
-/* Into an image whose arrays have their places (meso_image_place()). */
-MesoStatus meso_gl_picture_placed(MesoImage *image, MesoArena *arena, const MesoGlContext *context,
-                                  const MesoScene *scene, const MesoRenderOptions *options, uint32_t thread_count,
-                                  MesoError *error);
 
 /*
  * The parts of meso_tile_picture(), for pictures that are larger than memory: bands of rows, of which each is painted
@@ -42,6 +37,17 @@ uint32_t meso_paint_band_rows(const MesoScene *scene, const MesoRenderOptions *o
  */
 MesoStatus meso_painter_init(MesoPainter **painter, MesoImage *band, MesoArena *arena, const MesoScene *scene,
                              const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
+
+/*
+ * The parts of meso_gl_picture(). The first needs no driver: it may run while another thread makes the context, and
+ * what finds visibility there (gl_visibility.h) for this picture's size and samples, and detailed where it says so.
+ * Into an image whose arrays have their places (meso_image_place()).
+ */
+bool meso_gl_is_detailed(const MesoScene *scene, const MesoRenderOptions *options);
+MesoStatus meso_gl_painter_init(MesoPainter **painter, MesoArena *arena, const MesoScene *scene,
+                                const MesoRenderOptions *options, uint32_t thread_count, MesoError *error);
+MesoStatus meso_gl_paint(MesoPainter *painter, MesoImage *image, MesoArena *arena, MesoGlVisibility *gl,
+                         MesoError *error);
 
 /* Paints the band that begins with this row, and cuts its height to the picture's. MESO_ERR_MEMORY alone. */
 MesoStatus meso_paint(MesoPainter *painter, MesoImage *band, uint32_t first_row, MesoError *error);

@@ -1,199 +1,18 @@
-/*
- * Leaves out small triangles, as in "Optimizing the Graphics Pipeline with Compute" (Wihlidal, GDC 2016), but by their
- * edges, and apart for each sample.
- */
 #include "libcore/render/raster/sift.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcore/base/arena.h"
 #include "libcore/base/parallel.h"
+#include "libcore/base/pipeline.h"
+#include "libcore/render/raster/sift_triangles.h"
 
 enum { LANES = MESO_RASTER_LANES };
 
-/*
- * Units by which a driver's vertices may lie beside ours along each axis: it rounds to a 16th of a pixel or less, and
- * we to one. So may each point of its triangle lie beside one of ours, whichever way either runs.
- */
-enum { SLACK = MESO_RASTER_UNIT / 32 + 2 };
-
-/* Triangles of more cells, or pixels, or as many units, are kept for all samples: edges of others fit in 32 bits. */
-enum { MOST_CELLS = 4, MOST_PIXELS = 8, MOST_UNITS = 1 << 13 };
-
-/* ---- a triangle ---- */
-
-static inline int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static inline int32_t most(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
-/* The window. */
-typedef struct Frame {
-    const MesoRasterLanes *lanes;
-    int32_t wide, high;         /* pixels */
-    int32_t cells_x, cells_y;
-    int32_t shift;              /* of a cell's units */
-} Frame;
-
-/* The box around a triangle, as wide as it may be drawn. */
-typedef struct Reach {
-    int32_t low_x, high_x, low_y, high_y;
-} Reach;
-
-/* (bx - ax)(y - ay) - (by - ay)(x - ax) + slack, at least 0 inside: as a sum of x and y times these, and a constant. */
-typedef struct Side {
-    int32_t along_x, along_y, constant;
-} Side;
-
-static inline Side make_side(const MesoRasterVertex *a, const MesoRasterVertex *b, int32_t turn)
-{
-    int32_t dx = turn * (b->x - a->x), dy = turn * (b->y - a->y);
-    return (Side){-dy, dx, SLACK * (abs(dx) + abs(dy))};
-}
-
-/* Its value at (x, y), where it begins at `a`. */
-static inline int32_t value_at(const Side *side, const MesoRasterVertex *a, int32_t x, int32_t y)
-{
-    return side->constant + side->along_x * (x - a->x) + side->along_y * (y - a->y);
-}
-
-/* Bits of the places in the cell whose corner is (x, y). */
-__attribute__((always_inline)) static inline uint32_t places_in(const MesoRasterLanes *lanes, const Side sides[3],
-                                                                const MesoRasterVertex *const v[3], int32_t x,
-                                                                int32_t y)
-{
-    uint32_t bits = 0;
-    int32_t e0 = value_at(&sides[0], v[0], x, y), e1 = value_at(&sides[1], v[1], x, y);
-    int32_t e2 = value_at(&sides[2], v[2], x, y);
-    for (int32_t l = 0; l < LANES; l++) {
-        int32_t px = lanes->x[l], py = lanes->y[l];
-        int32_t outside = (e0 + sides[0].along_x * px + sides[0].along_y * py) |
-                          (e1 + sides[1].along_x * px + sides[1].along_y * py) |
-                          (e2 + sides[2].along_x * px + sides[2].along_y * py);
-        bits |= (uint32_t)(outside >= 0) << l;
-    }
-    return bits;
-}
-
-/* Samples whose places are among those bits. */
-static inline uint32_t fold(uint32_t bits, uint32_t samples)
-{
-    if (samples == 16)
-        return bits;
-    bits |= bits >> 8;
-    bits |= bits >> 4;
-    return samples == 4 ? bits & 15 : (bits | bits >> 1 | bits >> 2 | bits >> 3) & 1;
-}
-
-static inline Reach reach_of(const MesoRasterVertex *a, const MesoRasterVertex *b, const MesoRasterVertex *c)
-{
-    return (Reach){least(a->x, least(b->x, c->x)) - SLACK, most(a->x, most(b->x, c->x)) + SLACK,
-                   least(a->y, least(b->y, c->y)) - SLACK, most(a->y, most(b->y, c->y)) + SLACK};
-}
-
-static inline bool is_large(const Reach *r)
-{
-    return r->high_x - r->low_x >= MOST_UNITS || r->high_y - r->low_y >= MOST_UNITS;
-}
-
-/* 1 or -1, as a triangle that is not large runs. */
-static inline int32_t turn_of(const MesoRasterVertex *a, const MesoRasterVertex *b, const MesoRasterVertex *c)
-{
-    return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x) > 0 ? 1 : -1;
-}
-
-/* Cells, or pixels, all included. */
-typedef struct Range {
-    int32_t left, right, top, bottom;
-} Range;
-
-static inline int32_t count_of(const Range *r)
-{
-    return r->left > r->right || r->top > r->bottom ? 0 : (r->right - r->left + 1) * (r->bottom - r->top + 1);
-}
-
-/* With one sample a pixel: pixel by pixel, which are mostly none or one. */
-static inline uint32_t middle_of(const Frame *frame, const MesoRasterVertex *a, const MesoRasterVertex *b,
-                                 const MesoRasterVertex *c)
-{
-    enum { HALF = MESO_RASTER_UNIT / 2, UNIT = MESO_RASTER_UNIT };
-    Reach reach = reach_of(a, b, c);
-    const Range r = {most((reach.low_x + HALF - 1) >> 8, 0), least((reach.high_x - HALF) >> 8, frame->wide - 1),
-                     most((reach.low_y + HALF - 1) >> 8, 0), least((reach.high_y - HALF) >> 8, frame->high - 1)};
-    if (r.left > r.right || r.top > r.bottom)
-        return 0;
-    if (is_large(&reach) || count_of(&r) > MOST_PIXELS)
-        return 1;
-    int32_t turn = turn_of(a, b, c);
-    const Side ab = make_side(a, b, turn), bc = make_side(b, c, turn), ca = make_side(c, a, turn);
-    for (int32_t y = UNIT * r.top + HALF; y <= UNIT * r.bottom + HALF; y += UNIT)
-        for (int32_t x = UNIT * r.left + HALF; x <= UNIT * r.right + HALF; x += UNIT)
-            if ((value_at(&ab, a, x, y) | value_at(&bc, b, x, y) | value_at(&ca, c, x, y)) >= 0)
-                return 1;
-    return 0;
-}
-
-/* Bits of the samples that may see the triangle, of several a pixel. */
-__attribute__((always_inline)) static inline uint32_t samples_of(const Frame *frame, const MesoRasterVertex *a,
-                                                                 const MesoRasterVertex *b, const MesoRasterVertex *c)
-{
-    const MesoRasterLanes *lanes = frame->lanes;
-    const MesoRasterVertex *const v[3] = {a, b, c};
-    uint32_t bits = 0;
-    Reach reach = reach_of(a, b, c);
-    const Range r = {most(reach.low_x >> frame->shift, 0), least(reach.high_x >> frame->shift, frame->cells_x - 1),
-                     most(reach.low_y >> frame->shift, 0), least(reach.high_y >> frame->shift, frame->cells_y - 1)};
-    if (r.left > r.right || r.top > r.bottom)
-        return 0;
-    if (is_large(&reach) || count_of(&r) > MOST_CELLS)
-        return (1u << lanes->samples) - 1;
-    int32_t turn = turn_of(a, b, c);
-    const Side sides[3] = {make_side(a, b, turn), make_side(b, c, turn), make_side(c, a, turn)};
-    for (int32_t y = r.top; y <= r.bottom; y++)
-        for (int32_t x = r.left; x <= r.right; x++)
-            bits |= places_in(lanes, sides, v, x << frame->shift, y << frame->shift);
-    return fold(bits, lanes->samples);
-}
-
-/* Of each triangle; returns whether any is seen at all. */
-__attribute__((always_inline)) static inline bool sift_all(const Frame *frame, const MesoRasterPoints *points,
-                                                           const uint32_t *corners, uint32_t count, uint16_t *samples)
-{
-    uint32_t any = 0;
-    bool single = frame->lanes->samples == 1;
-    for (uint32_t t = 0; t < count; t++) {
-        const uint32_t *k = corners + 3 * (size_t)t;
-        MesoRasterVertex a = meso_raster_point(points, k[0]), b = meso_raster_point(points, k[1]);
-        MesoRasterVertex c = meso_raster_point(points, k[2]);
-        uint32_t seen = single ? middle_of(frame, &a, &b, &c) : samples_of(frame, &a, &b, &c);
-        samples[t] = (uint16_t)seen;
-        any |= seen;
-    }
-    return any;
-}
-
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) static bool sift_avx2(const Frame *frame, const MesoRasterPoints *points,
-                                                      const uint32_t *corners, uint32_t count, uint16_t *samples)
-{
-    return sift_all(frame, points, corners, count, samples);
-}
-#endif
-
-static bool sift_triangles(const Frame *frame, const MesoRasterPoints *points, const uint32_t *corners,
-                           uint32_t count, uint16_t *samples)
-{
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2"))
-        return sift_avx2(frame, points, corners, count, samples);
-#endif
-    return sift_all(frame, points, corners, count, samples);
-}
+/* Batches that are held at once: two for each thread, but no more than these. */
+enum { MOST_BATCHES = 32 };
 
 /* ---- a shape ---- */
 
@@ -207,18 +26,47 @@ typedef struct Worker {
     uint32_t *numbers;          /* [number_room] of vertices in the batch, + 1; 0: not there yet */
     uint16_t *samples;          /* [triangle_room] */
     uint8_t *seen;              /* [triangle_room] */
+    float nearness[MESO_SIFT_PLACES];
 } Worker;
+
+/* What may be seen in a part: a shape, or a bundle where sweeps are made; and how far away it begins. */
+typedef struct Near {
+    float depth;
+    uint32_t item;
+} Near;
 
 typedef struct Work {
     const MesoRasterJob *job;
     MesoRasterLanes lanes;
-    Frame frame;
     MesoWindow window;
+    bool bundled;               /* items are bundles */
+    uint32_t item_count;
+    const MesoBox *bounds;      /* [item_count] */
+    int32_t slack;
+    uint32_t side;              /* pixels of a part */
+    uint32_t parts_x, parts_y;
+    MesoTileRange *ranges;      /* [item_count] parts that each may be seen in */
+    float *depths;              /* [item_count] */
+    uint64_t *begin;            /* [parts + 1] */
+    Near *near;                 /* by part */
     Worker *workers;
-    MesoSiftBatch *batches;     /* of a round */
-    uint32_t first_bundle;      /* of the round */
-    bool failed;
+    uint32_t batch_count;
+    MesoSiftBatch *batches;     /* that of a part has its number's rest */
+    MesoTakeBatch *take;
+    void *context;
+    MesoStatus status;          /* of `take` */
+    MesoError *error;
+    bool failed;                /* memory is out */
 } Work;
+
+/* The part that a worker has at hand. */
+typedef struct Hand {
+    const Work *work;
+    Worker *worker;
+    MesoSiftBatch *batch;
+    MesoSiftPart part;
+    uint32_t left, top;         /* pixels of the picture */
+} Hand;
 
 static bool grow(void **array, uint64_t count, size_t size)
 {
@@ -250,8 +98,10 @@ static bool make_room(Worker *w)
 }
 
 /* Which samples see each triangle of the mesh: all, where some of it lies behind the near plane. */
-static bool look_at_mesh(const Work *work, Worker *w)
+static bool look_at_mesh(const Hand *hand)
 {
+    const Work *work = hand->work;
+    Worker *w = hand->worker;
     const MesoShapeMesh *mesh = &w->mesh;
     uint32_t count = mesh->vertex_count;
     float *x = w->coordinates, *y = x + count, *z = y + count;
@@ -260,10 +110,10 @@ static bool look_at_mesh(const Work *work, Worker *w)
         y[v] = mesh->vertices[v].position.y;
         z[v] = mesh->vertices[v].position.z;
     }
-    bool before = meso_raster_project(&work->job->view, x, y, z, count, (float)work->window.x, (float)work->window.y,
+    bool before = meso_raster_project(&work->job->view, x, y, z, count, (float)hand->left, (float)hand->top,
                                       &w->projected);
     if (before)
-        return sift_triangles(&work->frame, &w->projected, mesh->corners, mesh->triangle_count, w->samples);
+        return meso_sift_triangles(&hand->part, &w->projected, mesh->corners, mesh->triangle_count, w->samples);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         w->samples[t] = (uint16_t)((1u << work->lanes.samples) - 1);
     return true;
@@ -327,88 +177,178 @@ static void put_mesh(MesoSiftBatch *batch, Worker *w, uint32_t shape)
     }
 }
 
-/* False where memory is out. */
-static bool add_shape(const Work *work, Worker *w, MesoSiftBatch *batch, uint32_t i)
+/* Whether nothing in the rectangle, of the picture, is seen. */
+static bool is_hidden(const Hand *hand, MesoRasterRect rect)
 {
-    const MesoRasterJob *job = work->job;
+    float left = (float)hand->left, top = (float)hand->top;
+    rect.left -= left;
+    rect.right -= left;
+    rect.top -= top;
+    rect.bottom -= top;
+    return meso_sift_hides(&hand->part, &rect);
+}
+
+/* Shape `i` of the worker's bundle; false where memory is out. */
+static bool add_shape(const Hand *hand, uint32_t i)
+{
+    const MesoRasterJob *job = hand->work->job;
+    Worker *w = hand->worker;
     uint32_t shape = w->bundle.shapes[i];
     float depth = meso_raster_rect(&job->view, &w->bundle.bounds[i]).depth;
     float tolerance = job->tolerance * meso_raster_pixel(&job->view, depth);
     if (!meso_shape_make_bundled(job->shapes, &w->bundle, i, tolerance, MESO_SHAPE_SEEN, &w->mesh) || !make_room(w))
         return false;
-    if (!look_at_mesh(work, w))
+    if (!look_at_mesh(hand))
         return true;
     for (uint32_t t = 0; t < w->mesh.triangle_count; t++)
         w->seen[t] = w->samples[t] != 0;
     if (!meso_shape_make_seen(job->shapes, shape, tolerance, w->seen, &w->mesh) ||
-        !make_batch_room(batch, w, work->lanes.samples))
+        !make_batch_room(hand->batch, w, hand->work->lanes.samples))
         return false;
-    put_mesh(batch, w, shape);
+    put_mesh(hand->batch, w, shape);
     return true;
+}
+
+/* ---- a part ---- */
+
+/* By their numbers where they are as far: the same order for any number of threads. */
+static int by_depth(const void *a, const void *b)
+{
+    const Near *x = a, *y = b;
+    if (x->depth != y->depth)
+        return x->depth < y->depth ? -1 : 1;
+    return x->item < y->item ? -1 : x->item > y->item;
+}
+
+/* A bundle, or one shape as one. */
+static bool add_item(const Hand *hand, uint32_t item)
+{
+    const Work *work = hand->work;
+    const MesoRasterJob *job = work->job;
+    MesoShapeBundle *bundle = &hand->worker->bundle;
+    if (is_hidden(hand, meso_raster_rect(&job->view, &work->bounds[item])))
+        return true;
+    if (!work->bundled) {
+        bundle->count = 1;
+        bundle->made = false;
+        bundle->shapes[0] = item;
+        bundle->bounds[0] = work->bounds[item];
+        return add_shape(hand, 0);
+    }
+    meso_shape_bundle(job->shapes, item, bundle);
+    for (uint32_t i = 0; i < bundle->count; i++)
+        if (!is_hidden(hand, meso_shape_rect(job->shapes, bundle, i, &job->view)) && !add_shape(hand, i))
+            return false;
+    return true;
+}
+
+/* From the nearest to the farthest. */
+static void make_part(void *context, uint32_t worker, uint64_t number)
+{
+    Work *work = context;
+    Worker *w = &work->workers[worker];
+    uint32_t x = (uint32_t)(number % work->parts_x) * work->side, y = (uint32_t)(number / work->parts_x) * work->side;
+    uint32_t wide = work->window.width - x, high = work->window.height - y;
+    const MesoRasterView *view = &work->job->view;
+    const Hand hand = {
+        .work = work, .worker = w, .batch = &work->batches[number % work->batch_count],
+        .left = work->window.x + x, .top = work->window.y + y,
+        .part = {.lanes = &work->lanes, .wide = (int32_t)(wide < work->side ? wide : work->side),
+                 .high = (int32_t)(high < work->side ? high : work->side), .parallel = view->parallel,
+                 .focal = view->focal, .cut = view->parallel ? -view->near_depth : INFINITY, .slack = work->slack,
+                 .nearness = w->nearness}};
+    uint64_t begin = work->begin[number], end = work->begin[number + 1];
+    hand.batch->vertex_count = 0;
+    memset(hand.batch->index_counts, 0, sizeof hand.batch->index_counts);
+    meso_sift_clear(&hand.part);
+    qsort(work->near + begin, end - begin, sizeof *work->near, by_depth);
+    for (uint64_t i = begin; i < end; i++)
+        if (!add_item(&hand, work->near[i].item))
+            __atomic_store_n(&work->failed, true, __ATOMIC_RELAXED);
+}
+
+static bool take_part(void *context, uint64_t number)
+{
+    Work *work = context;
+    const MesoSiftBatch *batch = &work->batches[number % work->batch_count];
+    if (__atomic_load_n(&work->failed, __ATOMIC_RELAXED))
+        return false;
+    if (batch->vertex_count)
+        work->status = work->take(work->context, batch, work->error);
+    return work->status == MESO_OK;
 }
 
 /* ---- all of them ---- */
 
-/* Bundles of a batch, and batches that are held at once: two for each thread, but no more than these. */
-enum { BATCH_BUNDLES = 16, MOST_BATCHES = 32 };
-
-/* Whether some sample of the window may lie in the rectangle. */
-static bool reaches(const Work *work, const MesoRasterRect *r)
+static uint16_t part_at(float pixel, uint32_t side, uint32_t parts)
 {
-    const MesoWindow *w = &work->window;
-    return r->right > (float)w->x && r->bottom > (float)w->y && r->left < (float)(w->x + w->width) &&
-           r->top < (float)(w->y + w->height);
+    float part = floorf(pixel / (float)side);
+    return part > 0 ? part < (float)(parts - 1) ? (uint16_t)part : (uint16_t)(parts - 1) : 0;
 }
 
-static bool add_bundle(const Work *work, Worker *w, MesoSiftBatch *batch, uint32_t bundle)
-{
-    const MesoShapes *shapes = work->job->shapes;
-    const MesoRasterView *view = &work->job->view;
-    if (shapes->bundle_bounds) {
-        MesoRasterRect rect = meso_raster_rect(view, &shapes->bundle_bounds[bundle]);
-        if (!reaches(work, &rect))
-            return true;
-    }
-    meso_shape_bundle(shapes, bundle, &w->bundle);
-    for (uint32_t i = 0; i < w->bundle.count; i++) {
-        MesoRasterRect rect = meso_shape_rect(shapes, &w->bundle, i, view);
-        if (reaches(work, &rect) && !add_shape(work, w, batch, i))
-            return false;
-    }
-    return true;
-}
-
-static void fill_batches(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+static void find_ranges(void *context, uint64_t begin, uint64_t end)
 {
     Work *work = context;
-    for (uint64_t k = begin; k < end; k++) {
-        MesoSiftBatch *batch = &work->batches[k];
-        uint64_t first = work->first_bundle + k * BATCH_BUNDLES, count = work->job->shapes->bundle_count;
-        batch->vertex_count = 0;
-        memset(batch->index_counts, 0, sizeof batch->index_counts);
-        for (uint64_t b = first; b < first + BATCH_BUNDLES && b < count; b++)
-            if (!add_bundle(work, &work->workers[worker], batch, (uint32_t)b))
-                __atomic_store_n(&work->failed, true, __ATOMIC_RELAXED);
+    float left = (float)work->window.x, top = (float)work->window.y;
+    float width = (float)work->window.width, height = (float)work->window.height;
+    for (uint64_t i = begin; i < end; i++) {
+        MesoRasterRect r = meso_raster_rect(&work->job->view, &work->bounds[i]);
+        work->depths[i] = r.depth;
+        work->ranges[i] = (MesoTileRange){1, 0, 0, 0};
+        if (r.right > left && r.bottom > top && r.left < left + width && r.top < top + height)
+            work->ranges[i] = (MesoTileRange){part_at(r.left - left, work->side, work->parts_x),
+                                              part_at(r.top - top, work->side, work->parts_y),
+                                              part_at(r.right - left, work->side, work->parts_x),
+                                              part_at(r.bottom - top, work->side, work->parts_y)};
     }
 }
 
-static MesoStatus sift_rounds(Work *work, uint32_t workers, uint32_t batches, MesoTakeBatch *take, void *context,
-                              MesoError *error)
+/* What each part may show, by its number. */
+static MesoStatus sort_items(Work *work, MesoArena *arena, MesoError *error)
 {
-    MesoStatus status = MESO_OK;
-    uint64_t bundles = work->job->shapes->bundle_count, round = (uint64_t)batches * BATCH_BUNDLES;
-    for (uint64_t first = 0; first < bundles && !status; first += round) {
-        uint64_t left = (bundles - first + BATCH_BUNDLES - 1) / BATCH_BUNDLES;
-        uint32_t count = left < batches ? (uint32_t)left : batches;
-        work->first_bundle = (uint32_t)first;
-        meso_parallel_team(workers, count, 1, fill_batches, work);
-        if (work->failed)
-            return meso_fail(error, MESO_ERR_MEMORY, "out of memory for drawing");
-        for (uint32_t k = 0; k < count && !status; k++)
-            if (work->batches[k].vertex_count)
-                status = take(context, &work->batches[k], error);
-    }
-    return status;
+    uint32_t parts = work->parts_x * work->parts_y;
+    for (uint32_t i = 0; i < work->item_count; i++)
+        for (uint32_t y = work->ranges[i].top; y <= work->ranges[i].bottom; y++)
+            for (uint32_t x = work->ranges[i].left; x <= work->ranges[i].right; x++)
+                work->begin[y * work->parts_x + x + 1]++;
+    for (uint32_t p = 0; p < parts; p++)
+        work->begin[p + 1] += work->begin[p];
+    work->near = MESO_NEW(arena, Near, work->begin[parts], error);
+    uint64_t *next = MESO_NEW(arena, uint64_t, parts, error);
+    if (!work->near || !next)
+        return MESO_ERR_MEMORY;
+    memcpy(next, work->begin, parts * sizeof *next);
+    for (uint32_t i = 0; i < work->item_count; i++)
+        for (uint32_t y = work->ranges[i].top; y <= work->ranges[i].bottom; y++)
+            for (uint32_t x = work->ranges[i].left; x <= work->ranges[i].right; x++)
+                work->near[next[y * work->parts_x + x]++] = (Near){work->depths[i], i};
+    return MESO_OK;
+}
+
+static MesoStatus divide(Work *work, MesoArena *arena, uint32_t thread_count, MesoError *error)
+{
+    const MesoShapes *shapes = work->job->shapes;
+    work->bundled = shapes->made > 0;
+    work->item_count = work->bundled ? shapes->bundle_count : shapes->count;
+    work->bounds = work->bundled ? shapes->bundle_bounds : shapes->bounds;
+    work->side = meso_sift_side(work->job->samples);
+    work->parts_x = (work->window.width + work->side - 1) / work->side;
+    work->parts_y = (work->window.height + work->side - 1) / work->side;
+    work->ranges = MESO_NEW(arena, MesoTileRange, work->item_count, error);
+    work->depths = MESO_NEW(arena, float, work->item_count, error);
+    work->begin = MESO_NEW(arena, uint64_t, (uint64_t)work->parts_x * work->parts_y + 1, error);
+    if (!work->ranges || !work->depths || !work->begin)
+        return MESO_ERR_MEMORY;
+    meso_parallel_for(thread_count, work->item_count, 4096, find_ranges, work);
+    return sort_items(work, arena, error);
+}
+
+static MesoStatus sift_parts(Work *work, uint32_t workers)
+{
+    const MesoPipeline pipeline = {(uint64_t)work->parts_x * work->parts_y, work->batch_count, work, make_part,
+                                   take_part};
+    meso_pipeline_run(&pipeline, workers);
+    return work->failed ? meso_fail(work->error, MESO_ERR_MEMORY, "out of memory for drawing") : work->status;
 }
 
 static void release_worker(Worker *w)
@@ -430,27 +370,29 @@ static void release_batch(MesoSiftBatch *batch)
         free(batch->indices[i]);
 }
 
-MesoStatus meso_sift(const MesoRasterJob *job, MesoWindow window, uint32_t thread_count, MesoTakeBatch *take,
-                     void *context, MesoError *error)
+MesoStatus meso_sift(const MesoRasterJob *job, MesoWindow window, uint32_t bits, uint32_t thread_count,
+                     MesoTakeBatch *take, void *context, MesoError *error)
 {
-    Work work = {.job = job, .lanes = meso_raster_lanes(job->samples), .window = window};
-    int32_t pixels = (int32_t)work.lanes.pixels;
-    int32_t wide = (int32_t)window.width, high = (int32_t)window.height;
-    work.frame = (Frame){&work.lanes, wide, high, (wide + pixels - 1) / pixels, (high + pixels - 1) / pixels,
-                         __builtin_ctz((unsigned)work.lanes.cell)};
+    Work work = {.job = job, .lanes = meso_raster_lanes(job->samples), .window = window,
+                 .slack = meso_sift_slack(bits), .take = take, .context = context, .error = error};
     uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
-    uint32_t batches = 2 * (uint64_t)workers < MOST_BATCHES ? 2 * workers : MOST_BATCHES;
-    workers = workers < batches ? workers : batches;
+    MesoArena arena;
+    meso_arena_init(&arena);
+    work.batch_count = 2 * (uint64_t)workers < MOST_BATCHES ? 2 * workers : MOST_BATCHES;
+    workers = workers < work.batch_count ? workers : work.batch_count;
     work.workers = calloc(workers, sizeof *work.workers);
-    work.batches = calloc(batches, sizeof *work.batches);
+    work.batches = calloc(work.batch_count, sizeof *work.batches);
     MesoStatus status = work.workers && work.batches
-        ? sift_rounds(&work, workers, batches, take, context, error)
+        ? divide(&work, &arena, thread_count, error)
         : meso_fail(error, MESO_ERR_MEMORY, "out of memory for drawing");
+    if (!status)
+        status = sift_parts(&work, workers);
     for (uint32_t i = 0; work.workers && i < workers; i++)
         release_worker(&work.workers[i]);
-    for (uint32_t i = 0; work.batches && i < batches; i++)
+    for (uint32_t i = 0; work.batches && i < work.batch_count; i++)
         release_batch(&work.batches[i]);
     free(work.workers);
     free(work.batches);
+    meso_arena_release(&arena);
     return status;
 }
