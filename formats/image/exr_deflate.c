@@ -36,38 +36,39 @@ static void take_differences(unsigned char *bytes, size_t size)
 static unsigned char *make_room(exr_encode_pipeline_t *pipeline, size_t size)
 {
     if (pipeline->compressed_alloc_size < size) {
-        void *grown = realloc(pipeline->compressed_buffer, size);
+        void *grown = malloc(size);
         if (!grown)
             return NULL;
+        free(pipeline->compressed_buffer);
         pipeline->compressed_buffer = grown;
         pipeline->compressed_alloc_size = size;
     }
     return pipeline->compressed_buffer;
 }
 
+/* Pipelines wait for their turn to be written, with no more memory than what they have takes. */
 static exr_result_t compress(exr_encode_pipeline_t *pipeline)
 {
     MesoExrRoom *room = pipeline->encoding_user_data;
-    size_t size = pipeline->packed_bytes, bound = meso_quick_deflate_bound(size);
-    unsigned char *out = make_room(pipeline, bound);
-    if (!out)
-        return EXR_ERR_OUT_OF_MEMORY;
+    size_t size = pipeline->packed_bytes;
     assert(size <= room->size);
     split_bytes(room->split, pipeline->packed_buffer, size);
     take_differences(room->split, size);
-    size_t packed = meso_quick_deflate(room->scratch, room->split, size, out);
-    if (packed >= size) {
-        memcpy(out, pipeline->packed_buffer, size);
-        packed = size;
-    }
-    pipeline->compressed_bytes = packed;
+    size_t whole = meso_quick_deflate(room->scratch, room->split, size, room->stream);
+    bool smaller = whole < size;
+    pipeline->compressed_bytes = smaller ? whole : size;
+    unsigned char *out = make_room(pipeline, pipeline->compressed_bytes);
+    if (!out)
+        return EXR_ERR_OUT_OF_MEMORY;
+    memcpy(out, smaller ? room->stream : pipeline->packed_buffer, pipeline->compressed_bytes);
     return EXR_ERR_SUCCESS;
 }
 
 bool meso_exr_room_init(MesoExrRoom *room, MesoArena *arena, size_t size)
 {
-    unsigned char *bytes = MESO_NEW(arena, unsigned char, 2 * size, NULL);
+    unsigned char *bytes = MESO_NEW(arena, unsigned char, 2 * size + meso_quick_deflate_bound(size), NULL);
     *room = (MesoExrRoom){.size = size, .packed = bytes, .split = bytes ? bytes + size : NULL,
+                          .stream = bytes ? bytes + 2 * size : NULL,
                           .scratch = MESO_NEW(arena, MesoQuickDeflate, 1, NULL)};
     return bytes && room->scratch;
 }

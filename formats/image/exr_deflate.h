@@ -12,6 +12,7 @@ struct MesoQuickDeflate;
 typedef struct MesoExrRoom {
     size_t size;                /* bytes of a chunk, at most */
     unsigned char *packed, *split;      /* [size] */
+    unsigned char *stream;      /* what is compressed, until it is known how long it is */
     struct MesoQuickDeflate *scratch;
 } MesoExrRoom;
 
