@@ -1,4 +1,4 @@
-/* Prefix codes of DEFLATE (RFC 1951, 3.2): lengths of a code by how often its symbols come, and bits one after another. */
+/* Prefix codes of DEFLATE (RFC 1951, 3.2), by how often their symbols come; and bits one after another. */
 #ifndef MESO_PREFIX_CODE_H
 #define MESO_PREFIX_CODE_H
 
@@ -15,9 +15,9 @@ typedef struct MesoPrefixCode {
 } MesoPrefixCode;
 
 /*
- * The best code, but for the limit: Huffman's, whose lengths are cut to `longest` (15 at most) and evened out until the
- * code is complete again. counts [symbol_count], whose sum is below 2^24: how often each comes; where fewer than two do,
- * others stand in, as decoders want a complete code. 2^longest >= symbol_count.
+ * The best code, but for the limit: Huffman's, whose lengths are cut to `longest` (15 at most) and evened out until
+ * the code is complete again. counts [symbol_count], whose sum is below 2^24: how often each comes; where fewer than
+ * two do, others stand in, as decoders want a complete code. 2^longest >= symbol_count. O(symbols).
  */
 void meso_prefix_code(MesoPrefixCode *code, const uint32_t *counts, uint32_t symbol_count, uint32_t longest);
 

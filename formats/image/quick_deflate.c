@@ -9,7 +9,7 @@
 enum {
     FARTHEST = 32768, LEAST_MATCH = 4, LONGEST_MATCH = 258,
     BLOCK_SYMBOLS = 1 << 14,        /* literals and matches of a block, whose code fits them */
-    SKIP = 32,                      /* after so many places from which on nothing came again, every other is looked at */
+    SKIP = 32,                      /* after so many places from which on nothing comes again, fewer are looked at */
     END_OF_BLOCK = 256, LITERAL_CODES = 286, DISTANCE_CODES = 30, RUN_CODES = 19, RUN_LENGTH = 7,
     MOST_STORED = 65535, STORED_HEAD = 5, SPARE = 16
 };

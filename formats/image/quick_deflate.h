@@ -1,7 +1,7 @@
 /*
  * Bytes to a zlib stream (RFC 1950, 1951), quickly: for pictures, most of whose bytes are long runs and most of the
- * others noise. What comes again is looked for where the four bytes that it begins with came last, and nowhere else, and
- * of what lies in a match only the last place is noted.
+ * others noise. What comes again is looked for where the four bytes that it begins with came last, and nowhere else;
+ * of what lies in a match only the last place is noted, and after long noise fewer and fewer places are looked at.
  */
 #ifndef MESO_QUICK_DEFLATE_H
 #define MESO_QUICK_DEFLATE_H
