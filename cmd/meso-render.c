@@ -220,7 +220,7 @@ static MesoStatus draw_apart(Work *work, Drawing *d, MesoArena *arena, const Mes
  */
 static uint32_t choose_rows(const MesoRenderArguments *a, const MesoScene *scene, const MesoRenderOptions *options)
 {
-    uint32_t most = meso_paint_band_rows(scene, options), low = options->samples > 4 ? 128 : 256;
+    uint32_t most = meso_paint_band_rows(scene, options), low = options->samples > 4 ? 64 : 256;
     bool looked_through = options->find_covered || options->extras & MESO_EXTRA_MATTES;
     return a->band_rows || looked_through || most <= low ? a->band_rows : low;
 }

@@ -4,10 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <libdeflate.h>
-
-/* Levels 2 to 4 take two thirds longer, and make pictures no smaller. */
-enum { LEVEL = 1 };
+#include "formats/image/quick_deflate.h"
 
 /* The first half of the result are bytes 0, 2, 4, the second 1, 3, 5: those of one worth beside each other. */
 static void split_bytes(unsigned char *out, const unsigned char *in, size_t size)
@@ -39,46 +36,41 @@ static void take_differences(unsigned char *bytes, size_t size)
 static unsigned char *make_room(exr_encode_pipeline_t *pipeline, size_t size)
 {
     if (pipeline->compressed_alloc_size < size) {
-        void *grown = realloc(pipeline->compressed_buffer, size);
+        void *grown = malloc(size);
         if (!grown)
             return NULL;
+        free(pipeline->compressed_buffer);
         pipeline->compressed_buffer = grown;
         pipeline->compressed_alloc_size = size;
     }
     return pipeline->compressed_buffer;
 }
 
+/* Pipelines wait for their turn to be written, with no more memory than what they have takes. */
 static exr_result_t compress(exr_encode_pipeline_t *pipeline)
 {
     MesoExrRoom *room = pipeline->encoding_user_data;
-    size_t size = pipeline->packed_bytes, bound = libdeflate_zlib_compress_bound(room->compressor, size);
-    unsigned char *out = make_room(pipeline, bound > size ? bound : size);
-    if (!out)
-        return EXR_ERR_OUT_OF_MEMORY;
+    size_t size = pipeline->packed_bytes;
     assert(size <= room->size);
     split_bytes(room->split, pipeline->packed_buffer, size);
     take_differences(room->split, size);
-    size_t packed = libdeflate_zlib_compress(room->compressor, room->split, size, out, bound);
-    if (packed == 0 || packed >= size) {
-        memcpy(out, pipeline->packed_buffer, size);
-        packed = size;
-    }
-    pipeline->compressed_bytes = packed;
+    size_t whole = meso_quick_deflate(room->scratch, room->split, size, room->stream);
+    bool smaller = whole < size;
+    pipeline->compressed_bytes = smaller ? whole : size;
+    unsigned char *out = make_room(pipeline, pipeline->compressed_bytes);
+    if (!out)
+        return EXR_ERR_OUT_OF_MEMORY;
+    memcpy(out, smaller ? room->stream : pipeline->packed_buffer, pipeline->compressed_bytes);
     return EXR_ERR_SUCCESS;
 }
 
 bool meso_exr_room_init(MesoExrRoom *room, MesoArena *arena, size_t size)
 {
-    unsigned char *bytes = MESO_NEW(arena, unsigned char, 2 * size, NULL);
+    unsigned char *bytes = MESO_NEW(arena, unsigned char, 2 * size + meso_quick_deflate_bound(size), NULL);
     *room = (MesoExrRoom){.size = size, .packed = bytes, .split = bytes ? bytes + size : NULL,
-                          .compressor = libdeflate_alloc_compressor(LEVEL)};
-    return bytes && room->compressor;
-}
-
-void meso_exr_room_release(MesoExrRoom *room)
-{
-    libdeflate_free_compressor(room->compressor);
-    *room = (MesoExrRoom){0};
+                          .stream = bytes ? bytes + 2 * size : NULL,
+                          .scratch = MESO_NEW(arena, MesoQuickDeflate, 1, NULL)};
+    return bytes && room->scratch;
 }
 
 exr_result_t meso_exr_deflate(exr_const_context_t context, int part, exr_encode_pipeline_t *pipeline,

@@ -122,14 +122,41 @@ static MesoVec3 curve_point(const MesoVec3 p[4], float t)
     return meso_vec3_lerp(meso_vec3_lerp(a, b, t), meso_vec3_lerp(b, c, t), t);
 }
 
+static float sum_of_sides(MesoVec3 a)
+{
+    return fabsf(a.x) + fabsf(a.y) + fabsf(a.z);
+}
+
+/*
+ * Whether a ball around a sweep's first point that holds all of it reaches nowhere that nothing has reached yet, with
+ * more to spare than what rounding adds: most are soon done with. Not where any number is not finite.
+ */
+static bool is_within(const Frame *f, const MesoSweepInstance *sweep, float radius)
+{
+    MesoVec3 place = meso_vec3_sub(sweep->p[0], f->anchor);
+    float reach = 0, sum = 0;
+    for (uint32_t k = 1; k < 4; k++) {
+        float away = sum_of_sides(meso_vec3_sub(sweep->p[k], sweep->p[0]));
+        reach = larger(reach, away);
+        sum += away;
+    }
+    reach += radius;
+    reach += 1e-5f * (sum_of_sides(place) + reach);
+    float x = meso_vec3_dot(place, f->right), y = meso_vec3_dot(place, f->up), z = meso_vec3_dot(place, f->back);
+    float wide = f->tan_x * z + f->pad_x * reach, high = f->tan_y * z + f->pad_y * reach;
+    return isfinite(sum + x + y + z + radius) && wide + x <= f->right_most && wide - x <= f->left_most &&
+           high + y <= f->high_most && high - y <= f->low_most && z + reach <= f->nearest && z - reach >= f->deepest;
+}
+
 /* One whose section keeps its shape. */
 static void add_sweep(Frame *frame, const MesoScene *scene, const MesoSweptKind *kind, const MesoSweepInstance *sweep,
                       float radius)
 {
     if (kind->cap)
         add_ball(frame, sweep->p[0], fmaxf(radius, MESO_CAP_RISE * sweep->size[0] * scene->section_scale));
-    for (uint32_t k = 0; k <= 4 && !kind->cap; k++)
-        add_ball(frame, curve_point(sweep->p, (float)k / 4), radius);
+    else if (!is_within(frame, sweep, radius))
+        for (uint32_t k = 0; k <= 4; k++)
+            add_ball(frame, curve_point(sweep->p, (float)k / 4), radius);
 }
 
 static void add_kind(Frame *frame, const MesoScene *scene, const MesoSweptKind *kind)

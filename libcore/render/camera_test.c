@@ -152,6 +152,36 @@ static void test_parallel(MesoVec3 low, MesoVec3 high, MesoVec3 up, uint32_t wid
     CHECK(meso_camera_fit_height(&scene, &camera, (float)width / (float)height) > 1.2f * camera.height);
 }
 
+/* The same camera to the last bit, in whatever order sweeps come: those that are passed over reach nowhere new. */
+static void test_order_of_sweeps(float stretch)
+{
+    enum { COUNT = 500 };
+    static MesoSweepInstance sweeps[COUNT], backwards[COUNT];
+    MesoSweptKind kind = {.instance_count = COUNT};
+    MesoScene scene = {.section_scale = 1, .kind_count = 1, .kinds = &kind, .sweep_count = COUNT, .sweeps = sweeps};
+    uint32_t state = 7;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        float at[3];
+        for (uint32_t k = 0; k < 12; k++) {
+            state = state * 1664525u + 1013904223u;
+            float along = (float)(state >> 8) / 16777216 - 0.5f;
+            at[k % 3] = k < 3 ? 100 * along : at[k % 3] + stretch * along;
+            (&sweeps[i].p[k / 3].x)[k % 3] = at[k % 3];
+        }
+        sweeps[i].p[3].y = i == 250 ? NAN : sweeps[i].p[3].y;
+        backwards[COUNT - 1 - i] = sweeps[i];
+    }
+    scene.box = (MesoBox){{-60, -60, -60}, {60, 60, 60}};
+    MesoCamera camera = meso_camera_frame_scene(&scene, (MesoVec3){0, 1, 0}, 30, 1.5f);
+    MesoCamera level = meso_camera_frame_scene_parallel(&scene, (MesoVec3){0, 1, 0}, 1.5f);
+    scene.sweeps = backwards;
+    MesoCamera again = meso_camera_frame_scene(&scene, (MesoVec3){0, 1, 0}, 30, 1.5f);
+    MesoCamera level_again = meso_camera_frame_scene_parallel(&scene, (MesoVec3){0, 1, 0}, 1.5f);
+    CHECK(meso_vec3_length(meso_vec3_sub(camera.eye, again.eye)) == 0 && camera.eye.z > 100);
+    CHECK(meso_vec3_length(meso_vec3_sub(camera.target, again.target)) == 0);
+    CHECK(level.height == level_again.height && level.height > 100);
+}
+
 static void test_lenses(void)
 {
     CHECK(fabsf(meso_camera_fov(50, 36, 1.5f) - 26.991f) < 1e-2f);     /* 35 mm film: 24 mm high */
@@ -173,6 +203,9 @@ int main(void)
     test_parallel((MesoVec3){-1, -1, -1}, (MesoVec3){1, 1, 1}, y, 1280, 720);
     test_parallel((MesoVec3){10, 0, 5}, (MesoVec3){12, 9, 6}, y, 720, 1280);
     test_parallel((MesoVec3){1e5f, -2e5f, 0}, (MesoVec3){1e5f + 4, -2e5f + 3, 2}, z, 500, 500);
+    test_order_of_sweeps(1);
+    test_order_of_sweeps(20);
+    test_order_of_sweeps(300);
     test_lenses();
     return 0;
 }

@@ -15,8 +15,8 @@
  */
 enum { RANGE = MESO_SHAPE_BUNDLE, BATCH = 20, MOST = 12 };       /* shapes, ranges, shapes */
 
-/* Elements that an array begins with: all that most ranges have. */
-enum { LEAST_ROOM = 16384 };
+/* Elements that an array begins with: all that half of the ranges have. */
+enum { LEAST_ROOM = 4096 };
 
 /* What a shape has in its range. */
 typedef struct Piece {

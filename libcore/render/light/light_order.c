@@ -81,11 +81,6 @@ static Span span_of(float low, float high, uint32_t size)
     return last >= first ? (Span){(int32_t)first, (int32_t)last} : (Span){0, -1};
 }
 
-static size_t texel_at(uint32_t size, int32_t x, int32_t y)
-{
-    return MESO_RASTER_LANES * ((size_t)(y / 4) * (size / 4) + (size_t)(x / 4)) + (size_t)(y % 4 * 4 + x % 4);
-}
-
 bool meso_light_map_hides(const MesoLightMap *map, uint32_t size, const MesoRasterRect *rect)
 {
     enum { MOST = 256 };                /* texels: of more, one is soon seen */
@@ -97,10 +92,12 @@ bool meso_light_map_hides(const MesoLightMap *map, uint32_t size, const MesoRast
     /* What stands for thin shapes is drawn nearer by up to half a texel (shape_columns.h); what triangles are nearer
      * than their corners by rounding is far less than the rest. */
     float nearest = 0.51f / map->view.focal - rect->depth;
-    for (int32_t py = y.first; py <= y.last; py++)
+    for (int32_t py = y.first; py <= y.last; py++) {
+        const float *row = map->nearness + (size_t)(py >> 2) * 4 * size + 4 * (py & 3);     /* of cells of 4 x 4 */
         for (int32_t px = x.first; px <= x.last; px++)
-            if (!(map->nearness[texel_at(size, px, py)] > nearest))
+            if (!(row[(px >> 2) * MESO_RASTER_LANES + (px & 3)] > nearest))
                 return false;
+    }
     return true;
 }
 

@@ -1,5 +1,7 @@
 #include "libcore/render/picture/painter.h"
 
+#include <string.h>
+
 #include "libcore/base/parallel.h"
 #include "libcore/render/gl/gl_visibility.h"
 #include "libcore/render/light/ground_shadow.h"
@@ -206,25 +208,25 @@ static void note_things(const Picture *p, const MesoSurfaceSample *sample, uint3
                      : sample->along < 0.5f ? look.start_material : look.end_material;
 }
 
-static void put_nothing(MesoImage *image, size_t pixel)
+/* The variables of pixels that follow one another. */
+static inline void put_nothing(MesoImage *image, size_t pixel, size_t count)
 {
-    image->depth[pixel] = INFINITY;
-    for (size_t c = 0; c < 3; c++)
-        image->normal[3 * pixel + c] = image->albedo[3 * pixel + c] = 0;
+    for (size_t i = 0; i < count; i++)
+        image->depth[pixel + i] = INFINITY;
+    memset(image->normal + 3 * pixel, 0, 3 * count * sizeof *image->normal);
+    memset(image->albedo + 3 * pixel, 0, 3 * count * sizeof *image->albedo);
     for (uint32_t c = 0; c < image->channel_count; c++)
-        image->ids[c][pixel] = 0;
-    if (image->openness)
-        image->openness[pixel] = 1;
-    for (size_t c = 0; image->position && c < 3; c++)
-        image->position[3 * pixel + c] = 0;
-    for (size_t c = 0; c < 2; c++) {
-        if (image->uv)
-            image->uv[2 * pixel + c] = 0;
-        if (image->material)
-            image->material[2 * pixel + c] = 0;
-        if (image->motion)
-            image->motion[2 * pixel + c] = 0;
-    }
+        memset(image->ids[c] + pixel, 0, count * sizeof *image->ids[c]);
+    for (size_t i = 0; image->openness && i < count; i++)
+        image->openness[pixel + i] = 1;
+    if (image->position)
+        memset(image->position + 3 * pixel, 0, 3 * count * sizeof *image->position);
+    if (image->uv)
+        memset(image->uv + 2 * pixel, 0, 2 * count * sizeof *image->uv);
+    if (image->material)
+        memset(image->material + 2 * pixel, 0, 2 * count * sizeof *image->material);
+    if (image->motion)
+        memset(image->motion + 2 * pixel, 0, 2 * count * sizeof *image->motion);
 }
 
 static void put_mattes(const Picture *p, size_t pixel, uint32_t (*things)[MOST_SAMPLES])
@@ -250,7 +252,7 @@ static void take_pixel(const Picture *p, const Seen *from, uint32_t x, uint32_t 
             first = look_of(p, &sample);
             put_middle(p, &sample, &first, pixel);
         } else if (i == 0) {
-            put_nothing(p->image, pixel);
+            put_nothing(p->image, pixel, 1);
         }
         middle |= i == 0 && there;
         if (p->image->matte_count)
@@ -290,6 +292,21 @@ static void take_things(const Picture *p, const Seen *from, uint32_t x, uint32_t
         shade_ground(p, (float)(window.x + x) + 0.5f, (float)(window.y + y) + 0.5f, 1, color);
 }
 
+/* Row by row, where nothing is and nothing is to be known of that but how it looks. */
+static bool take_nothing(const Picture *p, const MesoWindow *window)
+{
+    if (p->things_only || p->image->matte_count || p->options->ground)
+        return false;
+    for (uint32_t row = window->y; row < window->y + window->height; row++) {
+        if (row < p->first_row || row - p->first_row >= p->image->height)
+            continue;
+        size_t pixel = (size_t)(row - p->first_row) * p->image->width + window->x;
+        memset(p->image->color + 4 * pixel, 0, 4 * (size_t)window->width * sizeof *p->image->color);
+        put_nothing(p->image, pixel, window->width);
+    }
+    return true;
+}
+
 /* Rows [begin, end) of the window, as far as the band has them. */
 static void take_rows(const Picture *p, const Seen *from, uint32_t begin, uint32_t end)
 {
@@ -314,7 +331,8 @@ static bool sample_tile(const Seen *from, uint32_t x, uint32_t y, uint32_t sampl
 static void take_tile(void *context, MesoRasterTile *tile)
 {
     const Seen from = {.window = meso_raster_tile_window(tile), .sample = sample_tile, .tile = tile};
-    take_rows(context, &from, 0, from.window.height);
+    if (!meso_raster_tile_empty(tile) || !take_nothing(context, &from.window))
+        take_rows(context, &from, 0, from.window.height);
 }
 
 /* ---- by GL ---- */

@@ -30,11 +30,12 @@ static Pixels pixels_of(const MesoWindow *w, bool middles, const MesoRasterRect 
                     last_pixel(right, w->x, w->width), last_pixel(bottom, w->y, w->height)};
 }
 
-static bool is_covered(const MesoRasterTarget *target, uint32_t x, uint32_t y, float nearest)
+/* The samples of a pixel. Cells have a power of two of pixels a side, whose exponent is `shift`. */
+static inline bool is_covered(const MesoRasterTarget *target, uint32_t x, uint32_t y, uint32_t shift, float nearest)
 {
     const MesoRasterLanes *lanes = target->lanes;
-    uint32_t lane = ((y % lanes->pixels) * lanes->pixels + x % lanes->pixels) * lanes->samples;
-    size_t cell = (size_t)(y / lanes->pixels) * (size_t)target->cells_x + x / lanes->pixels;
+    uint32_t mask = lanes->pixels - 1, lane = (((y & mask) << shift) + (x & mask)) * lanes->samples;
+    size_t cell = (size_t)(y >> shift) * (size_t)target->cells_x + (x >> shift);
     const float *there = target->nearness + MESO_RASTER_LANES * cell + lane;
     for (uint32_t i = 0; i < lanes->samples; i++)
         if (!(there[i] > nearest))
@@ -52,10 +53,11 @@ bool meso_raster_hides(const MesoRasterTarget *target, const MesoWindow *window,
     if ((p.right - p.left + 1) * (p.bottom - p.top + 1) > MOST_PIXELS || !(rect->depth > view->near_depth))
         return false;
     /* What triangles are nearer than their corners by rounding is far less. */
+    uint32_t shift = (uint32_t)__builtin_ctz(target->lanes->pixels);
     float nearest = view->parallel ? 0.01f / view->focal - rect->depth : 1.00001f / rect->depth;
     for (int32_t y = p.top; y <= p.bottom; y++)
         for (int32_t x = p.left; x <= p.right; x++)
-            if (!is_covered(target, (uint32_t)x, (uint32_t)y, nearest))
+            if (!is_covered(target, (uint32_t)x, (uint32_t)y, shift, nearest))
                 return false;
     return true;
 }

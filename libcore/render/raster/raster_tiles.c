@@ -468,20 +468,47 @@ static void look_at(const MesoRasterView *view, const SeenTriangle *seen, float 
     }
 }
 
+/* Number of the triangle that a sample shows, or 0. */
+static uint32_t number_at(const MesoRasterTile *tile, uint32_t x, uint32_t y, uint32_t lane)
+{
+    uint32_t pixels = tile->bins->lanes.pixels;
+    return tile->ids[(size_t)LANES * (y / pixels * CELLS + x / pixels) + lane];
+}
+
+static uint32_t lane_of(const MesoRasterLanes *lanes, uint32_t x, uint32_t y, uint32_t sample)
+{
+    return ((y % lanes->pixels) * lanes->pixels + x % lanes->pixels) * lanes->samples + sample;
+}
+
+/* Triangles that are seen beside each other are anywhere: what will be looked at is on its way before that. */
+static void look_ahead(const MesoRasterTile *tile, uint32_t x, uint32_t y)
+{
+    enum { AHEAD = 4, LINE = 64 };
+    if (x + AHEAD >= tile->window.width)
+        return;
+    uint32_t number = number_at(tile, x + AHEAD, y, lane_of(&tile->bins->lanes, x + AHEAD, y, 0));
+    const unsigned char *seen = (const unsigned char *)&tile->seen[number ? number - 1 : 0];
+    __builtin_prefetch(seen);
+    __builtin_prefetch(seen + LINE);
+}
+
 bool meso_raster_tile_sample(MesoRasterTile *tile, uint32_t x, uint32_t y, uint32_t sample, MesoSurfaceSample *out)
 {
     const MesoRasterLanes *lanes = &tile->bins->lanes;
-    uint32_t cx = x / lanes->pixels, cy = y / lanes->pixels;
-    uint32_t lane = ((y % lanes->pixels) * lanes->pixels + x % lanes->pixels) * lanes->samples + sample;
-    uint32_t number = tile->drawn ? tile->ids[(size_t)LANES * (cy * CELLS + cx) + lane] : 0;
+    if (!tile->drawn)
+        return false;
+    if (sample == 0)
+        look_ahead(tile, x, y);
+    uint32_t lane = lane_of(lanes, x, y, sample), number = number_at(tile, x, y, lane);
     if (number == 0)
         return false;
     const SeenTriangle *seen = &tile->seen[number - 1];
     out->shape = seen->shape;
     out->triangle = seen->triangle;
     const float unit = 1.f / MESO_RASTER_UNIT, cell = (float)lanes->pixels;
-    look_at(&tile->bins->job.view, seen, (float)tile->window.x + (float)cx * cell + (float)lanes->x[lane] * unit,
-            (float)tile->window.y + (float)cy * cell + (float)lanes->y[lane] * unit, out);
+    float cell_x = (float)(x / lanes->pixels), cell_y = (float)(y / lanes->pixels);
+    look_at(&tile->bins->job.view, seen, (float)tile->window.x + cell_x * cell + (float)lanes->x[lane] * unit,
+            (float)tile->window.y + cell_y * cell + (float)lanes->y[lane] * unit, out);
     return true;
 }
 
