@@ -74,10 +74,8 @@ CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-o
 CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
-# Archives where Debian has some: each shared library takes a start half a millisecond, and Draco's more than one.
-archived  = -Wl,-Bstatic $(1) -Wl,-Bdynamic
-LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf $(call archived,-ldraco) -lmeshoptimizer -lpolyclipping -ldl \
-            -lOpenEXRCore-3_1 $(call archived,-lpng) -lz $(call archived,-ldeflate -ljansson -lxxhash) -lcadical -lm
+LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lmeshoptimizer -lpolyclipping -ldl \
+            -lOpenEXRCore-3_1 -lpng -lz -ldeflate -ljansson -lxxhash -lcadical -lm
 
 SOURCES := $(sort $(shell find libcore formats cmd scripts -name '*.c' -o -name '*.cpp'))
 APART   := %_test.c %_bench.c %_fuzz.c %_reference.c cmd/meso-%.c scripts/%
