@@ -1,4 +1,4 @@
-/* ZIP chunks of OpenEXR by quick_deflate.h, which takes half the time of libdeflate for files 3 or 4 % larger. */
+/* ZIP chunks of OpenEXR by libdeflate, which takes half the time of zlib for files of the same size. */
 #ifndef MESO_EXR_DEFLATE_H
 #define MESO_EXR_DEFLATE_H
 
@@ -6,18 +6,19 @@
 
 #include "libcore/base/arena.h"
 
-struct MesoQuickDeflate;
+struct libdeflate_compressor;
 
 /* What a thread packs and compresses chunks in, one after the other. */
 typedef struct MesoExrRoom {
     size_t size;                /* bytes of a chunk, at most */
     unsigned char *packed, *split;      /* [size] */
     unsigned char *stream;      /* what is compressed, until it is known how long it is */
-    struct MesoQuickDeflate *scratch;
+    struct libdeflate_compressor *compressor;
 } MesoExrRoom;
 
 /* For chunks of up to `size` bytes; its memory is in `arena`, and takes room once it is used. False: out of memory. */
 bool meso_exr_room_init(MesoExrRoom *room, MesoArena *arena, size_t size);
+void meso_exr_room_release(MesoExrRoom *room);
 
 /*
  * Runs a pipeline of the Core library that has all but its compressor, for which `room` stands in: packed bytes go
