@@ -67,7 +67,7 @@ endif
 
 # The same bytes everywhere: no contraction, no reassociation; errno and traps are not looked at.
 FLOATS   := -ffp-contract=off -fno-math-errno -fno-trapping-math
-PACKAGES := draco libpng libdeflate libxxhash jansson openmesh polyclipping zlib
+PACKAGES := draco libpng libdeflate libisal libxxhash jansson openmesh polyclipping zlib
 # psabi: how vectors are handed over, which are only handed to what is inlined (lanes.h).
 WARN     := -Wall -Wextra -Wconversion -Wshadow -Wno-psabi $(WERROR)
 CPPFLAGS := -I. -D_POSIX_C_SOURCE=200809L -MMD -MP $(shell pkg-config --cflags-only-I osmesa $(PACKAGES) 2>/dev/null)
@@ -75,7 +75,7 @@ CFLAGS   := -std=c17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 CXXFLAGS := -std=c++17 $(FLAGS_$(config)) $(FLOATS) -pthread $(WARN)
 LDFLAGS  := $(LINK_$(config)) -pthread -Wl,--as-needed
 LDLIBS   := -lOpenMeshCore -lOpenMeshTools -ltinygltf -ldraco -lmeshoptimizer -lpolyclipping -ldl \
-            -lOpenEXRCore-3_1 -lpng -lz -ldeflate -ljansson -lxxhash -lcadical -lm
+            -lOpenEXRCore-3_1 -lpng -lz -ldeflate -lisal -ljansson -lxxhash -lcadical -lm
 
 SOURCES := $(sort $(shell find libcore formats cmd scripts -name '*.c' -o -name '*.cpp'))
 APART   := %_test.c %_bench.c %_fuzz.c %_reference.c cmd/meso-%.c scripts/%

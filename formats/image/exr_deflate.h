@@ -1,4 +1,7 @@
-/* ZIP chunks of OpenEXR by libdeflate, which takes half the time of zlib for files of the same size. */
+/*
+ * ZIP chunks of OpenEXR by ISA-L, which takes a quarter of the time of libdeflate for files 2 % larger. It writes the
+ * same bytes on every x86 processor since 2008 (with SSE4.2); on others files may differ, and pictures do not.
+ */
 #ifndef MESO_EXR_DEFLATE_H
 #define MESO_EXR_DEFLATE_H
 
@@ -6,19 +9,18 @@
 
 #include "libcore/base/arena.h"
 
-struct libdeflate_compressor;
+struct MesoExrPress;
 
 /* What a thread packs and compresses chunks in, one after the other. */
 typedef struct MesoExrRoom {
     size_t size;                /* bytes of a chunk, at most */
     unsigned char *packed, *split;      /* [size] */
     unsigned char *stream;      /* what is compressed, until it is known how long it is */
-    struct libdeflate_compressor *compressor;
+    struct MesoExrPress *press;
 } MesoExrRoom;
 
 /* For chunks of up to `size` bytes; its memory is in `arena`, and takes room once it is used. False: out of memory. */
 bool meso_exr_room_init(MesoExrRoom *room, MesoArena *arena, size_t size);
-void meso_exr_room_release(MesoExrRoom *room);
 
 /*
  * Runs a pipeline of the Core library that has all but its compressor, for which `room` stands in: packed bytes go

@@ -331,8 +331,6 @@ MesoStatus meso_exr_end(MesoExrWriter *writer, MesoStatus status, MesoError *err
         status = status_of(writer, write_tables(writer), error);
     for (uint32_t i = 0; i < BATCH; i++)
         drop_pipeline(writer, i);
-    for (uint32_t i = 0; i < BATCH; i++)
-        meso_exr_room_release(&writer->rooms[i]);
     /* The library does not know of chunks that it did not write, and takes the file for broken. */
     exr_result_t finished = writer->context ? exr_finish(&writer->context) : EXR_ERR_SUCCESS;
     if (!status && !own)
