@@ -86,7 +86,7 @@ static bool is_over(MesoPartContact *contact, const MesoPartRing *ring, const Me
 }
 
 /* Rings that are looked at side by side: a batch of blocks, whose contacts are put one after the other. */
-enum { BLOCK_RINGS = 256, BLOCKS = 32 };
+enum { BLOCK_RINGS = 256, BLOCKS = 8 };
 
 typedef struct Block {
     uint32_t count, room;
