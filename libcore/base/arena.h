@@ -37,7 +37,7 @@ void meso_arena_release(MesoArena *arena);
 /* Gives all back but one block, so large that the same again finds room in it: for scratch that comes in rounds. */
 void meso_arena_clear(MesoArena *arena);
 
-/* Gives back what it has beyond what is allocated now, as far as that is in large pages; it comes back when it is used. */
+/* Gives back what it has beyond what is allocated now, as far as that is in large pages, until it is used again. */
 void meso_arena_trim(MesoArena *arena);
 
 /*

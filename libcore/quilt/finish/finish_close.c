@@ -345,7 +345,8 @@ static void count_range(void *context, uint32_t worker, uint64_t begin, uint64_t
 }
 
 /* How many half-edges are open in each block, and in all. */
-static MesoStatus count_open(uint64_t *open, Block *blocks, uint32_t block_count, MesoFinishWork *work, MesoError *error)
+static MesoStatus count_open(uint64_t *open, Block *blocks, uint32_t block_count, MesoFinishWork *work,
+                             MesoError *error)
 {
     uint32_t workers = work->options->thread_count ? work->options->thread_count : meso_parallel_cores();
     workers = workers < block_count ? workers : block_count;
