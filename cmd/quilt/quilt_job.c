@@ -153,6 +153,7 @@ static MesoStatus grow(Job *job, MesoQuiltResult *result, MesoQuiltBase *base, u
     MesoQuiltOptions options = options_of(job, seed, base->guide);
     const MesoFinishOptions finish = {.scale = options.scale, .height_scale = options.height_scale,
                                       .offset = options.offset, .thread_count = options.thread_count,
+                                      .spent = meso_quilt_room_used(&result->room),
                                       .overhang = OVERHANG * options.scale * job->swatch.swatch.mean_edge};
     meso_tool_progress_begin(tool, "quilting", "triangles");
     MesoStatus status = meso_quilt_grow(quilt, &result->room.arenas[0], &base->mesh, &job->swatch.swatch, &options,

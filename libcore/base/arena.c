@@ -104,6 +104,16 @@ void meso_arena_clear(MesoArena *arena)
     arena->most = 0;
 }
 
+void meso_arena_trim(MesoArena *arena)
+{
+    MesoArenaBlock *block = arena->head;
+    if (!block || !block->mapped || block->dirty <= block->used)
+        return;
+    size_t behind = (size_t)((unsigned char *)block + block->mapped - (block->data + block->used));
+    size_t kept = block->used + meso_large_drop(block->data + block->used, behind);
+    block->dirty = kept < block->dirty ? kept : block->dirty;
+}
+
 /* Of any content; `stale`: bytes at the front that may not be zero. */
 static unsigned char *take(MesoArena *arena, size_t count, size_t size, size_t *stale, MesoError *error)
 {

@@ -37,6 +37,9 @@ void meso_arena_release(MesoArena *arena);
 /* Gives all back but one block, so large that the same again finds room in it: for scratch that comes in rounds. */
 void meso_arena_clear(MesoArena *arena);
 
+/* Gives back what it has beyond what is allocated now, as far as that is in large pages, until it is used again. */
+void meso_arena_trim(MesoArena *arena);
+
 /*
  * What is allocated next, up to `size` bytes with every allocation rounded up to 64, comes from one block in large
  * pages: several arrays of some hundred KiB, which would be in small pages each, are sooner had so. Nothing where it is

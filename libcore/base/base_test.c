@@ -298,9 +298,51 @@ static void test_team_that_counts(void)
     }
 }
 
+/* Pages that this process has in memory; 0 where the system does not tell. */
+static long resident_pages(void)
+{
+    long size, resident = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file)
+        return 0;
+    if (fscanf(file, "%ld %ld", &size, &resident) != 2)
+        resident = 0;
+    fclose(file);
+    return resident;
+}
+
+/* What was allocated stays as it is; what comes after is zero again, and takes no room until it does. */
+static void test_arena_trim(void)
+{
+    enum { ALL = 12 << 20, KEPT = 3 << 20 };
+    MesoArena arena;
+    meso_arena_init(&arena);
+    meso_arena_trim(&arena);
+    CHECK(MESO_NEW(&arena, unsigned char, ALL, NULL));
+    meso_arena_clear(&arena);
+    unsigned char *kept = MESO_NEW(&arena, unsigned char, KEPT, NULL);
+    CHECK(kept);
+    memset(kept, 1, KEPT);
+    MesoArenaMark mark = meso_arena_mark(&arena);
+    unsigned char *scratch = MESO_NEW(&arena, unsigned char, ALL - KEPT - 4096, NULL);
+    CHECK(scratch);
+    memset(scratch, 2, ALL - KEPT - 4096);
+    meso_arena_rewind(&arena, mark);
+    long before = resident_pages();
+    meso_arena_trim(&arena);
+    CHECK(!before || resident_pages() <= before - (6 << 20 >> 12));
+    for (size_t i = 0; i < KEPT; i++)
+        CHECK(kept[i] == 1);
+    CHECK(MESO_NEW(&arena, unsigned char, ALL - KEPT - 4096, NULL) == scratch);
+    for (size_t i = 0; i < ALL - KEPT - 4096; i++)
+        CHECK(scratch[i] == 0);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     test_arena();
+    test_arena_trim();
     test_arena_clear();
     test_arena_bare();
     test_arena_reserve();

@@ -56,6 +56,14 @@ void *meso_large_take(size_t *size)
     return memory;
 }
 
+size_t meso_large_drop(void *memory, size_t size)
+{
+    size_t before = (size_t)(-(uintptr_t)memory & (LARGE_PAGE - 1));
+    if (size <= before || (size - before) % LARGE_PAGE)
+        return size;
+    return madvise((unsigned char *)memory + before, size - before, MADV_DONTNEED) == 0 ? before : size;
+}
+
 void meso_large_give(void *memory, size_t size)
 {
     if (memory)

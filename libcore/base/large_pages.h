@@ -14,6 +14,13 @@
  */
 void *meso_large_take(size_t *size);
 
+/*
+ * Gives back for now what lies behind the first large page that begins among `size` bytes, up to the end of what
+ * meso_large_take() has returned: it is zero then, and takes room again once it is written to. Only where all of it is
+ * large pages. Returns how many bytes at the front stay as they were.
+ */
+size_t meso_large_drop(void *memory, size_t size);
+
 /* Gives back what meso_large_take() has returned, with the size that it said; nothing where it is NULL. */
 void meso_large_give(void *memory, size_t size);
 

@@ -60,6 +60,13 @@ static inline bool meso_composite_is_dead(const MesoComposite *composite, uint32
 /* Takes dead triangles and elements out of the lists under a triangle of the base. */
 void meso_composite_tidy(MesoComposite *composite, uint32_t base_triangle);
 
+/* Whether meso_composite_pack() would do anything, which takes room for a while. */
+static inline bool meso_composite_wants_packing(const MesoComposite *composite)
+{
+    return composite->triangle_count > composite->triangle_limit ||
+           composite->whole_vertex_count > composite->whole_vertex_limit;
+}
+
 /*
  * Between steps: where there is so much of it that it is worth while, what is dead makes room for what comes, and all
  * else has other numbers, in the same order. O(1) on the mean for each that was added.

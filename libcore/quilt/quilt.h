@@ -92,6 +92,11 @@ static inline MesoArena *meso_quilt_room_free(MesoQuiltRoom *room)
     return &room->arenas[1 - room->used];
 }
 
+static inline MesoArena *meso_quilt_room_used(MesoQuiltRoom *room)
+{
+    return &room->arenas[room->used];
+}
+
 /*
  * After a step that has come to its end; `before`: the quilt's vertices before it. Steps may leave these where they
  * are.

@@ -245,6 +245,7 @@ static void prepare_range(void *context, uint64_t begin, uint64_t end)
     Round *round = context;
     for (uint64_t i = begin; i < end; i++) {
         round->statuses[i] = meso_quilt_prepare(&round->patches[i], round->work, &round->arenas[i], &round->errors[i]);
+        meso_arena_trim(&round->arenas[i]);
         atomic_fetch_sub(&round->work->busy_patches, 1);
     }
 }
@@ -323,6 +324,15 @@ static MesoStatus check_limits(const MesoQuiltWork *work, MesoError *error)
     return MESO_OK;
 }
 
+/* Nothing of it is in use between rounds. */
+static void give_scratch_back(MesoQuiltWork *work, Round *round)
+{
+    for (int i = 0; i < MESO_QUILT_PATCHES; i++)
+        meso_arena_release(&round->arenas[i]);
+    for (int i = 0; i < MESO_QUILT_ARENAS; i++)
+        meso_arena_release(&work->pool.arenas[i]);
+}
+
 static MesoStatus grow(MesoQuiltWork *work, Round *round, Front *front, MesoError *error)
 {
     uint32_t limit = work->options.step_limit;
@@ -339,6 +349,8 @@ static MesoStatus grow(MesoQuiltWork *work, Round *round, Front *front, MesoErro
             status = check_limits(work, error);
         if (status)
             return status;
+        if (meso_composite_wants_packing(&work->composite))
+            give_scratch_back(work, round);
         meso_composite_pack(&work->composite, work->swatch);
         if (work->options.progress)
             work->options.progress(work->options.context, front->done_count, work->base->triangle_count);
@@ -461,12 +473,9 @@ static MesoStatus run(MesoQuiltWork *work, Round *round, MesoError *error)
         status = meso_chart_maker_init(&round->makers[i], work->base, error);
     if (!status)
         status = grow(work, round, &front, error);
-    for (int i = 0; i < MESO_QUILT_PATCHES; i++) {
+    for (int i = 0; i < MESO_QUILT_PATCHES; i++)
         meso_chart_maker_release(&round->makers[i]);
-        meso_arena_release(&round->arenas[i]);
-    }
-    for (int i = 0; i < MESO_QUILT_ARENAS; i++)
-        meso_arena_release(&work->pool.arenas[i]);
+    give_scratch_back(work, round);
     meso_arena_release(&scratch);
     return status;
 }

@@ -1,7 +1,5 @@
 #include "libcore/shell/box_tree.h"
 
-#include <stdlib.h>
-
 enum { LEAF = MESO_BOX_TREE_LEAF };     /* looking at four boxes costs less than two more nodes */
 
 static bool meet(const MesoBox *a, const MesoBox *b)
@@ -32,17 +30,30 @@ static uint64_t curve_key(MesoVec3 middle, MesoBox all, float size)
     return key;
 }
 
-static int compare_keys(const void *a, const void *b)
+/* By the keys above bit 32, digit by digit; numbers below them are in order already. `other` is scratch. */
+static void sort_keys(uint64_t *keys, uint64_t *other, uint32_t count)
 {
-    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return x < y ? -1 : x > y;
+    enum { BITS = 8, DIGITS = 4, VALUES = 1 << BITS };      /* an even number: what is sorted is in `keys` again */
+    for (int digit = 0; digit < DIGITS; digit++) {
+        uint32_t begin[VALUES + 1] = {0}, shift = (uint32_t)(32 + digit * BITS);
+        for (uint32_t i = 0; i < count; i++)
+            begin[(keys[i] >> shift & (VALUES - 1)) + 1]++;
+        for (uint32_t v = 0; v < VALUES; v++)
+            begin[v + 1] += begin[v];
+        for (uint32_t i = 0; i < count; i++)
+            other[begin[keys[i] >> shift & (VALUES - 1)]++] = keys[i];
+        uint64_t *swap = keys;
+        keys = other;
+        other = swap;
+    }
 }
 
 static MesoStatus sort_boxes(MesoBoxTree *tree, MesoArena *arena, const MesoBox *boxes, MesoError *error)
 {
     MesoArenaMark mark = meso_arena_mark(arena);
     uint64_t *keys = MESO_NEW(arena, uint64_t, tree->count, error);
-    if (!keys)
+    uint64_t *other = MESO_NEW_BARE(arena, uint64_t, tree->count, error);
+    if (!keys || !other)
         return MESO_ERR_MEMORY;
     MesoBox all = meso_box_empty();
     for (uint32_t b = 0; b < tree->count; b++)
@@ -50,7 +61,7 @@ static MesoStatus sort_boxes(MesoBoxTree *tree, MesoArena *arena, const MesoBox 
     float size = fmaxf(all.high.x - all.low.x, fmaxf(all.high.y - all.low.y, all.high.z - all.low.z));
     for (uint32_t b = 0; b < tree->count; b++)
         keys[b] = curve_key(meso_vec3_lerp(boxes[b].low, boxes[b].high, 0.5f), all, size) << 32 | b;
-    qsort(keys, tree->count, sizeof *keys, compare_keys);
+    sort_keys(keys, other, tree->count);
     for (uint32_t b = 0; b < tree->count; b++) {
         tree->order[b] = (uint32_t)keys[b];
         tree->boxes[b] = boxes[tree->order[b]];

@@ -5,6 +5,7 @@
  * direction, others held, where E - s V is with s = 2/3 E / V: at a point that is found by one division. Sweeps over
  * vertices take it, as far as prisms stand: the barrier against what E alone does not see.
  */
+#include "libcore/base/team.h"
 #include "libcore/math/sparse_cholesky.h"
 #include "libcore/shell/prism_layer.h"
 
@@ -246,20 +247,97 @@ static void move_vertex(Relaxation *relax, uint32_t vertex)
     layer->rises[vertex] = old;
 }
 
+/*
+ * A vertex looks at those around it as they are after all before it: it can be moved with the others of its level, one
+ * after the highest of those. So each has the same direction as if they were moved one by one.
+ */
+typedef struct Levels {
+    uint32_t count;
+    uint32_t *begin;        /* [count + 1] into the order */
+    uint32_t *order;        /* vertices, of those that may be moved */
+} Levels;
+
+/* Vertices of a level that one thread moves at a time. */
+enum { TOGETHER = 8 };
+
+static bool may_move(const MesoPrismLayer *layer, uint32_t vertex)
+{
+    return layer->mesh->vertex_corner[vertex] != MESO_NO_INDEX &&
+           meso_vec3d_dot(layer->normals[vertex], layer->normals[vertex]) > 0;
+}
+
+/* From 1 on; `levels` of lower vertices are known. */
+static uint32_t level_of(const MesoTriangulation *mesh, const uint32_t *levels, uint32_t vertex)
+{
+    MesoFan fan = meso_fan_first(mesh, vertex);
+    uint32_t first = fan.corner, most = 0;
+    do {
+        uint32_t triangle = fan.corner / 3;
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t v = mesh->corners[3 * (size_t)triangle + k];
+            most = v < vertex && levels[v] > most ? levels[v] : most;
+        }
+    } while (meso_fan_next(mesh, &fan) && fan.corner != first);
+    return most + 1;
+}
+
+static MesoStatus find_levels(Levels *levels, const MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
+{
+    uint32_t count = layer->mesh->vertex_count, *level = MESO_NEW(scratch, uint32_t, count, error);
+    levels->order = MESO_NEW(scratch, uint32_t, count, error);
+    levels->count = 0;
+    if (!level || !levels->order)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < count; v++)
+        if (may_move(layer, v)) {
+            level[v] = level_of(layer->mesh, level, v);
+            levels->count = level[v] > levels->count ? level[v] : levels->count;
+        }
+    levels->begin = MESO_NEW(scratch, uint32_t, (size_t)levels->count + 2, error);
+    if (!levels->begin)
+        return MESO_ERR_MEMORY;
+    for (uint32_t v = 0; v < count; v++)
+        if (level[v])
+            levels->begin[level[v] + 1]++;
+    for (uint32_t l = 0; l < levels->count; l++)
+        levels->begin[l + 2] += levels->begin[l + 1];
+    for (uint32_t v = 0; v < count; v++)
+        if (level[v])
+            levels->order[levels->begin[level[v]]++] = v;
+    return MESO_OK;
+}
+
+/* Vertices of a level. */
+typedef struct Level {
+    Relaxation *relax;
+    const uint32_t *vertices;
+} Level;
+
+static void move_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Level *level = context;
+    for (uint64_t i = begin; i < end; i++)
+        move_vertex(level->relax, level->vertices[i]);
+}
+
 MesoStatus meso_prism_relax(MesoPrismLayer *layer, MesoArena *scratch, MesoError *error)
 {
     enum { SWEEPS = 8 };
-    const MesoTriangulation *mesh = layer->mesh;
     MesoArenaMark mark = meso_arena_mark(scratch);
     Relaxation relax;
-    if (init(&relax, layer, scratch, error))
+    Levels levels;
+    if (init(&relax, layer, scratch, error) || find_levels(&levels, layer, scratch, error))
         return MESO_ERR_MEMORY;
+    MesoTeam *team = meso_team_begin(layer->thread_count);
     for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
         relax.slope = slope_of(&relax);
-        for (uint32_t v = 0; v < mesh->vertex_count; v++)
-            if (mesh->vertex_corner[v] != MESO_NO_INDEX && meso_vec3d_dot(layer->normals[v], layer->normals[v]) > 0)
-                move_vertex(&relax, v);
+        for (uint32_t l = 0; l < levels.count; l++) {
+            uint32_t begin = levels.begin[l];
+            meso_team_for(team, levels.begin[l + 1] - begin, TOGETHER, move_range,
+                          &(Level){&relax, &levels.order[begin]});
+        }
     }
+    meso_team_end(team);
     meso_arena_rewind(scratch, mark);
     return MESO_OK;
 }

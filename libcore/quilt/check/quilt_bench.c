@@ -184,6 +184,7 @@ static MesoStatus finish(Run *run)
     const MesoQuiltVertex *before = run->quilt.vertices;
     MesoStatus status = meso_quilt_finish(&run->quilt, meso_quilt_room_free(&run->room), &run->base, &run->swatch,
                                           &(MesoFinishOptions){.scale = run->scale,
+                                                               .spent = meso_quilt_room_used(&run->room),
                                                                .overhang = 0.5f * run->scale * run->swatch.mean_edge},
                                           &run->error);
     if (!status)

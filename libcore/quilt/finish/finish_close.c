@@ -1,6 +1,7 @@
 /* Loops of open edges, closed. */
 #include <string.h>
 
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_work.h"
 #include "libcore/quilt/seam/section.h"
 
@@ -14,9 +15,19 @@ enum { EARS_LIMIT = 512 };
 /* Of half-edges. */
 enum { IS_OPEN = 1, IS_WALKED = 2 };
 
+/* Elements are looked at together up to so many triangles, or one by itself. */
+enum { BLOCK_LEAST = 4096 };
+
+/* Some whole elements: no edge leads from one of them to others. */
+typedef struct Block {
+    uint32_t first, end;        /* triangles */
+    uint32_t open;              /* half-edges that are */
+} Block;
+
 typedef struct Closer {
     MesoFinishWork *work;
-    uint32_t half_edge_count;
+    uint32_t half_edge_first, half_edge_count;
+    uint32_t vertex_first, vertex_count;
     uint32_t *begin;            /* [vertex_count + 1] half-edges by the vertex at which they begin */
     uint32_t *leaving;          /* [half_edge_count] */
     uint8_t *marks;             /* [half_edge_count] IS_OPEN, IS_WALKED */
@@ -24,9 +35,20 @@ typedef struct Closer {
     uint32_t stack_count;
     uint32_t *stack;            /* [open half-edges] half-edges of a walk */
     uint32_t *loop;             /* [open half-edges] vertices of a loop */
+    uint32_t *places;           /* [open half-edges] where these are among the points */
     MesoVec3 *points;           /* [vertex_count] where those of a loop are in space */
     MesoArena scratch;
 } Closer;
+
+static uint8_t *mark_of(const Closer *c, uint32_t h)
+{
+    return &c->marks[h - c->half_edge_first];
+}
+
+static uint32_t *stack_place_of(const Closer *c, uint32_t vertex)
+{
+    return &c->stack_places[vertex - c->vertex_first];
+}
 
 static uint32_t next_of(uint32_t h)
 {
@@ -35,7 +57,10 @@ static uint32_t next_of(uint32_t h)
 
 static uint32_t edge_between(const Closer *c, uint32_t a, uint32_t b)
 {
-    for (uint32_t i = c->begin[a]; i < c->begin[a + 1]; i++)
+    uint32_t at = a - c->vertex_first;
+    if (at >= c->vertex_count)
+        return MESO_NO_INDEX;   /* it has come since */
+    for (uint32_t i = c->begin[at]; i < c->begin[at + 1]; i++)
         if (c->work->corners[next_of(c->leaving[i])] == b)
             return c->leaving[i];
     return MESO_NO_INDEX;
@@ -43,17 +68,18 @@ static uint32_t edge_between(const Closer *c, uint32_t a, uint32_t b)
 
 static void list_leaving(Closer *c)
 {
-    const uint32_t *corners = c->work->corners;
+    const uint32_t *corners = &c->work->corners[c->half_edge_first];
+    uint32_t *begin = c->begin, first = c->vertex_first;
     for (uint32_t h = 0; h < c->half_edge_count; h++)
-        c->begin[corners[h] + 1]++;
-    for (uint32_t v = 0; v < c->work->vertex_count; v++)
-        c->begin[v + 1] += c->begin[v];
+        begin[corners[h] - first + 1]++;
+    for (uint32_t v = 0; v < c->vertex_count; v++)
+        begin[v + 1] += begin[v];
     for (uint32_t h = c->half_edge_count; h-- > 0;)     /* fills each list from its end */
-        c->leaving[--c->begin[corners[h] + 1]] = h;
+        c->leaving[--begin[corners[h] - first + 1]] = c->half_edge_first + h;
     /* now begin[v + 1] is where the list of v begins */
-    for (uint32_t v = 0; v < c->work->vertex_count; v++)
-        c->begin[v] = c->begin[v + 1];
-    c->begin[c->work->vertex_count] = c->half_edge_count;
+    for (uint32_t v = 0; v < c->vertex_count; v++)
+        begin[v] = begin[v + 1];
+    begin[c->vertex_count] = c->half_edge_count;
 }
 
 /* The half-edge across one. */
@@ -67,7 +93,7 @@ static uint32_t find_open(Closer *c)
 {
     uint32_t count = 0;
     for (uint32_t h = 0; h < c->half_edge_count; h++) {
-        c->marks[h] = twin_of(c, h) == MESO_NO_INDEX ? IS_OPEN : 0;
+        c->marks[h] = twin_of(c, c->half_edge_first + h) == MESO_NO_INDEX ? IS_OPEN : 0;
         count += c->marks[h];
     }
     return count;
@@ -77,7 +103,7 @@ static uint32_t find_open(Closer *c)
 static uint32_t go_on(const Closer *c, uint32_t h)
 {
     uint32_t next = next_of(h);
-    for (uint32_t guard = 0; !(c->marks[next] & IS_OPEN) && guard < c->half_edge_count; guard++)
+    for (uint32_t guard = 0; !(*mark_of(c, next) & IS_OPEN) && guard < c->half_edge_count; guard++)
         next = next_of(twin_of(c, next));
     return next;
 }
@@ -134,7 +160,7 @@ static bool has_chord_twice(const Closer *c, const uint32_t *corners, uint32_t c
     for (uint32_t h = 0; h < 3 * count; h++) {
         uint32_t a = corners[h], b = corners[next_of(h)];
         uint32_t along = edge_between(c, a, b), against = edge_between(c, b, a);
-        if (along != MESO_NO_INDEX || (against != MESO_NO_INDEX && !(c->marks[against] & IS_OPEN)))
+        if (along != MESO_NO_INDEX || (against != MESO_NO_INDEX && !(*mark_of(c, against) & IS_OPEN)))
             return true;
     }
     return false;
@@ -151,7 +177,7 @@ static void add_cap(Closer *c, const uint32_t *corners, uint32_t count, uint32_t
         const uint32_t *corner = &corners[3 * (size_t)t];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t across = edge_between(c, corner[next_of(k)], corner[k]);
-            if (across != MESO_NO_INDEX && c->marks[across] & IS_OPEN)
+            if (across != MESO_NO_INDEX && *mark_of(c, across) & IS_OPEN)
                 beside = across / 3;
         }
         meso_finish_add_triangle(work, corner, work->triangle_origins[beside], work->patches[beside],
@@ -193,7 +219,7 @@ static MesoStatus close_loop(Closer *c, uint32_t count, uint32_t beside, MesoErr
     uint32_t *corners = MESO_NEW(&c->scratch, uint32_t, 3 * (size_t)count, error);
     if (!corners)
         return MESO_ERR_MEMORY;
-    MesoSection section = {.count = count, .vertices = c->loop, .positions = c->points};
+    MesoSection section = {.count = count, .vertices = c->places, .positions = c->points};
     bool closed = false;
     MesoStatus status = at_border ? try_strip(&closed, corners, c, &section, error) : MESO_OK;
     if (!status && !closed && count <= EARS_LIMIT) {
@@ -201,6 +227,8 @@ static MesoStatus close_loop(Closer *c, uint32_t count, uint32_t beside, MesoErr
         status = meso_section_cap(corners, &c->scratch, &section, error);
         closed = true;
     }
+    for (size_t k = 0; closed && !status && k < 3 * ((size_t)count - 2); k++)
+        corners[k] += c->vertex_first;
     if (!status && (!closed || has_chord_twice(c, corners, count - 2)))
         status = close_around(c, count, beside);
     else if (!status)
@@ -216,9 +244,11 @@ static MesoStatus take_loop(Closer *c, uint32_t from, MesoError *error)
 {
     uint32_t count = c->stack_count - from, beside = c->stack[from] / 3;
     for (uint32_t i = 0; i < count; i++) {
-        c->loop[i] = c->work->corners[c->stack[from + i]];
-        c->points[c->loop[i]] = meso_finish_point(c->work, c->work->vertices[c->loop[i]]);
-        c->stack_places[c->loop[i]] = MESO_NO_INDEX;
+        uint32_t vertex = c->work->corners[c->stack[from + i]];
+        c->loop[i] = vertex;
+        c->places[i] = vertex - c->vertex_first;
+        c->points[c->places[i]] = meso_finish_point(c->work, c->work->vertices[vertex]);
+        *stack_place_of(c, vertex) = MESO_NO_INDEX;
     }
     c->stack_count = from;
     return close_loop(c, count, beside, error);
@@ -228,55 +258,131 @@ static MesoStatus take_loop(Closer *c, uint32_t from, MesoError *error)
 static MesoStatus walk(Closer *c, uint32_t first, MesoError *error)
 {
     MesoStatus status = MESO_OK;
-    for (uint32_t h = first; !status && !(c->marks[h] & IS_WALKED); h = go_on(c, h)) {
+    for (uint32_t h = first; !status && !(*mark_of(c, h) & IS_WALKED); h = go_on(c, h)) {
         uint32_t vertex = c->work->corners[h];
-        if (c->stack_places[vertex] != MESO_NO_INDEX)
-            status = take_loop(c, c->stack_places[vertex], error);
-        c->marks[h] |= IS_WALKED;
-        c->stack_places[vertex] = c->stack_count;
+        if (*stack_place_of(c, vertex) != MESO_NO_INDEX)
+            status = take_loop(c, *stack_place_of(c, vertex), error);
+        *mark_of(c, h) |= IS_WALKED;
+        *stack_place_of(c, vertex) = c->stack_count;
         c->stack[c->stack_count++] = h;
     }
     return status ? status : take_loop(c, 0, error);
 }
 
-static MesoStatus make_room(Closer *c, MesoError *error)
+/* Looks at a block, to scratch. */
+static MesoStatus look_at(Closer *c, Block *block, MesoError *error)
 {
-    size_t vertices = (size_t)c->work->vertex_count + 2, half_edges = (size_t)c->half_edge_count + 1;
-    c->begin = MESO_NEW(&c->scratch, uint32_t, vertices, error);
-    c->leaving = MESO_NEW(&c->scratch, uint32_t, half_edges, error);
-    c->marks = MESO_NEW(&c->scratch, uint8_t, half_edges, error);
-    c->stack_places = MESO_NEW(&c->scratch, uint32_t, vertices, error);
-    if (!c->begin || !c->leaving || !c->marks || !c->stack_places)
+    const uint32_t *corners = c->work->corners;
+    uint32_t first = MESO_NO_INDEX, last = 0;
+    for (size_t h = 3 * (size_t)block->first; h < 3 * (size_t)block->end; h++) {
+        first = corners[h] < first ? corners[h] : first;
+        last = corners[h] > last ? corners[h] : last;
+    }
+    c->half_edge_first = 3 * block->first;
+    c->half_edge_count = 3 * (block->end - block->first);
+    c->vertex_first = first;
+    c->vertex_count = last - first + 1;
+    c->begin = MESO_NEW(&c->scratch, uint32_t, (size_t)c->vertex_count + 1, error);
+    c->leaving = MESO_NEW_BARE(&c->scratch, uint32_t, c->half_edge_count, error);
+    c->marks = MESO_NEW_BARE(&c->scratch, uint8_t, c->half_edge_count, error);
+    if (!c->begin || !c->leaving || !c->marks)
         return MESO_ERR_MEMORY;
-    memset(c->stack_places, 0xff, vertices * sizeof *c->stack_places);
+    list_leaving(c);
+    block->open = find_open(c);
     return MESO_OK;
 }
 
-static MesoStatus close_all(Closer *c, MesoError *error)
+static MesoStatus close_block(Closer *c, Block *block, MesoError *error)
 {
-    MesoStatus status = make_room(c, error);
+    MesoArenaMark mark = meso_arena_mark(&c->scratch);
+    MesoStatus status = look_at(c, block, error);
     if (status)
         return status;
-    list_leaving(c);
-    uint32_t open = find_open(c);
-    c->stack = MESO_NEW(&c->scratch, uint32_t, open, error);
-    c->loop = MESO_NEW(&c->scratch, uint32_t, open, error);
-    c->points = MESO_NEW(&c->scratch, MesoVec3, open ? c->work->vertex_count : 0, error);
-    if (!c->stack || !c->loop || !c->points)
+    c->stack_places = MESO_NEW_BARE(&c->scratch, uint32_t, c->vertex_count, error);
+    c->stack = MESO_NEW_BARE(&c->scratch, uint32_t, block->open, error);
+    c->loop = MESO_NEW_BARE(&c->scratch, uint32_t, block->open, error);
+    c->places = MESO_NEW_BARE(&c->scratch, uint32_t, block->open, error);
+    c->points = MESO_NEW_BARE(&c->scratch, MesoVec3, c->vertex_count, error);
+    if (!c->stack_places || !c->stack || !c->loop || !c->places || !c->points)
         return MESO_ERR_MEMORY;
-    status = meso_finish_reserve(c->work, c->work->vertex_count + (uint64_t)open / 3,
-                                 c->work->triangle_count + (uint64_t)open, error);
+    memset(c->stack_places, 0xff, c->vertex_count * sizeof *c->stack_places);
     for (uint32_t h = 0; !status && h < c->half_edge_count; h++)
         if (c->marks[h] == IS_OPEN)
-            status = walk(c, h, error);
+            status = walk(c, c->half_edge_first + h, error);
+    meso_arena_rewind(&c->scratch, mark);
     return status;
+}
+
+/* ---- blocks ---- */
+
+/* Triangles by element; those that are beside each other and of one are together. */
+static uint32_t list_blocks(Block *blocks, const MesoFinishWork *work)
+{
+    uint32_t count = 0, first = 0;
+    for (uint32_t t = 1; t <= work->triangle_count; t++)
+        if (t == work->triangle_count || (t - first >= BLOCK_LEAST && work->elements[t] != work->elements[t - 1])) {
+            blocks[count++] = (Block){first, t, 0};
+            first = t;
+        }
+    return count;
+}
+
+typedef struct Count {
+    Closer *closers;            /* [workers] */
+    Block *blocks;
+    MesoStatus *statuses;       /* [blocks] */
+} Count;
+
+static void count_range(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+{
+    Count *count = context;
+    for (uint64_t i = begin; i < end; i++) {
+        Closer *c = &count->closers[worker];
+        MesoArenaMark mark = meso_arena_mark(&c->scratch);
+        count->statuses[i] = look_at(c, &count->blocks[i], NULL);
+        meso_arena_rewind(&c->scratch, mark);
+    }
+}
+
+/* How many half-edges are open in each block, and in all. */
+static MesoStatus count_open(uint64_t *open, Block *blocks, uint32_t block_count, MesoFinishWork *work,
+                             MesoError *error)
+{
+    uint32_t workers = work->options->thread_count ? work->options->thread_count : meso_parallel_cores();
+    workers = workers < block_count ? workers : block_count;
+    Count count = {MESO_NEW(work->arena, Closer, workers, error), blocks,
+                   MESO_NEW(work->arena, MesoStatus, block_count, error)};
+    if (!count.closers || !count.statuses)
+        return MESO_ERR_MEMORY;
+    for (uint32_t i = 0; i < workers; i++)
+        count.closers[i].work = work;
+    if (block_count)
+        meso_parallel_team(workers, block_count, 1, count_range, &count);
+    for (uint32_t i = 0; i < workers; i++)
+        meso_arena_release(&count.closers[i].scratch);
+    *open = 0;
+    for (uint32_t i = 0; i < block_count; i++) {
+        if (count.statuses[i])
+            return meso_fail(error, count.statuses[i], "out of memory: %u triangles", blocks[i].end - blocks[i].first);
+        *open += blocks[i].open;
+    }
+    return MESO_OK;
 }
 
 MesoStatus meso_finish_close(MesoFinishWork *work, MesoError *error)
 {
-    Closer c = {.work = work, .half_edge_count = 3 * work->triangle_count};
-    meso_arena_init(&c.scratch);
-    MesoStatus status = close_all(&c, error);
+    uint64_t open;
+    Block *blocks = MESO_NEW(work->arena, Block, (size_t)work->triangle_count / BLOCK_LEAST + 1, error);
+    if (!blocks)
+        return MESO_ERR_MEMORY;
+    uint32_t count = list_blocks(blocks, work);
+    MesoStatus status = count_open(&open, blocks, count, work, error);
+    if (!status)
+        status = meso_finish_reserve(work, work->vertex_count + open / 3, work->triangle_count + open, error);
+    Closer c = {.work = work};
+    for (uint32_t i = 0; !status && i < count; i++)
+        if (blocks[i].open)
+            status = close_block(&c, &blocks[i], error);
     meso_arena_release(&c.scratch);
     return status;
 }

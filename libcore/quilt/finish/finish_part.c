@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "libcore/base/disjoint_sets.h"
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_part_work.h"
 #include "libcore/quilt/quilt_work.h"
 
@@ -106,10 +107,11 @@ static void measure_rings(MesoPartRing *rings, uint32_t count, const Tubes *tube
     }
 }
 
-static MesoStatus build(MesoParting *s, MesoArena *arena, const Tubes *tubes, uint32_t ring_count, MesoError *error)
+static MesoStatus build(MesoParting *s, const MesoFinishWork *work, const Tubes *tubes, uint32_t ring_count,
+                        MesoError *error)
 {
-    *s = (MesoParting){.ring_count = ring_count, .arena = arena};
-    s->rings = MESO_NEW(arena, MesoPartRing, ring_count, error);
+    *s = (MesoParting){.ring_count = ring_count, .thread_count = work->options->thread_count, .arena = work->arena};
+    s->rings = MESO_NEW(s->arena, MesoPartRing, ring_count, error);
     if (!s->rings)
         return MESO_ERR_MEMORY;
     measure_rings(s->rings, ring_count, tubes);
@@ -256,10 +258,12 @@ static MesoStatus find_moves(Moves *moves, bool *any, const MesoParting *s, Boun
 /* ---- of the swatch, and of the quilt ---- */
 
 /* Whether strands of the swatch lie in each other: then that is how it looks. */
-static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, const MesoSwatch *swatch, MesoArena *arena,
+static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, const MesoFinishWork *work,
                                  MesoError *error)
 {
     MesoParting s;
+    const MesoSwatch *swatch = work->swatch;
+    MesoArena *arena = work->arena;
     MesoVec3 *feet = MESO_NEW(arena, MesoVec3, swatch->vertex_count, error);
     float *heights = MESO_NEW(arena, float, swatch->vertex_count, error);
     if (!feet || !heights)
@@ -270,7 +274,7 @@ static MesoStatus look_at_swatch(bool *parted, const MesoStrandRings *named, con
     }
     const Tubes tubes = {swatch->vertex_count, swatch->triangle_count, feet,
                          heights, swatch->corners, named->of_vertex};
-    MesoStatus status = build(&s, arena, &tubes, named->count, error);
+    MesoStatus status = build(&s, work, &tubes, named->count, error);
     for (uint32_t r = 0; r < named->count && !status; r++)
         s.rings[r].normal = (MesoVec3){0, 0, 1};
     if (!status)
@@ -328,6 +332,25 @@ static void move_vertex(MesoFinishWork *work, uint32_t v, MesoVec3 foot, MesoVec
     vertex->height += up;
 }
 
+/* Vertices are moved by blocks of so many. */
+enum { BLOCK = 4096 };
+
+typedef struct Mover {
+    MesoFinishWork *work;
+    const Tubes *tubes;
+    const Moves *moves;
+} Mover;
+
+static void move_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Mover *m = context;
+    for (uint32_t v = (uint32_t)begin; v < end; v++) {
+        uint32_t ring = m->tubes->of_vertex[v];
+        if (ring != MESO_NO_INDEX)
+            move_vertex(m->work, v, m->tubes->feet[v], m->moves->asides[ring], m->moves->heights[ring]);
+    }
+}
+
 static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named, MesoError *error)
 {
     uint32_t n = work->vertex_count;
@@ -346,7 +369,7 @@ static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named,
     Moves moves;
     bool any;
     const Tubes tubes = {n, work->triangle_count, feet, heights, work->corners, of_vertex};
-    MesoStatus status = build(&s, arena, &tubes, count, error);
+    MesoStatus status = build(&s, work, &tubes, count, error);
     for (uint32_t r = 0; r < count && !status; r++)
         s.rings[r].normal = normal_under(work, s.rings[r].first);
     if (!status)
@@ -357,9 +380,8 @@ static MesoStatus part_quilt(MesoFinishWork *work, const MesoStrandRings *named,
     const MesoFinishOptions *o = work->options;
     float top = o->offset + (o->height_scale > 0 ? o->height_scale : o->scale) * work->swatch->size.z;
     status = find_moves(&moves, &any, &s, (Bounds){o->offset, top}, error);
-    for (uint32_t v = 0; v < n && !status && any; v++)
-        if (of_vertex[v] != MESO_NO_INDEX)
-            move_vertex(work, v, feet[v], moves.asides[of_vertex[v]], moves.heights[of_vertex[v]]);
+    if (!status && any)
+        meso_parallel_for(o->thread_count, n, BLOCK, move_range, &(Mover){work, &tubes, &moves});
     return status;
 }
 
@@ -374,7 +396,7 @@ MesoStatus meso_finish_part(MesoFinishWork *work, MesoError *error)
         return MESO_OK;
     MesoStatus status = meso_strands_find_rings(&named, work->swatch, work->arena, error);
     if (!status)
-        status = look_at_swatch(&parted, &named, work->swatch, work->arena, error);
+        status = look_at_swatch(&parted, &named, work, error);
     if (!status && parted)
         status = part_quilt(work, &named, error);
     meso_arena_rewind(work->arena, mark);

@@ -8,6 +8,7 @@
 
 #include "libcore/base/disjoint_sets.h"
 #include "libcore/base/grow.h"
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_part_work.h"
 
 /* Strands cross where the cosine between them is at most this; normals of one side of the surface have at least
@@ -84,20 +85,33 @@ static bool is_over(MesoPartContact *contact, const MesoPartRing *ring, const Me
     return true;
 }
 
-static MesoStatus add_contact(MesoParting *s, MesoPartContact contact, MesoError *error)
+/* Rings that are looked at side by side: a batch of blocks, whose contacts are put one after the other. */
+enum { BLOCK_RINGS = 256, BLOCKS = 8 };
+
+typedef struct Block {
+    uint32_t count, room;
+    MesoPartContact *contacts;          /* [count] of its rings */
+    MesoArena arena;
+    MesoStatus status;
+    MesoError error;
+} Block;
+
+typedef struct Batch {
+    MesoParting *s;
+    uint32_t first, end;                /* rings */
+    Block blocks[BLOCKS];
+} Batch;
+
+static MesoStatus add_contact(Block *block, MesoPartContact contact)
 {
-    if (s->contact_count == s->contact_room) {
-        uint32_t room = s->contact_room ? 2 * s->contact_room : 1024;
-        s->contacts = meso_arena_enlarge(s->arena, s->contacts, s->contact_count, room, sizeof *s->contacts, error);
-        if (!s->contacts)
-            return MESO_ERR_MEMORY;
-        s->contact_room = room;
-    }
-    s->contacts[s->contact_count++] = contact;
+    block->contacts = MESO_GROW(&block->arena, block->contacts, block->count, block->room, 1024, &block->error);
+    if (!block->contacts)
+        return MESO_ERR_MEMORY;
+    block->contacts[block->count++] = contact;
     return MESO_OK;
 }
 
-static MesoStatus meet(MesoParting *s, uint32_t r, MesoError *error)
+static MesoStatus meet(Block *block, const MesoParting *s, uint32_t r)
 {
     const MesoPartRing *ring = &s->rings[r];
     for (int32_t i = 0; i < 27; i++) {
@@ -110,11 +124,76 @@ static MesoStatus meet(MesoParting *s, uint32_t r, MesoError *error)
             bool beside = fabsf(meso_vec3_dot(ring->axis, other->axis)) > CROSS_MOST;
             for (int k = 0; k < (beside ? 1 : SAMPLE_COUNT); k++)
                 if ((beside ? is_beside(&contact, ring, other) : is_over(&contact, ring, other, SAMPLES[k])) &&
-                    add_contact(s, contact, error))
+                    add_contact(block, contact))
                     return MESO_ERR_MEMORY;
         }
     }
     return MESO_OK;
+}
+
+/* Ends of what each ring has, from the block's first contact on. */
+static void meet_blocks(void *context, uint64_t begin, uint64_t end)
+{
+    Batch *batch = context;
+    for (uint64_t i = begin; i < end; i++) {
+        Block *block = &batch->blocks[i];
+        uint32_t first = batch->first + (uint32_t)i * BLOCK_RINGS;
+        block->status = MESO_OK;
+        block->count = 0;
+        for (uint32_t r = first; r < batch->end && r < first + BLOCK_RINGS && !block->status; r++) {
+            block->status = meet(block, batch->s, r);
+            batch->s->begin[r + 1] = block->count;
+        }
+    }
+}
+
+static MesoStatus make_room(MesoParting *s, uint32_t count, MesoError *error)
+{
+    uint64_t wanted = (uint64_t)s->contact_count + count, room = s->contact_room ? s->contact_room : 1024;
+    while (room < wanted)
+        room *= 2;
+    if (room > UINT32_MAX)
+        return meso_fail(error, MESO_ERR_MEMORY, "out of memory: %llu contacts", (unsigned long long)wanted);
+    if (room == s->contact_room)
+        return MESO_OK;
+    s->contacts = meso_arena_enlarge(s->arena, s->contacts, s->contact_count, room, sizeof *s->contacts, error);
+    s->contact_room = (uint32_t)room;
+    return s->contacts ? MESO_OK : MESO_ERR_MEMORY;
+}
+
+static MesoStatus take_block(Batch *batch, uint32_t i, MesoError *error)
+{
+    MesoParting *s = batch->s;
+    const Block *block = &batch->blocks[i];
+    if (block->status && error)
+        *error = block->error;
+    MesoStatus status = block->status ? block->status : make_room(s, block->count, error);
+    if (status)
+        return status;
+    if (block->count)
+        memcpy(&s->contacts[s->contact_count], block->contacts, block->count * sizeof *s->contacts);
+    uint32_t first = batch->first + i * BLOCK_RINGS;
+    for (uint32_t r = first; r < batch->end && r < first + BLOCK_RINGS; r++)
+        s->begin[r + 1] += s->contact_count;
+    s->contact_count += block->count;
+    return MESO_OK;
+}
+
+static MesoStatus meet_all(MesoParting *s, MesoError *error)
+{
+    Batch batch = {.s = s};
+    MesoStatus status = MESO_OK;
+    for (; batch.first < s->ring_count && !status; batch.first = batch.end) {
+        uint32_t rest = s->ring_count - batch.first, count = rest < BLOCKS * BLOCK_RINGS ? rest : BLOCKS * BLOCK_RINGS;
+        batch.end = batch.first + count;
+        uint32_t blocks = (count + BLOCK_RINGS - 1) / BLOCK_RINGS;
+        meso_parallel_for(s->thread_count, blocks, 1, meet_blocks, &batch);
+        for (uint32_t i = 0; i < blocks && !status; i++)
+            status = take_block(&batch, i, error);
+    }
+    for (uint32_t i = 0; i < BLOCKS; i++)
+        meso_arena_release(&batch.blocks[i].arena);
+    return status;
 }
 
 /* ---- which one is higher ---- */
@@ -198,9 +277,7 @@ MesoStatus meso_part_find_contacts(MesoParting *s, MesoError *error)
 {
     s->begin = MESO_NEW(s->arena, uint32_t, (size_t)s->ring_count + 1, error);
     MesoStatus status = s->begin ? sort_rings(s, error) : MESO_ERR_MEMORY;
-    for (uint32_t r = 0; r < s->ring_count && !status && s->cell > 0; r++) {
-        status = meet(s, r, error);
-        s->begin[r + 1] = s->contact_count;
-    }
+    if (!status && s->cell > 0)
+        status = meet_all(s, error);
     return status ? status : find_signs(s, error);
 }

@@ -39,6 +39,7 @@ typedef struct MesoParting {
     float cell;
     MesoPartContact *contacts;          /* by ring */
     uint32_t *begin;                    /* [ring_count + 1] into the contacts */
+    uint32_t thread_count;
     MesoArena *arena;
 } MesoParting;
 

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "libcore/base/disjoint_sets.h"
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_relax_work.h"
 
 /* ---- nodes ---- */
@@ -142,13 +143,32 @@ static void move_vertex(MesoQuilt *quilt, const MesoFinishWork *work, uint32_t v
                                       vertex->height + r->nodes[node].rise);
 }
 
+/* Vertices are moved by blocks of so many. */
+enum { BLOCK = 4096 };
+
+typedef struct Mover {
+    MesoQuilt *quilt;
+    const MesoFinishWork *work;
+    const MesoRelaxing *r;
+    const uint32_t *node_of;
+} Mover;
+
+static void move_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Mover *m = context;
+    for (uint32_t v = (uint32_t)begin; v < end; v++)
+        if (m->node_of[v] != MESO_NO_INDEX)
+            move_vertex(m->quilt, m->work, v, m->r, m->node_of[v]);
+}
+
 static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrandRings *rings, MesoError *error)
 {
     const MesoSwatch *swatch = work->swatch;
     float scale = work->options->scale, height_scale = work->options->height_scale;
     MesoRelaxing r = {.swatch = swatch, .rings = rings, .scale = scale, .arena = work->arena,
                       .height_scale = height_scale > 0 ? height_scale : scale,
-                      .side = scale * fminf(swatch->size.x, swatch->size.y)};
+                      .side = scale * fminf(swatch->size.x, swatch->size.y),
+                      .thread_count = work->options->thread_count};
     uint32_t *patches = MESO_NEW(r.arena, uint32_t, quilt->vertex_count, error);
     uint32_t *node_of = MESO_NEW(r.arena, uint32_t, quilt->vertex_count, error);
     uint32_t *sets = MESO_NEW(r.arena, uint32_t, quilt->vertex_count, error);
@@ -174,9 +194,9 @@ static MesoStatus relax(MesoQuilt *quilt, MesoFinishWork *work, const MesoStrand
         status = meso_relax_heights(&r, work->options->offset, error);
     if (!status && any)
         meso_relax_carry(quilt, &r, work);
-    for (uint32_t v = 0; v < quilt->vertex_count && !status && any; v++)
-        if (node_of[v] != MESO_NO_INDEX)
-            move_vertex(quilt, work, v, &r, node_of[v]);
+    if (!status && any)
+        meso_parallel_for(r.thread_count, quilt->vertex_count, BLOCK, move_range,
+                          &(Mover){quilt, work, &r, node_of});
     work->levelled = any;
     return status;
 }

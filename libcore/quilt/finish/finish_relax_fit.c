@@ -1,6 +1,7 @@
 /* Moves of rings, by turns of the swatch at each of them and one system for all. */
 #include <string.h>
 
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_relax_work.h"
 
 /* Rings that are off by a larger share of their distance, or of that length, are meant to be elsewhere. */
@@ -28,9 +29,10 @@ static MesoVec3 way_between(const MesoRelaxing *r, uint32_t from, uint32_t to)
 }
 
 /* How the swatch is turned at each node: as suits its pairs best. */
-static void fit_turns(MesoRelaxing *r)
+static void fit_range(void *context, uint64_t begin, uint64_t end)
 {
-    for (uint32_t i = 0; i < r->node_count; i++) {
+    const MesoRelaxing *r = context;
+    for (uint32_t i = (uint32_t)begin; i < end; i++) {
         double cosine = 0, sine = 0;
         for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++) {
             const MesoRelaxPair *pair = &r->pairs[k];
@@ -43,6 +45,16 @@ static void fit_turns(MesoRelaxing *r)
         r->cosines[i] = length > 0 ? cosine / length : 1;
         r->sines[i] = length > 0 ? sine / length : 0;
     }
+}
+
+static void by_nodes(const MesoRelaxing *r, void (*range)(void *, uint64_t, uint64_t), void *context)
+{
+    meso_parallel_for(r->thread_count, r->node_count, MESO_RELAX_BLOCK, range, context);
+}
+
+static void fit_turns(MesoRelaxing *r)
+{
+    by_nodes(r, fit_range, r);
 }
 
 /* What is missing on the way of a pair as nodes were at first, along the surface as it is between both. */
@@ -89,22 +101,48 @@ static void sum_weights(MesoRelaxing *r)
 /* Of conjugate gradients, scaled by the diagonal: [3 * node_count] each. */
 typedef struct Gradients {
     double *left, *scaled, *way, *pull;
+    MesoVec3 *misses;           /* [the most pairs of a batch of nodes] */
 } Gradients;
+
+typedef struct Product {
+    const MesoRelaxing *r;
+    const double *p;
+    double *pull;
+} Product;
+
+static void add_into(double pull[3], const MesoRelaxInto *into, const double *all, const double *p)
+{
+    const double *q = &all[3 * (size_t)into->from];
+    for (size_t c = 0; c < 3; c++)
+        pull[c] -= (double)into->weight * (q[c] - p[c]);
+}
+
+/* All pairs of each node in the order of their numbers, whoever has them. */
+static void pull_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Product *product = context;
+    const MesoRelaxing *r = product->r;
+    for (uint32_t i = (uint32_t)begin; i < end; i++) {
+        const double *p = &product->p[3 * (size_t)i];
+        double pull[3] = {HOLD * r->weights[i] * p[0], HOLD * r->weights[i] * p[1], HOLD * r->weights[i] * p[2]};
+        const MesoRelaxInto *into = &r->into[r->into_begin[i]], *into_end = &r->into[r->into_begin[i + 1]];
+        for (; into < into_end && into->from < i; into++)
+            add_into(pull, into, product->p, p);
+        for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++) {
+            const double *q = &product->p[3 * (size_t)r->pairs[k].to];
+            for (size_t c = 0; c < 3; c++)
+                pull[c] += (double)r->pairs[k].weight * (p[c] - q[c]);
+        }
+        for (; into < into_end; into++)
+            add_into(pull, into, product->p, p);
+        memcpy(&product->pull[3 * (size_t)i], pull, sizeof pull);
+    }
+}
 
 /* pull = (L + hold) p, L the graph's Laplacian by the weights of pairs. */
 static void apply(double *pull, const double *p, const MesoRelaxing *r)
 {
-    for (uint32_t i = 0; i < r->node_count; i++)
-        for (size_t c = 0; c < 3; c++)
-            pull[3 * (size_t)i + c] = HOLD * r->weights[i] * p[3 * (size_t)i + c];
-    for (uint32_t i = 0; i < r->node_count; i++)
-        for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++)
-            for (size_t c = 0; c < 3; c++) {
-                size_t from = 3 * (size_t)i + c, to = 3 * (size_t)r->pairs[k].to + c;
-                double part = (double)r->pairs[k].weight * (p[from] - p[to]);
-                pull[from] += part;
-                pull[to] -= part;
-            }
+    by_nodes(r, pull_range, &(Product){r, p, pull});
     for (uint32_t g = 0; g < r->guess_count; g++) {
         const MesoRelaxGuess *guess = &r->guesses[g];
         const double *a = &p[3 * (size_t)guess->from], *b = &p[3 * (size_t)guess->pair.to];
@@ -127,6 +165,22 @@ static void add_left(Gradients *g, uint32_t from, const MesoRelaxPair *pair, Mes
     }
 }
 
+/* What pairs miss, of nodes from `first` on. */
+typedef struct Misses {
+    const MesoRelaxing *r;
+    uint32_t first;
+    MesoVec3 *of;               /* [pairs of these] */
+} Misses;
+
+static void miss_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Misses *m = context;
+    const MesoRelaxing *r = m->r;
+    for (uint32_t i = m->first + (uint32_t)begin; i < m->first + (uint32_t)end; i++)
+        for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++)
+            m->of[k - r->begin[m->first]] = miss_of(r, i, &r->pairs[k]);
+}
+
 /* What pulls at nodes where they are. */
 static void find_left(Gradients *g, const MesoRelaxing *r)
 {
@@ -134,9 +188,14 @@ static void find_left(Gradients *g, const MesoRelaxing *r)
     apply(g->pull, r->moves, r);
     for (size_t i = 0; i < size; i++)
         g->left[i] = -g->pull[i];
-    for (uint32_t i = 0; i < r->node_count; i++)
-        for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++)
-            add_left(g, i, &r->pairs[k], miss_of(r, i, &r->pairs[k]));
+    Misses misses = {r, 0, g->misses};
+    for (; misses.first < r->node_count; misses.first += MESO_RELAX_BATCH) {
+        uint32_t rest = r->node_count - misses.first, count = rest < MESO_RELAX_BATCH ? rest : MESO_RELAX_BATCH;
+        meso_parallel_for(r->thread_count, count, MESO_RELAX_BLOCK, miss_range, &misses);
+        for (uint32_t i = misses.first; i < misses.first + count; i++)
+            for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++)
+                add_left(g, i, &r->pairs[k], misses.of[k - r->begin[misses.first]]);
+    }
     for (uint32_t k = 0; k < r->guess_count; k++) {
         const MesoRelaxGuess *guess = &r->guesses[k];
         MesoVec3 miss = miss_of(r, guess->from, &guess->pair);
@@ -176,6 +235,35 @@ static void solve(MesoRelaxing *r, Gradients *g)
     }
 }
 
+/* The most pairs of a batch of nodes. */
+static uint32_t most_pairs(const MesoRelaxing *r)
+{
+    uint32_t most = 0;
+    for (uint32_t first = 0; first < r->node_count; first += MESO_RELAX_BATCH) {
+        uint32_t rest = r->node_count - first, end = first + (rest < MESO_RELAX_BATCH ? rest : MESO_RELAX_BATCH);
+        most = r->begin[end] - r->begin[first] > most ? r->begin[end] - r->begin[first] : most;
+    }
+    return most;
+}
+
+/* Pairs by the node that they lead to, once they have been judged. */
+static MesoStatus turn_pairs(MesoRelaxing *r, MesoError *error)
+{
+    uint32_t count = r->begin[r->node_count];
+    r->into_begin = MESO_NEW(r->arena, uint32_t, (size_t)r->node_count + 2, error);
+    r->into = MESO_NEW(r->arena, MesoRelaxInto, count, error);
+    if (!r->into_begin || !r->into)
+        return MESO_ERR_MEMORY;
+    for (uint32_t k = 0; k < count; k++)
+        r->into_begin[r->pairs[k].to + 2]++;
+    for (uint32_t i = 0; i < r->node_count; i++)
+        r->into_begin[i + 2] += r->into_begin[i + 1];
+    for (uint32_t i = 0; i < r->node_count; i++)
+        for (uint32_t k = r->begin[i]; k < r->begin[i + 1]; k++)
+            r->into[r->into_begin[r->pairs[k].to + 1]++] = (MesoRelaxInto){i, r->pairs[k].weight};
+    return MESO_OK;
+}
+
 MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, bool may_move, MesoError *error)
 {
     size_t size = 3 * (size_t)r->node_count;
@@ -184,15 +272,16 @@ MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, bool may_move, MesoError *
     r->weights = MESO_NEW(r->arena, double, r->node_count, error);
     r->moves = MESO_NEW(r->arena, double, size, error);
     Gradients g = {MESO_NEW(r->arena, double, size, error), MESO_NEW(r->arena, double, size, error),
-                   MESO_NEW(r->arena, double, size, error), MESO_NEW(r->arena, double, size, error)};
+                   MESO_NEW(r->arena, double, size, error), MESO_NEW(r->arena, double, size, error),
+                   MESO_NEW(r->arena, MesoVec3, most_pairs(r), error)};
     r->heads = MESO_NEW(r->arena, uint32_t, (size_t)r->mask + 1, error);
     r->next_in_cell = MESO_NEW(r->arena, uint32_t, r->node_count, error);
     if (!r->heads || !r->next_in_cell || !r->cosines || !r->sines || !r->weights || !r->moves || !g.left ||
-        !g.scaled || !g.way || !g.pull)
+        !g.scaled || !g.way || !g.pull || !g.misses)
         return MESO_ERR_MEMORY;
     fit_turns(r);
     *any = judge_pairs(r);
-    MesoStatus status = MESO_OK;
+    MesoStatus status = may_move && *any ? turn_pairs(r, error) : MESO_OK;
     for (int i = 0; i < FITS && may_move && *any && !status; i++) {
         if (i >= SURE_FITS)
             status = meso_relax_guess(r, error);

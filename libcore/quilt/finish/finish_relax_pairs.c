@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "libcore/base/grow.h"
+#include "libcore/base/parallel.h"
 #include "libcore/quilt/finish/finish_relax_work.h"
 
 /* Rings around a ring are looked for at these distances, as shares of the swatch's shorter side. */
@@ -189,16 +190,31 @@ static uint32_t list_pairs(MesoRelaxPair *pairs, const MesoRelaxing *r, uint32_t
     return count;
 }
 
+static void count_range(void *context, uint64_t begin, uint64_t end)
+{
+    const MesoRelaxing *r = context;
+    for (uint32_t i = (uint32_t)begin; i < end; i++)
+        r->begin[i + 1] = list_pairs(NULL, r, i);
+}
+
+static void list_range(void *context, uint64_t begin, uint64_t end)
+{
+    const MesoRelaxing *r = context;
+    for (uint32_t i = (uint32_t)begin; i < end; i++)
+        list_pairs(&r->pairs[r->begin[i]], r, i);
+}
+
 MesoStatus meso_relax_find_pairs(MesoRelaxing *r, MesoError *error)
 {
     r->begin = MESO_NEW(r->arena, uint32_t, (size_t)r->node_count + 1, error);
     if (!r->begin)
         return MESO_ERR_MEMORY;
+    meso_parallel_for(r->thread_count, r->node_count, MESO_RELAX_BLOCK, count_range, r);
     for (uint32_t i = 0; i < r->node_count; i++)
-        r->begin[i + 1] = r->begin[i] + list_pairs(NULL, r, i);
+        r->begin[i + 1] += r->begin[i];
     r->pairs = MESO_NEW(r->arena, MesoRelaxPair, r->begin[r->node_count], error);
-    for (uint32_t i = 0; r->pairs && i < r->node_count; i++)
-        list_pairs(&r->pairs[r->begin[i]], r, i);
+    if (r->pairs)
+        meso_parallel_for(r->thread_count, r->node_count, MESO_RELAX_BLOCK, list_range, r);
     return r->pairs ? MESO_OK : MESO_ERR_MEMORY;
 }
 
@@ -272,21 +288,39 @@ static uint32_t find_guess(const MesoRelaxing *r, uint32_t from, uint32_t name, 
     return best;
 }
 
-static MesoStatus add_guess(MesoRelaxing *r, uint32_t from, uint32_t name, MesoError *error)
+/* Where a node's ring should have another one: by its place among those around it, or MESO_NO_INDEX. */
+static uint32_t look_for(const MesoRelaxing *r, uint32_t from, uint32_t k)
+{
+    uint32_t name = r->near[MESO_RELAX_NEAR * (size_t)r->nodes[from].name + k];
+    if (name == MESO_NO_INDEX || *meso_relax_entry(r, r->nodes[from].patch, name) != MESO_NO_INDEX)
+        return MESO_NO_INDEX;
+    MesoRelaxPair pair = pair_of(r, r->nodes[from].name, MESO_NO_INDEX, name);
+    return find_guess(r, from, name, meso_vec3_add(moved(r, from), meso_relax_turned(r, from, pair.x, pair.y)));
+}
+
+/* What nodes from `first` on find. */
+typedef struct Search {
+    const MesoRelaxing *r;
+    uint32_t first;
+    uint32_t *found;            /* [MESO_RELAX_NEAR] of each */
+} Search;
+
+static void search_range(void *context, uint64_t begin, uint64_t end)
+{
+    const Search *search = context;
+    for (uint32_t i = (uint32_t)begin; i < end; i++)
+        for (uint32_t k = 0; k < MESO_RELAX_NEAR; k++)
+            search->found[MESO_RELAX_NEAR * (size_t)i + k] = look_for(search->r, search->first + i, k);
+}
+
+static MesoStatus add_guess(MesoRelaxing *r, uint32_t from, uint32_t name, uint32_t to, MesoError *error)
 {
     const MesoRelaxNode *node = &r->nodes[from];
-    MesoRelaxPair pair = pair_of(r, node->name, MESO_NO_INDEX, name);
-    pair.to = find_guess(r, from, name, meso_vec3_add(moved(r, from), meso_relax_turned(r, from, pair.x, pair.y)));
-    if (pair.to == MESO_NO_INDEX)
-        return MESO_OK;
-    MesoVec3 across = meso_vec3_cross(node->normal, axis_at(r, pair.to, r->nodes[pair.to].name));
-    if (r->guess_count == r->guess_room) {
-        uint32_t room = r->guess_room ? 2 * r->guess_room : 1024;
-        r->guesses = meso_arena_enlarge(r->arena, r->guesses, r->guess_count, room, sizeof *r->guesses, error);
-        if (!r->guesses)
-            return MESO_ERR_MEMORY;
-        r->guess_room = room;
-    }
+    MesoRelaxPair pair = pair_of(r, node->name, to, name);
+    MesoVec3 across = meso_vec3_cross(node->normal, axis_at(r, to, r->nodes[to].name));
+    r->guesses = MESO_GROW(r->arena, r->guesses, r->guess_count, r->guess_room, 1024, error);
+    if (!r->guesses)
+        return MESO_ERR_MEMORY;
     r->guesses[r->guess_count++] = (MesoRelaxGuess){from, pair, meso_vec3_direction(across, (MesoVec3){0, 0, 0})};
     return MESO_OK;
 }
@@ -295,12 +329,19 @@ MesoStatus meso_relax_guess(MesoRelaxing *r, MesoError *error)
 {
     r->guess_count = 0;
     sort_nodes(r);
-    for (uint32_t i = 0; i < r->node_count; i++)
-        for (uint32_t k = 0; k < MESO_RELAX_NEAR; k++) {
-            uint32_t name = r->near[MESO_RELAX_NEAR * (size_t)r->nodes[i].name + k];
-            if (name != MESO_NO_INDEX && *meso_relax_entry(r, r->nodes[i].patch, name) == MESO_NO_INDEX &&
-                add_guess(r, i, name, error))
+    uint32_t batch = r->node_count < MESO_RELAX_BATCH ? r->node_count : MESO_RELAX_BATCH;
+    Search search = {.r = r, .found = MESO_NEW(r->arena, uint32_t, MESO_RELAX_NEAR * (size_t)batch, error)};
+    if (!search.found)
+        return MESO_ERR_MEMORY;
+    for (; search.first < r->node_count; search.first += batch) {
+        uint32_t rest = r->node_count - search.first, count = rest < batch ? rest : batch;
+        meso_parallel_for(r->thread_count, count, MESO_RELAX_BLOCK, search_range, &search);
+        for (uint32_t at = 0; at < MESO_RELAX_NEAR * count; at++) {
+            uint32_t node = search.first + at / MESO_RELAX_NEAR;
+            uint32_t name = r->near[MESO_RELAX_NEAR * (size_t)r->nodes[node].name + at % MESO_RELAX_NEAR];
+            if (search.found[at] != MESO_NO_INDEX && add_guess(r, node, name, search.found[at], error))
                 return MESO_ERR_MEMORY;
         }
+    }
     return MESO_OK;
 }

@@ -86,13 +86,18 @@ static void release(Cloth *cloth)
     meso_arena_release(&cloth->arena);
 }
 
-static void relax(Cloth *cloth)
+static void relax_by(Cloth *cloth, uint32_t thread_count)
 {
     MesoError error;
-    const MesoFinishOptions options = {.scale = 1};
+    const MesoFinishOptions options = {.scale = 1, .thread_count = thread_count};
     MesoFinishWork work = {.base = &cloth->base, .swatch = &cloth->swatch, .options = &options,
                            .arena = &cloth->arena};
     CHECK(meso_finish_relax(&cloth->quilt, &work, &error) == MESO_OK);
+}
+
+static void relax(Cloth *cloth)
+{
+    relax_by(cloth, 0);
 }
 
 /* By how much vertices some pitches apart are nearer or farther than in the swatch: root of the mean square. */
@@ -234,8 +239,24 @@ static void test_carried(void)
     release(&cloth);
 }
 
+/* The same to the bit by any number of threads. */
+static void test_threads(void)
+{
+    Cloth one, many;
+    init(&one, "weave", 0.12f);
+    init(&many, "weave", 0.12f);
+    for (uint32_t t = 0; t < one.quilt.triangle_count; t++)     /* patches to guess between */
+        one.quilt.patches[t] = many.quilt.patches[t] = t % 3;
+    relax_by(&one, 1);
+    relax_by(&many, 7);
+    CHECK(memcmp(one.quilt.vertices, many.quilt.vertices, one.quilt.vertex_count * sizeof *one.quilt.vertices) == 0);
+    release(&one);
+    release(&many);
+}
+
 int main(void)
 {
+    test_threads();
     test_bent();
     test_sections();
     test_carried();

@@ -8,6 +8,9 @@
 /* Rings that are looked for around each ring of the swatch. */
 enum { MESO_RELAX_DIRECTIONS = 6, MESO_RELAX_NEAR = 2 * MESO_RELAX_DIRECTIONS + 2 };
 
+/* Nodes that are looked at by one core at a time; and so many at once where what is found is then put in order. */
+enum { MESO_RELAX_BLOCK = 256, MESO_RELAX_BATCH = 8192 };
+
 /* Lengths as shares of the swatch's shorter side: below it, errors count by length, not by share of their distance. */
 #define MESO_RELAX_SOFT 0.05f
 
@@ -28,7 +31,13 @@ typedef struct MesoRelaxPair {
     float weight;               /* 0: it is meant to be elsewhere */
 } MesoRelaxPair;
 
-/* The same across the way of a strand of another patch, wherever along it. */
+/* A pair seen from where it leads to. */
+typedef struct MesoRelaxInto {
+    uint32_t from;
+    float weight;
+} MesoRelaxInto;
+
+/* A pair across the way of a strand of another patch, wherever along it. */
 typedef struct MesoRelaxGuess {
     uint32_t from;
     MesoRelaxPair pair;
@@ -46,6 +55,8 @@ typedef struct MesoRelaxing {
     uint32_t *table, mask;      /* nodes hashed by patch and name */
     uint32_t *begin;            /* [node_count + 1] into the pairs */
     MesoRelaxPair *pairs;
+    uint32_t *into_begin;       /* [node_count + 1] into: */
+    MesoRelaxInto *into;        /* [pairs] those that lead to each node, in their order */
     uint32_t guess_count, guess_room;
     MesoRelaxGuess *guesses;
     uint32_t *heads, *next_in_cell;     /* [mask + 1], [node_count] nodes hashed by place */
@@ -53,6 +64,7 @@ typedef struct MesoRelaxing {
     double *weights;            /* [node_count] of all pairs of each, either way */
     double *moves;              /* [3 * node_count] */
     uint32_t *carriers;         /* [swatch->element_count] ring that a whole element grows from, or MESO_NO_INDEX */
+    uint32_t thread_count;
     MesoArena *arena;
 } MesoRelaxing;
 

@@ -1,4 +1,6 @@
 /* All steps after a quilt has grown. */
+#include <string.h>
+
 #include "libcore/quilt/finish/finish_work.h"
 
 /* Unit normals of the base's vertices, by area: for distances between points of the layer. */
@@ -30,6 +32,21 @@ static bool is_finished(const MesoFinishWork *work)
     return !strands && !work->swatch->loop_count && !work->base->inside;
 }
 
+/* Where the work has arrays of its own, those of the quilt can go, but for what its elements are. */
+static MesoStatus forget(MesoQuilt *quilt, MesoFinishWork *work, MesoError *error)
+{
+    if (!work->options->spent || !quilt->vertices || work->vertices == quilt->vertices)
+        return MESO_OK;
+    uint32_t *origins = MESO_NEW(work->arena, uint32_t, quilt->element_count, error);
+    if (!origins)
+        return MESO_ERR_MEMORY;
+    if (quilt->element_count)
+        memcpy(origins, quilt->element_origins, quilt->element_count * sizeof *origins);
+    *quilt = (MesoQuilt){.element_count = quilt->element_count, .element_origins = origins, .report = quilt->report};
+    meso_arena_release(work->options->spent);
+    return MESO_OK;
+}
+
 static MesoStatus finish(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *work, MesoError *error)
 {
     MesoStatus status = find_normals(work, error);
@@ -37,12 +54,16 @@ static MesoStatus finish(MesoQuilt *quilt, MesoArena *arena, MesoFinishWork *wor
         status = meso_finish_relax(quilt, work, error);
     if (!status)
         status = meso_finish_cut(work, quilt, error);
+    if (!status)
+        status = forget(quilt, work, error);
     if (!status && work->options->scale > 0)
         status = meso_finish_level(work, quilt, error);
     if (!status && work->options->scale > 0)
         status = meso_finish_part(work, error);
     if (!status)
         status = meso_finish_close(work, error);
+    if (!status)
+        status = forget(quilt, work, error);
     return status ? status : meso_finish_gather(quilt, arena, work, error);
 }
 
@@ -55,11 +76,14 @@ MesoStatus meso_quilt_finish(MesoQuilt *quilt, MesoArena *arena, const MesoQuilt
                            .arena = &scratch};
     quilt->report.open_count = 0;
     MesoStatus status = MESO_OK;
-    if (!is_finished(&work))
+    if (!is_finished(&work)) {
         status = finish(quilt, arena, &work, error);
-    else
+        if (status && options->spent)
+            *quilt = (MesoQuilt){.report = quilt->report};
+    } else {
         for (uint32_t v = 0; v < quilt->vertex_count; v++)
             quilt->vertices[v] = meso_finish_original(&work, quilt->vertices[v]);
+    }
     meso_arena_release(&scratch);
     return status;
 }

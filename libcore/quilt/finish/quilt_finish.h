@@ -15,6 +15,7 @@ typedef struct MesoFinishOptions {
     float overhang;         /* whole elements may reach beyond a border by so much, in the surface's units */
     uint32_t thread_count;  /* 0: all cores; no effect on the bytes */
     bool open_borders;      /* strands that a border cuts stay open there; else they are closed */
+    MesoArena *spent;       /* has the quilt's arrays alone; released once they are of no use. NULL: they stay */
 } MesoFinishOptions;
 
 /*
@@ -38,7 +39,8 @@ typedef struct MesoFinishOptions {
  * - Elements are what hangs together, in the order in which they were, pieces of one by their first triangle.
  *
  * Counts are added to the quilt's report; open_count is what is open in the end. O(quilt + base), and O(count^2) for a
- * flat cap. MESO_ERR_INPUT where triangles do not fit together at a border, MESO_ERR_LIMIT, MESO_ERR_MEMORY.
+ * flat cap. Where it fails and there is a spent arena, the quilt is empty. MESO_ERR_INPUT where triangles do not fit
+ * together at a border, MESO_ERR_LIMIT, MESO_ERR_MEMORY.
  */
 MesoStatus meso_quilt_finish(MesoQuilt *quilt, MesoArena *arena, const MesoQuiltBase *base, const MesoSwatch *swatch,
                              const MesoFinishOptions *options, MesoError *error);

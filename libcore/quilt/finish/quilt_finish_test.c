@@ -1,5 +1,7 @@
 #include "libcore/quilt/finish/finish_work.h"
 
+#include <string.h>
+
 #include "libcore/mesh/cut/triangulation_fixture.h"
 
 /* A bar along x of square section, open at its ends, and a higher octahedron: what the quilts here are made of. */
@@ -456,8 +458,40 @@ static void test_part_sides(void)
     meso_arena_release(&arena);
 }
 
+/* The quilt's own memory goes when it is of no use: what comes out is the same, whatever the number of threads. */
+static void test_spent(void)
+{
+    MesoArena arena, own, fresh;
+    MesoError error = {0};
+    meso_arena_init(&arena);
+    meso_arena_init(&own);
+    meso_arena_init(&fresh);
+    MesoSwatch swatch = make_swatch(&arena);
+    MesoTriangulation plane = meso_fixture_sheet(2, 2, 2);
+    MesoQuiltBase base;
+    CHECK(meso_quilt_base_build(&base, &arena, &plane, NULL, 0.5f, 2.5f, &error) == MESO_OK);
+    const Copy bar = {0, RINGS - 1, {-2 - swatch.positions[0].x, 1.3f - swatch.positions[0].y, 0}};
+    MesoQuilt kept = lay_out(&arena, &swatch, &base.mesh, &bar, 1), spent = lay_out(&own, &swatch, &base.mesh, &bar, 1);
+    const MesoFinishOptions options = {.scale = 1, .thread_count = 1};
+    const MesoFinishOptions spending = {.scale = 1, .thread_count = 7, .spent = &own};
+    CHECK(meso_quilt_finish(&kept, &arena, &base, &swatch, &options, &error) == MESO_OK);
+    CHECK(meso_quilt_finish(&spent, &fresh, &base, &swatch, &spending, &error) == MESO_OK);
+    CHECK(own.used == 0 && !own.head);
+    CHECK(kept.vertex_count && spent.vertex_count == kept.vertex_count && spent.element_count == kept.element_count);
+    CHECK(memcmp(spent.vertices, kept.vertices, kept.vertex_count * sizeof *kept.vertices) == 0);
+    CHECK(spent.triangle_count == kept.triangle_count &&
+          memcmp(spent.corners, kept.corners, 3 * kept.triangle_count * sizeof *kept.corners) == 0);
+    CHECK(spent.report.closed_count == kept.report.closed_count && spent.report.closed_count == 2);
+    meso_quilt_base_release(&base);
+    meso_triangulation_release(&plane);
+    meso_arena_release(&arena);
+    meso_arena_release(&own);
+    meso_arena_release(&fresh);
+}
+
 int main(void)
 {
+    test_spent();
     test_along_border();
     test_level();
     test_whole_level();

@@ -16,7 +16,8 @@ enum { FILLS = 2, RELAX_ROUNDS = 48, LAYER_ROUNDS = 4 };
 typedef struct Settling {
     MesoSettleWork work;
     const MesoQuilt *before;
-    MesoVec3 *positions;        /* [before->vertex_count] */
+    MesoArena laid;             /* of: */
+    MesoVec3 *positions;        /* [before->vertex_count], until what comes to be is known */
     uint32_t *body_of;          /* [before->element_count] that has it as its first member, or MESO_NO_INDEX */
     MesoQuiltVertex *places;    /* [point_count] of all bodies, one after the other */
     uint32_t *place_begin;      /* [body_count] */
@@ -39,7 +40,7 @@ static MesoStatus embed(Settling *s, MesoError *error)
     s->work.low = heights.low - slack;
     s->work.high = heights.high + slack;
     s->work.directions = MESO_NEW(s->work.arena, MesoVec3, s->work.surface->vertex_count, error);
-    s->positions = MESO_NEW(s->work.arena, MesoVec3, s->before->vertex_count, error);
+    s->positions = MESO_NEW(&s->laid, MesoVec3, s->before->vertex_count, error);
     if (!s->work.directions || !s->positions)
         return MESO_ERR_MEMORY;
     MesoStatus status = make_layer(s, heights, error);
@@ -343,6 +344,7 @@ static MesoStatus rebuild(MesoQuilt *quilt, MesoArena *arena, Settling *s, MesoE
 {
     Sources sources = {0};
     MesoStatus status = list_sources(&sources, s, error);
+    meso_arena_release(&s->laid);
     *quilt = (MesoQuilt){.report = s->before->report};
     if (!status)
         status = make_room(quilt, arena, s, &sources, error);
@@ -399,6 +401,7 @@ MesoStatus meso_quilt_settle(MesoQuilt *quilt, MesoArena *arena, const MesoTrian
     if (!any || !quilt->element_count)
         return MESO_OK;
     meso_arena_init(&scratch);
+    meso_arena_init(&s.laid);
     s.work = (MesoSettleWork){.surface = surface, .swatch = swatch, .options = *options, .alone = alone,
                               .arena = &scratch};
     if (!(options->height_scale > 0))
@@ -406,6 +409,7 @@ MesoStatus meso_quilt_settle(MesoQuilt *quilt, MesoArena *arena, const MesoTrian
     MesoStatus status = settle(quilt, arena, &s, error);
     if (status)
         *quilt = before;
+    meso_arena_release(&s.laid);
     meso_arena_release(&scratch);
     return status;
 }
