@@ -6,8 +6,8 @@
 
 /*
  * A crease folds a section along a line that wanders over it on the way (scene.h): what of a chord w lies beyond the
- * line keeps a part k of its distance to it, so that the section is off the chord by (1 - k) w / (6 + 2 k) at most: with
- * its middle on the line, where the square of the tangent of the angle between is 2 / (1 + k). Flat sides are one
+ * line keeps a part k of its distance to it, so that the section is off the chord by (1 - k) w / (6 + 2 k) at most:
+ * with its middle on the line, where the square of the tangent of the angle between is 2 / (1 + k). Flat sides are one
  * chord, however wide. Kinds of sweeps of which some have creases are cut up in two, and those that have get columns
  * between the ends, with which chords are off by no more than `tolerance` (scene units).
  *
