@@ -189,7 +189,7 @@ bench: all benches generators
 	@scripts/bench/stages $(OUT) $(BIN) $(DATA) $(BENCHES)
 bench-solve: all benches generators
 	@scripts/bench/solve $(OUT) $(BIN) $(DATA)
-bench-map: all $(OUT)/test/scripts/bench/map_bound_bench
+bench-map: all $(addprefix $(OUT)/test/scripts/bench/map_,bound_bench error_bench)
 	@scripts/bench/map $(OUT) $(BIN) $(DATA)
 bench-render: all generators
 	@scripts/bench/render $(OUT) $(BIN) $(DATA)

@@ -5,6 +5,7 @@
 
 #include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
+#include "libcore/scene/crease_columns.h"
 #include "libcore/scene/placed.h"
 #include "libcore/tiling/strand/slot_sweeps.h"
 #include "libcore/tiling/strand/slot_winding.h"
@@ -17,6 +18,9 @@ static const float AROUND_SHARE = 0.5f;
 
 /* Of the tolerance for chords of sections that a slot bends. */
 static const float BEND_SHARE = 0.2f;
+
+/* Of the tolerance for chords of sections that a crease folds. */
+static const float CREASE_SHARE = 0.6f;
 
 typedef struct Builder {
     const MesoModel *model;
@@ -156,6 +160,20 @@ static MesoStatus make_instances(Builder *b, MesoArena *arena, uint32_t thread_c
     atomic_store(&b->slots->failed, UINT64_MAX);
     meso_parallel_for(thread_count, b->scene->sweep_count, INSTANCES_A_RANGE, make_range, b);
     return meso_slot_sweeps_check(b->slots, error);
+}
+
+/* Kinds are cut up, then, and come from where they did. */
+static MesoStatus add_crease_columns(Builder *b, MesoArena *arena, float tolerance, MesoError *error)
+{
+    uint32_t *from;
+    MesoStatus status = meso_crease_columns(b->scene, &from, arena, CREASE_SHARE * tolerance, error);
+    if (status || !from)
+        return status;
+    MesoKindOrigin *origins = MESO_NEW(arena, MesoKindOrigin, b->scene->kind_count, error);
+    for (uint32_t k = 0; k < b->scene->kind_count && origins; k++)
+        origins[k] = b->origins[from[k]];
+    b->origins = origins;
+    return origins ? MESO_OK : MESO_ERR_MEMORY;
 }
 
 /* ---- inner meshes ---- */
@@ -373,6 +391,8 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         status = make_cages(b, arena, error);
     if (!status)
         status = make_instances(b, arena, thread_count, error);
+    if (!status && tolerance > 0)
+        status = add_crease_columns(b, arena, tolerance, error);
     if (!status && tolerance > 0)
         status = meso_scene_choose_steps(b->scene, &b->origins, arena, tolerance, thread_count, error);
     if (!status)

@@ -39,6 +39,9 @@ static const float BOWED = 0.5f;
 /* Of a step, what rounding may take. */
 static const float ENOUGH = 1.02f;
 
+/* Folds of creases run across columns within much less than a step. */
+static const float CREASED_INTERVALS = 64;
+
 /* What a radian of turn takes in intervals to be seen. */
 static const float INTERVALS_A_RADIAN = 5;
 
@@ -332,6 +335,8 @@ static void spread_budget(Wants *wants, const Budget *budget)
 static uint32_t intervals_of(const MesoSweptKind *kind, const MesoSweepInstance *sweep)
 {
     float wanted = INTERVALS_A_RADIAN * (fabsf(kind->turn) + fabsf(sweep->twist));
+    if (sweep->mitre >= MESO_CREASED)
+        wanted = fmaxf(wanted, CREASED_INTERVALS);
     return wanted < LEAST_INTERVALS ? LEAST_INTERVALS : wanted > MOST_INTERVALS ? MOST_INTERVALS : (uint32_t)wanted;
 }
 
