@@ -10,6 +10,40 @@ static float distance(const MesoMeshVertex *a, const MesoMeshVertex *b)
     return meso_vec3_length(meso_vec3_sub(b->position, a->position));
 }
 
+/* Which bit of a column's absence speaks of a ring. */
+static uint32_t absence_on(const MesoSweptKind *kind, uint32_t ring)
+{
+    return ring == 0 ? MESO_ABSENT_START : ring + 1 == kind->division_count ? MESO_ABSENT_END : MESO_ABSENT_BETWEEN;
+}
+
+/*
+ * Of the vertices from `*at` on, which are moved past; those of the ring before begin at `before`. The first column is
+ * on all rings; one that the ring before lacks has come as far along as its neighbour.
+ */
+static void measure_ring(MesoVec2 *out, const MesoMeshVertex *vertices, const MesoSweepColumn *columns,
+                         const MesoSweptKind *kind, uint32_t ring, uint64_t before, uint64_t *at)
+{
+    const uint32_t here = absence_on(kind, ring), there = ring ? absence_on(kind, ring - 1) : ~0u;
+    const uint64_t begin = *at;
+    bool joined = true;
+    for (uint32_t c = 0; c < kind->column_count; c++) {
+        bool has_before = ring && !(columns[c].absent & there);
+        uint64_t last = before;
+        before += has_before;
+        joined = joined && (c == 0 || columns[c - 1].joins_next);
+        if (columns[c].absent & here)
+            continue;
+        MesoVec2 *to = &out[*at];
+        *to = *at == begin ? (MesoVec2){0, 0} : to[-1];
+        if (*at > begin && joined)
+            to->x += distance(&vertices[*at - 1], &vertices[*at]);
+        if (has_before)
+            to->y = out[last].y + distance(&vertices[last], &vertices[*at]);
+        joined = true;
+        ++*at;
+    }
+}
+
 void meso_surface_lengths(const MesoSceneParts *parts, uint32_t part, const MesoMeshVertex *vertices, MesoVec2 *out)
 {
     const MesoScene *scene = parts->scene;
@@ -19,15 +53,12 @@ void meso_surface_lengths(const MesoSceneParts *parts, uint32_t part, const Meso
         return;
     }
     const MesoSweptKind *kind = &scene->kinds[meso_scene_kind(scene, part)];
-    const MesoSweepColumn *columns = scene->columns + kind->column_begin;
-    const uint32_t width = kind->column_count;
-    for (uint32_t ring = 0; ring < kind->division_count; ring++)
-        for (uint32_t c = 0; c < width; c++) {
-            uint64_t at = (uint64_t)ring * width + c;
-            bool joined = c > 0 && columns[c - 1].joins_next;
-            out[at].x = c == 0 ? 0 : out[at - 1].x + (joined ? distance(&vertices[at - 1], &vertices[at]) : 0);
-            out[at].y = ring == 0 ? 0 : out[at - width].y + distance(&vertices[at - width], &vertices[at]);
-        }
+    uint64_t before = 0, at = 0;
+    for (uint32_t ring = 0; ring < kind->division_count; ring++) {
+        uint64_t begin = at;
+        measure_ring(out, vertices, scene->columns + kind->column_begin, kind, ring, before, &at);
+        before = begin;
+    }
 }
 
 /* ---- tangents ---- */

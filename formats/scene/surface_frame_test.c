@@ -72,6 +72,37 @@ static void test_sweeps(SceneFixture *fixture)
     }
 }
 
+/* Columns at x 0 to 4 and rings at y 0 to 3, some of which lack some columns. */
+static void test_absent(void)
+{
+    enum { WIDTH = 5, RINGS = 4, GUARD = 4 };
+    static const uint32_t absent[WIDTH] = {0, MESO_ABSENT_BETWEEN, MESO_ABSENT_START | MESO_ABSENT_END,
+                                           MESO_ABSENT_START | MESO_ABSENT_BETWEEN, 0};
+    MesoSweepColumn columns[WIDTH] = {{.joins_next = 1}};
+    MesoMeshVertex vertices[WIDTH * RINGS];
+    MesoVec2 lengths[WIDTH * RINGS + GUARD];
+    uint64_t begin[2] = {0, 0};
+    for (uint32_t c = 0; c < WIDTH; c++) {
+        columns[c].joins_next = c + 1 < WIDTH;
+        columns[c].absent = absent[c];
+    }
+    for (uint32_t ring = 0; ring < RINGS; ring++)
+        for (uint32_t c = 0; c < WIDTH; c++)
+            if (!(absent[c] & (ring == 0 ? MESO_ABSENT_START : ring + 1 == RINGS ? MESO_ABSENT_END
+                                                                                  : MESO_ABSENT_BETWEEN)))
+                vertices[begin[1]++] = (MesoMeshVertex){.position = {(float)c, (float)ring, 0}};
+    for (uint64_t i = 0; i < begin[1] + GUARD; i++)
+        lengths[i] = (MesoVec2){-1, -1};
+    MesoSweptKind kind = {.column_count = WIDTH, .division_count = RINGS, .absent = {2, 1, 2}, .instance_count = 1};
+    MesoScene scene = {.kinds = &kind, .kind_count = 1, .columns = columns, .column_count = WIDTH, .sweep_count = 1};
+    MesoSceneParts parts = {.scene = &scene, .part_count = 1, .vertex_begin = begin};
+    meso_surface_lengths(&parts, 0, vertices, lengths);
+    for (uint64_t i = 0; i < begin[1]; i++)
+        CHECK(lengths[i].x == vertices[i].position.x && lengths[i].y == vertices[i].position.y);
+    for (uint64_t i = begin[1]; i < begin[1] + GUARD; i++)
+        CHECK(lengths[i].x == -1);
+}
+
 /* The first row of the first material: that of the first part of it. */
 static void test_rows(SceneFixture *fixture)
 {
@@ -111,6 +142,7 @@ int main(void)
     test_patch(1);
     test_patch(-1);
     test_blank();
+    test_absent();
     scene_fixture_init(&fixture, 4, 7, 0.05f);
     test_sweeps(&fixture);
     test_rows(&fixture);
