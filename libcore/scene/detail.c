@@ -131,7 +131,9 @@ static float largest_radius(const MesoSweptKind *kind, const MesoSweepColumn *co
 static float angle_between(MesoVec3 a, MesoVec3 b)
 {
     float scale = meso_vec3_length(a) * meso_vec3_length(b);
-    return scale > 0 ? acosf(fminf(fmaxf(meso_vec3_dot(a, b) / scale, -1), 1)) : 0;
+    float cosine = meso_vec3_dot(a, b) / scale;
+    cosine = cosine > -1 ? cosine : -1;         /* fmaxf() is a call */
+    return scale > 0 ? acosf(cosine < 1 ? cosine : 1) : 0;
 }
 
 /* The polygon of the handles turns at least as much as the curve. */

@@ -23,7 +23,8 @@ float meso_scene_kind_size(const MesoScene *scene, const MesoSweptKind *kind)
         return scene->maker->kind_sizes[kind - scene->kinds];
     for (uint32_t i = 0; i < kind->instance_count; i++) {
         const MesoSweepInstance *sweep = &scene->sweeps[kind->instance_begin + i];
-        size = fmaxf(size, fmaxf(sweep->size[0], sweep->size[1]));
+        for (uint32_t end = 0; end < 2; end++)      /* fmaxf() is a call */
+            size = sweep->size[end] > size ? sweep->size[end] : size;
     }
     return size;
 }

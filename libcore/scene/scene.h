@@ -288,6 +288,9 @@ typedef struct MesoScene {
 /* Fills in the box: around all control points, widened by the profiles, cages and bodies. O(sweeps + vertices). */
 void meso_scene_measure(MesoScene *scene);
 
+/* The same by so many threads (0: all cores); the box is the same for any number. */
+void meso_scene_measure_by(MesoScene *scene, uint32_t thread_count);
+
 /* Kind of a sweep. O(log kinds). */
 uint32_t meso_scene_kind(const MesoScene *scene, uint32_t sweep);
 

@@ -1,4 +1,5 @@
 /* The box around a scene. */
+#include "libcore/base/parallel.h"
 #include "libcore/scene/cell.h"
 #include "libcore/scene/placed.h"
 #include "libcore/scene/sweep_maker.h"
@@ -12,6 +13,32 @@ static void add_kind(MesoBox *box, const MesoScene *scene, const MesoSweptKind *
         for (uint32_t k = 0; k < hull.count; k++)
             meso_box_add_around(box, hull.points[k], hull.reach);
     }
+}
+
+/* Boxes of kinds, one a worker. */
+typedef struct KindBoxes {
+    const MesoScene *scene;
+    MesoBox boxes[MESO_BUNDLE_WORKERS];
+} KindBoxes;
+
+static void add_kinds(void *context, uint32_t worker, uint64_t begin, uint64_t end)
+{
+    KindBoxes *all = context;
+    for (uint64_t k = begin; k < end; k++)
+        add_kind(&all->boxes[worker], all->scene, &all->scene->kinds[k]);
+}
+
+static void add_all_kinds(MesoBox *box, const MesoScene *scene, uint32_t thread_count)
+{
+    enum { KINDS_A_RANGE = 64, SWEEPS_LEAST = 1 << 14 };    /* fewer are done before a thread has begun */
+    uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
+    workers = scene->sweep_count < SWEEPS_LEAST ? 1 : workers < MESO_BUNDLE_WORKERS ? workers : MESO_BUNDLE_WORKERS;
+    KindBoxes all = {.scene = scene};
+    for (uint32_t w = 0; w < workers; w++)
+        all.boxes[w] = meso_box_empty();
+    meso_parallel_team(workers, scene->kind_count, KINDS_A_RANGE, add_kinds, &all);
+    for (uint32_t w = 0; w < workers; w++)
+        meso_box_join(box, &all.boxes[w]);
 }
 
 /* Boxes of what is made, one a worker. */
@@ -61,13 +88,18 @@ static void add_placed(MesoBox *box, const MesoScene *scene, const MesoPlacedBod
         meso_box_add(box, meso_placed_point(scene, placed, body->positions[v]));
 }
 
-void meso_scene_measure(MesoScene *scene)
+void meso_scene_measure_by(MesoScene *scene, uint32_t thread_count)
 {
     scene->box = meso_box_empty();
     if (scene->maker)
         add_made(&scene->box, scene);
-    for (uint32_t k = 0; k < scene->kind_count && !scene->maker; k++)
-        add_kind(&scene->box, scene, &scene->kinds[k]);
+    else
+        add_all_kinds(&scene->box, scene, thread_count);
     for (uint32_t i = 0; i < scene->placed_count; i++)
         add_placed(&scene->box, scene, &scene->placed[i]);
+}
+
+void meso_scene_measure(MesoScene *scene)
+{
+    meso_scene_measure_by(scene, 1);
 }

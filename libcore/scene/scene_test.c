@@ -152,6 +152,37 @@ static void test_boxes(MesoArena *arena)
     CHECK(meso_scene_parts_init(&parts, arena, &nothing, NULL) == MESO_OK && parts.part_count == 0);
 }
 
+/* Straight sweeps in many kinds, the farthest of which are somewhere in their midst. */
+static void test_threads(MesoArena *arena)
+{
+    enum { KINDS = 300, EACH = 64, SWEEPS = KINDS * EACH, FAR = 77 * EACH + 5 };
+    Case c;
+    make_case(&c);
+    MesoSweptKind *kinds = MESO_NEW(arena, MesoSweptKind, KINDS, NULL);
+    MesoSweepInstance *sweeps = MESO_NEW(arena, MesoSweepInstance, SWEEPS, NULL);
+    CHECK(kinds && sweeps);
+    for (uint32_t k = 0; k < KINDS; k++) {
+        kinds[k] = c.kind;
+        kinds[k].instance_begin = k * EACH;
+        kinds[k].instance_count = EACH;
+    }
+    for (uint32_t i = 0; i < SWEEPS; i++) {
+        sweeps[i] = c.sweep;
+        for (uint32_t k = 0; k < 4; k++)
+            sweeps[i].p[k] = (MesoVec3){(float)(i % 100), i == FAR ? -50 : 0, (float)(k + i % 7)};
+    }
+    MesoScene many = c.scene;
+    many.placed_count = 0;
+    many.kind_count = KINDS;
+    many.sweep_count = SWEEPS;
+    many.kinds = kinds;
+    many.sweeps = sweeps;
+    for (uint32_t threads = 0; threads < 9; threads++) {
+        meso_scene_measure_by(&many, threads);
+        CHECK(same(many.box.low, -2, -52, -2) && same(many.box.high, 101, 2, 11));
+    }
+}
+
 int main(void)
 {
     MesoArena arena;
@@ -159,6 +190,7 @@ int main(void)
     test_points();
     test_parts(&arena);
     test_boxes(&arena);
+    test_threads(&arena);
     meso_arena_release(&arena);
     return 0;
 }

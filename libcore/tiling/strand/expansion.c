@@ -405,7 +405,7 @@ static MesoStatus expand(Builder *b, MesoArena *arena, MesoArena *scratch, uint3
         status = make_ids(b, arena, error);
     if (status)
         return status;
-    meso_scene_measure(b->scene);
+    meso_scene_measure_by(b->scene, thread_count);
     return b->scene->maker ? meso_slot_sweeps_check(b->slots, error) : MESO_OK;
 }
 
