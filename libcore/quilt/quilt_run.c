@@ -422,9 +422,11 @@ static MesoStatus find_phases(MesoQuiltWork *work, MesoArena *scratch, MesoError
                           (MesoVec2){swatch->size.x, swatch->size.y}) ||
         (turns == 4 && !pitch->alike))
         return MESO_OK;
-    const double pitches[2] = {(double)o->scale * pitch->pitches[0], (double)o->scale * pitch->pitches[1]};
-    MesoStatus status = meso_stripe_phases(&work->phases, scratch, work->base, o->guide, turns, pitches,
-                                           pitch->chequered, (double)o->guide_turn, error);
+    const MesoStripeOptions stripes = {
+        .turn_count = turns, .diagonal = pitch->chequered, .turn_most = (double)o->guide_turn,
+        .pitches = {(double)o->scale * pitch->pitches[0], (double)o->scale * pitch->pitches[1]},
+        .thread_count = o->thread_count};
+    MesoStatus status = meso_stripe_phases(&work->phases, scratch, work->base, o->guide, &stripes, error);
     work->in_phase = !status && work->phases.strain > STRAIN_LEAST && work->phases.strain < STRAIN_MOST;
     if (work->in_phase)
         work->options.guide = work->phases.directions;

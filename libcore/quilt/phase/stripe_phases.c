@@ -1,6 +1,9 @@
 #include "libcore/quilt/phase/stripe_phases.h"
 
 #include <assert.h>
+#include <string.h>
+
+#include "libcore/base/team.h"
 
 /*
  * Waves of one height are smoothed and made even again, so often, held the less the more often ("Diffusion generated
@@ -24,6 +27,9 @@ enum { TURNINGS = 2, SWEEPS = 6 };
 #define TURNING_STRAIN_MOST 0.12
 #define FURTHER 1.8
 #define FLAT_LEAST 1e-3
+
+/* Triangles of a loop's range. */
+enum { RANGE = 1024 };
 
 /* Parts of two waves after quarter turns: where each comes from, and its sign. */
 static const uint32_t SOURCES[4][4] = {{0, 1, 2, 3}, {2, 3, 0, 1}, {0, 1, 2, 3}, {2, 3, 0, 1}};
@@ -73,10 +79,21 @@ MesoStripeStep meso_stripe_step(const MesoStripePhases *p, uint32_t half_edge, u
 
 /* Of a triangle s and one before it, t: |S z_s - e^(i w) z_t|^2 times a weight, S the quarter turns. */
 typedef struct Side {
-    uint32_t from, to;      /* t, s */
     uint32_t quarters;
-    double weight, cosines[2], sines[2];
+    double cosines[2], sines[2];
 } Side;
+
+typedef double Two __attribute__((vector_size(16)));
+
+/*
+ * What a neighbour's waves are in a triangle, times the side's weight: of each part two by two numbers, those on the
+ * diagonal and those beside it.
+ */
+typedef struct Link {
+    Two straight[2], crossed[2];
+    uint32_t from;          /* the neighbour; the triangle itself, and numbers 0, where there is none */
+    uint32_t swapped;       /* 1 if the neighbour's part across is the part along */
+} Link;
 
 /* Waves as numbers [4 * triangle_count], and what conjugate gradients are in need of. */
 void meso_stripe_excess(double more[2], const MesoStripePhases *p, uint32_t half_edge, uint32_t across,
@@ -94,11 +111,16 @@ void meso_stripe_excess(double more[2], const MesoStripePhases *p, uint32_t half
 
 typedef struct System {
     const MesoStripePhases *phases;
-    uint32_t side_count;
-    Side *sides;
+    Link *links;            /* [3 * triangle_count] by half-edge */
     double *areas;          /* [triangle_count] of the mean, times the mean weight of a triangle's sides */
     double *sums;           /* [triangle_count] weights of sides */
+    double *shares;         /* [triangle_count] 1 over the diagonal */
     double *left, *way, *pull;
+    MesoTeam *team;
+    size_t range_count;
+    double *range_sums;     /* [range_count] */
+    const double *from;     /* of loops that run: what apply() is to; */
+    double *z, held, length, again;
 } System;
 
 static double side_weight(const MesoStripePhases *p, uint32_t half_edge, uint32_t across)
@@ -110,26 +132,56 @@ static double side_weight(const MesoStripePhases *p, uint32_t half_edge, uint32_
     return square > 0 ? 1.5 * square / fmax(area, thinnest * square) : thinnest;
 }
 
-static void list_sides(System *system)
+/* With waves z of t and s on both sides of a side, it pulls by w (Q s - R t): R carries t over, and Q turns s. */
+static void link_both(Link *to_t, Link *to_s, const Side *side, double weight)
+{
+    const uint32_t back = (4 - side->quarters) % 4;
+    for (int k = 0; k < 2; k++) {
+        double c = weight * side->cosines[k], s = weight * side->sines[k];
+        const double *signs = &SIGNS[side->quarters][2 * k];
+        to_t->straight[k] = (Two){c * signs[0], c * signs[1]};
+        to_t->crossed[k] = (Two){s * signs[1], -s * signs[0]};
+        uint32_t from = SOURCES[back][2 * k] / 2;
+        c = weight * side->cosines[from];
+        s = weight * side->sines[from];
+        signs = &SIGNS[back][2 * k];
+        to_s->straight[k] = (Two){signs[0] * c, signs[1] * c};
+        to_s->crossed[k] = (Two){-signs[0] * s, signs[1] * s};
+    }
+    to_t->swapped = to_s->swapped = side->quarters % 2;
+}
+
+/* Over a half-edge, from its triangle to the next. */
+static Side side_over(const MesoStripePhases *p, uint32_t half_edge, uint32_t across)
+{
+    MesoStripeStep step = meso_stripe_step(p, half_edge, across);
+    Side side = {.quarters = step.quarters};
+    for (int k = 0; k < 2; k++) {
+        double angle = 2 * MESO_PI * step.ways[k] / p->pitches[k];
+        side.cosines[k] = cos(angle);
+        side.sines[k] = sin(angle);
+    }
+    return side;
+}
+
+static void list_links(System *system)
 {
     const MesoStripePhases *p = system->phases;
-    system->side_count = 0;
     for (uint32_t t = 0; t < p->mesh->triangle_count; t++)
         system->sums[t] = 0;
     for (uint32_t h = 0; h < 3 * p->mesh->triangle_count; h++) {
         uint32_t across = meso_frame_across(p->mesh, h);
+        if (across == MESO_NO_INDEX)
+            system->links[h] = (Link){.from = h / 3};
         if (across == MESO_NO_INDEX || across / 3 <= h / 3)
             continue;
-        MesoStripeStep step = meso_stripe_step(p, h, across);
-        Side *side = &system->sides[system->side_count++];
-        *side = (Side){.from = h / 3, .to = across / 3, .quarters = step.quarters, .weight = side_weight(p, h, across)};
-        for (int k = 0; k < 2; k++) {
-            double angle = 2 * MESO_PI * step.ways[k] / p->pitches[k];
-            side->cosines[k] = cos(angle);
-            side->sines[k] = sin(angle);
-        }
-        system->sums[side->from] += side->weight;
-        system->sums[side->to] += side->weight;
+        double weight = side_weight(p, h, across);
+        Side side = side_over(p, h, across);
+        system->links[h].from = across / 3;
+        system->links[across].from = h / 3;
+        link_both(&system->links[h], &system->links[across], &side, weight);
+        system->sums[h / 3] += weight;
+        system->sums[across / 3] += weight;
     }
 }
 
@@ -142,37 +194,82 @@ static void carry(double to[4], const double *from, const Side *side)
     }
 }
 
-/* And back. */
-static void carry_back(double to[4], const double *from, const Side *side)
+/* ---- loops over triangles, by ranges that are the same for any number of threads ---- */
+
+/* Of the ranges, in their order. */
+static double sum_of(const System *system)
 {
-    for (int k = 0; k < 2; k++) {
-        to[2 * k] = side->cosines[k] * from[2 * k] + side->sines[k] * from[2 * k + 1];
-        to[2 * k + 1] = side->cosines[k] * from[2 * k + 1] - side->sines[k] * from[2 * k];
-    }
+    double sum = 0;
+    for (size_t i = 0; i < system->range_count; i++)
+        sum += system->range_sums[i];
+    return sum;
 }
 
-/* pull = (L + held M) z: what sides pull at waves, and what holds them. */
-static void apply(double *pull, const double *z, const System *system, double held)
+static void apply_range(void *context, uint64_t begin, uint64_t end)
 {
-    for (uint32_t t = 0; t < system->phases->mesh->triangle_count; t++)
-        for (size_t c = 0; c < 4; c++)
-            pull[4 * (size_t)t + c] = held * system->areas[t] * z[4 * (size_t)t + c];
-    for (uint32_t i = 0; i < system->side_count; i++) {
-        const Side *side = &system->sides[i];
-        const double *t = &z[4 * (size_t)side->from], *s = &z[4 * (size_t)side->to];
-        double *pull_t = &pull[4 * (size_t)side->from], *pull_s = &pull[4 * (size_t)side->to];
-        double apart[4], here[4], there[4];
-        carry(here, t, side);
-        meso_stripe_turn_waves(there, s, side->quarters);
-        for (int c = 0; c < 4; c++)
-            apart[c] = side->weight * (there[c] - here[c]);
-        meso_stripe_turn_waves(there, apart, (4 - side->quarters) % 4);
-        carry_back(here, apart, side);
-        for (int c = 0; c < 4; c++) {
-            pull_s[c] += there[c];
-            pull_t[c] -= here[c];
+    System *system = context;
+    const Two *waves = (const Two *)(const void *)system->from;
+    Two *to = (Two *)(void *)system->pull, along[2] = {{0, 0}, {0, 0}};
+    for (uint64_t t = begin; t < end; t++) {
+        double hold = system->sums[t] + system->held * system->areas[t];
+        Two sum[2] = {hold * waves[2 * t], hold * waves[2 * t + 1]};
+        for (const Link *link = &system->links[3 * t]; link < &system->links[3 * t + 3]; link++)
+            for (uint32_t k = 0; k < 2; k++) {
+                Two from = waves[2 * (size_t)link->from + (k ^ link->swapped)], turned = {from[1], from[0]};
+                sum[k] -= link->straight[k] * from + link->crossed[k] * turned;
+            }
+        for (uint32_t k = 0; k < 2; k++) {
+            along[k] += waves[2 * t + k] * sum[k];
+            to[2 * t + k] = sum[k];
         }
     }
+    along[0] += along[1];
+    system->range_sums[begin / RANGE] = along[0][0] + along[0][1];
+}
+
+/* pull = (L + held M) z: what sides pull at waves, and what holds them. Returns z pull. */
+static double apply(const double *z, System *system)
+{
+    system->from = z;
+    meso_team_for(system->team, system->phases->mesh->triangle_count, RANGE, apply_range, system);
+    return sum_of(system);
+}
+
+static void advance_range(void *context, uint64_t begin, uint64_t end)
+{
+    System *system = context;
+    double now[4] = {0, 0, 0, 0};
+    for (uint64_t t = begin; t < end; t++)
+        for (uint64_t i = 4 * t, c = 0; c < 4; i++, c++) {
+            system->z[i] += system->length * system->way[i];
+            system->left[i] -= system->length * system->pull[i];
+            now[c] += system->left[i] * system->left[i] * system->shares[t];
+        }
+    system->range_sums[begin / RANGE] = (now[0] + now[1]) + (now[2] + now[3]);
+}
+
+/* Goes by `length` along the way. Returns what is left, squared, over the diagonal. */
+static double advance(double *z, System *system, double length)
+{
+    system->z = z;
+    system->length = length;
+    meso_team_for(system->team, system->phases->mesh->triangle_count, RANGE, advance_range, system);
+    return sum_of(system);
+}
+
+static void turn_range(void *context, uint64_t begin, uint64_t end)
+{
+    System *system = context;
+    for (uint64_t t = begin; t < end; t++)
+        for (uint64_t i = 4 * t; i < 4 * t + 4; i++)
+            system->way[i] = system->left[i] * system->shares[t] + system->again * system->way[i];
+}
+
+/* The next way: down what is left, and `again` of the last one. */
+static void turn_way(System *system, double again)
+{
+    system->again = again;
+    meso_team_for(system->team, system->phases->mesh->triangle_count, RANGE, turn_range, system);
 }
 
 /* Waves of one height: where they begin. */
@@ -188,30 +285,26 @@ static void make_even(double *z, size_t count)
 /* One step: (L + held M) z = held M z_even, by conjugate gradients from there. */
 static void step(double *z, System *system, double held)
 {
-    size_t count = 4 * (size_t)system->phases->mesh->triangle_count;
-    double before = 0, first = 0;
-    make_even(z, count / 4);
-    apply(system->pull, z, system, held);
-    for (size_t i = 0; i < count; i++)
-        system->left[i] = held * system->areas[i / 4] * z[i] - system->pull[i];
-    for (int round = 0; round < GRADIENTS; round++) {
-        double now = 0, along = 0;
-        for (size_t i = 0; i < count; i++)
-            now += system->left[i] * system->left[i] / (system->sums[i / 4] + held * system->areas[i / 4]);
-        first = round ? first : now;
-        if (!(now > SMALL * SMALL * first))
-            break;
-        for (size_t i = 0; i < count; i++)
-            system->way[i] = system->left[i] / (system->sums[i / 4] + held * system->areas[i / 4]) +
-                             (round ? now / before * system->way[i] : 0);
-        apply(system->pull, system->way, system, held);
-        for (size_t i = 0; i < count; i++)
-            along += system->way[i] * system->pull[i];
-        for (size_t i = 0; i < count && along > 0; i++) {
-            z[i] += now / along * system->way[i];
-            system->left[i] -= now / along * system->pull[i];
+    size_t count = system->phases->mesh->triangle_count;
+    make_even(z, count);
+    system->held = held;
+    apply(z, system);
+    for (size_t t = 0; t < count; t++) {
+        system->shares[t] = 1 / (system->sums[t] + held * system->areas[t]);
+        for (size_t i = 4 * t; i < 4 * t + 4; i++) {
+            system->left[i] = held * system->areas[t] * z[i] - system->pull[i];
+            system->way[i] = 0;
         }
-        before = now;
+    }
+    double first = advance(z, system, 0), now = first, again = 0;
+    for (int round = 0; round < GRADIENTS && now > SMALL * SMALL * first; round++) {
+        turn_way(system, again);
+        double along = apply(system->way, system);
+        if (!(along > 0))
+            break;
+        double next = advance(z, system, now / along);
+        again = next / now;
+        now = next;
     }
 }
 
@@ -235,16 +328,10 @@ static MesoStatus set_start(double *z, const System *system, MesoArena *scratch,
                 uint32_t across = meso_frame_across(mesh, h);
                 if (across == MESO_NO_INDEX || seen[across / 3])
                     continue;
-                MesoStripeStep way = meso_stripe_step(system->phases, h, across);
-                Side side = {0};
+                Side side = side_over(system->phases, h, across);
                 double carried[4];
-                for (int k = 0; k < 2; k++) {
-                    double angle = 2 * MESO_PI * way.ways[k] / system->phases->pitches[k];
-                    side.cosines[k] = cos(angle);
-                    side.sines[k] = sin(angle);
-                }
                 carry(carried, &z[4 * (size_t)queue[i]], &side);
-                meso_stripe_turn_waves(&z[4 * (size_t)(across / 3)], carried, (4 - way.quarters) % 4);
+                meso_stripe_turn_waves(&z[4 * (size_t)(across / 3)], carried, (4 - side.quarters) % 4);
                 seen[across / 3] = 1;
                 queue[count++] = across / 3;
             }
@@ -340,22 +427,26 @@ static MesoStatus turn_guides(MesoComplex *guides, double *turned, double most, 
     return MESO_OK;
 }
 
-static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, double turn_most, MesoArena *scratch,
+static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, const MesoStripeOptions *options, MesoArena *scratch,
                         MesoError *error)
 {
     const MesoTriangulation *mesh = p->mesh;
     size_t count = mesh->triangle_count;
-    System system = {.phases = p, .sides = MESO_NEW(scratch, Side, 3 * count / 2 + 1, error),
+    System system = {.phases = p, .links = MESO_NEW(scratch, Link, 3 * count, error),
                      .sums = MESO_NEW(scratch, double, count, error), .areas = MESO_NEW(scratch, double, count, error),
+                     .shares = MESO_NEW(scratch, double, count, error),
                      .left = MESO_NEW(scratch, double, 4 * count, error),
                      .way = MESO_NEW(scratch, double, 4 * count, error),
-                     .pull = MESO_NEW(scratch, double, 4 * count, error)};
-    if (!system.sides || !system.sums || !system.areas || !system.left || !system.way || !system.pull)
+                     .pull = MESO_NEW(scratch, double, 4 * count, error),
+                     .range_count = (count + RANGE - 1) / RANGE};
+    system.range_sums = MESO_NEW(scratch, double, system.range_count, error);
+    if (!system.range_sums || !system.links || !system.sums || !system.areas || !system.shares || !system.left ||
+        !system.way || !system.pull)
         return MESO_ERR_MEMORY;
     double *turned = MESO_NEW(scratch, double, count, error);
     if (!turned)
         return MESO_ERR_MEMORY;
-    list_sides(&system);
+    list_links(&system);
     double area = 0, weight = 0;
     for (size_t t = 0; t < count; t++) {
         area += p->frames[t].area;
@@ -365,22 +456,26 @@ static MesoStatus solve(MesoStripePhases *p, MesoComplex *guides, double turn_mo
         system.areas[t] = area > 0 ? p->frames[t].area / area * weight + LEAST * weight / (double)count : 1;
     double *z = p->waves[0];
     MesoStatus status = set_start(z, &system, scratch, error);
+    system.team = meso_team_begin(options->thread_count);
     for (int turning = 0; turning <= TURNINGS && !status; turning++) {
         for (size_t i = turning ? SURE_HOLD : 0; i < sizeof HOLDS / sizeof *HOLDS; i++)
             for (int round = 0; round < (turning ? FEWER_ROUNDS : ROUNDS); round++)
                 step(z, &system, HOLDS[i]);
-        if (turning == TURNINGS || turn_most <= 0 || strain_of(p) > TURNING_STRAIN_MOST)
+        if (turning == TURNINGS || options->turn_most <= 0 || strain_of(p) > TURNING_STRAIN_MOST)
             break;
-        status = turn_guides(guides, turned, turn_most, p, scratch, error);
-        list_sides(&system);
+        status = turn_guides(guides, turned, options->turn_most, p, scratch, error);
+        list_links(&system);
     }
+    meso_team_end(system.team);
     return status;
 }
 
 MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,
-                              const MesoVec3 *guides, uint32_t turn_count, const double pitches[2], bool diagonal,
-                              double turn_most, MesoError *error)
+                              const MesoVec3 *guides, const MesoStripeOptions *options, MesoError *error)
 {
+    const uint32_t turn_count = options->turn_count;
+    const double *pitches = options->pitches;
+    const bool diagonal = options->diagonal;
     assert(turn_count == 1 || turn_count == 2 || turn_count == 4);
     *phases = (MesoStripePhases){.mesh = mesh, .turn_count = turn_count, .diagonal = diagonal,
                                   .pitches = {pitches[0], pitches[1]}};
@@ -401,7 +496,7 @@ MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const 
     phases->guides = along;
     MesoArena scratch;
     meso_arena_init(&scratch);
-    MesoStatus status = solve(phases, along, turn_most, &scratch, error);
+    MesoStatus status = solve(phases, along, options, &scratch, error);
     for (uint32_t t = 0; t < mesh->triangle_count && !status; t++)
         phases->directions[t] = meso_frame_out(&frames[t], meso_complex_times(along[t], meso_complex_conjugate(turn)));
     if (!status)

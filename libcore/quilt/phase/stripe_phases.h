@@ -35,20 +35,24 @@ typedef struct MesoStripeStep {
     double ways[2];             /* between the centroids, along this one's guide and across, in the surface's units */
 } MesoStripeStep;
 
+typedef struct MesoStripeOptions {
+    uint32_t turn_count;    /* by so many turns the guide is known: 1, 2 or 4 */
+    double pitches[2];      /* in the surface's units, > 0; their mean where they can take each other's place */
+    bool diagonal;          /* stripes along the diagonals, as far apart as crossings are there: these keep apart
+                               what is above and what is below where strands are so by turns, which one strand more
+                               or less does not */
+    double turn_most;       /* by how much guides may be turned to where stripes run; 0: they stay as they are */
+    uint32_t thread_count;  /* 0: all cores */
+} MesoStripeOptions;
+
 /*
  * guides      [mesh->triangle_count] of any length; their part along the triangle counts
- * turn_count  by so many turns the guide is known: 1, 2 or 4
- * pitches     in the surface's units, > 0; their mean where they can take each other's place
- * diagonal    stripes along the diagonals, as far apart as crossings are there: these keep apart what is above and what
- *             is below where strands are so by turns, which one strand more or less does not
- * turn_most   by how much guides may be turned to where stripes run; 0: they stay as they are
  *
- * To `arena`. Same arguments, same bytes. O(triangles), times some hundreds of steps of conjugate gradients.
- * MESO_ERR_MEMORY.
+ * To `arena`. Same arguments, same bytes, for any number of threads. O(triangles), times some thousands of steps of
+ * conjugate gradients. MESO_ERR_MEMORY.
  */
 MesoStatus meso_stripe_phases(MesoStripePhases *phases, MesoArena *arena, const MesoTriangulation *mesh,
-                              const MesoVec3 *guides, uint32_t turn_count, const double pitches[2], bool diagonal,
-                              double turn_most, MesoError *error);
+                              const MesoVec3 *guides, const MesoStripeOptions *options, MesoError *error);
 
 MesoStripeStep meso_stripe_step(const MesoStripePhases *phases, uint32_t half_edge, uint32_t across);
 

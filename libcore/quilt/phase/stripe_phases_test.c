@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "libcore/mesh/cut/triangulation_fixture.h"
 #include "libcore/quilt/phase/phase_plane.h"
 #include "libcore/quilt/phase/weave_pitch.h"
@@ -34,7 +36,8 @@ static void check_sheet(bool diagonal)
     MesoTriangulation mesh = meso_fixture_sheet(24, 20, 0.3f);
     const double pitches[2] = {1, 1};
     MesoVec3 *guides = mixed_guides(&arena, &mesh);
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, diagonal, 0.3, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides,
+                             &(MesoStripeOptions){4, {pitches[0], pitches[1]}, diagonal, 0.3, 2}, &error) == MESO_OK);
     CHECK(phases.strain < 1e-3);
     CHECK(fabs(phases.pitches[0] - (diagonal ? sqrt(2) : 1)) < 1e-6);
     uint32_t turned = 0;
@@ -76,7 +79,8 @@ static void check_turning(void)
         swing += (double)(angle * angle) / mesh.triangle_count;
     }
     const double pitches[2] = {1, 1};
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, 0.3, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides,
+                             &(MesoStripeOptions){4, {pitches[0], pitches[1]}, false, 0.3, 2}, &error) == MESO_OK);
     for (uint32_t t = 0; t < mesh.triangle_count; t++) {
         double angle = atan2((double)phases.directions[t].y, (double)phases.directions[t].x);
         left += angle * angle / mesh.triangle_count;
@@ -117,7 +121,8 @@ static void check_cylinder(void)
         chart_triangles[t] = MESO_NO_INDEX;
     }
     const double pitches[2] = {1, 1};
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 4, pitches, false, 0.3, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides,
+                             &(MesoStripeOptions){4, {pitches[0], pitches[1]}, false, 0.3, 2}, &error) == MESO_OK);
     CHECK(phases.strain > 0.01 && phases.strain < 0.04);
 
     MesoChartMaker maker;
@@ -174,7 +179,8 @@ static double largest_miss(bool steep)
         chart_triangles[t] = MESO_NO_INDEX;
     }
     const double pitches[2] = {1, 1};
-    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides, 1, pitches, false, 0.3, &error) == MESO_OK);
+    CHECK(meso_stripe_phases(&phases, &arena, &mesh, guides,
+                             &(MesoStripeOptions){1, {pitches[0], pitches[1]}, false, 0.3, 2}, &error) == MESO_OK);
     MesoVec3 core = mesh.positions[mesh.corners[3 * middle]];
     double *away = MESO_NEW(&arena, double, count, &error);
     CHECK(away);
@@ -262,6 +268,29 @@ static void check_pitch(void)
     CHECK(!meso_weave_pitch(&pitch, middles, axes, count, (MesoVec2){6, 6}));
 }
 
+static void check_threads(void)
+{
+    MesoArena arena;
+    MesoError error;
+    MesoStripePhases one, some;
+    meso_arena_init(&arena);
+    MesoTriangulation mesh = meso_fixture_sheet(30, 30, 0.2f);
+    const uint32_t count = mesh.triangle_count;
+    MesoVec3 *guides = MESO_NEW(&arena, MesoVec3, count, &error);
+    CHECK(guides && count > 1024);
+    for (uint32_t t = 0; t < count; t++)
+        guides[t] = (MesoVec3){1, 0.001f * (float)(t % 97), 0};
+    MesoStripeOptions options = {4, {0.7, 0.7}, false, 0.3, 1};
+    CHECK(meso_stripe_phases(&one, &arena, &mesh, guides, &options, &error) == MESO_OK);
+    for (options.thread_count = 2; options.thread_count < 8; options.thread_count += 5) {
+        CHECK(meso_stripe_phases(&some, &arena, &mesh, guides, &options, &error) == MESO_OK);
+        CHECK(memcmp(some.waves, one.waves, count * sizeof *one.waves) == 0);
+        CHECK(memcmp(some.directions, one.directions, count * sizeof *one.directions) == 0);
+    }
+    meso_triangulation_release(&mesh);
+    meso_arena_release(&arena);
+}
+
 int main(void)
 {
     check_sheet(false);
@@ -270,5 +299,6 @@ int main(void)
     check_cylinder();
     check_steep();
     check_pitch();
+    check_threads();
     return 0;
 }
