@@ -201,7 +201,7 @@ static void admit(Runner *runner, uint32_t window, uint32_t place)
     atomic_fetch_add(&race->written[window % 2], 1);
 }
 
-/* Whether a batch is to be done by whoever comes: its thread is not there, or has not begun it for long. */
+/* Whether a batch is to be done by whoever comes: its thread is not there, or this wait is long by now. */
 static bool is_left(Runner *runner, uint32_t place)
 {
     return runner->looks >= PATIENCE ||

@@ -103,7 +103,7 @@ static inline MesoArena *meso_quilt_room_used(MesoQuiltRoom *room)
  */
 static inline void meso_quilt_room_turn(MesoQuiltRoom *room, const MesoQuilt *quilt, const MesoQuiltVertex *before)
 {
-    if (quilt->vertices == before)
+    if (quilt->vertices == before && meso_quilt_room_used(room)->used)      /* else another array at the same place */
         return;
     room->used = 1 - room->used;
     meso_arena_release(meso_quilt_room_free(room));

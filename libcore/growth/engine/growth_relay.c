@@ -8,7 +8,6 @@
 #include <stdlib.h>
 
 #include "libcore/base/batch_relay.h"
-#include "libcore/base/parallel.h"
 #include "libcore/growth/engine/growth_work.h"
 
 /* Windows; and turns whose rules are run at a time, while a thread waits. */
@@ -174,12 +173,12 @@ static void write(void *context, uint32_t number)
 /* ---- all of it ---- */
 
 /*
- * As many places as threads can run at once: they wait for each other. Windows about alike, where they are few; where
+ * Windows about alike, where they are few; where
  * they are many always of one length, so that branches stay with their threads.
  */
 static bool plan(Relay *relay, MesoGrowthWork *work)
 {
-    uint32_t places = least(meso_team_size(work->team), meso_parallel_cores()), active = work->active_count;
+    uint32_t places = work->relay_places, active = work->active_count;
     uint32_t most = places * work->relay_batch, windows = (active + most - 1) / most;
     uint32_t size = windows < MANY ? (active + windows - 1) / windows : most;
     *relay = (Relay){.work = work, .place_count = places, .window_count = windows, .window_size = size};

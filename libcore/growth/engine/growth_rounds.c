@@ -72,6 +72,8 @@ static MesoStatus begin(MesoGrowthWork *work)
     work->uses_space = work->looks || meso_growth_steps_avoid(work->grammar);
     size_window(work);
     work->team = meso_team_begin(work->thread_count);
+    uint32_t team = meso_team_size(work->team), cores = meso_parallel_cores();
+    work->relay_places = team < cores ? team : cores;
     for (uint32_t i = 0; i < (work->team ? 2 : 1); i++)
         begin_window(work, &work->windows[i]);
     work->rules = allocate(work, work->grammar->rule_count, sizeof *work->rules);

@@ -144,7 +144,7 @@ typedef struct MesoGrowthBatch {
 typedef struct MesoGrowthWindow {
     uint32_t begin, count;      /* of the active tips; how many are admitted */
     uint32_t first_branch, first_tip, first_shoot;      /* that it begins */
-    MesoGrowthTurn *turns;      /* [window_size] */
+    MesoGrowthTurn *turns;      /* [as many as its batches have at most] */
     MesoGrowthTip *befores;     /* [window_size] where rules look; before their turns */
     double *register_befores;
     MesoGrowthBatch *batches;   /* [batch_count] and as many again, for what is done again of each */
@@ -178,7 +178,9 @@ typedef struct MesoGrowthWork {
     MesoGrowthWindow windows[2];        /* what one has grown is written down while the next is tried */
     uint32_t window_size, batch_count;
     uint32_t relay_batch;               /* turns of a batch in a relay, on the average */
-    uint32_t *shares;                   /* [batch_count] of a window there */
+    uint32_t relay_places;              /* batches of a window there: threads that can run at once, at the beginning,
+                                           since they wait for each other */
+    uint32_t *shares;                   /* [relay_places] turns of each, which are relay_batch on the average */
 
     /* what has grown */
     MesoJoint *joints;

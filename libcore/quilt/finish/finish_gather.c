@@ -180,7 +180,7 @@ static MesoStatus count_elements(MesoQuilt *quilt, MesoArena *arena, Gatherer *g
 static MesoStatus make_room(MesoQuilt *quilt, const Gatherer *g, MesoArena *arena, MesoError *error)
 {
     const MesoQuilt *before = g->before;
-    if (g->work->vertices != before->vertices && quilt->vertex_count <= before->vertex_count &&
+    if (before->vertices && g->work->vertices != before->vertices && quilt->vertex_count <= before->vertex_count &&
         quilt->triangle_count <= before->triangle_count) {
         quilt->vertices = before->vertices;
         quilt->origins = before->origins;

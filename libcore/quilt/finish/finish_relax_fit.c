@@ -285,9 +285,10 @@ MesoStatus meso_relax_fit(bool *any, MesoRelaxing *r, bool may_move, MesoError *
     for (int i = 0; i < FITS && may_move && *any && !status; i++) {
         if (i >= SURE_FITS)
             status = meso_relax_guess(r, error);
+        if (status)
+            break;
         sum_weights(r);
-        if (!status)
-            solve(r, &g);
+        solve(r, &g);
         fit_turns(r);
     }
     return status;

@@ -95,7 +95,6 @@ typedef struct Link {
     uint32_t swapped;       /* 1 if the neighbour's part across is the part along */
 } Link;
 
-/* Waves as numbers [4 * triangle_count], and what conjugate gradients are in need of. */
 void meso_stripe_excess(double more[2], const MesoStripePhases *p, uint32_t half_edge, uint32_t across,
                         const MesoStripeStep *step)
 {
@@ -109,6 +108,7 @@ void meso_stripe_excess(double more[2], const MesoStripePhases *p, uint32_t half
     }
 }
 
+/* Waves as numbers [4 * triangle_count], and what conjugate gradients are in need of. */
 typedef struct System {
     const MesoStripePhases *phases;
     Link *links;            /* [3 * triangle_count] by half-edge */

@@ -14,7 +14,7 @@
 typedef struct MesoSettleOptions {
     float scale, height_scale, offset;  /* as of MesoQuiltOptions; height_scale 0: as `scale` */
     float overhang;         /* elements may reach beyond a border by so much, in the surface's units */
-    uint32_t thread_count;  /* of the layer; 0: all cores; no effect on the bytes */
+    uint32_t thread_count;  /* 0: all cores; no effect on the bytes */
     bool partial;           /* the quilt is to cover a part of the surface: nothing is added */
 } MesoSettleOptions;
 
