@@ -11,15 +11,17 @@ enum { LEVEL = 2, LEVEL_SIZE = ISAL_DEF_LVL2_DEFAULT };
 
 struct MesoExrPress {
     struct isal_zstream stream;
-    uint8_t level[LEVEL_SIZE];
+    _Alignas(64) uint8_t level[LEVEL_SIZE];
 };
 
 /* To `out`, which has room for as much. Returns how many bytes that are; 0 where they would be no fewer. */
 static size_t press(struct MesoExrPress *press, unsigned char *out, unsigned char *bytes, size_t size)
 {
     struct isal_zstream *stream = &press->stream;
+    assert(size <= UINT32_MAX);
     isal_deflate_stateless_init(stream);
     stream->gzip_flag = IGZIP_ZLIB;
+    stream->hist_bits = 0;
     stream->level = LEVEL;
     stream->level_buf = press->level;
     stream->level_buf_size = LEVEL_SIZE;

@@ -1,6 +1,6 @@
 /*
  * ZIP chunks of OpenEXR by ISA-L, which takes a quarter of the time of libdeflate for files 2 % larger. It writes the
- * same bytes on every x86 processor since 2008 (with SSE4.2); on others files may differ, and pictures do not.
+ * same bytes on every x86-64 processor that has SSE4.2; on others files may differ, and pictures do not.
  */
 #ifndef MESO_EXR_DEFLATE_H
 #define MESO_EXR_DEFLATE_H

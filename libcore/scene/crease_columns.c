@@ -41,7 +41,8 @@ static float most_off(const MesoScene *scene, const MesoSweptKind *kind, const M
         meso_sweep_crease(&blend, &track, meso_sweep_bend(&track.frames, &plane, blend.v));
         kept = fminf(kept, blend.kept);
     }
-    return (1 - kept) / (6 + 2 * kept);
+    float a = sqrtf(2), b = sqrtf(1 + kept);
+    return (a - b) / (a + b);
 }
 
 /* What chords are off, for each of their width in the profiles, at most, of the kind's sweeps that have creases. */

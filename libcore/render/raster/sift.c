@@ -263,8 +263,10 @@ static void make_part(void *context, uint32_t worker, uint64_t number)
     meso_sift_clear(&hand.part);
     qsort(work->near + begin, end - begin, sizeof *work->near, by_depth);
     for (uint64_t i = begin; i < end; i++)
-        if (!add_item(&hand, work->near[i].item))
+        if (!add_item(&hand, work->near[i].item)) {
             __atomic_store_n(&work->failed, true, __ATOMIC_RELAXED);
+            break;
+        }
 }
 
 static bool take_part(void *context, uint64_t number)
@@ -348,7 +350,9 @@ static MesoStatus sift_parts(Work *work, uint32_t workers)
     const MesoPipeline pipeline = {(uint64_t)work->parts_x * work->parts_y, work->batch_count, work, make_part,
                                    take_part};
     meso_pipeline_run(&pipeline, workers);
-    return work->failed ? meso_fail(work->error, MESO_ERR_MEMORY, "out of memory for drawing") : work->status;
+    if (work->status || !work->failed)
+        return work->status;
+    return meso_fail(work->error, MESO_ERR_MEMORY, "out of memory for drawing");
 }
 
 static void release_worker(Worker *w)
@@ -370,11 +374,30 @@ static void release_batch(MesoSiftBatch *batch)
         free(batch->indices[i]);
 }
 
+/*
+ * Beside what both sides round: a driver's matrix of floats puts points beside where they are by some roundings of their
+ * distance from the anchor, and of the eye's, in pixels at their depth. That grows where the eye is near and the scene
+ * large, up to a quarter of a pixel here.
+ */
+static int32_t slack_of(const MesoRasterJob *job, uint32_t bits)
+{
+    const float roundings = 6, most = MESO_RASTER_UNIT / 4;
+    const MesoRasterView *view = &job->view;
+    const MesoBox *box = &job->shapes->scene->box;
+    float reach = 0;
+    for (uint32_t i = 0; i < 8; i++)
+        reach = fmaxf(reach, meso_vec3_length(meso_vec3_sub(meso_box_corner(box->low, box->high, i),
+                                                            job->shapes->anchor)));
+    float pixels = (reach + meso_vec3_length(view->eye)) * view->focal / (view->parallel ? 1 : view->near_depth);
+    float more = ceilf(roundings * 0x1p-24f * MESO_RASTER_UNIT * pixels);
+    return meso_sift_slack(bits) + (int32_t)(more < most ? more : most);
+}
+
 MesoStatus meso_sift(const MesoRasterJob *job, MesoWindow window, uint32_t bits, uint32_t thread_count,
                      MesoTakeBatch *take, void *context, MesoError *error)
 {
     Work work = {.job = job, .lanes = meso_raster_lanes(job->samples), .window = window,
-                 .slack = meso_sift_slack(bits), .take = take, .context = context, .error = error};
+                 .slack = slack_of(job, bits), .take = take, .context = context, .error = error};
     uint32_t workers = thread_count ? thread_count : meso_parallel_cores();
     MesoArena arena;
     meso_arena_init(&arena);
