@@ -375,9 +375,9 @@ static void release_batch(MesoSiftBatch *batch)
 }
 
 /*
- * Beside what both sides round: a driver's matrix of floats puts points beside where they are by some roundings of their
- * distance from the anchor, and of the eye's, in pixels at their depth. That grows where the eye is near and the scene
- * large, up to a quarter of a pixel here.
+ * Beside what both sides round: a driver's matrix of floats puts points beside where they are by some roundings of
+ * their distance from the anchor, and of the eye's, in pixels at their depth. That grows where the eye is near and the
+ * scene large, up to a quarter of a pixel here.
  */
 static int32_t slack_of(const MesoRasterJob *job, uint32_t bits)
 {
