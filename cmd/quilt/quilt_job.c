@@ -133,7 +133,8 @@ static MesoQuiltOptions options_of(const Job *job, uint64_t seed, const MesoVec3
     return (MesoQuiltOptions){
         .scale = scale_of(job), .height_scale = a->height > 0 && thick > 0 ? a->height / thick : 0,
         .offset = a->offset, .turn_count = a->turns, .guide = guide, .guide_turn = meso_quilt_guide_turn(a),
-        .patch = a->patch, .lambda = a->lambda, .mu = a->mu, .seed = seed, .step_limit = a->until, .triangle_limit = TRIANGLE_LIMIT,
+        .patch = a->patch, .lambda = a->lambda, .mu = a->mu, .seed = seed, .step_limit = a->until,
+        .triangle_limit = TRIANGLE_LIMIT,
         .thread_count = job->tool->threads, .progress = meso_tool_progress, .context = job->tool};
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "libcore/scene/cell.h"
+#include "libcore/scene/inner_column.h"
 #include "libcore/scene/sweep.h"
 #include "libcore/scene/sweep_section.h"
 
@@ -61,17 +62,6 @@ static float off_of(const MesoScene *scene, const MesoSweptKind *kind)
     return off;
 }
 
-/* The column that one joins between the ends; MESO_NO_INDEX: none. */
-static uint32_t next_inner(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
-{
-    if (columns[c].absent & MESO_ABSENT_BETWEEN)
-        return MESO_NO_INDEX;
-    while (c + 1 < kind->column_count && columns[c].joins_next)
-        if (!(columns[++c].absent & MESO_ABSENT_BETWEEN))
-            return c;
-    return MESO_NO_INDEX;
-}
-
 /* Pieces that a chord between two columns is cut into, none wider than `widest`. */
 static uint32_t pieces_of(const MesoSweepColumn *a, const MesoSweepColumn *b, float widest)
 {
@@ -109,7 +99,7 @@ static uint32_t put_columns(const MesoScene *scene, const MesoSweptKind *kind, f
         if (out)
             out[count] = columns[c];
         count++;
-        uint32_t joined = next_inner(kind, columns, c);
+        uint32_t joined = meso_next_inner_column(kind, columns, c);
         if (joined == MESO_NO_INDEX)
             continue;
         first = c;

@@ -99,6 +99,25 @@ static MesoVec3 on_cylinder(const MesoFixtureSquares *squares, uint32_t column, 
                       squares->size[0] * (float)row};
 }
 
+/* Places of a chart along its first triangle's guide, in phase. `chart_triangles` gets the chart's own. */
+static MesoVec2 *place_in_phase(MesoArena *arena, const MesoChart *chart, const MesoStripePhases *phases,
+                                const MesoVec3 *guides, uint32_t *chart_triangles)
+{
+    MesoError error;
+    MesoVec2 guide = meso_chart_direction(chart, phases->mesh, 0, guides[chart->triangles[0]]);
+    float angle = atan2f(guide.y, guide.x);
+    MesoVec2 *spots = MESO_NEW(arena, MesoVec2, chart->vertex_count, &error);
+    CHECK(spots);
+    for (uint32_t v = 0; v < chart->vertex_count; v++) {
+        MesoVec2 p = chart->places[v];
+        spots[v] = (MesoVec2){cosf(angle) * p.x + sinf(angle) * p.y, cosf(angle) * p.y - sinf(angle) * p.x};
+    }
+    for (uint32_t t = 0; t < chart->triangle_count; t++)
+        chart_triangles[chart->triangles[t]] = t;
+    CHECK(meso_phase_plane(spots, arena, chart, chart_triangles, phases, guides, angle, 1, &error) == MESO_OK);
+    return spots;
+}
+
 /*
  * Around a cylinder there is room for 10.3 stripes: there are ten, and so phases are off by three parts of ten and
  * three. A chart of it has stripes that are a pitch apart in its plane, at whole pitches.
@@ -130,17 +149,7 @@ static void check_cylinder(void)
     CHECK(meso_chart_maker_init(&maker, &mesh, &error) == MESO_OK);
     CHECK(meso_chart_grow(&chart, &arena, &maker, mesh.triangle_count / 2, &(MesoChartOptions){.radius = 2.5f},
                           &error) == MESO_OK);
-    MesoVec2 guide = meso_chart_direction(&chart, &mesh, 0, guides[chart.triangles[0]]);
-    float angle = atan2f(guide.y, guide.x);
-    MesoVec2 *spots = MESO_NEW(&arena, MesoVec2, chart.vertex_count, &error);
-    CHECK(spots);
-    for (uint32_t v = 0; v < chart.vertex_count; v++) {
-        MesoVec2 p = chart.places[v];
-        spots[v] = (MesoVec2){cosf(angle) * p.x + sinf(angle) * p.y, cosf(angle) * p.y - sinf(angle) * p.x};
-    }
-    for (uint32_t t = 0; t < chart.triangle_count; t++)
-        chart_triangles[chart.triangles[t]] = t;
-    CHECK(meso_phase_plane(spots, &arena, &chart, chart_triangles, &phases, guides, angle, 1, &error) == MESO_OK);
+    MesoVec2 *spots = place_in_phase(&arena, &chart, &phases, guides, chart_triangles);
     double largest = 0;
     for (uint32_t t = 0; t < chart.triangle_count; t++) {
         MesoVec2 sum = {0, 0};
@@ -197,17 +206,7 @@ static double largest_miss(bool steep)
     }
     CHECK(meso_chart_maker_init(&maker, &mesh, &error) == MESO_OK);
     CHECK(meso_chart_grow(&chart, &arena, &maker, middle, &(MesoChartOptions){.radius = 2}, &error) == MESO_OK);
-    MesoVec2 guide = meso_chart_direction(&chart, &mesh, 0, guides[chart.triangles[0]]);
-    float angle = atan2f(guide.y, guide.x);
-    MesoVec2 *spots = MESO_NEW(&arena, MesoVec2, chart.vertex_count, &error);
-    CHECK(spots);
-    for (uint32_t v = 0; v < chart.vertex_count; v++) {
-        MesoVec2 p = chart.places[v];
-        spots[v] = (MesoVec2){cosf(angle) * p.x + sinf(angle) * p.y, cosf(angle) * p.y - sinf(angle) * p.x};
-    }
-    for (uint32_t t = 0; t < chart.triangle_count; t++)
-        chart_triangles[chart.triangles[t]] = t;
-    CHECK(meso_phase_plane(spots, &arena, &chart, chart_triangles, &phases, guides, angle, 1, &error) == MESO_OK);
+    MesoVec2 *spots = place_in_phase(&arena, &chart, &phases, guides, chart_triangles);
     double largest = 0;
     for (uint32_t t = 0; t < chart.triangle_count; t++) {
         const uint32_t *v = &chart.corners[3 * (size_t)t];

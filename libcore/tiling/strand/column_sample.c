@@ -3,22 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "libcore/scene/inner_column.h"
+
 /* Pairs of columns: the outermost, and all around where the shape changes. */
 enum { OUTER_PAIRS = 5, FEW_PAIRS = 8, MORE_PAIRS = MESO_MOST_PAIRS - OUTER_PAIRS };
 
 /* Of a shape's size: less is none. */
 static const float SMALL_CHANGE = 0.02f;
-
-/* The column that one joins on rings between the ends; MESO_NO_INDEX: none. */
-static uint32_t next_inner(const MesoSweptKind *kind, const MesoSweepColumn *columns, uint32_t c)
-{
-    if (columns[c].absent & MESO_ABSENT_BETWEEN)
-        return MESO_NO_INDEX;
-    while (c + 1 < kind->column_count && columns[c].joins_next)
-        if (!(columns[++c].absent & MESO_ABSENT_BETWEEN))
-            return c;
-    return MESO_NO_INDEX;
-}
 
 /* How far a column reaches in one of four directions, or how far it is to the next one. */
 static float worth(const MesoSweepColumn *column, const MesoSweepColumn *next, uint32_t what)
@@ -73,7 +64,7 @@ static void add_pair(MesoColumnSample *sample, const MesoSweptKind *kind, const 
             return;     /* it is there */
     uint32_t joint = 0;
     for (uint32_t c = 0; c < first; c++)
-        joint += next_inner(kind, columns, c) != MESO_NO_INDEX;
+        joint += meso_next_inner_column(kind, columns, c) != MESO_NO_INDEX;
     MesoColumnPair pair = {.joint = joint};
     pair.columns[0] = add_column(sample, kind, columns, first);
     pair.columns[1] = add_column(sample, kind, columns, second);
@@ -85,7 +76,7 @@ static void add_outermost(MesoColumnSample *sample, const MesoSweptKind *kind, c
 {
     uint32_t best = MESO_NO_INDEX, best_next = MESO_NO_INDEX;
     for (uint32_t c = 0; c < kind->column_count; c++) {
-        uint32_t next = next_inner(kind, columns, c);
+        uint32_t next = meso_next_inner_column(kind, columns, c);
         if (next != MESO_NO_INDEX && (best == MESO_NO_INDEX || worth(&columns[c], &columns[next], what) >
                                                                    worth(&columns[best], &columns[best_next], what))) {
             best = c;
@@ -109,7 +100,7 @@ MesoColumnSample meso_column_sample(const MesoScene *scene, const MesoSweptKind 
     bool more = scene->deform == MESO_SWEEP_SHAPE || changes(kind, columns);
     uint32_t most = more ? MORE_PAIRS : FEW_PAIRS, stride = (kind->joint_count + most - 1) / most, passed = 0;
     for (uint32_t c = 0; c < kind->column_count; c++) {
-        uint32_t next = next_inner(kind, columns, c);
+        uint32_t next = meso_next_inner_column(kind, columns, c);
         if (next != MESO_NO_INDEX && passed++ % stride == 0)
             add_pair(&sample, kind, columns, c, next);
     }
